@@ -23,9 +23,9 @@
 //!
 //! Where steps pass limits of the tensions, `chain/program.rs` finds those within them.
 //!
-//! For a parabola fz is linear in fx and w'' zero; for a cable that is not taut it is that of the
-//! inextensible catenary ([`HeldCable::curvature`]). A cable that begins near the least tension of its span
-//! has it for a limit, as in the scalar models; one that comes near it on the way is left to them.
+//! For a parabola fz is linear in fx and w'' zero; w'' is that of the inextensible catenary
+//! ([`HeldCable::curvature`]). A cable that begins near the least tension of its span has it for a limit, as
+//! in the scalar models; one that comes near it on the way is left to them.
 //!
 //! A lane stops by its own steps alone: the other lanes of a batch change none of its digits.
 
@@ -44,9 +44,7 @@ use crate::lanes::chain::free::{FreeMotion, rest};
 use crate::lanes::chain::limits::{demand, limits_at, may_be_slack};
 use crate::lanes::chain::minimum::is_least;
 use crate::lanes::chain::program::{Row, newton, within_limits};
-use crate::lanes::chain::shared::{
-    LAST_DISTRIBUTION, LAST_REMAINDER, LAST_SHARE, MAX_DISTRIBUTIONS, Shared,
-};
+use crate::lanes::chain::shared::{LAST_DISTRIBUTION, LAST_REMAINDER, LAST_SHARE, MAX_DISTRIBUTIONS, Shared};
 use crate::lanes::held::HeldCable;
 use crate::lanes::load::PlatformLoad;
 use crate::lanes::newton::{LaneResidual, LinearizedPlatform, Robots};
@@ -315,7 +313,7 @@ pub(crate) fn distribute<'a, S: Simd>(
         let cables = spans.iter().zip(&mut robots.cables);
         for ((row, held), (span, cable)) in rows.iter_mut().zip(&all_held).zip(cables) {
             row.sides = [bounded & row.sides[0], bounded & row.sides[1]];
-            let d = bounded.select(row.value(), row.wanted - row.change);
+            let d = row.taken(bounded);
             let near = d.abs().less_or_equal(cable.force[0] * LONGEST_STEP);
             let far = going & !near & !held.slackness.less_or_equal(d.all(SAGGING));
             jumped = jumped | far;
@@ -326,22 +324,20 @@ pub(crate) fn distribute<'a, S: Simd>(
             }
         }
         replace(multipliers, &six!(|k| multipliers[k] + step[k]), going);
-        let small =
-            moved.less_or_equal(last_change) & (moved * moved).less_or_equal(before * LAST_REMAINDER);
+        let small = moved.less_or_equal(last_change) & (moved * moved).less_or_equal(before * LAST_REMAINDER);
+        // A part of the sum of tensions is a greater one of a cable's own.
         let mut ends = going & moved.less_or_equal(zero.all(LAST_SHARE.sqrt()));
         if ends.any() {
             for ((row, held), cable) in rows.iter().zip(&all_held).zip(&robots.cables) {
-                let d = bounded.select(row.value(), row.wanted - row.change);
+                let d = row.taken(bounded);
                 ends = ends & held.is_last(cable, d, LAST_SHARE);
             }
         }
         let mut last = settled & (ends | (going & small));
         if last.any() {
             for row in &rows {
-                let d = bounded.select(row.value(), row.wanted - row.change);
-                for k in 0..6 {
-                    balance[k] += row.slope[k] * d;
-                }
+                let d = row.taken(bounded);
+                balance = six!(|k| balance[k] + row.slope[k] * d);
             }
             let (force, moment) = halves(&balance);
             last = last

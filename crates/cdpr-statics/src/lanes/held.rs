@@ -90,7 +90,7 @@ impl<S: Simd> HeldCable<S> {
         let here = (longer[1] * xx - longer[0] * xz) * inverse;
         let closing =
             [(longer[0] * miss[1] - longer[1] * miss[0]) * inverse, (zz * miss[0] - xz * miss[1]) * inverse];
-        // Closing turns the force, and its slope, which is nearly that of the chord, by what dL leaves of it.
+        // Closing turns the force, and g ≈ z/h with the chord: from fz = fx z/h + w L/2.
         let fx_inv = cable.force[0].recip();
         let turns = response.slackness.at_most(NEARLY_CHORD);
         let tilt = turns.select(closing[0] * response.tension_inv, here.all(0.0));
@@ -126,6 +126,8 @@ impl<S: Simd> HeldCable<S> {
     /// fz'' = (2 z/(h fx)) φ² (1 - q²) (φ - 1) + (w/2) L''
     /// L' = -h² S² (φ - 1)/(fx L),     L L'' = h² S² ((φ - 1)² + u²)/fx² - L'²
     /// ```
+    ///
+    /// Its first terms, (u²/fx) (2 z/(3 h) + u h/L), are that of a taut cable.
     #[inline(always)]
     fn curvature(&self, cable: &LaneCable<'_, S>, span: &Span<Lanes<S>>) -> Lanes<S> {
         let [h, z] = span.end;
@@ -170,9 +172,9 @@ impl<S: Simd> HeldCable<S> {
         (tension - self.closed) / self.tension_slope
     }
 
-    /// Whether the steps that follow `d` change no tension by more than about `share` of itself, as far as is
-    /// known of a taut cable without guide: with the relative change y of force and length, closing it
-    /// included, a step leaves y² of its nonlinearity, and y q² of what is neglected of its sag.
+    /// Whether the steps that follow the change `d` of fx change no force by more than about `share` of
+    /// itself. With y the relative change of force and length, closing included, they are y² of what is not
+    /// linear, and y q² of the sag that is neglected in t' and w''.
     #[inline(always)]
     pub(crate) fn is_last(&self, cable: &LaneCable<'_, S>, d: Lanes<S>, share: f64) -> Mask<S> {
         let ([fx, _], length) = (cable.force, cable.length);

@@ -74,8 +74,14 @@ impl<S: Simd> Row<S> {
 
     /// The step within the limits.
     #[inline(always)]
-    pub(crate) fn value(&self) -> Lanes<S> {
+    fn value(&self) -> Lanes<S> {
         self.sides[0].select(self.ways[0], self.sides[1].select(self.ways[1], self.wanted))
+    }
+
+    /// The step that was found: within the limits in the lanes that are `bounded`.
+    #[inline(always)]
+    pub(crate) fn taken(&self, bounded: Mask<S>) -> Lanes<S> {
+        bounded.select(self.value(), self.wanted - self.change)
     }
 
     /// The lanes in which a step lies beyond either limit.

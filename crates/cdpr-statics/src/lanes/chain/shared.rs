@@ -14,8 +14,8 @@ pub(crate) const LAST_DISTRIBUTION: f64 = 1e-9;
 /// upper bound.
 pub(crate) const LAST_REMAINDER: f64 = 1e-11;
 
-/// Part of its own tension by which the steps after the last one would change a taut cable: far below what
-/// changes a position by 1e-12 of a cable's length, as its sag is at most 0.02 of that.
+/// Part of its own force by which the steps after the last one may change a cable: its length then changes by
+/// that part of its strain and its sag.
 pub(crate) const LAST_SHARE: f64 = 5e-10;
 
 /// Iterations for the tensions, whose limits may change on the way.

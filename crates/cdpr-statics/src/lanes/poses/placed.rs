@@ -52,7 +52,13 @@ impl<'a> PlacedRobot<'a> {
         // No more than the sum of all tensions, or twice as much.
         let least: f64 = choices.iter().map(|choice| choice.limits.min).sum();
         let weight = (robot.platform.mass + load.payload) * robot.gravity.magnitude();
-        Shared { choices, tension: NARROWER * (weight + least), forces: weight + least, scale, may_be_slack: true }
+        Shared {
+            choices,
+            tension: NARROWER * (weight + least),
+            forces: weight + least,
+            scale,
+            may_be_slack: true,
+        }
     }
 
     /// Components in the level frame of a vector in the base frame.
