@@ -318,7 +318,8 @@ impl<'a> Point<'a> {
     /// The same with the balance held exactly, which needs cables that can pull in all directions.
     fn inelastic_step(&self, hessian: &[f64]) -> Option<(Vec<f64>, Vector6<f64>)> {
         let free = self.strands.iter().filter(|strand| strand.at_limit().is_none()).count();
-        let (step, multipliers) = self.step_on_free_cables(hessian, 0.0).filter(|_| free >= 6)?;
+        let balanced = (0..6).filter(|row| !self.is_held(*row)).count();
+        let (step, multipliers) = self.step_on_free_cables(hessian, 0.0).filter(|_| free >= balanced)?;
         let small =
             step.iter().zip(&self.strands).all(|(d, strand)| d.abs() <= 1e-3 * strand.held.chord_force());
         small.then_some((step, multipliers))
@@ -332,6 +333,11 @@ impl<'a> Point<'a> {
             fixed.is_some() || (low..=high).contains(d)
         });
         within.then_some((step, multipliers))
+    }
+
+    /// Whether a row of the balance is of a motion that is held: no cable takes part in it.
+    fn is_held(&self, row: usize) -> bool {
+        self.rows.iter().all(|of_cable| of_cable.slope[row] == 0.0)
     }
 
     /// Second derivatives of the Lagrangian, h of (I3).
@@ -364,6 +370,7 @@ impl<'a> Point<'a> {
             }
         }
         for row in 0..6 {
+            let elasticity = if self.is_held(row) { ELASTICITY } else { elasticity };
             kkt[(k + row, k + row)] = -elasticity;
             right[k + row] = -residual[row] - elasticity * self.multipliers[row];
         }

@@ -107,6 +107,9 @@ const LAST_MISSING: f64 = 1e-10;
 /// Slackness q² from which a cable over a pulley is left to the scalar models.
 const FOLDED_ON_WHEEL: f64 = 0.9;
 
+/// Radii of its wheel that a cable's end must be beyond its leave point for only one slack cable to hang there.
+const BESIDE_WHEEL: f64 = 4.0;
+
 /// Rounding of a sum of forces, relative to that of their magnitudes.
 const FORCE_ROUNDING: f64 = 1e-12;
 
@@ -390,7 +393,8 @@ impl<S: Simd> Robots<'_, S> {
                 + turned * (scale.characteristic_length * scale.characteristic_length);
             // The linearisation is invalid farther away; a comparison with NaN is false, which ends the lane.
             going = going & moved.less_or_equal(farthest) & turned.less_or_equal(turned_most);
-            let steady = self.apply(&translation, &rotation, turned, platform, going);
+            let [steady, held] = self.apply(&translation, &rotation, turned, platform, going);
+            going = going & held;
             let near = going & steady & moved.less_or_equal(small_step);
             if near.any() {
                 let (left, holds) = self.revise(load, scale, platform, near);
@@ -412,7 +416,8 @@ impl<S: Simd> Robots<'_, S> {
     }
 
     /// Moves the platforms and the forces of their cables where `going`. Returns the lanes in which no cable
-    /// changed so much that its stiffness is another one.
+    /// changed so much that its stiffness is another one, and those in which none became slack below
+    /// its wheel, from either side of which it may hang.
     #[inline(always)]
     fn apply(
         &mut self,
@@ -421,8 +426,8 @@ impl<S: Simd> Robots<'_, S> {
         square: Lanes<S>,
         platform: &LinearizedPlatform<S>,
         going: Mask<S>,
-    ) -> Mask<S> {
-        let mut steady = going;
+    ) -> [Mask<S>; 2] {
+        let (mut steady, mut held) = (going, going);
         // sin φ/φ and (1 - cos φ)/φ² to rounding for φ up to 0.1.
         let x = -square;
         let a =
@@ -444,6 +449,11 @@ impl<S: Simd> Robots<'_, S> {
                 let slackening = changed & !lost.less_or_equal(fx * GREATEST_LOSS);
                 let share = slackening.select(fx / (fx + lost), fx.all(1.0));
                 force = [fx - lost * share, fz + (force[1] - fz) * share];
+                if let Some(guided) = &cable.guided {
+                    let [beyond, _] = cable.held_end(&cable.span(&self.position));
+                    let below = beyond.less_or_equal(guided.guide.radius * BESIDE_WHEEL);
+                    held = held & !(slackening & below);
+                }
             }
             if cable.guided.is_some() {
                 let length = cable.length + platform.free[i].change(&cable.force, &force);
@@ -458,7 +468,7 @@ impl<S: Simd> Robots<'_, S> {
         }
         let position = three!(|k| self.position[k] + translation[k]);
         replace(&mut self.position, &position, going);
-        steady
+        [steady, held]
     }
 }
 
