@@ -99,6 +99,10 @@ pub(crate) struct Guided<S: Simd> {
     pub(crate) whole_length: Lanes<S>,
 }
 
+/// Horizontal distance of a cable's end from its leave point, in radii of its wheel, within which a slack cable
+/// may hang from either side of the wheel.
+const BESIDE_WHEEL: f64 = 4.0;
+
 /// How the length beyond the leave point follows the force, (L12).
 #[derive(Clone, Copy)]
 pub(crate) struct FreeLength<S: Simd> {
@@ -173,6 +177,14 @@ impl<S: Simd> Guided<S> {
         cable.length.apart(Linearise { guided: self, cable, span: *span, linearized, free, going });
     }
 
+    /// The lanes in which the cable ends within [`BESIDE_WHEEL`] radii of its leave point, with the platform
+    /// at `position`.
+    #[cold]
+    #[inline(never)]
+    pub(crate) fn is_beside(&self, cable: &LaneCable<'_, S>, position: &Lanes3<S>) -> Mask<S> {
+        cable.length.apart(IsBeside(self, cable, position))
+    }
+
     /// The end of the whole cable of this guide, (L12), and the missing length beyond its leave point. A
     /// cable that is too short for its guide has a slackness of 2.
     #[cold]
@@ -204,6 +216,19 @@ impl<S: Simd> WithSimd for Linearise<'_, '_, S> {
         linearized.replace(&LinearizedCable::new(&span, cable.force, &response), going);
         let change = FreeLength { missing: missing * way.free_per_length, per_force: way.free_per_force };
         free.replace(&change, going);
+    }
+}
+
+struct IsBeside<'a, 'b, S: Simd>(&'a Guided<S>, &'a LaneCable<'b, S>, &'a Lanes3<S>);
+
+impl<S: Simd> WithSimd for IsBeside<'_, '_, S> {
+    type Output = Mask<S>;
+
+    #[inline(always)]
+    fn with_simd<Same: Simd>(self, _: Same) -> Mask<S> {
+        let Self(guided, cable, position) = self;
+        let [beyond, _] = cable.held_end(&cable.span(position));
+        beyond.less_or_equal(guided.guide.radius * BESIDE_WHEEL)
     }
 }
 

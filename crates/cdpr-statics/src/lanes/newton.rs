@@ -107,9 +107,6 @@ const LAST_MISSING: f64 = 1e-10;
 /// Slackness q² from which a cable over a pulley is left to the scalar models.
 const FOLDED_ON_WHEEL: f64 = 0.9;
 
-/// Radii of its wheel that a cable's end must be beyond its leave point for only one slack cable to hang there.
-const BESIDE_WHEEL: f64 = 4.0;
-
 /// Rounding of a sum of forces, relative to that of their magnitudes.
 const FORCE_ROUNDING: f64 = 1e-12;
 
@@ -450,9 +447,7 @@ impl<S: Simd> Robots<'_, S> {
                 let share = slackening.select(fx / (fx + lost), fx.all(1.0));
                 force = [fx - lost * share, fz + (force[1] - fz) * share];
                 if let Some(guided) = &cable.guided {
-                    let [beyond, _] = cable.held_end(&cable.span(&self.position));
-                    let below = beyond.less_or_equal(guided.guide.radius * BESIDE_WHEEL);
-                    held = held & !(slackening & below);
+                    held = held & !(slackening & guided.is_beside(cable, &self.position));
                 }
             }
             if cable.guided.is_some() {
