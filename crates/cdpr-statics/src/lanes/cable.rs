@@ -99,8 +99,8 @@ pub(crate) struct Guided<S: Simd> {
     pub(crate) whole_length: Lanes<S>,
 }
 
-/// Horizontal distance of a cable's end from its leave point, in radii of its wheel, within which a slack cable
-/// may hang from either side of the wheel.
+/// Horizontal distance of a cable's end from its leave point, in radii of its wheel, within which a slack
+/// cable may hang from either side of the wheel.
 const BESIDE_WHEEL: f64 = 4.0;
 
 /// How the length beyond the leave point follows the force, (L12).

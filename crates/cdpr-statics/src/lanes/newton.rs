@@ -413,7 +413,7 @@ impl<S: Simd> Robots<'_, S> {
     }
 
     /// Moves the platforms and the forces of their cables where `going`. Returns the lanes in which no cable
-    /// changed so much that its stiffness is another one, and those in which none became slack below
+    /// changed so much that its stiffness is another one, and those in which none became slack beside
     /// its wheel, from either side of which it may hang.
     #[inline(always)]
     fn apply(
