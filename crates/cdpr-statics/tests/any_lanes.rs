@@ -271,7 +271,8 @@ fn robots_on_which_the_models_once_disagreed() {
     // The first has several minima, the next two free cables that hardly span all wrenches; the next has
     // limits at pulleys that hardly leave any tensions, the next one a cable that hangs down from the rim of
     // its wheel, and in the one after it steps converge slowly. In the four that follow a cable becomes slack
-    // below its wheel, and the last are points and planar platforms, whose free cables hardly span all forces.
+    // beside its wheel, and the last are points and planar platforms, whose free cables hardly span all
+    // forces.
     let seeds = [139_742, 269_138, 139_731, 90_976, 887_043, 870_474];
     let slack_below_wheels = [182_199, 540_677, 285_871, 231_139];
     let hardly_spanning = [591_522, 626_514, 632_459, 234_438, 290_796, 89_872];

@@ -79,8 +79,8 @@ fn the_frequencies_of_a_prototype_are_those_that_motion_capture_recorded() {
     for (name, errors) in [("f1", &first), ("f2", &second)] {
         let worst = size(errors).into_iter().fold(0.0, f64::max);
         println!(
-            "{name} of the 24 records with a power ratio above 0.02: |error| {:.2} % in the median, {worst:.1} % \
-             at worst; signed {:+.2} %",
+            "{name} of the 24 records with a power ratio above 0.02: |error| {:.2} % in the median, \
+             {worst:.1} % at worst; signed {:+.2} %",
             median(size(errors)),
             median(errors.clone())
         );

@@ -69,7 +69,8 @@ fn equilibria_over_pulleys_match_arithmetic_of_20_digits() {
         let off = (stiffness - exact).norm() / exact.norm();
         let method = solution.report.method;
         let line = format!(
-            "{:18} {position:8.1e} m {angle:8.1e} rad, tensions {worst:8.1e}, stiffness {off:8.1e}, {method} {}",
+            "{:18} {position:8.1e} m {angle:8.1e} rad, tensions {worst:8.1e}, stiffness {off:8.1e}, \
+             {method} {}",
             robot.name, solution.report.iterations
         );
         println!("{line}");

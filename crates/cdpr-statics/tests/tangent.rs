@@ -52,7 +52,8 @@ fn the_stiffness_is_the_derivative_of_the_balance_under_a_moment() {
             let difference = scaled(&(found.matrix - expected)).amax() / scaled(&expected).amax();
             let skew = scaled(&(found.matrix - found.matrix.transpose()));
             println!(
-                "{}, moment {:.0} N m: {difference:.1e} from differences, skew part {:.1e} of the largest entry",
+                "{}, moment {:.0} N m: {difference:.1e} from differences, skew part {:.1e} of the largest \
+                 entry",
                 robot.name,
                 moment.norm(),
                 0.5 * skew.amax() / scaled(&expected).amax()

@@ -53,7 +53,10 @@ pub enum StudyError {
     #[error(
         "no file and no {} of the library is called `{name}`: {}",
         if *kind == InputKind::Cable { "cable" } else { "robot" },
-        if near.is_empty() { "expected the path of a file, or a name".to_owned() } else { format!("near are {near}") }
+        match near.is_empty() {
+            true => "expected the path of a file, or a name".to_owned(),
+            false => format!("near are {near}"),
+        }
     )]
     NoSuchName {
         /// The name.

@@ -53,7 +53,8 @@ fn kinds() -> io::Result<[Kind; 6]> {
         Kind {
             name: "poses.txt",
             good: "0,0,1.75\n0.5,0,1.5\n0,0.5,2,1,0,0,0\n".to_owned(),
-            command: "calibration identify robot.json --poses poses.txt --uncertainty a=2e-3 --noise lengths=1e-3",
+            command: "calibration identify robot.json --poses poses.txt --uncertainty a=2e-3 \
+                      --noise lengths=1e-3",
         },
     ])
 }

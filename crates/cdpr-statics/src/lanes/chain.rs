@@ -23,7 +23,7 @@
 //!
 //! Where steps pass limits of the tensions, `chain/program.rs` finds those within them.
 //!
-//! For a parabola fz is linear in fx and w'' zero; w'' is that of the inextensible catenary
+//! For a parabola fz is linear in fx and w'' zero; what sag adds is that of the inextensible catenary
 //! ([`HeldCable::curvature`]). A cable that begins near the least tension of its span has it for a limit, as
 //! in the scalar models; one that comes near it on the way is left to them.
 //!
