@@ -147,11 +147,23 @@ pub fn capacity_at(
     set: &WrenchSet,
     free: &[Coordinate],
 ) -> Capacity {
+    let wound_up = held_at(robot, pose, &Load::none(), free);
+    capacity_of(robot, pose, load, set, free, wound_up.as_ref().map_err(Clone::clone))
+}
+
+/// [`capacity_at`] at a pose that the winches hold so under the platform's own weight.
+pub(crate) fn capacity_of(
+    robot: &Robot,
+    pose: &Pose,
+    load: &Load,
+    set: &WrenchSet,
+    free: &[Coordinate],
+    wound_up: Result<&HeldPose, StaticsError>,
+) -> Capacity {
     let set = set.shifted(load.wrench);
     let loaded = |payload: f64, wrench: &Wrench| Load { payload, wrench: *wrench };
-    let wound_up = held_at(robot, pose, &Load::none(), free);
     // Lengths that are kept hold no unstable pose.
-    let held = wound_up.as_ref().map_err(Clone::clone).and_then(|HeldPose { lengths, equilibrium }| {
+    let held = wound_up.clone().and_then(|HeldPose { lengths, equilibrium }| {
         DirectProblem::new(robot, lengths, &Load::none())?.direct_held(Start::Near(equilibrium))?;
         Ok(lengths)
     });
@@ -163,13 +175,13 @@ pub fn capacity_at(
     };
     let payload = |answer: &dyn Fn(&Load, &Equilibrium) -> State, counts: fn(Limit) -> bool| {
         set.least(|wrench| {
-            let start = &wound_up.as_ref().map_err(Clone::clone)?.equilibrium;
+            let start = &wound_up.clone()?.equilibrium;
             Rising { robot, answer: &|mass, near| answer(&loaded(mass, wrench), near), counts }.top(start)
         })
     };
     let margin = |answer: &dyn Fn(&Load, &Equilibrium) -> State| {
         set.least(|wrench| {
-            let start = &wound_up.as_ref().map_err(Clone::clone)?.equilibrium;
+            let start = &wound_up.clone()?.equilibrium;
             let (lengths, equilibrium) = answer(&loaded(load.payload, wrench), start)?;
             let nearest = nearest(robot, &lengths, &equilibrium, |_| true);
             Ok((nearest.distance, vec![nearest.block()]))

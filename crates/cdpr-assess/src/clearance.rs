@@ -236,53 +236,85 @@ impl Curve {
     /// The least distance of the curve to the convex hull of corners [m].
     fn distance_to_hull(&self, corners: &[Vector3<f64>]) -> f64 {
         const MAX_ITERATIONS: usize = 60;
-        let center = corners.iter().sum::<Vector3<f64>>() / corners.len() as f64;
-        let reach = corners.iter().map(|corner| (corner - center).norm()).fold(0.0, f64::max);
-        let distance = |p: &Vector3<f64>| distance_to_hull(p, corners);
-        let mut least = (f64::INFINITY, 0);
+        let at = |u: f64| {
+            let (point, tangent) = self.at(u);
+            Separation { way: way_to_hull(&point, corners), point, tangent }
+        };
+        let (mut least, mut nearest) = (f64::INFINITY, 0.0);
+        let mut known: Vec<Separation> = Vec::new();
         // The platform is at the last point.
         for (k, p) in self.points.iter().enumerate().rev() {
-            if (p - center).norm() - reach < least.0 {
-                let at = distance(p);
-                if at < least.0 {
-                    least = (at, k);
-                }
+            if known.iter().any(|separation| separation.bound(p) >= least) {
+                continue;
             }
+            let separation = at(k as f64);
+            if separation.distance() < least {
+                (least, nearest) = (separation.distance(), k as f64);
+            }
+            known.push(separation);
         }
-        // Golden sections between the neighbours of the nearest point.
-        let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
-        let k = least.1 as f64;
-        let (mut low, mut high) = ((k - 1.0).max(0.0), (k + 1.0).min(self.last()));
-        let at = |u: f64| distance(&self.at(u).0);
-        let (mut u, mut v) = (high - golden * (high - low), low + golden * (high - low));
-        let (mut at_u, mut at_v) = (at(u), at(v));
-        for _ in 0..MAX_ITERATIONS {
-            if high - low < 1e-9 || least.0 == 0.0 {
+        // The distance to a convex body has a slope, which tells on which side of a point it falls.
+        let ends = [(nearest - 1.0).max(0.0), (nearest + 1.0).min(self.last())];
+        let [mut low, mut high] = ends.map(|u| (u, at(u).slope()));
+        for iteration in 0..MAX_ITERATIONS {
+            if low.1 >= 0.0 || high.1 <= 0.0 {
                 break;
             }
-            if at_u < at_v {
-                (high, v, at_v) = (v, u, at_u);
-                u = high - golden * (high - low);
-                at_u = at(u);
-            } else {
-                (low, u, at_u) = (u, v, at_v);
-                v = low + golden * (high - low);
-                at_v = at(v);
+            let width = high.0 - low.0;
+            let secant = low.0 + width * low.1 / (low.1 - high.1);
+            let u = if iteration % 3 == 2 { low.0 + 0.5 * width } else { secant };
+            let separation = at(u);
+            let slope = separation.slope();
+            least = least.min(separation.distance());
+            // By no more than this it falls beside the point.
+            if slope.abs() * width <= 1e-12 * separation.tangent.norm() {
+                break;
             }
+            *(if slope < 0.0 { &mut low } else { &mut high }) = (u, slope);
         }
-        least.0.min(at_u).min(at_v)
+        least
     }
 }
 
-/// The distance of a point from the convex hull of corners [m], zero inside.
-fn distance_to_hull(point: &Vector3<f64>, corners: &[Vector3<f64>]) -> f64 {
+/// A point of a curve beside a convex body.
+struct Separation {
+    point: Vector3<f64>,
+    /// Of the curve at the point, for a step of its parameter [m].
+    tangent: Vector3<f64>,
+    /// From the point to the nearest one of the body [m]; zero inside.
+    way: Vector3<f64>,
+}
+
+impl Separation {
+    fn distance(&self) -> f64 {
+        self.way.norm()
+    }
+
+    /// How the distance grows along the curve [m], for a step of its parameter.
+    fn slope(&self) -> f64 {
+        self.along(&-self.tangent)
+    }
+
+    /// What no distance of a point `p` from the body falls below [m]: the body lies beyond the plane at right
+    /// angles to the way.
+    fn bound(&self, p: &Vector3<f64>) -> f64 {
+        self.distance() + self.along(&(self.point - p))
+    }
+
+    fn along(&self, v: &Vector3<f64>) -> f64 {
+        if self.distance() > 0.0 { self.way.dot(v) / self.distance() } else { 0.0 }
+    }
+}
+
+/// The way from a point to the nearest one of the convex hull of corners [m], zero inside.
+fn way_to_hull(point: &Vector3<f64>, corners: &[Vector3<f64>]) -> Vector3<f64> {
     const MAX_ITERATIONS: usize = 100;
     let corner = |k: usize| corners[k] - point;
     let size = corners.iter().map(|c| (c - point).norm_squared()).fold(0.0, f64::max);
     // Corners of a face that the nearest point lies on, with its shares of them.
     let nearest =
         (0..corners.len()).min_by(|a, b| corner(*a).norm_squared().total_cmp(&corner(*b).norm_squared()));
-    let Some(nearest) = nearest else { return f64::INFINITY };
+    let Some(nearest) = nearest else { return Vector3::repeat(f64::INFINITY) };
     let (mut face, mut shares) = (vec![nearest], vec![1.0]);
     let mut x = corner(nearest);
     for _ in 0..MAX_ITERATIONS {
@@ -295,7 +327,7 @@ fn distance_to_hull(point: &Vector3<f64>, corners: &[Vector3<f64>]) -> f64 {
         shares.push(0.0);
         loop {
             let Some(affine) = affine_minimum(&face.iter().map(|k| corner(*k)).collect::<Vec<_>>()) else {
-                return x.norm();
+                return x;
             };
             if affine.iter().all(|share| *share > 1e-12) {
                 shares = affine;
@@ -310,7 +342,7 @@ fn distance_to_hull(point: &Vector3<f64>, corners: &[Vector3<f64>]) -> f64 {
         }
         x = face.iter().zip(&shares).map(|(k, share)| corner(*k) * *share).sum();
     }
-    if x.norm_squared() <= 1e-20 * size { 0.0 } else { x.norm() }
+    if x.norm_squared() <= 1e-20 * size { Vector3::zeros() } else { x }
 }
 
 /// Shares, whose sum is one, of the point of least norm in the plane through points.
@@ -364,7 +396,7 @@ mod tests {
         let corners: Vec<_> = (0..8)
             .map(|k| Vector3::new(f64::from(k & 1), f64::from(k >> 1 & 1), f64::from(k >> 2)))
             .collect();
-        let distance = |p: [f64; 3]| distance_to_hull(&p.into(), &corners);
+        let distance = |p: [f64; 3]| way_to_hull(&p.into(), &corners).norm();
         assert!((distance([0.3, 0.4, 1.5]) - 0.5).abs() < 1e-12);
         assert!((distance([0.3, 4.0, 5.0]) - 5.0).abs() < 1e-12);
         assert!((distance([2.0, 3.0, 3.0]) - 3.0).abs() < 1e-12);
@@ -373,6 +405,9 @@ mod tests {
         assert_eq!(through.distance_to_hull(&corners), 0.0);
         let past = line([1.5, 0.5, 3.0], [1.7, 0.5, -1.0]);
         // Nearest to the upper edge, at right angles to the line.
-        assert!((past.distance_to_hull(&corners) - 2.4 / 16.04_f64.sqrt()).abs() < 1e-9);
+        assert!((past.distance_to_hull(&corners) - 2.4 / 16.04_f64.sqrt()).abs() < 1e-12);
+        // Through an edge, between two points of the line.
+        let chipped = line([0.3, 0.5, 1.69], [1.5, 0.5, 0.49]);
+        assert_eq!(chipped.distance_to_hull(&corners), 0.0);
     }
 }

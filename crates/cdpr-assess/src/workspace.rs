@@ -9,8 +9,8 @@ mod row;
 mod summary;
 
 use crate::boundary::{Boundary, boundary};
-use crate::capacity::{Capacity, WrenchSet, capacity_at};
-use crate::clearance::{Clearance, clearance_under};
+use crate::capacity::{Capacity, WrenchSet, capacity_of};
+use crate::clearance::{Clearance, clearance_at};
 use crate::tilt::{Tilt, tilt_at};
 use cdpr_robot::{Axis, Coordinate, Pose, Robot, Rotation3, Vector3};
 use cdpr_statics::{
@@ -173,28 +173,40 @@ pub fn compute_workspace(
 ) -> Result<Vec<WorkspacePose>, StudyError> {
     check(workspace)?;
     let Workspace { robot, rotation, load, free, further, .. } = *workspace;
-    let one = |pose: Pose, outcome: Result<Held, StaticsError>, anew: Option<Result<Anew, StaticsError>>| {
-        if stop() {
-            return Err(StudyError::Stopped);
-        }
-        let capacity = further.capacity.map(|set| Box::new(capacity_at(robot, &pose, &load, set, free)));
-        let clearance = further.distances.then(|| Box::new(clearance_under(robot, &pose, &load, free)));
-        let tilt = further.tilt.map(|TiltDirections { count, accuracy }| {
-            Box::new(tilt_at(robot, &pose, &load, count, accuracy))
-        });
-        tick();
-        Ok(WorkspacePose { pose, outcome, anew, capacity, clearance, tilt })
-    };
     let order = without_jumps(&workspace.grid);
     let at = |number: &usize| Pose { rotation, ..workspace.grid.pose(*number) };
     let poses: Vec<_> = order.iter().map(at).collect();
+    let has_load = load != Load::none();
     let of_part = |poses: &[Pose]| {
         if stop() {
             return vec![Err(StudyError::Stopped)];
         }
-        let (outcomes, anew) = (outcomes(workspace, poses), all_anew(workspace, poses));
-        let each = poses.par_iter().copied().zip(outcomes).zip(anew);
-        each.map(|((pose, outcome), anew)| one(pose, outcome, anew)).collect()
+        let all_wound_up = |asked: bool, load: &Load| {
+            if asked { wound_up(workspace, poses, load) } else { Vec::new() }
+        };
+        let loaded = all_wound_up(has_load || further.distances, &load);
+        let unloaded = all_wound_up(further.capacity.is_some(), &Load::none());
+        let one = |((k, pose), outcome): ((usize, &Pose), Result<Held, StaticsError>)| {
+            if stop() {
+                return Err(StudyError::Stopped);
+            }
+            let loaded = loaded.get(k).map(|found| found.as_ref().map_err(Clone::clone));
+            let anew = loaded.clone().filter(|_| has_load).map(|found| Anew::of(workspace, found?));
+            let capacity = further.capacity.zip(unloaded.get(k)).map(|(set, found)| {
+                let found = found.as_ref().map(|wound_up| &wound_up.held).map_err(Clone::clone);
+                Box::new(capacity_of(robot, pose, &load, set, free, found))
+            });
+            let clearance = loaded.filter(|_| further.distances).map(|found| {
+                let near = |WoundUp { held, .. }: &WoundUp| clearance_at(robot, &held.lengths, &held.equilibrium);
+                Box::new(found.and_then(near))
+            });
+            let tilt = further.tilt.map(|TiltDirections { count, accuracy }| {
+                Box::new(tilt_at(robot, pose, &load, count, accuracy))
+            });
+            tick();
+            Ok(WorkspacePose { pose: *pose, outcome, anew, capacity, clearance, tilt })
+        };
+        poses.par_iter().enumerate().zip(outcomes(workspace, poses)).map(one).collect()
     };
     let part = BLOCK * (poses.len() / (BLOCK * PARTS)).max(1);
     let mut found: Vec<_> =
@@ -255,21 +267,48 @@ fn loaded_from(
     wanted.iter().filter_map(one).collect()
 }
 
-/// The tensions distributed anew at poses that follow each other; `None` without a load.
-fn all_anew(workspace: &Workspace, poses: &[Pose]) -> Vec<Option<Result<Anew, StaticsError>>> {
-    let Workspace { robot, ref load, free, .. } = *workspace;
-    if *load == Load::none() {
-        return vec![None; poses.len()];
+/// A pose as the winches hold it.
+struct WoundUp {
+    held: HeldPose,
+    /// At the platform [N].
+    tensions: Vec<f64>,
+}
+
+/// How the winches hold poses that follow each other under a load.
+fn wound_up(workspace: &Workspace, poses: &[Pose], load: &Load) -> Vec<Result<WoundUp, StaticsError>> {
+    let Workspace { robot, free, .. } = *workspace;
+    if free.is_empty() {
+        let of = |InverseSolution { lengths, equilibrium, tensions, .. }| WoundUp {
+            held: HeldPose { lengths, equilibrium },
+            tensions,
+        };
+        return inverse_all(robot, poses, load).into_iter().map(|found| found.map(of)).collect();
     }
-    let anew = |tensions: Vec<f64>| {
-        let [least_tension, greatest_tension] = range(&tensions);
-        Anew { least_tension, greatest_tension }
+    let of = |pose: &Pose| {
+        let held = held_at(robot, pose, load, free)?;
+        let tensions = held.equilibrium.tensions();
+        Ok(WoundUp { held, tensions })
     };
-    let tensions: Vec<Result<Vec<f64>, StaticsError>> = match free {
-        [] => inverse_all(robot, poses, load).into_iter().map(|found| Ok(found?.tensions)).collect(),
-        _ => poses.par_iter().map(|pose| tensions_anew(workspace, pose)).collect(),
-    };
-    tensions.into_iter().map(|tensions| Some(tensions.map(anew))).collect()
+    poses.par_iter().map(of).collect()
+}
+
+impl WoundUp {
+    /// The tensions, if the pose does not turn over: free coordinates are found whether it does or not.
+    fn tensions_at_rest(&self, workspace: &Workspace) -> Result<&[f64], StaticsError> {
+        let Workspace { robot, ref load, free, .. } = *workspace;
+        if !free.is_empty() {
+            let HeldPose { lengths, equilibrium } = &self.held;
+            DirectProblem::new(robot, lengths, load)?.direct_held(Start::Near(equilibrium))?;
+        }
+        Ok(&self.tensions)
+    }
+}
+
+impl Anew {
+    fn of(workspace: &Workspace, wound_up: &WoundUp) -> Result<Self, StaticsError> {
+        let [least_tension, greatest_tension] = range(wound_up.tensions_at_rest(workspace)?);
+        Ok(Self { least_tension, greatest_tension })
+    }
 }
 
 /// The boundary of the positions that are held with all tensions within the limits, the load borne in one
@@ -298,26 +337,13 @@ pub fn workspace_boundary(
             }
             (Way::Kept, _) => within(held_free(workspace, &pose)),
             // Free coordinates are found whatever the limits are.
-            (Way::Anew, _) => tensions_anew(workspace, &pose).is_ok_and(|tensions| {
+            (Way::Anew, _) => wound_up(workspace, &[pose], load).into_iter().flatten().any(|found| {
                 let within = |(i, t): (usize, &f64)| *t <= robot.limits(i).max && *t >= robot.limits(i).min;
-                tensions.iter().enumerate().all(within)
+                found.tensions_at_rest(workspace).is_ok_and(|tensions| tensions.iter().enumerate().all(within))
             }),
         }
     };
     boundary(&Axis::ALL.map(|axis| grid.axis(axis).coordinates()), &is_inside, stop)
-}
-
-/// The tensions at the platform that bear the load, distributed anew [N].
-fn tensions_anew(workspace: &Workspace, pose: &Pose) -> Result<Vec<f64>, StaticsError> {
-    let Workspace { robot, ref load, free, .. } = *workspace;
-    Ok(match free {
-        [] => inverse(robot, pose, load, None)?.tensions,
-        _ => {
-            let HeldPose { lengths, equilibrium } = held_at(robot, pose, load, free)?;
-            DirectProblem::new(robot, &lengths, load)?.direct_held(Start::Near(&equilibrium))?;
-            equilibrium.tensions()
-        }
-    })
 }
 
 /// Checks the settings.

@@ -319,7 +319,11 @@ fn further_columns_are_what_is_said_of_each_pose() {
         assert_eq!(row.tilt_deg, least.map(|least| least.angle.to_degrees()));
         assert_eq!(row.tilt_deg.is_some(), row.anew_status == Some("held"));
         let near = clearance_under(&robot, pose, &load, &[]).ok().and_then(|found| found.cables);
-        assert_eq!(row.nearest_cables_mm, near.map(|near| 1e3 * near.distance));
+        assert_eq!(row.nearest_cables_mm.is_some(), near.is_some());
+        if let (Some(found), Some(near)) = (row.nearest_cables_mm, near) {
+            // In lanes the tensions have other last digits.
+            assert!((found - 1e3 * near.distance).abs() < 1e-6, "{found} and {near:?} mm");
+        }
     }
     assert!(summary.tilt_deg.unwrap().min > 1.0 && summary.payload_anew_kg.unwrap().max > 1000.0);
     let left: usize = summary.left_out.values().sum();

@@ -20,7 +20,7 @@
 //!
 //! (H. Everett, *Generalized Lagrange multiplier method*, Operations Research 11, 1963). It is tried on a
 //! grid of each cable's chord forces where cables sag: where one cable has a smaller φ_i elsewhere, that is
-//! the next start.
+//! the next start; where none has, no other start is needed.
 //!
 //! A pose is infeasible if a direction y exists in which no cable can pull enough:
 //! `min y·w_i(t_i)` over the limits of each cable, summed over all, exceeds `-y·w_ex`. The least residual
@@ -49,7 +49,7 @@ const CLEAR_GAIN: f64 = 1e-3;
 const CLEAR_RESIDUE: f64 = 1e-3;
 
 /// Slackness q from which (I6) is tried, at a sag of about a thirtieth of the chord, and from which all
-/// starts are, at a tenth.
+/// starts are unless (I6) proves that no other optimum is better, at a tenth.
 const SOME: f64 = 0.14;
 const MUCH: f64 = 0.4;
 
@@ -66,13 +66,11 @@ pub(super) fn search<'a>(question: &Question<'a>) -> Result<Optimum<'a>, Statics
     let mut nearest = first.clone();
     let mut best = nearest.optimise().then(|| nearest.clone());
     let mut iterations = nearest.iterations;
-    if let Some(best) = &mut best
-        && !best.sags(MUCH)
-    {
-        if best.sags(SOME) {
-            best.lessened(question, &mut iterations)?;
+    if let Some(best) = &mut best {
+        let proved = best.sags(SOME) && best.lessened(question, &mut iterations)?;
+        if proved || !best.sags(MUCH) {
+            return Ok(Optimum { iterations, ..best.optimum() });
         }
-        return Ok(Optimum { iterations, ..best.optimum() });
     }
     let others = starts(question).map(|tensions| Point::new(question, &tensions));
     for (k, start) in std::iter::once(Ok(first)).chain(others).enumerate() {
@@ -238,13 +236,18 @@ impl<'a> Point<'a> {
         self.strands.iter().any(|strand| strand.held.slackness() > slackness)
     }
 
-    /// Moves an optimum to better ones as long as (I6) leads to them.
-    fn lessened(&mut self, question: &Question<'a>, iterations: &mut usize) -> Result<(), StaticsError> {
+    /// Moves an optimum to better ones as long as (I6) leads to them. Returns whether (I6) proves the last one
+    /// to be the least of all.
+    fn lessened(&mut self, question: &Question<'a>, iterations: &mut usize) -> Result<bool, StaticsError> {
         const MOST: usize = 4;
         /// A smaller gain may be rounding of the same optimum, where cables on their bounds leave few others.
         const BETTER: f64 = 1e-9;
         for _ in 0..MOST {
-            let Ok(Some(tensions)) = self.better_start() else { break };
+            let tensions = match self.better_start() {
+                Ok(Some(tensions)) => tensions,
+                Ok(None) => return Ok(true),
+                Err(_) => break,
+            };
             let mut point = Point::new(question, &tensions)?;
             let found = point.balance(LEAST_GAIN) && point.optimise();
             *iterations += point.iterations;
@@ -253,7 +256,7 @@ impl<'a> Point<'a> {
             }
             *self = point;
         }
-        Ok(())
+        Ok(false)
     }
 
     /// The tensions of an optimum [N], with that cable's changed whose part (I6) of the Lagrangian gains
