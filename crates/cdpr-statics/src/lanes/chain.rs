@@ -433,7 +433,8 @@ pub(crate) fn wind<S: Simd>(
                 }
                 Some(guided) => HeldCable::leaving(guided, cable, span),
             };
-            taut = (!going & taut) | (going & held.is_taut(cable, demanded[i]));
+            let folds = zero.all(FOLDED).less_or_equal(held.slackness);
+            taut = (!going & taut) | (going & held.is_taut(cable, demanded[i]) & !folds);
             let fx = cable.force[0];
             let inverse = (fx * held.tension_slope).recip();
             let d = (*set_point - held.closed) * fx * inverse;

@@ -132,8 +132,10 @@ pub(crate) fn within_limits<S: Simd>(
     let zero = balance[0].all(0.0);
     let mut raised = [zero; 6];
     let mut going = open;
+    // Elsewhere steps end at no limit, and every one of them is the same again.
     for row in rows.iter_mut() {
-        row.sides = row.beyond(row.wanted);
+        let [low, high] = row.beyond(row.wanted);
+        row.sides = [open & low, open & high];
     }
     for _ in 0..MAX_ITERATIONS {
         let (step, before) = newton(rows, balance);
