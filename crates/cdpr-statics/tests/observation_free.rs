@@ -67,6 +67,8 @@ fn left(Few { robot, pose, free }: &Few) -> usize {
     // Platforms on few cables are soft.
     let (left, failed) = compared(robot, &observer, &rows, 1e-12 * longest(robot, pose));
     println!("{}: {left} of 200 left to the scalar models, {failed} failed there", robot.name);
+    let alone = rows.chunks(Parameter::of(robot).len()).flat_map(|row| observer.observe_all(row));
+    assert!(alone.eq(observer.observe_all(&rows)), "{}: a row depends on those beside it", robot.name);
     left
 }
 
