@@ -197,7 +197,8 @@ pub fn compute_workspace(
                 Box::new(capacity_of(robot, pose, &load, set, free, found))
             });
             let clearance = loaded.filter(|_| further.distances).map(|found| {
-                let near = |WoundUp { held, .. }: &WoundUp| clearance_at(robot, &held.lengths, &held.equilibrium);
+                let near =
+                    |WoundUp { held, .. }: &WoundUp| clearance_at(robot, &held.lengths, &held.equilibrium);
                 Box::new(found.and_then(near))
             });
             let tilt = further.tilt.map(|TiltDirections { count, accuracy }| {
@@ -339,7 +340,9 @@ pub fn workspace_boundary(
             // Free coordinates are found whatever the limits are.
             (Way::Anew, _) => wound_up(workspace, &[pose], load).into_iter().flatten().any(|found| {
                 let within = |(i, t): (usize, &f64)| *t <= robot.limits(i).max && *t >= robot.limits(i).min;
-                found.tensions_at_rest(workspace).is_ok_and(|tensions| tensions.iter().enumerate().all(within))
+                found
+                    .tensions_at_rest(workspace)
+                    .is_ok_and(|tensions| tensions.iter().enumerate().all(within))
             }),
         }
     };

@@ -11,14 +11,14 @@
 pub(crate) mod provenance;
 
 use crate::error::RobotError;
-use crate::freedoms::{Freedoms, Plane};
+use crate::freedoms::{Coordinate, Freedoms, Plane};
 use crate::gravity::Gravity;
 use crate::limits::{CableEnd, NamedReference, OwnLimits, TensionLimits, TensionReference};
 use crate::pose::Pose;
 use crate::robot::provenance::Provenance;
 use crate::wrench::Wrench;
 use cdpr_cable::{Cable, ElasticLaw, Entry, Guide, PiecewiseLaw};
-use nalgebra::{Matrix3, Matrix6xX, Vector3};
+use nalgebra::{Matrix3, Matrix6xX, Vector3, Vector6};
 
 /// A cable-driven parallel robot with n cables for the m free motions of its platform.
 #[derive(Clone, Debug, PartialEq)]
@@ -236,6 +236,16 @@ impl Robot {
     #[inline]
     pub fn freedoms(&self) -> Freedoms {
         Freedoms::new(self.platform.point, self.plane)
+    }
+
+    /// Motion (dp, dφ) of the platform per unit of a coordinate of a pose. The one rotation of a planar robot
+    /// is about an axis of the base frame, however its platform stands.
+    pub fn motion(&self, coordinate: Coordinate, pose: &Pose) -> Vector6<f64> {
+        if self.plane.is_some() {
+            return Vector6::ith(coordinate.component(), 1.0);
+        }
+        let (_, pitch, yaw) = pose.rotation.euler_angles();
+        coordinate.motion(yaw, pitch)
     }
 
     /// Whether there is a cable for every free motion, n >= m: whether all coordinates of a pose can be

@@ -277,7 +277,11 @@ fn no_robot_depends_on_those_beside_it() {
         let rows = rows.chunks(Parameter::of(&robot).len());
         for (number, (row, (beside, slopes))) in rows.zip(together.iter().zip(&slopes)).enumerate() {
             assert_eq!(&observer.observe_all(row)[0], beside, "row {number} of robot {seed}");
-            assert_eq!(&observer.observe_all_slopes(row)[0], slopes, "slopes of row {number} of robot {seed}");
+            assert_eq!(
+                &observer.observe_all_slopes(row)[0],
+                slopes,
+                "slopes of row {number} of robot {seed}"
+            );
         }
         together.iter().flatten().filter(|found| found.scalar.is_none()).count()
     });

@@ -32,14 +32,15 @@ fn named(name: &str) -> Robot {
     Robot::from_json(library::named(library::ROBOTS, name).unwrap().text).unwrap()
 }
 
-/// Robots on two to five cables: of steel and of fibre, light and heavy ones that sag, one in a plane and a
-/// point.
+/// Robots on two to five cables: of steel and of fibre, light and heavy ones that sag, one in a plane, also
+/// with its platform turned out of that, and a point.
 fn robots() -> Vec<Few> {
     let at_grab =
         Pose { rotation: Rotation3::from_euler_angles(0.0, 0.0, 0.136), ..Pose::at(1.28, -0.19, -0.92) };
     let [(planar, in_plane, pitch, _), ..] = with_few_cables();
     let mut point = planar.clone();
     (point.platform.point, point.plane) = (true, None);
+    let out_of_plane = Pose { rotation: Rotation3::from_euler_angles(0.2, 0.1, -0.3), ..in_plane };
     vec![
         few(cogiro(), &[0, 2, 4, 6], Pose::at(1.0, 0.5, 2.0), &[Roll, Pitch]),
         few(named("grab"), &[0, 1, 2, 3], at_grab, &[Pitch, Roll]),
@@ -49,7 +50,8 @@ fn robots() -> Vec<Few> {
         few(caroca(), &[1, 2, 3, 4, 5], Pose::at(0.2, 0.1, 1.0), &[Pitch]),
         few(fast(), &[0, 1, 2, 3, 5], Pose::at(10.0, 5.0, 100.0), &[Yaw]),
         few(fast(), &[0, 2, 4], Pose::at(10.0, 5.0, 100.0), &[Roll, Pitch, Yaw]),
-        few(planar, &[0, 1], in_plane, &pitch),
+        few(planar.clone(), &[0, 1], in_plane, &pitch),
+        few(planar, &[0, 1], out_of_plane, &pitch),
         few(point, &[0, 1], in_plane, &[Y]),
     ]
 }

@@ -117,13 +117,7 @@ impl Rest<'_> {
     /// Motion (dp, dφ) of rest by that of the wanted pose, 6 x 6, and by the free coordinates.
     fn coordinates(&self) -> Result<(Matrix6<f64>, Matrix6xX<f64>), StaticsError> {
         let [wanted, mut rest] = [self.wanted, &self.unmoved.equilibrium.pose].map(|pose| {
-            let (_, pitch, yaw) = pose.rotation.euler_angles();
-            // The one rotation of a planar robot is about an axis of the base frame.
-            let motion = |coordinate: Coordinate| match self.robot.plane {
-                None => coordinate.motion(yaw, pitch),
-                Some(_) => Vector6::ith(coordinate.component(), 1.0),
-            };
-            Matrix6::from_columns(&Coordinate::ALL.map(motion))
+            Matrix6::from_columns(&Coordinate::ALL.map(|coordinate| self.robot.motion(coordinate, pose)))
         });
         let free: Vec<_> =
             self.free.iter().map(|coordinate| rest.column(coordinate.component()).into_owned()).collect();

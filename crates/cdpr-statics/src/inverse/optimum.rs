@@ -196,11 +196,12 @@ impl<'a> Point<'a> {
     /// Newton's method from here. Returns whether it ended at an optimum.
     pub(super) fn optimise(&mut self) -> bool {
         let mut before = f64::INFINITY;
-        let mut stalled = 0;
+        let (mut stalled, mut polished) = (0, false);
         for _ in 0..MAX_ITERATIONS {
             let (size, residual) = (self.size(), self.residual());
             let error = residual.norm().max(self.stationarity());
-            if error <= ROUNDING * size || (error <= NEARLY_ROUNDING * size && error >= 0.5 * before) {
+            let nearly = error <= NEARLY_ROUNDING * size && error >= 0.5 * before;
+            if error <= ROUNDING * size || (nearly && polished) {
                 match self.learns_violated() {
                     Some(false) => return true,
                     Some(true) => {}
@@ -233,9 +234,11 @@ impl<'a> Point<'a> {
             }
             // Full steps near the optimum; elsewhere those that the merit function accepts.
             if error <= 1e-7 * size {
-                // Cables that hardly span all wrenches move little for large multipliers.
+                // Cables that hardly span all wrenches move little for large multipliers. Elastic equations
+                // leave them a residual near rounding, too, which their tensions magnify.
                 stalled = if error >= 0.5 * last_error { stalled + 1 } else { 0 };
-                if stalled >= MOST_STALLED
+                polished = nearly;
+                if (nearly || stalled >= MOST_STALLED)
                     && let Some(newton) = self.inelastic_step(&exact)
                 {
                     (step, multipliers) = newton;

@@ -159,7 +159,7 @@ impl<'a, S: Simd> Rows<'a, S> {
             offsets: Vec::with_capacity(n),
             multipliers: six!(|k| self.all(nominal.multipliers[k])),
             payload: PlatformLoad::new(gravity * load.payload, &load.wrench),
-            free: self.motions(pose, &nominal.free),
+            free: self.motions(robot, pose, &nominal.free),
         };
         for (i, cable) in robot.cables.iter().enumerate() {
             let density = self.parameter(layout.linear_density(), cable.properties.linear_density);
@@ -199,11 +199,10 @@ impl<'a, S: Simd> Rows<'a, S> {
 
     /// The motions of free coordinates.
     #[inline(always)]
-    fn motions(&self, pose: &Pose, free: &[Coordinate]) -> Vec<FreeMotion<S>> {
-        let (_, pitch, yaw) = pose.rotation.euler_angles();
+    fn motions(&self, robot: &Robot, pose: &Pose, free: &[Coordinate]) -> Vec<FreeMotion<S>> {
         let mut motions = Vec::with_capacity(free.len());
         for coordinate in free {
-            let motion = coordinate.motion(yaw, pitch);
+            let motion = robot.motion(*coordinate, pose);
             motions.push(match coordinate.is_angle() {
                 false => FreeMotion::Along(three!(|k| self.all(motion[k]))),
                 true => FreeMotion::About(three!(|k| self.all(motion[3 + k]))),
