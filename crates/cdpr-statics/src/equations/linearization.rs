@@ -7,9 +7,9 @@
 //! H (dp, dφ) = dw + sum [k_L; s_i x k_L] dL_i,      k_L = K ∂A/∂L                                  (S6)
 //! ```
 //!
-//! with K the stiffness of cable i in space and ∂A/∂L the way of its free end per length. Section 3.3 of the
-//! paper says why such a displacement is not the static deflection of a robot with sagging cables; both are
-//! here to be compared.
+//! with K the stiffness of cable i in space and ∂A/∂L the way of its free end per length. Section 3.3 of
+//! the paper says why such a displacement is not the static deflection of a robot with sagging cables; both
+//! are here to be compared.
 
 use crate::equations::balance::{Balance, symmetric_part};
 use crate::equations::motions::Pins;

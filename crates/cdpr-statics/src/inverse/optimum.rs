@@ -1,7 +1,7 @@
 //! The optimum (I1) of the inverse model near a start, by sequential quadratic programs.
 //!
-//! In the chord forces σ, with `F = sum w_i + w_ex`, `J_i = dw_i/dσ_i` and derivatives by σ_i as dashes, each
-//! step d solves
+//! In the chord forces σ, with `F = sum w_i + w_ex`, `J_i = dw_i/dσ_i` and derivatives by σ_i as dashes,
+//! each step d solves
 //!
 //! ```text
 //! minimise  sum (c_i d_i + h_i d_i²/2),   J d + F = 0,   bounds on σ + d                            (I3)
@@ -63,7 +63,7 @@ const LEAST_CURVATURE: f64 = 0.01;
 pub(super) const ROUNDING: f64 = 1e-14;
 pub(crate) const NEARLY_ROUNDING: f64 = 1e-11;
 
-/// Steps near the optimum that gain nothing, before one holds the balance exactly.
+/// Steps near the optimum that gain nothing, before one holds the balance exactly; next to rounding it is one.
 const MOST_STALLED: usize = 3;
 
 /// A residual above this, relative to wrench and tensions, is far above what elastic equations leave.
@@ -234,8 +234,8 @@ impl<'a> Point<'a> {
             }
             // Full steps near the optimum; elsewhere those that the merit function accepts.
             if error <= 1e-7 * size {
-                // Cables that hardly span all wrenches move little for large multipliers. Elastic equations
-                // leave them a residual near rounding, too, which their tensions magnify.
+                // Elastic equations move cables little that hardly span all wrenches, for large multipliers.
+                // Next to rounding they leave a residual, which the tension of a slack cable magnifies.
                 stalled = if error >= 0.5 * last_error { stalled + 1 } else { 0 };
                 polished = nearly;
                 if (nearly || stalled >= MOST_STALLED)

@@ -126,8 +126,8 @@ impl<S: Simd> SymmetricFactors<S> {
         x
     }
 
-    /// D^-½ U⁻ᵀ K U⁻¹ D^-½ for a symmetric matrix K, of which the upper triangle is read: with this one as M,
-    /// its eigenvalues are those of `K v = λ M v`.
+    /// D^-½ U⁻ᵀ K U⁻¹ D^-½ for a symmetric matrix K, of which the upper triangle is read: with this one as
+    /// M, its eigenvalues are those of `K v = λ M v`.
     // Indices as in the formula.
     #[allow(clippy::needless_range_loop)]
     #[inline(always)]

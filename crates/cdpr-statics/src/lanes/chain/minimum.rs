@@ -4,7 +4,7 @@
 //! force of each cable, by itself, makes its part of the Lagrangian least:
 //!
 //! ```text
-//! φ(fx) = (t - r)²/2 + λ·w,   φ(fx*) <= φ(fx)   for all fx that the limits allow                       (L7)
+//! φ(fx) = (t - r)²/2 + λ·w,   φ(fx*) <= φ(fx)   for all fx that the limits allow                  (L7)
 //! ```
 //!
 //! (H. Everett, *Generalized Lagrange multiplier method*, Operations Research 11, 1963). φ is compared with

@@ -2,9 +2,9 @@
 //!
 //! From the cables that the inverse model wound, both equilibria follow by Newton's method of
 //! `lanes/newton.rs`. The stiffness K of the loaded platform is linearised at the second one. Its least
-//! eigenvalue in (dp, ℓ dφ) is the stiffness of the softest motion, as [`crate::Stability`] has it, and that
-//! of `K v = (2π f)² M v` with the mass matrix of (V1) gives the lowest natural frequency. What a lane does
-//! not decide is left to the scalar models.
+//! eigenvalue in (dp, ℓ dφ) is the stiffness of the softest motion, as [`crate::Stability`] has it, and
+//! that of `K v = (2π f)² M v` with the mass matrix of (V1) gives the lowest natural frequency. What a lane
+//! does not decide is left to the scalar models.
 
 use crate::derivatives::derivatives_from;
 use crate::error::StaticsError;
@@ -192,8 +192,8 @@ struct Figures<S: Simd> {
     stable: Mask<S>,
     /// Its least eigenvalue in (dp, ℓ dφ) [N/m].
     least_stiffness: Lanes<S>,
-    /// (2π f)² of the lowest natural frequency [1/s²], with the lanes whose mass matrix is positive definite;
-    /// `None` without an inertia.
+    /// (2π f)² of the lowest natural frequency [1/s²], with the lanes whose mass matrix is positive
+    /// definite; `None` without an inertia.
     square: Option<(Lanes<S>, Mask<S>)>,
 }
 
