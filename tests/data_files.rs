@@ -34,6 +34,58 @@ fn the_library_has_every_robot_and_cable_file_by_its_name() {
     assert_eq!(stems("data/cables", "cdpr-cable/1"), names(CABLES));
 }
 
+/// All pages of the repository that are written by hand.
+fn pages(folder: &Path, found: &mut Vec<PathBuf>) {
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let name = path.file_name().unwrap().to_str().unwrap();
+        if path.is_dir() && !name.starts_with('.') && !["target", "vendor", "node_modules"].contains(&name) {
+            pages(&path, found);
+        } else if path.extension().is_some_and(|e| e == "md") {
+            found.push(path);
+        }
+    }
+}
+
+/// Lines of a page that Markdown takes for an item of a list, though they continue a paragraph: a sign, or
+/// the number 1, at the beginning of a wrapped line.
+fn items_within_paragraphs(text: &str) -> Vec<usize> {
+    let is_item = |line: &str| {
+        let line = line.trim_start();
+        ["- ", "+ ", "* ", "1. ", "1) "].iter().any(|mark| line.starts_with(mark))
+    };
+    let (mut fenced, mut in_list, mut before, mut wrong) = (false, false, "", Vec::new());
+    for (index, line) in text.lines().enumerate() {
+        if line.trim_start().starts_with("```") {
+            fenced = !fenced;
+        } else if !fenced {
+            if is_item(line) && !in_list && !before.trim().is_empty() && !before.starts_with(['#', '`']) {
+                wrong.push(index + 1);
+            }
+            // A list ends with a line at the margin after an empty one.
+            let ends = before.trim().is_empty() && !line.starts_with(' ') && !line.trim().is_empty();
+            in_list = is_item(line) || (in_list && !ends);
+        }
+        before = line;
+    }
+    wrong
+}
+
+#[test]
+fn no_line_of_a_paragraph_reads_as_an_item_of_a_list() {
+    assert_eq!(
+        items_within_paragraphs("V(s) = fz - w (L\n- s), and\n\n- an item\n- and one\n\nText 1\n+ 2"),
+        [2, 8]
+    );
+    let mut all = Vec::new();
+    pages(&root(), &mut all);
+    assert!(all.len() > 20);
+    for page in all {
+        let wrong = items_within_paragraphs(&std::fs::read_to_string(&page).unwrap());
+        assert!(wrong.is_empty(), "{}: lines {wrong:?} begin as items", page.display());
+    }
+}
+
 #[test]
 fn every_robot_of_the_library_has_source_and_grade_and_every_cable_its_source() {
     for file in ROBOTS {
