@@ -164,3 +164,17 @@ fn the_reason_stands_in_the_place_of_a_figure_that_cannot_be_drawn() {
     let html = page(&results);
     assert!(html.contains("No figure <code>all</code>: nothing to draw: histogram"));
 }
+
+#[test]
+fn a_page_without_contents_has_no_column_for_them() {
+    // Reports of `analyse` and `calibrate` have no contents: their text was as narrow as that column.
+    let html = page(&crate::common::cogiro());
+    let columns: Vec<&str> =
+        html.split('}').filter(|rule| rule.contains("grid-template-columns: 13rem")).collect();
+    assert_eq!(columns.len(), 1);
+    assert!(
+        columns[0].trim_start().starts_with("@media (min-width: 78rem) {\n  .page:has(> nav) {"),
+        "{}",
+        columns[0]
+    );
+}
