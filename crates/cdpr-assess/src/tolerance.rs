@@ -19,7 +19,7 @@ use cdpr_sensitivity::{
     Estimate, RandomDesign, SampleDesign, SensitivityError, SobolDesign, allocate, derived_seed,
 };
 use cdpr_statics::StaticsError;
-use cdpr_study::{Sampling, StudyError, observe_rows};
+use cdpr_study::{Output, Sampling, StudyError, observe_rows};
 use indexmap::IndexMap;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -35,11 +35,26 @@ pub enum Limited {
     Position,
 }
 
+impl Limited {
+    /// The error that is limited: the one that is named, or else the output of the study.
+    fn of(named: Option<Self>, output: Output) -> Result<Self, StudyError> {
+        match (named, output) {
+            (Some(named), _) => Ok(named),
+            (None, Output::Deflection) => Ok(Self::Deflection),
+            (None, Output::Position) => Ok(Self::Position),
+            (None, Output::Frequency | Output::Stiffness) => {
+                let expected = "deflection or position, whose size a budget limits: name one of them";
+                Err(StudyError::setting("the study's output", output, expected))
+            }
+        }
+    }
+}
+
 /// The question that a budget answers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Limit {
-    /// The error.
-    pub of: Limited,
+    /// The error; `None` for the study's output.
+    pub of: Option<Limited>,
     /// Its limit [mm].
     pub limit_mm: f64,
     /// Share of the robots that are to keep it, between 0 and 1.
@@ -116,9 +131,10 @@ const MOST_ROBOTS: usize = 1 << 24;
 /// Finds the cheapest tightening of a sampling's tolerances by which `limit` is kept.
 ///
 /// # Errors
-/// [`AssessError::Study`] for an invalid limit, quantile, cost or count; [`AssessError::Unreachable`] for a
-/// limit that no tightening reaches; [`AssessError::Unobservable`] where the robot without deviations, or too
-/// many robots of a sample, have no feasible tensions.
+/// [`AssessError::Study`] for an invalid limit, quantile, cost or count, for an output of the study that is
+/// neither deflection nor position unless the limit names one, and for correlated inputs;
+/// [`AssessError::Unreachable`] for a limit that no tightening reaches; [`AssessError::Unobservable`] where
+/// the robot without deviations, or too many robots of a sample, have no feasible tensions.
 pub fn tolerance_budget(sampling: &Sampling, limit: &Limit) -> Result<ToleranceBudget, AssessError> {
     let model = Model::new(sampling, limit)?;
     let unmoved = vec![1.0; model.names.len()];
@@ -157,7 +173,7 @@ pub fn tolerance_budget(sampling: &Sampling, limit: &Limit) -> Result<ToleranceB
         .sort_by(|one, other| one.factor.total_cmp(&other.factor).then(other.share.total_cmp(&one.share)));
     let cost = |factors: &[f64]| model.costs.iter().zip(factors).map(|(cost, factor)| cost / factor).sum();
     Ok(ToleranceBudget {
-        of: limit.of,
+        of: model.of,
         limit_mm: limit.limit_mm,
         quantile: limit.quantile,
         least_mm: model.least_mm,
@@ -178,6 +194,7 @@ fn left(variances: &[f64], factors: &[f64]) -> f64 {
 struct Model<'a> {
     sampling: &'a Sampling<'a>,
     limit: &'a Limit,
+    of: Limited,
     names: Vec<String>,
     costs: Vec<f64>,
     /// Largest standard deviation of the inputs of a tolerance.
@@ -192,6 +209,12 @@ struct Model<'a> {
 impl<'a> Model<'a> {
     fn new(sampling: &'a Sampling<'a>, limit: &'a Limit) -> Result<Self, AssessError> {
         check(limit)?;
+        let of = Limited::of(limit.of, sampling.output())?;
+        if sampling.correlation.is_some() {
+            let expected = "none: the variance of correlated tolerances is not the sum of their parts (B1)";
+            let field = format!("samplings.{}.correlations", sampling.name);
+            return Err(StudyError::setting(field, "given", expected).into());
+        }
         let errors = &sampling.errors;
         let mut names: Vec<String> = Vec::new();
         let mut inputs = Vec::new();
@@ -209,6 +232,7 @@ impl<'a> Model<'a> {
         let mut model = Self {
             sampling,
             limit,
+            of,
             costs: names.iter().map(|name| limit.costs.get(name).copied().unwrap_or(1.0)).collect(),
             stds: vec![0.0; names.len()],
             variances: vec![0.0; names.len()],
@@ -245,7 +269,7 @@ impl<'a> Model<'a> {
             };
             gradients.fold(vec![0.0; errors.inputs.len()], add)
         };
-        match self.limit.of {
+        match self.of {
             Limited::Deflection => {
                 let found = observer.derivatives(&perturbed)?;
                 Ok((1e3 * found.deflection.rms(), squares(&[found.rms()?])))
@@ -269,7 +293,7 @@ impl<'a> Model<'a> {
                 }
             }
             let deviations = self.sampling.errors.deviations(rows);
-            let errors: Vec<Option<f64>> = match self.limit.of {
+            let errors: Vec<Option<f64>> = match self.of {
                 Limited::Deflection => {
                     let outcomes = self.sampling.observer.displacements(&deviations).into_iter();
                     outcomes.map(|outcome| outcome.ok().map(|dp| dp.norm())).collect()

@@ -1,7 +1,7 @@
 //! Tolerance budgets: that the limit is kept, at the least cost, and that what cannot be kept is said.
 
 use cdpr_assess::{Limit, Limited, ToleranceBudget, tolerance_budget};
-use cdpr_study::{IndexMap, Study};
+use cdpr_study::{IndexMap, Output, Study};
 use std::path::Path;
 
 fn study() -> Study {
@@ -9,7 +9,7 @@ fn study() -> Study {
 }
 
 fn limit(of: Limited, limit_mm: f64) -> Limit {
-    Limit { of, limit_mm, quantile: 0.95, costs: IndexMap::new(), verified_with: 4000 }
+    Limit { of: Some(of), limit_mm, quantile: 0.95, costs: IndexMap::new(), verified_with: 4000 }
 }
 
 fn budget(sampling: &str, limit: &Limit) -> Result<ToleranceBudget, String> {
@@ -138,4 +138,27 @@ fn robots_that_hold_no_pose_are_beyond_the_limit() {
         message.starts_with("no equilibrium at the wanted pose for ") && message.contains(" of 4096 robots"),
         "{message}"
     );
+}
+
+#[test]
+fn the_error_is_the_studys_output_unless_the_limit_names_another() {
+    let mut study = study();
+    let with = |of, limit_mm| Limit { of, ..limit(Limited::Deflection, limit_mm) };
+    study.file.output = Output::Position;
+    let sampling = study.sampling("geometrical").unwrap();
+    let found = tolerance_budget(&sampling, &with(None, 30.0)).unwrap();
+    let named = tolerance_budget(&sampling, &with(Some(Limited::Position), 30.0)).unwrap();
+    assert_eq!((found.of, &found), (Limited::Position, &named));
+    // The deflection has its own observer, whatever the output.
+    let deflection = tolerance_budget(&sampling, &with(Some(Limited::Deflection), 1.36)).unwrap();
+    assert_eq!(deflection, budget("geometrical", &limit(Limited::Deflection, 1.36)).unwrap());
+
+    for output in [Output::Stiffness, Output::Frequency] {
+        study.file.output = output;
+        let sampling = study.sampling("geometrical").unwrap();
+        let error = tolerance_budget(&sampling, &with(None, 30.0)).unwrap_err().to_string();
+        let said = format!("the study's output is {output}: expected deflection or position");
+        assert!(error.contains(&said), "{error}");
+        assert!(tolerance_budget(&sampling, &with(Some(Limited::Deflection), 1.36)).is_ok());
+    }
 }

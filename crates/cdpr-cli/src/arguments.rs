@@ -4,7 +4,7 @@
 
 use crate::error::ProgramError;
 use cdpr_assess::PoseRegion;
-use cdpr_robot::{Coordinate, Robot, TensionReference, Wrench};
+use cdpr_robot::{Coordinate, Parameter, Robot, TensionReference, Wrench, shown};
 use cdpr_statics::Load;
 use cdpr_study::{ErrorModel, Grid, GridAxis, Study, open_robot, open_robot_in_any_unit};
 use serde::Serialize;
@@ -234,11 +234,26 @@ impl ErrorModelArguments {
     /// The error model of a robot, if one was given.
     pub(crate) fn model(&self, robot: &Robot) -> Result<Option<ErrorModel>, ProgramError> {
         if let (Some(path), Some(name)) = (&self.study, &self.error_model) {
-            return Ok(Some(Study::open(path)?.tolerances(name)?));
+            return study_errors(path, name, robot).map(Some);
         }
         let deviations = self.uncertainty.as_ref().map(|named| uncertainties(robot, named)).transpose()?;
         Ok(deviations.map(|deviations| ErrorModel::normal(robot, &deviations)))
     }
+}
+
+/// An error model of a study, for a robot that has the same parameters as the study's.
+pub(crate) fn study_errors(path: &Path, name: &str, robot: &Robot) -> Result<ErrorModel, ProgramError> {
+    let study = Study::open(path)?;
+    if Parameter::of(&study.robot) != Parameter::of(robot) {
+        return Err(ProgramError::Usage(format!(
+            "--error-model {}: its study is of the robot {}, whose parameters are not those of {}: \
+             expected a study of this robot",
+            shown(name),
+            shown(&study.robot.name),
+            shown(&robot.name)
+        )));
+    }
+    Ok(study.tolerances(name)?)
 }
 
 /// The standard deviation of each parameter of `--uncertainty`.

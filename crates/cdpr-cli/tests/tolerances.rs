@@ -1,6 +1,6 @@
 //! `cdpr tolerances` as a user meets it.
 
-use crate::common::{cdpr, data_path, text};
+use crate::common::{cdpr, data_path, data_text, text};
 use serde_json::Value;
 use std::io::{BufRead, BufReader, Read};
 use std::process::{Command, Output, Stdio};
@@ -42,6 +42,46 @@ fn what_is_wrong_is_named_and_the_exit_code_is_not_zero() {
         let output = tolerances(arguments);
         let message = text(output.stderr);
         assert!(!output.status.success() && message.contains(words), "{message}");
+    }
+}
+
+#[test]
+fn the_output_of_the_study_is_limited_or_refused_with_what_to_do() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = |output: &str, options: &[&str]| {
+        let mut study: Value = serde_json::from_str(&data_text("studies/caroca.json")).unwrap();
+        study["output"] = output.into();
+        study["robot"] = data_path("robots/caroca.json").into();
+        study["comparison"] = serde_json::json!([]);
+        let path = folder.path().join("study.json");
+        std::fs::write(&path, study.to_string()).unwrap();
+        let study = ["tolerances", path.to_str().unwrap(), "--sampling", "geometrical", "--format", "json"];
+        cdpr(&[&study, options].concat())
+    };
+    let limit = ["--limit", "30", "--observations", "500"];
+    let of_position = run("position", &limit);
+    let json: Value = serde_json::from_slice(&of_position.stdout).unwrap();
+    assert_eq!(json["of"], "position");
+    assert!(json["now"]["quantile_mm"]["value"].as_f64().unwrap() > 10.0, "{json}");
+    let refused = run("stiffness", &limit);
+    let message = text(refused.stderr);
+    assert!(refused.status.code() == Some(1) && message.contains("output is stiffness"), "{message}");
+    let named = run("stiffness", &[&limit[..], &["--of", "position"]].concat());
+    assert_eq!(text(named.stdout), text(of_position.stdout));
+}
+
+#[test]
+fn the_error_model_of_another_robot_is_refused() {
+    let (robot, study) = (data_path("robots/cogiro.json"), data_path("studies/caroca.json"));
+    let other = data_path("robots/grab.json");
+    for robot in [&other, &robot] {
+        let arguments =
+            ["derivatives", robot, "--pose", "0,0,1", "--study", &study, "--error-model", "table_4"];
+        let output = cdpr(&arguments);
+        let message = text(output.stderr);
+        let refused = message.contains("whose parameters are not those of");
+        // CoGiRo has eight cables as CAROCA has, and the same parameters.
+        assert_eq!(refused, robot == &other, "{message}");
     }
 }
 

@@ -39,16 +39,17 @@ pub(crate) fn tolerances(
     study: PathBuf,
     sampling: &str,
     limit_mm: f64,
-    of: &str,
+    of: Option<&str>,
     quantile: f64,
     costs: BTreeMap<String, f64>,
     observations: Bound<PyAny>,
     threads: Option<usize>,
 ) -> Answer<String> {
     let of = match of {
-        "deflection" => Limited::Deflection,
-        "position" => Limited::Position,
-        _ => return Err(Raised::Input(format!("of is {of:?}: expected deflection or position"))),
+        None => None,
+        Some("deflection") => Some(Limited::Deflection),
+        Some("position") => Some(Limited::Position),
+        Some(of) => return Err(Raised::Input(format!("of is {of:?}: expected deflection or position"))),
     };
     let verified_with = whole("observations", &observations)?;
     let limit = Limit { of, limit_mm, quantile, costs: costs.into_iter().collect(), verified_with };

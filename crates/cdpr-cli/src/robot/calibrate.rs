@@ -1,6 +1,6 @@
 //! `cdpr calibrate`: from measurements to a better robot, and to the accuracy that is left.
 
-use crate::arguments::{self, Format, Named, Preference, Threads};
+use crate::arguments::{self, Format, Named, Preference, Threads, study_errors};
 use crate::error::ProgramError;
 use crate::output::{Ending, patiently, table};
 use cdpr_calibration::{
@@ -9,7 +9,7 @@ use cdpr_calibration::{
 };
 use cdpr_report::calibration_report;
 use cdpr_robot::{Robot, Vector3, rounded, shown};
-use cdpr_study::{ErrorModel, InputKind, Study, open_errors, read_text};
+use cdpr_study::{ErrorModel, InputKind, open_errors, read_text};
 use std::path::PathBuf;
 
 /// The robot, the measurements and what is sought.
@@ -101,7 +101,7 @@ impl Sought {
     pub(crate) fn prior(&self, robot: &Robot) -> Result<Option<ErrorModel>, ProgramError> {
         let Some(path) = &self.model else { return Ok(None) };
         Ok(Some(match &self.error_model {
-            Some(name) => Study::open(path)?.tolerances(name)?,
+            Some(name) => study_errors(path, name, robot)?,
             None => open_errors(path, robot)?,
         }))
     }

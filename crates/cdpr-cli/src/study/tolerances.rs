@@ -20,8 +20,10 @@ pub(crate) struct Settings {
     #[arg(long, value_parser = arguments::number, allow_hyphen_values = true)]
     limit: f64,
     /// The error: the static deflection under the load, or the distance from the wanted pose without load.
-    #[arg(long, value_enum, default_value_t = Of::Deflection)]
-    of: Of,
+    ///
+    /// Without this option it is the study's `output`.
+    #[arg(long, value_enum)]
+    of: Option<Of>,
     /// Share of the robots that are to keep the limit.
     #[arg(long, value_parser = arguments::number, default_value = "0.95", allow_hyphen_values = true)]
     quantile: f64,
@@ -56,10 +58,10 @@ pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
     let study = patiently("checking the study", || settings.preference.open_study(&settings.study))?;
     let sampling = study.sampling(&settings.sampling)?;
     let limit = Limit {
-        of: match settings.of {
+        of: settings.of.map(|of| match of {
             Of::Deflection => Limited::Deflection,
             Of::Position => Limited::Position,
-        },
+        }),
         limit_mm: settings.limit,
         quantile: settings.quantile,
         costs: settings.costs.clone().map(|Named(costs)| costs.into_iter().collect()).unwrap_or_default(),

@@ -1310,7 +1310,7 @@ def tolerances(
     study: _Path,
     sampling: str,
     limit_mm: float,
-    of: str,
+    of: str | None,
     quantile: float,
     costs: dict[str, float],
     observations: int,

@@ -92,7 +92,7 @@ def tolerances(
     sampling: str,
     limit_mm: float,
     *,
-    of: str = "deflection",
+    of: Optional[str] = None,
     quantile: float = 0.95,
     costs: Mapping[str, float] = {},
     observations: int = 20_000,
@@ -103,7 +103,8 @@ def tolerances(
     study: study file, whose error model holds the tolerances.
     sampling: name of the sampling: pose, load and error model.
     limit_mm: limit of the error [mm].
-    of: "deflection" by the load, or "position", the distance from the wanted pose without it.
+    of: "deflection" by the load, or "position", the distance from the wanted pose without it; the study's output
+        if left out.
     quantile: share of the robots that are to keep the limit.
     costs: of the tolerances as they are, by entry of the error model; 1 if left out. Half costs twice as much.
     observations: independent robots with which the budget is verified.
