@@ -54,7 +54,7 @@ def test_a_sample_of_a_normal_law_is_found_and_a_few_values_are_undecided():
     law = sensitivity.normal(5, 2)
     values = RandomDesign({"x": law}, 400, seed=1).rows()[:, 0]
     found = sensitivity.fit(values)
-    assert found.best_family == "normal" and not found.undecided
+    assert found.best_family == "normal"
     normal = found.families.index("normal")
     mean, std = found.best["normal"]["mean"], found.best["normal"]["std"]
     assert (mean, std) == pytest.approx((values.mean(), values.std()))
@@ -62,9 +62,13 @@ def test_a_sample_of_a_normal_law_is_found_and_a_few_values_are_undecided():
     assert found.aic[normal] == pytest.approx(4 - 2 * likelihood)
     assert found.p_value[normal] > 0.05 > found.p_value[found.families.index("uniform")]
     assert found.probability.sum() == pytest.approx(1.0)
-    assert "decided: normal" in repr(found)
+    assert found.evidence == "decided" and "normal, p = " in repr(found)
     few = sensitivity.fit(values[:5])
-    assert few.undecided and "undecided" in repr(few)
+    assert few.evidence == "undecided" and "(undecided)" in repr(few)
+    peaks = sensitivity.fit(numpy.concatenate([values, values + 100]))
+    assert peaks.evidence == "rejected" and "best of those tried, and rejected (p <= 0.001)" in repr(peaks)
+    with pytest.raises(cdpr.InputError, match="no continuous law has such values"):
+        sensitivity.fit([0.0, 1.0] * 20)
     only = sensitivity.fit(values, "uniform")
     assert only.families == ["uniform"]
     assert only.best == {"uniform": {"min": values.min(), "max": values.max()}}

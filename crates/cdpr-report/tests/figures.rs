@@ -9,8 +9,8 @@ use cdpr_robot::{Pose, Robot};
 use cdpr_sensitivity::{Family, Histogram, Law};
 use cdpr_statics::{DirectMethod, Residual, StaticsError};
 use cdpr_study::{
-    Agreement, FitSummary, IndexMap, InputMeasures, NominalSummary, Output, SamplingSummary,
-    SensitivitySummary, SignedEffect, Study, SurfaceResult, SurfaceSummary, ValueSummary,
+    Agreement, BestFit, Evidence, FitSummary, IndexMap, InputMeasures, NominalSummary, Output,
+    SamplingSummary, SensitivitySummary, SignedEffect, Study, SurfaceResult, SurfaceSummary, ValueSummary,
 };
 
 fn robot() -> Robot {
@@ -67,8 +67,13 @@ fn sampling() -> SamplingSummary {
             fit(Family::Uniform, Law::Uniform { min: 1.1, max: 1.6 }, 10.0),
             fit(Family::Normal, Law::Normal { mean: 1.35, std: 0.1375 }, 25.0),
         ],
-        best_fit: Some(Family::Uniform),
-        undecided: false,
+        best_fit: Some(BestFit {
+            family: Family::Uniform,
+            evidence: Evidence::Decided,
+            probability: 0.99,
+            p_value: 0.5,
+            p_is_bound: false,
+        }),
         histogram: Some(Histogram {
             edges: vec![1.1, 1.2, 1.3, 1.4, 1.5, 1.6],
             counts: vec![20, 22, 0, 38, 20],

@@ -97,6 +97,20 @@ pub enum SensitivityError {
         /// Number of values.
         count: usize,
     },
+    /// The values of a sample repeat as those of no continuous law do.
+    #[error(
+        "{times} of {count} values are {value}, of {levels} different ones: no continuous law has such values"
+    )]
+    Discrete {
+        /// The value that most have.
+        value: f64,
+        /// Number of values that are equal to it.
+        times: usize,
+        /// Number of values.
+        count: usize,
+        /// Number of different values.
+        levels: usize,
+    },
     /// A law of positive numbers cannot fit this sample.
     #[error("the {family} law fits positive values only, but the smallest value is {minimum}")]
     NotPositive {

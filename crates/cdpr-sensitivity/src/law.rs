@@ -9,6 +9,7 @@ pub mod choice;
 pub mod fit;
 mod likelihood;
 pub(crate) mod normal;
+pub mod verdict;
 
 use std::f64::consts::{PI, SQRT_2};
 

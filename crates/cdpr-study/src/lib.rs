@@ -62,8 +62,8 @@ pub use analysis::sensitivity::{Agreement, SensitivitySummary, measure};
 pub use analysis::summary::Summary;
 pub use analysis::surface::{SurfaceResult, SurfaceSummary, SurfaceValues, compute_surface};
 pub use cdpr_sensitivity::{
-    Analyser, Analysis, Delta, Dependence, Estimate, Family, InputAnalysis, Limit as OutputLimit, Pawn,
-    Truncation,
+    Analyser, Analysis, BestFit, Delta, Dependence, Estimate, Evidence, Family, InputAnalysis,
+    Limit as OutputLimit, Pawn, Truncation,
 };
 pub use error::StudyError;
 pub use file::cable_law::{CableLaw, LAW_FORMAT, LawFile, UnloadingCurve, law_json, law_schema};

@@ -167,9 +167,8 @@ fn print_summary(name: &str, analysis: &Analysis) {
         number(of.min),
         number(of.max)
     );
-    if let Some(family) = analysis.best_fit {
-        let decided = if analysis.undecided { ", undecided" } else { "" };
-        println!("most probable law: {family}{decided}");
+    if let Some(fit) = analysis.best_fit {
+        println!("law: {fit}");
     }
     let percent = |share: f64| format!("{:.1} %", 100.0 * share);
     let linear = analysis.r_squared.zip(analysis.rank_r_squared);

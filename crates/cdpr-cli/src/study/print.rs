@@ -31,15 +31,11 @@ fn print_results(summary: &Summary) {
     let mut rows = table(&["study", "n", "failed", "nominal", "mean", "std", "min", "max", &last]);
     for (name, study) in &summary.studies {
         let counts = [study.observations(), study.failed().values().sum()].map(|count| count.to_string());
-        let Overview { nominal, mean, std, min, max, best_fit, undecided } = study.overview();
+        let Overview { nominal, mean, std, min, max, best_fit } = study.overview();
         let numbers = [nominal, mean, std, min, max].map(|value| value.map(|value| format!("{value:.4}")));
         let last = match (study, best_fit) {
             (StudySummary::Poses(_), _) => "means at the poses".to_owned(),
-            (_, Some(fit)) => {
-                let doubt = if undecided { " (undecided)" } else { "" };
-                format!("{}{doubt}, p = {:.3}", fit.law, fit.p_value)
-            }
-            (_, None) => String::new(),
+            (_, fit) => fit.map_or_else(String::new, |fit| fit.to_string()),
         };
         let cells = numbers.map(Option::unwrap_or_default).into_iter().chain([last]);
         rows.add_row([name.clone()].into_iter().chain(counts).chain(cells));
@@ -98,7 +94,10 @@ fn print_comparison(summary: &Summary) {
         rows.add_row(cells.map(|cell| shown(cell).into_owned()));
     }
     println!("{rows}");
-    println!("reproduced: within half of the published figure's last digit plus 1 % of it; words: the same");
+    println!(
+        "reproduced: within half of the published figure's last digit plus 1 % of it; \
+         words: the same, laws only if decided"
+    );
     println!(
         "points: by the largest t of their coordinates; \
          nearly equal: the largest at most 1.5 times the smallest\n"

@@ -2,7 +2,7 @@
 
 use crate::convert::{Answer, Array, Numbers, Raised, run, to_json, whole};
 use crate::sensitivity::observed::{outputs, read};
-use cdpr_sensitivity::{Bootstrap, Family, Fit, Law, best, fit, fit_all, poincare_constant, undecided};
+use cdpr_sensitivity::{BestFit, Bootstrap, Family, Fit, Law, fit, fit_all, poincare_constant};
 use numpy::{IxDyn, PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use serde::Serialize;
@@ -39,9 +39,9 @@ pub(crate) fn law_moments(law: Bound<PyAny>) -> Answer<(f64, f64, Option<f64>)> 
 #[derive(Serialize)]
 struct Fitted {
     fits: Vec<Fit>,
-    /// Family that is most probable.
-    best: Option<Family>,
-    undecided: bool,
+    best: Option<BestFit>,
+    /// The same in words.
+    verdict: Option<String>,
 }
 
 /// Laws fitted to a sample, of one family or of all that apply, as JSON.
@@ -62,8 +62,9 @@ pub(crate) fn fit_laws(
             Some(family) => vec![fit(&sample, family, bootstrap)?],
             None => fit_all(&sample, bootstrap)?,
         };
-        let best = best(&fits).map(|fit| fit.family);
-        Ok::<_, cdpr_sensitivity::SensitivityError>(Fitted { undecided: undecided(&fits), best, fits })
+        let best = BestFit::of(&fits);
+        let verdict = best.map(|best| best.to_string());
+        Ok::<_, cdpr_sensitivity::SensitivityError>(Fitted { fits, best, verdict })
     })??;
     to_json(&fitted)
 }

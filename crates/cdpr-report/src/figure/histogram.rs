@@ -37,7 +37,7 @@ pub fn histogram(summary: &SamplingSummary) -> Result<String, ReportError> {
     let mut fits: Vec<&FitSummary> = summary.fits.iter().collect();
     // The preferred law comes first, then the others by AIC.
     fits.sort_by(|one, other| {
-        let rank = |fit: &FitSummary| (Some(fit.law) != summary.best_fit, fit.aic);
+        let rank = |fit: &FitSummary| (summary.best_fit.is_none_or(|best| best.family != fit.law), fit.aic);
         rank(one).partial_cmp(&rank(other)).unwrap_or(std::cmp::Ordering::Equal)
     });
     fits.truncate(LAWS.len());

@@ -88,13 +88,7 @@ fn summary(name: &str, analysis: &Analysis) -> Markup {
         .collect();
     html! {
         (table(&format!("Values of {name}"), &head, &[row]))
-        @if let Some(family) = analysis.best_fit {
-            p {
-                "Of the fitted laws, the " (family) " one is the most probable"
-                @if analysis.undecided { "; the values do not decide for it" }
-                "."
-            }
-        }
+        @if let Some(fit) = analysis.best_fit { p { "Law of the values: " (fit) "." } }
     }
 }
 

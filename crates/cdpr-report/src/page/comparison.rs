@@ -11,16 +11,17 @@ pub(crate) fn section(summary: &Summary) -> Option<Section> {
         return None;
     }
     let rows: Vec<Vec<Markup>> = summary.comparison.iter().map(row).collect();
-    let missed = summary.comparison.iter().filter(|row| row.verdict == Verdict::NotReproduced).count();
+    let count = |verdict| summary.comparison.iter().filter(|row| row.verdict == verdict).count();
+    let (missed, open) = (count(Verdict::NotReproduced), count(Verdict::Undecided));
     let head = ["Figure", "Quantity", "Published", "Computed", "Unit", "Difference", "Verdict"];
     let body = html! {
         p {
-            (rows.len() - missed) " of " (rows.len()) " published figures are reproduced, " (missed)
-                " are not. "
+            (count(Verdict::Reproduced)) " of " (rows.len()) " published figures are reproduced, " (missed)
+                " are not" @if open > 0 { ", " (open) " undecided" } ". "
             "A number is reproduced if it differs from the published one by at most half of its last digit \
                 plus 1 %. A word is "
-            "reproduced if it is the same. Points are ranked by the largest t-Student index of their \
-                coordinates. \"Nearly equal\" "
+            "reproduced if it is the same, a law only if the observations decide on it. Points are ranked by \
+                the largest t-Student index of their coordinates. \"Nearly equal\" "
             "means that the largest is at most 1.5 times the smallest."
         }
         (table("Published and computed figures", &head, &rows))
@@ -43,6 +44,7 @@ fn row(row: &ComparisonRow) -> Vec<Markup> {
     let class = match row.verdict {
         Verdict::Reproduced => "verdict yes",
         Verdict::NotReproduced => "verdict no",
+        Verdict::Undecided => "verdict",
     };
     vec![
         cell(&row.figure),

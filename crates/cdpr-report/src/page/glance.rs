@@ -154,12 +154,7 @@ fn overview(summary: &Summary, output: Output) -> Markup {
                 StudySummary::Sampling(sampling) => {
                     let leading: Vec<_> =
                         dominant(sampling).iter().map(|effect| parameters::symbol(effect.0)).collect();
-                    (
-                        sampling.best_fit.map_or_else(String::new, |family| {
-                            format!("{family}{}", if sampling.undecided { " (undecided)" } else { "" })
-                        }),
-                        leading.join(", "),
-                    )
+                    (sampling.best_fit.map_or_else(String::new, |fit| fit.to_string()), leading.join(", "))
                 }
                 StudySummary::Surface(surface) => {
                     let over = surface.parameters.each_ref().map(|name| parameters::symbol(name)).join(", ");

@@ -7,8 +7,8 @@ use crate::page::glance::{samplings, surfaces as all_surfaces};
 use crate::parameters::{self, axis_of};
 use crate::text;
 use cdpr_study::{
-    Figure, FitSummary, InputMeasures, MEASURES, Measure, Output, Quantity, Results, SamplingSummary,
-    SensitivitySummary, Statistic, SurfaceSummary,
+    Evidence, Figure, FitSummary, InputMeasures, MEASURES, Measure, Output, Quantity, Results,
+    SamplingSummary, SensitivitySummary, Statistic, SurfaceSummary,
 };
 use maud::{Markup, PreEscaped, html};
 use serde::Serialize;
@@ -88,10 +88,12 @@ pub(crate) fn distributions(results: &Results, figures: &[Figure]) -> Option<Sec
 fn fits(sampling: &SamplingSummary) -> Markup {
     let least = sampling.fits.iter().map(|fit| fit.aic).fold(f64::INFINITY, f64::min);
     let row = |fit: &FitSummary| -> Vec<Markup> {
-        let verdict = match (Some(fit.law) == sampling.best_fit, sampling.undecided) {
-            (true, false) => html! { " " span.verdict.yes { "preferred" } },
-            (true, true) => html! { " (undecided)" },
-            (false, _) => html! {},
+        let best = sampling.best_fit.filter(|best| best.family == fit.law);
+        let verdict = match best.map(|best| best.evidence) {
+            Some(Evidence::Decided) => html! { " " span.verdict.yes { "decided" } },
+            Some(Evidence::Undecided) => html! { " (undecided)" },
+            Some(Evidence::Rejected) => html! { " (best of those tried, and rejected)" },
+            None => html! {},
         };
         let fields = text::fields(&fit.parameters);
         let parameters = fields.split_once(": ").map_or(fields.as_str(), |(_, values)| values);
@@ -105,8 +107,9 @@ fn fits(sampling: &SamplingSummary) -> Markup {
         ]
     };
     let rows: Vec<_> = sampling.fits.iter().map(row).collect();
-    let caption = "Fitted laws and the probability of each family. The law is undecided unless one has 0.75. \
-                   p comes from a parametric bootstrap. Both are only indications, because Sobol' points are not \
+    let caption = "Fitted laws and the probability of each family. A law is decided on if its \
+                   probability is at least 0.95 and p above 0.05, and rejected if p is not. p comes from a \
+                   parametric bootstrap. Both are only indications, because Sobol' points are not \
                    independent.";
     let parameters = format!("Parameters [{}]", sampling.output.unit());
     let head = ["Law", &parameters, "Probability", "AIC above the least", "Kolmogorov-Smirnov distance", "p"];

@@ -1,7 +1,8 @@
 //! How often the choice of a fitted law is right, wrong or undecided.
 
 use cdpr_sensitivity::{
-    Bootstrap, Family, Input, Law, RandomDesign, Sample, SensitivityError, best, fit_all, observe, undecided,
+    BestFit, Bootstrap, Evidence, Family, Input, Law, RandomDesign, Sample, SensitivityError, fit_all,
+    observe,
 };
 
 const LAWS: [(&str, Family, Law); 11] = [
@@ -18,30 +19,35 @@ const LAWS: [(&str, Family, Law); 11] = [
     ("Weibull 3", Family::Weibull, Law::Weibull { shape: 3.0, scale: 1.0 }),
 ];
 
-/// Prints the shares of right, wrong and undecided choices, and of the right family named as best.
+/// Samples of the bootstrap: enough for a p-value of 0.025.
+const RESAMPLES: usize = 39;
+
+/// Prints the shares of right, wrong and rejecting choices, and of the right family named as best.
 pub(crate) fn table(studies: u64) -> Result<(), SensitivityError> {
-    println!("{studies} samples each [%]: named right / decided and right / decided and wrong");
-    println!("{:14}{:>20}{:>20}{:>20}{:>20}", "law", "n = 10", "20", "50", "200");
+    println!("{studies} samples each [%]: named right / decided and right / decided and wrong / rejected");
+    println!("{:14}{:>26}{:>26}{:>26}{:>26}", "law", "n = 10", "20", "50", "200");
     let mut pooled = [0.0; 4];
     for (name, family, law) in LAWS {
         print!("{name:14}");
         for (n, pooled) in [10, 20, 50, 200].into_iter().zip(&mut pooled) {
-            let [mut named, mut right, mut wrong] = [0.0; 3];
+            let [mut named, mut right, mut wrong, mut rejected] = [0.0; 4];
             for seed in 0..studies {
                 let design = RandomDesign::new(vec![Input::continuous("x", law)], n, seed)?;
                 let sample = Sample::new(&observe(&design, |x| Some(x[0]))?)?;
-                let fits = fit_all(&sample, Bootstrap { resamples: 1, seed })?;
-                let correct = best(&fits).is_some_and(|fit| fit.family == family);
+                let fits = fit_all(&sample, Bootstrap { resamples: RESAMPLES, seed })?;
+                let Some(best) = BestFit::of(&fits) else { continue };
+                let correct = best.family == family;
                 let share = 100.0 / studies as f64;
                 named += if correct { share } else { 0.0 };
-                match (undecided(&fits), correct) {
-                    (true, _) => {}
-                    (false, true) => right += share,
-                    (false, false) => wrong += share,
+                match (best.evidence, correct) {
+                    (Evidence::Undecided, _) => {}
+                    (Evidence::Decided, true) => right += share,
+                    (Evidence::Decided, false) => wrong += share,
+                    (Evidence::Rejected, _) => rejected += share,
                 }
             }
             *pooled += wrong / LAWS.len() as f64;
-            print!("{:>20}", format!("{named:.1} / {right:.1} / {wrong:.1}"));
+            print!("{:>26}", format!("{named:.1} / {right:.1} / {wrong:.1} / {rejected:.1}"));
         }
         println!();
     }

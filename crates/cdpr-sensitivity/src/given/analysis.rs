@@ -5,7 +5,6 @@ use serde::{Deserialize, Serialize};
 
 use crate::design::observation::Observed;
 use crate::error::{SensitivityError, check_level};
-use crate::family::Family;
 use crate::given::data::GivenData;
 use crate::given::delta::{self, Delta};
 use crate::given::expansion::{self, GivenExpansion, affordable};
@@ -13,7 +12,8 @@ use crate::given::halves::{self, Half};
 use crate::given::hsic::{self, Dependence, Rows, dependence_of_event};
 use crate::given::pawn::{self, Pawn};
 use crate::given::rank;
-use crate::law::fit::{Fit, best, fit_all, undecided};
+use crate::law::fit::{Fit, fit_all};
+use crate::law::verdict::BestFit;
 use crate::measure::expansion::Shares;
 use crate::measure::regression::{self, Of, ranks, standardised};
 use crate::sample::interval::Estimate;
@@ -84,10 +84,8 @@ pub struct Analysis {
     pub summary: Summary,
     /// Quantiles of 5 %, 50 % and 95 %, in the unit of the output.
     pub quantiles: [f64; 3],
-    /// Family of the best fit.
-    pub best_fit: Option<Family>,
-    /// Whether the outputs do not say which family they follow.
-    pub undecided: bool,
+    /// The law that fits best, and what the outputs say of it.
+    pub best_fit: Option<BestFit>,
     /// Fitted laws, the best by Akaike's criterion first.
     pub fits: Vec<Fit>,
     /// Share of the variance that a linear model explains.
@@ -239,8 +237,7 @@ impl Analyser {
         Ok(Analysis {
             summary: sample.summary(),
             quantiles: [quantile(0.05)?, quantile(0.5)?, quantile(0.95)?],
-            best_fit: best(&fits).map(|fit| fit.family),
-            undecided: undecided(&fits),
+            best_fit: BestFit::of(&fits),
             fits,
             r_squared: of_values.as_ref().map(|found| found.0),
             rank_r_squared: of_ranks.as_ref().map(|found| found.0),

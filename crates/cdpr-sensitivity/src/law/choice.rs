@@ -1,4 +1,4 @@
-//! Which family a sample comes from, or that the sample does not say.
+//! How probable each family is for a sample, among those that are fitted to it.
 //!
 //! A family of a location a and a scale b has the likelihood of what does not depend on either,
 //!
@@ -6,7 +6,7 @@
 //! m = ∫∫ L(a, b) da db / b                                                            (H1)
 //! regular laws:  m ≈ L 2π b / (n √c)                                                  (H2)
 //! uniform law:   m = L r / (n (n - 1)),   L = r^-n,   r = max - min                   (H3)
-//! P(family | x) = w m / Σ w m                                                         (H4)
+//! P(family | x) = m / Σ m                                                             (H4)
 //! ```
 //!
 //! with L and b at the largest likelihood and c the determinant of Fisher's information of (a / b, ln b) of
@@ -21,15 +21,14 @@
 //! distances and the geometric mean for the values: J. O. Berger, L. R. Pericchi, J. A. Varshavsky, *Bayes
 //! factors and marginal distributions in invariant situations*, Sankhya A 60 (1998).
 //!
-//! The weight w is 2 for uniform and normal laws and 1 for the others. A family is decided on from a
-//! probability of [`crate::DECIDED`] on. `cargo xtask statistics choice` counts how often this is right.
+//! [`crate::law::verdict`] decides by them. `cargo xtask statistics choice` counts how often this is right.
 
 use std::f64::consts::PI;
 
 use crate::law::Law;
 use crate::law::likelihood::moments;
 
-/// Logarithm of w m, Eq. (H1) to (H3), over the integral of two values.
+/// Logarithm of m, Eq. (H1) to (H3), over the integral of two values.
 ///
 /// The law is that of the largest likelihood for the sample, which is in ascending order.
 pub(crate) fn log_weight(law: &Law, log_likelihood: f64, sorted: &[f64]) -> f64 {
@@ -54,6 +53,5 @@ pub(crate) fn log_weight(law: &Law, log_likelihood: f64, sorted: &[f64]) -> f64 
     } else {
         moments(sorted).1.ln()
     };
-    let common = matches!(law, Law::Uniform { .. } | Law::Normal { .. });
-    log_likelihood + integral + two_values + if common { 2.0_f64.ln() } else { 0.0 }
+    log_likelihood + integral + two_values
 }

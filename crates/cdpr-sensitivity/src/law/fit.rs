@@ -67,8 +67,11 @@ pub struct Fit {
     pub bic: f64,
     /// Kolmogorov-Smirnov distance D (F2).
     pub ks_distance: f64,
-    /// Probability (F3) of a distance of D or more if the sample was drawn from this family.
+    /// Probability (F3) of a distance of D or more if the sample was drawn from this family: at least
+    /// 1 / (resamples + 1).
     pub p_value: f64,
+    /// Samples of the bootstrap behind the p-value.
+    pub resamples: usize,
     /// Probability of the family among those that were fitted together (see [`crate::law::choice`]).
     pub probability: f64,
 }
@@ -98,9 +101,11 @@ pub fn fit(sample: &Sample, family: Family, bootstrap: Bootstrap) -> Result<Fit,
 /// Families of positive values are left out if the sample has a value of 0 or less.
 ///
 /// # Errors
-/// As [`fit`], but never [`SensitivityError::NotPositive`].
+/// As [`fit`], but never [`SensitivityError::NotPositive`], and [`SensitivityError::Discrete`] for values
+/// that no continuous law has.
 pub fn fit_all(sample: &Sample, bootstrap: Bootstrap) -> Result<Vec<Fit>, SensitivityError> {
     check(sample, bootstrap)?;
+    check_continuous(sample.sorted())?;
     let positive = sample.sorted()[0] > 0.0;
     let families = Family::ALL.into_iter().filter(|family| positive || !family.positive());
     // The families of positive values share the standard laws of others.
@@ -115,21 +120,6 @@ pub fn fit_all(sample: &Sample, bootstrap: Bootstrap) -> Result<Vec<Fit>, Sensit
     weigh(&mut fits, sample.sorted());
     fits.sort_by(|one, other| one.aic.total_cmp(&other.aic));
     Ok(fits)
-}
-
-/// Probability from which on [`best`] is decided on.
-pub const DECIDED: f64 = 0.75;
-
-/// The most probable fit. That of an empty list is `None`.
-#[must_use]
-pub fn best(fits: &[Fit]) -> Option<&Fit> {
-    fits.iter().max_by(|one, other| one.probability.total_cmp(&other.probability))
-}
-
-/// Whether no fit has the probability [`DECIDED`]: the sample does not say which family it comes from.
-#[must_use]
-pub fn undecided(fits: &[Fit]) -> bool {
-    best(fits).is_none_or(|fit| fit.probability < DECIDED)
 }
 
 /// Kolmogorov-Smirnov distance (F2) of a law and a sample.
@@ -171,6 +161,7 @@ fn assess(
         bic: PARAMETERS * (sorted.len() as f64).ln() - 2.0 * log_likelihood,
         ks_distance,
         p_value: (1 + beyond) as f64 / (1 + resamples) as f64,
+        resamples,
         probability: 1.0,
     })
 }
@@ -185,6 +176,22 @@ fn check(sample: &Sample, bootstrap: Bootstrap) -> Result<(), SensitivityError> 
     check_range("observed outputs", sorted.len() as u64, MIN_VALUES, u64::MAX)?;
     check_range("resamples", bootstrap.resamples as u64, 1, u64::MAX)?;
     check_varies(sorted)
+}
+
+/// Checks that the values may be those of a continuous law, rounded at most.
+///
+/// A value that c of n have is a step of c / n in their distribution function, so that D of every continuous
+/// law is at least c / (2 n). More than √n equal values are therefore beyond what a continuous law leaves to
+/// chance, and fewer than √n different ones are levels.
+fn check_continuous(sorted: &[f64]) -> Result<(), SensitivityError> {
+    let groups = || sorted.chunk_by(|one, other| one == other);
+    let (levels, root) = (groups().count(), (sorted.len() as f64).sqrt());
+    let most = groups().max_by_key(|group| group.len()).unwrap_or_default();
+    let (times, levels_needed) = (most.len(), root.max(3.0));
+    if (times as f64) <= root.max(2.0) && levels as f64 >= levels_needed {
+        return Ok(());
+    }
+    Err(SensitivityError::Discrete { value: most[0], times, count: sorted.len(), levels })
 }
 
 /// Distances D* of the base laws, one row per resample.

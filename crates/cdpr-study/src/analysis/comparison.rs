@@ -1,14 +1,17 @@
 //! Published figures beside the computed ones.
 //!
 //! The rule: a number is *reproduced* if it lies within half of the published figure's last digit plus 1 % of
-//! it; a word is reproduced if it is the same. There is no other criterion.
+//! it; a word is reproduced if it is the same. A law is compared by its name only where the observations
+//! decide on one: it is *undecided* while they leave the published one possible, and not reproduced once they
+//! reject it.
 
 use crate::analysis::part::StudySummary;
-use crate::analysis::sampling::SamplingSummary;
+use crate::analysis::sampling::{FitSummary, SamplingSummary};
 use crate::analysis::surface::SurfaceSummary;
 use crate::file::study_file::{ComparisonSpec, Statistic};
 use crate::file::value::Value;
 use cdpr_robot::Axis;
+use cdpr_sensitivity::{Evidence, Family, is_possible};
 use indexmap::IndexMap;
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -22,6 +25,9 @@ pub enum Verdict {
     /// Outside it.
     #[serde(rename = "not reproduced")]
     NotReproduced,
+    /// The observations do not say.
+    #[serde(rename = "undecided")]
+    Undecided,
 }
 
 impl fmt::Display for Verdict {
@@ -29,6 +35,7 @@ impl fmt::Display for Verdict {
         f.write_str(match self {
             Self::Reproduced => "reproduced",
             Self::NotReproduced => "not reproduced",
+            Self::Undecided => "undecided",
         })
     }
 }
@@ -67,12 +74,22 @@ pub(crate) fn compare(
         .map(|row| {
             let computed = studies.get(&row.study).and_then(|study| computed(row.statistic, study));
             let computed = computed.unwrap_or_else(|| Value::Text("none".to_owned()));
+            let open = match studies.get(&row.study) {
+                Some(StudySummary::Sampling(of)) => {
+                    row.statistic == Statistic::BestFit && open(&row.paper, of)
+                }
+                _ => false,
+            };
             ComparisonRow {
                 figure: row.figure.clone(),
                 quantity: row.quantity.clone(),
                 study: row.study.clone(),
                 paper: row.paper.clone(),
-                verdict: verdict(&row.paper, &computed, row.last_digit),
+                verdict: if open {
+                    Verdict::Undecided
+                } else {
+                    verdict(&row.paper, &computed, row.last_digit)
+                },
                 computed,
                 unit: row.unit.clone(),
                 note: row.note.clone(),
@@ -113,8 +130,12 @@ fn of_sampling(statistic: Statistic, sampling: &SamplingSummary) -> Option<Value
         Statistic::UnloadedTension => largest(&sampling.nominal.unloaded_tensions)?,
         Statistic::LoadedTension => largest(&sampling.nominal.loaded_tensions)?,
         Statistic::BestFit => {
-            let name = serde_json::to_value(sampling.best_fit?).ok()?;
-            return Some(Value::Text(name.as_str()?.to_owned()));
+            let best = sampling.best_fit?;
+            let text = match best.evidence {
+                Evidence::Decided => name(best.family)?,
+                Evidence::Undecided | Evidence::Rejected => best.to_string(),
+            };
+            return Some(Value::Text(text));
         }
         Statistic::DominantAnchorPoints => return dominant(&point_effects(sampling, 'a')),
         Statistic::DominantExitPoints => return dominant(&point_effects(sampling, 'b')),
@@ -122,6 +143,18 @@ fn of_sampling(statistic: Statistic, sampling: &SamplingSummary) -> Option<Value
         Statistic::ExitPointEquality => return equality(&point_effects(sampling, 'b')),
     };
     Some(Value::Number(number))
+}
+
+/// Name of a family as a study file has it.
+fn name(family: Family) -> Option<String> {
+    Some(serde_json::to_value(family).ok()?.as_str()?.to_owned())
+}
+
+/// Whether the observations leave several laws possible, the published one among them.
+fn open(paper: &Value, sampling: &SamplingSummary) -> bool {
+    let published = |fit: &&FitSummary| name(fit.law).map(Value::Text).as_ref() == Some(paper);
+    sampling.best_fit.is_some_and(|best| best.evidence == Evidence::Undecided)
+        && sampling.fits.iter().find(published).is_some_and(|fit| is_possible(fit.probability, fit.p_value))
 }
 
 fn of_surface(statistic: Statistic, surface: &SurfaceSummary) -> Option<Value> {

@@ -1,9 +1,10 @@
 //! The results of one part of a study.
 
 use crate::analysis::poses::PosesSummary;
-use crate::analysis::sampling::{FitSummary, SamplingSummary};
+use crate::analysis::sampling::SamplingSummary;
 use crate::analysis::surface::SurfaceSummary;
 use crate::file::output::Output;
+use cdpr_sensitivity::BestFit;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -69,7 +70,7 @@ impl StudySummary {
     }
 
     /// The row of this part in an overview of the study.
-    pub fn overview(&self) -> Overview<'_> {
+    pub fn overview(&self) -> Overview {
         match self {
             Self::Sampling(sampling) => {
                 let values = sampling.values.as_ref();
@@ -79,8 +80,7 @@ impl StudySummary {
                     std: values.map(|values| values.std),
                     min: values.map(|values| values.min),
                     max: values.map(|values| values.max),
-                    best_fit: sampling.fits.iter().find(|fit| Some(fit.law) == sampling.best_fit),
-                    undecided: sampling.undecided,
+                    best_fit: sampling.best_fit,
                 }
             }
             Self::Surface(SurfaceSummary { values, .. }) => Overview {
@@ -101,7 +101,7 @@ impl StudySummary {
 
 /// The output of one part of a study, in its unit; what the part does not have is absent.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Overview<'a> {
+pub struct Overview {
     /// Value of the nominal robot.
     pub nominal: Option<f64>,
     /// Mean.
@@ -112,8 +112,6 @@ pub struct Overview<'a> {
     pub min: Option<f64>,
     /// Greatest value; of a sampling at several poses the greatest mean.
     pub max: Option<f64>,
-    /// The law that fits best.
-    pub best_fit: Option<&'a FitSummary>,
-    /// Whether the observations do not say which law they follow.
-    pub undecided: bool,
+    /// The law that fits best, and what the observations say of it.
+    pub best_fit: Option<BestFit>,
 }

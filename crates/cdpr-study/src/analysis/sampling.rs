@@ -9,8 +9,8 @@ use crate::model::study::Sampling;
 use crate::observe::observation::{FITTED, KEPT, Session, Tally, observe_replicate};
 use cdpr_robot::Robot;
 use cdpr_sensitivity::{
-    Bootstrap, EffectInterval, Effects, Family, Fit, Histogram, Law, Sample, SampleDesign, SensitivityError,
-    SobolDesign, Summary, best, fit_all, intervals_of_effects, undecided,
+    BestFit, Bootstrap, EffectInterval, Effects, Family, Fit, Histogram, Law, Sample, SampleDesign,
+    SensitivityError, SobolDesign, Summary, fit_all, intervals_of_effects,
 };
 use cdpr_statics::Deflection;
 use indexmap::IndexMap;
@@ -47,11 +47,9 @@ pub struct SamplingSummary {
     pub operating_moduli_gpa: Option<[f64; 2]>,
     /// Fitted laws by ascending AIC; empty where they cannot be fitted.
     pub fits: Vec<FitSummary>,
-    /// The most probable family among those fitted.
-    pub best_fit: Option<Family>,
-    /// Whether the observations do not say which family they come from: none has a probability of 0.75.
-    #[serde(default)]
-    pub undecided: bool,
+    /// The family that fits best, and what the observations say of it; on Sobol' points, which are not
+    /// independent, an indication.
+    pub best_fit: Option<BestFit>,
     /// Histogram of the output in its unit.
     pub histogram: Option<Histogram>,
     /// The paper's t-Student index by parameter (section 5.2). On Sobol points its significance levels do not
@@ -163,7 +161,8 @@ impl NominalSummary {
 
 impl From<Fit> for FitSummary {
     fn from(fit: Fit) -> Self {
-        let Fit { family, law, log_likelihood, aic, bic, ks_distance, p_value, probability } = fit;
+        let Fit { family, law, log_likelihood, aic, bic, ks_distance, p_value, resamples: _, probability } =
+            fit;
         Self { law: family, parameters: law, log_likelihood, aic, bic, ks: ks_distance, p_value, probability }
     }
 }
@@ -207,8 +206,7 @@ pub fn analyse(sampling: &Sampling, tally: &Tally, session: &Session) -> Result<
         }
         None => Vec::new(),
     };
-    let best_fit = best(&fits).map(|fit| fit.family);
-    let undecided = best_fit.is_some() && undecided(&fits);
+    let best_fit = BestFit::of(&fits);
     let t_student = match sampling.correlation {
         None => tally.sums.effects(sampling.design.inputs()).map(|effects| {
             effects.effects.into_iter().map(|effect| (effect.input, effect.student)).collect()
@@ -232,7 +230,6 @@ pub fn analyse(sampling: &Sampling, tally: &Tally, session: &Session) -> Result<
         operating_moduli_gpa: sampling.operating_moduli.map(|moduli| moduli.map(|modulus| 1e-9 * modulus)),
         fits: fits.into_iter().map(FitSummary::from).collect(),
         best_fit,
-        undecided,
         histogram: sample.and_then(|sample| sample.histogram(cdpr_sensitivity::Bins::FreedmanDiaconis).ok()),
         t_student: t_student.unwrap_or_else(|error| {
             note("t_student", error);
@@ -266,7 +263,6 @@ fn unmoved(sampling: &Sampling, tally: &Tally, rounding: f64) -> SamplingSummary
         operating_moduli_gpa: sampling.operating_moduli.map(|moduli| moduli.map(|modulus| 1e-9 * modulus)),
         fits: Vec::new(),
         best_fit: None,
-        undecided: false,
         histogram: None,
         t_student: IndexMap::new(),
         signed_effects: IndexMap::new(),

@@ -389,7 +389,7 @@ pub enum Statistic {
     Spread,
     /// Greatest minus least value over the mean [%].
     RelativeSpread,
-    /// The fitted law that is most probable.
+    /// The law that fits best; its name where the observations decide on it.
     BestFit,
     /// The two anchor points with the largest t (largest of their coordinates).
     DominantAnchorPoints,

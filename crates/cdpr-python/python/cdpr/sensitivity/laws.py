@@ -137,22 +137,25 @@ class Fits(Table):
 
     @property
     def best_family(self) -> str:
-        """The most probable family."""
-        return str(self.content["best"])
+        """The family that fits best: the most probable one that is possible, if one is."""
+        return str(self.content["best"]["family"])
 
     @property
     def best(self) -> Law:
-        """The fitted law of the most probable family, whether decided on or not."""
+        """The fitted law of that family, whether decided on or not."""
         return self.laws[self.families.index(self.best_family)]
 
     @property
-    def undecided(self) -> bool:
-        """Whether the sample does not say which family it comes from: none has a probability of 0.75."""
-        return bool(self.content["undecided"])
+    def evidence(self) -> str:
+        """What the sample says of that family: "decided", "undecided" or "rejected".
+
+        Decided: it alone is possible, with a probability of at least 0.95 and p above 0.05. Undecided: several are,
+        or only one was fitted. Rejected: none is.
+        """
+        return str(self.content["best"]["evidence"])
 
     def __repr__(self) -> str:
-        said = "undecided, most probable" if self.undecided else "decided"
-        return f"{super().__repr__()[:-1]}; {said}: {self.best_family}>"
+        return f"{super().__repr__()[:-1]}; {self.content['verdict']}>"
 
 
 def fit(
