@@ -8,6 +8,7 @@ pub mod effect;
 pub mod expansion;
 pub mod gradient_expansion;
 pub(crate) mod linear_algebra;
+mod linear_part;
 pub mod morris;
 pub mod poincare;
 pub mod regression;

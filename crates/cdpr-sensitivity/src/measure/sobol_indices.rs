@@ -17,9 +17,24 @@
 //! - (V4): A. Saltelli, *Making best use of model evaluations to compute sensitivity indices*, Comput. Phys.
 //!   Commun. 145 (2002).
 //!
-//! They agree with the estimators of SALib up to rounding.
+//! Those of a plain sequence agree with the estimators of SALib up to rounding.
 //!
-//! Of a design with groups, i and j stand for groups: the indices are those of all inputs of a group.
+//! **A scrambled design of 256 blocks or more separates the linear part**, whose shares are known. With the
+//! slope of input i by the pairs (a, `ab_i`), and with the deviations of the inputs from the means of their
+//! laws,
+//!
+//! ```text
+//! β_i = Σ (ab_i - a) (x_i(b) - x_i(a)) / Σ (x_i(b) - x_i(a))²,   r = f - Σ β_i x_i     (V6)
+//! S_i V = β_i² σ_i² + S_i(r) V(r),   T_i V = β_i² σ_i² + T_i(r) V(r),   V = Σ β_i² σ_i² + V(r)    (V7)
+//! ```
+//!
+//! where (V1) to (V4) are applied to r. The covariance of `x_i` and r is 0 for the slopes of all points.
+//! Without (V6) the errors of the means of linear terms are most of the error of a smooth function. The
+//! estimate and each replicate have slopes of their own, so that the differences between replicates show the
+//! error of the slopes, too.
+//!
+//! Of a design with groups, i and j stand for groups: the indices are those of all inputs of a group. No
+//! linear part is separated, since several inputs of a group move at once.
 //!
 //! Of an output with several components ([`vector_sobol_indices`]), each product is the sum over the
 //! components: with C_u the covariance of `E (f | x_u)`, the indices are `tr C_u / tr C`. F. Gamboa, A.
@@ -58,6 +73,7 @@ use crate::design::SampleDesign;
 use crate::design::observation::check_outputs;
 use crate::design::saltelli::{Order, SaltelliDesign};
 use crate::error::{SensitivityError, check_length, check_level, check_range};
+use crate::measure::linear_part::{Line, Lines};
 use crate::parallel::*;
 use crate::sample::interval::Estimate;
 use crate::sample::random::{Bootstrap, stream};
@@ -203,13 +219,15 @@ fn indices(
     };
     let means: Vec<f64> = components.iter().map(mean).collect();
     let k = design.groups().len();
+    let lines = Lines::of(design, components)?;
     // Sums of the estimate and of the units that show its error: the replicates, or single blocks.
     let mut estimate = Sums::default();
     let mut units: BTreeMap<usize, Sums> = BTreeMap::new();
     for number in 0..count {
         let mut terms = Sums { components: components.len(), ..Sums::default() };
         for (component, (outputs, mean)) in components.iter().zip(&means).enumerate() {
-            terms.observe(&outputs[number * size..(number + 1) * size], *mean, component, design);
+            let block = &outputs[number * size..(number + 1) * size];
+            terms.observe(block, *mean, component, design, lines.at(number, component));
         }
         if estimates(number) {
             estimate.add(1, &terms);
@@ -289,24 +307,38 @@ struct Sums {
 
 impl Sums {
     /// Adds the terms of one component of a block. Those that need a failed output are left out.
-    fn observe(&mut self, block: &[Option<f64>], mean: f64, component: usize, design: &SaltelliDesign) {
+    fn observe(
+        &mut self,
+        block: &[Option<f64>],
+        mean: f64,
+        component: usize,
+        design: &SaltelliDesign,
+        line: Option<Line>,
+    ) {
         let k = design.groups().len();
-        let centred: Vec<Option<f64>> = block.iter().map(|output| Some((*output)? - mean)).collect();
-        let (a, b) = (centred[0], centred[centred.len() - 1]);
-        let ab = &centred[1..=k];
+        let of_line = line.as_ref().map_or_else(|| vec![0.0; block.len()], |line| line.values(block.len()));
+        let rest = block.iter().zip(of_line).map(|(output, of_line)| Some((*output)? - mean - of_line));
+        let rest: Vec<Option<f64>> = rest.collect();
+        let known = |i: usize| line.as_ref().map_or(0.0, |line| line.variance(i));
+        let (a, b) = (rest[0], rest[rest.len() - 1]);
+        let ab = &rest[1..=k];
         let first: Vec<Option<f64>> = ab.iter().map(|ab| Some(b? * ((*ab)? - a?))).collect();
         let total = ab.iter().map(|ab| Some(0.5 * (a? - (*ab)?).powi(2)));
         let mut terms: Vec<Option<f64>> = first.iter().copied().chain(total).collect();
+        for (index, term) in terms.iter_mut().enumerate() {
+            *term = term.map(|term| term + known(index % k));
+        }
         if design.order() == Order::Second {
-            let ba = &centred[k + 1..=2 * k];
+            let ba = &rest[k + 1..=2 * k];
             let second = |(i, j): (usize, usize)| Some(ba[i]? * ab[j]? - a? * b? - first[i]? - first[j]?);
             terms.extend(pairs(k).map(second));
         }
         let moments = 2 * self.components;
         self.terms.resize(moments + terms.len(), [0.0; 2]);
-        for (power, moment) in [1, 2].into_iter().zip(&mut self.terms[2 * component..]) {
-            for x in [a, b].into_iter().flatten() {
-                *moment = [moment[0] + 1.0, moment[1] + x.powi(power)];
+        let known: f64 = (0..k).map(known).sum();
+        for x in [a, b].into_iter().flatten() {
+            for (moment, value) in self.terms[2 * component..].iter_mut().zip([x, x * x + known]) {
+                *moment = [moment[0] + 1.0, moment[1] + value];
             }
         }
         for (sum, term) in self.terms[moments..].iter_mut().zip(terms) {

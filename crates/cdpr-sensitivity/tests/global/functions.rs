@@ -51,6 +51,50 @@ pub(crate) fn sobol_g() -> Function {
     }
 }
 
+/// P. Bratley, B. L. Fox, H. Niederreiter (1992): -x1 + x1 x2 - x1 x2 x3 + .. of ten inputs.
+///
+/// With `s_i` = ∓1, `R_i = s_i + x_(i+1) R_(i+1)` and P the product of the inputs before i, it has the part
+/// `P x_i R_i`.
+pub(crate) fn bratley() -> Function {
+    const K: usize = 10;
+    let (mut mean, mut square) = ([0.0; K + 1], [0.0; K + 1]);
+    for i in (0..K).rev() {
+        let sign = if i % 2 == 0 { -1.0 } else { 1.0 };
+        mean[i] = sign + 0.5 * mean[i + 1];
+        square[i] = 1.0 + sign * mean[i + 1] + square[i + 1] / 3.0;
+    }
+    let variance = square[0] / 3.0 - 0.25 * mean[0] * mean[0];
+    let share = |base: f64, i: usize, rest: f64| base.powi(i as i32) * rest / 12.0 / variance;
+    Function {
+        name: "Bratley",
+        inputs: uniform(K, 0.0, 1.0),
+        model: Box::new(|x| {
+            let (mut product, mut sum) = (1.0, 0.0);
+            for (i, x) in x.iter().enumerate() {
+                product *= x;
+                sum += if i % 2 == 0 { -product } else { product };
+            }
+            sum
+        }),
+        first: (0..K).map(|i| share(0.25, i, mean[i] * mean[i])).collect(),
+        total: (0..K).map(|i| share(1.0 / 3.0, i, square[i])).collect(),
+    }
+}
+
+/// x1 x2 + x1 / 10 + x3 / 1000 on -1..1: the last input matters little, and always alike.
+pub(crate) fn with_a_small_part() -> Function {
+    let parts = [0.01 / 3.0, 0.0, 1e-6 / 3.0];
+    let variance = 1.0 / 9.0 + parts.iter().sum::<f64>();
+    let total = [parts[0] + 1.0 / 9.0, 1.0 / 9.0, parts[2]];
+    Function {
+        name: "small part",
+        inputs: uniform(3, -1.0, 1.0),
+        model: Box::new(|x| x[0] * x[1] + 0.1 * x[0] + 0.001 * x[2]),
+        first: parts.map(|v| v / variance).to_vec(),
+        total: total.map(|v| v / variance).to_vec(),
+    }
+}
+
 /// 5 x1 + 3 x2 - 2 x3 + 0 x4.
 pub(crate) fn linear() -> Function {
     const B: [f64; 4] = [5.0, 3.0, -2.0, 0.0];
