@@ -69,7 +69,7 @@ fn main() -> Result<(), SensitivityError> {
             interval(index.total),
             shares[i].closed,
             shares[i].total,
-            measures.inputs[i].total_bound.unwrap_or(f64::NAN),
+            measures.inputs[i].total_bound.map_or(f64::NAN, |bound| bound.high),
             values.inputs[i].share,
             ranks.inputs[i].share,
             effects[i].mean_absolute.value,

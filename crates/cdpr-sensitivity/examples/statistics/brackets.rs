@@ -1,14 +1,9 @@
 //! How often bounds by derivatives hold the total index, and how far they are from it.
 
-use cdpr_sensitivity::{
-    Bootstrap, Order, SaltelliDesign, SampleDesign, SensitivityError, Slopes, SobolDesign, brackets, observe,
-    sobol_indices,
-};
+use cdpr_sensitivity::{SampleDesign, SensitivityError, Slopes, SobolDesign, brackets};
 
+use crate::exact::{NEAR, sobol_values};
 use crate::functions::{Function, all};
-
-/// Blocks behind the values that count as true.
-const TRUE_BLOCKS: usize = 1 << 18;
 
 /// Prints, for each function with derivatives, how often the bounds hold T.
 pub(crate) fn table(studies: u64) -> Result<(), SensitivityError> {
@@ -19,10 +14,7 @@ pub(crate) fn table(studies: u64) -> Result<(), SensitivityError> {
     println!("greatest U - L of the estimates; the same of the bound C nu / V alone");
     println!("{:22}{:>7}{:>10}{:>10}{:>18}{:>18}", "function", "N", "held", "intervals", "U - L", "C nu / V");
     for function in all().into_iter().filter(is_smooth) {
-        let design = SaltelliDesign::scrambled(function.inputs.clone(), TRUE_BLOCKS, Order::First, u64::MAX)?;
-        let outputs = observe(&design, function.model)?;
-        let exact = sobol_indices(&design, &outputs, Bootstrap { resamples: 2, seed: 1 }, 0.95)?;
-        let exact: Vec<f64> = exact.inputs.iter().map(|input| input.total.value).collect();
+        let exact = sobol_values(&function)?.1;
         for points in [64, 256, 1024] {
             row(&function, &exact, points, studies)?;
         }
@@ -41,14 +33,13 @@ fn row(function: &Function, exact: &[f64], points: usize, studies: u64) -> Resul
         let bounds = cdpr_sensitivity::dgsm(&design, &slopes, 0.95)?;
         for ((bracket, exact), bound) in found.iter().zip(exact).zip(&bounds.inputs) {
             let (lower, upper) = (bracket.total_lower, bracket.total_upper);
-            // The true values have an error of this size.
-            let near = 1e-4;
+            let near = NEAR * exact;
             let holds = |low: f64, high: f64| low <= exact + near && exact - near <= high;
             held += if holds(lower.value, upper.value) { share } else { 0.0 };
             within += if holds(lower.low, upper.high) { share } else { 0.0 };
             width += 0.01 * share * (upper.value - lower.value);
             greatest = greatest.max(upper.value - lower.value);
-            let total = bound.total_bound.unwrap_or(f64::INFINITY);
+            let total = bound.total_bound.map_or(f64::INFINITY, |bound| bound.value);
             plain += 0.01 * share * total;
             plain_greatest = plain_greatest.max(total);
         }

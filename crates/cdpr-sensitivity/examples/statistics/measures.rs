@@ -12,7 +12,7 @@ use cdpr_sensitivity::{
 use serde_json::{Value, json};
 
 use crate::brackets::{is_smooth, slopes};
-use crate::exact::Exact;
+use crate::exact::{Exact, NEAR};
 use crate::functions::{Function, twelve};
 use crate::indices::indices;
 
@@ -51,7 +51,10 @@ pub(crate) fn table(studies: u64, part: &str) -> Result<(), SensitivityError> {
             }
             continue;
         }
-        let exact = Exact::of(&function)?;
+        let mut exact = Exact::of(&function)?;
+        if ["delta", "PAWN", "HSIC"].iter().any(|name| of_measures.is_empty() || of_measures.contains(name)) {
+            exact = exact.with_tables(&function)?;
+        }
         for study in plan(&function, &exact)
             .into_iter()
             .filter(|of| of.measures.iter().any(|(measure, _)| measure.contains(of_measures)))
@@ -200,8 +203,6 @@ fn point(value: f64) -> Estimate {
 
 /// Prints the rows of a study and returns them.
 fn carry_out(function: &Function, study: &Study, studies: u64) -> Result<Vec<Value>, SensitivityError> {
-    /// Errors of the values that count as true.
-    const NEAR: f64 = 1e-4;
     let k = function.inputs.len();
     let clock = Clock::start();
     let mut sums = vec![vec![[0.0; 2]; k]; study.measures.len()];
@@ -209,7 +210,7 @@ fn carry_out(function: &Function, study: &Study, studies: u64) -> Result<Vec<Val
         for ((found, (_, exact)), sums) in (study.of_seed)(seed)?.iter().zip(&study.measures).zip(&mut sums) {
             for ((found, exact), [squares, held]) in found.iter().zip(*exact).zip(sums) {
                 *squares += (found.value - exact).powi(2) / studies as f64;
-                let near = NEAR * exact.abs().max(1.0);
+                let near = NEAR * exact.abs();
                 let holds = found.low - near <= *exact && *exact <= found.high + near;
                 *held += if holds { 100.0 / studies as f64 } else { 0.0 };
             }

@@ -2,7 +2,7 @@
 
 use cdpr_sensitivity::{MorrisDesign, SensitivityError, morris_effects, observe};
 
-use crate::exact::Exact;
+use crate::exact::{Exact, NEAR};
 use crate::functions::{Function, twelve};
 
 /// Studies and intervals that hold, of one input.
@@ -38,8 +38,6 @@ pub(crate) fn table(studies: u64, part: &str) -> Result<(), SensitivityError> {
 }
 
 fn rows(function: &Function, exact: &[f64], blocks: usize, studies: u64) -> Result<(), SensitivityError> {
-    // Errors of the values that count as true.
-    const NEAR: f64 = 1e-4;
     // One input of a sum behaves as the others do.
     let studies = if exact.len() > 20 { studies.div_ceil(10) } else { studies };
     let mut tallies = vec![[Tally::default(); 2]; exact.len()];
@@ -47,7 +45,7 @@ fn rows(function: &Function, exact: &[f64], blocks: usize, studies: u64) -> Resu
         let design = MorrisDesign::trajectories(function.inputs.clone(), blocks, 4, seed)?;
         let found = morris_effects(&design, &observe(&design, function.model)?, 0.95)?;
         for ((found, exact), tallies) in found.iter().zip(exact).zip(&mut tallies) {
-            let near = NEAR * exact.abs().max(1.0);
+            let near = NEAR * exact.abs();
             let interval = found.mean_absolute;
             let holds = interval.low - near <= *exact && *exact <= interval.high + near;
             let tally = &mut tallies[usize::from(!found.reliable)];

@@ -24,7 +24,14 @@
 //!   = b E e_n' being known, and in the variance likewise the square of the linear part.
 //! - A square of an estimate is too large by its variance, which is subtracted. Intervals are those of a
 //!   jackknife over 20 groups of rows (B. Efron, C. Stein, *The jackknife estimate of variance*, 1981) for
-//!   independent rows; those of a scrambled sequence scatter less.
+//!   independent rows; those of a scrambled sequence scatter less. The upper bounds are means of squares,
+//!   whose law is skewed: they have the interval of a positive estimate ([`crate::sample::interval`], Eq.
+//!   (CI6)).
+//! - Each upper bound has an interval of its own, and the lower upper end decides. The least of two estimates
+//!   would be too small: (J5) is a difference that scatters by the error of V, however small `T_i` is.
+//! - Where few rows decide ν, most samples miss those that would decide it, and their interval is too short:
+//!   (J4) counts only where [`DerivativeMeasure::reliable`] is true. (J5), which has no derivative with
+//!   respect to `x_i`, bounds the others.
 //!
 //! The steps of an input are disregarded, as in [`crate::measure::dgsm`]. No unit.
 
@@ -37,7 +44,7 @@ use crate::design::IndependentSample;
 use crate::design::input::Input;
 use crate::error::{SensitivityError, check_level, check_range};
 use crate::law::Law;
-use crate::measure::dgsm::{Slopes, checked};
+use crate::measure::dgsm::{DerivativeMeasure, Slopes, checked};
 use crate::measure::expansion::basis::Polynomials;
 use crate::measure::poincare::poincare_constant;
 use crate::parallel::*;
@@ -55,7 +62,8 @@ pub struct Bracket {
     pub first_lower: Estimate,
     /// Lower bound (J3) of its total index.
     pub total_lower: Estimate,
-    /// Upper bound (J4), (J5) of its total index, which is one of its first-order index, too.
+    /// Upper bound (J4) or (J5) of its total index, which is one of its first-order index, too: that of the
+    /// lower upper end.
     pub total_upper: Estimate,
 }
 
@@ -107,22 +115,43 @@ pub fn brackets<D: IndependentSample>(
         let kept = all.iter().enumerate().filter(|(place, _)| place % GROUPS != group);
         table.bounds(&kept.map(|(_, &row)| row).collect::<Vec<_>>())
     };
-    let parts: Vec<Vec<[f64; 3]>> = (0..GROUPS).into_par_iter().map(without).collect();
+    let parts: Vec<Vec<Bounds>> = (0..GROUPS).into_par_iter().map(without).collect();
     let bracket = |(i, input): (usize, &Input)| {
-        let estimate = |kind: usize| {
-            let values: Vec<f64> = parts.iter().map(|part| part[i][kind]).collect();
-            let groups = GROUPS as f64;
-            let variance = (groups - 1.0) / groups * Spread::of(&values).squares;
-            Estimate::of_variance(whole[i][kind], variance, groups - 1.0, level)
+        let (groups, whole) = (GROUPS as f64, &whole[i]);
+        let variance = |of: fn(&Bounds) -> f64| {
+            let values: Vec<f64> = parts.iter().map(|part| of(&part[i])).collect();
+            (groups - 1.0) / groups * Spread::of(&values).squares
         };
+        let below =
+            |of: fn(&Bounds) -> f64| Estimate::of_variance(of(whole), variance(of), groups - 1.0, level);
+        let above =
+            |of: fn(&Bounds) -> f64| Estimate::of_positive(of(whole), variance(of), groups - 1.0, level);
+        let squares: Vec<f64> = table.columns[i].slopes.iter().map(|slope| slope * slope).collect();
+        let mut upper = above(|of| of.by_others)?;
+        if whole.by_slopes.is_finite() && DerivativeMeasure::is_reliable(&squares) {
+            let by_slopes = above(|of| of.by_slopes)?;
+            upper = if by_slopes.high < upper.high { by_slopes } else { upper };
+        }
+        let share = |value: f64| value.clamp(0.0, 1.0);
         Ok(Bracket {
             input: input.name.clone(),
-            first_lower: estimate(0)?,
-            total_lower: estimate(1)?,
-            total_upper: estimate(2)?,
+            first_lower: below(|of| of.first)?,
+            total_lower: below(|of| of.total)?,
+            total_upper: Estimate { value: share(upper.value), low: upper.low, high: upper.high.min(1.0) },
         })
     };
     inputs.iter().enumerate().map(bracket).collect()
+}
+
+/// Bounds of one input as shares of the variance.
+struct Bounds {
+    /// (J3) of S and of T.
+    first: f64,
+    total: f64,
+    /// (J4) of T, infinite for a law without a constant.
+    by_slopes: f64,
+    /// (J5).
+    by_others: f64,
 }
 
 /// What is known of one input at each row.
@@ -202,9 +231,8 @@ struct Table {
 }
 
 impl Table {
-    /// Bounds of each input as shares of the variance, from some rows: of S and T from below, of T from
-    /// above.
-    fn bounds(&self, rows: &[usize]) -> Vec<[f64; 3]> {
+    /// Bounds of each input from some rows.
+    fn bounds(&self, rows: &[usize]) -> Vec<Bounds> {
         let slopes: Vec<f64> =
             self.columns.iter().map(|column| mean(rows.iter().map(|&row| column.slopes[row]))).collect();
         let rest = self.without_linear_part(rows, &slopes);
@@ -222,11 +250,13 @@ impl Table {
         }
         let sum: f64 = alone.iter().map(|(lower, _)| lower.max(0.0)).sum();
         let bounds = |i: usize| {
-            let (lower, upper) = alone[i];
-            let by_others = variance - (sum - lower.max(0.0));
-            let upper = upper.map_or(by_others, |upper| upper.min(by_others)).min(variance);
-            let (lower, pairs) = (lower.max(0.0), pairs[i].max(0.0));
-            [lower, lower + pairs, upper.max(0.0)].map(|bound| bound / variance)
+            let (lower, upper) = (alone[i].0.max(0.0), alone[i].1.unwrap_or(f64::INFINITY));
+            Bounds {
+                first: lower / variance,
+                total: (lower + pairs[i].max(0.0)) / variance,
+                by_slopes: upper / variance,
+                by_others: 1.0 - (sum - lower) / variance,
+            }
         };
         (0..k).map(bounds).collect()
     }

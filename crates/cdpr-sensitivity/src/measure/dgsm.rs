@@ -8,6 +8,10 @@
 //! T_i ≤ C_i ν_i / V                                                       (G2)
 //! ```
 //!
+//! ν is a mean of squares. The bound has the interval of a positive estimate
+//! ([`crate::sample::interval`], Eq. (CI6)), whose deviation is that of the mean of
+//! `g²/ν - (f - E f)²/V`, relative to the bound. Where few rows decide ν, it is too short.
+//!
 //! I. M. Sobol', S. Kucherenko, *Derivative based global sensitivity measures and their link with global
 //! sensitivity indices*, Math. Comput. Simul. 79 (2009). The constants are the best ones
 //! ([`crate::measure::poincare`]). The steps of an input are disregarded: C is the constant of the continuous
@@ -19,7 +23,7 @@ use crate::design::IndependentSample;
 use crate::design::input::Input;
 use crate::error::{SensitivityError, check_finite, check_length, check_level, check_range};
 use crate::measure::poincare::poincare_constant;
-use crate::sample::interval::Estimate;
+use crate::sample::interval::{Estimate, effective};
 use crate::sample::summary::{Spread, check_varies};
 
 /// Output of an observation and its derivatives with respect to the inputs.
@@ -40,8 +44,21 @@ pub struct DerivativeMeasure {
     pub input: String,
     /// ν (G1) with Student's interval, in the square of the unit of the output per that of the input.
     pub mean_square: Estimate,
-    /// Bound (G2) on the total index, `None` for a law without a constant.
-    pub total_bound: Option<f64>,
+    /// Bound (G2) on the total index with its interval, `None` for a law without a constant.
+    pub total_bound: Option<Estimate>,
+    /// Whether ν rests on [`DerivativeMeasure::RELIABLE_ROWS`] rows of equal weight. Otherwise the intervals
+    /// are an indication: the next square may be larger than all before.
+    pub reliable: bool,
+}
+
+impl DerivativeMeasure {
+    /// Least number of rows of equal weight on which ν rests where its intervals hold: (Σ g²)² / Σ g⁴, as
+    /// (O3) of [`crate::measure::morris`].
+    pub const RELIABLE_ROWS: f64 = 20.0;
+
+    pub(crate) fn is_reliable(squares: &[f64]) -> bool {
+        effective(squares) >= Self::RELIABLE_ROWS
+    }
 }
 
 /// Measures of all inputs.
@@ -81,12 +98,28 @@ pub fn dgsm<D: IndependentSample>(
     check_range("observed outputs", observed.len() as u64, 2, u64::MAX)?;
     let outputs: Vec<f64> = observed.iter().map(|slopes| slopes.output).collect();
     check_varies(&outputs)?;
-    let variance = Spread::of(&outputs).variance();
+    let spread = Spread::of(&outputs);
+    let variance = spread.variance();
     let measure = |(i, input): (usize, &Input)| {
         let squares: Vec<f64> = observed.iter().map(|slopes| slopes.gradient[i].powi(2)).collect();
         let mean_square = Estimate::of_mean(&squares, level)?;
-        let total_bound = poincare_constant(&input.law).map(|c| c * mean_square.value / variance);
-        Ok(DerivativeMeasure { input: input.name.clone(), mean_square, total_bound })
+        let relative = |(square, output): (&f64, &f64)| {
+            // Without any slope the bound is zero for every row.
+            let of_slopes = if mean_square.value > 0.0 { square / mean_square.value } else { 0.0 };
+            of_slopes - (output - spread.mean).powi(2) / variance
+        };
+        let relative: Vec<f64> = squares.iter().zip(&outputs).map(relative).collect();
+        let bound = |c: f64| {
+            let value = c * mean_square.value / variance;
+            let deviation = value * Spread::of(&relative).standard_error();
+            Estimate::of_positive(value, deviation * deviation, outputs.len() as f64 - 1.0, level)
+        };
+        Ok(DerivativeMeasure {
+            input: input.name.clone(),
+            mean_square,
+            total_bound: poincare_constant(&input.law).map(bound).transpose()?,
+            reliable: DerivativeMeasure::is_reliable(&squares),
+        })
     };
     Ok(DerivativeMeasures {
         observed: observed.len(),

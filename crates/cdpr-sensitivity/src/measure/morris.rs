@@ -32,7 +32,7 @@ use crate::design::input::Input;
 use crate::design::morris::MorrisDesign;
 use crate::design::observation::check_outputs;
 use crate::error::{SensitivityError, check_level, check_range};
-use crate::sample::interval::Estimate;
+use crate::sample::interval::{Estimate, effective};
 use crate::sample::summary::Spread;
 
 /// Elementary effects of one input, in the unit of the output.
@@ -132,10 +132,7 @@ pub fn morris_effects(
 
 /// [`MorrisEffect::reliable`] of the sizes of effects.
 fn is_reliable(sizes: &[f64]) -> bool {
-    let (sum, squares): (f64, f64) = (sizes.iter().sum(), sizes.iter().map(|size| size * size).sum());
-    // Zeros alone are equal: they rest on all.
-    let effective = if squares == 0.0 { sizes.len() as f64 } else { sum * sum / squares };
-    sizes.len() >= MorrisEffect::RELIABLE_EFFECTS && effective >= MorrisEffect::RELIABLE_EFFECTIVE
+    sizes.len() >= MorrisEffect::RELIABLE_EFFECTS && effective(sizes) >= MorrisEffect::RELIABLE_EFFECTIVE
 }
 
 /// Probability by which a group has moved: of one input with its sign, of several the root mean square.

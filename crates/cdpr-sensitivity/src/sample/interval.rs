@@ -19,6 +19,15 @@
 //! is the interval by the inverse of a cubic that removes the skewness: P. Hall, *On the removal of skewness
 //! by transformation*, J. R. Stat. Soc. B 54 (1992).
 //!
+//! A positive estimate whose law has a long upper tail, such as a mean of squares, has Student's interval of
+//! its logarithm: with its deviation s*,
+//!
+//! ```text
+//! estimate exp(± t_(f, (1 + level) / 2) s* / estimate)                    (CI6)
+//! ```
+//!
+//! Its upper end is above that of (CI2) for the same s*.
+//!
 //! If k of n independent values lie below a limit, with B⁻¹ the inverse of the beta distribution function
 //! and `b_q` the inverse of the binomial one,
 //!
@@ -106,6 +115,22 @@ impl Estimate {
         Ok(Self::around(value, student(freedoms, level)? * variance.sqrt()))
     }
 
+    /// Estimate of a known variance with Student's interval of its logarithm, Eq. (CI6). One that is not
+    /// positive, which only noise makes so, has no logarithm: its upper end is that of zero.
+    pub(crate) fn of_positive(
+        value: f64,
+        variance: f64,
+        freedoms: f64,
+        level: f64,
+    ) -> Result<Self, SensitivityError> {
+        let half = student(freedoms, level)? * variance.sqrt();
+        if value <= 0.0 {
+            return Ok(Self { value, low: value - half, high: value.max(0.0) + half });
+        }
+        let factor = (half / value).exp();
+        Ok(Self { value, low: value / factor, high: value * factor })
+    }
+
     /// The same estimate with an interval that is no shorter than `half` on either side.
     pub(crate) fn at_least(self, half: f64) -> Self {
         Self {
@@ -161,6 +186,14 @@ impl Estimate {
     fn around(value: f64, half: f64) -> Self {
         Self { value, low: value - half, high: value + half }
     }
+}
+
+/// Number of equal sizes whose mean scatters as that of these does: (Σ |x|)² / Σ x². Where few of them decide
+/// the mean, the next one may be larger than all before.
+pub(crate) fn effective(sizes: &[f64]) -> f64 {
+    let (sum, squares): (f64, f64) = (sizes.iter().sum(), sizes.iter().map(|size| size * size).sum());
+    // Zeros alone are equal: the mean rests on all of them.
+    if squares == 0.0 { sizes.len() as f64 } else { sum * sum / squares }
 }
 
 /// Student's factor of so many degrees of freedom.

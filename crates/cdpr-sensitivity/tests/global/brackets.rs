@@ -1,7 +1,9 @@
 //! Bounds of Sobol' indices by derivatives hold the indices that are known.
 
 use crate::global::functions::{self, Function};
-use cdpr_sensitivity::{Bracket, IndependentSample, Input, Law, RandomDesign, Slopes, SobolDesign, brackets};
+use cdpr_sensitivity::{
+    Bracket, IndependentSample, Input, Law, RandomDesign, Slopes, SobolDesign, brackets, dgsm,
+};
 
 /// Outputs with central differences.
 fn slopes<D: IndependentSample>(design: &D, model: &(impl Fn(&[f64]) -> f64 + Sync)) -> Vec<Option<Slopes>> {
@@ -63,6 +65,52 @@ fn intervals_hold_the_bounds_for_independent_rows() {
     }
     // 600 brackets; each end is outside in 2.5 % at most where the bound is exact.
     assert!(outside < 40, "{outside} of 600");
+}
+
+#[test]
+fn upper_bounds_hold_indices_however_small_and_squares_however_rare() {
+    // The last inputs of Bratley's function have T = 7.6e-5, which few rows decide; the tolerance is far
+    // below it.
+    const STUDIES: usize = 100;
+    for (function, rows) in
+        [(functions::bratley(), 64), (functions::bratley(), 200), (functions::with_a_small_part(), 64)]
+    {
+        let mut below = vec![[0; 2]; function.inputs.len()];
+        for seed in 0..STUDIES as u64 {
+            let random = RandomDesign::new(function.inputs.clone(), rows, seed).unwrap();
+            let found = [
+                brackets(&random, &slopes(&random, &function.model), 0.95, seed).unwrap(),
+                of_function(&function, rows, seed),
+            ];
+            for (kind, found) in found.iter().enumerate() {
+                for (i, (bracket, total)) in found.iter().zip(&function.total).enumerate() {
+                    below[i][kind] += usize::from(bracket.total_upper.high < total * (1.0 - 1e-6));
+                }
+            }
+        }
+        // 2.5 expected at most; 8 is three standard deviations above.
+        assert!(below.iter().flatten().all(|&below| below <= 8), "{} {rows}: {below:?}", function.name);
+    }
+}
+
+#[test]
+fn the_bound_of_each_input_holds_where_it_is_called_reliable() {
+    let function = functions::bratley();
+    let (mut wrong, mut reliable) = (vec![0; 10], vec![0; 10]);
+    for seed in 0..200 {
+        let design = RandomDesign::new(function.inputs.clone(), 128, seed).unwrap();
+        let found = dgsm(&design, &slopes(&design, &function.model), 0.95).unwrap();
+        for (i, (measure, total)) in found.inputs.iter().zip(&function.total).enumerate() {
+            let bound = measure.total_bound.unwrap();
+            assert!(bound.low <= bound.value && bound.value <= bound.high, "{measure:?}");
+            reliable[i] += usize::from(measure.reliable);
+            wrong[i] += usize::from(measure.reliable && bound.high < *total);
+        }
+    }
+    // 5 expected at most; 11 is three standard deviations above. Squares that are rare are not called
+    // reliable.
+    assert!(wrong.iter().all(|&wrong| wrong <= 11), "{wrong:?}");
+    assert!(reliable[0] == 200 && reliable[9] <= 2, "{reliable:?}");
 }
 
 #[test]

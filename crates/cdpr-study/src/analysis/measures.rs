@@ -39,6 +39,10 @@ pub struct InputMeasures {
     pub morris_std: Option<f64>,
     /// Bound on its total index from derivatives; `None` for a law without a known constant.
     pub dgsm_total_bound: Option<f64>,
+    /// Upper end of its interval; `None` where too few rows decide the mean square
+    /// ([`cdpr_sensitivity::DerivativeMeasure::reliable`]).
+    #[serde(default)]
+    pub dgsm_total_bound_high: Option<f64>,
     /// Lower bound of its first-order index, from exact derivatives (`cdpr_sensitivity::brackets`).
     pub first_lower: Option<f64>,
     /// Lower end of the interval of that bound.

@@ -291,10 +291,14 @@ fn morris_of_groups(run: &Run, found: &mut Found) -> Result<Option<MethodSummary
 fn derivative_bounds(run: &Run, found: &mut Found) -> Result<Option<MethodSummary>, Box<dyn Error>> {
     let (design, slopes) = run.sloped()?;
     let measures = dgsm(&design, slopes, run.settings.confidence)?;
+    let mut reliable = true;
     for (input, measure) in found.inputs.iter_mut().zip(measures.inputs) {
-        input.dgsm_total_bound = measure.total_bound;
+        let Some(bound) = measure.total_bound else { continue };
+        input.dgsm_total_bound = Some(bound.value);
+        input.dgsm_total_bound_high = measure.reliable.then_some(bound.high);
+        reliable &= measure.reliable;
     }
-    Ok(Some(MethodSummary::of(slopes)))
+    Ok(Some(MethodSummary { reliable: Some(reliable), ..MethodSummary::of(slopes) }))
 }
 
 fn derivative_brackets(run: &Run, found: &mut Found) -> Result<Option<MethodSummary>, Box<dyn Error>> {

@@ -125,23 +125,33 @@ pub fn measure(
     Ok(SensitivitySummary { inputs, groups, subspace, methods, sums, agreement, vector: spec.vector, notes })
 }
 
-/// Why intervals of a method are not reliable: the means of these inputs or groups rest on few of Morris's
-/// effects, or there are few blocks.
+/// Why intervals of a method are not reliable: the means of these inputs or groups rest on few observations,
+/// or there are few blocks.
 fn doubt(method: &str, found: &Found) -> String {
-    let inputs = found.inputs.iter().map(|input| (&input.input, input.morris_reliable));
-    let groups = found.groups.iter().map(|group| (&group.group, group.morris_reliable));
-    let of_morris: Vec<_> = match method {
-        "morris" => inputs.collect(),
-        "morris_of_groups" => groups.collect(),
+    let of_inputs = |reliable: fn(&InputMeasures) -> bool| -> Vec<(&String, bool)> {
+        found.inputs.iter().map(|input| (&input.input, reliable(input))).collect()
+    };
+    let (what, all, every) = match method {
+        "morris" => (
+            "few effects decide the means of",
+            of_inputs(|input| input.morris_reliable == Some(true)),
+            "too few blocks",
+        ),
+        "morris_of_groups" => (
+            "few effects decide the means of",
+            found.groups.iter().map(|group| (&group.group, group.morris_reliable == Some(true))).collect(),
+            "too few blocks",
+        ),
+        // Inputs without a bound have nothing to doubt.
+        "dgsm" => (
+            "few points decide the mean squares of",
+            of_inputs(|input| input.dgsm_total_bound_high.is_some() || input.dgsm_total_bound.is_none()),
+            "few points decide the mean squares",
+        ),
         _ => return "too few blocks".to_owned(),
     };
-    let count = of_morris.len();
-    let few = of_morris.into_iter().filter(|(_, reliable)| *reliable == Some(false));
-    let names: Vec<&str> = few.map(|(name, _)| name.as_str()).collect();
-    if names.len() == count {
-        return "too few blocks".to_owned();
-    }
-    format!("few effects decide the means of {}", names.join(", "))
+    let names: Vec<&str> = all.iter().filter(|(_, good)| !good).map(|(name, _)| name.as_str()).collect();
+    if names.len() == all.len() { every.to_owned() } else { format!("{what} {}", names.join(", ")) }
 }
 
 impl SensitivitySummary {

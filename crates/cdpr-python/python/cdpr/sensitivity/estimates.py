@@ -119,9 +119,11 @@ class DerivativeMeasures(Table):
     mean_square = Column("mean_square.value", "Mean square of the derivative, (k,).")
     mean_square_interval = Interval("mean_square", "Intervals of these, (k, 2).")
     total_bound = Column(
-        "total_bound",
+        "total_bound.value",
         "Upper bound of the total index by Poincare's inequality, (k,); NaN for a law without a constant.",
     )
+    total_bound_interval = Interval("total_bound", "Intervals of these, (k, 2).")
+    reliable = Column("reliable", "Whether enough rows decide the mean square for the intervals to hold, (k,).")
     variance = Value("variance", "Variance of the output.")
     observed = Value("observed", "Number of outputs with a gradient.")
     failed = Value("failed", "Number of observations without an output or gradient.")
