@@ -81,11 +81,11 @@ fn a_study_writes_tables_figures_and_a_summary() {
     let reproduced = comparison.iter().filter(|row| row["verdict"] == "reproduced");
     let figures: Vec<_> = reproduced.map(|row| row["figure"].as_str().unwrap()).collect();
     assert_eq!(figures, [&["4a"; 5][..], &["5a"; 3], &["section 5.1"]].concat());
-    // 64 observations leave the published uniform law possible beside others, and reject the normal one.
+    // 64 observations leave several laws possible, and ten samples of a bootstrap reject none.
     let laws = comparison.iter().filter(|row| row["quantity"] == "law");
     let laws: Vec<_> = laws.map(|row| (&row["verdict"], row["computed"].as_str().unwrap())).collect();
-    assert_eq!((laws[0].0, laws[1].0), (&json!("undecided"), &json!("not reproduced")));
-    assert!(laws.iter().all(|(_, computed)| computed.contains(" (undecided), p = ")), "{laws:?}");
+    assert!(laws.len() == 2 && laws.iter().all(|(verdict, _)| *verdict == "undecided"), "{laws:?}");
+    assert!(laws.iter().all(|(_, computed)| computed.contains(" (undecided), p ")), "{laws:?}");
     let table = read(&bench, "out/mechanical.csv");
     let mut lines = table.lines();
     let header: Vec<&str> = lines.next().unwrap().split(',').collect();

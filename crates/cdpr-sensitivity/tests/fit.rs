@@ -312,4 +312,11 @@ fn probabilities_sum_to_one_and_that_of_a_law_of_fitted_ends_is_exact() {
     // A law that was tried alone is not decided on.
     let alone = fit(&sample, Family::Normal, FEW).unwrap();
     assert_eq!(BestFit::of(&[alone]).unwrap().evidence, Evidence::Undecided);
+    // Nor is one that ten samples of a bootstrap cannot reject.
+    let uniform = draw(Law::Uniform { min: 0.0, max: 1.0 }, 400, 1);
+    let evidence = |resamples| {
+        let fits = fit_all(&uniform, Bootstrap { resamples, seed: 1 }).unwrap();
+        BestFit::of(&fits).unwrap().evidence
+    };
+    assert_eq!((evidence(10), evidence(99)), (Evidence::Undecided, Evidence::Decided));
 }

@@ -11,7 +11,7 @@ pub(crate) fn section(summary: &Summary) -> Option<Section> {
         return None;
     }
     let rows: Vec<Vec<Markup>> = summary.comparison.iter().map(row).collect();
-    let count = |verdict| summary.comparison.iter().filter(|row| row.verdict == verdict).count();
+    let count = |verdict: Verdict| summary.comparison.iter().filter(|row| row.verdict == verdict).count();
     let (missed, open) = (count(Verdict::NotReproduced), count(Verdict::Undecided));
     let head = ["Figure", "Quantity", "Published", "Computed", "Unit", "Difference", "Verdict"];
     let body = html! {

@@ -29,7 +29,7 @@ pub const REJECTED: f64 = 0.05;
 pub enum Evidence {
     /// One family of several is possible, with a probability of at least [`DECIDED`].
     Decided,
-    /// Several families are possible, or only one was tried.
+    /// Several families are possible, only one was tried, or the bootstrap is too small to reject any.
     Undecided,
     /// No family that was tried is possible.
     Rejected,
@@ -60,7 +60,7 @@ impl BestFit {
         let best = possible().max_by(more_probable).or(fits.iter().max_by(more_probable))?;
         let evidence = match possible().count() {
             0 => Evidence::Rejected,
-            1 if fits.len() > 1 && best.probability >= DECIDED => Evidence::Decided,
+            1 if fits.len() > 1 && best.probability >= DECIDED && best.may_be_rejected() => Evidence::Decided,
             _ => Evidence::Undecided,
         };
         Some(Self {
@@ -78,6 +78,11 @@ impl Fit {
     #[must_use]
     pub fn is_possible(&self) -> bool {
         is_possible(self.probability, self.p_value)
+    }
+
+    /// Whether the bootstrap has enough samples for a p-value of [`REJECTED`]: 19.
+    fn may_be_rejected(&self) -> bool {
+        (self.resamples + 1) as f64 * REJECTED >= 1.0
     }
 
     /// Whether no sample of the bootstrap had so large a distance: p may be smaller.
