@@ -122,10 +122,14 @@ pub(crate) fn file(name: &str, text: &str) -> ForeignFile {
     ForeignFile { name: name.to_owned(), text: text.to_owned() }
 }
 
+/// A cable of the catalogue.
+pub(crate) fn catalogue(name: &str) -> CatalogueCable {
+    CatalogueCable::from_json(named(CABLES, name).unwrap().text).unwrap()
+}
+
 /// What files lack.
 pub(crate) fn options() -> ImportOptions {
-    let cable = CatalogueCable::from_json(named(CABLES, "steel-4mm").unwrap().text).unwrap();
-    ImportOptions { cable: Some(cable), ..ImportOptions::default() }
+    ImportOptions { cable: Some(catalogue("steel-4mm")), ..ImportOptions::default() }
 }
 
 /// Mass and limits of tension, too.

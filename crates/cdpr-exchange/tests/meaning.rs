@@ -1,21 +1,22 @@
 //! What files mean: planar robots, points, offsets, limits in other places, robots within other entries.
 
 use crate::fixtures::{
-    BODIES, CABLES_OF_CASPR, IRMA, TABLE, WIREX, YAML, all_options, imported, notes, options, reference,
+    BODIES, CABLES_OF_CASPR, IRMA, TABLE, WIREX, YAML, all_options, catalogue, imported, notes, options,
+    reference,
 };
 use cdpr_exchange::{ExchangeError, ImportOptions, Imported, NoteKind};
 use cdpr_robot::{Plane, Pose, TensionLimits, Vector3};
 use cdpr_statics::{Load, inverse};
 
 /// The robot of a case that users have found, with the kinds of its files.
-fn case(folder: &str, stem: &str) -> Imported {
+fn case(folder: &str, stem: &str, options: &ImportOptions) -> Imported {
     let [bodies, cables] = ["bodies", "cables"].map(|part| format!("{stem}_{part}.xml"));
     let files = [
         (bodies.as_str(), reference(&format!("{folder}/{bodies}"))),
         (cables.as_str(), reference(&format!("{folder}/{cables}"))),
     ];
     let files: Vec<_> = files.iter().map(|(name, text)| (*name, text.as_str())).collect();
-    imported(&files, &options()).unwrap()
+    imported(&files, options).unwrap()
 }
 
 fn questions(found: &Imported) -> Vec<String> {
@@ -24,7 +25,7 @@ fn questions(found: &Imported) -> Vec<String> {
 
 #[test]
 fn a_planar_robot_of_caspr_needs_the_inertia_about_its_normal_alone() {
-    let found = case("caspr-planar-izz-only", "plate");
+    let found = case("caspr-planar-izz-only", "plate", &options());
     let robot = &found.robot;
     assert_eq!((robot.plane, robot.platform.point), (Some(Plane::Xy), false));
     assert_eq!(robot.platform.inertia.unwrap()[(2, 2)], 0.1);
@@ -36,7 +37,7 @@ fn a_planar_robot_of_caspr_needs_the_inertia_about_its_normal_alone() {
 
 #[test]
 fn a_point_mass_of_caspr_moves_in_its_plane() {
-    let found = case("caspr-point-xz", "point");
+    let found = case("caspr-point-xz", "point", &options());
     let robot = &found.robot;
     assert_eq!((robot.plane, robot.platform.point), (Some(Plane::Xz), true));
     assert_eq!(robot.platform.inertia, None);
@@ -60,12 +61,17 @@ fn a_point_mass_of_caspr_moves_in_its_plane() {
 
 #[test]
 fn the_joint_of_caspr_moves_from_the_location_of_its_parent() {
-    let found = case("caspr-parent-offset", "plate");
+    let found = case("caspr-parent-offset", "plate", &options());
     // At q = (1, 1, 0) all cables are equally long: from (0, 0.25, 0) to (0.8, 0.25, 0.9).
     let pose = Pose::at(1.0, 0.0, 1.0);
     for i in 0..4 {
         assert!((found.robot.span(&pose, i).norm() - 1.45_f64.sqrt()).abs() < 1e-15);
     }
+    // With the cable of 2 mm that the trial took: 1.2308 m where the location is dropped.
+    let options = ImportOptions { cable: Some(catalogue("steel-2mm")), ..ImportOptions::default() };
+    let robot = case("caspr-parent-offset", "plate", &options).robot;
+    let lengths = inverse(&robot, &pose, &Load::none(), None).unwrap().lengths;
+    assert!((lengths[0] - 1.2050).abs() < 5e-5 && (lengths[2] - 1.2050).abs() < 5e-5, "{lengths:?}");
     let said = notes(&found, NoteKind::Assumed).join("\n");
     assert!(said.contains("the origin of the base frame is the joint's, (0, 0.25, 0) m"), "{said}");
 }

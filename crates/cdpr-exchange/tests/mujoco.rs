@@ -142,13 +142,12 @@ fn masses_of_geoms_are_those_of_their_shapes() {
     let (mass, inertia, _) = of("<geom type=\"ellipsoid\" size=\"0.1 0.2 0.3\" mass=\"5\"/>");
     assert!((inertia[(0, 0)] - mass * 0.13 / 5.0).abs() < 1e-15);
     // Five turned shapes in one body, as MuJoCo 3 compiles them.
-    let (mass, inertia, center) = of(
-        "<geom type=\"capsule\" size=\"0.1 0.2\" density=\"500\" pos=\"0.3 0 0\" \
-        euler=\"0.3 0.2 0.5\"/><geom type=\"ellipsoid\" size=\"0.1 0.2\" mass=\"5\" fromto=\"0 0 0 0 0.3 0.4\"/>\
-        <geom type=\"cylinder\" size=\"0.1\" fromto=\"0 -0.3 0 0.2 0.3 0.1\" mass=\"3\"/>\
-        <geom type=\"box\" size=\"0.1 0.2 0.3\" pos=\"0 -0.4 0.1\" xyaxes=\"1 1 0 0 1 1\"/>\
-        <geom size=\"0.15\" pos=\"0 0.4 0.1\"/>",
-    );
+    let (mass, inertia, center) =
+        of("<geom type=\"capsule\" size=\"0.1 0.2\" density=\"500\" pos=\"0.3 0 0\" euler=\"0.3 0.2 0.5\"/>\
+         <geom type=\"ellipsoid\" size=\"0.1 0.2\" mass=\"5\" fromto=\"0 0 0 0 0.3 0.4\"/>\
+         <geom type=\"cylinder\" size=\"0.1\" fromto=\"0 -0.3 0 0.2 0.3 0.1\" mass=\"3\"/>\
+         <geom type=\"box\" size=\"0.1 0.2 0.3\" pos=\"0 -0.4 0.1\" xyaxes=\"1 1 0 0 1 1\"/>\
+         <geom size=\"0.15\" pos=\"0 0.4 0.1\"/>");
     assert!((mass - 78.51474735072686).abs() < 1e-12);
     let expected = Vector3::new(0.035831155519165, -0.162964712430166, 0.093787688842983);
     assert!((center - expected).norm() < 1e-14);
