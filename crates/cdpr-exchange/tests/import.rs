@@ -141,6 +141,8 @@ fn a_robot_of_irma_has_its_vertical_and_leaves_out_what_is_not_active() {
     assert_eq!(robot.cables[0].pulley.unwrap().radius, 0.022482);
     let up = Vector3::<f64>::new(0.0086989, -0.0058238, 0.9999452);
     assert!((robot.gravity.vector() + 9.81 * up).norm() < 1e-6);
+    let older = IRMA.replace("gravity_axis", "grav_ax");
+    assert_eq!(imported(&[("Grab.json", &older)], &all_options()).unwrap().robot.gravity, robot.gravity);
     assert!(off(robot) < 1e-9, "{}", off(robot));
     assert_eq!(texts(&found, NoteKind::Questioned), ["the mass is 1 kg: inertias are those per kilogram"]);
     assert!(texts(&found, NoteKind::NoPlace).contains(&"actuators that are not active: 2".to_owned()));

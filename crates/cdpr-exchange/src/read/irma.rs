@@ -64,7 +64,7 @@ pub(crate) fn read(document: &Document) -> Result<Draft, ExchangeError> {
     if let Some(inertia) = platform.get("inertia_mat_G_loc") {
         draft.inertia = Some(Matrix3::from_row_slice(&inertia.components::<9>()?));
     }
-    if let Some(axis) = platform.get("gravity_axis") {
+    if let Some(axis) = platform.get("gravity_axis").or(platform.get("grav_ax")) {
         let up = axis.vector()?;
         if up.norm() < 1e-9 {
             return Err(axis.error("a direction, up"));
@@ -87,7 +87,7 @@ pub(crate) fn read(document: &Document) -> Result<Draft, ExchangeError> {
 /// Winches, angles of pulleys, and how a pose is written.
 fn is_harmless(within: &str, name: &str) -> bool {
     match within {
-        "" => ["permutation_mask", "name", "version"].contains(&name),
+        "" => ["permutation_mask", "rotation_parametrization", "name", "version"].contains(&name),
         "platform" => ["rotation_parametrization", "name"].contains(&name),
         _ => !(name.starts_with("pos_") || name.contains("force") || name.contains("tension")),
     }
