@@ -70,6 +70,8 @@ pub(crate) struct Draft {
     pub(crate) plane: Option<Plane>,
     /// Whether the platform cannot rotate.
     pub(crate) held_rotation: bool,
+    /// The cable set of CASPR that was read, and the others of the file.
+    pub(crate) cable_sets: Option<(String, Vec<String>)>,
     /// Height of the ground in the base frame [m].
     pub(crate) ground_z: Option<f64>,
     pub(crate) cables: Vec<DraftCable>,
@@ -107,6 +109,14 @@ impl Draft {
     pub(crate) fn note(&mut self, kind: NoteKind, at: &Node, text: impl Into<String>) {
         let place = Some((at.file().to_owned(), at.line()));
         self.notes.push(Note { kind, place, text: text.into() });
+    }
+
+    /// An error with the names of the cable sets that might be imported instead, if there are others.
+    pub(crate) fn of_cable_set(&self, source: ExchangeError) -> ExchangeError {
+        match self.cable_sets.clone() {
+            Some((set, others)) => ExchangeError::CableSet { source: Box::new(source), set, others },
+            None => source,
+        }
     }
 
     /// A note, unless there is one with the same text.
@@ -148,11 +158,11 @@ impl Draft {
     /// [`ExchangeError::Lacking`], [`ExchangeError::Robot`].
     pub(crate) fn finish(mut self, options: &ImportOptions) -> Result<Imported, ExchangeError> {
         if self.cables.is_empty() {
-            return Err(ExchangeError::Robot(RobotError::Invalid {
+            return Err(self.of_cable_set(ExchangeError::Robot(RobotError::Invalid {
                 field: "cables".to_owned(),
                 value: "an empty list".to_owned(),
                 expected: "at least one cable".to_owned(),
-            }));
+            })));
         }
         let mass = self.chosen("mass of the platform", self.mass, options.mass, "kg");
         if let (Some(of_file), Some(given)) = (self.center_of_mass, options.center_of_mass)
@@ -207,9 +217,9 @@ impl Draft {
         let cables = cables.map(|cable| robot_cable(cable, tension_limits, options)).collect();
         let assumed = self.notes.iter().filter(|note| note.kind == NoteKind::Assumed);
         let robot = Robot {
-            name: self.name,
+            name: std::mem::take(&mut self.name),
             provenance: Provenance {
-                source: Some(self.source),
+                source: Some(std::mem::take(&mut self.source)),
                 grade: None,
                 assumed: assumed.map(|note| note.text.clone()).collect(),
             },
@@ -221,7 +231,8 @@ impl Draft {
             tension_reference: None,
             cables,
         };
-        robot.validate().and_then(|()| robot.check_units()).map_err(ExchangeError::Robot)?;
+        let checked = robot.validate().and_then(|()| robot.check_units()).map_err(ExchangeError::Robot);
+        checked.map_err(|source| self.of_cable_set(source))?;
         Ok(Imported { robot, notes: self.notes })
     }
 

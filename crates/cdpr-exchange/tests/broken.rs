@@ -134,6 +134,11 @@ fn files_that_do_not_go_together_and_files_of_unknown_formats_are_refused() {
         let others = "are not imported; this is the cable set pulleys, the file also has springs";
         assert!(message.ends_with(others), "{message}");
     }
+    let empty = CABLES_OF_CASPR.replace("set=\"pulleys\"", "set=\"none\"");
+    let empty = empty.replace("</cables>", "<cable_set id=\"none\"/></cables>");
+    let message = refused(&[("b.xml", BODIES), ("c.xml", &empty)]);
+    let others = "at least one cable; this is the cable set none, the file also has pulleys, springs";
+    assert!(message.ends_with(others), "{message}");
     assert!(refused(&[("r.json", "{\"format\": 1}")]).contains("it is a file of this program"));
     let deep = format!("{}{}", "[".repeat(10_000), "]".repeat(10_000));
     assert!(

@@ -55,7 +55,7 @@ impl Document {
                     unread.into_iter().partition(|child| is_harmless(&paths[kind], child.name()));
                 for (matters, nodes) in [(true, matters), (false, harmless)] {
                     let Some(first) = nodes.first().copied() else { continue };
-                    let names = nodes.iter().map(|node| node.name()).collect();
+                    let names = nodes.iter().map(Node::name).collect();
                     let group = *found.entry((kind, matters, names)).or_insert(groups.len());
                     if group == groups.len() {
                         groups.push(Group { within: node, nodes, matters, count: 0 });
@@ -88,7 +88,7 @@ impl Document {
 
 /// Refuses a second node of a name of which the first one was read: nothing says which one is meant.
 fn check_once(read: &[Node], unread: &[Node]) -> Result<(), ExchangeError> {
-    let names: HashSet<&str> = read.iter().map(|node| node.name()).filter(|name| !name.is_empty()).collect();
+    let names: HashSet<&str> = read.iter().map(Node::name).filter(|name| !name.is_empty()).collect();
     match unread.iter().find(|node| names.contains(node.name())) {
         Some(second) => Err(second.value_error(None, "there twice", "one")),
         None => Ok(()),

@@ -25,25 +25,20 @@ pub(crate) fn read(
     let set_name = set.need("@id")?.text();
     let others: Vec<Node> = root.all("cable_set").filter(|other| *other != set).collect();
     others.iter().for_each(Node::leave_out);
-    let others: Vec<&str> = others.iter().map(|other| other.text_in("@id")).collect();
+    let others: Vec<String> = others.iter().map(|other| other.text_in("@id").to_owned()).collect();
+    if !others.is_empty() {
+        draft.note(NoteKind::NoPlace, &root, format!("further cable sets: {}", others.join(", ")));
+        draft.cable_sets = Some((set_name.to_owned(), others));
+    }
     let center_of_mass = draft.center_of_mass.unwrap_or_default();
     for cable in set.elements() {
-        let mut cable = read_cable(&cable, &center_of_mass).map_err(|source| match others.is_empty() {
-            true => source,
-            false => ExchangeError::CableSet {
-                source: Box::new(source),
-                set: set_name.to_owned(),
-                others: others.iter().map(|name| (*name).to_owned()).collect(),
-            },
-        })?;
+        let cable = read_cable(&cable, &center_of_mass);
+        let mut cable = cable.map_err(|source| draft.of_cable_set(source))?;
         cable.exit_point -= origin;
         draft.cables.push(cable);
     }
     draft.source =
         format!("Imported from {} and {} of CASPR, cable set {set_name}.", bodies.file, cables.file);
-    if !others.is_empty() {
-        draft.note(NoteKind::NoPlace, &root, format!("further cable sets: {}", others.join(", ")));
-    }
     question(&mut draft, bodies);
     draft.list_unread(bodies, is_harmless)?;
     draft.list_unread(cables, is_harmless)?;

@@ -55,7 +55,7 @@ pub(crate) fn read(document: &Document) -> Result<Draft, ExchangeError> {
         match cable(&mut draft, tendon, path, &bodies, platform, &scene)? {
             Some(cable) => draft.cables.push(custom.complete(tendon, cable)?),
             None => {
-                draft.note_once(NoteKind::Questioned, tendon, "a tendon that does not end at the platform")
+                draft.note_once(NoteKind::Questioned, tendon, "a tendon that does not end at the platform");
             }
         }
     }
@@ -174,7 +174,7 @@ fn stiffness(
                 draft.note_once(NoteKind::Questioned, &lengths, text);
                 length
             }
-            [length] if length == -1.0 => span,
+            [-1.0] => span,
             _ => return Err(lengths.error("an unstrained length, or zero and one")),
         },
     };
