@@ -10,6 +10,7 @@ pub(crate) mod yaml;
 
 use crate::error::ExchangeError;
 use cdpr_robot::Vector3;
+use std::borrow::Cow;
 use std::cell::Cell;
 
 /// Depth of nodes within nodes that no robot has: deeper ones would exhaust the stack.
@@ -256,7 +257,7 @@ impl<'a> Node<'a> {
         let value = match (self.text(), self.entry().children.len()) {
             ("", 0) => "empty".to_owned(),
             ("", children) => format!("a node with {children} entries"),
-            (text, _) => format!("{:?}", unread::short(text)),
+            (text, _) => format!("{:?}", short(text)),
         };
         self.value_error(None, &value, expected)
     }
@@ -289,4 +290,13 @@ impl<'a> Node<'a> {
 /// A finite number.
 pub(crate) fn finite(text: &str) -> Option<f64> {
     text.parse().ok().filter(|number: &f64| number.is_finite())
+}
+
+/// The beginning of a long text.
+pub(crate) fn short(text: &str) -> Cow<'_, str> {
+    const LONGEST: usize = 80;
+    match text.char_indices().nth(LONGEST) {
+        Some((end, _)) => format!("{}…", &text[..end]).into(),
+        None => text.into(),
+    }
 }

@@ -1,6 +1,6 @@
 //! What was not read of a file: most of it concerns no robot at rest, and all else is questioned.
 
-use crate::document::{Document, Node};
+use crate::document::{Document, Node, short};
 use crate::error::ExchangeError;
 use std::collections::{HashMap, HashSet};
 
@@ -142,14 +142,5 @@ impl Node<'_> {
             return String::new();
         }
         join(&Node { id: self.entry().parent, ..*self }.plain_path(), self.name())
-    }
-}
-
-/// The beginning of a long text.
-pub(crate) fn short(text: &str) -> std::borrow::Cow<'_, str> {
-    const LONGEST: usize = 80;
-    match text.char_indices().nth(LONGEST) {
-        Some((end, _)) => format!("{}…", &text[..end]).into(),
-        None => text.into(),
     }
 }

@@ -2,8 +2,7 @@
 //!
 //! A pulley enters at `pos_OD_glob` along `vers_k`; actuators that are not `active` are left out.
 
-use crate::document::Document;
-use crate::document::unread::short;
+use crate::document::{Document, short};
 use crate::draft::{Draft, DraftCable, NoteKind};
 use crate::error::ExchangeError;
 use cdpr_robot::{Matrix3, Pulley};

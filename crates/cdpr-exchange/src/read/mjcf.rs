@@ -11,9 +11,9 @@ mod scene;
 use crate::document::{Document, Node};
 use crate::draft::{Draft, DraftCable, NoteKind};
 use crate::error::ExchangeError;
-use crate::read::mjcf::bodies::Bodies;
+use crate::read::mjcf::bodies::{Bodies, Stop};
 use crate::read::mjcf::scene::Scene;
-use cdpr_robot::{CableProperties, Pulley, Vector3};
+use cdpr_robot::CableProperties;
 use std::collections::HashMap;
 
 /// Reads a robot.
@@ -63,14 +63,6 @@ pub(crate) fn read(document: &Document) -> Result<Draft, ExchangeError> {
     question_limits(&mut draft, &root);
     draft.list_unread(document, scene::is_harmless)?;
     Ok(draft)
-}
-
-/// What a tendon runs through, one after the other.
-pub(crate) enum Stop<'a> {
-    /// A site by its number.
-    Site(usize),
-    /// A geom that it wraps around, by its number.
-    Geom(usize, Node<'a>),
 }
 
 fn path<'a>(tendon: &Node<'a>, bodies: &Bodies<'a>) -> Result<Vec<Stop<'a>>, ExchangeError> {
@@ -233,9 +225,4 @@ impl Custom<'_> {
         }
         Ok(cable)
     }
-}
-
-/// A pulley over which a cable enters along the line from one point to the next.
-pub(crate) fn pulley(radius: f64, from: Vector3<f64>, to: Vector3<f64>) -> Pulley {
-    Pulley { radius, axis: (to - from).normalize() }
 }

@@ -3,8 +3,7 @@
 //! One free body hangs on lines from fixed points; where there is no body, one free point does. `Diam` is the
 //! diameter of a full section S, and E = EA/S. Position and unstrained lengths are those of a state.
 
-use crate::document::finite;
-use crate::document::unread::short;
+use crate::document::{finite, short};
 use crate::draft::{Draft, DraftCable, Note, NoteKind};
 use crate::error::ExchangeError;
 use cdpr_robot::{CableProperties, Matrix3, Vector3};

@@ -2,8 +2,7 @@
 
 mod columns;
 
-use crate::document::finite;
-use crate::document::unread::short;
+use crate::document::{finite, short};
 use crate::draft::{Draft, DraftCable, Note, NoteKind};
 use crate::error::ExchangeError;
 use crate::read::points::columns::{Column, Meaning, NAMES, harmless, meaning};

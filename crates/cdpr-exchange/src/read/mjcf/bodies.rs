@@ -5,7 +5,6 @@ use crate::draft::{Draft, NoteKind};
 use crate::error::ExchangeError;
 use crate::read::mjcf::geometry::{Geom, Mass};
 use crate::read::mjcf::scene::Scene;
-use crate::read::mjcf::{Stop, pulley};
 use cdpr_robot::{Matrix3, Plane, Pose, Pulley, Vector3};
 use std::collections::{HashMap, HashSet};
 
@@ -56,6 +55,14 @@ pub(crate) struct PlacedGeom {
     /// In the base frame.
     pose: Pose,
     pub(crate) mover: Option<usize>,
+}
+
+/// What a tendon runs through, one after the other.
+pub(crate) enum Stop<'a> {
+    /// A site by its number.
+    Site(usize),
+    /// A geom that it wraps around, by its number.
+    Geom(usize, Node<'a>),
 }
 
 /// How far from a cylinder a site may be to lie on it, relative to its radius.
@@ -199,7 +206,7 @@ impl<'a> Bodies<'a> {
         if !(cylinder.is_cylinder && is_on && is_tangent) {
             return Err(stop.need("@geom")?.error(expected));
         }
-        Ok(pulley(cylinder.radius, from, enters))
+        Ok(Pulley { radius: cylinder.radius, axis: along.normalize() })
     }
 
     /// The body that the tendons hold: the free one, or the one that all of them end at.
