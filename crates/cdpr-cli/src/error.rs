@@ -111,7 +111,13 @@ impl ProgramError {
 
 /// The sentence of the library with the options that give what files of another program lack.
 fn asked_for(error: &ExchangeError) -> String {
-    let ExchangeError::Lacking(lacking) = error else { return error.to_string() };
+    let ExchangeError::Lacking(lacking) = error else {
+        let help = match error {
+            ExchangeError::CableSet { .. } => ": `--cable-set` chooses one",
+            _ => "",
+        };
+        return format!("{error}{help}");
+    };
     let options = lacking.iter().map(|lacking| match lacking {
         Lacking::Cable => "--cable NAME or FILE (`cdpr robots --cables` lists the names)",
         Lacking::Mass => "--mass KG",

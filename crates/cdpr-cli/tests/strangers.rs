@@ -288,3 +288,40 @@ fn a_deflection_below_rounding_is_zero_with_its_bound_and_has_no_law() {
     assert!(none["rms_mm"] == json!(0.0) && bound > 0.0 && bound < 1e-7, "{bound}");
     assert!(gram["rms_mm"].as_f64().unwrap() > 10.0 * bound);
 }
+
+#[test]
+fn files_of_other_programs_are_imported_questioned_or_refused_at_once() {
+    let bench = Bench::new("caroca.json", |_| ());
+    let import = |files: &[&str], options: &[&str]| {
+        let arguments = files.iter().chain(options).copied();
+        let output =
+            bench.command(env!("CARGO_BIN_EXE_cdpr")).arg("import").args(arguments).output().unwrap();
+        (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
+    };
+    let cable = ["--cable", "steel-4mm"];
+    let nested = data_path("reference/exchange/nested-model.yaml");
+    let (code, robot, _) = import(&[&nested], &cable);
+    assert_eq!((code, robot.contains("\"max\": 900")), (0, true), "{robot}");
+    let two = format!("{}---\nlimits: {{min: 3}}\n", std::fs::read_to_string(&nested).unwrap());
+    std::fs::write(bench.path("two.yaml"), two).unwrap();
+    let (code, _, said) = import(&["two.yaml"], &cable);
+    assert_eq!(code, 3, "{said}");
+    assert!(said.contains("questioned: two.yaml, line 19: a further document: not known"), "{said}");
+    let (letters, uses) = ("b".repeat(4000), "&a;".repeat(1500));
+    let bomb = format!("<!DOCTYPE models [<!ENTITY a \"{letters}\">]><models>{uses}</models>");
+    std::fs::write(bench.path("bomb.wcrfx"), bomb).unwrap();
+    let (code, _, said) = import(&["bomb.wcrfx"], &cable);
+    assert_eq!(code, 1);
+    assert!(
+        said.contains("bomb.wcrfx, line 1, column 1: a document type with declarations of its own"),
+        "{said}"
+    );
+    let folder = data_path("reference/exchange/caspr-parent-offset");
+    let cables = std::fs::read_to_string(format!("{folder}/plate_cables.xml")).unwrap();
+    let other = "</cable_set><cable_set id=\"b\"/></cables>";
+    let cables = cables.replace("</cable_set></cables>", other).replacen("cable_ideal ", "cable_vsd ", 1);
+    std::fs::write(bench.path("cables.xml"), cables.replacen("</cable_ideal", "</cable_vsd", 1)).unwrap();
+    let (code, _, said) = import(&[&format!("{folder}/plate_bodies.xml"), "cables.xml"], &cable);
+    assert_eq!(code, 1);
+    assert!(said.contains("the cable set a, the file also has b: `--cable-set` chooses one"), "{said}");
+}

@@ -1,10 +1,11 @@
 //! What files of other programs say of a robot, and the robot that is made of it with what the user adds.
 
+use crate::document::unread::Unread;
 use crate::document::{Document, Node};
 use crate::error::{ExchangeError, Lacking};
 use cdpr_robot::{
     CableEnd, CableProperties, CatalogueCable, Gravity, Matrix3, OwnLimits, Plane, Platform, Provenance,
-    Pulley, Robot, RobotCable, TensionLimits, Vector3,
+    Pulley, Robot, RobotCable, RobotError, TensionLimits, Vector3,
 };
 
 /// What a user adds to files of another program, or puts in place of what they say.
@@ -47,9 +48,10 @@ pub struct Note {
 pub enum NoteKind {
     /// A value that the files lack and that was chosen.
     Assumed,
-    /// A value that is known from templates, or that is probably wrong.
+    /// A value that is known from templates or probably wrong, or an entry that may change the robot and is
+    /// not imported.
     Questioned,
-    /// What a robot file has no place for.
+    /// What a robot file has no place for and what does not matter for a robot at rest.
     NoPlace,
 }
 
@@ -66,16 +68,23 @@ pub(crate) struct Draft {
     /// Acceleration due to gravity [m/s²]; that of the earth along -z if left out.
     pub(crate) gravity: Option<Vector3<f64>>,
     pub(crate) plane: Option<Plane>,
+    /// Whether the platform cannot rotate.
+    pub(crate) held_rotation: bool,
+    /// The cable set of CASPR that was read, and the others of the file.
+    pub(crate) cable_sets: Option<(String, Vec<String>)>,
+    /// Height of the ground in the base frame [m].
+    pub(crate) ground_z: Option<f64>,
     pub(crate) cables: Vec<DraftCable>,
     pub(crate) notes: Vec<Note>,
 }
 
 /// What files say of one cable.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(crate) struct DraftCable {
     pub(crate) exit_point: Vector3<f64>,
     pub(crate) anchor_point: Vector3<f64>,
     pub(crate) pulley: Option<Pulley>,
+    pub(crate) lead: f64,
     pub(crate) min: Option<f64>,
     pub(crate) max: Option<f64>,
     pub(crate) properties: Option<CableProperties>,
@@ -90,20 +99,57 @@ const EARTH: f64 = 9.81;
 const LEAST_TENSION: f64 = 1.0;
 
 impl Draft {
-    pub(crate) fn note(&mut self, kind: NoteKind, node: &Document, at: &Node, text: impl Into<String>) {
-        self.notes.push(Note { kind, place: Some((node.file.clone(), at.line)), text: text.into() });
+    /// A draft with the name of a file, made of it in a format.
+    pub(crate) fn of_file(file: &str, format: &str) -> Self {
+        let stem = file.rsplit(['/', '\\']).next().unwrap_or("robot");
+        let name = stem.split('.').next().unwrap_or(stem).to_owned();
+        Self { name, source: format!("Imported from {file} of {format}."), ..Self::default() }
+    }
+
+    pub(crate) fn note(&mut self, kind: NoteKind, at: &Node, text: impl Into<String>) {
+        let place = Some((at.file().to_owned(), at.line()));
+        self.notes.push(Note { kind, place, text: text.into() });
+    }
+
+    /// An error with the names of the cable sets that might be imported instead, if there are others.
+    pub(crate) fn of_cable_set(&self, source: ExchangeError) -> ExchangeError {
+        match self.cable_sets.clone() {
+            Some((set, others)) => ExchangeError::CableSet { source: Box::new(source), set, others },
+            None => source,
+        }
+    }
+
+    /// A note, unless there is one with the same text.
+    pub(crate) fn note_once(&mut self, kind: NoteKind, at: &Node, text: impl Into<String>) {
+        let text = text.into();
+        if !self.notes.iter().any(|note| note.text == text) {
+            self.note(kind, at, text);
+        }
     }
 
     pub(crate) fn assume(&mut self, text: impl Into<String>) {
         self.notes.push(Note { kind: NoteKind::Assumed, place: None, text: text.into() });
     }
 
-    /// Lists what was not read of a file.
-    pub(crate) fn list_unread(&mut self, document: &Document) {
-        for unread in document.unread() {
-            let place = Some((document.file.clone(), unread.line));
-            self.notes.push(Note { kind: NoteKind::NoPlace, place, text: unread.to_string() });
+    /// Lists what was not read of a file. `is_harmless` gets the path around an entry, without numbers, and
+    /// its name: entries that do not matter for a robot at rest are listed, all others are questioned.
+    ///
+    /// # Errors
+    /// [`ExchangeError::Value`] for an entry that is there twice.
+    pub(crate) fn list_unread(
+        &mut self,
+        document: &Document,
+        is_harmless: impl Fn(&str, &str) -> bool,
+    ) -> Result<(), ExchangeError> {
+        for Unread { line, matters, text } in document.unread(is_harmless)? {
+            let place = Some((document.file.clone(), line));
+            let (kind, text) = match matters {
+                true => (NoteKind::Questioned, format!("{text}: not known and not imported")),
+                false => (NoteKind::NoPlace, text),
+            };
+            self.notes.push(Note { kind, place, text });
         }
+        Ok(())
     }
 
     /// The robot, with what the user adds.
@@ -111,6 +157,13 @@ impl Draft {
     /// # Errors
     /// [`ExchangeError::Lacking`], [`ExchangeError::Robot`].
     pub(crate) fn finish(mut self, options: &ImportOptions) -> Result<Imported, ExchangeError> {
+        if self.cables.is_empty() {
+            return Err(self.of_cable_set(ExchangeError::Robot(RobotError::Invalid {
+                field: "cables".to_owned(),
+                value: "an empty list".to_owned(),
+                expected: "at least one cable".to_owned(),
+            })));
+        }
         let mass = self.chosen("mass of the platform", self.mass, options.mass, "kg");
         if let (Some(of_file), Some(given)) = (self.center_of_mass, options.center_of_mass)
             && of_file != given
@@ -122,10 +175,24 @@ impl Draft {
             );
             self.assume(text);
         }
-        let center_of_mass = options.center_of_mass.or(self.center_of_mass).unwrap_or_else(|| {
+        let mut center_of_mass = options.center_of_mass.or(self.center_of_mass).unwrap_or_else(|| {
             self.assume("the centre of mass is the origin of the platform");
             Vector3::zeros()
         });
+        let point = self.held_rotation;
+        if point {
+            self.shrink_to_point();
+            center_of_mass = Vector3::zeros();
+        }
+        let inertia = self.checked_inertia();
+        if let Some(ground) = self.ground_z {
+            // The only place that the height of the ground has to go through.
+            self.notes.push(Note {
+                kind: NoteKind::NoPlace,
+                place: None,
+                text: format!("the ground at z = {ground} m"),
+            });
+        }
         let limits = self.limits(options);
         let has_cable = options.cable.is_some() || self.cables.iter().all(|cable| cable.properties.is_some());
         let lacking: Vec<_> = [
@@ -150,22 +217,62 @@ impl Draft {
         let cables = cables.map(|cable| robot_cable(cable, tension_limits, options)).collect();
         let assumed = self.notes.iter().filter(|note| note.kind == NoteKind::Assumed);
         let robot = Robot {
-            name: self.name,
+            name: std::mem::take(&mut self.name),
             provenance: Provenance {
-                source: Some(self.source),
+                source: Some(std::mem::take(&mut self.source)),
                 grade: None,
                 assumed: assumed.map(|note| note.text.clone()).collect(),
             },
             gravity: self.gravity.map_or_else(|| Gravity::from(EARTH), Gravity::from),
-            platform: Platform { inertia: self.inertia, ..Platform::new(mass, center_of_mass) },
+            platform: Platform { inertia, point, ..Platform::new(mass, center_of_mass) },
             plane: self.plane,
             tension_limits,
             max_at: CableEnd::Anchor,
             tension_reference: None,
             cables,
         };
-        robot.validate().and_then(|()| robot.check_units()).map_err(ExchangeError::Robot)?;
+        let checked = robot.validate().and_then(|()| robot.check_units()).map_err(ExchangeError::Robot);
+        checked.map_err(|source| self.of_cable_set(source))?;
         Ok(Imported { robot, notes: self.notes })
+    }
+
+    /// Makes a point mass of a platform that cannot rotate: a cable from B to A is one from B - A to P, as
+    /// r = p + A - B.
+    fn shrink_to_point(&mut self) {
+        let shifted = self.cables.iter().any(|cable| cable.anchor_point != Vector3::zeros());
+        for cable in &mut self.cables {
+            cable.exit_point -= std::mem::take(&mut cable.anchor_point);
+        }
+        if shifted {
+            self.assume(
+                "the platform cannot rotate: it is a point mass, each exit point moved by its anchor point",
+            );
+        }
+    }
+
+    /// The inertia, completed where only motions in a plane count; `None` where the files have zeros.
+    fn checked_inertia(&mut self) -> Option<Matrix3<f64>> {
+        let inertia = self.inertia?;
+        let moments = inertia.symmetric_eigenvalues();
+        let is_body = moments.min() > 0.0 && moments.max() <= 0.5 * moments.sum() * (1.0 + 1e-3);
+        match self.plane {
+            _ if self.held_rotation => None,
+            _ if inertia == Matrix3::zeros() => {
+                self.assume("the inertia is not known: the files have zeros");
+                None
+            }
+            Some(plane) if !is_body && inertia[(plane.normal(), plane.normal())] > 0.0 => {
+                let normal = plane.normal();
+                let moment = inertia[(normal, normal)];
+                self.assume(
+                    "the moments of inertia about axes in the plane are those of a plate: no motion in the \
+                     plane depends on them",
+                );
+                let of_axis = |i: usize| if i == normal { moment } else { 0.5 * moment };
+                Some(Matrix3::from_diagonal(&Vector3::from_fn(|i, _| of_axis(i))))
+            }
+            _ => Some(inertia),
+        }
     }
 
     /// The value that the user gives, or else that of the file; a note where they differ.
@@ -215,6 +322,7 @@ fn robot_cable(cable: DraftCable, limits: TensionLimits, options: &ImportOptions
     }
     RobotCable {
         pulley: cable.pulley,
+        lead: cable.lead,
         tension_limits: OwnLimits {
             min: own(cable.min, limits.min),
             max: own(cable.max, limits.max),

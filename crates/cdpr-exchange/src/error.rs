@@ -19,6 +19,20 @@ pub enum ExchangeError {
         /// What the reader of XML, YAML or CSV says.
         message: String,
     },
+    /// A file is larger than that of any robot.
+    #[error("{file}, line {line}, column {column}: more than {most} {what}: expected the file of a robot")]
+    TooLarge {
+        /// The file.
+        file: String,
+        /// Line, from 1.
+        line: usize,
+        /// Column in that line, from 1.
+        column: usize,
+        /// What it has too many of.
+        what: &'static str,
+        /// How many of them are read at most.
+        most: usize,
+    },
     /// A value is missing or invalid, or has no counterpart in a robot file.
     #[error("{file}, line {line}, column {column}: {element} is {value}: expected {expected}")]
     Value {
@@ -34,6 +48,16 @@ pub enum ExchangeError {
         value: String,
         /// What would be right.
         expected: String,
+    },
+    /// A cable set of CASPR cannot be imported; the file has others.
+    #[error("{source}; this is the cable set {set}, the file also has {}", .others.join(", "))]
+    CableSet {
+        /// What is wrong in this set.
+        source: Box<ExchangeError>,
+        /// Its name.
+        set: String,
+        /// Names of the other sets.
+        others: Vec<String>,
     },
     /// The format of a file is not known.
     #[error("{file}: {found}: expected {FORMATS}")]
@@ -71,8 +95,9 @@ pub enum ExchangeError {
 }
 
 /// The formats that are read.
-pub const FORMATS: &str = "the bodies and cables of CASPR (XML), a .wcrfx file of WireX (XML), a robot of \
-                           oKermorgant's cdpr (YAML), a robot of IRMA (JSON), or a table of points (CSV)";
+pub const FORMATS: &str = "the bodies and cables of CASPR (XML), a .wcrfx file of WireX (XML), a model of \
+                           MuJoCo (XML), a robot of oKermorgant's cdpr (YAML, or the SDF made of it), one of \
+                           IRMA (JSON), a system of MoorPy or MoorDyn, or a table of points (CSV)";
 
 /// What a robot needs and files of other programs may lack.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -2,8 +2,11 @@
 
 mod caspr;
 mod irma;
+mod mjcf;
+mod moorpy;
 mod okermorgant;
 mod points;
+mod sdf;
 mod wirex;
 
 use crate::document::{Document, xml, yaml};
@@ -26,12 +29,18 @@ enum Kind {
     /// Trajectories and spaces of CASPR, which a robot file has no place for.
     CasprBeside(Document),
     Wirex(Document),
+    Mjcf(Document),
+    Sdf(Document),
     Okermorgant(Document),
     Irma(Document),
+    Moorpy,
     Points,
 }
 
 /// Makes a robot of the files of another program: the bodies and cables of CASPR, or one file.
+///
+/// Reading takes time and memory in proportion to the files, and refuses depths, numbers of elements and
+/// declarations that no robot has.
 ///
 /// # Errors
 /// [`ExchangeError`] with file, line and element of what is wrong, or what the files lack.
@@ -68,12 +77,8 @@ pub fn import(files: &[ForeignFile], options: &ImportOptions) -> Result<Imported
         _ => return Err(together("the files of one robot")),
     };
     for document in beside {
-        draft.note(
-            NoteKind::NoPlace,
-            document,
-            &document.root,
-            format!("{}, the whole file", document.root.path),
-        );
+        let root = document.root();
+        draft.note(NoteKind::NoPlace, &root, format!("{}, the whole file", root.name()));
     }
     draft.finish(options)
 }
@@ -81,8 +86,11 @@ pub fn import(files: &[ForeignFile], options: &ImportOptions) -> Result<Imported
 fn read_one(file: &ForeignFile, kind: &Kind) -> Result<Draft, ExchangeError> {
     match kind {
         Kind::Wirex(document) => wirex::read(document),
+        Kind::Mjcf(document) => mjcf::read(document),
+        Kind::Sdf(document) => sdf::read(document),
         Kind::Okermorgant(document) => okermorgant::read(document),
         Kind::Irma(document) => irma::read(document),
+        Kind::Moorpy => moorpy::read(&file.name, &file.text),
         _ => points::read(&file.name, &file.text),
     }
 }
@@ -93,22 +101,30 @@ fn kind(file: &ForeignFile) -> Result<Kind, ExchangeError> {
     let unknown = |found: String| ExchangeError::Unknown { file: name.clone(), found };
     if text.trim_start().starts_with('<') {
         let document = xml::parse(name, text)?;
-        return match document.root.name.as_str() {
+        return match document.first().name() {
             "bodies_system" => Ok(Kind::CasprBodies(document)),
             "cables" => Ok(Kind::CasprCables(document)),
             "trajectories" | "operational_spaces" => Ok(Kind::CasprBeside(document)),
             "models" => Ok(Kind::Wirex(document)),
+            "mujoco" => Ok(Kind::Mjcf(document)),
+            "sdf" | "gazebo" => Ok(Kind::Sdf(document)),
+            "robot" if document.first().has("link") => {
+                Err(unknown("it is URDF, which has no element for cables".to_owned()))
+            }
             other => Err(unknown(format!("its root is <{other}>"))),
         };
     }
-    if name.ends_with(".csv") || name.ends_with(".txt") {
+    if moorpy::is_system(text) {
+        return Ok(Kind::Moorpy);
+    }
+    if name.ends_with(".csv") || name.ends_with(".txt") || points::is_table(text) {
         return Ok(Kind::Points);
     }
     let document = yaml::parse(name, text)?;
-    let root = &document.root;
+    let root = document.first();
     match () {
         () if root.has("actuator") => Ok(Kind::Irma(document)),
-        () if root.has("points") => Ok(Kind::Okermorgant(document)),
+        () if okermorgant::has_robot(&document)? => Ok(Kind::Okermorgant(document)),
         () if root.has("format") => Err(unknown("it is a file of this program".to_owned())),
         () => Err(unknown("it has neither `points` nor `actuator`".to_owned())),
     }

@@ -38,7 +38,7 @@ fn broken_files_are_refused_with_element_and_line() {
             "</link_rigid>",
             "</link_rigid><link_rigid/>",
             17,
-            "links is a list of 2: expected one link",
+            "links/link_rigid[2] is a further one: expected one link",
         ),
         (&caspr, "<num>0</num>", "<num>1</num>", 16, "parent/num is \"1\": expected 0, the frame"),
         (
@@ -130,8 +130,15 @@ fn files_that_do_not_go_together_and_files_of_unknown_formats_are_refused() {
         ),
     ] {
         let message = refused(&[("b.xml", BODIES), ("c.xml", &CABLES_OF_CASPR.replace(from, to))]);
-        assert!(message.contains(said) && message.ends_with("are not imported"), "{message}");
+        assert!(message.contains(said), "{message}");
+        let others = "are not imported; this is the cable set pulleys, the file also has springs";
+        assert!(message.ends_with(others), "{message}");
     }
+    let empty = CABLES_OF_CASPR.replace("set=\"pulleys\"", "set=\"none\"");
+    let empty = empty.replace("</cables>", "<cable_set id=\"none\"/></cables>");
+    let message = refused(&[("b.xml", BODIES), ("c.xml", &empty)]);
+    let others = "at least one cable; this is the cable set none, the file also has pulleys, springs";
+    assert!(message.ends_with(others), "{message}");
     assert!(refused(&[("r.json", "{\"format\": 1}")]).contains("it is a file of this program"));
     let deep = format!("{}{}", "[".repeat(10_000), "]".repeat(10_000));
     assert!(

@@ -1,6 +1,6 @@
 //! Small files of other programs, with the numbers of the robots that they come from.
 
-use cdpr_exchange::{ExchangeError, ForeignFile, ImportOptions, Imported, import};
+use cdpr_exchange::{ExchangeError, ForeignFile, ImportOptions, Imported, NoteKind, import};
 use cdpr_robot::library::{CABLES, named};
 use cdpr_robot::{CatalogueCable, TensionLimits};
 
@@ -122,10 +122,14 @@ pub(crate) fn file(name: &str, text: &str) -> ForeignFile {
     ForeignFile { name: name.to_owned(), text: text.to_owned() }
 }
 
+/// A cable of the catalogue.
+pub(crate) fn catalogue(name: &str) -> CatalogueCable {
+    CatalogueCable::from_json(named(CABLES, name).unwrap().text).unwrap()
+}
+
 /// What files lack.
 pub(crate) fn options() -> ImportOptions {
-    let cable = CatalogueCable::from_json(named(CABLES, "steel-4mm").unwrap().text).unwrap();
-    ImportOptions { cable: Some(cable), ..ImportOptions::default() }
+    ImportOptions { cable: Some(catalogue("steel-4mm")), ..ImportOptions::default() }
 }
 
 /// Mass and limits of tension, too.
@@ -137,4 +141,15 @@ pub(crate) fn all_options() -> ImportOptions {
 pub(crate) fn imported(files: &[(&str, &str)], options: &ImportOptions) -> Result<Imported, ExchangeError> {
     let files: Vec<_> = files.iter().map(|(name, text)| file(name, text)).collect();
     import(&files, options)
+}
+
+/// A file of `data/reference/exchange`.
+pub(crate) fn reference(name: &str) -> String {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/reference/exchange");
+    std::fs::read_to_string(format!("{folder}/{name}")).unwrap()
+}
+
+/// The notes of a kind.
+pub(crate) fn notes(found: &Imported, kind: NoteKind) -> Vec<String> {
+    found.notes.iter().filter(|note| note.kind == kind).map(|note| note.text.clone()).collect()
 }

@@ -111,7 +111,8 @@ fn a_robot_of_wirex_has_its_axes_and_its_template_is_questioned() {
         [
             "the cable is that of the template: 6 mm radius, 0.023 kg/m, 110 GPa",
             "the greatest force of the winch, 720 N, is that of the template",
-            "the mass of 25 kg and the centre of mass (0, 1, 0.2) m are those of the template"
+            "the mass of 25 kg and the centre of mass (0, 1, 0.2) m are those of the template",
+            "the inertia, Ixx 14 alone, is that of the template"
         ]
     );
     let grade = WIREX.replace("110000000000", "1770000000");
@@ -140,9 +141,11 @@ fn a_robot_of_irma_has_its_vertical_and_leaves_out_what_is_not_active() {
     assert_eq!(robot.cables[0].pulley.unwrap().radius, 0.022482);
     let up = Vector3::<f64>::new(0.0086989, -0.0058238, 0.9999452);
     assert!((robot.gravity.vector() + 9.81 * up).norm() < 1e-6);
+    let older = IRMA.replace("gravity_axis", "grav_ax");
+    assert_eq!(imported(&[("Grab.json", &older)], &all_options()).unwrap().robot.gravity, robot.gravity);
     assert!(off(robot) < 1e-9, "{}", off(robot));
     assert_eq!(texts(&found, NoteKind::Questioned), ["the mass is 1 kg: inertias are those per kilogram"]);
-    assert!(texts(&found, NoteKind::NoPlace).contains(&"actuator[2], which is not active".to_owned()));
+    assert!(texts(&found, NoteKind::NoPlace).contains(&"actuators that are not active: 2".to_owned()));
 }
 
 #[test]

@@ -2,7 +2,13 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 
+mod bounds;
 mod broken;
 mod export;
 mod fixtures;
 mod import;
+mod meaning;
+mod mujoco;
+mod round_trip;
+mod simulators;
+mod texts;

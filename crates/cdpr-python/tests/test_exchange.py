@@ -97,6 +97,16 @@ def test_a_robot_goes_to_caspr_and_back(tmp_path):
         cdpr.exchange.import_robot(tmp_path / "empty")
 
 
+def test_a_robot_goes_to_mujoco_and_moorpy_and_back(tmp_path, cogiro):
+    for target, limits in (("mjcf", None), ("moorpy", list(cogiro.tension_limits))):
+        file = tmp_path / f"robot.{target}"
+        file.write_text(cdpr.exchange.export_robot(cogiro, [0, 0, 2], target).text)
+        again, notes = cdpr.exchange.import_robot(file, tension_limits=limits)
+        assert (again.exit_points == cogiro.exit_points).all() and (again.anchor_points == cogiro.anchor_points).all()
+        assert again.mass == cogiro.mass and "questioned" not in {note.kind for note in notes}
+        np.testing.assert_allclose(again.inverse([0, 0, 2]).lengths, cogiro.inverse([0, 0, 2]).lengths, rtol=1e-12)
+
+
 def test_the_library_is_that_of_the_program():
     listed = answer("robots")
     assert cdpr.exchange.robots() == [robot["name"] for robot in listed]

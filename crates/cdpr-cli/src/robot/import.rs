@@ -11,8 +11,9 @@ use std::path::{Path, PathBuf};
 /// Files of another program, and what they lack.
 #[derive(clap::Args)]
 pub(crate) struct Settings {
-    /// Files: bodies and cables of CASPR or the folder that has them, a .wcrfx file of WireX, YAML of
-    /// oKermorgant's cdpr, JSON of IRMA, or a table of points (CSV).
+    /// Files: bodies and cables of CASPR or the folder that has them, a .wcrfx file of WireX, a model of
+    /// MuJoCo, YAML of oKermorgant's cdpr or the SDF made of it, JSON of IRMA, a system of MoorPy or MoorDyn,
+    /// or a table of points (CSV).
     #[arg(required = true)]
     files: Vec<PathBuf>,
     /// Robot file to write, over nothing but another robot file; if left out, it is printed.

@@ -1,51 +1,157 @@
 //! XML as a tree.
+//!
+//! The parser compares every attribute with all others of its element and every element with the namespaces
+//! around it, and it expands entities: depth, attributes and declarations are bounded before it begins.
 
-use crate::document::{DEEPEST, Document, Node};
+use crate::document::{DEEPEST, Document, MOST_NODES, Place};
 use crate::error::ExchangeError;
 use roxmltree::{ParsingOptions, TextPos};
+
+/// Attributes of one element at most.
+const MOST_ATTRIBUTES: usize = 200;
+
+/// Namespaces of a file at most.
+const MOST_NAMESPACES: usize = 50;
 
 /// Reads XML.
 ///
 /// # Errors
-/// [`ExchangeError::Syntax`].
+/// [`ExchangeError::Syntax`], [`ExchangeError::TooLarge`].
 pub(crate) fn parse(file: &str, text: &str) -> Result<Document, ExchangeError> {
+    let mut document = Document::new(file);
+    check_bounds(&document, text)?;
     let options = ParsingOptions { allow_dtd: true, ..ParsingOptions::default() };
-    let document = roxmltree::Document::parse_with_options(text, options).map_err(|error| {
+    let parsed = roxmltree::Document::parse_with_options(text, options).map_err(|error| {
         let TextPos { row, col } = error.pos();
         let message = error.to_string();
         let message = message.split(" at ").next().unwrap_or_default().to_owned();
-        ExchangeError::Syntax { file: file.to_owned(), line: row as usize, column: col as usize, message }
+        document.syntax((row as usize, col as usize), message)
     })?;
-    let mut root = tree(file, &document, document.root_element(), 0)?;
-    root.name_paths();
-    Ok(Document { file: file.to_owned(), root })
+    let mut cursor = Cursor { text, byte: 0, place: (1, 1) };
+    add(&mut document, 0, parsed.root_element(), &mut cursor)?;
+    Ok(document)
 }
 
-fn tree(
-    file: &str,
-    document: &roxmltree::Document,
+fn add(
+    document: &mut Document,
+    parent: usize,
     element: roxmltree::Node,
-    depth: usize,
-) -> Result<Node, ExchangeError> {
-    let place = |byte: usize| {
-        let TextPos { row, col } = document.text_pos_at(byte);
-        (row as usize, col as usize)
-    };
-    let at = place(element.range().start);
-    if depth > DEEPEST {
-        let message = format!("elements nested more than {DEEPEST} deep");
-        return Err(ExchangeError::Syntax { file: file.to_owned(), line: at.0, column: at.1, message });
-    }
-    let mut node = Node::new(file, element.tag_name().name(), at);
-    for attribute in element.attributes() {
-        let name = format!("@{}", attribute.name());
-        node.push(Node::new(file, &name, place(attribute.range().start)).with_text(attribute.value()));
-    }
+    cursor: &mut Cursor,
+) -> Result<(), ExchangeError> {
+    let place = cursor.place_of(element.range().start);
     let text: String =
         element.children().filter_map(|child| child.text().filter(|_| child.is_text())).collect();
-    node = node.with_text(text);
-    for child in element.children().filter(roxmltree::Node::is_element) {
-        node.push(tree(file, document, child, depth + 1)?);
+    let id = document.push(parent, element.tag_name().name(), place, Some(text))?;
+    for attribute in element.attributes() {
+        let (name, place) = (format!("@{}", attribute.name()), cursor.place_of(attribute.range().start));
+        document.push(id, &name, place, Some(attribute.value().to_owned()))?;
     }
-    Ok(node)
+    let mut children = element.children().filter(roxmltree::Node::is_element);
+    children.try_for_each(|child| add(document, id, child, cursor))
+}
+
+/// Lines and columns of bytes that are asked for in the order of the text.
+struct Cursor<'a> {
+    text: &'a str,
+    byte: usize,
+    place: Place,
+}
+
+impl Cursor<'_> {
+    fn place_of(&mut self, byte: usize) -> Place {
+        for c in self.text[self.byte..byte].chars() {
+            let (line, column) = self.place;
+            self.place = if c == '\n' { (line + 1, 1) } else { (line, column + 1) };
+        }
+        self.byte = byte;
+        self.place
+    }
+}
+
+/// Refuses what the parser would need too much time, memory or stack for. What is not well-formed is left to
+/// the parser.
+fn check_bounds(document: &Document, text: &str) -> Result<(), ExchangeError> {
+    let place = |byte: usize| Cursor { text, byte: 0, place: (1, 1) }.place_of(byte);
+    if let Some((byte, _)) = text.match_indices("xmlns").nth(MOST_NAMESPACES) {
+        return Err(document.too_large("namespaces", MOST_NAMESPACES, place(byte)));
+    }
+    let (mut at, mut depth, mut nodes) = (0, 0, 0);
+    while let Some(found) = text[at..].find('<') {
+        let start = at + found;
+        let after = |end: &str| text[start..].find(end).map(|found| start + found + end.len());
+        let rest = &text[start..];
+        let end = if rest.starts_with("<!--") {
+            text[start + 4..].find("-->").map(|found| start + 4 + found + 3)
+        } else if rest.starts_with("<![CDATA[") {
+            after("]]>")
+        } else if rest.starts_with("<?") {
+            after("?>")
+        } else {
+            let tag = Tag::of(rest);
+            if rest.starts_with("<!") && tag.has_declarations {
+                let message = "a document type with declarations of its own, such as entities: expected none";
+                return Err(document.syntax(place(start), message.to_owned()));
+            }
+            if rest.starts_with("</") {
+                depth -= usize::from(depth > 0);
+            } else if !rest.starts_with("<!") {
+                nodes += 1 + tag.attributes;
+                if tag.attributes > MOST_ATTRIBUTES {
+                    let what = "attributes of an element";
+                    return Err(document.too_large(what, MOST_ATTRIBUTES, place(start)));
+                }
+                if nodes > MOST_NODES {
+                    return Err(document.too_large("elements and attributes", MOST_NODES, place(start)));
+                }
+                if depth >= DEEPEST {
+                    let message = format!("elements nested more than {DEEPEST} deep");
+                    return Err(document.syntax(place(start), message));
+                }
+                depth += usize::from(!tag.is_empty);
+            }
+            tag.length.map(|length| start + length)
+        };
+        let Some(end) = end else { break };
+        at = end;
+    }
+    Ok(())
+}
+
+/// A tag, or the declaration of the document's type.
+struct Tag {
+    /// Bytes from `<` to `>`; `None` where it does not end.
+    length: Option<usize>,
+    attributes: usize,
+    /// Whether it ends with `/>`.
+    is_empty: bool,
+    /// Whether a `[` stands in it.
+    has_declarations: bool,
+}
+
+impl Tag {
+    fn of(text: &str) -> Self {
+        let mut tag = Self { length: None, attributes: 0, is_empty: false, has_declarations: false };
+        let mut quote = None;
+        let mut before = b' ';
+        for (i, byte) in text.bytes().enumerate() {
+            match (quote, byte) {
+                (Some(open), _) if byte == open => quote = None,
+                (Some(_), _) => {}
+                (None, b'"' | b'\'') => quote = Some(byte),
+                (None, b'=') => tag.attributes += 1,
+                (None, b'[') => {
+                    tag.has_declarations = true;
+                    return tag;
+                }
+                (None, b'>') => {
+                    tag.is_empty = before == b'/';
+                    tag.length = Some(i + 1);
+                    return tag;
+                }
+                (None, _) => {}
+            }
+            before = byte;
+        }
+        tag
+    }
 }

@@ -6,7 +6,8 @@
 use crate::document::{Document, Node};
 use crate::draft::{Draft, DraftCable, NoteKind};
 use crate::error::ExchangeError;
-use cdpr_robot::{CableProperties, Matrix3, Pulley, Vector3};
+use cdpr_robot::{CableProperties, Matrix3, Plane, Pulley, Vector3};
+use std::collections::{HashMap, HashSet};
 use std::f64::consts::PI;
 
 /// Reads a robot.
@@ -14,43 +15,103 @@ use std::f64::consts::PI;
 /// # Errors
 /// [`ExchangeError::Value`] with file, line and element.
 pub(crate) fn read(document: &Document) -> Result<Draft, ExchangeError> {
-    let robot = document.root.need("robot")?;
+    let root = document.root();
+    let robot = root.need("robot")?;
     let mut draft =
         Draft { source: format!("Imported from {} of WireX.", document.file), ..Draft::default() };
-    let name = robot.get("@name").map_or("", Node::text);
+    let name = robot.text_in("@name");
     draft.name = if name.is_empty() { "robot" } else { name }.to_owned();
-    for said in ["@description", "@author"].into_iter().filter_map(|name| robot.get(name)) {
-        draft.source += &format!(" {}.", said.text());
+    for said in ["@description", "@author"].map(|name| robot.text_in(name)) {
+        if !said.is_empty() {
+            draft.source += &format!(" {said}.");
+        }
     }
-    let properties = match document.root.get("cable") {
-        Some(cable) => read_properties(&mut draft, document, cable)?,
-        None => None,
-    };
-    let min = match document.root.get("cable") {
-        Some(cable) => cable.number_in("@minimum_load")?,
-        None => None,
-    };
+    let mut properties = None;
+    let (mut min, mut max) = (None, None);
+    if let Some(cable) = root.get("cable") {
+        properties = read_properties(&mut draft, &cable)?;
+        min = positive(cable.number_in("@minimum_load")?);
+    }
+    if let Some(application) = robot.get("application") {
+        // Both have to be kept: the cable's and the application's.
+        min = strictest(min, positive(application.number_in("@min_cable_load")?), f64::max);
+        max = positive(application.number_in("@max_cable_load")?);
+    }
+    let winches = winch_limits(&mut draft, &root)?;
     for chain in robot.need("geometry")?.all("chain") {
         let (base, platform) = (chain.need("base")?, chain.need("platform")?);
         let radius = base.number_in("@radius")?.unwrap_or(0.0);
-        let axis = vector(base, ["@a13", "@a23", "@a33"]);
-        let pulley = if radius > 0.0 { Some(Pulley { radius, axis: axis? }) } else { None };
-        let max = winch_limit(&mut draft, document, chain)?;
+        let of_winch = winches.get(chain.text_in("@winchtype")).copied();
         draft.cables.push(DraftCable {
-            exit_point: vector(base, ["@x", "@y", "@z"])?,
-            anchor_point: vector(platform, ["@x", "@y", "@z"])?,
-            pulley,
+            exit_point: vector(&base, ["@x", "@y", "@z"])?,
+            anchor_point: vector(&platform, ["@x", "@y", "@z"])?,
+            pulley: if radius > 0.0 { Some(Pulley { radius, axis: vector(&base, AXIS)? }) } else { None },
             min,
-            max,
+            max: strictest(max, of_winch, f64::min),
             properties: properties.clone(),
-            stiffness: None,
+            ..DraftCable::default()
         });
     }
-    read_platform(&mut draft, document, robot.need("platform")?)?;
-    question_axes(&mut draft, document, robot);
-    draft.notes.dedup_by(|a, b| a.text == b.text);
-    draft.list_unread(document);
+    read_pattern(&mut draft, &robot)?;
+    read_platform(&mut draft, &robot.need("platform")?)?;
+    question_axes(&mut draft, &robot);
+    draft.list_unread(document, is_harmless)?;
     Ok(draft)
+}
+
+/// Attributes of a matrix with the direction in which a cable enters a pulley.
+const AXIS: [&str; 3] = ["@a13", "@a23", "@a33"];
+
+fn positive(value: Option<f64>) -> Option<f64> {
+    value.filter(|value| *value > 0.0)
+}
+
+/// The stricter one of two limits.
+fn strictest(a: Option<f64>, b: Option<f64>, stricter: fn(f64, f64) -> f64) -> Option<f64> {
+    match (a, b) {
+        (Some(a), Some(b)) => Some(stricter(a, b)),
+        _ => a.or(b),
+    }
+}
+
+/// Names, the orientations of platform and pulleys but for the axes, winches, prices, the application's load.
+fn is_harmless(within: &str, name: &str) -> bool {
+    let of_matrix = name.len() == 4 && name.starts_with("@a");
+    within.contains("winch")
+        || of_matrix
+        || ["@name", "@id", "@version", "@description", "@author", "@generator", "@date"].contains(&name)
+        || match within {
+            "models" => ["cable", "winch", "controller"].contains(&name),
+            "models/cable" => !name.ends_with("_load"),
+            "models/robot/platform" => ["@swing_angle", "geometry"].contains(&name),
+            "models/robot/application" => ["@load_mass", "@load_moment"].contains(&name),
+            "models/robot" => name == "controller",
+            _ => false,
+        }
+}
+
+/// Which motions the platform has.
+fn read_pattern(draft: &mut Draft, robot: &Node) -> Result<(), ExchangeError> {
+    let Some(pattern) = robot.get("@motionpattern") else { return Ok(()) };
+    let (is_planar, held_rotation) = match pattern.text() {
+        "" | "3R3T" => (false, false),
+        "3T" => (false, true),
+        "1R2T" => (true, false),
+        "2T" => (true, true),
+        _ => return Err(pattern.error("3R3T, 3T, 1R2T or 2T: other robots are not imported")),
+    };
+    draft.held_rotation = held_rotation;
+    if is_planar {
+        let lies_in = |plane: &Plane| {
+            let first = draft.cables.first().map_or(0.0, |cable| cable.exit_point[plane.normal()]);
+            draft.cables.iter().all(|cable| cable.exit_point[plane.normal()] == first)
+        };
+        let Some(plane) = [Plane::Xy, Plane::Xz, Plane::Yz].into_iter().find(lies_in) else {
+            return Err(pattern.error("3R3T, as the exit points lie in no plane of the base frame"));
+        };
+        draft.plane = Some(plane);
+    }
+    Ok(())
 }
 
 fn vector(node: &Node, names: [&str; 3]) -> Result<Vector3<f64>, ExchangeError> {
@@ -59,11 +120,7 @@ fn vector(node: &Node, names: [&str; 3]) -> Result<Vector3<f64>, ExchangeError> 
 }
 
 /// Properties of the cables, if the file has all of them.
-fn read_properties(
-    draft: &mut Draft,
-    document: &Document,
-    cable: &Node,
-) -> Result<Option<CableProperties>, ExchangeError> {
+fn read_properties(draft: &mut Draft, cable: &Node) -> Result<Option<CableProperties>, ExchangeError> {
     let radius = cable.number_in("@radius")?;
     let density = cable.number_in("@weight")?;
     let modulus = cable.number_in("@elasticity")?;
@@ -71,7 +128,7 @@ fn read_properties(
     let (Some(radius), Some(linear_density), Some(youngs_modulus)) = (radius, density, modulus) else {
         return Ok(None);
     };
-    let mut question = |text: &str| draft.note(NoteKind::Questioned, document, cable, text);
+    let mut question = |text: &str| draft.note(NoteKind::Questioned, cable, text);
     if (radius, linear_density, youngs_modulus) == (0.006, 0.023, 1.1e11) {
         question("the cable is that of the template: 6 mm radius, 0.023 kg/m, 110 GPa");
     }
@@ -90,56 +147,66 @@ fn read_properties(
 /// Strengths of steel wire [Pa].
 const GRADES: [f64; 4] = [1.57e9, 1.77e9, 1.96e9, 2.16e9];
 
-/// Greatest force of the winch of a chain [N].
-fn winch_limit(draft: &mut Draft, document: &Document, chain: &Node) -> Result<Option<f64>, ExchangeError> {
-    let kind = chain.get("@winchtype").map(Node::text);
-    let of_kind = |winch: &&Node| winch.get("@name").map(Node::text) == kind;
-    let Some(winch) = document.root.all("winch").find(of_kind) else { return Ok(None) };
-    let Some(cable) = winch.get("cable") else { return Ok(None) };
-    let Some(limit) = cable.get("@f_max") else { return Ok(None) };
-    let max = limit.number()?;
-    if max == 720.0 {
-        let text = "the greatest force of the winch, 720 N, is that of the template";
-        draft.note(NoteKind::Questioned, document, limit, text);
+/// Greatest forces of the winches [N] by their names.
+fn winch_limits<'a>(draft: &mut Draft, root: &Node<'a>) -> Result<HashMap<&'a str, f64>, ExchangeError> {
+    let mut limits = HashMap::new();
+    let mut names = HashSet::new();
+    for winch in root.all("winch") {
+        let name = winch.text_in("@name");
+        if !names.insert(name) {
+            return Err(winch.value_error(Some("@name"), &format!("{name:?}, there twice"), "one of a name"));
+        }
+        let Some(limit) = winch.get("cable").and_then(|cable| cable.get("@f_max")) else { continue };
+        let max = limit.number()?;
+        if max == 720.0 {
+            let text = "the greatest force of the winch, 720 N, is that of the template";
+            draft.note(NoteKind::Questioned, &limit, text);
+        }
+        if max > 0.0 {
+            limits.insert(name, max);
+        }
     }
-    Ok(Some(max).filter(|max| *max > 0.0))
+    draft.notes.dedup_by(|a, b| a.text == b.text);
+    Ok(limits)
 }
 
-fn read_platform(draft: &mut Draft, document: &Document, platform: &Node) -> Result<(), ExchangeError> {
+fn read_platform(draft: &mut Draft, platform: &Node) -> Result<(), ExchangeError> {
     let mass = platform.need("@mass")?;
     draft.mass = Some(mass.number()?);
     if let Some(center) = platform.get("centerofgravity") {
-        draft.center_of_mass = Some(vector(center, ["@x", "@y", "@z"])?);
+        draft.center_of_mass = Some(vector(&center, ["@x", "@y", "@z"])?);
     }
     let of_template = draft.center_of_mass == Some(Vector3::new(0.0, 1.0, 0.2));
     match (draft.mass == Some(25.0), of_template) {
         (true, true) => {
             let text = "the mass of 25 kg and the centre of mass (0, 1, 0.2) m are those of the template";
-            draft.note(NoteKind::Questioned, document, platform, text);
+            draft.note(NoteKind::Questioned, platform, text);
         }
         (false, true) => {
             let text = "the centre of mass (0, 1, 0.2) m is that of the template";
-            draft.note(NoteKind::Questioned, document, platform, text);
+            draft.note(NoteKind::Questioned, platform, text);
         }
         _ => {}
     }
+    let Some(inertia) = platform.get("inertiatensor") else { return Ok(()) };
     let names = ["@Ixx", "@Iyy", "@Izz", "@Ixy", "@Ixz", "@Iyz"];
-    if let Some(inertia) =
-        platform.get("inertiatensor").filter(|node| names.iter().all(|name| node.has(name)))
-    {
+    if names.iter().all(|name| inertia.has(name)) {
         let [xx, yy, zz, xy, xz, yz] = names.map(|name| inertia.need(name)?.number());
         let (xy, xz, yz) = (xy?, xz?, yz?);
         draft.inertia = Some(Matrix3::new(xx?, xy, xz, xy, yy?, yz, xz, yz, zz?));
         draft.assume("the inertia is about the centre of mass");
+    } else if inertia.text_in("@Ixx") == "14" {
+        draft.note(NoteKind::Questioned, &inertia, "the inertia, Ixx 14 alone, is that of the template");
+        inertia.leave_out();
     }
     Ok(())
 }
 
 /// Questions axes of the template where exit points lie above the platform.
-fn question_axes(draft: &mut Draft, document: &Document, robot: &Node) {
+fn question_axes(draft: &mut Draft, robot: &Node) {
     let upwards = |cable: &DraftCable| cable.pulley.is_some_and(|pulley| pulley.axis == Vector3::z());
     if !draft.cables.is_empty() && draft.cables.iter().all(upwards) {
         let text = "all matrices are those of the template: cables enter all pulleys from below";
-        draft.note(NoteKind::Questioned, document, robot, text);
+        draft.note(NoteKind::Questioned, robot, text);
     }
 }

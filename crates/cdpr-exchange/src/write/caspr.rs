@@ -1,7 +1,7 @@
 //! CASPR: bodies and cables. Cables are linear springs with K = EA, with their pulleys.
 
 use crate::error::ExchangeError;
-use crate::write::scene::{Exported, escaped, inertia, words};
+use crate::write::scene::{Exported, escaped, inertia, unplaced, words};
 use cdpr_robot::{Plane, Pose, Robot};
 use std::fmt::Write;
 
@@ -9,7 +9,8 @@ pub(crate) fn write(robot: &Robot, pose: &Pose) -> Result<Exported, ExchangeErro
     if robot.platform.point {
         return Err(ExchangeError::NoPlace { field: "platform.point".to_owned(), value: "true".to_owned() });
     }
-    let mut notes = vec!["CASPR's cables have no density and no section: their stiffness K is EA".to_owned()];
+    let mut notes = unplaced(robot);
+    notes.push("CASPR's cables have no density and no section: their stiffness K is EA".to_owned());
     let earthly = robot.gravity.vector();
     notes.push(format!("CASPR has its own gravity along -z; that of the robot is {} m/s²", words(&earthly)));
     if robot.cables.iter().any(|cable| cable.lead > 0.0) {

@@ -2,10 +2,11 @@
 //!
 //! A tendon is a spring without weight: f = k (l - L) for l > L, and no force below, which
 //! `springlength="0 L"` says. With k = EA / L it is the straight cable of unstrained length L. The lengths
-//! are those with which straight cables hold the pose.
+//! are those with which straight cables hold the pose. What MuJoCo has no place for is under `custom`, for
+//! the import: section, density, modulus, diameter, breaking force (0 if not known) and limits of each cable.
 
 use crate::error::ExchangeError;
-use crate::write::scene::{Exported, check_plain, escaped, inertia, words};
+use crate::write::scene::{Exported, check_plain, escaped, inertia, unplaced, words};
 use cdpr_robot::{Pose, Robot, UnitQuaternion};
 use cdpr_statics::{Load, inverse};
 use std::fmt::Write;
@@ -15,7 +16,7 @@ pub(crate) fn write(robot: &Robot, pose: &Pose) -> Result<Exported, ExchangeErro
     let mut straight = robot.clone();
     straight.cables.iter_mut().for_each(|cable| cable.properties.linear_density = 0.0);
     let lengths = inverse(&straight, pose, &Load::none(), None)?.lengths;
-    let mut notes = Vec::new();
+    let mut notes = unplaced(robot);
     let weight: f64 =
         robot.cables.iter().zip(&lengths).map(|(cable, l)| cable.properties.linear_density * l).sum();
     if weight > 0.0 {
@@ -38,13 +39,11 @@ pub(crate) fn write(robot: &Robot, pose: &Pose) -> Result<Exported, ExchangeErro
     let size = robot.platform_size().max(0.01);
     let mut text = format!(
         r#"<mujoco model="{name}">
-  <!-- {said} -->
   <compiler angle="radian"/>
   <option gravity="{gravity}" timestep="0.0005" integrator="implicitfast"/>
   <worldbody>
 "#,
         name = escaped(&robot.name),
-        said = escaped(robot.provenance.source.as_deref().unwrap_or("source not known")),
         gravity = words(&robot.gravity.vector()),
     );
     // Writing to a string cannot fail.
@@ -79,6 +78,26 @@ pub(crate) fn write(robot: &Robot, pose: &Pose) -> Result<Exported, ExchangeErro
     </spatial>"
         );
     }
-    text += "  </tendon>\n</mujoco>\n";
+    text += "  </tendon>\n  <custom>\n";
+    if let Some(source) = &robot.provenance.source {
+        let _ = writeln!(text, "    <text name=\"source\" data=\"{}\"/>", escaped(source));
+    }
+    for (i, cable) in robot.cables.iter().enumerate() {
+        let (number, p, limits) = (i + 1, &cable.properties, robot.limits(i));
+        let known = |value: Option<f64>| value.unwrap_or(0.0);
+        let _ = writeln!(
+            text,
+            "    <numeric name=\"cable_{number}.properties\" data=\"{:?} {:?} {:?} {:?} {:?}\"/>
+    <numeric name=\"cable_{number}.tension_limits\" data=\"{:?} {:?}\"/>",
+            p.section,
+            p.linear_density,
+            p.youngs_modulus,
+            known(p.diameter),
+            known(p.breaking_force),
+            limits.min,
+            limits.max,
+        );
+    }
+    text += "  </custom>\n</mujoco>\n";
     Ok(Exported { files: vec![(".xml", text)], notes })
 }

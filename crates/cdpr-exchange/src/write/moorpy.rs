@@ -1,7 +1,7 @@
 //! MoorPy and MoorDyn: fixed points, a free body and elastic catenaries, in air.
 
 use crate::error::ExchangeError;
-use crate::write::scene::{Exported, check_plain, inertia, words};
+use crate::write::scene::{Exported, check_plain, inertia, unplaced, words};
 use cdpr_robot::{Pose, Robot};
 use cdpr_statics::{Load, inverse};
 use std::f64::consts::PI;
@@ -16,11 +16,12 @@ pub(crate) fn write(robot: &Robot, pose: &Pose) -> Result<Exported, ExchangeErro
     }
     let lengths = inverse(robot, pose, &Load::none(), None)?.lengths;
     let (about_center, assumed) = inertia(robot);
-    let mut notes = vec![
-        "MoorPy's lines are elastic catenaries between points: limits of tension and products of inertia have no \
-         place"
+    let mut notes = unplaced(robot);
+    notes.push(
+        "MoorPy's lines are elastic catenaries between points: limits of tension and products of inertia \
+         have no place"
             .to_owned(),
-    ];
+    );
     if assumed {
         notes.push(
             "the inertia is that of a ball as large as the platform: the robot file has none".to_owned(),

@@ -1,7 +1,7 @@
 //! What several formats need of a robot: its inertia, its plain cables, its texts.
 
 use crate::error::ExchangeError;
-use cdpr_robot::{Matrix3, Robot, Vector3};
+use cdpr_robot::{CableEnd, Matrix3, Robot, Vector3};
 
 /// A robot in the files of another program.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,19 +43,38 @@ pub(crate) fn check_plain(robot: &Robot) -> Result<(), ExchangeError> {
     Ok(())
 }
 
+/// What no other format has a place for.
+pub(crate) fn unplaced(robot: &Robot) -> Vec<String> {
+    let mut notes = Vec::new();
+    if robot.tension_reference.is_some() {
+        notes.push("the preferred tensions (tension_reference) have no place".to_owned());
+    }
+    if (0..robot.cables.len()).any(|i| robot.max_at(i) == CableEnd::Exit) {
+        notes.push("that the greatest tensions are those at the exit points has no place".to_owned());
+    }
+    notes
+}
+
 /// Three numbers to the last bit, separated by spaces.
 pub(crate) fn words(vector: &Vector3<f64>) -> String {
     let [x, y, z]: [f64; 3] = (*vector).into();
     format!("{x:?} {y:?} {z:?}")
 }
 
-/// A text within XML.
+/// A text within an attribute of XML. Characters that XML has no place for are written as JSON escapes them.
 pub(crate) fn escaped(text: &str) -> String {
-    let plain: String = text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
-    plain
-        .replace('&', "&amp;")
-        .replace('<', "&lt;")
-        .replace('>', "&gt;")
-        .replace('"', "&quot;")
-        .replace("--", "- -")
+    let mut escaped = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => escaped.push_str("&amp;"),
+            '<' => escaped.push_str("&lt;"),
+            '>' => escaped.push_str("&gt;"),
+            '"' => escaped.push_str("&quot;"),
+            // As themselves they would be read as spaces.
+            '\t' | '\n' | '\r' => escaped.push_str(&format!("&#{};", u32::from(c))),
+            '\0'..'\u{20}' | '\u{fffe}' | '\u{ffff}' => escaped.push_str(&format!("\\u{:04x}", u32::from(c))),
+            c => escaped.push(c),
+        }
+    }
+    escaped
 }

@@ -68,8 +68,9 @@ def import_robot(
 ) -> Imported:
     """Makes a robot of the files of another program, as `cdpr import` does.
 
-    files: bodies and cables of CASPR or the folder that has them, a .wcrfx file of WireX, YAML of oKermorgant's
-        cdpr, JSON of IRMA, or a table of points (CSV).
+    files: bodies and cables of CASPR or the folder that has them, a .wcrfx file of WireX, a model of MuJoCo,
+        YAML of oKermorgant's cdpr or the SDF made of it, JSON of IRMA, a system of MoorPy or MoorDyn, or a
+        table of points (CSV).
     cable: cable of all cables: a cable file, or a name of `cables()`.
     mass: mass of the platform [kg], in place of that in the files.
     center_of_mass: in the platform frame [m], (3,), in place of that in the files.
