@@ -148,6 +148,9 @@ fn caroca_study(mut rest: Vec<String>) -> ExitCode {
 fn robustness(mut rest: Vec<String>) -> ExitCode {
     default(&mut rest, "--out", "target/robustness");
     default(&mut rest, "--robot", "data/robots/cogiro.json");
+    if !rest.iter().any(|word| word == "--overwrite") {
+        rest.push("--overwrite".to_owned());
+    }
     eprintln!("building the program (a few minutes the first time), then looking for poses");
     cdpr(&["robustness"], &rest)
 }

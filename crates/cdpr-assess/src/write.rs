@@ -4,7 +4,7 @@ use crate::boundary::Boundary;
 use crate::robustness::{Answer, Refusal, RobustnessResult, RobustnessSummary, in_degrees};
 use crate::workspace::WorkspaceSummary;
 use cdpr_robot::{Pose, Vector3};
-use cdpr_study::{ResultsFolder, ResultsOf, StudyError};
+use cdpr_study::{IfExists, ResultsFolder, ResultsOf, StudyError, read_result};
 use serde::Deserialize;
 use std::path::Path;
 
@@ -22,7 +22,7 @@ const ROBUSTNESS: &str = "robustness.json";
 ///
 /// # Errors
 /// As [`ResultsFolder::begin`].
-pub fn begin_workspace(folder: &Path) -> Result<ResultsFolder, StudyError> {
+pub fn begin_workspace(folder: &Path, if_exists: IfExists) -> Result<ResultsFolder, StudyError> {
     let is_map = |name: &str| {
         let maps = [
             "deflection",
@@ -41,7 +41,7 @@ pub fn begin_workspace(folder: &Path) -> Result<ResultsFolder, StudyError> {
         let name = name.strip_suffix(".svg");
         name.is_some_and(|name| maps.contains(&name.split_once("_z").map_or(name, |(map, _)| map)))
     };
-    ResultsFolder::begin(folder, ResultsOf::Workspace, |name| {
+    ResultsFolder::begin(folder, ResultsOf::Workspace, if_exists, |name| {
         [WORKSPACE, "workspace.csv", POLYGONS, MESH].contains(&name) || is_map(name)
     })
 }
@@ -85,6 +85,8 @@ fn write_boundary(folder: &ResultsFolder, boundary: &Boundary) -> Result<(), Stu
 pub struct FoundRegion {
     /// Name of the robot.
     pub robot: String,
+    /// Hash of the robot ([`cdpr_study::robot_hash`]).
+    pub robot_hash: String,
     /// How the load is borne: `anew` or `kept`.
     pub way: String,
     /// Mass added at the platform's centre of mass [kg].
@@ -101,11 +103,12 @@ pub struct FoundRegion {
 ///
 /// # Errors
 /// [`StudyError::Read`] for a folder without the results of a workspace; [`StudyError::Invalid`] for a
-/// workspace without a boundary, and for a file that has been changed.
+/// workspace without a boundary; [`StudyError::Changed`] for a file that was changed since.
 pub fn read_region(folder: &Path) -> Result<FoundRegion, StudyError> {
     #[derive(Deserialize)]
     struct Summary {
         robot: String,
+        robot_hash: String,
         payload: f64,
         boundary: Option<Region>,
     }
@@ -115,10 +118,7 @@ pub fn read_region(folder: &Path) -> Result<FoundRegion, StudyError> {
         measure: f64,
         unit: String,
     }
-    let read = |name: &str| {
-        let path = folder.join(name);
-        std::fs::read(&path).map_err(|source| StudyError::Read { path, source })
-    };
+    let read = |name: &str| read_result(folder, name);
     let wrong = |name: &str, field: &str, value: String, expected: &str| StudyError::Invalid {
         path: folder.join(name),
         field: field.to_owned(),
@@ -152,17 +152,17 @@ pub fn read_region(folder: &Path) -> Result<FoundRegion, StudyError> {
         triangles =
             mesh.ok_or_else(|| wrong(MESH, "the file", "of another form".to_owned(), "a binary STL file"))?;
     }
-    let Summary { robot, payload, .. } = summary;
-    Ok(FoundRegion { robot, way, payload, measure, polygons, triangles })
+    let Summary { robot, robot_hash, payload, .. } = summary;
+    Ok(FoundRegion { robot, robot_hash, way, payload, measure, polygons, triangles })
 }
 
 /// Makes a folder for the robustness of the direct model, or takes one of an earlier run.
 ///
 /// # Errors
 /// As [`ResultsFolder::begin`].
-pub fn begin_robustness(folder: &Path) -> Result<ResultsFolder, StudyError> {
+pub fn begin_robustness(folder: &Path, if_exists: IfExists) -> Result<ResultsFolder, StudyError> {
     let names = [ROBUSTNESS, "solves.csv", "refused.csv", "found_poses.svg", "success_share.svg"];
-    ResultsFolder::begin(folder, ResultsOf::Robustness, |name| names.contains(&name))
+    ResultsFolder::begin(folder, ResultsOf::Robustness, if_exists, |name| names.contains(&name))
 }
 
 /// Writes `solves.csv`, `refused.csv`, the figures (name and text), and, last of all, `robustness.json`.

@@ -8,7 +8,7 @@ use crate::results::summary::{CalibrationSummary, Context};
 use crate::table::Measurements;
 use crate::unknowns::Unknowns;
 use cdpr_robot::Robot;
-use cdpr_study::ErrorModel;
+use cdpr_study::{ErrorModel, IfExists};
 use std::path::Path;
 use std::time::Instant;
 
@@ -49,11 +49,12 @@ pub struct Calibrated {
 pub fn carry_out(
     campaign: &Campaign,
     out: &Path,
+    if_exists: IfExists,
     report: impl FnOnce(&Robot, &CalibrationSummary, &Fit) -> String,
 ) -> Result<Calibrated, CalibrationError> {
     let Campaign { robot, unknowns, settings, .. } = campaign;
     let rows = &campaign.measured.rows;
-    let folder = begin_calibration(out)?;
+    let folder = begin_calibration(out, if_exists)?;
     let clock = Instant::now();
     let found = fit(robot, rows, unknowns, settings)?;
     let seconds = clock.elapsed().as_secs_f64();

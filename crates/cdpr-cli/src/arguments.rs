@@ -6,7 +6,9 @@ use crate::error::ProgramError;
 use cdpr_assess::PoseRegion;
 use cdpr_robot::{Coordinate, Parameter, Robot, TensionReference, Wrench, shown};
 use cdpr_statics::Load;
-use cdpr_study::{ErrorModel, Grid, GridAxis, Study, open_robot, open_robot_in_any_unit};
+use cdpr_study::{
+    ErrorModel, Grid, GridAxis, IfExists, Study, open_robot, open_robot_in_any_unit, write_text,
+};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
@@ -30,12 +32,51 @@ impl Format {
     }
 }
 
+/// What becomes of files and results that are there already.
+#[derive(clap::Args)]
+pub(crate) struct Overwrite {
+    /// Replace the file, or the results in the folder, that are there already.
+    #[arg(long)]
+    overwrite: bool,
+}
+
+impl Overwrite {
+    /// What becomes of them.
+    pub(crate) fn if_exists(&self) -> IfExists {
+        IfExists::overwriting(self.overwrite)
+    }
+
+    /// Writes a text to a file of the user's choice.
+    pub(crate) fn write(&self, path: &Path, text: &str) -> Result<(), ProgramError> {
+        Ok(write_text(path, text, self.if_exists())?)
+    }
+}
+
 /// How many threads compute.
 #[derive(clap::Args)]
 pub(crate) struct Threads {
     /// Threads; all cores if left out. The numbers do not depend on it.
-    #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(long, value_parser = clap::value_parser!(u16).range(1..=MOST_THREADS))]
     pub(crate) threads: Option<u16>,
+}
+
+/// Greatest number of threads.
+const MOST_THREADS: i64 = 1024;
+
+/// Variable of the environment with the number of threads where `--threads` is left out.
+pub(crate) const THREAD_VARIABLE: &str = "RAYON_NUM_THREADS";
+
+/// Checks the number of threads of the environment. Without a number, all cores compute.
+pub(crate) fn check_thread_variable(value: Option<&str>) -> Result<(), ProgramError> {
+    match value.map(|text| (text, text.trim().parse::<f64>())) {
+        Some((text, Ok(threads))) if !(0.0..=MOST_THREADS as f64).contains(&threads) => {
+            let expected = format!(
+                "{THREAD_VARIABLE} is {text}: expected 1 to {MOST_THREADS} threads, or 0 for all cores"
+            );
+            Err(ProgramError::Usage(expected))
+        }
+        _ => Ok(()),
+    }
 }
 
 impl Threads {
@@ -45,6 +86,12 @@ impl Threads {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
         pool.map_err(|source| ProgramError::Threads { threads, source })
     }
+}
+
+/// A name for results of a robot in the current folder: that of its file, and what they are of.
+pub(crate) fn named_after(robot: &Path, of: &str) -> PathBuf {
+    let stem = robot.file_stem().map_or_else(|| "robot".into(), |stem| stem.to_string_lossy());
+    PathBuf::from(format!("{stem}-{of}"))
 }
 
 /// A finite number.

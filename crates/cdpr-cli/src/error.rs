@@ -65,6 +65,8 @@ pub(crate) enum ProgramError {
          MPI that the program was built with"
     )]
     Ranks { expected: usize, found: usize },
+    #[error("cannot ask the system to report files that are too large: {0}")]
+    FileLimit(std::io::Error),
     #[error("cannot wait for Ctrl-C: {0}")]
     Signals(#[from] ctrlc::Error),
     #[error("cannot open {path} in a browser: {reason}; it is written, and any browser opens it")]
@@ -141,8 +143,10 @@ fn with_options(error: &StudyError) -> String {
         StudyError::OtherKind { found: InputKind::Cable, .. } => ": `cdpr import --cable` takes it",
         StudyError::NoSuchName { kind: InputKind::Cable, .. } => "; `cdpr robots --cables` lists them all",
         StudyError::NoSuchName { .. } => "; `cdpr robots` lists them all",
+        StudyError::FileExists { .. } => "; --overwrite replaces it",
+        StudyError::ResultsExist { .. } => "; --overwrite replaces them",
         StudyError::ForeignFolder { .. } => ", or --overwrite what is there",
-        StudyError::FolderInUse { .. } => ": --resume goes on with them, --overwrite begins anew",
+        StudyError::FolderInUse { .. } => ": --resume goes on with them, --overwrite begins again",
         StudyError::MissingBlocks { .. } => ": run the rest with --resume or --shard",
         StudyError::NotAnalysed { .. } => {
             ": analyse it with cdpr study merge, or cdpr study run --resume where blocks are missing"
@@ -153,7 +157,9 @@ fn with_options(error: &StudyError) -> String {
         StudyError::Changed { path } if path.ends_with(ROBOT_NAME) => {
             ": put it back, or give this robot a folder of its own"
         }
-        StudyError::Changed { .. } => ": cdpr study merge makes it again",
+        StudyError::Changed { .. } => {
+            ": move it away; then `cdpr study merge` makes it again for a study, and --overwrite for other commands"
+        }
         _ => "",
     };
     format!("{error}{help}")

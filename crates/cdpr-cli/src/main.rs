@@ -186,13 +186,19 @@ enum Command {
 
 fn main() -> ExitCode {
     match Arguments::try_parse() {
-        Ok(arguments) => output::exit_code(run(arguments.command)),
+        Ok(arguments) => output::exit_code(prepare().and_then(|()| run(arguments.command))),
         Err(error) => {
             let given: Vec<String> =
                 std::env::args_os().skip(1).map(|argument| argument.to_string_lossy().into_owned()).collect();
             output::refused(&slips::hinted(error, &Arguments::command(), &given))
         }
     }
+}
+
+/// What holds for every command: threads are bounded, and a file that grows too large is an error of writing.
+fn prepare() -> Result<(), ProgramError> {
+    output::survive_file_limit()?;
+    arguments::check_thread_variable(std::env::var(arguments::THREAD_VARIABLE).ok().as_deref())
 }
 
 fn run(command: Command) -> Result<Ending, ProgramError> {

@@ -73,6 +73,20 @@ pub(crate) fn print_line(line: fmt::Arguments) {
     }
 }
 
+/// Lets writing beyond the limit of a file's size (`ulimit -f`) fail like other writing. By itself the system
+/// would end the process by a signal.
+pub(crate) fn survive_file_limit() -> Result<(), ProgramError> {
+    #[cfg(unix)]
+    {
+        use std::sync::atomic::AtomicBool;
+        // Nobody reads it: the operation that fails says why.
+        static BEYOND: AtomicBool = AtomicBool::new(false);
+        signal_hook::flag::register(signal_hook::consts::SIGXFSZ, &BEYOND)
+            .map_err(ProgramError::FileLimit)?;
+    }
+    Ok(())
+}
+
 /// Prints what went wrong on the standard error, and returns the exit code.
 ///
 /// A reader that stops reading is no failure.

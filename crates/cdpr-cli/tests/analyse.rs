@@ -53,12 +53,13 @@ fn the_same_table_gives_the_same_numbers_on_any_number_of_threads() {
 }
 
 #[test]
-fn a_report_is_written_once_more_into_its_own_folder_and_into_no_other() {
+fn a_report_is_written_over_the_one_in_its_own_folder_on_request_and_over_no_other() {
     let folder = TempDir::new().unwrap();
     let table = data_path("tables/ishigami.csv");
-    for _ in 0..2 {
-        answered(cdpr_in(folder.path(), &["analyse", &table, "--out", "analysis"]));
-    }
+    let analyse = ["analyse", &table, "--out", "analysis"];
+    answered(cdpr_in(folder.path(), &analyse));
+    assert_eq!(cdpr_in(folder.path(), &analyse).status.code(), Some(1));
+    answered(cdpr_in(folder.path(), &[&analyse[..], &["--overwrite"]].concat()));
     let page = std::fs::read_to_string(folder.path().join("analysis/report.html")).unwrap();
     assert!(page.contains("<circle") && page.contains("<polyline") && !page.contains("<script"));
     std::fs::create_dir(folder.path().join("mine")).unwrap();

@@ -118,8 +118,10 @@ fn a_campaign_gives_a_robot_and_what_is_left_and_a_study_takes_both() {
     let shares = found["uncertainty"]["shares"].as_object().unwrap().values();
     assert!((shares.map(|share| share.as_f64().unwrap()).sum::<f64>() - 1.0).abs() < 1e-9);
 
-    // The same folder takes a further calibration, one of a user does not.
-    assert_eq!(calibrate(&path, &out, &["--model", &model, "--noise", NOISE]).status.code(), Some(0));
+    // The same folder takes a further calibration on request, one of a user does not.
+    let further = ["--model", &model, "--noise", NOISE, "--overwrite"];
+    assert_eq!(calibrate(&path, &out, &further[..4]).status.code(), Some(1));
+    assert_eq!(calibrate(&path, &out, &further).status.code(), Some(0));
     let own = folder.path().join("own");
     std::fs::create_dir(&own).unwrap();
     std::fs::write(own.join("summary.json"), "mine").unwrap();

@@ -31,7 +31,7 @@ fn a_page_of_a_robot_a_study_or_results_names_the_file_of_the_robot() {
         ("results", "results/robot.json", true),
     ];
     for (input, file, has_study) in inputs {
-        answered(cdpr_in(&folder, &["explore", input, "--out", "page.html"]));
+        answered(cdpr_in(&folder, &["explore", input, "--out", "page.html", "--overwrite"]));
         let held = held(&bench.path("page.html"));
         assert_eq!(held["file"], file, "{input}");
         assert_eq!(held["study"].is_object(), has_study, "{input}");

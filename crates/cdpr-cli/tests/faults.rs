@@ -280,9 +280,11 @@ fn a_workspace_that_fails_or_dies_at_any_operation_is_made_again_to_the_same_byt
     let bench = bench();
     let workspace = ["workspace", "robot.json", "--box=0:0.1:2,0:0.1:2,1.75:1.75:1", "--out", "out"];
     let loaded = [&workspace[..], &["--payload", "50"]].concat();
-    let operations = Trial::new(&bench, &loaded, &loaded).at_every_operation();
+    let again = [&loaded[..], &["--overwrite"]].concat();
+    let operations = Trial::new(&bench, &loaded, &again).at_every_operation();
     assert!(operations > 25, "{operations}");
     // Over the maps of the load.
+    let workspace = [&workspace[..], &["--overwrite"]].concat();
     put(&[("mine.csv".to_owned(), b"mine".to_vec())].into(), &bench.path("out"));
     let operations = Trial::new(&bench, &workspace, &workspace).at_every_operation();
     assert!(operations > 25, "{operations}");
@@ -293,7 +295,8 @@ fn the_robustness_of_a_robot_that_fails_or_dies_at_any_operation_is_computed_aga
     let bench = bench();
     let robot = data_path("robots/cogiro.json");
     let command = ["robustness", "--robot", &robot, "--poses", "1", "--out", "out"];
-    let operations = Trial::new(&bench, &command, &command).at_every_operation();
+    let again = [&command[..], &["--overwrite"]].concat();
+    let operations = Trial::new(&bench, &command, &again).at_every_operation();
     assert!(operations > 25, "{operations}");
 }
 

@@ -188,12 +188,14 @@ fn a_report_shows_the_region_of_a_workspace_of_its_robot() {
     let bench = bench();
     bench.run("out", &[]);
     let map = |robot: &str, place: &str, more: &[&str]| {
-        let output =
-            cdpr_in(&bench.path("."), &[&["workspace", robot, place, "--out", "map"], more].concat());
+        let output = cdpr_in(
+            &bench.path("."),
+            &[&["workspace", robot, place, "--out", "map", "--overwrite"], more].concat(),
+        );
         assert!(output.status.success(), "{}", text(output.stderr));
     };
     let region = || {
-        let asked = report(&bench, &["out", "--out", "report.html", "--workspace", "map"]);
+        let asked = report(&bench, &["out", "--out", "report.html", "--workspace", "map", "--overwrite"]);
         assert_eq!(asked, (Some(0), String::new()));
         let page = std::fs::read_to_string(bench.path("report.html")).unwrap();
         let data = page.split_once(r#"id="data">"#).unwrap().1.split_once("</script>").unwrap().0;
@@ -227,7 +229,7 @@ fn a_report_shows_the_region_of_a_workspace_of_its_robot() {
 }
 
 #[test]
-fn a_report_is_written_over_a_report_and_nothing_else() {
+fn a_report_is_written_over_nothing_but_the_same_report() {
     let bench = bench();
     bench.run("out", &[]);
     write(bench.path("mine.html"), "<!DOCTYPE html><title>mine</title>");
@@ -236,7 +238,7 @@ fn a_report_is_written_over_a_report_and_nothing_else() {
     for name in ["study.json", "robot.json", "summary.json", "mechanical.csv", "mechanical.svg"] {
         let (code, message) = report(&bench, &["out", "--out", &format!("out/{name}")]);
         assert!(
-            code == Some(1) && message.contains(&format!("{name} was not written by a run")),
+            code == Some(1) && message.contains(&format!("{name} exists already, with another content")),
             "{message}"
         );
     }
@@ -454,11 +456,19 @@ fn edited_files_of_results_are_noticed_wherever_they_are_read() {
     let status: serde_json::Value =
         serde_json::from_str(&bench.done(&["status", "out", "--format", "json"])).unwrap();
     assert_eq!(status["changed"], json!(["out/mechanical.csv", "out/mechanical.svg"]));
-    // An edited study goes on if it is run, and a changed summary is made again.
+    // An edited study goes on if it is run. A table that somebody has edited is not written over: moved away, it
+    // is made again, and so is a summary.
     bench.change("out/study.json", |study| study["samplings"]["mechanical"]["title"] = json!("Mine"));
-    bench.done(&["run", "out/study.json", "--out", "out", "--resume"]);
+    let resume = ["run", "out/study.json", "--out", "out", "--resume"];
+    assert!(bench.refused(&resume).contains("out/mechanical.csv is not what the run has written here"));
+    std::fs::remove_file(bench.path("out/mechanical.csv")).unwrap();
+    bench.done(&resume);
     write(bench.path("out/summary.json"), "{}");
     assert_eq!(report(&bench, &["out"]).0, Some(1));
+    assert!(
+        bench.refused(&["merge", "out"]).contains("out/summary.json is not what the run has written here")
+    );
+    std::fs::remove_file(bench.path("out/summary.json")).unwrap();
     bench.done(&["merge", "out"]);
     assert!(!bench.done(&["status", "out"]).contains("not what"));
 }

@@ -20,6 +20,7 @@ mod hysteresis;
 mod library;
 mod models;
 mod modulus;
+mod ours;
 mod path;
 mod poses;
 mod robustness;

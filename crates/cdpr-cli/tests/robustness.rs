@@ -117,7 +117,7 @@ fn a_robot_with_few_cables_stands_in_its_own_room_and_beside_no_published_figure
     let low = summary(&folder.path().join("out"))["protocols"]["thirty_poses"]["region_low"].clone();
     assert_ne!(low[0], -6.75);
     let region = ["--region=-1:1,-0.5:0.5,1:2"];
-    let output = run(folder.path(), &[&given[..], &region].concat());
+    let output = run(folder.path(), &[&given[..], &region, &["--overwrite"]].concat());
     assert!(output.status.success());
     let low = summary(&folder.path().join("out"))["protocols"]["thirty_poses"]["region_low"].clone();
     assert_eq!(low, serde_json::json!([-1.0, -0.5, 1.0]));

@@ -236,7 +236,7 @@ fn blocks_of_another_study_are_refused_with_both_hashes() {
     std::fs::copy(&block_files(&bench, "other")[2], &block_files(&bench, "other")[0]).unwrap();
     let message = bench.refused(&["merge", "other"]);
     assert!(message.contains("is of design sampling: expected replicate-1"), "{message}");
-    // With `--overwrite` it begins anew.
+    // With `--overwrite` it begins again.
     bench.run("out", &["--overwrite"]);
     assert!(bench.path("out/summary.json").exists());
 }
@@ -266,7 +266,7 @@ fn a_folder_in_use_is_refused_and_nothing_of_it_touched() {
     let message = bench.refused(&["run", "study.json", "--out", "out"]);
     assert_eq!(
         message,
-        "error: out holds 6 blocks of this study: --resume goes on with them, --overwrite begins anew\n"
+        "error: out holds 6 blocks of this study: --resume goes on with them, --overwrite begins again\n"
     );
     assert_eq!(bench.results("out"), before);
     // A study file that no run has written, the very one to run among them.

@@ -81,7 +81,7 @@ fn every_other_command_with_the_inverse_model_takes_preferred_tensions_and_refus
     let law = data_path("robots/caroca-law.json");
     let commands: [&[&str]; 5] = [
         &["hysteresis", &law, "--pose", "0,0,1.75", "--payload", "50"],
-        &["workspace", &robot, "--box=-1:1:2,0:0:1,1.5:1.5:1", "--payload", "50"],
+        &["workspace", &robot, "--box=-1:1:2,0:0:1,1.5:1.5:1", "--payload", "50", "--overwrite"],
         &[
             "calibration",
             "identify",
@@ -254,10 +254,11 @@ fn a_tension_that_is_too_much_in_any_answer_is_named_and_ends_with_code_3() {
             }
             let around: Vec<_> = pose.split(',').map(|at| format!("{at}:{at}:1")).collect();
             let grid = format!("--box={}", around.join(","));
-            let (code, printed) = ended(folder, &["workspace", "--payload", &payload, &grid]);
+            let (code, printed) =
+                ended(folder, &["workspace", "--payload", &payload, &grid, "--out", "map", "--overwrite"]);
             let words = "1 with tensions above tension_limits.max or a breaking force";
             assert!(code == 3 && printed.contains(words), "{file}: {printed}");
-            let table = std::fs::read_to_string(folder.path().join("workspace/workspace.csv")).unwrap();
+            let table = std::fs::read_to_string(folder.path().join("map/workspace.csv")).unwrap();
             assert!(table.contains(&name) && table.contains("beyond_limits"), "{table}");
         }
         // The inverse model keeps limits of tensions, and not breaking forces.

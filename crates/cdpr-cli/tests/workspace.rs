@@ -109,7 +109,7 @@ fn any_load_and_any_orientation_have_a_workspace_and_without_a_load_nothing_is_d
     let folder = TempDir::new().unwrap();
     let region = "--box=-0.5:0.5:3,-0.5:0.5:3,1.75:1.75:1";
     let summary = |arguments: &[&str]| {
-        let arguments = [&[region, "--format", "json", "--out", "out"], arguments].concat();
+        let arguments = [&[region, "--format", "json", "--out", "out", "--overwrite"], arguments].concat();
         serde_json::from_str::<Value>(&run(folder.path(), &arguments)).unwrap()
     };
     let turned = summary(&["--rotation", "1,0,0,0.05", "--force", "0,200,0", "--moment", "0,0,10"]);

@@ -11,7 +11,7 @@ use cdpr_assess::{
 use cdpr_cable::{Measured, Phase, SecantModulus, Specimen};
 use cdpr_robot::Pose;
 use cdpr_statics::{CycleStep, HysteresisLaw, LoadCycle, Unloading, load_cycle};
-use cdpr_study::{CableLaw, Study, elastic_laws, open_law, open_record, open_robot_in_any_unit};
+use cdpr_study::{CableLaw, IfExists, Study, elastic_laws, open_law, open_record, open_robot_in_any_unit};
 use pyo3::prelude::*;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -77,6 +77,7 @@ pub(crate) fn robustness(
     free: Option<Vec<String>>,
     seed: Bound<PyAny>,
     out: Option<PathBuf>,
+    overwrite: bool,
     progress: Option<Py<PyAny>>,
     threads: Option<usize>,
 ) -> Answer<String> {
@@ -92,7 +93,8 @@ pub(crate) fn robustness(
     };
     watched(py, threads, poll, |_| -> Answer<String> {
         protocols.iter().try_for_each(cdpr_assess::Protocol::validate)?;
-        let folder = out.as_deref().map(begin_robustness).transpose()?;
+        let folder =
+            out.as_deref().map(|out| begin_robustness(out, IfExists::overwriting(overwrite))).transpose()?;
         let tick = || {
             done.fetch_add(1, Ordering::Relaxed);
         };

@@ -12,7 +12,7 @@ use cdpr_calibration::{
 use cdpr_report::calibration_report;
 use cdpr_robot::{CableEnd, Pose, Vector3};
 use cdpr_statics::Load;
-use cdpr_study::{InputKind, open_errors, read_text, uncertainties, write_text};
+use cdpr_study::{IfExists, InputKind, open_errors, read_text, uncertainties, write_text};
 use pyo3::prelude::*;
 use serde_json::{Map, Value, json};
 use std::path::PathBuf;
@@ -40,6 +40,7 @@ pub(crate) fn calibrate(
     seed: u64,
     only_identifiable: bool,
     folds: usize,
+    overwrite: bool,
     threads: Option<usize>,
 ) -> Answer<String> {
     let robot = &robot.robot;
@@ -74,7 +75,7 @@ pub(crate) fn calibrate(
             settings,
             folds,
         };
-        to_json(&carry_out(&campaign, &out, calibration_report)?.summary)
+        to_json(&carry_out(&campaign, &out, IfExists::overwriting(overwrite), calibration_report)?.summary)
     };
     watched(py, threads, |_| Ok(()), work)?
 }
@@ -204,6 +205,7 @@ pub(crate) fn simulate(
     payload: f64,
     free: Option<Vec<String>>,
     seed: u64,
+    overwrite: bool,
 ) -> Answer<Robot> {
     let robot = &robot.robot;
     let poses = Rows::poses("poses", &poses)?;
@@ -233,7 +235,7 @@ pub(crate) fn simulate(
         })?;
         let (header, lines) = write_measurements(&rows);
         let lines = lines.iter().map(|line| line.join(",") + "\n").collect::<String>();
-        write_text(&out, &(header.join(",") + "\n" + &lines), "l1_m,")?;
+        write_text(&out, &(header.join(",") + "\n" + &lines), IfExists::overwriting(overwrite))?;
         Ok(Robot { robot: robot.perturbed(&deviations)?.robot })
     })?
 }

@@ -2,8 +2,8 @@
 
 use crate::convert::{Answer, Raised};
 use crate::robot::Robot;
-use cdpr_report::{EXPLORER_MARK, Explored, explorer};
-use cdpr_study::write_text;
+use cdpr_report::{Explored, explorer};
+use cdpr_study::{IfExists, write_text};
 use cdpr_web::page;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
@@ -33,15 +33,16 @@ impl Robot {
 
     /// Writes the page of `cdpr explore`: one HTML file on which the robot computes in any browser.
     ///
-    /// path: the file; one that exists is written over only if it is such a page.
+    /// path: the file. overwrite: whether a file that exists is replaced.
     ///
     /// Raises FileError.
-    fn write_explorer(&self, path: PathBuf) -> Answer<()> {
+    #[pyo3(signature = (path, *, overwrite = false))]
+    fn write_explorer(&self, path: PathBuf, overwrite: bool) -> Answer<()> {
         let Self { robot } = self;
         let file = format!("{}.json", robot.name);
         let explored = Explored { name: &robot.name, file: &file, robot: &robot.to_json(), study: None };
         let page = explorer(&explored, env!("CARGO_PKG_VERSION"))
             .map_err(|error| Raised::Input(error.to_string()))?;
-        Ok(write_text(&path, &page, EXPLORER_MARK)?)
+        Ok(write_text(&path, &page, IfExists::overwriting(overwrite))?)
     }
 }

@@ -5,7 +5,7 @@ use cdpr_assess::read_region;
 use cdpr_report::{draw, figures, report_with};
 use cdpr_sensitivity::SampleDesign;
 use cdpr_study::{
-    Access, Existing, Part, Plan, REPORT_MARK, REPORT_NAME, Results, Run, Session, Shard, StoredStudy, Study,
+    Access, Existing, IfExists, Part, Plan, REPORT_NAME, Results, Run, Session, Shard, StoredStudy, Study,
     StudyError, TableFormat, Watcher, check_complete, check_observed, observe_into, observe_shard,
     take_results, write_text,
 };
@@ -213,6 +213,7 @@ pub(crate) fn write_report(
     folder: PathBuf,
     out: Option<PathBuf>,
     workspace: Option<PathBuf>,
+    overwrite: bool,
 ) -> Answer<PathBuf> {
     run(py, |_| -> Answer<PathBuf> {
         let results = Results::read(&folder)?;
@@ -220,7 +221,7 @@ pub(crate) fn write_report(
         let page = report_with(&results, &figures(&results), region.as_ref());
         let page = page.map_err(|error| Raised::Input(error.to_string()))?;
         match out {
-            Some(path) => write_text(&path, &page, REPORT_MARK).map(|()| path),
+            Some(path) => write_text(&path, &page, IfExists::overwriting(overwrite)).map(|()| path),
             None => results.write_report(&folder, &page),
         }
         .map_err(Raised::from)

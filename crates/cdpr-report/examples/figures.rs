@@ -7,7 +7,8 @@
 
 use cdpr_report::{NamedSampling, Points, histogram, point_effects, signed_effects, surface};
 use cdpr_study::{
-    ResultsFolder, ResultsOf, Session, Study, SurfaceSummary, analyse, compute_surface, observe, write_figure,
+    IfExists, ResultsFolder, ResultsOf, Session, Study, SurfaceSummary, analyse, compute_surface, observe,
+    write_figure,
 };
 use std::path::Path;
 
@@ -15,7 +16,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut arguments = std::env::args().skip(1);
     let folder = arguments.next().ok_or("which folder are the figures to be written to?")?;
     let observations = arguments.next().map_or(Ok(200), |number| number.parse())?;
-    let folder = ResultsFolder::begin(folder.as_ref(), ResultsOf::Figures, |name| name.ends_with(".svg"))?;
+    let folder = ResultsFolder::begin(folder.as_ref(), ResultsOf::Figures, IfExists::Overwrite, |name| {
+        name.ends_with(".svg")
+    })?;
     let write = |name: &str, svg: &str| -> Result<(), Box<dyn std::error::Error>> {
         println!("{}", write_figure(&folder, name, svg)?.display());
         Ok(())

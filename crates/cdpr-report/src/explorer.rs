@@ -7,9 +7,6 @@ use cdpr_study::StudyFile;
 use cdpr_web::page;
 use maud::{DOCTYPE, PreEscaped, html};
 
-/// The marker of the files that [`explorer`] writes, by which they are known as ours.
-pub const EXPLORER_MARK: &str = "<meta name=\"generator\" content=\"cdpr explorer ";
-
 /// What is explored.
 #[derive(Clone, Debug)]
 pub struct Explored<'a> {
@@ -38,7 +35,6 @@ pub fn explorer(explored: &Explored, version: &str) -> Result<String, ReportErro
         html lang="en" {
             head {
                 meta charset="utf-8";
-                // The text of `EXPLORER_MARK`.
                 meta name="generator" content={ "cdpr explorer " (version) };
                 meta http-equiv="Content-Security-Policy" content=(policy(&[UNPACK, BOOT]));
                 meta name="viewport" content="width=device-width, initial-scale=1";
@@ -66,12 +62,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_file_bears_its_mark_and_holds_the_robot() {
+    fn the_file_names_its_maker_and_holds_the_robot() {
         let robot = r#"{"name": "</script><script>alert(1)</script>"}"#;
         let explored = Explored { name: "</title>", file: "robot.json", robot, study: None };
         let page = explorer(&explored, "1.2.3").unwrap();
         assert!(
-            page.contains(EXPLORER_MARK)
+            page.contains("<meta name=\"generator\" content=\"cdpr explorer 1.2.3\">")
                 && !page.contains("</title> ")
                 && !page.contains("alert(1)</script>")
         );

@@ -49,11 +49,11 @@ mod text;
 
 pub use draw::{draw, figures};
 pub use error::ReportError;
-pub use explorer::{EXPLORER_MARK, Explored, explorer};
+pub use explorer::{Explored, explorer};
 pub use figure::cycle::{Cycle, CycleBranch, cycle};
 pub use figure::heat_map::{MapQuantity, heat_map, layers, tolerance_map, workspace_maps};
 pub use figure::histogram::histogram;
-pub use figure::path::{PATH_MARK, path_view};
+pub use figure::path::path_view;
 pub use figure::points::{NamedSampling, Points, point_effects};
 pub use figure::pose_map::{NamedMap, pose_maps};
 pub use figure::robot_view::robot_view;

@@ -26,7 +26,7 @@ use crate::page::elements::{STYLE, Section, inert};
 use crate::scene::Scene;
 use cdpr_assess::FoundRegion;
 use cdpr_robot::shown;
-use cdpr_study::{Figure, ROBOT_NAME, Results};
+use cdpr_study::{Figure, ROBOT_NAME, Results, robot_hash};
 use cdpr_web::page as explorer;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use serde::Serialize;
@@ -63,10 +63,11 @@ pub fn report_with(
     figures: &[Figure],
     region: Option<&FoundRegion>,
 ) -> Result<String, ReportError> {
-    let name = &results.study.robot.name;
-    if let Some(region) = region.filter(|region| region.robot != *name) {
-        let expected = "the robot of the study";
-        return Err(ReportError::invalid("the robot of the workspace", &region.robot, expected));
+    let hash = robot_hash(&results.study.robot);
+    if let Some(region) = region.filter(|region| region.robot_hash != hash) {
+        let found = format!("{} (hash {})", region.robot, region.robot_hash);
+        let expected = "the robot of the study, with the same values";
+        return Err(ReportError::invalid("the robot of the workspace", &found, expected));
     }
     let scene = Scene::new(&results.study);
     let unreadable = |error: serde_json::Error| ReportError::Drawing { reason: error.to_string() };

@@ -10,8 +10,8 @@ use cdpr_report::{draw, found_poses, report_with, success_share, workspace_maps}
 use cdpr_robot::{Robot, Rotation3, Vector3, Wrench};
 use cdpr_statics::Load;
 use cdpr_study::{
-    ErrorModel, Existing, Grid, GridAxis, REPORT_NAME, Run, Study, TableFormat, Watcher, begin, run,
-    uncertainties,
+    ErrorModel, Existing, Grid, GridAxis, IfExists, REPORT_NAME, Run, Study, TableFormat, Watcher, begin,
+    run, uncertainties,
 };
 use serde_json::{Value, json};
 use std::path::Path;
@@ -153,7 +153,7 @@ fn workspaces_of_which_nothing_is_held_or_without_load() {
         ("nothing held", far, Load::payload(50.0)),
     ] {
         let folder = tempfile::TempDir::new().unwrap();
-        let owned = begin_workspace(folder.path()).unwrap();
+        let owned = begin_workspace(folder.path(), IfExists::Refuse).unwrap();
         let grid = Grid::new([x, y, z]).unwrap();
         let tolerances = Some(&tolerances).filter(|_| load != Load::none());
         let workspace = Workspace {
@@ -182,7 +182,7 @@ fn a_robustness_of_cables_of_any_stiffness() {
     let robot = Robot::from_json(&data("robots/cogiro.json").to_string()).unwrap();
     for modulus in [5e9, 35e9, 1e16] {
         let folder = tempfile::TempDir::new().unwrap();
-        let owned = begin_robustness(folder.path()).unwrap();
+        let owned = begin_robustness(folder.path(), IfExists::Refuse).unwrap();
         let mut protocol = Protocol::mahnke_caverly(1, 1);
         protocol.youngs_modulus = Some(modulus);
         let results = vec![run_robustness(&robot, &protocol, &|| ()).unwrap()];

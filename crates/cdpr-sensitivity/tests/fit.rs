@@ -279,7 +279,7 @@ fn values_on_few_levels_or_with_an_atom_have_no_continuous_law() {
     let map = |change: fn(f64) -> f64| -> Vec<f64> { normal.sorted().iter().map(|x| change(*x)).collect() };
     for (values, times) in [
         (map(|x| f64::from(x > 0.0)), 80..121),
-        (map(|x| x.round()), 60..100),
+        (map(f64::round), 60..100),
         (map(|x| x.max(-1.0)), 20..45),
         (vec![1.0, 1.0, 2.0, 2.0], 2..3),
     ] {

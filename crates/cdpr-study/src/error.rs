@@ -182,10 +182,24 @@ pub enum StudyError {
         /// Blocks in it.
         blocks: usize,
     },
+    /// A file of the user's choice exists already, with another content.
+    #[error("{path} exists already, with another content: nothing was written")]
+    FileExists {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A folder has results already.
+    #[error("{folder} has the results of {of} already: nothing was written")]
+    ResultsExist {
+        /// The folder.
+        folder: PathBuf,
+        /// What they are of.
+        of: &'static str,
+    },
     /// A file that no run has written is in the way.
     #[error(
         "{path} was not written by a run, which would write over it: move it, or choose another place (the \
-         files of runs are listed in {} beside them)",
+         files of runs are listed in {} next to them)",
         MANIFEST_NAME
     )]
     NoResults {
@@ -239,7 +253,7 @@ pub enum StudyError {
         expected: String,
     },
     /// A file in a folder of results was changed after the run that wrote it.
-    #[error("{path} is not what the run has written here: it was changed")]
+    #[error("{path} is not what the run has written here: it was changed since")]
     Changed {
         /// The file.
         path: PathBuf,

@@ -6,3 +6,4 @@ pub(crate) mod files;
 pub(crate) mod input;
 pub(crate) mod manifest;
 pub(crate) mod owned;
+pub(crate) mod single;

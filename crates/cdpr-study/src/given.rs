@@ -11,4 +11,4 @@ mod write;
 pub use analyse::{TableAnalysis, TableRequest, VectorAnalysis, analyse_table};
 pub use columns::{BadCell, GivenTable};
 pub use open::open_table;
-pub use write::write_analysis;
+pub use write::{begin_analysis, write_analysis};

@@ -79,11 +79,12 @@ pub use file::template::{TEMPLATE_NOTES, template, template_cost, write_template
 pub use file::value::Value;
 pub use fs::files::{open_cable, open_robot, open_robot_in_any_unit};
 pub use fs::input::read_text;
-pub use fs::manifest::ResultsOf;
-pub use fs::owned::{Access, ResultsFolder, write_text};
+pub use fs::manifest::{ResultsOf, read_result};
+pub use fs::owned::{Access, ResultsFolder};
+pub use fs::single::{IfExists, write_text};
 pub use given::{
-    BadCell, GivenTable, TableAnalysis, TableRequest, VectorAnalysis, analyse_table, open_table,
-    write_analysis,
+    BadCell, GivenTable, TableAnalysis, TableRequest, VectorAnalysis, analyse_table, begin_analysis,
+    open_table, write_analysis,
 };
 pub use indexmap::IndexMap;
 pub use kind::InputKind;
@@ -91,10 +92,11 @@ pub use model::cable_law::{elastic_laws, open_law};
 pub use model::error_model::{ErrorModel, Term, uncertainties};
 pub use model::errors::open_errors;
 pub use model::grid::{Grid, frame};
+pub use model::hash::robot_hash;
 pub use model::observed::{Failure, Measured, MeasuredQuantity, Observed, ScalarCount};
 pub use model::observer::OutputObserver;
 pub use model::study::{NominalPose, Sampling, Study, Surface, SurfaceAxis};
-pub use names::{REPORT_MARK, REPORT_NAME, ROBOT_NAME, STUDY_NAME};
+pub use names::{REPORT_NAME, ROBOT_NAME, STUDY_NAME};
 pub use observe::observation::{
     FITTED, KEPT, Part, Session, Tally, observe, observe_into, observe_replicate, observe_rows,
 };

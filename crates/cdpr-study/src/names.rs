@@ -18,9 +18,6 @@ pub(crate) const TIMINGS_NAME: &str = "timings.json";
 /// Name of the report in a folder of results.
 pub const REPORT_NAME: &str = "report.html";
 
-/// What every report contains near its beginning, so that no other file is taken for one.
-pub const REPORT_MARK: &str = "<meta name=\"generator\" content=\"cdpr ";
-
 /// Name of the list of the files that runs have written into a folder. Other files belong to the user.
 pub(crate) const MANIFEST_NAME: &str = "cdpr-results.json";
 

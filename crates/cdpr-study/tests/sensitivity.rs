@@ -84,6 +84,9 @@ fn bounds_by_derivatives_hold_the_sobol_indices_of_every_parameter() {
     let spec = SensitivitySpec { saltelli_blocks: 4096, derivative_points: 256, ..SMALL };
     for name in ["mechanical", "geometrical", "geometrical_asymmetric"] {
         let found = of_sampling(name, &spec);
+        // Where few points decide the mean square, the bracket rests on the shares of the other inputs.
+        let is_decided = |input: &&InputMeasures| input.dgsm_total_bound_high.is_some();
+        assert!(4 * found.inputs.iter().filter(is_decided).count() > 3 * found.inputs.len(), "{name}");
         for input in &found.inputs {
             let indices = [
                 (input.sobol_first_low, input.sobol_first_high, input.first_bracket()),
@@ -96,7 +99,8 @@ fn bounds_by_derivatives_hold_the_sobol_indices_of_every_parameter() {
                 assert!(low.unwrap() <= upper && lower <= high.unwrap(), "{name}: {input:?}");
             }
             let width = input.total_upper_high.unwrap() - input.total_lower_low.unwrap();
-            assert!(width < 0.15, "{name}: {width}, {input:?}");
+            let most = if is_decided(&input) { 0.15 } else { 0.5 };
+            assert!(width < most, "{name}: {width}, {input:?}");
         }
     }
 }

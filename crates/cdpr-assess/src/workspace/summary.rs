@@ -4,7 +4,7 @@ use super::{HELD, Way, Workspace, WorkspacePose, WorkspaceRow, row};
 use crate::boundary::Boundary;
 use cdpr_robot::{Pose, Vector3};
 use cdpr_statics::Limit;
-use cdpr_study::{Extremes, Grid};
+use cdpr_study::{Extremes, Grid, robot_hash};
 use indexmap::IndexMap;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -19,6 +19,8 @@ pub struct WorkspaceSummary {
     pub format: &'static str,
     /// Name of the robot.
     pub robot: String,
+    /// Hash of the robot ([`robot_hash`]).
+    pub robot_hash: String,
     /// Version of the program.
     pub version: String,
     /// Mass added at the platform's centre of mass [kg].
@@ -152,6 +154,7 @@ impl WorkspaceSummary {
         Self {
             format: WORKSPACE_FORMAT,
             robot: workspace.robot.name.clone(),
+            robot_hash: robot_hash(workspace.robot),
             version: env!("CARGO_PKG_VERSION").to_owned(),
             payload: workspace.load.payload,
             force: workspace.load.wrench.force.into(),

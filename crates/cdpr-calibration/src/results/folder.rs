@@ -4,7 +4,7 @@ use crate::error::CalibrationError;
 use crate::fitted::Fit;
 use crate::results::summary::{CalibrationSummary, Context};
 use cdpr_robot::Pose;
-use cdpr_study::{ResultsFolder, ResultsOf, StudyError};
+use cdpr_study::{IfExists, ResultsFolder, ResultsOf, StudyError};
 use std::path::Path;
 
 /// Name of the calibrated robot in a folder of results.
@@ -28,9 +28,9 @@ const COORDINATES: [&str; 7] = ["x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"];
 ///
 /// # Errors
 /// As [`ResultsFolder::begin`].
-pub fn begin_calibration(folder: &Path) -> Result<ResultsFolder, StudyError> {
+pub fn begin_calibration(folder: &Path, if_exists: IfExists) -> Result<ResultsFolder, StudyError> {
     let names = [CALIBRATED_NAME, POSTERIOR_NAME, SUMMARY_NAME, RESIDUALS_NAME, POSES_NAME, REPORT_NAME];
-    ResultsFolder::begin(folder, ResultsOf::Calibration, |name| names.contains(&name))
+    ResultsFolder::begin(folder, ResultsOf::Calibration, if_exists, |name| names.contains(&name))
 }
 
 /// Writes `calibrated.json`, `posterior.json`, `residuals.csv`, `poses.csv`, `report.html` and, last

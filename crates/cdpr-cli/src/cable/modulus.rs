@@ -2,12 +2,12 @@
 
 mod published;
 
-use crate::arguments::{Format, number};
+use crate::arguments::{Format, Overwrite, number};
 use crate::error::ProgramError;
 use crate::output::{patiently, table};
 use cdpr_cable::{Phase, Record, SecantModulus, Specimen};
 use cdpr_report::{Cycle, CycleBranch, cycle};
-use cdpr_study::{CableLaw, LAW_FORMAT, law_json, open_record, write_text};
+use cdpr_study::{CableLaw, law_json, open_record};
 use published::{Entry, Published, percent};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -54,6 +54,8 @@ pub(crate) struct Settings {
     /// `cdpr hysteresis --law` and an operating point of a study take such a law.
     #[arg(long)]
     law: Option<PathBuf>,
+    #[command(flatten)]
+    overwrite: Overwrite,
     /// How the results are printed.
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
@@ -144,7 +146,8 @@ pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
     if let Some(path) = &settings.law {
         write_law(&record, &specimen, settings, path)?;
     }
-    settings.figure.as_deref().map_or(Ok(()), |path| draw(&record, &found, path))
+    let write = |path| settings.overwrite.write(path, &draw(&record, &found)?);
+    settings.figure.as_deref().map_or(Ok(()), write)
 }
 
 fn print(found: &Found) {
@@ -177,21 +180,19 @@ fn write_law(
     let law = CableLaw::of_record(record, specimen.length, specimen.section)?;
     let source =
         format!("load-elongation record {}, specimen of {} m", settings.record.display(), specimen.length);
-    let text = law_json(Some(source), law)? + "\n";
-    Ok(write_text(path, &text, LAW_FORMAT)?)
+    settings.overwrite.write(path, &(law_json(Some(source), law)? + "\n"))
 }
 
-fn draw(record: &Record, found: &Found, path: &Path) -> Result<(), ProgramError> {
+fn draw(record: &Record, found: &Found) -> Result<String, ProgramError> {
     let branches = [Phase::Loading, Phase::Unloading].map(|phase| {
         let points = record.samples(phase).iter().map(|sample| (1e3 * sample.elongation, sample.force));
         CycleBranch { name: phase.name().to_owned(), points: points.collect() }
     });
-    let figure = cycle(&Cycle {
+    Ok(cycle(&Cycle {
         title: "Load over elongation",
         lines: &[format!("the loop dissipates {:.4} J", found.dissipated_energy_j)],
         x: "elongation [mm]",
         y: "force [N]",
         branches: &branches,
-    })?;
-    Ok(write_text(path, &figure, "<svg")?)
+    })?)
 }

@@ -1,11 +1,12 @@
 //! `cdpr export`: a robot in the files of another program.
 
+use crate::arguments::Overwrite;
 use crate::error::ProgramError;
 use crate::output::patiently;
 use crate::poses::{Angles, place, pose};
 use cdpr_exchange::{Target, export};
 use cdpr_robot::{Pose, shown};
-use cdpr_study::{open_robot, write_text};
+use cdpr_study::open_robot;
 use std::path::PathBuf;
 
 /// A robot, a pose and a format.
@@ -21,9 +22,11 @@ pub(crate) struct Settings {
     pose: Pose,
     #[command(flatten)]
     angles: Angles,
-    /// File to write, over nothing but a file of this format; with CASPR what both names begin with.
+    /// File to write; with CASPR what both names begin with.
     #[arg(long)]
     out: PathBuf,
+    #[command(flatten)]
+    overwrite: Overwrite,
 }
 
 /// Formats of other programs.
@@ -38,12 +41,11 @@ enum Format {
 }
 
 impl Format {
-    /// The format, and a text that its files have.
-    fn target(self) -> (Target, &'static str) {
+    fn target(self) -> Target {
         match self {
-            Self::Mjcf => (Target::Mjcf, "<mujoco"),
-            Self::Caspr => (Target::Caspr, "<?xml"),
-            Self::Moorpy => (Target::Moorpy, "LINE TYPES"),
+            Self::Mjcf => Target::Mjcf,
+            Self::Caspr => Target::Caspr,
+            Self::Moorpy => Target::Moorpy,
         }
     }
 }
@@ -51,8 +53,7 @@ impl Format {
 pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
     let robot = open_robot(&settings.robot)?;
     let pose = settings.angles.of(&settings.pose)?;
-    let (target, like) = settings.to.target();
-    let exported = patiently("solving", || export(&robot, &pose, target))?;
+    let exported = patiently("solving", || export(&robot, &pose, settings.to.target()))?;
     let single = exported.files.len() == 1;
     for (ending, text) in &exported.files {
         let mut path = settings.out.clone().into_os_string();
@@ -60,7 +61,7 @@ pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
             path.push(ending);
         }
         let path = PathBuf::from(path);
-        write_text(&path, text, like)?;
+        settings.overwrite.write(&path, text)?;
         println!("{}: {} at {}", path.display(), shown(&robot.name), place(&pose));
     }
     exported.notes.iter().for_each(|note| println!("note: {note}"));

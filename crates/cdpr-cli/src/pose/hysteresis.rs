@@ -1,14 +1,14 @@
 //! `cdpr hysteresis`: where a payload that is put on and taken off again leaves the platform.
 
 use crate::answer::{OutOfLimits, vector};
-use crate::arguments::{Format, FreeArguments, Preference, number, payload};
+use crate::arguments::{Format, FreeArguments, Overwrite, Preference, number, payload};
 use crate::error::ProgramError;
 use crate::output::{Ending, patiently, table};
 use crate::poses::{self, Angles};
 use cdpr_report::{Cycle, CycleBranch, cycle};
 use cdpr_robot::{Pose, Robot};
 use cdpr_statics::{CycleStep, HysteresisLaw, LoadCycle, Unloading, load_cycle};
-use cdpr_study::{CableLaw, elastic_laws, open_law, open_record, write_text};
+use cdpr_study::{CableLaw, elastic_laws, open_law, open_record};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
@@ -50,6 +50,8 @@ pub(crate) struct Settings {
     /// File for a figure of payload over height (SVG).
     #[arg(long)]
     figure: Option<PathBuf>,
+    #[command(flatten)]
+    overwrite: Overwrite,
     /// How the results are printed.
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
@@ -103,7 +105,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
         );
     }
     if let Some(path) = &settings.figure {
-        draw(&robot, &cycle, &found, path)?;
+        settings.overwrite.write(path, &draw(&robot, &cycle, &found)?)?;
     }
     Ok(OutOfLimits::ending(&found.out_of_limits))
 }
@@ -187,7 +189,7 @@ fn print(found: &Found) {
     OutOfLimits::print(&found.out_of_limits);
 }
 
-fn draw(robot: &Robot, ran: &LoadCycle, found: &Found, path: &Path) -> Result<(), ProgramError> {
+fn draw(robot: &Robot, ran: &LoadCycle, found: &Found) -> Result<String, ProgramError> {
     let begin = ran.loading.first().map_or(0.0, |step| step.solution.equilibrium.pose.position.z);
     let points = |way: &[CycleStep]| {
         let at = |step: &CycleStep| (1e3 * (begin - step.solution.equilibrium.pose.position.z), step.payload);
@@ -197,7 +199,7 @@ fn draw(robot: &Robot, ran: &LoadCycle, found: &Found, path: &Path) -> Result<()
         CycleBranch { name: "payload put on".to_owned(), points: points(&ran.loading) },
         CycleBranch { name: "payload taken off".to_owned(), points: points(&ran.unloading) },
     ];
-    let figure = cycle(&Cycle {
+    Ok(cycle(&Cycle {
         title: &format!("{}: payload over the way down", robot.name),
         lines: &[format!(
             "{:.5} mm stay; {:.3} mJ given by the payload",
@@ -207,6 +209,5 @@ fn draw(robot: &Robot, ran: &LoadCycle, found: &Found, path: &Path) -> Result<()
         x: "way down [mm]",
         y: "payload [kg]",
         branches: &branches,
-    })?;
-    Ok(write_text(path, &figure, "<svg")?)
+    })?)
 }

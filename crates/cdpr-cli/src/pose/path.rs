@@ -1,15 +1,14 @@
 //! `cdpr path`: what a robot does along a path of poses.
 
 use crate::answer::OutOfLimits;
-use crate::arguments::ErrorModelArguments;
+use crate::arguments::{ErrorModelArguments, Overwrite};
 use crate::error::ProgramError;
 use crate::output::Ending;
 use crate::pose::at_pose::{RobotAtPose, Row, cells, numbered};
 use cdpr_assess::{Bands, Path, PathPose};
-use cdpr_report::{PATH_MARK, path_view};
+use cdpr_report::path_view;
 use cdpr_robot::Robot;
 use cdpr_statics::Deflection;
-use cdpr_study::write_text;
 use serde::Serialize;
 use std::path::PathBuf;
 
@@ -23,9 +22,11 @@ pub(crate) struct Settings {
     /// File for a figure of the path (SVG), with bands of two standard deviations if an error model is given.
     #[arg(long, value_name = "FILE")]
     figure: Option<PathBuf>,
+    #[command(flatten)]
+    overwrite: Overwrite,
 }
 
-pub(crate) fn run(Settings { at, errors, figure }: &Settings) -> Result<Ending, ProgramError> {
+pub(crate) fn run(Settings { at, errors, figure, overwrite }: &Settings) -> Result<Ending, ProgramError> {
     let (robot, load) = (at.robot()?, at.load.load());
     let model = errors.model(&robot)?;
     let mut path = Path::new(&robot, load, model.as_ref())?;
@@ -43,7 +44,7 @@ pub(crate) fn run(Settings { at, errors, figure }: &Settings) -> Result<Ending, 
         at.answer_in_order(&robot, |pose| Ok(Passed::new(&robot, solve(pose)?)))?
     };
     if let Some(file) = figure {
-        write_text(file, &path_view(&robot, &load, &passed)?, PATH_MARK)?;
+        overwrite.write(file, &path_view(&robot, &load, &passed)?)?;
     }
     Ok(ending)
 }

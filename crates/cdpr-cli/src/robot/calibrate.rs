@@ -1,6 +1,6 @@
 //! `cdpr calibrate`: from measurements to a better robot, and to the accuracy that is left.
 
-use crate::arguments::{self, Format, Named, Preference, Threads, study_errors};
+use crate::arguments::{self, Format, Named, Overwrite, Preference, Threads, study_errors};
 use crate::error::ProgramError;
 use crate::output::{Ending, patiently, table};
 use cdpr_calibration::{
@@ -62,6 +62,8 @@ pub(crate) struct Settings {
     /// Folder for the results; made if missing.
     #[arg(long)]
     out: PathBuf,
+    #[command(flatten)]
+    overwrite: Overwrite,
     #[command(flatten)]
     threads: Threads,
     /// How the results are printed.
@@ -160,14 +162,14 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
         settings: settings.fit(),
         folds: settings.folds,
     };
-    let Calibrated { fit: found, summary, seconds } =
-        patiently("calibrating", || carry_out(&campaign, &settings.out, calibration_report)).map_err(
-            |error| match error {
-                // Of the folder of results.
-                CalibrationError::Study(error) => error.into(),
-                error => in_file(error),
-            },
-        )?;
+    let Calibrated { fit: found, summary, seconds } = patiently("calibrating", || {
+        carry_out(&campaign, &settings.out, settings.overwrite.if_exists(), calibration_report)
+    })
+    .map_err(|error| match error {
+        // Of the folder of results.
+        CalibrationError::Study(error) => error.into(),
+        error => in_file(error),
+    })?;
     settings.format.print(&summary, |summary| {
         print(summary, &found);
         println!("fitted in {seconds:.3} s; results in {}", settings.out.display());

@@ -1,11 +1,11 @@
 //! `cdpr explore`: a robot that computes in the browser, as one HTML file.
 
-use crate::arguments::Format;
+use crate::arguments::{Format, Overwrite, named_after};
 use crate::error::ProgramError;
 use crate::output::patiently;
-use cdpr_report::{EXPLORER_MARK, Explored, explored_study, explorer};
+use cdpr_report::{Explored, explored_study, explorer};
 use cdpr_robot::Robot;
-use cdpr_study::{InputKind, ROBOT_NAME, Results, Study, StudyError, open_robot, write_text};
+use cdpr_study::{InputKind, ROBOT_NAME, Results, Study, StudyError, open_robot};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
@@ -18,6 +18,8 @@ pub(crate) struct Settings {
     /// File for the page; NAME-explorer.html in the current folder if left out.
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    overwrite: Overwrite,
     /// Open the page in the browser.
     #[arg(long)]
     open: bool,
@@ -39,7 +41,7 @@ struct Input {
 }
 
 pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
-    let Settings { input, out, open, format } = settings;
+    let Settings { input, out, overwrite, open, format } = settings;
     let Input { robot, file, study } = patiently("reading the robot", || read(input))?;
     let explored = Explored {
         name: &robot.name,
@@ -48,11 +50,8 @@ pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
         study: study.as_ref().and_then(explored_study),
     };
     let page = explorer(&explored, env!("CARGO_PKG_VERSION"))?;
-    let path = out.clone().unwrap_or_else(|| {
-        let stem = input.file_stem().map_or_else(|| "robot".into(), |stem| stem.to_string_lossy());
-        PathBuf::from(format!("{stem}-explorer.html"))
-    });
-    write_text(&path, &page, EXPLORER_MARK)?;
+    let path = out.clone().unwrap_or_else(|| named_after(input, "explorer.html"));
+    overwrite.write(&path, &page)?;
     if *open {
         open::that(&path)
             .map_err(|error| ProgramError::Browser { path: path.clone(), reason: error.to_string() })?;

@@ -1,11 +1,11 @@
 //! `cdpr import`: a robot file made of the files of another program.
 
-use crate::arguments::{self, components};
+use crate::arguments::{self, Overwrite, components};
 use crate::error::ProgramError;
 use crate::output::Ending;
 use cdpr_exchange::{ForeignFile, ImportOptions, Imported, NoteKind, import};
-use cdpr_robot::{FORMAT, TensionLimits, shown};
-use cdpr_study::{InputKind, StudyError, open_cable, read_text, write_text};
+use cdpr_robot::{TensionLimits, shown};
+use cdpr_study::{InputKind, StudyError, open_cable, read_text};
 use std::path::{Path, PathBuf};
 
 /// Files of another program, and what they lack.
@@ -16,9 +16,11 @@ pub(crate) struct Settings {
     /// or a table of points (CSV).
     #[arg(required = true)]
     files: Vec<PathBuf>,
-    /// Robot file to write, over nothing but another robot file; if left out, it is printed.
+    /// Robot file to write; if left out, it is printed.
     #[arg(long)]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    overwrite: Overwrite,
     /// Cable of all cables: a cable file (JSON, `cdpr-cable/1`) or a name in the catalogue, `steel-4mm`.
     #[arg(long)]
     cable: Option<PathBuf>,
@@ -66,7 +68,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     }
     match &settings.out {
         Some(out) => {
-            write_text(out, &text, FORMAT)?;
+            settings.overwrite.write(out, &text)?;
             lines.iter().for_each(|line| println!("{line}"));
             println!("{}: {}, {} cables", out.display(), shown(&robot.name), robot.cables.len());
         }

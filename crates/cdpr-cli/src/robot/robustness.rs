@@ -1,6 +1,6 @@
 //! `cdpr robustness`: how often the direct model finds the true pose from a wrong start.
 
-use crate::arguments::{self, Format, FreeArguments, Preference};
+use crate::arguments::{self, Format, FreeArguments, Overwrite, Preference};
 use crate::error::ProgramError;
 use crate::output::{drawn, progress, table};
 use cdpr_assess::{
@@ -37,9 +37,11 @@ pub(crate) struct Settings {
     seed: u64,
     #[command(flatten)]
     preference: Preference,
-    /// Folder for the results; made if missing.
-    #[arg(long, default_value = "robustness")]
-    out: PathBuf,
+    /// Folder for the results, made if missing; NAME-robustness in the current folder if left out.
+    #[arg(long)]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    overwrite: Overwrite,
     /// How the results are printed.
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
@@ -53,7 +55,8 @@ pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
     for protocol in &protocols {
         protocol.validate()?;
     }
-    let folder = begin_robustness(&settings.out)?;
+    let out = settings.out.clone().unwrap_or_else(|| arguments::named_after(&settings.robot, "robustness"));
+    let folder = begin_robustness(&out, settings.overwrite.if_exists())?;
 
     let steps = protocols.iter().map(|protocol| protocol.poses + protocol.solves()).sum();
     let progress = progress(steps, "poses and solves");
@@ -76,7 +79,7 @@ pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
     write_robustness(&folder, &summary, &results, &figures)?;
     Ok(settings.format.print(&summary, |summary| {
         print_results(summary);
-        println!("{:.1} s; results in {}", clock.elapsed().as_secs_f64(), settings.out.display());
+        println!("{:.1} s; results in {}", clock.elapsed().as_secs_f64(), out.display());
     })?)
 }
 

@@ -1,7 +1,7 @@
 //! `cdpr workspace`: where the cables hold the platform, and how far it gives there, over a plane or a box.
 
 use crate::arguments::{
-    self, ErrorModelArguments, Format, FreeArguments, LoadArguments, Preference, Threads,
+    self, ErrorModelArguments, Format, FreeArguments, LoadArguments, Overwrite, Preference, Threads,
 };
 use crate::error::ProgramError;
 use crate::output::{Ending, drawn, patiently, progress, table};
@@ -53,9 +53,11 @@ pub(crate) struct Settings {
     /// Layers of a box that are drawn, spread evenly from the lowest to the highest one; 0 draws nothing.
     #[arg(long, value_name = "LAYERS", default_value = "12")]
     draw: usize,
-    /// Folder for the results; made if missing.
-    #[arg(long, default_value = "workspace")]
-    out: PathBuf,
+    /// Folder for the results, made if missing; NAME-workspace in the current folder if left out.
+    #[arg(long)]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    overwrite: Overwrite,
     #[command(flatten)]
     threads: Threads,
     /// How the results are printed.
@@ -144,7 +146,8 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
             "--wrench, --wrenches and --wrench-box: expected with --capacity, whose figures they change";
         return Err(ProgramError::Usage(usage.to_owned()));
     }
-    let folder = begin_workspace(&settings.out)?;
+    let out = settings.out.clone().unwrap_or_else(|| arguments::named_after(&settings.robot, "workspace"));
+    let folder = begin_workspace(&out, settings.overwrite.if_exists())?;
     let set = settings.further.set.set()?;
     let further = &settings.further;
     let workspace = Workspace {
@@ -183,7 +186,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
         if drawn < all {
             println!("{drawn} of {all} layers are drawn: --draw {all} draws all of them");
         }
-        println!("{} poses in {seconds:.2} s; results in {}", poses.len(), settings.out.display());
+        println!("{} poses in {seconds:.2} s; results in {}", poses.len(), out.display());
     })?;
     Ok(if summary.too_much > 0 { Ending::SomethingWrong } else { Ending::Well })
 }

@@ -1,12 +1,12 @@
 //! `cdpr analyse`: what a table of inputs and outputs says.
 
-use crate::arguments::{self, Format, Threads};
+use crate::arguments::{self, Format, Overwrite, Threads};
 use crate::error::ProgramError;
 use crate::output::{Ending, patiently, table};
 use cdpr_report::analysis_report;
 use cdpr_study::{
     Analyser, Analysis, Dependence, Estimate, InputAnalysis, OutputLimit, TableAnalysis, TableRequest,
-    VectorAnalysis, analyse_table, open_table, write_analysis,
+    VectorAnalysis, analyse_table, begin_analysis, open_table, write_analysis,
 };
 use std::path::PathBuf;
 
@@ -44,6 +44,8 @@ pub(crate) struct Settings {
     /// Folder for `report.html`, with scatter plots and a cobweb, and `analysis.json`; made if missing.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    overwrite: Overwrite,
     #[command(flatten)]
     threads: Threads,
     /// How the results are printed.
@@ -91,10 +93,12 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
         analyser,
     };
     let found = patiently("analysing the table", || -> Result<_, ProgramError> {
+        let folder = settings.out.as_ref().map(|out| begin_analysis(out, settings.overwrite.if_exists()));
+        let folder = folder.transpose()?;
         let table = open_table(&settings.table, settings.name.as_deref())?;
         let found = analyse_table(&table, &request)?;
-        if let Some(folder) = &settings.out {
-            write_analysis(folder, &found, &analysis_report(&table, &found))?;
+        if let Some(folder) = folder {
+            write_analysis(&folder, &found, &analysis_report(&table, &found))?;
         }
         Ok(found)
     })?;

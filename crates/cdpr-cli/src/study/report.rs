@@ -1,11 +1,11 @@
 //! `cdpr report`: the report of a study, from its folder of results.
 
-use crate::arguments::Format;
+use crate::arguments::{Format, Overwrite};
 use crate::error::ProgramError;
 use crate::output::patiently;
 use cdpr_assess::read_region;
 use cdpr_report::{figures, report_with};
-use cdpr_study::{REPORT_MARK, Results, write_text};
+use cdpr_study::Results;
 use serde::Serialize;
 use std::path::PathBuf;
 
@@ -17,6 +17,8 @@ pub(crate) struct Settings {
     /// File for the report; `report.html` in the folder if left out.
     #[arg(long)]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    overwrite: Overwrite,
     /// Folder that `cdpr workspace --boundary` has written for the robot: its region is drawn around the
     /// robot.
     #[arg(long, value_name = "FOLDER")]
@@ -32,7 +34,7 @@ struct Written {
 }
 
 pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
-    let Settings { folder, out, workspace, format } = settings;
+    let Settings { folder, out, overwrite, workspace, format } = settings;
     let (results, page) = patiently("drawing the report", || -> Result<_, ProgramError> {
         let results = Results::read(folder)?;
         let region = workspace.as_deref().map(read_region).transpose()?;
@@ -41,7 +43,7 @@ pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
     })?;
     let path = match out {
         Some(path) => {
-            write_text(path, &page, REPORT_MARK)?;
+            overwrite.write(path, &page)?;
             path.clone()
         }
         None => results.write_report(folder, &page)?,

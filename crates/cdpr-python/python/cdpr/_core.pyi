@@ -218,10 +218,10 @@ class Robot:
 
         state: what is shown first, as `Explorer.state` has it.
         """
-    def write_explorer(self, path: _Path) -> None:
+    def write_explorer(self, path: _Path, *, overwrite: bool = False) -> None:
         """Writes the page of `cdpr explore`: one HTML file on which the robot computes in any browser.
 
-        path: the file; one that exists is written over only if it is such a page.
+        path: the file. overwrite: whether a file that exists is replaced.
 
         Raises FileError.
         """
@@ -1325,6 +1325,7 @@ def robustness(
     free: list[str] | None,
     seed: int,
     out: _Path | None,
+    overwrite: bool,
     progress: Callable[[int, int], object] | None,
     threads: int | None,
 ) -> str:
@@ -1361,7 +1362,7 @@ def linear_density(
     mass: float, length: float, mass_error: float, length_error: float
 ) -> tuple[float, float]:
     """Mass per length of a weighed piece of cable, and its greatest error [kg/m]."""
-def write_report(folder: _Path, out: _Path | None, workspace: _Path | None) -> Path:
+def write_report(folder: _Path, out: _Path | None, workspace: _Path | None, overwrite: bool) -> Path:
     """Writes the report of a folder of results; returns its path.
 
     workspace: folder with the boundary of a workspace, which is drawn around the robot.
@@ -1435,6 +1436,7 @@ def calibrate(
     seed: int,
     only_identifiable: bool,
     folds: int,
+    overwrite: bool,
     threads: int | None,
 ) -> str:
     """Fits the parameters of a robot to measurements and writes all results; returns `summary.json`."""
@@ -1450,6 +1452,7 @@ def simulate(
     payload: float,
     free: list[str] | None,
     seed: int,
+    overwrite: bool,
 ) -> Robot:
     """What a campaign would read at poses with a robot that deviates from its file: writes the measurements as CSV
     and returns the robot as it truly is.

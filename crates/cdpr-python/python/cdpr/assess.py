@@ -160,6 +160,7 @@ def robustness(
     free: Optional[Sequence[str]] = None,
     seed: int = 2017,
     out: Optional[_Path] = None,
+    overwrite: bool = False,
     progress: Optional[Callable[[int, int], object]] = None,
     threads: Optional[int] = None,
 ) -> Robustness:
@@ -172,6 +173,7 @@ def robustness(
     free: names of the coordinates that are found, for a robot with fewer cables than free motions.
     seed: of poses and starts.
     out: folder for tables and figures.
+    overwrite: replace the results that the folder has already.
     progress: function that is called with (done, all) from time to time. What it raises ends the test.
     threads: number of threads; all cores if left out.
 
@@ -179,7 +181,7 @@ def robustness(
     """
     box = None if region is None else tuple([float(value) for value in corner] for corner in region)
     names = None if free is None else list(free)
-    text = _core.robustness(robot, poses, modulus, box, names, seed, out, progress, threads)
+    text = _core.robustness(robot, poses, modulus, box, names, seed, out, overwrite, progress, threads)
     return Robustness(json.loads(text))
 
 

@@ -50,6 +50,7 @@ def calibrate(
     seed: int = 1,
     only_identifiable: bool = False,
     folds: int = 5,
+    overwrite: bool = False,
     threads: Optional[int] = None,
 ) -> dict[str, Any]:
     """Fit the parameters of a robot to measurements; write all results to a folder and return the summary.
@@ -70,6 +71,7 @@ def calibrate(
     starts, seed: starts of the search, and the seed of the random ones.
     only_identifiable: keep the values of parameters that the data do not tell.
     folds: parts of the rows that are predicted by robots calibrated without them.
+    overwrite: replace the results that the folder has already.
     threads: number of threads; all cores if left out.
 
     The dictionary is that of `summary.json`. Raises InputError, which names line and column, FileError, and
@@ -91,6 +93,7 @@ def calibrate(
         seed,
         only_identifiable,
         folds,
+        overwrite,
         threads,
     )
     summary: dict[str, Any] = json.loads(text)
@@ -182,6 +185,7 @@ def simulate(
     payload: float = 0.0,
     free: Optional[Sequence[str]] = None,
     seed: int = 1,
+    overwrite: bool = False,
 ) -> Robot:
     """Write what a campaign would read with a robot that deviates from its file; return that robot.
 
@@ -196,6 +200,7 @@ def simulate(
     payload: mass added at the platform's centre of mass [kg].
     free: names of the coordinates that are found, for a robot with few cables.
     seed: of deviations and noise.
+    overwrite: replace the file if it exists.
 
     Raises InputError, FileError and NoSolutionError.
     """
@@ -211,4 +216,5 @@ def simulate(
         payload,
         None if free is None else list(free),
         seed,
+        overwrite,
     )

@@ -97,15 +97,18 @@ class Results:
         columns["status"] = numpy.array([failure or "ok" for failure in failures])
         return _records(columns)
 
-    def report(self, out: Optional[_Path] = None, *, workspace: Optional[_Path] = None) -> Path:
-        """Writes the report (HTML) anew and returns its path, as `cdpr report` does.
+    def report(
+        self, out: Optional[_Path] = None, *, workspace: Optional[_Path] = None, overwrite: bool = False
+    ) -> Path:
+        """Writes the report (HTML) again and returns its path, as `cdpr report` does.
 
         out: file for the report; `report.html` in the folder if left out.
         workspace: folder that `cdpr workspace --boundary` has written: its region is drawn around the robot.
+        overwrite: replace the file `out` if it exists.
 
         Raises FileError and InputError.
         """
-        return Path(_core.write_report(self.folder, out, workspace))
+        return Path(_core.write_report(self.folder, out, workspace, overwrite))
 
     def frame(self, sampling: str) -> Any:
         """Returns the observations of a sampling as a `pandas.DataFrame`, with `index` as its index."""

@@ -161,8 +161,10 @@ impl From<ExchangeError> for Raised {
 impl From<StudyError> for Raised {
     fn from(error: StudyError) -> Self {
         let help = match &error {
+            StudyError::FileExists { .. } => "; overwrite=True replaces it",
+            StudyError::ResultsExist { .. } => "; overwrite=True replaces them",
             StudyError::ForeignFolder { .. } => ", or overwrite=True",
-            StudyError::FolderInUse { .. } => ": resume=True goes on with them, overwrite=True begins anew",
+            StudyError::FolderInUse { .. } => ": resume=True goes on with them, overwrite=True begins again",
             StudyError::MissingBlocks { .. } => ": run the rest with resume=True",
             StudyError::NotAnalysed { .. } => ": analyse it with resume=True",
             _ => "",
@@ -202,6 +204,9 @@ fn is_of_files(error: &StudyError) -> bool {
             | StudyError::DamagedBlock { .. }
             | StudyError::MissingBlocks { .. }
             | StudyError::NoResults { .. }
+            | StudyError::FileExists { .. }
+            | StudyError::ResultsExist { .. }
+            | StudyError::Changed { .. }
             | StudyError::FolderBusy { .. }
             | StudyError::OtherResults { .. }
             | StudyError::Link { .. }

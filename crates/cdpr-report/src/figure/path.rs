@@ -13,9 +13,6 @@ use cdpr_statics::Load;
 use plotters::prelude::*;
 use std::ops::Range;
 
-/// What the title of each such figure contains.
-pub const PATH_MARK: &str = " along a path of ";
-
 /// Half width of the bands, in standard deviations.
 const WIDTHS: f64 = 2.0;
 /// Height of the plot of each quantity [px].
@@ -75,7 +72,7 @@ pub fn path_view(robot: &Robot, load: &Load, poses: &[Option<PathPose>]) -> Resu
             key.push((name.to_owned(), pen));
         }
     }
-    let title = format!("{}{PATH_MARK}{} poses", shown(&robot.name), poses.len());
+    let title = format!("{} along a path of {} poses", shown(&robot.name), poses.len());
     let heading = Heading { title: &title, lines: &[line], key: &key };
     let height = heading.height() + quantities.len() as f64 * (PLOT + X_AXIS + 2.0 * MARGIN);
     style::figure(height, |area| {

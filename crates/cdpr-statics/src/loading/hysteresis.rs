@@ -125,6 +125,9 @@ impl HysteresisLaw {
     }
 }
 
+/// Greatest number of steps each way: their results are kept.
+const MOST_STEPS: usize = 100_000;
+
 /// The load cycle of a payload [kg] at a pose that the inverse model holds under the platform's own weight,
 /// in `steps` steps each way.
 ///
@@ -132,7 +135,7 @@ impl HysteresisLaw {
 /// There is one law for each cable; the laws of the robot's own cables are ignored.
 ///
 /// # Errors
-/// [`StaticsError::Invalid`] for a payload that is not positive, zero steps, or another number of laws than
+/// [`StaticsError::Invalid`] for a payload that is not positive, too few or too many steps, or another number of laws than
 /// of cables; those of the inverse and the direct model.
 pub fn load_cycle(
     robot: &Robot,
@@ -148,8 +151,8 @@ pub fn load_cycle(
     if !(payload.is_finite() && payload > 0.0) {
         return invalid("payload", payload.to_string(), "a finite, positive mass [kg]");
     }
-    if steps == 0 {
-        return invalid("steps", steps.to_string(), "one step at least");
+    if !(1..=MOST_STEPS).contains(&steps) {
+        return invalid("steps", steps.to_string(), &format!("1 to {MOST_STEPS} steps"));
     }
     let n = robot.cables.len();
     if laws.len() != n {

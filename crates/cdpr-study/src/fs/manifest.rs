@@ -118,6 +118,50 @@ impl Manifest {
     fn digest_of(&self, name: &str) -> Option<&str> {
         self.files.get(name)?.as_deref()
     }
+
+    /// Checks that a file of the folder is what the list says, if the list has its digest.
+    ///
+    /// # Errors
+    /// [`StudyError::Changed`]; [`StudyError::Read`], also for a file that does not exist.
+    pub(crate) fn check(&self, folder: &Path, name: &str) -> Result<(), StudyError> {
+        let Some(expected) = self.digest_of(name) else { return Ok(()) };
+        let path = folder.join(name);
+        let mut hasher = blake3::Hasher::new();
+        match hasher.update_reader(open(&path, InputKind::Results)?) {
+            Ok(hasher) if hasher.finalize().to_string() == expected => Ok(()),
+            Ok(_) => Err(StudyError::Changed { path }),
+            Err(source) => Err(StudyError::Read { path, source }),
+        }
+    }
+}
+
+/// Checks that a file is not one that a run has written and somebody has changed since.
+///
+/// # Errors
+/// [`StudyError::Changed`] and those of the list of its folder.
+pub(crate) fn check_unchanged(path: &Path) -> Result<(), StudyError> {
+    // A table may stand in the folder itself or in one below it.
+    for folder in path.ancestors().skip(1).take(2) {
+        let Some(name) = path.strip_prefix(folder).ok().and_then(Path::to_str) else { continue };
+        if let Some(list) = Manifest::read(folder)? {
+            list.check(folder, name)?;
+        }
+    }
+    Ok(())
+}
+
+/// The content of a file in a folder of results.
+///
+/// # Errors
+/// [`StudyError::Read`], [`StudyError::TooLarge`]; [`StudyError::Changed`] for a file that was changed after
+/// the run that wrote it.
+pub fn read_result(folder: &Path, name: &str) -> Result<Vec<u8>, StudyError> {
+    let path = folder.join(name);
+    let bytes = read_bytes(&path, InputKind::Results)?;
+    match Manifest::read(folder)?.as_ref().and_then(|list| list.digest_of(name)) {
+        Some(expected) if digest(&bytes) != expected => Err(StudyError::Changed { path }),
+        _ => Ok(bytes),
+    }
 }
 
 /// The text of a file in a folder of results.
@@ -139,20 +183,15 @@ pub(crate) fn read(folder: &Path, list: Option<&Manifest>, name: &str) -> Result
 /// [`StudyError::Read`] and those of the list.
 pub(crate) fn changed_files(folder: &Path) -> Result<Vec<PathBuf>, StudyError> {
     let mut changed = Vec::new();
-    for (name, expected) in Manifest::read(folder)?.into_iter().flat_map(|list| list.files) {
-        let (path, Some(expected)) = (folder.join(name), expected) else { continue };
-        let found = match open(&path, InputKind::Results) {
-            Ok(file) => {
-                let mut hasher = blake3::Hasher::new();
-                let hashed = hasher.update_reader(file).map(|hasher| hasher.finalize().to_string());
-                Some(hashed.map_err(|source| StudyError::Read { path: path.clone(), source })?)
+    let Some(list) = Manifest::read(folder)? else { return Ok(changed) };
+    for name in list.files.keys() {
+        match list.check(folder, name) {
+            Ok(()) => (),
+            Err(StudyError::NotRegular { path, .. } | StudyError::Changed { path }) => changed.push(path),
+            Err(StudyError::Read { path, source }) if source.kind() == ErrorKind::NotFound => {
+                changed.push(path);
             }
-            Err(StudyError::NotRegular { .. }) => None,
-            Err(StudyError::Read { source, .. }) if source.kind() == ErrorKind::NotFound => None,
             Err(error) => return Err(error),
-        };
-        if found != Some(expected) {
-            changed.push(path);
         }
     }
     Ok(changed)

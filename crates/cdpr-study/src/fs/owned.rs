@@ -2,15 +2,15 @@
 //!
 //! Every process that writes holds the lock of the folder: alone, or shared with the others that make blocks
 //! of the same study. A file that is not in the folder's list ([`Manifest`]) is never written over and never
-//! removed, and no link is ever followed.
+//! removed, and no link is ever followed. A file that was changed after the run that wrote it belongs to the
+//! user, too, unless the results are to be overwritten.
 
 use crate::error::StudyError;
-use crate::fs::atomic::{AtomicFile, is_unfinished, remove_unfinished, write_atomic};
+use crate::fs::atomic::{AtomicFile, is_unfinished, remove_unfinished};
 use crate::fs::disk;
 use crate::fs::files::check_folder;
-use crate::fs::input::read_start;
 use crate::fs::manifest::{Manifest, ResultsOf, digest, entries, is_plain_file, is_plain_folder};
-use crate::kind::InputKind;
+use crate::fs::single::IfExists;
 use crate::names::LOCK_NAME;
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
@@ -62,6 +62,8 @@ struct State {
     alone: bool,
     /// Whether the list is on the disk.
     listed: bool,
+    /// Whether files of earlier runs are replaced even if they were changed since.
+    overwrites: bool,
     /// Files of this run, with the digests of those that are finished.
     written: BTreeMap<String, Option<String>>,
 }
@@ -108,11 +110,33 @@ impl ResultsFolder {
     /// `writes` says of a name whether the run may write a file of that name.
     ///
     /// # Errors
-    /// [`StudyError::Write`]; [`StudyError::FolderBusy`] where another process writes, and
-    /// [`StudyError::NoResults`], [`StudyError::Link`], [`StudyError::OtherResults`] and those of the list
-    /// for a folder that is not of such runs alone.
-    pub fn begin(path: &Path, of: ResultsOf, writes: impl Fn(&str) -> bool) -> Result<Self, StudyError> {
-        Self::take(path, of, Access::Alone, writes)
+    /// [`StudyError::Write`]; [`StudyError::FolderBusy`] where another process writes;
+    /// [`StudyError::ResultsExist`] for results that are not to be overwritten; [`StudyError::NoResults`],
+    /// [`StudyError::Link`], [`StudyError::OtherResults`] and those of the list for a folder that is not of
+    /// such runs alone.
+    pub fn begin(
+        path: &Path,
+        of: ResultsOf,
+        if_exists: IfExists,
+        writes: impl Fn(&str) -> bool,
+    ) -> Result<Self, StudyError> {
+        let folder = Self::take(path, of, Access::Alone, writes)?;
+        match if_exists {
+            IfExists::Overwrite => folder.overwrite(),
+            IfExists::Refuse => {
+                let files = folder.state().manifest.files.clone();
+                // Files of a run that was interrupted have no digest.
+                if files.iter().any(|(name, digest)| digest.is_some() && path.join(name).exists()) {
+                    return Err(StudyError::ResultsExist { folder: path.to_owned(), of: of.word() });
+                }
+            }
+        }
+        Ok(folder)
+    }
+
+    /// From now on, files of earlier runs are replaced even if they were changed since.
+    pub(crate) fn overwrite(&self) {
+        self.state().overwrites = true;
     }
 
     /// The same for one of several processes. [`Access::Shared`] may find the folder free, and then has it
@@ -135,7 +159,7 @@ impl ResultsFolder {
         let manifest = known(path, of, &writes)?;
         let listed = manifest.is_some();
         let manifest = manifest.unwrap_or_else(|| Manifest::new(of));
-        let state = State { manifest, alone, listed, written: BTreeMap::new() };
+        let state = State { manifest, alone, listed, overwrites: false, written: BTreeMap::new() };
         Ok(Self { path: path.to_owned(), lock, state: Arc::new(Mutex::new(state)) })
     }
 
@@ -225,14 +249,19 @@ impl ResultsFolder {
     /// Names files that will be written.
     ///
     /// # Errors
-    /// [`StudyError::NoResults`] for a file that no run has written, [`StudyError::Write`].
+    /// [`StudyError::NoResults`] for a file that no run has written, [`StudyError::Changed`] for one that was
+    /// changed since, unless the results are overwritten; [`StudyError::Write`].
     pub fn claim(&self, names: impl IntoIterator<Item = String>) -> Result<(), StudyError> {
         let mut state = self.state();
         let mut new = Vec::new();
         for name in names {
             let path = self.path.join(&name);
             if state.manifest.files.contains_key(&name) {
-                is_plain_file(&path)?;
+                state.check_ours(&self.path, &name)?;
+                // The digest is that of the earlier content.
+                if !state.written.contains_key(&name) && state.manifest.files[&name].is_some() {
+                    new.push(name);
+                }
             } else if path.symlink_metadata().is_ok() {
                 return Err(StudyError::NoResults { path });
             } else {
@@ -274,6 +303,17 @@ impl ResultsFolder {
         }
     }
 
+    /// Gives the list the digests of the files that this run has written so far.
+    ///
+    /// # Errors
+    /// [`StudyError::Write`].
+    pub(crate) fn list_written(&self) -> Result<(), StudyError> {
+        let mut state = self.state();
+        let written = state.written.clone();
+        state.manifest.files.extend(written);
+        state.manifest.write(&self.path)
+    }
+
     /// Writes a value as indented JSON.
     ///
     /// # Errors
@@ -302,11 +342,19 @@ impl ResultsFolder {
             self.state().manifest.files.clone().into_iter().partition(|(found, _)| {
                 written.contains_key(found) || found == name || keep.contains(&found.as_str())
             });
-        self.remove_files(&stale.into_keys().collect::<Vec<_>>())?;
+        // What a user has changed stays, and is no longer of runs.
+        let overwrites = self.state().overwrites;
+        let is_changed = |name: &String| {
+            let found = self.state().manifest.check(&self.path, name);
+            !overwrites && matches!(found, Err(StudyError::Changed { .. }))
+        };
+        self.remove_files(&stale.into_keys().filter(|name| !is_changed(name)).collect::<Vec<_>>())?;
         files.extend(written);
-        files.insert(name.to_owned(), Some(digest(text.as_bytes())));
+        let digest = Some(digest(text.as_bytes()));
+        files.insert(name.to_owned(), digest.clone());
         {
             let mut state = self.state();
+            state.written.insert(name.to_owned(), digest);
             if state.manifest.files != files {
                 state.manifest.files = files;
                 state.manifest.write(&self.path)?;
@@ -361,7 +409,8 @@ impl ResultsFolder {
     /// Removes a file that a run has written, if it exists. Its name stays in the list.
     ///
     /// # Errors
-    /// [`StudyError::Link`], [`StudyError::Write`].
+    /// [`StudyError::Link`], [`StudyError::Write`]; [`StudyError::Changed`] for a file that was changed since,
+    /// unless the results are overwritten.
     pub fn remove(&self, name: &str) -> Result<(), StudyError> {
         if !self.has(name) {
             return Ok(());
@@ -373,6 +422,7 @@ impl ResultsFolder {
             return Ok(());
         }
         if is_plain_file(&path)? {
+            self.state().check_ours(&self.path, name)?;
             disk::remove(&path).map_err(|source| StudyError::Write { path, source })?;
         }
         Ok(())
@@ -437,6 +487,17 @@ impl ResultsFolder {
 
     fn state(&self) -> MutexGuard<'_, State> {
         held(&self.state)
+    }
+}
+
+impl State {
+    /// Checks that a listed file is what this or an earlier run has written, if it exists.
+    fn check_ours(&self, folder: &Path, name: &str) -> Result<(), StudyError> {
+        let path = folder.join(name);
+        if !is_plain_file(&path)? || self.overwrites || self.written.contains_key(name) {
+            return Ok(());
+        }
+        self.manifest.check(folder, name)
     }
 }
 
@@ -523,28 +584,4 @@ pub(crate) fn make_plain_folder(path: &Path) -> Result<(), StudyError> {
         is_plain_folder(path)?;
     }
     Ok(())
-}
-
-/// Writes a text to a file of the user's choice. A file that exists is written over only if it begins with
-/// what such a text contains; a pipe or terminal is written to as it is.
-///
-/// # Errors
-/// [`StudyError::NoResults`], [`StudyError::Write`].
-pub fn write_text(path: &Path, text: &str, like: &str) -> Result<(), StudyError> {
-    const LOOKED_AT: u64 = 4096;
-    let write = |source| StudyError::Write { path: path.to_owned(), source };
-    match std::fs::metadata(path) {
-        Ok(found) if found.is_file() => {
-            let start = read_start(path, InputKind::Results, LOOKED_AT)?;
-            if !start.is_empty() && !String::from_utf8_lossy(&start).contains(like) {
-                return Err(StudyError::NoResults { path: path.to_owned() });
-            }
-            // Through a link, to the file itself.
-            write_atomic(path.canonicalize().map_err(write)?, text.as_bytes()).map(|_| ())
-        }
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound && path.symlink_metadata().is_err() => {
-            write_atomic(path.to_owned(), text.as_bytes()).map(|_| ())
-        }
-        _ => disk::write_to(path, text.as_bytes()).map_err(write),
-    }
 }

@@ -2,6 +2,7 @@
 
 use crate::error::StudyError;
 use crate::fs::input::read_text;
+use crate::fs::manifest::check_unchanged;
 use crate::fs::owned::hold_still;
 use crate::given::columns::{GivenTable, invalid};
 use crate::given::csv;
@@ -27,6 +28,7 @@ pub fn open_table(path: &Path, name: Option<&str>) -> Result<GivenTable, StudyEr
 }
 
 fn read(path: &Path) -> Result<GivenTable, StudyError> {
+    check_unchanged(path)?;
     if path.extension().is_some_and(|ending| ending == "parquet") {
         #[cfg(feature = "parquet")]
         return crate::given::parquet::read(path);

@@ -50,12 +50,20 @@ impl Study {
     }
 
     fn hash_of(&self, content: &impl Serialize) -> Result<String, StudyError> {
-        let robot = Robot { name: String::new(), provenance: Provenance::default(), ..self.robot.clone() };
         let mut hasher = blake3::Hasher::new();
-        let whole = (env!("CARGO_PKG_VERSION"), POINTS_VERSION, content, robot.to_json());
+        let whole = (env!("CARGO_PKG_VERSION"), POINTS_VERSION, content, nameless(&self.robot));
         serde_json::to_writer(&mut hasher, &whole)
             .map_err(|error| StudyError::Write { path: self.path.clone(), source: error.into() })?;
-        // 128 bits tell studies apart, and can be read out.
+        // 128 bits distinguish studies, and can be read out.
         Ok(hasher.finalize().to_hex()[..32].to_owned())
     }
+}
+
+/// Hash of everything that determines what a robot does: of its file without name and provenance.
+pub fn robot_hash(robot: &Robot) -> String {
+    blake3::hash(nameless(robot).as_bytes()).to_hex()[..32].to_owned()
+}
+
+fn nameless(robot: &Robot) -> String {
+    Robot { name: String::new(), provenance: Provenance::default(), ..robot.clone() }.to_json()
 }

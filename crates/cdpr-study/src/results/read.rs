@@ -8,10 +8,11 @@ use crate::analysis::surface::{SurfaceResult, SurfaceSummary};
 use crate::error::StudyError;
 use crate::fs::input::read_text;
 use crate::fs::manifest::{Manifest, ResultsOf, read};
-use crate::fs::owned::{ResultsFolder, hold_still, write_text};
+use crate::fs::owned::{Access, ResultsFolder, hold_still};
+use crate::fs::single::{IfExists, write_text};
 use crate::kind::InputKind;
 use crate::model::study::Study;
-use crate::names::{REPORT_MARK, REPORT_NAME, STUDY_NAME, SUMMARY_NAME, TIMINGS_NAME};
+use crate::names::{REPORT_NAME, STUDY_NAME, SUMMARY_NAME, TIMINGS_NAME};
 use crate::results::write::Timings;
 use crate::store::folder::check_hash;
 use cdpr_robot::from_json;
@@ -79,6 +80,7 @@ impl Results {
                 StudySummary::Sampling(_) => (),
             }
         }
+        // Times differ from run to run: they have no digest.
         let timings = match read_json(&folder.join(TIMINGS_NAME)) {
             Err(StudyError::Read { source, .. }) if source.kind() == std::io::ErrorKind::NotFound => None,
             timings => Some(timings?),
@@ -89,23 +91,26 @@ impl Results {
     /// Writes a report of these results, which were read from this folder, into it.
     ///
     /// # Errors
-    /// [`StudyError::NoResults`] for another file in its place, [`StudyError::FolderBusy`] where a process
+    /// [`StudyError::NoResults`] for another file in its place, [`StudyError::Changed`] for a report that was
+    /// changed since it was written, [`StudyError::FolderBusy`] where a process
     /// writes into the folder, [`StudyError::NotAnalysed`] where one has done so since the results were read,
     /// [`StudyError::Write`].
     pub fn write_report(&self, folder: &Path, page: &str) -> Result<PathBuf, StudyError> {
         if Manifest::read(folder)?.is_none() {
             // Of an earlier version.
             let path = folder.join(REPORT_NAME);
-            write_text(&path, page, REPORT_MARK)?;
+            write_text(&path, page, IfExists::Refuse)?;
             return Ok(path);
         }
-        let owned = ResultsFolder::begin(folder, ResultsOf::Study, |name| name == REPORT_NAME)?;
+        let owned = ResultsFolder::take(folder, ResultsOf::Study, Access::Alone, |name| name == REPORT_NAME)?;
         let path = folder.join(SUMMARY_NAME);
         if !path.exists() || read_summary(&path)? != self.summary {
             return Err(StudyError::NotAnalysed { folder: folder.to_owned() });
         }
         owned.remove_unfinished()?;
-        owned.write(REPORT_NAME, page.as_bytes())
+        let path = owned.write(REPORT_NAME, page.as_bytes())?;
+        owned.list_written()?;
+        Ok(path)
     }
 }
 

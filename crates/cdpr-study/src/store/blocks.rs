@@ -326,11 +326,12 @@ mod tests {
     use super::*;
     use crate::fs::atomic::AtomicFile;
     use crate::fs::manifest::ResultsOf;
+    use crate::fs::single::IfExists;
     use std::fs;
     use std::io::Write;
 
     fn blocks(results: &Path) -> Blocks {
-        let owned = ResultsFolder::begin(results, ResultsOf::Study, |_| false).unwrap();
+        let owned = ResultsFolder::begin(results, ResultsOf::Study, IfExists::Refuse, |_| false).unwrap();
         owned.claim([SUMMARY_NAME.to_owned(), "plane/0000.csv".to_owned()]).unwrap();
         Blocks {
             results: results.to_owned(),

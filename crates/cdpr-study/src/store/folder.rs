@@ -57,6 +57,7 @@ fn settle(results: &Arc<ResultsFolder>, study: &Study, existing: Existing) -> Re
         return Err(StudyError::FolderBusy { folder: results.path().to_owned() });
     }
     if existing == Existing::Overwrite {
+        results.overwrite();
         results.check_plain()?;
         is_plain_folder(&results.path().join(BLOCKS_NAME))?;
         // Without its summary and its report, nobody takes the rest for the results of a study.

@@ -1,13 +1,13 @@
 //! `cdpr calibration plan`: the poses to measure.
 
-use crate::arguments::{self, Format, FreeArguments, LoadArguments, Preference};
+use crate::arguments::{self, Format, FreeArguments, LoadArguments, Overwrite, Preference};
 use crate::error::ProgramError;
 use crate::output::{patiently, table};
 use crate::poses;
 use crate::robot::calibration::candidates::{Candidates, Known, add};
 use cdpr_calibration::{AtWork, Calibration, Criterion, PosePlan, Quality};
 use cdpr_robot::{Pose, Robot, rounded, shown};
-use cdpr_study::{Grid, write_text};
+use cdpr_study::Grid;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -49,6 +49,8 @@ pub(crate) struct PlanSettings {
     /// File for the poses (CSV), as --poses reads them.
     #[arg(long)]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    overwrite: Overwrite,
     /// How the results are printed.
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
@@ -108,7 +110,7 @@ pub(super) fn plan(settings: &PlanSettings) -> Result<(), ProgramError> {
             .iter()
             .map(|pose| poses::pose_numbers(&poses[*pose]).map(|number| number.to_string()).join(","))
             .collect();
-        write_text(out, &format!("{}\n{}\n", poses::COLUMNS.join(","), lines.join("\n")), "x_m,y_m,z_m")?;
+        settings.overwrite.write(out, &format!("{}\n{}\n", poses::COLUMNS.join(","), lines.join("\n")))?;
     }
     let output = Plan::new(&poses, refused, found, settings.accuracy);
     Ok(settings.format.print(&output, |output| print_plan(&robot, output))?)

@@ -1,12 +1,11 @@
 //! `cdpr calibration simulate`: what a campaign would read.
 
-use crate::arguments::{self, FreeArguments, LoadArguments, Named, Preference};
+use crate::arguments::{self, FreeArguments, LoadArguments, Named, Overwrite, Preference};
 use crate::error::ProgramError;
 use crate::robot::calibrate::{Sought, sensor_errors};
 use crate::robot::calibration::candidates::Candidates;
 use cdpr_calibration::{Noise, SensorError, Simulated, drawn_errors, simulate, write_measurements};
 use cdpr_robot::{CableEnd, Vector3};
-use cdpr_study::write_text;
 use std::path::PathBuf;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -53,6 +52,8 @@ pub(crate) struct SimulateSettings {
     /// File for the robot as it truly is (JSON).
     #[arg(long)]
     truth: Option<PathBuf>,
+    #[command(flatten)]
+    overwrite: Overwrite,
 }
 
 pub(super) fn simulated(settings: &SimulateSettings) -> Result<(), ProgramError> {
@@ -93,10 +94,10 @@ pub(super) fn simulated(settings: &SimulateSettings) -> Result<(), ProgramError>
     let (header, lines) = write_measurements(&rows);
     let mut text = header.join(",") + "\n";
     lines.iter().for_each(|line| text += &(line.join(",") + "\n"));
-    write_text(&settings.out, &text, "l1_m,")?;
+    settings.overwrite.write(&settings.out, &text)?;
     if let Some(path) = &settings.truth {
         let truth = robot.perturbed(&deviations).map_err(cdpr_calibration::CalibrationError::from)?.robot;
-        write_text(path, &(truth.to_json() + "\n"), cdpr_robot::FORMAT)?;
+        settings.overwrite.write(path, &(truth.to_json() + "\n"))?;
     }
     println!("{}: {} rows at {} poses", settings.out.display(), rows.len(), poses.len());
     Ok(())

@@ -1,0 +1,79 @@
+//! Single files of the user's choice, written whole or not at all.
+
+use crate::error::StudyError;
+use crate::fs::atomic::{write_atomic, write_new};
+use crate::fs::disk;
+use crate::fs::input::open;
+use crate::kind::InputKind;
+use std::io::{ErrorKind, Read};
+use std::path::Path;
+
+/// What becomes of a file, or of the results in a folder, that exist already.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum IfExists {
+    /// They are left alone, and nothing is written.
+    #[default]
+    Refuse,
+    /// They are replaced.
+    Overwrite,
+}
+
+impl IfExists {
+    /// [`IfExists::Overwrite`] where that was requested.
+    pub fn overwriting(requested: bool) -> Self {
+        if requested { Self::Overwrite } else { Self::Refuse }
+    }
+}
+
+/// Writes a text to a file of the user's choice. A file that exists is replaced only if that was requested; one
+/// that has this content already is left as it is. A pipe or terminal is written to as it is.
+///
+/// # Errors
+/// [`StudyError::FileExists`] for a file with another content, [`StudyError::Read`], [`StudyError::Write`].
+pub fn write_text(path: &Path, text: &str, if_exists: IfExists) -> Result<(), StudyError> {
+    let write = |source| StudyError::Write { path: path.to_owned(), source };
+    match std::fs::metadata(path) {
+        Ok(found) if found.is_file() => {
+            if found.len() == text.len() as u64 && has_content(path, text)? {
+                return Ok(());
+            }
+            if if_exists == IfExists::Refuse {
+                return Err(StudyError::FileExists { path: path.to_owned() });
+            }
+            // Through a link, to the file itself.
+            write_atomic(path.canonicalize().map_err(write)?, text.as_bytes()).map(|_| ())
+        }
+        Err(error) if error.kind() == ErrorKind::NotFound && path.symlink_metadata().is_err() => {
+            write_new(path.to_owned(), text.as_bytes()).map(|_| ())
+        }
+        _ => disk::write_to(path, text.as_bytes()).map_err(write),
+    }
+}
+
+fn has_content(path: &Path, text: &str) -> Result<bool, StudyError> {
+    let mut found = Vec::with_capacity(text.len());
+    let read = open(path, InputKind::Results)?.take(text.len() as u64 + 1).read_to_end(&mut found);
+    read.map_err(|source| StudyError::Read { path: path.to_owned(), source })?;
+    Ok(found == text.as_bytes())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_of_another_content_is_replaced_on_request_only() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("robot.json");
+        let text = || std::fs::read_to_string(&path).unwrap();
+        write_text(&path, "ours", IfExists::Refuse).unwrap();
+        write_text(&path, "ours", IfExists::Refuse).unwrap();
+        for other in ["else", "of another length"] {
+            let error = write_text(&path, other, IfExists::Refuse).unwrap_err();
+            assert!(matches!(error, StudyError::FileExists { .. }), "{error}");
+            assert_eq!(text(), "ours");
+        }
+        write_text(&path, "else", IfExists::Overwrite).unwrap();
+        assert_eq!(text(), "else");
+    }
+}
