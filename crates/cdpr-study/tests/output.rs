@@ -187,7 +187,10 @@ fn small_measures() -> SensitivitySpec {
 
 /// The methods that are left out.
 fn left_out(found: &SensitivitySummary) -> Vec<&str> {
-    found.notes.iter().filter_map(|note| Some(note.split_once(':')?.0)).collect()
+    // A doubt about intervals leaves nothing out.
+    let is_doubt = |note: &&String| note.ends_with("the intervals are an indication only");
+    let notes = found.notes.iter().filter(|note| !is_doubt(note));
+    notes.filter_map(|note| Some(note.split_once(':')?.0)).collect()
 }
 
 #[test]
@@ -205,7 +208,10 @@ fn every_output_has_measures_by_derivatives_and_a_nominal_position_has_none() {
             assert_eq!(summary.signed_effects.len(), sampling.design.inputs().len());
             let sensitivity = summary.sensitivity.unwrap();
             assert_eq!(left_out(&sensitivity), without, "{:?}", sensitivity.notes);
-            assert!(sensitivity.notes.iter().all(|note| note.contains("has no derivative")));
+            let told = |note: &String| {
+                note.contains("has no derivative") || note.ends_with("the intervals are an indication only")
+            };
+            assert!(sensitivity.notes.iter().all(told));
             let known = ["t_student", "regression", "rank_regression", "morris", "expansion", "sobol"];
             assert!(known.iter().all(|method| sensitivity.methods.contains_key(*method)));
             // The linear model of the derivatives and that of the regression name the same greatest share.

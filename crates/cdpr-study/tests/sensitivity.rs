@@ -38,6 +38,13 @@ fn of_sampling(name: &str, spec: &SensitivitySpec) -> SensitivitySummary {
     measure(&sampling, spec, &observe(&sampling, &session).unwrap(), &session).unwrap()
 }
 
+/// Measures that were left out; a doubt about intervals leaves nothing out.
+fn left_out(found: &SensitivitySummary) -> Vec<&str> {
+    let is_doubt = |note: &&String| note.ends_with("the intervals are an indication only");
+    let notes = found.notes.iter().filter(|note| !is_doubt(note));
+    notes.map(|note| note.split(':').next().unwrap()).collect()
+}
+
 fn input<'a>(found: &'a SensitivitySummary, name: &str) -> &'a InputMeasures {
     found.inputs.iter().find(|input| input.input == name).unwrap()
 }
@@ -51,7 +58,7 @@ fn timeless(mut found: SensitivitySummary) -> SensitivitySummary {
 #[test]
 fn derivatives_and_sobol_indices_agree_on_the_share_of_the_modulus() {
     let found = of_sampling("mechanical", &SMALL);
-    assert_eq!((found.methods.len(), &found.notes[..]), (10, &[][..]));
+    assert_eq!((found.methods.len(), left_out(&found)), (10, vec![]));
     let modulus = input(&found, "youngs_modulus");
     let share = modulus.derivative_share.unwrap();
     assert!((share - 0.9945).abs() < 1e-4, "{share}");
@@ -404,8 +411,7 @@ fn a_measure_that_fails_is_a_note() {
     // 20 observations do not tell 62 coefficients.
     let spec = SensitivitySpec { observations: 20, ..SMALL };
     let found = of_sampling("mechanical", &spec);
-    let left_out: Vec<_> = found.notes.iter().map(|note| note.split(':').next().unwrap()).collect();
-    assert_eq!(left_out, ["regression", "rank_regression"]);
+    assert_eq!(left_out(&found), ["regression", "rank_regression"]);
     assert!(found.notes[0].contains("64"), "{:?}", found.notes);
     assert!(found.inputs.iter().all(|input| input.regression_share.is_none() && input.sobol_first.is_some()));
     assert!(!found.sums["all"].contains_key("regression_share"));
