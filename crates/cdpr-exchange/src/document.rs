@@ -101,7 +101,7 @@ impl Document {
         Node { document: self, id: 0 }
     }
 
-    /// The first one of the outermost nodes, or the node around them where there is none, without reading it.
+    /// The first of the outermost nodes, or the node around them if there are no others, without reading it.
     pub(crate) fn first(&self) -> Node<'_> {
         self.all().children().next().unwrap_or(self.all())
     }
@@ -207,7 +207,7 @@ impl<'a> Node<'a> {
         self.entry().text.as_deref().unwrap_or_default().trim()
     }
 
-    /// The text of a child; empty where there is none.
+    /// The text of a child; empty if there is no such child.
     pub(crate) fn text_in(&self, name: &str) -> &'a str {
         self.get(name).map_or("", |node| node.text())
     }

@@ -50,7 +50,7 @@ fn entities_are_not_expanded() {
     let error = imported(&[("r.wcrfx", &bomb)], &all_options()).map(drop).unwrap_err();
     assert!(matches!(error, ExchangeError::Syntax { line: 1, column: 1, .. }), "{error}");
     assert!(error.to_string().contains("declarations of its own, such as entities: expected none"));
-    // A type that is declared elsewhere, as in CASPR's files, is none of them.
+    // A type that is declared elsewhere, as in CASPR's files, is not refused.
     assert!(BODIES.contains("<!DOCTYPE bodies_system SYSTEM"));
 }
 

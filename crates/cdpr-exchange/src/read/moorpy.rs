@@ -249,7 +249,7 @@ fn line_types<'a>(types: &Table<'a>) -> Result<HashMap<&'a str, CableProperties>
     Ok(found)
 }
 
-/// Reads the body and returns its number; `None` where there is none.
+/// Reads the body and returns its number; `None` without a body.
 fn read_body(draft: &mut Draft, bodies: &Table) -> Result<Option<u64>, ExchangeError> {
     let [row] = &bodies.rows[..] else {
         let Some(second) = bodies.rows.get(1) else { return Ok(None) };

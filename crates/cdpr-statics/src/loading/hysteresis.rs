@@ -135,8 +135,8 @@ const MOST_STEPS: usize = 100_000;
 /// There is one law for each cable; the laws of the robot's own cables are ignored.
 ///
 /// # Errors
-/// [`StaticsError::Invalid`] for a payload that is not positive, too few or too many steps, or another number of laws than
-/// of cables; those of the inverse and the direct model.
+/// [`StaticsError::Invalid`] for a payload that is not positive, too few or too many steps, or another
+/// number of laws than of cables; those of the inverse and the direct model.
 pub fn load_cycle(
     robot: &Robot,
     laws: &[HysteresisLaw],
