@@ -153,9 +153,14 @@ fn the_error_is_the_studys_output_unless_the_limit_names_another() {
     let deflection = tolerance_budget(&sampling, &with(Some(Limited::Deflection), 1.36)).unwrap();
     assert_eq!(deflection, budget("geometrical", &limit(Limited::Deflection, 1.36)).unwrap());
 
-    study.file.output = Output::Stiffness;
-    let sampling = study.sampling("geometrical").unwrap();
-    let error = tolerance_budget(&sampling, &with(None, 30.0)).unwrap_err().to_string();
-    assert!(error.contains("the study's output is stiffness: expected deflection or position"), "{error}");
-    assert!(tolerance_budget(&sampling, &with(Some(Limited::Deflection), 1.36)).is_ok());
+    // Frequencies need an inertia.
+    study.robot.platform.inertia = Some(cdpr_robot::Matrix3::from_diagonal_element(30.0));
+    for output in [Output::Stiffness, Output::Frequency] {
+        study.file.output = output;
+        let sampling = study.sampling("geometrical").unwrap();
+        let error = tolerance_budget(&sampling, &with(None, 30.0)).unwrap_err().to_string();
+        let said = format!("the study's output is {output}: expected deflection or position");
+        assert!(error.contains(&said), "{error}");
+        assert!(tolerance_budget(&sampling, &with(Some(Limited::Deflection), 1.36)).is_ok());
+    }
 }
