@@ -1,7 +1,9 @@
 //! Tables as Parquet hold what the CSV holds, and say what they are of.
 
 #![cfg(feature = "parquet")]
-use cdpr_study::{ObservationTable, ResultsFolder, ResultsOf, Session, Study, TableFormat, observe_into};
+use cdpr_study::{
+    IfExists, ObservationTable, ResultsFolder, ResultsOf, Session, Study, TableFormat, observe_into,
+};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 use std::path::Path;
@@ -13,8 +15,8 @@ fn write(folder: &Path, format: TableFormat, observations: usize) {
     // Some robots are not held within this limit; the nominal robot's largest tension is 1311 N.
     study.robot.tension_limits.max = 1450.0;
     let sampling = study.sampling("geometrical_asymmetric").unwrap();
-    let folder =
-        ResultsFolder::begin(folder, ResultsOf::Study, |name| name.starts_with("geometrical")).unwrap();
+    let writes = |name: &str| name.starts_with("geometrical");
+    let folder = ResultsFolder::begin(folder, ResultsOf::Study, IfExists::Refuse, writes).unwrap();
     let mut table = ObservationTable::new(&folder, &sampling, format).unwrap();
     let rows = |part: &_| format.rows(part);
     observe_into(&sampling, &Session::in_memory(), rows, |rows| table.write(rows)).unwrap();
