@@ -117,12 +117,8 @@ fn main() -> ExitCode {
 }
 
 fn caroca_study(mut rest: Vec<String>) -> ExitCode {
-    default(&mut rest, "--out", "target/caroca-study");
+    replaceable(&mut rest, "target/caroca-study");
     let study = |file: &str| root().join("data/studies").join(file).display().to_string();
-    // Results of another state of the code are not continued, unless the user asks for it.
-    if !rest.iter().any(|argument| argument == "--resume") {
-        rest.push("--overwrite".to_owned());
-    }
     let (paper, measures) = (study("caroca.json"), study("caroca-sensitivity.json"));
     eprintln!("building the program (a few minutes the first time), then running {paper} and {measures}");
     let code = cdpr(&["study", "run", &paper], &rest);
@@ -146,11 +142,8 @@ fn caroca_study(mut rest: Vec<String>) -> ExitCode {
 }
 
 fn robustness(mut rest: Vec<String>) -> ExitCode {
-    default(&mut rest, "--out", "target/robustness");
+    replaceable(&mut rest, "target/robustness");
     default(&mut rest, "--robot", "data/robots/cogiro.json");
-    if !rest.iter().any(|word| word == "--overwrite") {
-        rest.push("--overwrite".to_owned());
-    }
     eprintln!("building the program (a few minutes the first time), then looking for poses");
     cdpr(&["robustness"], &rest)
 }
@@ -172,6 +165,17 @@ fn default(arguments: &mut Vec<String>, option: &str, path: &str) {
     let given = format!("{option}=");
     if !arguments.iter().any(|argument| argument == option || argument.starts_with(&given)) {
         arguments.extend([option.to_owned(), root().join(path).display().to_string()]);
+    }
+}
+
+/// Adds a folder of our own for the results if none is given. Those of another state of the code are replaced
+/// there, unless they are to be continued; what is in a folder of the user's is left to the program.
+fn replaceable(arguments: &mut Vec<String>, path: &str) {
+    let given = arguments.len();
+    default(arguments, "--out", path);
+    let asked = |argument: &String| ["--resume", "--overwrite"].contains(&argument.as_str());
+    if arguments.len() > given && !arguments.iter().any(asked) {
+        arguments.push("--overwrite".to_owned());
     }
 }
 

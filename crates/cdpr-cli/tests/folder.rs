@@ -456,8 +456,8 @@ fn edited_files_of_results_are_noticed_wherever_they_are_read() {
     let status: serde_json::Value =
         serde_json::from_str(&bench.done(&["status", "out", "--format", "json"])).unwrap();
     assert_eq!(status["changed"], json!(["out/mechanical.csv", "out/mechanical.svg"]));
-    // An edited study goes on if it is run. A table that somebody has edited is not written over: moved away, it
-    // is made again, and so is a summary.
+    // An edited study goes on if it is run. A table that somebody has edited is not written over: moved away,
+    // it is made again, and so is a summary.
     bench.change("out/study.json", |study| study["samplings"]["mechanical"]["title"] = json!("Mine"));
     let resume = ["run", "out/study.json", "--out", "out", "--resume"];
     assert!(bench.refused(&resume).contains("out/mechanical.csv is not what the run has written here"));

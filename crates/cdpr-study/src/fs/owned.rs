@@ -409,8 +409,8 @@ impl ResultsFolder {
     /// Removes a file that a run has written, if it exists. Its name stays in the list.
     ///
     /// # Errors
-    /// [`StudyError::Link`], [`StudyError::Write`]; [`StudyError::Changed`] for a file that was changed since,
-    /// unless the results are overwritten.
+    /// [`StudyError::Link`], [`StudyError::Write`]; [`StudyError::Changed`] for a file that was changed
+    /// since, unless the results are overwritten.
     pub fn remove(&self, name: &str) -> Result<(), StudyError> {
         if !self.has(name) {
             return Ok(());

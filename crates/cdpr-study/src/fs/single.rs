@@ -25,8 +25,8 @@ impl IfExists {
     }
 }
 
-/// Writes a text to a file of the user's choice. A file that exists is replaced only if that was requested; one
-/// that has this content already is left as it is. A pipe or terminal is written to as it is.
+/// Writes a text to a file of the user's choice. A file that exists is replaced only if that was requested;
+/// one that has this content already is left as it is. A pipe or terminal is written to as it is.
 ///
 /// # Errors
 /// [`StudyError::FileExists`] for a file with another content, [`StudyError::Read`], [`StudyError::Write`].
