@@ -6,6 +6,7 @@
 mod case;
 mod cases;
 mod folders;
+mod options;
 
 use crate::cargo::cargo;
 use case::{Case, MINE, OUT};
@@ -84,10 +85,11 @@ fn attack(folder: &Path) -> io::Result<(usize, usize)> {
     let program = std::env::current_exe()?.with_file_name("cdpr");
     fs::create_dir_all(folder)?;
     cases::prepare(folder)?;
+    options::prepare(folder)?;
     folders::prepare(folder, &program)?;
     let before = contents(folder)?;
     let (mut cases, mut failures) = (0, 0);
-    for case in cases::all()?.into_iter().chain(folders::all()) {
+    for case in cases::all()?.into_iter().chain(folders::all()).chain(options::all(&program)?) {
         cases += 1;
         if let Err(failure) = case.run(&program, folder, &before) {
             failures += 1;

@@ -25,7 +25,7 @@ const TESTS: [(&str, &str, &str); 6] = [
 pub(crate) fn run(rest: &[String]) -> ExitCode {
     let (Some(part), arguments) = (rest.first(), rest.get(1..).unwrap_or_default()) else {
         eprintln!(
-            "error: expected a part: recovery, troubles, wrong, sensors, speed, scipy, circle or irma4u"
+            "error: expected a part: recovery, troubles, wrong, sensors, speed, scipy, campaigns, circle or irma4u"
         );
         return ExitCode::FAILURE;
     };
@@ -36,6 +36,8 @@ pub(crate) fn run(rest: &[String]) -> ExitCode {
     let done = match part.as_str() {
         "circle" => circle::run(),
         "irma4u" => irma4u(arguments),
+        // Campaigns of each robot, those of them that SciPy calibrates, too, and names of robots.
+        "campaigns" => script("campaigns.py", arguments),
         other => Err(format!("no part of calibration is called `{other}`")),
     };
     match done {
@@ -64,20 +66,24 @@ fn irma4u(files: &[String]) -> Result<(), String> {
             "expected files: ws_selfcalibration_27_final.mat ws_selfcalibration_8_final.mat".to_owned()
         );
     }
-    // Builds the program that the script calls.
+    script("irma4u.py", files)
+}
+
+/// Runs a script of data/reference, which calls the program.
+fn script(name: &str, arguments: &[String]) -> Result<(), String> {
     let built = cdpr_command(&["--version"]).output();
     if !built.is_ok_and(|output| output.status.success()) {
         return Err("cannot build the program".to_owned());
     }
     let python = std::env::var("PYTHON").unwrap_or_else(|_| "python3".to_owned());
     let done = Command::new(&python)
-        .arg(root().join("data/reference/irma4u.py"))
-        .args(files)
+        .arg(root().join("data/reference").join(name))
+        .args(arguments)
         .env("CDPR", root().join("target/debug/cdpr"))
         .status();
     match done {
         Ok(status) if status.success() => Ok(()),
-        Ok(_) => Err("irma4u.py has failed".to_owned()),
+        Ok(_) => Err(format!("{name} has failed")),
         Err(error) => Err(format!("cannot start {python}: {error}")),
     }
 }

@@ -58,15 +58,16 @@ tasks:
   statistics TABLE [STUDIES [FUNCTION]]
                  measures how often estimators of cdpr-sensitivity are right, see docs/VALIDATION.md; TABLE is
                  choice (of a fitted law), indices (of Sobol'), expansions,
-                 given (first-order indices of tables), levels (of tests of tables), brackets (bounds by
-                 derivatives), measures (all of them, of functions with FUNCTION in their names, or of
+                 given (first-order indices of tables), levels (of tests of tables), verdicts (of tables with
+                 known truth), brackets (bounds by derivatives), measures (all of them, of functions with FUNCTION in their names, or of
                  FUNCTION/MEASURE; docs/STATISTICS.md) or peers (beside SALib and OpenTURNS, which pip
                  installs into target/peers/statistics; there FUNCTION is a part of the names of measures)
   calibration PART [CAMPAIGNS | FILES]
                  prints the figures of calibration in docs/VALIDATION.md and docs/calibration.md; PART is
                  recovery, troubles (outliers, biases, far starts), wrong (models), sensors, speed, scipy,
-                 circle (the whole example, with its pictures and copies of its results) or irma4u (a
-                 user's copy of its campaigns)
+                 campaigns (beside SciPy, with the coverage of the stds: campaigns of each robot, and how many
+                 of them SciPy calibrates), circle (the whole example, with its pictures and copies of its
+                 results) or irma4u (a user's copy of its campaigns)
   fuzz [SECONDS] runs every fuzz target of tests/fuzz for SECONDS (60), on nightly with cargo-fuzz
   attack         runs the program on bad files and arguments, with 10 s and 1 GiB for each, and fails where it
                  panics, hangs or touches a file outside of its folder of results

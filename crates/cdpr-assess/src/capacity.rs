@@ -14,13 +14,13 @@
 //! the cables are straight, so that the corners of a box stand for all of it (Bouchard, Gosselin, Moore, *On
 //! the ability of a cable-driven robot to generate a prescribed set of wrenches*, J. Mechanisms Robotics 2,
 //! 2010). With the *lengths kept* that hold the pose under the platform's own weight, the tensions are those
-//! of the direct model. The payload then is the one at which the first limit is reached while it grows from
-//! zero.
+//! of the direct model. The payload then is the one at which the first limit is reached, or the platform
+//! falls, while it grows from zero.
 
 use cdpr_robot::{CableEnd, Coordinate, Pose, Robot, Wrench, decimal};
 use cdpr_statics::{
-    Blocking, Bound, DirectProblem, Equilibrium, FreeSolution, FreeSolutions, Greatest, HeldPose, Limit,
-    Load, Start, StaticsError, direct, greatest_payload, held_at, inverse_free, tension_margin,
+    Blocking, Bound, DirectProblem, DirectSolution, Equilibrium, Greatest, HeldPose, Limit, Load, Start,
+    StaticsError, direct, follow_load, greatest_payload, held_at, rest_near, tension_margin,
 };
 use std::fmt;
 
@@ -104,6 +104,7 @@ impl Figure {
 impl fmt::Display for Block {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Self::Lost(StaticsError::BranchEnds(end)) => write!(f, "the platform {}", end.fall()),
             Self::Lost(error) => error.fmt(f),
             Self::Limit { cable, limit, value, .. } => {
                 let limit = match limit {
@@ -161,69 +162,93 @@ pub(crate) fn capacity_of(
     wound_up: Result<&HeldPose, StaticsError>,
 ) -> Capacity {
     let set = set.shifted(load.wrench);
+    let smallest = ROUNDED * robot.platform.mass;
     let loaded = |payload: f64, wrench: &Wrench| Load { payload, wrench: *wrench };
-    // Lengths that are kept hold no unstable pose.
-    let held = wound_up.clone().and_then(|HeldPose { lengths, equilibrium }| {
-        DirectProblem::new(robot, lengths, &Load::none())?.direct_held(Start::Near(equilibrium))?;
-        Ok(lengths)
+    let first = wound_up.map(|HeldPose { lengths, equilibrium }| Rest {
+        lengths: lengths.clone(),
+        equilibrium: equilibrium.clone(),
+        stands: None,
     });
-    let anew = |load: &Load, near: &Equilibrium| rest_near(robot, near, load, free);
-    let kept = |load: &Load, near: &Equilibrium| {
-        let lengths = held.clone()?;
-        let found = direct(robot, lengths, load, Start::Near(near))?;
-        Ok((lengths.clone(), found.equilibrium))
-    };
-    let payload = |answer: &dyn Fn(&Load, &Equilibrium) -> State, counts: fn(Limit) -> bool| {
-        set.least(|wrench| {
-            let start = &wound_up.clone()?.equilibrium;
-            Rising { robot, answer: &|mass, near| answer(&loaded(mass, wrench), near), counts }.top(start)
+    // Lengths that are kept hold no unstable pose.
+    let unloaded = first.clone().and_then(|Rest { lengths, equilibrium, .. }| {
+        let none = Load::none();
+        let found = DirectProblem::new(robot, &lengths, &none)?.direct_held(Start::Near(&equilibrium))?;
+        Ok(Rest { lengths, equilibrium, stands: Some((none, found)) })
+    });
+    let anew = |load: &Load, near: &Rest| rest_on(robot, near, load, free);
+    let kept = |load: &Load, near: &Rest| near.under(robot, load);
+    let payload = |(first, answer): Way, counts: fn(Limit) -> bool| {
+        set.least(smallest, |wrench| {
+            let answer = &|mass, near: &Rest| answer(&loaded(mass, wrench), near);
+            Rising { robot, answer, counts }.top(&first.clone()?)
         })
     };
-    let margin = |answer: &dyn Fn(&Load, &Equilibrium) -> State| {
-        set.least(|wrench| {
-            let start = &wound_up.clone()?.equilibrium;
-            let (lengths, equilibrium) = answer(&loaded(load.payload, wrench), start)?;
-            let nearest = nearest(robot, &lengths, &equilibrium, |_| true);
+    let margin = |(first, answer): Way| {
+        set.least(smallest * robot.gravity.magnitude(), |wrench| {
+            let rest = answer(&loaded(load.payload, wrench), &first.clone()?)?;
+            let nearest = nearest(robot, &rest, |_| true);
             Ok((nearest.distance, vec![nearest.block()]))
         })
     };
+    let (anew, kept): (Way, Way) = ((&first, &anew), (&unloaded, &kept));
     let any = |limit| limit != Limit::MaxElsewhere;
-    let payload_kept = payload(&kept, any);
+    let payload_kept = payload(kept, any);
     let is_max = |limit: Limit| matches!(limit, Limit::Max | Limit::BreakingForce);
     let first_is_max = payload_kept.as_ref().is_ok_and(|figure| {
         figure.blocking.iter().all(|block| matches!(block, Block::Limit { limit, .. } if is_max(*limit)))
     });
     Capacity {
         payload_anew: if free.is_empty() {
-            set.least(|wrench| greatest_payload(robot, pose, wrench).map(found))
+            set.least(smallest, |wrench| greatest_payload(robot, pose, wrench).map(found))
         } else {
-            payload(&anew, any)
+            payload(anew, any)
         },
         payload_kept_slack: if first_is_max && set.wrenches.len() == 1 {
             payload_kept.clone()
         } else {
-            payload(&kept, |limit| matches!(limit, Limit::Max | Limit::BreakingForce))
+            payload(kept, |limit| matches!(limit, Limit::Max | Limit::BreakingForce))
         },
         payload_kept,
         margin_anew: if free.is_empty() {
-            set.least(|wrench| tension_margin(robot, pose, &loaded(load.payload, wrench)).map(found))
+            set.least(smallest * robot.gravity.magnitude(), |wrench| {
+                tension_margin(robot, pose, &loaded(load.payload, wrench)).map(found)
+            })
         } else {
-            margin(&anew)
+            margin(anew)
         },
-        margin_kept: margin(&kept),
+        margin_kept: margin(kept),
     }
 }
 
 /// Lengths and equilibrium at a load.
-type State = Result<(Vec<f64>, Equilibrium), StaticsError>;
+#[derive(Clone)]
+struct Rest {
+    lengths: Vec<f64>,
+    equilibrium: Equilibrium,
+    /// The load and the equilibrium that the direct model found, where lengths are kept.
+    stands: Option<(Load, DirectSolution)>,
+}
 
-/// The rest under a load that is nearest to another one, in or out of the limits: the same branch.
-fn rest_near(robot: &Robot, near: &Equilibrium, load: &Load, free: &[Coordinate]) -> State {
-    let FreeSolutions { first, others } = inverse_free(robot, &near.pose, load, free)?;
-    let away = |found: &FreeSolution| near.pose.motion_to(&found.equilibrium.pose).norm();
-    let stable = others.into_iter().filter(|other| other.stability.is_stable());
-    let nearest = stable.fold(first, |best, other| if away(&other) < away(&best) { other } else { best });
-    Ok((nearest.lengths, nearest.equilibrium))
+/// The first rest, and how another one under a load is found from one nearby.
+type Way<'a> = (&'a Result<Rest, StaticsError>, &'a dyn Fn(&Load, &Rest) -> Result<Rest, StaticsError>);
+
+impl Rest {
+    /// What it becomes under another load with the lengths kept.
+    fn under(&self, robot: &Robot, load: &Load) -> Result<Self, StaticsError> {
+        let Self { lengths, equilibrium, stands } = self;
+        let found = match stands {
+            Some((own, from)) => follow_load(robot, lengths, (own, from), load)?,
+            None => direct(robot, lengths, load, Start::Near(equilibrium))?,
+        };
+        let equilibrium = found.equilibrium.clone();
+        Ok(Self { lengths: lengths.clone(), equilibrium, stands: Some((*load, found)) })
+    }
+}
+
+/// The rest under a load on the branch of another one, in or out of the limits.
+fn rest_on(robot: &Robot, near: &Rest, load: &Load, free: &[Coordinate]) -> Result<Rest, StaticsError> {
+    let HeldPose { lengths, equilibrium } = rest_near(robot, &near.equilibrium, load, free)?;
+    Ok(Rest { lengths, equilibrium, stands: None })
 }
 
 fn found(Greatest { value, blocking, .. }: Greatest) -> (f64, Vec<Block>) {
@@ -240,15 +265,17 @@ fn found(Greatest { value, blocking, .. }: Greatest) -> (f64, Vec<Block>) {
 }
 
 impl WrenchSet {
-    /// The least figure over the set; the first failure if there is one.
+    /// The least figure over the set, zero within `rounding`; the first failure if there is one.
     fn least(
         &self,
+        rounding: f64,
         figure: impl Fn(&Wrench) -> Result<(f64, Vec<Block>), StaticsError>,
     ) -> Result<Figure, StaticsError> {
         let mut least = Figure { value: f64::INFINITY, wrench: 0, blocking: Vec::new() };
         for (wrench, one) in self.wrenches.iter().enumerate() {
             let (value, blocking) = figure(one)?;
             if value < least.value {
+                let value = if value.abs() <= rounding { 0.0 } else { value };
                 least = Figure { value, wrench, blocking };
             }
         }
@@ -274,7 +301,7 @@ impl Near {
 }
 
 /// The limits of all cables, in an order that depends on the robot alone.
-fn limits(robot: &Robot, lengths: &[f64], equilibrium: &Equilibrium) -> Vec<Near> {
+fn limits(robot: &Robot, Rest { lengths, equilibrium, .. }: &Rest) -> Vec<Near> {
     let exits = equilibrium.exit_tensions(robot, lengths);
     let each = equilibrium.tensions().into_iter().zip(exits).enumerate();
     each.flat_map(|(cable, (anchor, exit))| {
@@ -293,13 +320,8 @@ fn limits(robot: &Robot, lengths: &[f64], equilibrium: &Equilibrium) -> Vec<Near
 }
 
 /// The limit next to the tensions, or farthest behind them.
-fn nearest(
-    robot: &Robot,
-    lengths: &[f64],
-    equilibrium: &Equilibrium,
-    counts: impl Fn(Limit) -> bool,
-) -> Near {
-    let all = limits(robot, lengths, equilibrium).into_iter().filter(|near| counts(near.limit));
+fn nearest(robot: &Robot, rest: &Rest, counts: impl Fn(Limit) -> bool) -> Near {
+    let all = limits(robot, rest).into_iter().filter(|near| counts(near.limit));
     let none = Near { cable: 0, limit: Limit::Max, value: f64::INFINITY, distance: f64::INFINITY };
     all.fold(none, |nearest, near| if near.distance < nearest.distance { near } else { nearest })
 }
@@ -308,7 +330,7 @@ fn nearest(
 struct Rising<'a> {
     robot: &'a Robot,
     /// The equilibrium at a payload [kg], from one nearby.
-    answer: &'a dyn Fn(f64, &Equilibrium) -> State,
+    answer: &'a dyn Fn(f64, &Rest) -> Result<Rest, StaticsError>,
     /// Which limits end it.
     counts: fn(Limit) -> bool,
 }
@@ -316,8 +338,7 @@ struct Rising<'a> {
 /// A payload [kg] with its equilibrium and the limit next to it.
 struct Step {
     mass: f64,
-    lengths: Vec<f64>,
-    equilibrium: Equilibrium,
+    rest: Rest,
     near: Near,
 }
 
@@ -326,14 +347,17 @@ const FIRST: f64 = 0.01;
 const GROWTH: f64 = 8.0;
 const ACCURACY: f64 = 1e-10;
 
+/// Payload that is none, relative to the platform's mass.
+const ROUNDED: f64 = 1e-9;
+
 /// A tension beyond its limit by this share is on it.
 const ON_LIMIT: f64 = 1e-9;
 
 impl Rising<'_> {
-    fn at(&self, mass: f64, near: &Equilibrium) -> Result<Step, StaticsError> {
-        let (lengths, equilibrium) = (self.answer)(mass, near)?;
-        let near = nearest(self.robot, &lengths, &equilibrium, self.counts);
-        Ok(Step { mass, lengths, equilibrium, near })
+    fn at(&self, mass: f64, near: &Rest) -> Result<Step, StaticsError> {
+        let rest = (self.answer)(mass, near)?;
+        let near = nearest(self.robot, &rest, self.counts);
+        Ok(Step { mass, rest, near })
     }
 
     /// Whether no limit is passed.
@@ -342,7 +366,7 @@ impl Rising<'_> {
     }
 
     /// The payload at which the first limit is reached.
-    fn top(&self, start: &Equilibrium) -> Result<(f64, Vec<Block>), StaticsError> {
+    fn top(&self, start: &Rest) -> Result<(f64, Vec<Block>), StaticsError> {
         const MAX_STEPS: usize = 200;
         let mut low = self.at(0.0, start)?;
         if !Self::holds(&low) {
@@ -357,7 +381,7 @@ impl Rising<'_> {
             if end.is_finite() && end - low.mass <= ACCURACY * (unit + end) {
                 break;
             }
-            let tried = self.at(next, &low.equilibrium);
+            let tried = self.at(next, &low.rest);
             match tried {
                 Ok(found) if Self::holds(&found) => {
                     // Beyond what is foreseen, so that the limit is enclosed.
@@ -370,8 +394,14 @@ impl Rising<'_> {
                     high = Some((found.mass, Ok(found.near)));
                 }
                 Err(error) => {
-                    high = Some((next, Err(error)));
+                    let mut end = next;
                     next = f64::INFINITY;
+                    if let StaticsError::BranchEnds(branch) = &error {
+                        // The share is known to less than this.
+                        next = low.mass + branch.share * (end - low.mass);
+                        end = end.min(next + 1e-8 * (end - low.mass));
+                    }
+                    high = Some((end, Err(error)));
                 }
             }
             if let Some((end, _)) = &high {
@@ -396,7 +426,7 @@ impl Rising<'_> {
 
     /// The payload at which, by two others, the first limit is reached; infinite if all become more distant.
     fn foreseen(&self, one: &Step, other: &Step) -> f64 {
-        let each = [one, other].map(|step| limits(self.robot, &step.lengths, &step.equilibrium));
+        let each = [one, other].map(|step| limits(self.robot, &step.rest));
         let roots = each[0].iter().zip(&each[1]).filter(|(near, _)| (self.counts)(near.limit));
         let root = |(a, b): (&Near, &Near)| {
             let slope = (b.distance - a.distance) / (other.mass - one.mass);

@@ -1,13 +1,13 @@
 //! Inspection of a robot file for likely mistakes: units that look wrong, limits without sense, coinciding
 //! points, poses without feasible tensions. The robot is valid all the same.
 
+mod ground;
 mod pose;
 mod pulley;
+mod swapped;
 
-use cdpr_robot::{CableProperties, Robot, RobotCable, Vector3};
-use cdpr_study::frame;
+use cdpr_robot::{Doubt, Robot, RobotCable, Vector3, plausible};
 use serde::Serialize;
-use std::f64::consts::PI;
 use std::fmt;
 
 /// Severity of a finding.
@@ -44,14 +44,19 @@ pub struct Finding {
     pub remedy: String,
 }
 
-/// All findings about a robot, in the order of its file. Findings that follow from several fields at a pose
-/// come last.
+/// All findings about a robot: the doubts about its values first, then what follows from several fields, and
+/// last what follows at a pose.
 pub fn inspect(robot: &Robot) -> Vec<Finding> {
-    let mut findings = Findings { robot, list: Vec::new() };
-    findings.loads();
-    findings.all_properties();
+    let doubts = plausible::robot(robot).into_iter().map(Finding::from);
+    let mut findings = Findings { robot, list: doubts.collect() };
+    let doubtful = !findings.list.is_empty();
+    findings.gravity();
     findings.limits();
     findings.points();
+    let known = findings.list.len();
+    findings.ground();
+    let grounded = findings.list[known..].iter().any(|finding| finding.severity == Severity::Warning);
+    let doubtful = doubtful || grounded;
     let (cables, freedoms) = (robot.cables.len(), robot.freedoms().count());
     match pose::held(robot) {
         Some((pose, solution)) => findings.at_pose(&pose, &solution),
@@ -62,6 +67,8 @@ pub fn inspect(robot: &Robot) -> Vec<Finding> {
             &format!("{} of the coordinates of a pose follow from the others", freedoms - cables),
             "nothing, for a suspended platform; name them as free where a pose is given",
         ),
+        // The values in doubt are the reason.
+        None if doubtful => {}
         None => findings.add(
             Severity::Warning,
             "cables",
@@ -70,25 +77,18 @@ pub fn inspect(robot: &Robot) -> Vec<Finding> {
             "check points, mass and tension_limits; `cdpr workspace` shows what is held elsewhere",
         ),
     }
+    findings.swapped_anchors();
     findings.list
+}
+
+impl From<Doubt> for Finding {
+    fn from(Doubt { quantity, value, why, meant }: Doubt) -> Self {
+        Self { severity: Severity::Warning, field: quantity, value, why, remedy: meant }
+    }
 }
 
 /// Gravity on Earth [m/s²].
 const EARTH: std::ops::Range<f64> = 9.76..9.84;
-/// Masses of platforms [kg].
-const MASS: std::ops::Range<f64> = 0.01..1e5;
-/// From rubber to carbon fibre [Pa].
-const MODULUS: std::ops::Range<f64> = 1e8..1e12;
-/// From loose fibre to tungsten, mass per length over section [kg/m³].
-const DENSITY: std::ops::Range<f64> = 500.0..20_000.0;
-/// Breaking force over section, from weak to the strongest fibre [Pa].
-const STRENGTH: std::ops::Range<f64> = 2e7..1e10;
-/// Metallic section over that of the full circle.
-const FILL: std::ops::Range<f64> = 0.3..1.001;
-/// Sizes of robots, from the desk to the stadium [m].
-const FRAME: std::ops::Range<f64> = 0.05..1000.0;
-/// Strain beyond which the models refuse a cable.
-const STRAIN: f64 = 0.1;
 
 struct Findings<'a> {
     robot: &'a Robot,
@@ -106,8 +106,8 @@ impl Findings<'_> {
         });
     }
 
-    fn loads(&mut self) {
-        let Robot { gravity, platform, .. } = self.robot;
+    fn gravity(&mut self) {
+        let gravity = &self.robot.gravity;
         let tilt = gravity.tilt();
         if tilt > 0.0 {
             self.add(
@@ -129,89 +129,12 @@ impl Findings<'_> {
                 "9.81, unless the robot works elsewhere",
             );
         }
-        if !MASS.contains(&platform.mass) {
-            let value = format!("{} kg", platform.mass);
-            self.add(
-                Severity::Warning,
-                "platform.mass",
-                value,
-                "hardly the mass of a platform",
-                "a mass in kg, not in g or t",
-            );
-        }
-        let reach = self.robot.cables.iter().map(|cable| cable.anchor_point.norm()).fold(0.0, f64::max);
-        let center = platform.center_of_mass.norm();
-        if reach > 0.0 && center > 2.0 * reach {
-            self.add(
-                Severity::Warning,
-                "platform.center_of_mass",
-                format!("{center} m from P"),
-                "more than twice as far from P as the farthest anchor point",
-                "coordinates in the platform frame, in m",
-            );
-        }
-    }
-
-    /// Properties of every cable, once where they are the same.
-    fn all_properties(&mut self) {
-        let cables = &self.robot.cables;
-        let shared = cables.windows(2).all(|pair| pair[0].properties == pair[1].properties);
-        for (i, cable) in cables.iter().enumerate().take(if shared { 1 } else { cables.len() }) {
-            let path = if shared { "cable".to_owned() } else { format!("cables[{i}].cable") };
-            self.properties(&path, &cable.properties);
-        }
-    }
-
-    fn properties(&mut self, path: &str, properties: &CableProperties) {
-        let CableProperties { section, linear_density, youngs_modulus, diameter, breaking_force, .. } =
-            *properties;
-        if !MODULUS.contains(&youngs_modulus) {
-            self.add(
-                Severity::Warning,
-                format!("{path}.youngs_modulus"),
-                format!("{youngs_modulus} Pa"),
-                "between rubber (0.1 GPa) and carbon fibre (1000 GPa) lie all cables",
-                "a modulus in Pa, not in MPa or GPa: 100 GPa is 1e11",
-            );
-        }
-        let density = linear_density / section;
-        if linear_density > 0.0 && !DENSITY.contains(&density) {
-            self.add(
-                Severity::Warning,
-                format!("{path}.linear_density"),
-                format!("{linear_density} kg/m on {section} m\u{b2}"),
-                &format!("makes a density of {density:.3e} kg/m\u{b3}; steel has 7850, fibre 970 to 1600"),
-                "linear_density in kg/m, not in g/m; section in m\u{b2}, not in mm\u{b2}",
-            );
-        }
-        if let Some(diameter) = diameter {
-            let fill = section / (0.25 * PI * diameter * diameter);
-            if !FILL.contains(&fill) {
-                self.add(
-                    Severity::Warning,
-                    format!("{path}.section"),
-                    format!("{section} m\u{b2} at a diameter of {diameter} m"),
-                    &format!("{:.1} % of the full circle", 100.0 * fill),
-                    "section in m\u{b2} and diameter in m; leave the section out for the full circle",
-                );
-            }
-        }
-        let Some(force) = breaking_force else { return };
-        if !STRENGTH.contains(&(force / section)) {
-            self.add(
-                Severity::Warning,
-                format!("{path}.breaking_force"),
-                format!("{force} N on {section} m\u{b2}"),
-                &format!("makes a strength of {:.3e} Pa; steel wire has 1e9 to 2e9", force / section),
-                "a force in N, not in kN or kg",
-            );
-        }
     }
 
     /// Greatest tensions beside the strength and stiffness of their cables, once where they are the robot's
     /// and all cables are the same.
     fn limits(&mut self) {
-        let Robot { cables, platform, gravity, .. } = self.robot;
+        let cables = &self.robot.cables;
         let same = |a: &RobotCable, b: &RobotCable| {
             a.properties == b.properties && a.tension_limits.max == b.tension_limits.max
         };
@@ -222,17 +145,6 @@ impl Findings<'_> {
             }
             let own = cable.tension_limits.max.map(|_| format!("cables[{i}].tension_limits.max"));
             self.greatest(&own.unwrap_or_else(|| "tension_limits.max".to_owned()), i);
-        }
-        let weight = platform.mass * gravity.magnitude();
-        let most: f64 = (0..cables.len()).map(|i| self.robot.limits(i).max).sum();
-        if weight > most {
-            self.add(
-                Severity::Warning,
-                "platform.mass",
-                format!("{} kg, {weight:.1} N", platform.mass),
-                &format!("all cables at tension_limits.max, drawn straight up, hold {most:.1} N"),
-                "a smaller mass or a greater limit",
-            );
         }
     }
 
@@ -266,14 +178,14 @@ impl Findings<'_> {
             }
         }
         let stiffness = properties.axial_stiffness();
-        if max > STRAIN * stiffness {
-            let strain = 100.0 * max / stiffness;
+        if let Some(strain) = self.robot.cable(i).overstrain(max) {
+            let strain = 100.0 * strain;
             self.add(
                 Severity::Warning,
                 field,
                 format!("{max} N"),
                 &format!(
-                    "strains a cable of EA = {stiffness:.3e} N by {strain:.1} %, where the models end at 10 %"
+                    "strains a cable of EA = {stiffness:.3e} N by {strain:.1} %, where no model answers"
                 ),
                 "check youngs_modulus, section and the limit",
             );
@@ -303,34 +215,13 @@ impl Findings<'_> {
                 }
             }
         }
-        if cables.len() == 1 {
-            return;
-        }
-        let size = frame(self.robot).iter().map(|[low, high]| high - low).fold(0.0, f64::max);
-        let platform = self.robot.platform_size();
-        if !FRAME.contains(&size) {
-            self.add(
-                Severity::Warning,
-                "cables[*].exit_point",
-                format!("a frame of {size} m"),
-                "hardly the size of a robot",
-                "coordinates in m, not in mm",
-            );
-        } else if platform > size {
-            self.add(
-                Severity::Warning,
-                "cables[*].anchor_point",
-                format!("on average {platform:.3} m from P"),
-                &format!("a platform larger than its frame of {size:.3} m"),
-                "anchor_point on the platform, exit_point on the base, both in m",
-            );
-        }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use cdpr_robot::CableProperties;
 
     fn robot() -> Robot {
         Robot::from_json(include_str!("../../../data/robots/cogiro.json")).unwrap()
@@ -377,7 +268,7 @@ mod tests {
     fn other_units_are_seen() {
         assert_eq!(cables(|p| p.youngs_modulus = 100.0)[0], "cable.youngs_modulus");
         assert_eq!(cables(|p| p.linear_density = 64.0)[0], "cable.linear_density");
-        assert_eq!(cables(|p| p.section = 8.2)[..2], ["cable.linear_density", "cable.section"]);
+        assert_eq!(cables(|p| p.section = 8.2)[0], "cable.section");
         assert_eq!(cables(|p| p.breaking_force = Some(10.0))[0], "cable.breaking_force");
         assert_eq!(warned(|robot| robot.platform.mass = 3e5)[0], "platform.mass");
         let millimetres = warned(|robot| {

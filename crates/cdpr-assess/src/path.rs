@@ -13,7 +13,8 @@
 
 use cdpr_robot::{Pose, Robot};
 use cdpr_statics::{
-    Deflection, Derivatives, DirectProblem, InversePath, Load, StaticsError, deflection_from, derivatives,
+    CableFrequency, Deflection, Derivatives, DirectProblem, InversePath, Load, StaticsError, deflection_from,
+    derivatives,
 };
 use cdpr_study::{ErrorModel, StudyError};
 use serde::Serialize;
@@ -33,6 +34,8 @@ pub struct PathPose {
     pub deflection: Deflection,
     /// Lowest natural frequency with the load [Hz]; `None` for a robot that lacks `platform.inertia`.
     pub lowest_frequency: Option<f64>,
+    /// The slowest cable with the load, between ends at rest, where there is a lowest frequency.
+    pub lowest_cable_frequency: Option<CableFrequency>,
     /// Standard deviations; `None` without an error model, and where the pose has no derivatives on this
     /// branch.
     pub bands: Option<Bands>,
@@ -89,12 +92,15 @@ impl<'a> Path<'a> {
         let deflection = deflection_from(robot, wanted.lengths, &load, &wanted.equilibrium)?;
         let Deflection { lengths, unloaded, loaded } = &deflection;
         let problem = DirectProblem::new(robot, lengths, &load)?;
+        let lowest_frequency = problem.lowest_frequency(&loaded.equilibrium).ok();
+        let lowest_cable_frequency = problem.lowest_cable_frequency(&loaded.equilibrium)?;
         Ok(PathPose {
             jump: found.jump,
             tensions: wanted.tensions,
             exit_tensions: unloaded.equilibrium.exit_tensions(robot, lengths),
             sags: DirectProblem::new(robot, lengths, &Load::none())?.sags(&unloaded.equilibrium)?,
-            lowest_frequency: problem.lowest_frequency(&loaded.equilibrium).ok(),
+            lowest_frequency,
+            lowest_cable_frequency: lowest_cable_frequency.filter(|_| lowest_frequency.is_some()),
             bands: self.model.and_then(|model| Bands::new(robot, pose, &load, model, lengths)),
             deflection,
         })

@@ -14,9 +14,9 @@ use crate::clearance::{Clearance, clearance_at};
 use crate::tilt::{Tilt, tilt_at};
 use cdpr_robot::{Axis, Coordinate, Pose, Robot, Rotation3, Vector3};
 use cdpr_statics::{
-    Deflection, DirectProblem, HeldPose, InverseSolution, Limit, Load, LoadedPose, OutOfLimits, PoseSlopes,
-    Start, StaticsError, deflection_free, derivatives_free, held_at, inverse, inverse_all, is_held,
-    loaded_poses, loaded_poses_slopes, tensions_out_of_limits,
+    CableFrequency, Deflection, DirectProblem, HeldPose, InverseSolution, Limit, Load, LoadedPose,
+    OutOfLimits, PoseSlopes, Start, StaticsError, deflection_free, derivatives_free, held_at, inverse,
+    inverse_all, is_held, loaded_poses, loaded_poses_slopes, tensions_out_of_limits,
 };
 use cdpr_study::{ErrorModel, Grid, StudyError};
 use rayon::prelude::*;
@@ -124,6 +124,8 @@ pub struct Held {
     pub least_stiffness: f64,
     /// Lowest natural frequency with the load [Hz]; `None` for a robot that lacks `platform.inertia`.
     pub lowest_frequency: Option<f64>,
+    /// The slowest cable with the load, between ends at rest, where there is a lowest frequency.
+    pub lowest_cable_frequency: Option<CableFrequency>,
     /// Cables (from 0) that are slack with the load.
     pub slack: Vec<usize>,
     /// The tolerance that matters most; `None` if no tolerance is wanted, nothing is uncertain, or |dp| has
@@ -425,6 +427,7 @@ impl Held {
             displacement: loaded.displacement,
             least_stiffness: loaded.least_stiffness,
             lowest_frequency: loaded.lowest_frequency,
+            lowest_cable_frequency: loaded.lowest_cable_frequency,
             slack: loaded.slack,
             dominant,
         }

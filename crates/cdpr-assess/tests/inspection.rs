@@ -41,7 +41,7 @@ fn wheels_that_cables_hardly_touch_or_come_back_over_and_wheels_in_one_place_are
     // From below, over the top, and down to the platform: as such robots are built.
     assert_eq!(about_pulleys(&|_| Vector3::z()), std::slice::from_ref(&note));
     // Straight on from outside the frame to the platform, and back from it.
-    let towards = |exit: Vector3<f64>| Vector3::new(0.0, 0.0, -1.6) - exit;
+    let towards = |exit: Vector3<f64>| Vector3::new(0.0, 0.0, 2.7) - exit;
     let warned = |found: &[(Severity, String)]| {
         found
             .iter()

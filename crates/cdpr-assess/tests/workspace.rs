@@ -237,14 +237,13 @@ fn a_platform_with_an_inertia_has_its_lowest_frequency_under_the_load() {
 
 #[test]
 fn a_robot_with_four_cables_has_a_workspace_of_its_held_coordinates() {
-    let mut robot = Robot::from_json(include_str!("../../../data/robots/cogiro.json")).unwrap();
-    robot.cables = [0, 2, 4, 6].map(|i| robot.cables[i].clone()).to_vec();
+    let robot = Robot::from_json(include_str!("../../../data/robots/four-cables.json")).unwrap();
     let model = ErrorModel::normal(&robot, &vec![1e-3; Parameter::of(&robot).len()]);
     let free = [Coordinate::Roll, Coordinate::Pitch];
     let axis = |min, max, points| GridAxis { min, max, points };
     let workspace = Workspace {
         robot: &robot,
-        grid: Grid::new([axis(0.5, 1.5, 2), axis(0.3, 0.7, 2), axis(1.5, 2.0, 2)]).unwrap(),
+        grid: Grid::new([axis(0.3, 0.5, 2), axis(0.3, 0.4, 2), axis(1.5, 2.0, 2)]).unwrap(),
         rotation: Rotation3::identity(),
         load: Load::payload(20.0),
         tolerances: Some(&model),
@@ -266,6 +265,25 @@ fn a_robot_with_four_cables_has_a_workspace_of_its_held_coordinates() {
     let workspace = Workspace { free: &free[..1], ..workspace };
     let message = compute_workspace(&workspace, &|| (), &|| false).unwrap_err().to_string();
     assert!(message.starts_with("free is [roll]: expected 2 of x, y, z, roll, pitch, yaw"), "{message}");
+}
+
+#[test]
+fn tensions_of_a_map_with_free_coordinates_are_within_their_limits() {
+    let robot = Robot::from_json(include_str!("../../../data/robots/four-cables.json")).unwrap();
+    let axis = |min, max, points| GridAxis { min, max, points };
+    let workspace = Workspace {
+        robot: &robot,
+        grid: Grid::new([axis(0.3, 0.6, 4), axis(0.2, 0.4, 3), axis(1.5, 2.5, 3)]).unwrap(),
+        rotation: Rotation3::identity(),
+        load: Load::payload(1e-3),
+        tolerances: None,
+        free: &[Coordinate::Roll, Coordinate::Pitch],
+        further: Further::default(),
+    };
+    let poses = compute_workspace(&workspace, &|| (), &|| false).unwrap();
+    let anew: Vec<_> = poses.iter().filter_map(|found| found.anew.as_ref()?.as_ref().ok()).collect();
+    assert_eq!((poses.len(), anew.len()), (36, 27));
+    assert!(anew.iter().all(|range| range.least_tension >= 10.0 && range.greatest_tension <= 5000.0));
 }
 
 #[test]

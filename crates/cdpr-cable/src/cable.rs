@@ -8,8 +8,18 @@
 //! ```
 //!
 //! For a linear cable that is `t + t²/2EA = T0 + T0²/2EA + w z`, whatever its sag.
+//!
+//! Between ends at rest the slowest motion of a cable of mass ρ per unstrained length is the first one across
+//! its plane, that of a string of its mean tension T and stretched length `L (1 + ε)`,
+//!
+//! ```text
+//! f = 1/(2 L) sqrt(T/(ρ (1 + ε)))                                                                (C29)
+//! ```
+//!
+//! In its plane the first symmetric motion is as slow for a straight cable, and faster the more the cable sags;
+//! the first antisymmetric one is at 2 f (Irvine 1981, section 3.2).
 
-use crate::error::{CableError, SMALLEST, check};
+use crate::error::{CableError, MAX_STRAIN, SMALLEST, check};
 use crate::guide::{Guide, in_plane};
 use crate::kernel::closure_of_limp;
 use crate::law::ElasticLaw;
@@ -84,6 +94,12 @@ impl Cable<'_> {
         }
     }
 
+    /// Strain at a tension [N] that is beyond [`MAX_STRAIN`].
+    #[inline]
+    pub fn overstrain(&self, tension: f64) -> Option<f64> {
+        Some(self.strain(tension)).filter(|strain| *strain > MAX_STRAIN)
+    }
+
     /// Tension at a strain [N], never negative because a cable does not push.
     pub fn tension(&self, strain: f64) -> f64 {
         match self.law {
@@ -141,6 +157,14 @@ impl Cable<'_> {
             ElasticLaw::Linear => 0.5 * tension * tension / self.axial_stiffness,
             ElasticLaw::Piecewise(law) => law.scaled_energy(tension) / self.axial_stiffness,
         }
+    }
+
+    /// Lowest natural frequency [Hz] of a free part of this unstrained length [m] and mean tension [N], with
+    /// `linear_density` [kg/m], between ends at rest, (C29); `None` for a cable without mass.
+    pub fn lowest_frequency(&self, linear_density: f64, free_length: f64, tension: f64) -> Option<f64> {
+        let stretched = linear_density * (1.0 + self.strain(tension));
+        let frequency = (tension / stretched).sqrt() / (2.0 * free_length);
+        (stretched > 0.0 && frequency.is_finite()).then_some(frequency)
     }
 
     /// The tension [N] at `height` [m] above a point of the cable where it is `tension` [N], equation (C26);

@@ -6,12 +6,23 @@ pub(crate) mod compliance;
 pub(crate) mod guided;
 mod mechanics;
 mod pieces;
-mod shape;
+pub(crate) mod shape;
 pub(crate) mod spatial;
 
 use crate::cable::Cable;
 use crate::error::{CableError, check, check_length};
 use nalgebra::Vector2;
+
+/// A cable is slack where the tension at its lower end is at most this multiple of its own weight.
+///
+/// It then carries next to nothing but itself: between ends at the same height it sags by a seventh of its
+/// span or more. A cable without weight is slack where it carries nothing.
+pub const SLACK_BELOW_OWN_WEIGHTS: f64 = 1.0;
+
+/// Whether a cable with this weight beyond its exit point [N] is slack with these tensions at its ends [N].
+pub fn is_slack(weight: f64, [one, other]: [f64; 2]) -> bool {
+    one.min(other) <= SLACK_BELOW_OWN_WEIGHTS * weight
+}
 
 /// A cable in equilibrium: its unstrained length and the force applied to it at the anchor point A.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -83,6 +94,11 @@ impl<'a> Catenary<'a> {
     #[inline]
     pub fn length_at_rest(&self) -> f64 {
         self.unstrained_length * (1.0 + self.cable.strain(0.0))
+    }
+
+    /// Whether it carries next to nothing but its own weight, see [`SLACK_BELOW_OWN_WEIGHTS`].
+    pub fn is_slack(&self) -> bool {
+        is_slack(self.weight(), [self.anchor_tension(), self.exit_tension()])
     }
 
     /// Whether this is a slack cable without weight.

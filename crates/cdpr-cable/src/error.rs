@@ -1,10 +1,12 @@
 //! Why a question about a cable has no answer.
 
+use crate::number::{counted, short};
+
 /// Why a cable could not be computed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum CableError {
     /// An input is invalid.
-    #[error("{field} is {value}: expected {expected}")]
+    #[error("{field} is {}: expected {expected}", short(*value))]
     InvalidInput {
         /// Name of the input.
         field: &'static str,
@@ -15,8 +17,10 @@ pub enum CableError {
     },
     /// The weight of the cable alone demands more tension over this span than is asked for.
     #[error(
-        "a tension of {tension} N at the anchor point is too small: over this span the weight of the cable \
-         alone demands {least} N; raise the tension"
+        "a tension of {} N at the anchor point is too small: over this span the weight of the cable \
+         alone demands {} N; raise the tension",
+        short(*tension),
+        short(*least)
     )]
     TensionTooSmall {
         /// The tension asked for [N].
@@ -24,10 +28,23 @@ pub enum CableError {
         /// The least tension at the anchor point that any unstrained length gives [N].
         least: f64,
     },
+    /// The cable is strained beyond [`crate::MAX_STRAIN`].
+    #[error(
+        "a tension of {tension} N strains the cable by {:.1} %, beyond the {:.0} % up to which the models \
+         hold: it is too short or too soft for this",
+        100.0 * strain, 100.0 * MAX_STRAIN
+    )]
+    Overstrained {
+        /// The greater of its end tensions [N].
+        tension: f64,
+        /// Its strain there.
+        strain: f64,
+    },
     /// The iteration ended without reaching rounding accuracy.
     #[error(
-        "no equilibrium of the cable was found in {iterations} iterations: the closure residual at its end \
-         is {residual:e} m"
+        "no equilibrium of the cable was found in {}: the closure residual at its end is {} m",
+        counted(*iterations, "iteration"),
+        short(*residual)
     )]
     NotConverged {
         /// Iterations made.
@@ -36,6 +53,10 @@ pub enum CableError {
         residual: f64,
     },
 }
+
+/// Strain beyond which no model answers: the laws are those of small strains, and steel and fibre ropes break
+/// at less.
+pub const MAX_STRAIN: f64 = 0.1;
 
 /// Magnitudes above this are refused, so that no product of four of them overflows.
 const LARGEST: f64 = 1e30;

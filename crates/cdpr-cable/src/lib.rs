@@ -35,18 +35,21 @@ mod error;
 mod guide;
 pub mod kernel;
 mod law;
+mod number;
 mod record;
 mod solve;
 mod weighing;
 
 pub use cable::Cable;
-pub use catenary::Catenary;
 pub use catenary::compliance::Compliance;
+pub use catenary::shape::FromLeavePoint;
 pub use catenary::spatial::{HeldSlopes, SpatialCable, SpatialResponse, SpatialSlopes};
-pub use error::CableError;
+pub use catenary::{Catenary, SLACK_BELOW_OWN_WEIGHTS, is_slack};
+pub use error::{CableError, MAX_STRAIN};
 pub use guide::{Entry, Guide};
 pub use law::{ElasticLaw, PiecewiseLaw, Segment};
 pub use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
+pub use number::{counted, short, shortened};
 pub use record::{Phase, Record, RecordError, Sample, SecantModulus, Specimen, TangentModulus};
 pub use solve::{
     HeldCable, HeldSpatialCable, Known, Solution, TensionSlope, end_force, end_force_near, least_tension,

@@ -1,6 +1,6 @@
 //! Properties of the cable's inverse problems over many decades of weight, stiffness, length and slack.
 
-use cdpr_cable::{Cable, CableError, Catenary, Vector2, end_force, length_for_tension};
+use cdpr_cable::{Cable, CableError, Catenary, Known, MAX_STRAIN, Vector2, end_force, length_for_tension};
 use proptest::prelude::*;
 
 /// A cable, its unstrained length, and an end position.
@@ -152,12 +152,34 @@ fn magnitudes_whose_quotients_overflow_are_refused() {
     };
     assert_eq!(
         text(1.0, 1e6, 1e-180, 1e-151),
-        format!("unstrained_length is {}: expected an unstrained length from 1e-30 to 1e30 [m]", 1e-180)
+        "unstrained_length is 1e-180: expected an unstrained length from 1e-30 to 1e30 [m]"
     );
     assert!(
-        text(0.5, 1e-40, 1.0, 1.0).starts_with("axial_stiffness is 0.0"),
+        text(0.5, 1e-40, 1.0, 1.0).starts_with("axial_stiffness is 1e-40:"),
         "{}",
         text(0.5, 1e-40, 1.0, 1.0)
     );
     assert!(text(1e-40, 1e6, 1.0, 1.0).contains("zero or from 1e-30 to 1e30"));
+}
+
+#[test]
+fn a_cable_strained_by_more_than_the_models_hold_for_has_no_answer_whichever_values_are_known() {
+    let cable = Cable::linear(1.0, 1000.0);
+    let end = Vector2::new(4.0, -1.0);
+    for (length, holds) in [(4.0, true), (3.7, false), (3.0, false)] {
+        let found = end_force(&cable, length, end).unwrap().catenary;
+        let tension = found.anchor_tension();
+        assert_eq!(cable.strain(tension.max(found.exit_tension())) <= MAX_STRAIN, holds);
+        for known in [
+            Known::LengthAndEnd { length, end },
+            Known::LengthAndForce { length, force: found.force },
+            Known::EndAndTension { end, tension },
+        ] {
+            match known.solve(&cable) {
+                Ok(_) => assert!(holds, "{known:?}"),
+                Err(CableError::Overstrained { strain, .. }) => assert!(!holds && strain > MAX_STRAIN),
+                Err(error) => panic!("{error}"),
+            }
+        }
+    }
 }

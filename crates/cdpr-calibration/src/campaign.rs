@@ -155,11 +155,43 @@ impl Row {
         self.covariances.iter().filter(count).count() == 0 || self.correlation_factor().is_some()
     }
 
+    /// Refuses numbers that are not finite, and standard deviations out of bounds.
+    pub(crate) fn check(&self) -> Result<(), crate::CalibrationError> {
+        let wrong = |field: &str, value: f64, expected: &str| {
+            crate::CalibrationError::invalid(format!("{field} of line {}", self.line), value, expected)
+        };
+        for Reading { quantity, value, std } in &self.readings {
+            if !value.is_finite() {
+                return Err(wrong(&quantity.to_string(), *value, "a finite number"));
+            }
+            if !is_std(*std) {
+                return Err(wrong(&format!("std_{quantity}"), *std, STD_EXPECTED));
+            }
+        }
+        let lengths = self.lengths.iter().flatten().chain(self.mass.iter()).chain([&self.load.payload]);
+        if let Some(value) = lengths.chain(self.covariances.iter().map(|of| &of.2)).find(|of| !of.is_finite())
+        {
+            return Err(wrong("a number", *value, "a finite number"));
+        }
+        if let Some(std) = self.length_std.iter().find(|std| **std != 0.0 && !is_std(**std)) {
+            return Err(wrong("the standard deviation of a length", *std, STD_EXPECTED));
+        }
+        Ok(())
+    }
+
     /// The number that a sensor has read of this quantity.
     pub fn value(&self, quantity: Quantity) -> Option<f64> {
         self.readings.iter().find(|reading| reading.quantity == quantity).map(|reading| reading.value)
     }
 }
+
+/// Whether a number can be a standard deviation: its square, and what is divided by it, are numbers yet.
+pub(crate) fn is_std(std: f64) -> bool {
+    (1e-15..=1e15).contains(&std)
+}
+
+/// What a standard deviation is to be.
+pub(crate) const STD_EXPECTED: &str = "a standard deviation from 1e-15 to 1e15, in SI units";
 
 /// Standard deviations of the noise of each kind of sensor, SI units; `None` where it is not stated.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -185,34 +217,44 @@ impl Noise {
     pub const NAMES: [&str; 7] =
         ["position", "rotation", "length", "tension", "displacement", "marker", "swivel"];
 
-    /// Noise by the name of its sensor; `lengths` and `tensions` are understood, too.
+    /// Noise by the name of its sensor; `lengths`, `tensions` and `markers` are understood, too.
     ///
     /// # Errors
-    /// [`crate::CalibrationError::Invalid`] for another name and for a number that is not positive and
-    /// finite.
+    /// [`crate::CalibrationError::Invalid`] for another name, a sensor that is named twice, and a number that
+    /// is no standard deviation.
     pub fn named(named: &[(String, f64)]) -> Result<Self, crate::CalibrationError> {
         let mut noise = Self::default();
         for (name, std) in named {
-            let field = match name.as_str() {
+            let wrong =
+                |expected: String| crate::CalibrationError::invalid(format!("noise {name}"), std, expected);
+            let field = match Self::sensor(name) {
                 "position" => &mut noise.position,
                 "rotation" => &mut noise.rotation,
-                "length" | "lengths" => &mut noise.length,
-                "tension" | "tensions" => &mut noise.tension,
+                "length" => &mut noise.length,
+                "tension" => &mut noise.tension,
                 "displacement" => &mut noise.displacement,
-                "marker" | "markers" => &mut noise.marker,
+                "marker" => &mut noise.marker,
                 "swivel" => &mut noise.swivel,
-                _ => {
-                    let expected = format!("one of {}", Self::NAMES.join(", "));
-                    return Err(crate::CalibrationError::invalid(format!("noise {name}"), std, expected));
-                }
+                _ => return Err(wrong(format!("one of {}", Self::NAMES.join(", ")))),
             };
-            if !(std.is_finite() && *std > 0.0) {
-                let expected = "a finite, positive standard deviation";
-                return Err(crate::CalibrationError::invalid(format!("noise {name}"), std, expected));
+            if !is_std(*std) {
+                return Err(wrong(STD_EXPECTED.to_owned()));
             }
-            *field = Some(*std);
+            if let Some(before) = field.replace(*std) {
+                return Err(wrong(format!("each sensor once; {} is {before} already", Self::sensor(name))));
+            }
         }
         Ok(noise)
+    }
+
+    /// The name of a sensor by any of its names.
+    pub(crate) fn sensor(name: &str) -> &str {
+        match name {
+            "lengths" => "length",
+            "tensions" => "tension",
+            "markers" => "marker",
+            _ => name,
+        }
     }
 
     /// Standard deviation of a quantity, if it is stated.

@@ -27,8 +27,13 @@ pub struct Campaign<'a> {
     pub name: &'a str,
     /// How the fit is made.
     pub settings: FitSettings,
-    /// Parts that are predicted by robots calibrated without them; below 2 none.
+    /// Parts that are predicted by robots calibrated without them; below 2 none, at most one a row.
     pub folds: usize,
+}
+
+impl Campaign<'_> {
+    /// Parts at most.
+    pub const MOST_FOLDS: usize = 10_000;
 }
 
 /// What a calibration has made.
@@ -54,6 +59,10 @@ pub fn carry_out(
 ) -> Result<Calibrated, CalibrationError> {
     let Campaign { robot, unknowns, settings, .. } = campaign;
     let rows = &campaign.measured.rows;
+    if campaign.folds > Campaign::MOST_FOLDS {
+        let expected = format!("0 to {}", Campaign::MOST_FOLDS);
+        return Err(CalibrationError::invalid("folds", campaign.folds, expected));
+    }
     let folder = begin_calibration(out, if_exists)?;
     let clock = Instant::now();
     let found = fit(robot, rows, unknowns, settings)?;
@@ -66,7 +75,6 @@ pub fn carry_out(
         prior: campaign.prior,
         noise_is_stated: campaign.measured.noise_is_stated,
         predicted: predicted.as_deref(),
-        starts: settings.starts.max(1),
         rows: rows.len(),
     };
     let summary = found.summary(&context, rows);

@@ -1,9 +1,9 @@
 //! Errors of calibrations.
 
-use cdpr_robot::{JsonError, RobotError};
+use cdpr_robot::{JsonError, RobotError, shortened};
 use cdpr_sensitivity::SensitivityError;
 use cdpr_statics::StaticsError;
-use cdpr_study::StudyError;
+use cdpr_study::{StudyError, TableError};
 
 /// Why a calibration could not be made.
 #[derive(Debug, thiserror::Error)]
@@ -23,6 +23,9 @@ pub enum CalibrationError {
     /// The text is not JSON of this form.
     #[error(transparent)]
     Json(#[from] JsonError),
+    /// The text is no table, or a cell of it no number.
+    #[error(transparent)]
+    Table(#[from] TableError),
     /// A row of the measurements to which the robot has no answer.
     #[error("line {line}: {source}")]
     Row {
@@ -40,7 +43,7 @@ pub enum CalibrationError {
         reason: String,
     },
     /// A cell of the table of measurements.
-    #[error("line {line}, column {column}: {value}: expected {expected}")]
+    #[error("line {line}, column {column}: {}: expected {expected}", shortened(value))]
     Cell {
         /// Line in the file.
         line: usize,
@@ -72,6 +75,17 @@ pub enum CalibrationError {
         /// Unknowns of single rows.
         nuisances: usize,
     },
+    /// No row measures more than it has unknowns of its own.
+    #[error(
+        "each row measures {measured} numbers at most, exact lengths left out, for {unknown} unknown lengths of \
+         its own: more poses of this kind cannot help; expected tensions or the pose in each row, too"
+    )]
+    NoSurplus {
+        /// Numbers measured in a row.
+        measured: usize,
+        /// Unknown lengths of a row.
+        unknown: usize,
+    },
     /// An invalid setting.
     #[error("{field} is {value}: expected {expected}")]
     Invalid {
@@ -90,7 +104,7 @@ impl CalibrationError {
         value: impl ToString,
         expected: impl Into<String>,
     ) -> Self {
-        Self::Invalid { field: field.into(), value: value.to_string(), expected: expected.into() }
+        Self::Invalid { field: field.into(), value: shortened(&value.to_string()), expected: expected.into() }
     }
 
     pub(crate) fn row(line: usize) -> impl Fn(StaticsError) -> Self {

@@ -6,31 +6,37 @@
 //! exactly than one scale, they do not tell, and it keeps its value.
 
 mod conclude;
+mod frame;
 mod problem;
+mod rows;
 mod search;
 mod start;
 
-use crate::campaign::Row;
+use crate::campaign::{Row, STD_EXPECTED, is_std};
 use crate::error::CalibrationError;
 use crate::fit::problem::Problem;
+use crate::fit::search::{Found, NEAR, SEEN};
 use crate::fitted::{Difference, Fit, FitSettings};
 use crate::model::{Model, Shared, State};
 use crate::plausible::{check_columns, check_signs};
-use crate::unknowns::{SensorError, Unknowns};
+use crate::unknowns::{SensorError, Unknown, Unknowns, check_each_once};
 use cdpr_robot::{Robot, Vector3};
 
 /// Fits the unknowns of a robot to rows of measurements.
 ///
 /// # Errors
-/// [`CalibrationError::TooFew`] for fewer measurements than unknowns; [`CalibrationError::Row`] and
-/// [`CalibrationError::Incomplete`] for a row that the nominal robot cannot answer to.
+/// [`CalibrationError::NoSurplus`] and [`CalibrationError::TooFew`] for fewer measurements than unknowns;
+/// [`CalibrationError::Row`] and [`CalibrationError::Incomplete`] for a row that the nominal robot cannot answer
+/// to; [`CalibrationError::Invalid`] for numbers that are not finite, standard deviations and counts out of
+/// bounds; [`CalibrationError::Column`] for columns that belong elsewhere.
 pub fn fit(
     robot: &Robot,
     rows: &[Row],
     unknowns: &Unknowns,
     settings: &FitSettings,
 ) -> Result<Fit, CalibrationError> {
-    let problem = Problem { model: Model::new(robot, unknowns), rows, settings: *settings };
+    check(rows, unknowns, settings)?;
+    let problem = Problem { model: Model::new(robot, unknowns, rows), rows, settings: *settings };
     problem.check()?;
     if unknowns.sensor(SensorError::LengthOffset).is_none() {
         check_signs(rows)?;
@@ -39,6 +45,7 @@ pub fn fit(
         [SensorError::LengthOffset, SensorError::DrumScale, SensorError::Frame, SensorError::FrameScale];
     if moved.iter().all(|error| unknowns.sensor(*error).is_none()) {
         check_columns(robot, rows)?;
+        problem.check_frame()?;
     }
     let (start, first) = problem.begin()?;
     let without = |gone: &[usize]| {
@@ -47,30 +54,82 @@ pub fn fit(
         fit(robot, rows, &kept, settings)
     };
     if settings.only_identifiable {
-        let gone = problem.unidentifiable_inputs(&problem.settled(start.clone())?.1);
+        let gone = problem.unidentifiable_inputs(&start.shared, &problem.settled(start.clone())?.1);
         if !gone.is_empty() {
             return without(&gone);
         }
     }
-    let mut best = problem.search(start, settings.max_steps)?;
-    let mut ends = vec![best.at.cost];
-    for number in 1..settings.starts.max(1) {
-        let Some(start) = problem.start(number) else { continue };
-        let Ok(found) = problem.search(start, settings.max_steps) else { continue };
-        ends.push(found.at.cost);
-        if found.at.cost < best.at.cost {
-            best = found;
-        }
-    }
+    let (best, starts) = problem.best_of_starts(start)?;
     if settings.only_identifiable {
         // At the minimum the data may tell less than where the search began.
-        let gone = problem.unidentifiable_inputs(&best.at);
+        let gone = problem.unidentifiable_inputs(&best.state.shared, &best.at);
         if !gone.is_empty() {
             return without(&gone);
         }
     }
-    let same = ends.iter().filter(|cost| **cost <= best.at.cost * (1.0 + 1e-6) + 1e-6).count();
-    problem.conclude(best, first, same)
+    problem.conclude(best, first, starts)
+}
+
+impl Problem<'_> {
+    /// The least minimum that the starts lead to, with how many were made and how many of them led there. The
+    /// others are followed as far as it takes to see where they lead, and their rows begun again only where they
+    /// fit badly there; more are made while none agrees.
+    fn best_of_starts(&self, start: State) -> Result<(Found, [usize; 2]), CalibrationError> {
+        let wanted = self.settings.starts;
+        let most = self.settings.max_steps;
+        let mut best = self.search(self.with_best_rows(start)?, NEAR, most)?;
+        let mut ends = vec![best.at.cost];
+        let from = best.state.shared.x.clone();
+        let told = self.decomposed(&best.at, &best.state.shared, true);
+        let agreeing = |ends: &[f64], best: f64| ends.iter().filter(|cost| is_same(**cost, best)).count();
+        for number in 1..2 * wanted {
+            if wanted == 1 || (number >= wanted && agreeing(&ends, best.at.cost) > 1) {
+                break;
+            }
+            let start = self.start(number, &from, &told);
+            // A start that takes far longer than the first would show little.
+            let few = most.min(2 * best.steps + FEW_STEPS);
+            let found = start.and_then(|start| self.search(start, SEEN, few).ok());
+            // A start from which nothing is found agrees with none.
+            ends.push(found.as_ref().map_or(f64::INFINITY, Found::leads_to));
+            if let Some(found) = found.filter(|found| found.leads_to() < best.at.cost) {
+                let lower = !is_same(best.at.cost, found.leads_to());
+                if lower || best.distance > found.distance {
+                    let again = self.search(found.state, NEAR, most)?;
+                    if again.at.cost < best.at.cost || again.distance < best.distance {
+                        best = again;
+                    }
+                }
+            }
+        }
+        let same = agreeing(&ends, best.at.cost);
+        Ok((best, [ends.len(), same]))
+    }
+}
+
+/// Steps that a further start may take beyond twice those of the best.
+const FEW_STEPS: usize = 10;
+
+/// Whether two searches ended at one chi-square.
+fn is_same(cost: f64, best: f64) -> bool {
+    cost <= best + 1e-3 + 1e-9 * best
+}
+
+/// Refuses settings, rows and priors that no fit has numbers for.
+fn check(rows: &[Row], unknowns: &Unknowns, settings: &FitSettings) -> Result<(), CalibrationError> {
+    if !(1..=FitSettings::MOST_STARTS).contains(&settings.starts) {
+        let expected = format!("1 to {}", FitSettings::MOST_STARTS);
+        return Err(CalibrationError::invalid("starts", settings.starts, expected));
+    }
+    rows.iter().try_for_each(Row::check)?;
+    check_each_once(unknowns.sensors.iter().map(|(error, _)| *error))?;
+    for Unknown { name, prior, .. } in &unknowns.all {
+        if let Some([mean, std]) = prior.filter(|[mean, std]| !mean.is_finite() || !is_std(*std)) {
+            let given = format!("{mean} ± {std}");
+            return Err(CalibrationError::invalid(format!("prior of {name}"), given, STD_EXPECTED));
+        }
+    }
+    Ok(())
 }
 
 /// Errors of prediction: the rows are split into `folds` parts, every folds-th row into one, and each part is
@@ -86,6 +145,10 @@ pub fn cross_validated(
     settings: &FitSettings,
     folds: usize,
 ) -> Result<Vec<Difference>, CalibrationError> {
+    if !(2..=rows.len()).contains(&folds) {
+        let expected = format!("2 to {}, one row each", rows.len());
+        return Err(CalibrationError::invalid("folds", folds, expected));
+    }
     let settings = FitSettings { starts: 1, ..*settings };
     let fold = |part: usize| -> Result<Vec<Difference>, CalibrationError> {
         let of = |inside: bool| rows.iter().enumerate().filter(move |(k, _)| (k % folds == part) == inside);
@@ -97,7 +160,7 @@ pub fn cross_validated(
             row
         };
         let left: Vec<Row> = of(true).map(exact).collect();
-        let problem = Problem { model: Model::new(robot, &known.unknowns), rows: &left, settings };
+        let problem = Problem { model: Model::new(robot, &known.unknowns, rows), rows: &left, settings };
         let x: Vec<f64> = known.estimates.iter().map(|estimate| estimate.value).collect();
         let states = left.iter().map(|row| problem.model.begin(row, &x)).collect::<Result<_, _>>()?;
         let shared = Shared { x, frame: known.frame, origin: Vector3::zeros() };

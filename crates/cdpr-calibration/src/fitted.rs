@@ -3,7 +3,8 @@
 use crate::campaign::Quantity;
 use crate::unknowns::Unknowns;
 use cdpr_robot::{Pose, Robot, Rotation3, Vector3};
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
+use serde::Serialize;
 
 /// How a residual of several standard deviations counts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -49,7 +50,7 @@ pub struct FitSettings {
     /// How great residuals count.
     pub loss: RobustLoss,
     /// Starts: the nominal robot, and as many less one at random, a standard deviation of the prior or 1 % of
-    /// the scale away.
+    /// the scale away. Up to twice as many where no two of them end at the least chi-square.
     pub starts: usize,
     /// Seed of the random starts.
     pub seed: u64,
@@ -59,9 +60,23 @@ pub struct FitSettings {
     pub max_steps: usize,
 }
 
+impl FitSettings {
+    /// Starts at most.
+    pub const MOST_STARTS: usize = 1000;
+
+    /// Starts without a wish: two that agree show a minimum, and one may go astray.
+    pub const STARTS: usize = 3;
+}
+
 impl Default for FitSettings {
     fn default() -> Self {
-        Self { loss: RobustLoss::Squares, starts: 1, seed: 1, only_identifiable: false, max_steps: 200 }
+        Self {
+            loss: RobustLoss::Squares,
+            starts: Self::STARTS,
+            seed: 1,
+            only_identifiable: false,
+            max_steps: 200,
+        }
     }
 }
 
@@ -94,9 +109,10 @@ pub struct Estimate {
     pub name: String,
     /// The deviation found.
     pub value: f64,
-    /// Standard deviation with the prior; `None` without prior for what the data do not tell.
+    /// Standard deviation of the posterior, by data and priors; `None` for what they tell less exactly than one
+    /// scale. Of the rotation of a frame, that of its rotation vector.
     pub std: Option<f64>,
-    /// Standard deviation by the data alone; `None` for what they do not tell.
+    /// Standard deviation by the data alone, without any prior; `None` for what they do not tell.
     pub std_of_data: Option<f64>,
     /// Standard deviation of the prior.
     pub prior_std: Option<f64>,
@@ -106,6 +122,39 @@ impl Estimate {
     /// Whether the data alone tell it, more exactly than its prior or its scale.
     pub fn is_identifiable(&self) -> bool {
         self.std_of_data.is_some()
+    }
+}
+
+/// Whether a standard deviation is one of something known: below its scale, or at it by its prior alone.
+pub(crate) fn is_known(std: f64, scale: f64) -> bool {
+    std < (1.0 + 1e-6) * scale
+}
+
+/// What is shown of the minimum at which a search ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum FitStatus {
+    /// A further step would gain next to nothing, and another start ended there, too.
+    Converged,
+    /// A further step would still lower chi-square.
+    AwayFromMinimum,
+    /// A minimum at which no other start ended: another may be lower.
+    StartsDisagree,
+    /// A minimum, but a single start was made.
+    OneStart,
+}
+
+impl FitStatus {
+    /// What a step may gain of chi-square at a minimum.
+    const GAIN: f64 = 1e-6;
+
+    pub(crate) fn of(distance: f64, [made, same]: [usize; 2]) -> Self {
+        match (made, same) {
+            _ if distance.is_nan() || distance * distance > Self::GAIN => Self::AwayFromMinimum,
+            (..=1, _) => Self::OneStart,
+            (_, ..=1) => Self::StartsDisagree,
+            _ => Self::Converged,
+        }
     }
 }
 
@@ -133,10 +182,14 @@ pub struct Fit {
     pub deviations: Vec<f64>,
     /// Covariance of the unknowns, with the prior.
     pub covariance: DMatrix<f64>,
+    /// Roots of the covariance with and without the priors, in scales, whatever is told.
+    pub(crate) roots: [DMatrix<f64>; 2],
     /// Combinations that the data do not tell.
     pub unidentifiable: Vec<UnidentifiableCombination>,
     /// Sum of the squares of all residuals, priors included.
     pub chi_square: f64,
+    /// The part of it that is not of priors, with its degrees of freedom.
+    pub of_data: (f64, usize),
     /// Numbers measured and priors less numbers found.
     pub degrees_of_freedom: usize,
     /// Residuals of the nominal robot.
@@ -153,15 +206,31 @@ pub struct Fit {
     pub payloads: Vec<f64>,
     /// Steps made.
     pub steps: usize,
-    /// Whether the search ended within 1e-4 standard deviations of a minimum.
-    pub converged: bool,
-    /// Distance to the minimum by the last linearisation, in standard deviations.
+    /// Whether the search ended at a minimum, and what shows that it is the least.
+    pub status: FitStatus,
+    /// Distance to the minimum by the last linearisation, in standard deviations: the root of what a step would
+    /// take from chi-square.
     pub distance: f64,
-    /// Of all starts, how many ended there.
-    pub same: usize,
+    /// Starts that were made, and how many of them ended at the least chi-square.
+    pub starts: [usize; 2],
 }
 
 impl Fit {
+    /// Standard deviations of a sum of unknowns with these weights: of the posterior, and by the data alone.
+    pub(crate) fn stds(&self, weights: &[(usize, f64)]) -> [Option<f64>; 2] {
+        let mut scaled = DVector::zeros(self.estimates.len());
+        weights.iter().for_each(|(j, weight)| scaled[*j] += weight * self.unknowns.all[*j].scale);
+        self.roots.each_ref().map(|root| {
+            let std = (root * &scaled).norm();
+            is_known(std, scaled.norm()).then_some(std)
+        })
+    }
+
+    /// Whether the minimum is shown.
+    pub fn converged(&self) -> bool {
+        self.status == FitStatus::Converged
+    }
+
     /// Probability of a chi-square as great as this or greater, if the model is right and the noise as
     /// stated.
     pub fn p_value(&self) -> Option<f64> {
@@ -170,6 +239,15 @@ impl Fit {
                 0.5 * self.degrees_of_freedom as f64,
                 0.5 * self.chi_square.max(f64::MIN_POSITIVE),
             )
+        })
+    }
+
+    /// Probability of residuals of the measurements as small as these or smaller, if the noise is as stated.
+    pub fn p_value_of_less(&self) -> Option<f64> {
+        let (chi_square, degrees) = self.of_data;
+        (degrees > 0).then(|| {
+            let half = 0.5 * chi_square.max(f64::MIN_POSITIVE);
+            statrs::function::gamma::gamma_lr(0.5 * degrees as f64, half)
         })
     }
 

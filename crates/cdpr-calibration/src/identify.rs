@@ -30,6 +30,7 @@
 //! Taking the pose that adds most, one after the other, comes within 1 - 1/e of the information of the best
 //! choice (D-optimal design; Nemhauser, Wolsey, Fisher 1978: the information is submodular).
 
+use crate::campaign::{Noise, STD_EXPECTED, is_std};
 use crate::error::CalibrationError;
 use crate::solve::{Svd, triangle};
 use cdpr_robot::{Coordinate, Parameter, Pose, Robot, Vector3};
@@ -61,20 +62,20 @@ impl Measurement {
     /// # Errors
     /// [`CalibrationError::Invalid`] for another name, and for one of position and rotation alone.
     pub fn named(named: &[(String, f64)]) -> Result<Vec<Self>, CalibrationError> {
-        let of = |name: &str| named.iter().find(|(given, _)| given == name).map(|(_, value)| *value);
-        const NAMES: [&str; 4] = ["position", "rotation", "tensions", "lengths"];
-        if let Some((name, value)) = named.iter().find(|(name, _)| !NAMES.contains(&name.as_str())) {
+        let noise = Noise::named(named)?;
+        const NAMES: [&str; 4] = ["position", "rotation", "tension", "length"];
+        if let Some((name, value)) = named.iter().find(|(name, _)| !NAMES.contains(&Noise::sensor(name))) {
             let expected = format!("one of {}", NAMES.join(", "));
             return Err(CalibrationError::invalid(format!("noise {name}"), value, expected));
         }
-        let pose = match (of("position"), of("rotation")) {
+        let pose = match (noise.position, noise.rotation) {
             (Some(position), Some(rotation)) => Some(Self::Pose { position, rotation }),
             (None, None) => None,
             (Some(one), None) | (None, Some(one)) => {
                 return Err(CalibrationError::invalid("noise", one, "position and rotation together"));
             }
         };
-        let others = [of("tensions").map(Self::Tensions), of("lengths").map(Self::Lengths)];
+        let others = [noise.tension.map(Self::Tensions), noise.length.map(Self::Lengths)];
         Ok(pose.into_iter().chain(others.into_iter().flatten()).collect())
     }
 }
@@ -155,7 +156,7 @@ impl Calibration {
     /// [`CalibrationError::Invalid`] unless there is one finite value, not negative, for each parameter.
     pub fn new(robot: &Robot, uncertainties: &[f64]) -> Result<Self, CalibrationError> {
         let count = Parameter::of(robot).len();
-        let wrong = uncertainties.iter().position(|std| !(std.is_finite() && *std >= 0.0));
+        let wrong = uncertainties.iter().position(|std| *std != 0.0 && !is_std(*std));
         let expected = format!("a finite number, zero or more, for each of the {count} parameters");
         if uncertainties.len() != count {
             let value = format!("a list of {}", uncertainties.len());
@@ -275,9 +276,8 @@ impl Calibration {
                 }
             }
         }
-        if let Some((_, noise)) = rows.iter().find(|(_, noise)| !(noise.is_finite() && *noise > 0.0)) {
-            let expected = "a finite, positive standard deviation";
-            return Err(CalibrationError::invalid("noise", noise, expected));
+        if let Some((_, noise)) = rows.iter().find(|(_, noise)| !is_std(*noise)) {
+            return Err(CalibrationError::invalid("noise", noise, STD_EXPECTED));
         }
         self.places.push(*pose);
         self.poses.push(DMatrix::from_fn(rows.len(), self.indices.len(), |row, column| {

@@ -29,7 +29,7 @@ pub use campaign::{Noise, Quantity, Reading, Row};
 pub use carry_out::{Calibrated, Campaign, carry_out};
 pub use error::CalibrationError;
 pub use fit::{cross_validated, fit};
-pub use fitted::{Difference, Estimate, Fit, FitSettings, RobustLoss, UnidentifiableCombination};
+pub use fitted::{Difference, Estimate, Fit, FitSettings, FitStatus, RobustLoss, UnidentifiableCombination};
 pub use identify::{
     AtWork, Calibration, ChosenPose, Combination, Identifiability, Measurement, ParameterValue,
 };

@@ -14,15 +14,13 @@
 
 pub(crate) mod compare;
 mod pull;
-mod read;
+pub(crate) mod read;
+pub(crate) mod row;
 
 use crate::campaign::{Quantity, Row};
-use crate::error::CalibrationError;
 use crate::unknowns::{SensorError, Unknowns};
 use cdpr_robot::{Axis, ParameterLayout, Pose, Robot, Rotation3, Vector3};
-use cdpr_statics::{
-    DirectProblem, Equilibrium, Load, Start, StaticsError, inverse, lengths_for_tensions, rough_pose,
-};
+use cdpr_statics::{Equilibrium, Load, StaticsError};
 
 /// What is sought in all rows.
 #[derive(Clone, Debug)]
@@ -71,11 +69,20 @@ pub(crate) struct Model<'a> {
     pub(crate) robot: &'a Robot,
     pub(crate) unknowns: &'a Unknowns,
     pub(super) layout: ParameterLayout,
+    /// Of a planar robot, the axis at right angles to its plane and where P lies along it [m].
+    plane: Option<(usize, f64)>,
 }
 
 impl<'a> Model<'a> {
-    pub(crate) fn new(robot: &'a Robot, unknowns: &'a Unknowns) -> Self {
-        Self { robot, unknowns, layout: ParameterLayout::of(robot) }
+    pub(crate) fn new(robot: &'a Robot, unknowns: &'a Unknowns, rows: &[Row]) -> Self {
+        let plane = robot.plane_offset().map(|(normal, offset)| {
+            let is_moved = unknowns.sensor(SensorError::Frame).is_some();
+            let measured = rows.iter().filter_map(|row| row.value(Quantity::Position(Axis::ALL[normal])));
+            let measured: Vec<f64> = measured.filter(|_| !is_moved).collect();
+            let mean = measured.iter().sum::<f64>() / measured.len() as f64;
+            (normal, if measured.is_empty() { offset } else { mean })
+        });
+        Self { robot, unknowns, layout: ParameterLayout::of(robot), plane }
     }
 
     /// The robot with its deviations.
@@ -111,99 +118,4 @@ impl<'a> Model<'a> {
         let mass = row.mass.map_or(0.0, |mass| mass - robot.platform.mass);
         Load::payload(mass)
     }
-
-    /// The state of a row where the search begins.
-    pub(crate) fn begin(&self, row: &Row, x: &[f64]) -> Result<RowState, CalibrationError> {
-        let at = CalibrationError::row(row.line);
-        let robot = self.deviating(x).map_err(&at)?;
-        let load = self.load(row, &robot);
-        let measured = self.measured_pose(row);
-        let is_displaced = row.readings.iter().any(|of| matches!(of.quantity, Quantity::Displacement(_)));
-        let n = robot.cables.len();
-        let (read, errors) = match &row.lengths {
-            Some(read) => {
-                let noisy = row.length_std.iter().any(|std| *std > 0.0);
-                (read.clone(), if noisy { vec![0.0; n] } else { Vec::new() })
-            }
-            None => {
-                let Some(pose) = measured else {
-                    let reason = "neither lengths nor a pose are measured: expected one of them";
-                    return Err(CalibrationError::Incomplete { line: row.line, reason: reason.to_owned() });
-                };
-                if row.readings.len() < n {
-                    let reason = format!(
-                        "{} numbers are measured for {n} lengths that are not: expected the lengths l1_m.., \
-                         or more numbers",
-                        row.readings.len()
-                    );
-                    return Err(CalibrationError::Incomplete { line: row.line, reason });
-                }
-                // The load bears on lengths that were found without it.
-                (held_lengths(&robot, &pose).map_err(&at)?, vec![0.0; n])
-            }
-        };
-        let nowhere = Equilibrium { pose: Pose::at(0.0, 0.0, 0.0), cable_forces: Vec::new() };
-        let mut state = RowState { read, errors, loaded: nowhere, unloaded: None };
-        let lengths = self.lengths(&state, x);
-        let found = |load: &Load, near: Option<&Pose>| -> Result<Equilibrium, StaticsError> {
-            let problem = DirectProblem::new(&robot, &lengths, load)?;
-            let rough = rough_pose(&robot, &lengths);
-            let first = near.map(|pose| problem.direct(Start::Pose(pose)));
-            match first {
-                Some(Ok(found)) => Ok(found.equilibrium),
-                _ => problem.direct(Start::Pose(&rough)).map(|found| found.equilibrium),
-            }
-        };
-        // In the frame of an unknown tracker the measured pose is of no help.
-        let near = measured.filter(|_| self.unknowns.sensor(SensorError::Frame).is_none());
-        state.loaded = found(&load, near.as_ref()).map_err(&at)?;
-        if is_displaced {
-            let near = state.loaded.pose;
-            state.unloaded = Some(found(&self.without_load(row, &robot), Some(&near)).map_err(&at)?);
-        }
-        Ok(state)
-    }
-
-    /// The pose that is measured, level where only the position is.
-    pub(crate) fn measured_pose(&self, row: &Row) -> Option<Pose> {
-        let coordinate = |axis| row.value(Quantity::Position(axis));
-        let [x, y, z] = Axis::ALL.map(coordinate);
-        let angle = |k| row.value(Quantity::Angle(k)).unwrap_or(0.0);
-        let rotation =
-            row.rotation.unwrap_or_else(|| Rotation3::from_euler_angles(angle(0), angle(1), angle(2)));
-        Some(Pose { position: Vector3::new(x?, y?, z?), rotation })
-    }
-
-    /// Follows a row to other unknowns.
-    pub(crate) fn follow(
-        &self,
-        row: &Row,
-        from: &RowState,
-        robot: &Robot,
-        x: &[f64],
-        errors: Vec<f64>,
-    ) -> Result<RowState, StaticsError> {
-        let mut state = RowState { errors, ..from.clone() };
-        let lengths = self.lengths(&state, x);
-        let rest = |load: &Load, near: &Equilibrium| {
-            let problem = DirectProblem::new(robot, &lengths, load)?;
-            problem.direct(Start::Near(near)).map(|found| found.equilibrium)
-        };
-        state.loaded = rest(&self.load(row, robot), &from.loaded)?;
-        if let Some(unloaded) = &from.unloaded {
-            state.unloaded = Some(rest(&self.without_load(row, robot), unloaded)?);
-        }
-        Ok(state)
-    }
-}
-
-/// Unstrained lengths that hold a robot at a pose [m] or, where it has too few cables for that, those whose
-/// tensions carry its weight together.
-pub(crate) fn held_lengths(robot: &Robot, pose: &Pose) -> Result<Vec<f64>, StaticsError> {
-    if robot.is_fully_actuated() {
-        return inverse(robot, pose, &Load::none(), None).map(|held| held.lengths);
-    }
-    let n = robot.cables.len();
-    let each = robot.weight(pose, 0.0).force.norm() / n as f64;
-    lengths_for_tensions(robot, pose, &vec![each; n]).map(|held| held.lengths)
 }

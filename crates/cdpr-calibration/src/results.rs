@@ -108,22 +108,12 @@ impl Fit {
         let mut parameters = IndexMap::new();
         let prior = context.prior.map(|prior| prior_covariance(prior, all.len()));
         for (index, parameter) in all.iter().enumerate() {
-            let inputs: Vec<usize> = self
-                .unknowns
-                .terms
-                .iter()
-                .filter(|term| term.parameter == index)
-                .map(|term| term.input)
-                .collect();
-            if inputs.is_empty() {
+            let terms = self.unknowns.terms.iter().filter(|term| term.parameter == index);
+            let weights: Vec<_> = terms.map(|term| (term.input, term.factor)).collect();
+            if weights.is_empty() {
                 continue;
             }
-            let estimates: Vec<_> = inputs.iter().map(|input| &self.estimates[*input]).collect();
-            let known = estimates.iter().all(|estimate| estimate.std.is_some());
-            let alone = match estimates[..] {
-                [one] if one.prior_std.is_none() => one.std.map(|std| std * scale),
-                _ => None,
-            };
+            let [std, std_of_data] = self.stds(&weights).map(|std| std.map(|std| std * scale));
             let prior_std = prior.as_ref().map(|prior| prior[(index, index)].sqrt()).filter(|std| *std > 0.0);
             let before = parameter.nominal(context.nominal);
             let moved = self.deviations[index];
@@ -133,10 +123,11 @@ impl Fit {
                     unit: parameter.unit(),
                     before,
                     after: before + moved,
-                    std: alone.or(known.then(|| covariance[(index, index)].max(0.0).sqrt())),
+                    std,
+                    std_of_data,
                     prior_std,
                     moved_by_prior_std: prior_std.map(|std| moved / std),
-                    identifiable: estimates.iter().all(|estimate| estimate.is_identifiable()),
+                    identifiable: std_of_data.is_some(),
                 },
             );
         }
@@ -159,6 +150,7 @@ impl Fit {
                         before: 0.0,
                         after,
                         std: estimate.std.map(|std| std * scale),
+                        std_of_data: estimate.std_of_data.map(|std| std * scale),
                         prior_std: estimate.prior_std,
                         moved_by_prior_std: estimate.prior_std.map(|std| estimate.value / std),
                         identifiable: estimate.is_identifiable(),
@@ -182,6 +174,7 @@ impl Fit {
             chi_square: self.chi_square,
             degrees_of_freedom: self.degrees_of_freedom,
             p_value,
+            p_value_of_less: self.p_value_of_less().filter(|_| context.noise_is_stated),
             noise_scale: scale,
             not_identifiable: self
                 .unidentifiable
@@ -207,8 +200,8 @@ impl Fit {
             position_std_before: prior.as_ref().and_then(|prior| std_of(context.nominal, prior)),
             position_std_after: std_of(&self.robot, &covariance),
             steps: self.steps,
-            converged: self.converged,
-            starts: [context.starts, self.same],
+            status: self.status,
+            starts: self.starts,
             warnings: Vec::new(),
         };
         summary.warnings = self.warnings(&summary, context);

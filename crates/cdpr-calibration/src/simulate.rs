@@ -2,7 +2,7 @@
 
 use crate::campaign::{Noise, Quantity, Reading, Row};
 use crate::error::CalibrationError;
-use crate::unknowns::SensorError;
+use crate::unknowns::{SensorError, check_each_once};
 use cdpr_cable::SpatialCable;
 use cdpr_robot::{Axis, CableEnd, Coordinate, Pose, Robot, Rotation3, TiltAxis, Vector3};
 use cdpr_statics::{DirectProblem, FreeSolution, Load, Start, inverse_free};
@@ -79,6 +79,7 @@ impl Simulated<'_> {
 /// [`CalibrationError::Row`] where the true robot has no equilibrium; [`CalibrationError::Robot`] for
 /// deviations that make no robot.
 pub fn simulate(of: &Simulated) -> Result<Vec<Row>, CalibrationError> {
+    check_each_once(of.errors.iter().map(|(error, _)| *error))?;
     let truth = of.nominal.perturbed(of.deviations)?.robot;
     let mut rows = Vec::new();
     for (k, wanted) in of.poses.iter().enumerate() {

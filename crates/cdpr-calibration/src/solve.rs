@@ -45,7 +45,10 @@ impl Eliminated {
         let Some((top, triangle)) = &self.own else { return Vec::new() };
         let count = step.len();
         let mut right = -(top.columns(0, count) * step + top.column(count));
-        triangle.solve_upper_triangular_mut(&mut right);
+        // A row's own unknown that nothing depends on is not moved.
+        if !triangle.solve_upper_triangular_mut(&mut right) || right.iter().any(|of| !of.is_finite()) {
+            right.fill(0.0);
+        }
         right.as_slice().to_vec()
     }
 }
@@ -146,10 +149,32 @@ impl Decomposed {
         step
     }
 
+    /// The part of a change that the data tell, each combination by `most` of its standard deviations at most.
+    pub(crate) fn told_part(&self, change: &DVector<f64>, most: f64) -> DVector<f64> {
+        let mut part = DVector::zeros(change.len());
+        for k in (0..self.values.len()).filter(|k| self.tells(*k)) {
+            let v = self.vectors.row(k).transpose();
+            let most = most / self.values[k];
+            part += &v * v.dot(change).clamp(-most, most);
+        }
+        part
+    }
+
     /// Length of the full step in standard deviations.
     pub(crate) fn distance(&self) -> f64 {
         let of = |k: &usize| self.tells(*k);
         (0..self.values.len()).filter(of).map(|k| self.along[k].powi(2)).sum::<f64>().sqrt()
+    }
+
+    /// A root of the covariance over all combinations, however little is known of them: the variance of a sum
+    /// with weights w is `|root w|²`.
+    pub(crate) fn root(&self) -> DMatrix<f64> {
+        let floor = ROUNDING * self.values.max().max(1.0);
+        let mut root = self.vectors.clone();
+        for (mut row, value) in root.row_iter_mut().zip(self.values.iter()) {
+            row /= value.max(floor);
+        }
+        root
     }
 
     /// Covariance over the combinations that the data tell.

@@ -13,18 +13,19 @@
 //! | `std_` before one of these | its standard deviation in this row; of an orientation `std_rx_rad` ... |
 //! | `cov_x_m_y_m` | covariance of two of these in this row |
 //!
-//! The JSON form has the same names, and null for what was not measured. Lengths may be in `m` or `mm`,
-//! angles in `deg` or `rad`, forces in `n` or `kn`.
+//! The JSON form has the same names, and null for what was not measured. Units are those of tables
+//! ([`cdpr_study::Unit`]), `x [mm]` is `x_mm`, and capitals do not matter. A column of texts or a time may stand
+//! beside them.
 
 mod columns;
 mod row;
 
 use crate::campaign::{Noise, Quantity, Row};
 use crate::error::CalibrationError;
-use crate::table::columns::{Column, Named, columns, covariance_of};
+use crate::table::columns::{Column, Named, columns, covariance_of, is_known};
 use crate::table::row::{Stated, row};
 use cdpr_robot::{Robot, from_json};
-use csv::{ReaderBuilder, StringRecord, Trim};
+use cdpr_study::Table;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 
@@ -39,6 +40,9 @@ pub struct Measurements {
     pub markers: usize,
 }
 
+/// The numbers of each row, with its line.
+type Lines = Vec<(usize, Vec<Option<f64>>)>;
+
 /// The JSON form: rows with the names of the columns, and the noise by sensor.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -52,18 +56,20 @@ struct JsonForm {
 /// Name and version of the JSON form.
 pub const MEASUREMENTS_FORMAT: &str = "cdpr-measurements/1";
 
-/// Reads measurements of a robot from the text of a file. `noise` holds where a row has no `std_` column; it
+/// Reads measurements of a robot from the bytes of a file. `noise` holds where a row has no `std_` column; it
 /// goes before what a JSON form says.
 ///
 /// # Errors
 /// [`CalibrationError::Column`] for a column that is unknown, twice or of a cable that the robot does not
-/// have; [`CalibrationError::Cell`] naming line and column; [`CalibrationError::Json`].
+/// have; [`CalibrationError::Table`] and [`CalibrationError::Cell`] naming line and column;
+/// [`CalibrationError::Json`].
 pub fn read_measurements(
-    text: &str,
+    bytes: &[u8],
     robot: &Robot,
     noise: &[(String, f64)],
 ) -> Result<Measurements, CalibrationError> {
-    let (header, cells, noise) = if text.trim_start().starts_with('{') {
+    let json = std::str::from_utf8(bytes).ok().filter(|text| text.trim_start().starts_with('{'));
+    let (header, cells, noise): (_, Lines, _) = if let Some(text) = json {
         let form: JsonForm = from_json(text)?;
         if form.format != MEASUREMENTS_FORMAT {
             return Err(CalibrationError::invalid("format", form.format, MEASUREMENTS_FORMAT));
@@ -71,25 +77,29 @@ pub fn read_measurements(
         let mut names: Vec<String> = form.rows.iter().flat_map(|row| row.keys().cloned()).collect();
         names.sort();
         names.dedup();
-        let cell = |row: &BTreeMap<String, Option<f64>>, name| {
-            row.get(name).copied().flatten().map(|number| number.to_string()).unwrap_or_default()
-        };
+        let cell = |row: &BTreeMap<String, Option<f64>>, name| row.get(name).copied().flatten();
         let cells = form.rows.iter().enumerate();
         let cells =
             cells.map(|(k, row)| (k + 1, names.iter().map(|name| cell(row, name)).collect())).collect();
         let mut all: Vec<(String, f64)> = form.noise.into_iter().collect();
-        all.retain(|(name, _)| !noise.iter().any(|(own, _)| own == name));
+        all.retain(|(name, _)| !noise.iter().any(|(own, _)| is_same_noise(own, name)));
         all.extend_from_slice(noise);
         (names, cells, all)
     } else {
-        let (header, cells) = lines(text)?;
+        let (header, cells) = lines(bytes)?;
         (header, cells, noise.to_vec())
     };
     let columns = columns(&header, robot)?;
     let (covariances, stds): (Vec<_>, Vec<_>) =
         noise.into_iter().partition(|(name, _)| name.starts_with("cov_"));
+    for (k, (name, value)) in covariances.iter().enumerate() {
+        if let Some((before, _)) = covariances[..k].iter().find(|(before, _)| is_same_noise(before, name)) {
+            let expected = format!("each covariance once; {before} is the same");
+            return Err(CalibrationError::invalid(format!("noise {name}"), value, expected));
+        }
+    }
     let covariances = covariances.into_iter().map(|(name, value)| {
-        let expected = "two quantities that are measured, cov_x_m_y_m";
+        let expected = "two different quantities that are measured, cov_x_m_y_m";
         let (one, other, factor) = covariance_of(&name)
             .ok_or_else(|| CalibrationError::invalid(format!("noise {name}"), value, expected))?;
         Ok((one, other, value * factor))
@@ -98,7 +108,7 @@ pub fn read_measurements(
     let noise = Stated { stds: Noise::named(&stds)?, covariances };
     let rows: Vec<Row> = cells
         .iter()
-        .map(|(line, cells): &(usize, Vec<String>)| row(*line, cells, &columns, robot, &noise))
+        .map(|(line, cells)| row(*line, cells, &columns, robot, &noise))
         .collect::<Result<_, _>>()?;
     if rows.is_empty() {
         return Err(CalibrationError::invalid("measurements", "empty", "a row for each pose below a header"));
@@ -120,40 +130,34 @@ pub fn read_measurements(
     })
 }
 
-/// Header and lines of a CSV.
-#[allow(clippy::type_complexity)]
-fn lines(text: &str) -> Result<(Vec<String>, Vec<(usize, Vec<String>)>), CalibrationError> {
-    let mut reader = ReaderBuilder::new()
-        .has_headers(false)
-        .flexible(true)
-        .trim(Trim::All)
-        .comment(Some(b'#'))
-        .from_reader(text.as_bytes());
-    let unread = |line, error: csv::Error| CalibrationError::Incomplete { line, reason: error.to_string() };
-    let mut header: Option<Vec<String>> = None;
-    let mut cells = Vec::new();
-    let mut record = StringRecord::new();
-    loop {
-        let line = reader.position().line() as usize;
-        if !reader.read_record(&mut record).map_err(|error| unread(line, error))? {
-            break;
-        }
-        let line = record.position().map_or(line, |position| position.line() as usize);
-        let values: Vec<String> = record.iter().map(str::to_owned).collect();
-        if values.iter().all(String::is_empty) {
-            continue;
-        }
-        let Some(names) = &header else {
-            header = Some(values);
-            continue;
-        };
-        if values.len() != names.len() {
-            let reason = format!("{} cells: expected {}, one for each column", values.len(), names.len());
-            return Err(CalibrationError::Incomplete { line, reason });
-        }
-        cells.push((line, values));
+/// Whether two names of noise mean the same: of a sensor, or of the covariance of two quantities.
+fn is_same_noise(one: &str, other: &str) -> bool {
+    match (covariance_of(one), covariance_of(other)) {
+        (Some(one), Some(other)) => (one.0, one.1) == (other.0, other.1),
+        _ => Noise::sensor(one) == Noise::sensor(other),
     }
-    Ok((header.unwrap_or_default(), cells))
+}
+
+/// Names, and each row with its line, of a table. Texts and a time may stand beside what is measured.
+fn lines(bytes: &[u8]) -> Result<(Vec<String>, Lines), CalibrationError> {
+    let table = Table::read(bytes)?;
+    let mut names = Vec::new();
+    let mut cells: Lines = table.lines.iter().map(|line| (*line, Vec::new())).collect();
+    for column in &table.columns {
+        let name = column.plain_name();
+        if !is_known(&name) && column.is_aside() {
+            continue;
+        }
+        let values = table.numbers(column)?;
+        if let Some(infinite) = column.blanks.iter().find(|blank| !blank.text.is_empty()) {
+            return Err(table.cell_error(infinite.row, column, "a finite number, or an empty cell").into());
+        }
+        for ((_, row), value) in cells.iter_mut().zip(values) {
+            row.push(Some(*value).filter(|value| value.is_finite()));
+        }
+        names.push(name);
+    }
+    Ok((names, cells))
 }
 
 /// The rows as CSV, as [`read_measurements`] reads them.

@@ -165,14 +165,20 @@ impl Unknowns {
         }
     }
 
-    /// The named parameters or groups of parameters, without prior.
+    /// The named parameters or groups of parameters, without prior; of a planar robot, coordinates in its plane.
     ///
     /// # Errors
-    /// [`CalibrationError::Invalid`] for a name that the robot does not have, and for offsets of tension
-    /// set-points, which no measurement with given lengths depends on.
+    /// [`CalibrationError::Invalid`] for a name that the robot does not have, for a coordinate at right angles to
+    /// its plane, and for offsets of tension set-points, which no measurement with given lengths depends on.
     pub fn free(robot: &Robot, names: &[&str]) -> Result<Self, CalibrationError> {
         let parameters = Parameter::of(robot);
         let is = |p: &Parameter, name: &str| p.group() == name || p.to_string() == name;
+        if let Some(out) =
+            parameters.iter().find(|p| leaves_plane(robot, **p) && names.contains(&&*p.to_string()))
+        {
+            let expected = "coordinates in the plane of the robot: nothing measured depends on others";
+            return Err(CalibrationError::invalid("unknown", out, expected));
+        }
         let known = |name: &&&str| parameters.iter().any(|p| is(p, name)) && !name.starts_with("dt");
         if let Some(name) = names.iter().find(|name| !known(name)) {
             let expected = format!("parameters of the robot ({})", Parameter::NAMES);
@@ -180,7 +186,7 @@ impl Unknowns {
         }
         let mut unknowns = Self::none();
         for (index, parameter) in parameters.iter().enumerate() {
-            if names.iter().any(|name| is(parameter, name)) {
+            if names.iter().any(|name| is(parameter, name)) && !leaves_plane(robot, *parameter) {
                 unknowns.terms.push(Term { input: unknowns.all.len(), parameter: index, factor: 1.0 });
                 unknowns.all.push(Unknown {
                     name: parameter.to_string(),
@@ -271,7 +277,14 @@ impl Unknowns {
         }
         for input in inputs {
             let own = &mut self.all[input].bounds;
-            *own = [own[0].max(bounds[0]), own[1].min(bounds[1])];
+            let both = [own[0].max(bounds[0]), own[1].min(bounds[1])];
+            if both[0] >= both[1] {
+                let given = format!("{}:{}", bounds[0], bounds[1]);
+                let expected =
+                    format!("a range with a part between {} and {}, its other bounds", own[0], own[1]);
+                return Err(CalibrationError::invalid(format!("bounds of {name}"), given, expected));
+            }
+            *own = both;
         }
         Ok(())
     }
@@ -346,6 +359,32 @@ impl Unknowns {
         }
         deviations
     }
+}
+
+/// Whether a parameter moves a point out of the plane of a planar robot.
+fn leaves_plane(robot: &Robot, parameter: Parameter) -> bool {
+    let normal = robot.plane.map(cdpr_robot::Plane::normal);
+    let (Parameter::ExitPoint(_, axis) | Parameter::AnchorPoint(_, axis) | Parameter::CenterOfMass(axis)) =
+        parameter
+    else {
+        return false;
+    };
+    normal == Some(axis.index())
+}
+
+/// Refuses errors of sensors that are named twice.
+///
+/// # Errors
+/// [`CalibrationError::Invalid`] naming it.
+pub(crate) fn check_each_once(errors: impl Iterator<Item = SensorError>) -> Result<(), CalibrationError> {
+    let mut before = Vec::new();
+    for error in errors {
+        if before.contains(&error) {
+            return Err(CalibrationError::invalid("error of sensors", error.name(), "each once"));
+        }
+        before.push(error);
+    }
+    Ok(())
 }
 
 /// A change of a parameter so great that a value known no better is not known.

@@ -183,7 +183,10 @@ fn invalid_inputs_are_named() {
     let mut calibration = Calibration::new(&caroca(), &uncertainties()).unwrap();
     let pose = Pose::at(0.0, 0.0, 1.75);
     let error = calibration.add(&pose, &Load::none(), &[Measurement::Lengths(0.0)]).unwrap_err();
-    assert_eq!(error.to_string(), "noise is 0: expected a finite, positive standard deviation");
+    assert_eq!(
+        error.to_string(),
+        "noise is 0: expected a standard deviation from 1e-15 to 1e15, in SI units"
+    );
     assert!(calibration.add(&Pose::at(0.0, 0.0, 9.0), &Load::none(), &[NOISE]).is_err());
     assert!(calibration.best_poses(3).is_empty());
 }

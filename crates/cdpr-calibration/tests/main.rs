@@ -3,9 +3,12 @@
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 
 mod common;
+mod frame;
 mod identify;
+mod minimum;
 mod recovery;
 mod reference;
+mod refused;
 mod sensors;
 mod speed;
 mod tables;

@@ -55,7 +55,7 @@ fn the_truth_lies_in_the_stated_regions_as_often_as_stated() {
             let clock = Instant::now();
             let found = fit(&case.robot, &rows, &unknowns, &FitSettings::default()).unwrap();
             seconds += clock.elapsed().as_secs_f64();
-            stuck += usize::from(!found.converged);
+            stuck += usize::from(!found.converged());
             near = near.max(found.steps);
             let covered = covered(&found, &truth);
             inside += covered.iter().filter(|inside| **inside).count();
@@ -136,9 +136,9 @@ fn campaigns_with_outliers_biases_and_far_starts_converge_or_say_that_they_have_
                 }
                 match fit(&case.robot, &rows, &unknowns, &settings) {
                     Ok(found) => {
-                        converged += u64::from(found.converged);
+                        converged += u64::from(found.converged());
                         steps = steps.max(found.steps);
-                        if !found.converged {
+                        if !found.converged() {
                             reasons.push(format!("{:.0e} std away", found.distance));
                         } else {
                             let covered = covered(&found, &truth);
@@ -222,7 +222,7 @@ fn offsets_of_winches_and_load_cells_are_found_without_any_pose() {
     let clock = Instant::now();
     let found = fit(&case.robot, &rows, &unknowns, &FitSettings::default()).unwrap();
     println!("{} rows, {} steps in {:.2} s", rows.len(), found.steps, clock.elapsed().as_secs_f64());
-    assert!(found.converged && found.p_value().unwrap() > 1e-3, "{}", found.chi_square);
+    assert!(found.converged() && found.p_value().unwrap() > 1e-3, "{}", found.chi_square);
     for (k, wanted) in offsets.iter().chain(&biases).enumerate() {
         let of = &found.estimates[k + 1];
         let std = of.std.unwrap();
@@ -250,7 +250,7 @@ fn a_tracker_anywhere_is_found_with_the_robot() {
     let mut unknowns = Unknowns::of_model(&case.model());
     unknowns.add(&case.robot, SensorError::Frame, None, 0);
     let found = fit(&case.robot, &rows, &unknowns, &FitSettings::default()).unwrap();
-    assert!(found.converged && found.p_value().unwrap() > 1e-3, "{}", found.chi_square);
+    assert!(found.converged() && found.p_value().unwrap() > 1e-3, "{}", found.chi_square);
     assert!((found.origin - origin).norm() < 0.02, "{}", found.origin);
     assert!(found.frame.angle_to(&turn) < 5e-3);
 }

@@ -17,7 +17,8 @@ fn scipy_finds_the_same_robot() {
     let model = open_errors(&path("model"), &robot).unwrap();
     let std = reference["noise"].as_f64().unwrap();
     let noise = ["position", "rotation"].map(|name| (name.to_owned(), std));
-    let measured = read_measurements(reference["measurements"].as_str().unwrap(), &robot, &noise).unwrap();
+    let measured =
+        read_measurements(reference["measurements"].as_str().unwrap().as_bytes(), &robot, &noise).unwrap();
     let clock = Instant::now();
     let found = fit(&robot, &measured.rows, &Unknowns::of_model(&model), &FitSettings::default()).unwrap();
     let seconds = clock.elapsed().as_secs_f64();

@@ -100,7 +100,7 @@ fn check(name: &str, robots: &[&str], of: impl Fn(&Case, u64) -> Outcome) {
             far.len(),
             chi / degrees
         );
-        assert!(outcomes.iter().all(|of| of.fit.converged), "{name}, {}", case.name);
+        assert!(outcomes.iter().all(|of| of.fit.converged()), "{name}, {}", case.name);
         assert!(farthest < 4.5, "{name}, {}: {farthest}", case.name);
         assert!((chi / degrees - 1.0).abs() < 4.0 * (2.0 / degrees).sqrt(), "{name}, {}: {chi}", case.name);
     }

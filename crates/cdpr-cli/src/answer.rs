@@ -3,9 +3,10 @@
 //! JSON is in SI units; cables are numbered from 1, as in `a1.x`.
 
 use crate::output::{Ending, table};
+use cdpr_cable::SLACK_BELOW_OWN_WEIGHTS;
 pub(crate) use cdpr_robot::decimal;
-use cdpr_robot::{CableEnd, Pose, Robot};
-use cdpr_statics::{Bound, DirectSolution, Equilibrium, Limit, Mode, Stability};
+use cdpr_robot::{CableEnd, Pose, Robot, counted};
+use cdpr_statics::{Bound, CableFrequency, DirectSolution, Equilibrium, Limit, Mode, Stability};
 use serde::Serialize;
 
 /// Residuals of the equations at a solution.
@@ -80,6 +81,18 @@ impl OutOfLimits {
     }
 }
 
+/// Warns of the first of several poses at which the slowest cable vibrates less than twice as fast as the platform,
+/// whose frequencies [Hz] are those on cables without mass.
+pub(crate) fn warn_of_cables(poses: impl Iterator<Item = (CableFrequency, f64)>) {
+    let mut warnings = poses.filter_map(|(cable, platform)| cable.warning(platform));
+    let Some(first) = warnings.next() else { return };
+    eprintln!("warning: {first}");
+    match warnings.count() {
+        0 => {}
+        others => eprintln!("this holds for {others} more poses"),
+    }
+}
+
 /// A motion that nothing resists, with `|translation|² + ℓ² |rotation|² = 1`.
 #[derive(Serialize)]
 pub(crate) struct Neutral {
@@ -130,13 +143,17 @@ struct Report {
     iterations: usize,
     /// Stiffness of the softest motion [N/m].
     least_stiffness: f64,
-    /// Cables that are longer than the distance of their points.
+    /// Cables whose tension at the lower end is at most `slack_below_own_weights` times their weight.
     slack_cables: Vec<usize>,
+    slack_below_own_weights: f64,
+    /// Other cables that are longer than the distance of their points: loaded, but sagging.
+    sagging_cables: Vec<usize>,
 }
 
 impl Found {
     pub(crate) fn new(robot: &Robot, lengths: &[f64], solution: &DirectSolution) -> Self {
         let DirectSolution { equilibrium, report, stability } = solution;
+        let sagging = report.longer_than_chord.iter().filter(|i| !report.slack.contains(i));
         Self {
             position: equilibrium.pose.position.into(),
             rotation: rows(&equilibrium.pose),
@@ -152,6 +169,8 @@ impl Found {
                 iterations: report.iterations,
                 least_stiffness: stability.least_stiffness(),
                 slack_cables: report.slack.iter().map(|i| i + 1).collect(),
+                slack_below_own_weights: SLACK_BELOW_OWN_WEIGHTS,
+                sagging_cables: sagging.map(|i| i + 1).collect(),
             },
         }
     }
@@ -168,12 +187,21 @@ impl Found {
         }
         print_cables(lengths, &self.cable_forces, &self.tensions, &self.exit_tensions);
         OutOfLimits::print(&self.out_of_limits);
-        let Report { method, iterations, least_stiffness, slack_cables } = &self.report;
+        let Report { method, iterations, least_stiffness, slack_cables, sagging_cables, .. } = &self.report;
         let stable = if self.stable { "stable" } else { "unstable" };
-        println!("{stable}, softest motion {least_stiffness:.1} N/m; {method}, {iterations} iterations");
+        println!(
+            "{stable}, softest motion {least_stiffness:.1} N/m; {method}, {}",
+            counted(*iterations, "iteration")
+        );
         Neutral::print(&self.neutral);
         if !slack_cables.is_empty() {
-            println!("slack cables: {}", numbers(slack_cables));
+            println!("slack cables: {} (they carry less than their own weight)", numbers(slack_cables));
+        }
+        if !sagging_cables.is_empty() {
+            println!(
+                "sagging cables: {} (longer than the distance of their points)",
+                numbers(sagging_cables)
+            );
         }
         self.residual.print();
     }

@@ -3,13 +3,13 @@
 //! A parser says what is wrong with the text; clap adds the argument and the value.
 
 use crate::error::ProgramError;
+use crate::questions;
 use cdpr_assess::PoseRegion;
-use cdpr_robot::{Coordinate, Parameter, Robot, TensionReference, Wrench, shown};
+use cdpr_robot::{Coordinate, Parameter, Robot, TensionReference, Wrench, counted, plausible, shown};
 use cdpr_statics::Load;
-use cdpr_study::{
-    ErrorModel, Grid, GridAxis, IfExists, Study, open_robot, open_robot_in_any_unit, write_text,
-};
+use cdpr_study::{ErrorModel, Grid, GridAxis, IfExists, Study, open_robot_in_any_unit, write_text};
 use serde::Serialize;
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 /// How the results are printed.
@@ -25,7 +25,7 @@ impl Format {
     /// Prints an answer as one line of JSON, or as `text` does.
     pub(crate) fn print<T: Serialize>(self, answer: &T, text: impl FnOnce(&T)) -> serde_json::Result<()> {
         match self {
-            Self::Json => println!("{}", serde_json::to_string(answer)?),
+            Self::Json => println!("{}", questions::added_to(serde_json::to_string(answer)?)?),
             Self::Text => text(answer),
         }
         Ok(())
@@ -94,22 +94,65 @@ pub(crate) fn named_after(robot: &Path, of: &str) -> PathBuf {
     PathBuf::from(format!("{stem}-{of}"))
 }
 
-/// A finite number.
-pub(crate) fn number(text: &str) -> Result<f64, String> {
-    let number = text.trim().parse().ok().filter(|number: &f64| number.is_finite());
-    number.ok_or_else(|| format!("`{}` is not a finite number", text.trim()))
+/// A file for a figure, whose name says that it is SVG.
+pub(crate) fn svg(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    let ending = path.extension().map(std::ffi::OsStr::to_ascii_lowercase);
+    if ending.is_some_and(|ending| ending == "svg") {
+        return Ok(path);
+    }
+    Err("figures are SVG: expected a name that ends in .svg; other programs make PDF or PNG of it".to_owned())
 }
 
-/// Finite numbers separated by commas.
+/// A count between two bounds, both of them allowed.
+pub(crate) fn count<const LEAST: usize, const MOST: usize>(text: &str) -> Result<usize, String> {
+    let count = text.trim().parse().ok().filter(|count| (LEAST..=MOST).contains(count));
+    // Zeros beyond nine digits are not counted by eye.
+    let most = if MOST < 10_000_000_000 { MOST.to_string() } else { format!("{MOST:e}") };
+    count.ok_or_else(|| format!("expected a count, {LEAST} to {most}"))
+}
+
+/// A finite number.
+pub(crate) fn number(text: &str) -> Result<f64, String> {
+    let text = text.trim();
+    let finite = |text: &str| text.parse().ok().filter(|number: &f64| number.is_finite());
+    let hint = || match finite(&text.replacen(',', ".", 1)) {
+        Some(meant) => format!(": expected a decimal point, {meant}"),
+        None => match finite(text.trim_end_matches(|c: char| c.is_alphabetic() || c == ' ')) {
+            Some(meant) => format!(": expected {meant}, without a unit"),
+            None => String::new(),
+        },
+    };
+    finite(text).ok_or_else(|| format!("`{text}` is not a finite number{}", hint()))
+}
+
+/// The parts of a list: between semicolons, commas or blanks. Behind semicolons and blanks commas are decimal.
+pub(crate) fn parts(text: &str) -> Vec<Cow<'_, str>> {
+    let is_apart = |part: &str| !part.starts_with(',') && !part.ends_with(',');
+    let decimal = |part: &str| match part.matches(',').count() {
+        1 => part.replace(',', ".").into(),
+        _ => part.to_owned().into(),
+    };
+    let mut words = text.split_whitespace();
+    if text.contains(';') {
+        text.split(';').map(decimal).collect()
+    } else if text.split_whitespace().count() > 1 && words.all(is_apart) {
+        text.split_whitespace().map(decimal).collect()
+    } else {
+        text.split(',').map(Cow::from).collect()
+    }
+}
+
+/// Finite numbers separated by commas, semicolons or blanks.
 pub(crate) fn numbers(text: &str) -> Result<Vec<f64>, String> {
-    text.split(',').map(number).collect()
+    parts(text).iter().map(|part| number(part)).collect()
 }
 
 /// Finite numbers of one argument.
 #[derive(Clone)]
 pub(crate) struct List(pub(crate) Vec<f64>);
 
-/// Finite numbers separated by commas.
+/// Finite numbers, as [`numbers`].
 pub(crate) fn list(text: &str) -> Result<List, String> {
     numbers(text).map(List)
 }
@@ -118,7 +161,15 @@ pub(crate) fn list(text: &str) -> Result<List, String> {
 pub(crate) fn components<const N: usize>(text: &str) -> Result<[f64; N], String> {
     numbers(text)?
         .try_into()
-        .map_err(|given: Vec<f64>| format!("{} numbers: expected {N}, separated by commas", given.len()))
+        .map_err(|given: Vec<f64>| format!("{}: expected {N}", counted(given.len(), "number")))
+}
+
+/// The components of a force [N].
+fn force(text: &str) -> Result<[f64; 3], String> {
+    components(text).map_err(|error| match text.contains("kg") {
+        true => format!("{error}; a force is in N, and a mass in kg is `--payload`"),
+        false => error,
+    })
 }
 
 /// A mass, zero or more [kg].
@@ -148,7 +199,7 @@ pub(crate) struct FreeArguments {
 #[derive(clap::Args)]
 pub(crate) struct LoadArguments {
     /// Force, in the base frame: fx,fy,fz [N].
-    #[arg(long, value_parser = components::<3>, default_value = "0,0,0", allow_hyphen_values = true)]
+    #[arg(long, value_parser = force, default_value = "0,0,0", allow_hyphen_values = true)]
     force: [f64; 3],
     /// Moment about P, of constant components in the base frame: mx,my,mz [N m].
     #[arg(long, value_parser = components::<3>, default_value = "0,0,0", allow_hyphen_values = true)]
@@ -191,7 +242,7 @@ pub(crate) struct Preference {
 impl Preference {
     /// The robot of a file, with this preference if there is one.
     pub(crate) fn open_robot(&self, path: &Path) -> Result<Robot, ProgramError> {
-        self.given_to(open_robot(path)?)
+        self.given_to(questions::open_robot(path)?)
     }
 
     /// As [`Preference::open_robot`], for a robot whose values may be in another unit.
@@ -203,13 +254,14 @@ impl Preference {
         if let Some(reference) = &self.tension_reference {
             robot.tension_reference = Some(reference.clone());
             robot.validate().map_err(|error| ProgramError::Usage(format!("--tension-reference: {error}")))?;
+            questions::ask(plausible::reference(&robot));
         }
         Ok(robot)
     }
 
     /// The study of a file, with this preference if there is one.
     pub(crate) fn open_study(&self, path: &Path) -> Result<Study, ProgramError> {
-        let mut study = Study::open(path)?;
+        let mut study = questions::open_study(path)?;
         if let Some(reference) = &self.tension_reference {
             self.given_to(study.robot.clone())?;
             study.set_tension_reference(reference.clone())?;
@@ -226,7 +278,7 @@ pub(crate) fn grid(text: &str) -> Result<Grid, String> {
         let points = points.trim().parse().ok().filter(|points| *points > 0)?;
         Some(GridAxis { min: number(min).ok()?, max: number(max).ok()?, points })
     };
-    let axes: Option<Vec<_>> = text.split(',').map(axis).collect();
+    let axes: Option<Vec<_>> = parts(text).iter().map(|text| axis(text)).collect();
     let axes = axes.and_then(|axes| <[GridAxis; 3]>::try_from(axes).ok());
     Grid::new(axes.ok_or_else(|| expected.to_owned())?).map_err(|error| error.to_string())
 }
@@ -237,7 +289,7 @@ pub(crate) fn region(text: &str) -> Result<PoseRegion, String> {
         let (min, max) = text.split_once(':')?;
         Some((number(min).ok()?, number(max).ok()?)).filter(|(min, max)| min <= max)
     };
-    let axes: Option<Vec<_>> = text.split(',').map(axis).collect();
+    let axes: Option<Vec<_>> = parts(text).iter().map(|text| axis(text)).collect();
     let Some([x, y, z]) = axes.and_then(|axes| <[(f64, f64); 3]>::try_from(axes).ok()) else {
         return Err("expected min:max of x, y and z, such as -2:2,-1:1,0.5:2.5".to_owned());
     };
@@ -254,7 +306,7 @@ pub(crate) fn named(text: &str) -> Result<Named, String> {
         let (name, value) = text.split_once('=').ok_or_else(|| format!("`{text}`: expected name=number"))?;
         Ok((name.trim().to_owned(), number(value)?))
     };
-    let named: Vec<(String, f64)> = text.split(',').map(one).collect::<Result<_, _>>()?;
+    let named: Vec<(String, f64)> = parts(text).iter().map(|text| one(text)).collect::<Result<_, _>>()?;
     let again =
         |(i, (name, _)): &(usize, &(String, f64))| named[..*i].iter().any(|(before, _)| before == name);
     match named.iter().enumerate().find(again) {
@@ -290,7 +342,7 @@ impl ErrorModelArguments {
 
 /// An error model of a study, for a robot that has the same parameters as the study's.
 pub(crate) fn study_errors(path: &Path, name: &str, robot: &Robot) -> Result<ErrorModel, ProgramError> {
-    let study = Study::open(path)?;
+    let study = questions::open_study(path)?;
     if Parameter::of(&study.robot) != Parameter::of(robot) {
         return Err(ProgramError::Usage(format!(
             "--error-model {}: its study is of the robot {}, whose parameters are not those of {}: \
@@ -305,7 +357,10 @@ pub(crate) fn study_errors(path: &Path, name: &str, robot: &Robot) -> Result<Err
 
 /// The standard deviation of each parameter of `--uncertainty`.
 pub(crate) fn uncertainties(robot: &Robot, Named(named): &Named) -> Result<Vec<f64>, ProgramError> {
-    cdpr_study::uncertainties(robot, named).map_err(|error| ProgramError::Usage(error.to_string()))
+    let deviations =
+        cdpr_study::uncertainties(robot, named).map_err(|error| ProgramError::Usage(error.to_string()))?;
+    questions::about_model(robot, &ErrorModel::normal(robot, &deviations));
+    Ok(deviations)
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use cdpr_cable::{CableError, RecordError};
 use cdpr_calibration::CalibrationError;
 use cdpr_exchange::{ExchangeError, Lacking};
 use cdpr_report::ReportError;
-use cdpr_robot::{JsonError, QuaternionError};
+use cdpr_robot::{JsonError, QuaternionError, counted};
 use cdpr_statics::StaticsError;
 use cdpr_study::{InputKind, ROBOT_NAME, STUDY_NAME, StudyError};
 use std::path::{Path, PathBuf};
@@ -47,8 +47,9 @@ pub(crate) enum ProgramError {
     DifferentSections,
     #[error("no cable of the robot has a law: expected --record, --law, or a `law` in the robot file")]
     NoLaw,
-    #[error("--poses {path}, line {line}: {reason}")]
-    Poses { path: PathBuf, line: usize, reason: Box<PoseError> },
+    /// A list of poses or wrenches.
+    #[error("{option} {path}, {reason}")]
+    List { option: &'static str, path: PathBuf, reason: String },
     #[error("the robot holds none of the candidate poses: {reasons}")]
     NoPoseHeld { reasons: String },
     #[error("cannot start {threads} threads: {source}")]
@@ -173,10 +174,14 @@ pub(crate) const POSE: &str = "expected x,y,z [m] or x,y,z,qw,qx,qy,qz";
 pub(crate) enum PoseError {
     #[error("{0}")]
     Number(String),
-    #[error("{0} numbers: {POSE}")]
+    #[error("{}: {POSE}", counted(*.0, "number"))]
     Count(usize),
-    #[error("columns {0}: expected x_m,y_m,z_m, then none, qw,qx,qy,qz or roll_deg,pitch_deg,yaw_deg")]
-    Columns(String),
+    #[error(
+        "6 numbers: expected x,y,z [m]; angles go apart, `--rpy {},{},{}` [degrees], or below the names \
+         roll_deg,pitch_deg,yaw_deg in a file",
+        .0[0], .0[1], .0[2]
+    )]
+    Angles([f64; 3]),
     #[error(transparent)]
     Quaternion(#[from] QuaternionError),
 }

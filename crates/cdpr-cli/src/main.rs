@@ -9,8 +9,10 @@ mod answer;
 mod arguments;
 mod cable;
 mod error;
+mod lists;
 mod pose;
 mod poses;
+mod questions;
 mod robot;
 mod slips;
 mod study;
@@ -148,6 +150,7 @@ enum Command {
   cdpr analyse data/tables/ishigami.csv
   cdpr analyse results --table mechanical --limit 'rms_mm<1.4' --out analysis
   cdpr analyse measurements.csv --input 'temperature,load*' --output error_mm --format json")]
+    #[command(alias = "analyze")]
     Analyse(study::analyse::Settings),
     /// Find which tolerances to tighten so that an error stays below a limit, and by how much.
     #[command(
@@ -185,7 +188,7 @@ enum Command {
 }
 
 fn main() -> ExitCode {
-    match Arguments::try_parse() {
+    match Arguments::try_parse_from(slips::joined(std::env::args_os())) {
         Ok(arguments) => output::exit_code(prepare().and_then(|()| run(arguments.command))),
         Err(error) => {
             let given: Vec<String> =
@@ -237,4 +240,42 @@ fn completions(shell: clap_complete::Shell) {
     let mut script = Vec::new();
     clap_complete::generate(shell, &mut Arguments::command(), "cdpr", &mut script);
     println!("{}", String::from_utf8_lossy(&script));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::builder::ValueParser;
+    use clap::error::ErrorKind;
+
+    /// Every command without commands of its own, with the words that call it.
+    fn commands(command: &clap::Command, words: &[String]) -> Vec<(Vec<String>, clap::Command)> {
+        let below = command.get_subcommands().filter(|inner| inner.get_name() != "help");
+        let mut found: Vec<_> = below
+            .flat_map(|inner| commands(inner, &[words, &[inner.get_name().to_owned()]].concat()))
+            .collect();
+        if found.is_empty() {
+            found.push((words.to_vec(), command.clone()));
+        }
+        found
+    }
+
+    #[test]
+    fn every_count_has_a_greatest_value() {
+        let whole = Arguments::command();
+        let count = ValueParser::from(arguments::count::<0, 1>).type_id();
+        let mut counts = 0;
+        for (words, command) in commands(&whole, &[]) {
+            for argument in command.get_arguments().filter(|one| one.get_value_parser().type_id() == count) {
+                counts += 1;
+                let option = format!("--{}", argument.get_long().unwrap_or_default());
+                let typed = ["cdpr".to_owned()].into_iter().chain(words.clone());
+                let typed = typed.chain([format!("{option}=18446744073709551615")]);
+                let error = whole.clone().try_get_matches_from(typed).unwrap_err();
+                assert_eq!(error.kind(), ErrorKind::ValueValidation, "{words:?} {option}: {error}");
+                assert!(error.to_string().contains("expected a count, "), "{words:?} {option}: {error}");
+            }
+        }
+        assert!(counts >= 10, "{counts}");
+    }
 }

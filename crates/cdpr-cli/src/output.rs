@@ -1,6 +1,7 @@
 //! Output of the program: lines on the standard output, an error on the standard error, the exit code.
 
 use crate::error::ProgramError;
+use crate::questions;
 use cdpr_report::ReportError;
 use cdpr_robot::shown_lines;
 use comfy_table::{Table, presets};
@@ -18,9 +19,10 @@ pub(crate) const EXIT_CODES: &str = "Exit codes:
   1    it cannot be done: a wrong or unreadable file, no answer, a place that cannot be written;
        the standard error says why
   2    wrong arguments; the standard error says why
-  3    done, but something is wrong: `check` warns, `import` questions a value, a case of `direct --from` or a
-       pose of `--poses` has no answer, `--certify` proves nothing, a tension lies above
-       tension_limits.max or a breaking force, every observation of a sampling or surface failed
+  3    done, but something is wrong: a value is questioned, `check` warns, a case of `direct --from` or a
+       pose of `--poses` has no answer, a platform falls before the whole load is on it,
+       `--certify` proves nothing, a tension lies above tension_limits.max or a breaking
+       force, more than half of the observations of a sampling or surface failed
   130  a study was interrupted (Ctrl-C, the end of a job): what is done is kept,
        and the standard error says how to go on";
 
@@ -96,6 +98,7 @@ pub(crate) fn exit_code(result: Result<Ending, ProgramError>) -> ExitCode {
         (Err(error), _) => (error.exit_code(), Some(error.to_string())),
         (Ok(_), Some(error)) => (1, Some(format!("cannot write to the standard output: {error}"))),
         (Ok(Ending::SomethingWrong), None) => (3, None),
+        (Ok(Ending::Well), None) if questions::were_asked() => (3, None),
         (Ok(Ending::Well), None) => (0, None),
     };
     if let Some(message) = message {

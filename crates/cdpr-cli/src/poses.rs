@@ -1,13 +1,10 @@
-//! Poses as they are typed, as files list them and as headings state them.
+//! Poses as they are typed and as headings state them.
 //!
 //! A rotation is a unit quaternion (w, x, y, z), or angles: R = Rz(yaw) Ry(pitch) Rx(roll).
 
-use crate::arguments::{components, number, numbers};
+use crate::arguments::{components, numbers};
 use crate::error::{POSE, PoseError, ProgramError};
-use cdpr_robot::{Pose, Rotation3, Vector3, rotation_by_angles, rotation_in_order, rotation_of, rounded};
-use cdpr_study::{InputKind, read_text};
-use csv::{ReaderBuilder, StringRecord, Trim};
-use std::path::Path;
+use cdpr_robot::{Pose, Rotation3, Vector3, rotation_by_angles, rotation_in_order, rounded};
 
 /// `x,y,z` [m], followed by the quaternion `qw,qx,qy,qz` where the platform is rotated.
 pub(crate) fn pose(text: &str) -> Result<Pose, PoseError> {
@@ -26,6 +23,7 @@ pub(crate) fn pose_of(numbers: &[f64]) -> Result<Pose, PoseError> {
         [x, y, z, qw, qx, qy, qz] => {
             Ok(Pose { position: Vector3::new(x, y, z), rotation: rotation_in_order([qw, qx, qy, qz])? })
         }
+        [_, _, _, roll, pitch, yaw] => Err(PoseError::Angles([roll, pitch, yaw])),
         _ => Err(PoseError::Count(numbers.len())),
     }
 }
@@ -34,16 +32,14 @@ pub(crate) fn pose_of(numbers: &[f64]) -> Result<Pose, PoseError> {
 #[derive(clap::Args)]
 pub(crate) struct Angles {
     /// Rotation by angles [degrees] in place of a quaternion: R = Rz(yaw) Ry(pitch) Rx(roll).
-    #[arg(long, num_args = 3, value_names = ["ROLL", "PITCH", "YAW"], value_parser = number)]
-    #[arg(allow_negative_numbers = true)]
-    rpy: Option<Vec<f64>>,
+    #[arg(long, value_name = "ROLL,PITCH,YAW", value_parser = components::<3>, allow_hyphen_values = true)]
+    rpy: Option<[f64; 3]>,
 }
 
 impl Angles {
     /// The rotation, if the angles are given.
     pub(crate) fn rotation(&self) -> Option<Rotation3<f64>> {
-        let [roll, pitch, yaw] = *self.rpy.as_deref()? else { return None };
-        Some(rotation_by_angles([roll, pitch, yaw]))
+        self.rpy.map(rotation_by_angles)
     }
 
     /// The pose, rotated by the angles if they are given.
@@ -85,99 +81,21 @@ pub(crate) fn pose_numbers(pose: &Pose) -> [f64; 7] {
     [x, y, z, qw, qx, qy, qz]
 }
 
-/// Poses from a file (CSV), one a line below a header; plain numbers need no header.
-pub(crate) fn pose_file(path: &Path) -> Result<Vec<Pose>, ProgramError> {
-    let text = read_text(path, InputKind::Poses)?;
-    let mut lines =
-        ReaderBuilder::new().has_headers(false).flexible(true).trim(Trim::All).from_reader(text.as_bytes());
-    let mut columns = None;
-    let mut poses = Vec::new();
-    let mut start = lines.position().byte();
-    let mut record = StringRecord::new();
-    let at = |start, reason| ProgramError::Poses {
-        path: path.to_owned(),
-        line: line(&text, start),
-        reason: Box::new(reason),
-    };
-    let unread = |start, error: csv::Error| at(start, PoseError::Number(error.to_string()));
-    while lines.read_record(&mut record).map_err(|error| unread(start, error))? {
-        let is_empty = record.iter().all(str::is_empty);
-        let has_no_number = record.iter().all(|cell| number(cell).is_err());
-        if !is_empty && has_no_number && columns.is_none() && poses.is_empty() {
-            columns = Some(Columns::of(&record).map_err(|reason| at(start, reason))?);
-        } else if !is_empty {
-            poses.push(row(columns.as_ref(), &record).map_err(|reason| at(start, reason))?);
-        }
-        start = lines.position().byte();
-    }
-    if poses.is_empty() {
-        let empty = "--poses: the file is empty, expected a pose on each line";
-        return Err(ProgramError::Usage(empty.to_owned()));
-    }
-    Ok(poses)
-}
-
-/// Number of the line that begins at a byte or, where empty lines begin there, follows them.
-fn line(text: &str, start: u64) -> usize {
-    let rest = text.get(start as usize..).unwrap_or_default().trim_start();
-    1 + text[..text.len() - rest.len()].matches('\n').count()
-}
-
-/// The pose of a line.
-fn row(columns: Option<&Columns>, record: &StringRecord) -> Result<Pose, PoseError> {
-    let numbers: Vec<f64> =
-        record.iter().map(|cell| number(cell).map_err(PoseError::Number)).collect::<Result<_, _>>()?;
-    columns.map_or_else(|| pose_of(&numbers), |columns| columns.pose(&numbers))
-}
-
-/// Where the numbers of a pose stand in a line: x, y, z, and a quaternion or angles.
-struct Columns(Vec<usize>);
-
-impl Columns {
-    fn of(header: &StringRecord) -> Result<Self, PoseError> {
-        let names: Vec<_> = header.iter().map(|name| name.strip_suffix("_m").unwrap_or(name)).collect();
-        let rotations: [&[&str]; 3] = [&[], &["qw", "qx", "qy", "qz"], &["roll_deg", "pitch_deg", "yaw_deg"]];
-        let found = rotations.iter().find_map(|rotation| {
-            let wanted = ["x", "y", "z"].iter().chain(*rotation);
-            let places: Option<Vec<_>> =
-                wanted.map(|one| names.iter().position(|name| name == one)).collect();
-            places.filter(|places| places.len() == names.len())
-        });
-        let given = || header.iter().collect::<Vec<_>>().join(",");
-        found.map(Self).ok_or_else(|| PoseError::Columns(given()))
-    }
-
-    fn pose(&self, numbers: &[f64]) -> Result<Pose, PoseError> {
-        let ordered: Option<Vec<f64>> = self.0.iter().map(|place| numbers.get(*place).copied()).collect();
-        let ordered = ordered.filter(|_| numbers.len() == self.0.len());
-        let rotated = |x, y, z, rotation| Pose { position: Vector3::new(x, y, z), rotation };
-        match ordered.as_deref() {
-            Some(&[x, y, z]) => Ok(Pose::at(x, y, z)),
-            Some(&[x, y, z, roll, pitch, yaw]) => {
-                Ok(rotated(x, y, z, rotation_by_angles([roll, pitch, yaw])))
-            }
-            Some(&[x, y, z, qw, qx, qy, qz]) => Ok(rotated(x, y, z, rotation_of([qw, qx, qy, qz])?)),
-            _ => Err(PoseError::Number(format!(
-                "{} numbers: expected {}, one below each name",
-                numbers.len(),
-                self.0.len()
-            ))),
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn a_pose_is_three_numbers_or_seven() {
-        assert_eq!(pose("1,-2.5, 3e-1"), Ok(Pose::at(1.0, -2.5, 0.3)));
+        for text in ["1,-2.5, 3e-1", "1 -2.5  3e-1", "1; -2.5; 0.3", "1;-2,5;0,3"] {
+            assert_eq!(pose(text), Ok(Pose::at(1.0, -2.5, 0.3)), "{text}");
+        }
         let turned = pose("0,0,1,0,0,1,0").unwrap();
         assert!((turned.rotation * Vector3::x() + Vector3::x()).norm() < 1e-15);
         for (text, words) in [
             ("", "`` is not a finite number: expected x,y,z"),
             ("1,2", "2 numbers: expected x,y,z"),
+            ("1,2,3,0,0,90", "6 numbers: expected x,y,z [m]; angles go apart, `--rpy 0,0,90` [degrees]"),
             ("1,2,3,1", "4 numbers"),
             ("1,2,nan", "`nan` is not a finite number"),
             ("1,2,up", "`up` is not"),
@@ -190,7 +108,7 @@ mod tests {
 
     #[test]
     fn angles_turn_about_x_then_y_then_z() {
-        let angles = |rpy: [f64; 3]| Angles { rpy: Some(rpy.to_vec()) };
+        let angles = |rpy: [f64; 3]| Angles { rpy: Some(rpy) };
         let turned = angles([90.0, 0.0, 90.0]).of(&Pose::at(0.0, 0.0, 1.0)).unwrap();
         // Rx takes y to z, which Rz keeps; Rx keeps x, which Rz takes to y.
         assert!((turned.rotation * Vector3::y() - Vector3::z()).norm() < 1e-15);
@@ -205,7 +123,7 @@ mod tests {
     fn a_heading_has_the_angles_of_a_rotated_platform() {
         let level = Pose::at(0.0, -1.5, 2.0);
         assert_eq!(place(&level), "(0, -1.5, 2) m");
-        let turned = Angles { rpy: Some(vec![5.0, -10.0, 30.0]) }.of(&level).unwrap();
+        let turned = Angles { rpy: Some([5.0, -10.0, 30.0]) }.of(&level).unwrap();
         assert_eq!(place(&turned), "(0, -1.5, 2) m, roll 5, pitch -10, yaw 30 degrees");
     }
 

@@ -1,10 +1,12 @@
 //! Natural slips on the command line, with what was probably meant.
 
+use crate::arguments::numbers;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Command, Error};
+use std::ffi::{OsStr, OsString};
 
 /// Commands that are called otherwise, or stand elsewhere.
-const COMMANDS: [(&str, &str); 12] = [
+const COMMANDS: [(&str, &str); 10] = [
     ("forward", "cdpr direct"),
     ("degm", "cdpr direct"),
     ("iegm", "cdpr inverse"),
@@ -12,8 +14,6 @@ const COMMANDS: [(&str, &str); 12] = [
     ("validate", "cdpr check"),
     ("resume", "cdpr study run --resume"),
     ("sensitivity", "cdpr study run"),
-    ("analyse", "cdpr study merge"),
-    ("analyze", "cdpr study merge"),
     ("init", "cdpr study new"),
     ("template", "cdpr study new"),
     ("identify", "cdpr calibration identify"),
@@ -74,10 +74,7 @@ fn hint(error: &Error, command: &Command, arguments: &[String]) -> Option<String
         ("--robot", ["study" | "tolerances", ..]) => {
             Some("the robot file is the field `robot` of the study file".to_owned())
         }
-        _ if is_number(option) => Some(
-            "numbers follow their option, separated by commas and without spaces, such as `--pose 0,0,1.75`"
-                .to_owned(),
-        ),
+        _ if is_number(option) => Some("numbers follow their option, such as `--pose 0,0,1.75`".to_owned()),
         _ => {
             let known = OPTIONS.iter().find(|(slip, _)| *slip == option);
             known.map(|(_, hint)| (*hint).to_owned())
@@ -85,9 +82,40 @@ fn hint(error: &Error, command: &Command, arguments: &[String]) -> Option<String
     }
 }
 
-/// Whether an argument is a number, or several separated by commas.
+/// The arguments with numbers that stand apart behind an option as one: `--pose 0 0 2` is `--pose "0 0 2"`.
+pub(crate) fn joined(arguments: impl Iterator<Item = OsString>) -> Vec<OsString> {
+    let mut joined: Vec<OsString> = Vec::new();
+    // Whether numbers may go on: the last argument is an option, or its numbers.
+    let mut is_open = false;
+    for argument in arguments {
+        let text = argument.to_str().unwrap_or_default();
+        let is_option = text.starts_with("--") && text.len() > 2;
+        match joined.last_mut().filter(|last| is_open && is_number(text) && has_numbers(last)) {
+            Some(last) => {
+                last.push(" ");
+                last.push(&argument);
+            }
+            None => {
+                is_open = is_option || is_open && is_number(text);
+                joined.push(argument);
+            }
+        }
+    }
+    joined
+}
+
+/// Whether an argument has numbers, alone or behind `--option=`.
+fn has_numbers(argument: &OsStr) -> bool {
+    let text = argument.to_str().unwrap_or_default();
+    let numbers =
+        if text.starts_with("--") { text.split_once('=').map_or("", |(_, numbers)| numbers) } else { text };
+    is_number(numbers)
+}
+
+/// Whether an argument is a number, or several.
 fn is_number(text: &str) -> bool {
-    !text.is_empty() && text.split(',').all(|part| part.parse::<f64>().is_ok())
+    numbers(text).is_ok()
+        || text.len() > 1 && text.strip_suffix(',').is_some_and(|text| numbers(text).is_ok())
 }
 
 /// The command that was meant by a name.
@@ -100,4 +128,27 @@ fn called(name: &str, command: &Command) -> Option<String> {
     outer
         .map(|outer| format!("cdpr {} {name}", outer.get_name()))
         .or_else(|| COMMANDS.iter().find(|(slip, _)| *slip == name).map(|(_, meant)| (*meant).to_owned()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_behind_an_option_are_one_argument() {
+        for (given, expected) in [
+            (
+                &["cdpr", "inverse", "r", "--pose", "0", "-1", "2", "--rpy", "0", "0", "9"][..],
+                "0 -1 2|--rpy|0 0 9",
+            ),
+            (&["--pose", "0,", "-1,", "2"], "0, -1, 2"),
+            (&["--pose=0", "0", "2", "--payload", "5", "robot"], "--pose=0 0 2|--payload|5|robot"),
+            (&["report", "2024", "2025"], "report|2024|2025"),
+            (&["--steps", "2", "3x"], "2|3x"),
+        ] {
+            let found = joined(given.iter().map(OsString::from));
+            let found: Vec<_> = found.iter().map(|one| one.to_str().unwrap()).collect();
+            assert!(found.join("|").ends_with(expected), "{found:?}");
+        }
+    }
 }

@@ -12,10 +12,11 @@ mod template;
 mod throughput;
 pub(crate) mod tolerances;
 
-use crate::arguments::{Preference, Threads};
+use crate::arguments::{self, Preference, Threads};
 use crate::error::ProgramError;
 use crate::output::{Ending, patiently};
-use cdpr_study::{Access, StoredStudy, take_results};
+use crate::questions::take_results;
+use cdpr_study::{Access, StoredStudy};
 use clap::Subcommand;
 use common::{FolderSettings, RunSettings, begun};
 use std::path::PathBuf;
@@ -46,7 +47,7 @@ or, built with the feature `mpi`: mpirun -n 4 cdpr study run ....")]
         #[command(flatten)]
         folder: FolderSettings,
         /// Observations of each sampling, including those it has.
-        #[arg(long)]
+        #[arg(long, value_parser = arguments::count::<3, 10_000_000_000>)]
         observations: usize,
     },
     /// Measure how fast one sampling of a study runs.
@@ -61,7 +62,7 @@ or, built with the feature `mpi`: mpirun -n 4 cdpr study run ....")]
         #[arg(long)]
         sampling: String,
         /// Number of observations, in place of the file's.
-        #[arg(long, default_value_t = 1_000_000)]
+        #[arg(long, default_value_t = 1_000_000, value_parser = arguments::count::<3, 10_000_000_000>)]
         observations: usize,
         #[command(flatten)]
         preference: Preference,

@@ -1,11 +1,11 @@
-//! Sets of wrenches as they are typed or listed in a file.
+//! Sets of wrenches as they are given on the command line.
 
 use crate::arguments::components;
 use crate::error::ProgramError;
+use crate::lists::wrench_file;
 use cdpr_assess::WrenchSet;
 use cdpr_robot::{Vector6, Wrench};
-use cdpr_study::{InputKind, read_text};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// A set of wrenches that act on the platform beside the load.
 #[derive(clap::Args)]
@@ -34,27 +34,4 @@ impl WrenchArguments {
         let set = WrenchSet::of(listed.as_ref().unwrap_or(&self.wrench).iter().map(wrench).collect());
         Ok(self.wrench_box.as_ref().map_or_else(|| set.clone(), |widths| set.widened(&wrench(widths))))
     }
-}
-
-/// The wrenches of a file, one a line.
-fn wrench_file(path: &Path) -> Result<Vec<[f64; 6]>, ProgramError> {
-    let text = read_text(path, InputKind::Poses)?;
-    let mut wrenches = Vec::new();
-    let lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
-    for (number, line) in lines {
-        match components::<6>(line) {
-            Ok(wrench) => wrenches.push(wrench),
-            // A header has no number.
-            Err(_) if wrenches.is_empty() && !line.contains(|c: char| c.is_ascii_digit()) => {}
-            Err(reason) => {
-                let place = format!("--wrenches {}, line {}: {reason}", path.display(), number + 1);
-                return Err(ProgramError::Usage(place));
-            }
-        }
-    }
-    if wrenches.is_empty() {
-        let empty = format!("--wrenches {}: expected a wrench on each line", path.display());
-        return Err(ProgramError::Usage(empty));
-    }
-    Ok(wrenches)
 }

@@ -133,12 +133,12 @@ fn a_campaign_gives_a_robot_and_what_is_left_and_a_study_takes_both() {
 #[test]
 fn bad_measurements_are_named_by_line_and_column() {
     let cases: [(Change, &str); 16] = [
-        (&|cells| cells[3][2] = "NaN".to_owned(), "line 4, column l3_m: NaN: expected a finite number"),
+        (&|cells| cells[3][2] = "NaN".to_owned(), "line 4, column l3_m: `NaN`: expected a finite number"),
         (&|cells| cells[5][0] = "4100".to_owned(), "line 6, column l1_m: 4100: expected a length in m"),
         (&|cells| cells[0][1] = "l9_m".to_owned(), "column l9_m: expected one of the 8 cables of the robot"),
         (&|cells| cells[0][8] = "width_m".to_owned(), "column width_m: expected a name such as x_m"),
         (&|cells| cells[2].truncate(4), "line 3: 4 cells: expected"),
-        (&|cells| cells[3][9] = "inf".to_owned(), "line 4, column y_m: inf: expected a finite number"),
+        (&|cells| cells[3][9] = "inf".to_owned(), "line 4, column y_m: `inf`: expected a finite number"),
         (&|cells| cells[3][9] = "1197.5".to_owned(), "line 4, column y_m: 1197.5: expected a place in m"),
         (&|cells| cells[0][9] = "x_mm".to_owned(), "column x_mm: expected each quantity once"),
         (&|cells| cells[6][2] = "-3".to_owned(), "line 7, column l3_m: -3: expected a length above zero"),
@@ -177,7 +177,7 @@ fn what_cannot_be_written_and_settings_that_cannot_be_meant_are_refused() {
     let (folder, path) = campaign();
     let out = folder.path().join("out");
     for (more, words) in [
-        (&["--noise", "position=0"][..], "noise position is 0: expected a finite, positive"),
+        (&["--noise", "position=0"][..], "noise position is 0: expected a standard deviation from 1e-15"),
         (&["--noise", "tensoin=1"], "noise tensoin is 1: expected one of position"),
         (&["--noise", "cov_x_m_y=1"], "noise cov_x_m_y is 1: expected two quantities"),
         (&["--noise", NOISE, "--share", "r"], "share is r: expected parameters that are sought"),

@@ -41,13 +41,14 @@ fn a_file_of_poses_is_read_line_by_line() {
     let path = folder.path().join("poses.csv");
     let arguments = ["--poses", path.to_str().unwrap(), "--format", "json"];
     let arguments = [&arguments[..], &UNCERTAINTY, &["--noise", "lengths=1e-3,tensions=5"]].concat();
-    std::fs::write(&path, "0,0,1.75\n\n1,0.5,2,0.99,0,0,0.1\n").unwrap();
+    std::fs::write(&path, "0,0,1.75,1,0,0,0\n\n1,0.5,2,0.99,0,0,0.1\n").unwrap();
     let json: Value = serde_json::from_slice(&run(&arguments).stdout).unwrap();
     assert_eq!(json["poses"], 2);
     std::fs::write(&path, "0,0,1.75\n1,0.5\n").unwrap();
     let error = text(run(&arguments).stderr);
     assert!(
-        error.starts_with("error: --poses ") && error.contains("line 2: 2 numbers: expected x,y,z"),
+        error.starts_with("error: --poses ")
+            && error.contains("line 2: 2 cells: expected 3, as many as in line 1"),
         "{error}"
     );
 }
@@ -76,7 +77,7 @@ fn bad_input_is_named_with_what_would_be_right() {
         ),
         (
             vec![grid, NOISE[0], "lengths=0", UNCERTAINTY[0], UNCERTAINTY[1]],
-            "error: noise is 0: expected a finite, positive",
+            "error: --noise lengths is 0: expected a standard deviation from 1e-15",
         ),
         (
             vec![grid, "--poses", "x", NOISE[0], NOISE[1], UNCERTAINTY[0], UNCERTAINTY[1]],

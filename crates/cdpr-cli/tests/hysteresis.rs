@@ -79,7 +79,10 @@ fn cables_of_other_moduli_follow_the_record_and_those_of_other_sections_its_stre
     for (one, other) in down_and_left(&even).into_iter().zip(down_and_left(&other_modulus)) {
         assert!((one / other - 1.0).abs() < 1e-9, "{one} {other}");
     }
-    write(&|cable| cable["section"] = 2.4e-5.into());
+    write(&|cable| {
+        cable["section"] = 2.4e-5.into();
+        cable["diameter"] = 0.006.into();
+    });
     let section = ["--section", "1.2566370614e-5"];
     let thicker = json(&[&[file], &record[..], &section].concat());
     let by_law = json(&[file, "--law", &data_path("cables/caroca-4mm-law.json")]);

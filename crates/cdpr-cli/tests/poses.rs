@@ -77,7 +77,7 @@ fn each_pose_of_a_file_is_answered_as_it_is_alone_and_one_that_fails_has_its_rea
         let robot = data_path(robot);
         let at = joined(&position);
         let file = File::new(&format!(
-            "x_m,y_m,z_m,roll_deg,pitch_deg,yaw_deg\n{at},2,-3,5\n\n0,0,100,0,0,0\n{at},0,0,0\n"
+            "x_m,y_m,z_m,roll_deg,pitch_deg,yaw_deg\n{at},2,-3,5\n\n0,0,60,0,0,0\n{at},0,0,0\n"
         ));
         for command in COMMANDS {
             let alone = [&command[..1], &[&robot], &command[1..]].concat();
@@ -90,7 +90,7 @@ fn each_pose_of_a_file_is_answered_as_it_is_alone_and_one_that_fails_has_its_rea
                 assert_eq!(flat(&given)[..3], position);
                 assert_eq!(line, answer(&[&alone[..], &pose].concat()), "{command:?}");
             }
-            let refused = cdpr(&[&alone[..], &["--pose", "0,0,100"]].concat());
+            let refused = cdpr(&[&alone[..], &["--pose", "0,0,60"]].concat());
             assert_eq!(refused.status.code(), Some(1));
             let reason = found[1]["error"]["message"].as_str().unwrap();
             assert_eq!(text(refused.stderr), format!("error: {reason}\n"));
@@ -105,7 +105,7 @@ fn a_table_has_the_numbers_of_the_lines_of_json_to_the_last_bit() {
     for (robot, position) in ROBOTS {
         let robot = data_path(robot);
         let at = joined(&position);
-        let file = File::new(&format!("{at}\n0,0,100\n"));
+        let file = File::new(&format!("{at}\n0,0,60\n"));
         for command in COMMANDS {
             let arguments = [&command[..1], &[&robot], &command[1..]].concat();
             let json = lines(&file.run(3, &[&arguments[..], &["--format", "json"]].concat()));
@@ -121,7 +121,7 @@ fn a_table_has_the_numbers_of_the_lines_of_json_to_the_last_bit() {
                 names.iter().map(|name| cell(row, name).parse().unwrap()).collect()
             };
             assert_eq!((cell(0, "status"), cell(0, "reason")), ("held", ""));
-            assert_eq!((cell(1, "status"), cell(1, "z_m")), ("infeasible_tension", "100.0"));
+            assert_eq!((cell(1, "status"), cell(1, "z_m")), ("infeasible_tension", "60.0"));
             assert_eq!(cell(1, "reason"), json[1]["error"]["message"]);
             let pose = ["x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"].map(str::to_owned);
             assert_eq!(numbers(0, &pose), flat(&json[0]["pose"]));
@@ -205,12 +205,12 @@ fn a_file_that_is_no_list_of_poses_is_refused_with_its_line() {
     let robot = data_path("robots/caroca.json");
     let columns = "expected x_m,y_m,z_m, then none, qw,qx,qy,qz or roll_deg,pitch_deg,yaw_deg";
     for (content, words) in [
-        ("0,0,1.75\n\n0,0\n", "line 3: 2 numbers: expected x,y,z"),
-        ("0,0,up\n", "line 1: `up` is not a finite number"),
+        ("0,0,1.75\n\n0,0\n", "line 3: 2 cells: expected 3, as many as in line 1"),
+        ("0,0,up\n", "line 1, column column3: `up`: expected a number"),
         ("x,y\n0,0\n", &format!("line 1: columns x,y: {columns}")),
-        ("x,y,z,roll,pitch,yaw\n", &format!("line 1: columns x,y,z,roll,pitch,yaw: {columns}")),
-        ("x,y,z\n0,0,1\n0,0,1,2\n", "line 3: 4 numbers: expected 3, one below each name"),
-        ("x,y,z\n0,0,1\nx,y,z\n", "line 3: `x` is not a finite number"),
+        ("x,y,z,roll,pitch,yaw\n", "line 1: column roll has no unit: expected roll_deg or roll_rad"),
+        ("x,y,z\n0,0,1\n0,0,1,2\n", "line 3: 4 cells: expected 3, as many as in line 1"),
+        ("x,y,z\n0,0,1\nx,y,z\n", "line 3, column x: `x`: expected a number"),
         ("0,0,1,1,0,0,1\n", "line 1: the quaternion 1,0,0,1 has the length 1.4142: expected the length 1"),
         ("x,y,z,qw,qx,qy,qz\n0,0,1,2,0,0,0\n", "line 2: the quaternion 2,0,0,0 has the length 2.0000"),
         ("0,0,1,0,0,0,1\n", "line 1: the quaternion 0,0,0,1 has a small qw and a large qz"),
@@ -294,7 +294,7 @@ fn rotations_in_doubt_are_questioned() {
         (vec!["workspace", &robot, "--plane", "z=1", "--rotation", "0,0,0,1"], "would be 1,0,0,0"),
         (vec!["workspace", &robot, "--plane", "z=1", "--rotation", "0,0,0,2"], "has the length 2.0000"),
         (vec!["inverse", &robot, "--pose", "0,0,2,0.6,0,0,0.8", "--rpy", "0", "0", "9"], no_rotation),
-        (vec!["inverse", &robot, "--pose", "0,0,2", "--rpy", "0", "9"], "3 values required"),
+        (vec!["inverse", &robot, "--pose", "0,0,2", "--rpy", "0", "9"], "2 numbers: expected 3"),
         (vec!["direct", &robot, "--lengths", lengths, "--rpy", "0", "0", "9"], "expected --start, too"),
     ] {
         let output = cdpr(&arguments);

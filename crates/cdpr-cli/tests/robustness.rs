@@ -75,7 +75,7 @@ fn bad_input_is_refused_before_anything_is_made() {
     let folder = TempDir::new().unwrap();
     std::fs::write(folder.path().join("robot.json"), "{}").unwrap();
     for (arguments, words) in [
-        (["--poses", "0"], "error: poses is 0: expected 1 to 10000000"),
+        (["--poses", "0"], "invalid value '0' for '--poses <POSES>': expected a count, 1 to 1000000"),
         (["--poses", "-1"], "unexpected argument"),
         (["--poses", "many"], "invalid value 'many' for '--poses"),
         (

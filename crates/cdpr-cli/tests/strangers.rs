@@ -227,7 +227,7 @@ fn a_study_without_a_result_or_with_a_nominal_robot_that_breaks_ends_with_code_3
     ended(&few(&|_| ()), 0, "");
     let heavy = json!({"law": {"uniform": {"min": 1e6, "max": 2e6}}});
     let bench = few(&|study| study["error_models"]["table_3"]["mass"] = heavy.clone());
-    ended(&bench, 3, "warning: mechanical: every observation failed");
+    ended(&bench, 3, "question: mechanical is the result of 0 observations: 20 of 20 failed (100 %)");
     let bench = few(&|_| ());
     bench.change("robot.json", |robot| robot["cable"]["breaking_force"] = json!(730.0));
     ended(&bench, 3, "warning: mechanical, nominal robot with the payload: cable 3: its tension of");

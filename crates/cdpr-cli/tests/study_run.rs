@@ -331,7 +331,7 @@ fn bad_studies_are_refused_with_file_field_value_and_remedy() {
 #[test]
 fn bad_arguments_are_refused() {
     let bench = bench();
-    assert!(refusal(&bench, &["--observations", "1"]).contains("observations is 1: expected at least 3"));
+    assert!(refusal(&bench, &["--observations", "1"]).contains("expected a count, 3 to 1e10"));
     assert!(
         refusal(&bench, &["--observations", "many"]).contains("invalid value 'many' for '--observations")
     );
@@ -386,7 +386,10 @@ fn an_unbounded_law_at_the_first_point_of_the_sequence_names_the_field_to_change
     let law = json!({"law": {"normal": {"mean": 0.0, "std": 1.0}}});
     let file = "error: study.json: samplings.mechanical.first_index: ";
     refused(
-        |_, s| s["error_models"]["table_3"]["mass"] = law.clone(),
+        |_, s| {
+            s["error_models"]["table_3"]["mass"] = law.clone();
+            s["samplings"]["mechanical"]["first_index"] = json!(0);
+        },
         &[file, "`mass` is unbounded below", "start at index 1"],
     );
 }

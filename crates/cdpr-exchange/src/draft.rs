@@ -185,14 +185,6 @@ impl Draft {
             center_of_mass = Vector3::zeros();
         }
         let inertia = self.checked_inertia();
-        if let Some(ground) = self.ground_z {
-            // The only place that the height of the ground has to go through.
-            self.notes.push(Note {
-                kind: NoteKind::NoPlace,
-                place: None,
-                text: format!("the ground at z = {ground} m"),
-            });
-        }
         let limits = self.limits(options);
         let has_cable = options.cable.is_some() || self.cables.iter().all(|cable| cable.properties.is_some());
         let lacking: Vec<_> = [
@@ -228,6 +220,7 @@ impl Draft {
             plane: self.plane,
             tension_limits,
             max_at: CableEnd::Anchor,
+            ground_z: self.ground_z,
             tension_reference: None,
             cables,
         };

@@ -157,5 +157,5 @@ fn a_robot_that_cannot_be_is_refused_by_its_field() {
         "{frame: [-3.5, -2.0, 3.5], platform: [-0.6, 0.3, 0.2]}",
         "{frame: [-3.5, -2.0, 3.5], platform: [0.6, -0.3, -0.2]}",
     );
-    assert!(twice.starts_with("the files make no robot: cables[1] is coincident"), "{twice}");
+    assert!(twice.starts_with("the files make no robot: cable 2, cables[1] is coincident"), "{twice}");
 }

@@ -203,7 +203,7 @@ fn what_is_there_twice_and_what_is_not_known_is_not_dropped() {
 }
 
 #[test]
-fn the_ground_of_a_file_is_named() {
+fn the_ground_of_a_file_is_that_of_the_robot() {
     let found = imported(&[("r.yaml", YAML)], &options()).unwrap();
-    assert!(notes(&found, NoteKind::NoPlace).contains(&"the ground at z = 0 m".to_owned()));
+    assert_eq!(found.robot.ground_z, Some(0.0));
 }

@@ -67,7 +67,7 @@ fn tendons_of_three_sites_are_cables_from_the_frame_to_the_free_body() {
     let inertia = robot.platform.inertia.unwrap();
     assert!((inertia - Matrix3::from_diagonal(&expected)).norm() < 1e-15);
     assert_eq!(notes(&found, NoteKind::Questioned), [""; 0]);
-    assert!(notes(&found, NoteKind::NoPlace).contains(&"the ground at z = -0.1 m".to_owned()));
+    assert_eq!(robot.ground_z, Some(-0.1));
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Assessments of a robot and its cables, as the commands `check`, `tolerances`, `robustness`, `hysteresis`,
 //! `modulus` and `linear-density` make them. `assess.py` makes classes of these.
 
-use crate::convert::{Answer, Raised, Rows, run, to_json, watched, whole};
+use crate::convert::{Answer, Raised, Rows, question, run, to_json, watched, whole};
 use crate::robot::Robot;
 use crate::robot::inverse::coordinates;
 use cdpr_assess::{
@@ -9,7 +9,7 @@ use cdpr_assess::{
     run_robustness, tolerance_budget, write_robustness,
 };
 use cdpr_cable::{Measured, Phase, SecantModulus, Specimen};
-use cdpr_robot::Pose;
+use cdpr_robot::{Pose, plausible};
 use cdpr_statics::{CycleStep, HysteresisLaw, LoadCycle, Unloading, load_cycle};
 use cdpr_study::{CableLaw, IfExists, Study, elastic_laws, open_law, open_record, open_robot_in_any_unit};
 use pyo3::prelude::*;
@@ -59,6 +59,7 @@ pub(crate) fn tolerances(
         |_| Ok(()),
         |_| -> Answer<String> {
             let study = Study::open(&study)?;
+            question(plausible::robot(&study.robot).into_iter().chain(study.doubts()))?;
             let sampling = study.sampling(sampling)?;
             to_json(&tolerance_budget(&sampling, &limit)?)
         },
@@ -149,7 +150,7 @@ pub(crate) fn hysteresis(
             return Err(Raised::Input(message));
         }
     };
-    let (pose, steps) = (single(&pose)?, whole("steps", &steps)?);
+    let (pose, steps) = (single(&pose, robot)?, whole("steps", &steps)?);
     let law = match (record, length, law) {
         (Some(_), _, Some(_)) => {
             return Err(Raised::Input("record and law are both given: expected one of them".to_owned()));
@@ -207,8 +208,8 @@ fn followed(cycle: &LoadCycle) -> Value {
 }
 
 /// A pose that stands alone.
-pub(crate) fn single(pose: &Bound<PyAny>) -> Answer<Pose> {
-    let poses = Rows::poses("pose", pose)?;
+pub(crate) fn single(pose: &Bound<PyAny>, robot: &cdpr_robot::Robot) -> Answer<Pose> {
+    let poses = Rows::poses("pose", pose, robot)?;
     if poses.number() == 1 {
         Ok(poses.pose(0)?)
     } else {

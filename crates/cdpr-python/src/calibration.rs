@@ -1,7 +1,7 @@
 //! Calibration, as `cdpr calibrate` and `cdpr calibration` have it. `calibration.py` makes dictionaries of the
 //! answers.
 
-use crate::convert::{Answer, Numbers, Raised, Rows, run, to_json, watched};
+use crate::convert::{Answer, Numbers, Raised, Rows, question, run, to_json, watched};
 use crate::robot::Robot;
 use crate::robot::inverse::coordinates;
 use cdpr_calibration::{
@@ -12,10 +12,10 @@ use cdpr_calibration::{
 use cdpr_report::calibration_report;
 use cdpr_robot::{CableEnd, Pose, Vector3};
 use cdpr_statics::Load;
-use cdpr_study::{IfExists, InputKind, open_errors, read_text, uncertainties, write_text};
+use cdpr_study::{ErrorModel, IfExists, InputKind, open_errors, read_bytes, uncertainties, write_text};
 use pyo3::prelude::*;
 use serde_json::{Map, Value, json};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Numbers by name.
 type Named = Vec<(String, f64)>;
@@ -52,9 +52,9 @@ pub(crate) fn calibrate(
     };
     let settings = FitSettings { loss, starts, seed, only_identifiable, ..FitSettings::default() };
     let work = |_: &_| -> Answer<String> {
-        let prior = model.map(|path| open_errors(&path, robot)).transpose()?;
-        let text = read_text(&measurements, InputKind::Measurements)?;
-        let measured = read_measurements(&text, robot, &noise)?;
+        let prior = model.map(|path| questioned(&path, robot)).transpose()?;
+        let bytes = read_bytes(&measurements, InputKind::Measurements)?;
+        let measured = read_measurements(&bytes, robot, &noise)?;
         let names: Vec<&str> = parameters.iter().map(String::as_str).collect();
         let share: Vec<&str> = share.iter().map(String::as_str).collect();
         let mut unknowns = Unknowns::sought(robot, prior.as_ref(), &names, &share)?;
@@ -92,11 +92,11 @@ pub(crate) fn identify(
     payload: f64,
     free: Option<Vec<String>>,
 ) -> Answer<String> {
-    let poses = Rows::poses("poses", &poses)?;
+    let poses = Rows::poses("poses", &poses, &robot.robot)?;
     let free = coordinates(free)?;
     run(py, |_| {
         let calibration =
-            Calibration::new(&robot.robot, &uncertainties(&robot.robot, &uncertainty)?)?.with_free(&free);
+            Calibration::new(&robot.robot, &deviations(&robot.robot, &uncertainty)?)?.with_free(&free);
         let (calibration, held) = measured(calibration, &poses, payload, &noise)?;
         let found = calibration.identify(0..held.len());
         let part = |of: &Combination| {
@@ -132,8 +132,8 @@ pub(crate) fn calibration_plan(
     free: Option<Vec<String>>,
     seed: u64,
 ) -> Answer<String> {
-    let poses = Rows::poses("poses", &poses)?;
-    let work = work.as_ref().map(|work| Rows::poses("work", work)).transpose()?;
+    let poses = Rows::poses("poses", &poses, &robot.robot)?;
+    let work = work.as_ref().map(|work| Rows::poses("work", work, &robot.robot)).transpose()?;
     let free = coordinates(free)?;
     let criterion = match criterion {
         "information" => Criterion::Information,
@@ -152,7 +152,7 @@ pub(crate) fn calibration_plan(
     };
     run(py, |_| {
         let calibration =
-            Calibration::new(&robot.robot, &uncertainties(&robot.robot, &uncertainty)?)?.with_free(&free);
+            Calibration::new(&robot.robot, &deviations(&robot.robot, &uncertainty)?)?.with_free(&free);
         let (mut calibration, held) = measured(calibration, &poses, payload, &noise)?;
         let mut worked = 0;
         for k in 0..work.as_ref().map_or(0, Rows::number) {
@@ -208,7 +208,7 @@ pub(crate) fn simulate(
     overwrite: bool,
 ) -> Answer<Robot> {
     let robot = &robot.robot;
-    let poses = Rows::poses("poses", &poses)?;
+    let poses = Rows::poses("poses", &poses, robot)?;
     let poses = (0..poses.number()).map(|k| poses.pose(k)).collect::<Result<Vec<_>, _>>()?;
     let free = coordinates(free)?;
     let tension_at = match tension_at {
@@ -218,7 +218,7 @@ pub(crate) fn simulate(
     };
     let markers: Vec<Vector3<f64>> = markers.into_iter().map(Vector3::from).collect();
     run(py, |_| -> Answer<Robot> {
-        let deviations = drawn(&open_errors(&model, robot)?, seed);
+        let deviations = drawn(&questioned(&model, robot)?, seed);
         let named = |(name, std): &(String, f64)| Ok((SensorError::from_name(name)?, *std));
         let errors = unknown.iter().map(named).collect::<Result<Vec<_>, CalibrationError>>()?;
         let rows = cdpr_calibration::simulate(&Simulated {
@@ -262,4 +262,18 @@ fn measured(
         Some(reason) if held.is_empty() => Err(reason.into()),
         _ => Ok((calibration, held)),
     }
+}
+
+/// The error model of a file; its deviations are questioned.
+fn questioned(path: &Path, robot: &cdpr_robot::Robot) -> Answer<ErrorModel> {
+    let model = open_errors(path, robot)?;
+    question(model.doubts(robot))?;
+    Ok(model)
+}
+
+/// The standard deviation of each parameter, which is questioned.
+fn deviations(robot: &cdpr_robot::Robot, named: &[(String, f64)]) -> Answer<Vec<f64>> {
+    let deviations = uncertainties(robot, named)?;
+    question(ErrorModel::normal(robot, &deviations).doubts(robot))?;
+    Ok(deviations)
 }

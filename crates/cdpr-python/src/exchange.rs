@@ -76,7 +76,7 @@ pub(crate) fn export_robot(
         "moorpy" => Target::Moorpy,
         _ => return Err(Raised::Input(format!("to is {to:?}: expected mjcf, caspr or moorpy"))),
     };
-    let pose = single(&pose)?;
+    let pose = single(&pose, &robot.robot)?;
     let Exported { files, notes } = run(py, |_| cdpr_exchange::export(&robot.robot, &pose, target))??;
     Ok((files, notes))
 }

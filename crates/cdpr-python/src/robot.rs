@@ -15,10 +15,10 @@ pub(crate) mod path;
 pub(crate) mod stiffness;
 pub(crate) mod workspace;
 
-use crate::convert::{Answer, Array, Numbers, Raised, components, json_text};
+use crate::convert::{Answer, Array, Numbers, Raised, components, json_text, question};
 use cdpr_robot::{
     CableEnd, CableProperties, Gravity, OwnLimits, Parameter, Plane, Platform, Provenance, RobotCable,
-    TensionLimits, TensionReference, Vector3,
+    TensionLimits, TensionReference, Vector3, plausible,
 };
 use cdpr_study::open_robot;
 use numpy::{PyArray1, PyArray2};
@@ -48,11 +48,21 @@ use std::path::PathBuf;
 ///     9.81 if left out.
 /// point: whether the platform is a point mass: its rotation is held.
 /// plane: "xy", "xz" or "yz" for a planar robot, whose platform moves in this plane of the base frame.
+/// ground_z: height of the ground in the base frame [m]: with free coordinates no cable and no anchor point is
+///     below it.
 ///
 /// Raises InputError naming the field, its value and what would be right.
 #[pyclass(frozen, module = "cdpr")]
 pub(crate) struct Robot {
     pub(crate) robot: cdpr_robot::Robot,
+}
+
+impl Robot {
+    /// The robot; what is improbable of it is asked as warnings.
+    fn questioned(robot: cdpr_robot::Robot) -> Answer<Self> {
+        question(plausible::robot(&robot))?;
+        Ok(Self { robot })
+    }
 }
 
 /// The plane of this name.
@@ -70,7 +80,7 @@ impl Robot {
     #[new]
     #[pyo3(signature = (anchor_points, exit_points, *, mass, section, linear_density, youngs_modulus,
         tension_limits, center_of_mass = None, gravity = None, name = "robot".to_owned(), max_at = "anchor",
-        tension_reference = None, point = false, plane = None))]
+        tension_reference = None, point = false, plane = None, ground_z = None))]
     #[allow(clippy::too_many_arguments)]
     fn new(
         anchor_points: Numbers,
@@ -87,6 +97,7 @@ impl Robot {
         tension_reference: Option<Numbers>,
         point: bool,
         plane: Option<&str>,
+        ground_z: Option<f64>,
     ) -> Answer<Self> {
         let (anchors, exits) =
             (points("anchor_points", &anchor_points)?, points("exit_points", &exit_points)?);
@@ -120,6 +131,7 @@ impl Robot {
             gravity: gravity.as_ref().map_or(Ok(EARTH.into()), self::gravity)?,
             platform: Platform { point, ..Platform::new(mass, center_of_mass) },
             plane: plane.map(plane_of).transpose()?,
+            ground_z,
             tension_limits,
             max_at: match max_at {
                 "anchor" => CableEnd::Anchor,
@@ -134,7 +146,7 @@ impl Robot {
         };
         robot.validate()?;
         robot.check_units()?;
-        Ok(Self { robot })
+        Self::questioned(robot)
     }
 
     /// Reads a robot file (`cdpr-robot/1`), or a robot of the library by its name, `cogiro`.
@@ -142,13 +154,13 @@ impl Robot {
     /// Raises FileError, and InputError with line, column, field and what would be right.
     #[staticmethod]
     fn from_file(path: PathBuf) -> Answer<Self> {
-        Ok(Self { robot: open_robot(&path)? })
+        Self::questioned(open_robot(&path)?)
     }
 
     /// Makes a robot from the text of a robot file.
     #[staticmethod]
     fn from_json(text: &str) -> Answer<Self> {
-        Ok(Self { robot: cdpr_robot::Robot::from_json(text)? })
+        Self::questioned(cdpr_robot::Robot::from_json(text)?)
     }
 
     /// Makes a robot from the dictionary that `json.loads` makes of a robot file.
@@ -248,6 +260,12 @@ impl Robot {
             CableEnd::Exit => "exit",
         };
         (0..self.robot.cables.len()).map(of_cable).collect()
+    }
+
+    /// Height of the ground in the base frame [m]; None where it is not known.
+    #[getter]
+    fn ground_z(&self) -> Option<f64> {
+        self.robot.ground_z
     }
 
     /// Tension of each cable that the inverse model comes as near to as it can [N], (n,); zeros for the least

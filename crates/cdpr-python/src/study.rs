@@ -1,8 +1,9 @@
 //! Functions of studies on folders of results, as `cdpr study` has them. `study.py` puts them together.
 
-use crate::convert::{Answer, Raised, run, to_json, watched, whole};
+use crate::convert::{Answer, Raised, question, run, to_json, watched, whole};
 use cdpr_assess::read_region;
 use cdpr_report::{draw, figures, report_with};
+use cdpr_robot::plausible;
 use cdpr_sensitivity::SampleDesign;
 use cdpr_study::{
     Access, Existing, IfExists, Part, Plan, REPORT_NAME, Results, Run, Session, Shard, StoredStudy, Study,
@@ -40,8 +41,9 @@ pub(crate) fn begin(
     };
     format_of(table)?;
     let observations = observations.map(|number| whole("observations", &number)).transpose()?;
-    let begun = |_: &_| -> Result<_, StudyError> {
+    let begun = |_: &_| -> Answer<_> {
         let mut study = Study::open(&study)?;
+        question(plausible::robot(&study.robot).into_iter().chain(study.doubts()))?;
         if let Some(observations) = observations {
             study.set_observations(observations)?;
         }
@@ -49,7 +51,7 @@ pub(crate) fn begin(
         cdpr_study::begin(&out, &study, existing)?;
         Ok(size)
     };
-    Ok(watched(py, threads, |_| Ok(()), begun)??)
+    watched(py, threads, |_| Ok(()), begun)?
 }
 
 /// Makes the missing blocks of the `index`-th of `count` shards; returns their number of observations.

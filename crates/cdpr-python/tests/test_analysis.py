@@ -63,3 +63,23 @@ def test_wrong_tables_are_refused():
     ):
         with pytest.raises(cdpr.InputError):
             wrong()
+
+
+def test_texts_are_categories_and_the_verdict_is_that_of_the_program():
+    generator = numpy.random.default_rng(2)
+    a, colour = generator.uniform(size=300), generator.choice(["red", "blue", "green"], 300)
+    x = numpy.array([a, colour, generator.uniform(size=300)], dtype=object).T
+    found = cdpr.analyse(x, 2 * a + 3 * (colour == "blue"), names=["a", "colour", "inert"])
+    assert sorted(found.certain) == ["a", "colour"] and found.related == {}
+    assert found.verdict.startswith("certain to matter: ")
+    levels = found.content["inputs"][1]["levels"]
+    assert [level["level"] for level in levels] == ["blue", "green", "red"]
+    assert numpy.isnan(found.effect[1]) and not numpy.isnan(found.effect[0])
+
+
+def test_a_constant_column_has_no_measure_and_is_a_condition():
+    x = numpy.random.default_rng(3).uniform(size=(60, 2))
+    x[:, 1] = 4.0
+    found = cdpr.analyse(x, x[:, 0])
+    assert numpy.isnan(found.effect[1]) and numpy.isnan(found.first[1]) and numpy.isnan(found.p_value[1])
+    assert "constant" in found.conditions[0]

@@ -93,6 +93,7 @@ def test_the_natural_motions_are_those_of_the_command_line(cogiro, cogiro_file):
     printed = answer("modes", cogiro_file, "--pose=0.5,0.2,2", "--payload=50")
     found = cogiro.modes([0.5, 0.2, 2], payload=50)
     same(found.frequencies_hz, printed["frequencies_hz"])
+    same(found.cable_frequencies_hz, printed["cable_frequencies_hz"])
     same(found.translations, [mode["translation"] for mode in printed["modes"]])
     same(found.cable_shares, [mode["cable_shares"] for mode in printed["modes"]])
     assert numpy.allclose(found.cable_shares.sum(axis=1) + found.weight_shares, 1)
@@ -560,3 +561,12 @@ def test_derivatives_and_workspaces_of_four_cables_take_free_coordinates(data):
     assert abs(space.rms[1] - given.rms) < 1e-12
     with pytest.raises(cdpr.InputError, match="free is"):
         robot.workspace(x=0.5, y=0.3, z=(1.5, 2.0, 2), payload=5)
+
+
+def test_robots_have_a_ground_below_which_nothing_hangs(data):
+    path = data / "robots" / "four-cables.json"
+    assert cdpr.Robot.from_file(path).ground_z is None
+    robot = cdpr.Robot.from_json(path.read_text().replace('"grade"', '"ground_z": 2.25, "grade"'))
+    assert robot.ground_z == 2.25
+    with pytest.raises(cdpr.NoSolutionError, match="below the ground at 2.25 m"):
+        robot.inverse([0.5, 0.3, 2.0], free=["roll", "pitch"])

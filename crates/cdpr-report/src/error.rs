@@ -1,5 +1,7 @@
 //! Errors of figures and reports.
 
+use cdpr_robot::shortened;
+
 /// Reason why a figure or a report cannot be made.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ReportError {
@@ -29,7 +31,7 @@ pub enum ReportError {
 
 impl ReportError {
     pub(crate) fn invalid(field: impl Into<String>, value: &impl ToString, expected: &'static str) -> Self {
-        Self::Invalid { field: field.into(), value: value.to_string(), expected }
+        Self::Invalid { field: field.into(), value: shortened(&value.to_string()), expected }
     }
 
     /// Returns `value` if it is finite. No other value can be drawn.

@@ -67,6 +67,8 @@ pub(crate) struct State {
 pub(crate) struct SceneCable {
     /// Points from the exit point, over the pulley, to the anchor point [m].
     pub(crate) points: Vec<[f64; 3]>,
+    /// Index of the point where the cable leaves its pulley: the first one of the free cable.
+    free: usize,
     /// Points around the wheel of its pulley [m]; empty without one.
     pub(crate) wheel: Vec<[f64; 3]>,
     /// Tension at the platform [N].
@@ -153,6 +155,7 @@ impl State {
         let cables = cable_forces.iter().enumerate().map(|(i, force)| {
             let shape = problem.shape(equilibrium, i, POINTS_ON_PULLEY, POINTS)?;
             Ok(SceneCable {
+                free: shape.points.len() - POINTS,
                 points: shape.points.into_iter().map(Into::into).collect(),
                 wheel: shape.wheel.into_iter().map(Into::into).collect(),
                 tension: force.norm(),

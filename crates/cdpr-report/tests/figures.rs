@@ -30,6 +30,7 @@ fn sampling() -> SamplingSummary {
         bic: aic,
         ks: 0.01,
         p_value: 0.5,
+        p_is_bound: false,
         probability: 0.5,
     };
     let rms = ValueSummary {

@@ -1,6 +1,7 @@
 //! Why a robot, its file or its parameters are refused.
 
-use crate::json::{JsonError, place_of};
+use crate::json::{JsonError, numbered, place_of};
+use cdpr_cable::shortened;
 
 /// Why a robot, its file or its parameters were refused.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -9,7 +10,7 @@ pub enum RobotError {
     #[error(transparent)]
     Format(#[from] JsonError),
     /// A value is invalid.
-    #[error("{field} is {value}: expected {expected}")]
+    #[error("{} is {value}: expected {expected}", numbered(field))]
     Invalid {
         /// Path of the field, such as `cables[2].exit_point[0]`.
         field: String,
@@ -44,6 +45,14 @@ pub enum RobotError {
         /// Parameters of the robot.
         parameters: usize,
     },
+    /// Perturbations of several robots, one after the other, have another width than the parameter vector.
+    #[error("{given} deviations: expected whole rows of {parameters}, one number for each parameter")]
+    DeviationRows {
+        /// Deviations given, of all rows together.
+        given: usize,
+        /// Parameters of the robot.
+        parameters: usize,
+    },
 }
 
 impl RobotError {
@@ -52,7 +61,7 @@ impl RobotError {
         value: impl ToString,
         expected: impl Into<String>,
     ) -> Self {
-        Self::Invalid { field: field.into(), value: value.to_string(), expected: expected.into() }
+        Self::Invalid { field: field.into(), value: shortened(&value.to_string()), expected: expected.into() }
     }
 
     /// Adds line and column of the field, if the text contains it.

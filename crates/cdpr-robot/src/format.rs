@@ -48,6 +48,10 @@ struct RobotFile {
     /// space.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     plane: Option<Plane>,
+    /// Height of the ground in the base frame [m]: no cable and no anchor point may be below it where the inverse
+    /// model finds free coordinates. Without this field only the lengths of the cables are bounded.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    ground_z: Option<f64>,
     /// Properties of every cable that has none of its own.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     cable: Option<PropertiesEntry>,
@@ -88,6 +92,7 @@ struct PlatformEntry {
 
 #[derive(Serialize, Deserialize, JsonSchema, Clone)]
 #[serde(deny_unknown_fields)]
+#[serde(expecting = "its properties, {\"linear_density\": .., \"youngs_modulus\": .., \"diameter\": ..}")]
 pub(crate) struct PropertiesEntry {
     /// Diameter [m].
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -208,6 +213,7 @@ impl Robot {
                 point: self.platform.point,
             },
             plane: self.plane,
+            ground_z: self.ground_z,
             cable: entries.first().filter(|_| shared).cloned(),
             pulley: None,
             lead: None,
@@ -296,6 +302,7 @@ impl RobotFile {
                 point: self.platform.point,
             },
             plane: self.plane,
+            ground_z: self.ground_z,
             tension_limits: TensionLimits { min: self.tension_limits.min, max: self.tension_limits.max },
             max_at: self.tension_limits.max_at,
             tension_reference: self.tension_reference,

@@ -8,7 +8,7 @@ use std::fmt;
 
 /// Where a JSON text differs from what was expected: a missing, misspelt or mistyped field, or no JSON.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("line {line}, column {column}: {field}: {message}")]
+#[error("line {line}, column {column}: {}: {message}", numbered(field))]
 pub struct JsonError {
     /// Path of the field, such as `cables[2].exit_point`; `the whole text` if no field in particular is
     /// wrong.
@@ -22,28 +22,93 @@ pub struct JsonError {
 }
 
 impl JsonError {
-    fn new(field: String, error: &serde_json::Error) -> Self {
+    fn new(field: String, error: &serde_json::Error, text: &str) -> Self {
         // serde_json ends its message with line and column, which are fields of their own here.
         let message = error.to_string();
         let message = message.split(" at line ").next().unwrap_or_default();
-        let message = match message {
-            "expected value" => {
-                "expected a JSON value of this field's kind; NaN, Infinity and bare words are not JSON"
-                    .to_owned()
-            }
-            "number out of range" => "number out of range, expected a finite number".to_owned(),
-            "EOF while parsing a value" => "the text ends where a JSON value is expected".to_owned(),
-            // Types that have Rust's names.
-            message => message
-                .replace("EOF while parsing", "the text ends within")
-                .replace("expected f64", "expected a number")
-                .replace("expected usize", "expected a whole number"),
-        };
         // Without a name for the last step, the field is the one that contains it.
         let field = field.trim_end_matches('?').trim_end_matches('.');
+        let (line, column) = (error.line(), error.column());
+        let message = slip(text, line, column, message).unwrap_or_else(|| plain(message, field));
         let field = if field.is_empty() { "the whole text" } else { field }.to_owned();
-        Self { field, line: error.line(), column: error.column(), message }
+        Self { field, line, column, message }
     }
+}
+
+/// The message of serde_json without the names of Rust's types.
+fn plain(message: &str, field: &str) -> String {
+    match message {
+        "expected value" => {
+            return "expected a JSON value of this field's kind; NaN, Infinity and bare words are not JSON"
+                .to_owned();
+        }
+        "number out of range" => return "number out of range, expected a finite number".to_owned(),
+        "EOF while parsing a value" => return "the text ends where a JSON value is expected".to_owned(),
+        "key must be a string" => return "expected a name in double quotes".to_owned(),
+        "trailing characters" if !field.is_empty() => return "expected the end of the list here".to_owned(),
+        _ => {}
+    }
+    let message = message
+        .replace("EOF while parsing", "the text ends within")
+        .replace("expected f64", "expected a number")
+        .replace("expected usize", "expected a whole number");
+    let (before, behind) = message.split_once("expected struct ").unwrap_or((&message, ""));
+    let behind = behind.trim_start_matches(char::is_alphanumeric);
+    let message = if before.len() < message.len() {
+        format!("{before}expected an object {{..}}{behind}")
+    } else {
+        message
+    };
+    let is_matrix = field.ends_with(']') && message.ends_with("expected an array of length 3");
+    let is_own = field.starts_with("cables[") && CABLE.iter().any(|name| message.starts_with(name));
+    match (is_matrix, is_own) {
+        (true, _) => message + "; a diagonal matrix is [[a, 0, 0], [0, b, 0], [0, 0, c]]",
+        (_, true) => message + "; properties of one cable stand in its `cable`",
+        _ => message,
+    }
+}
+
+/// How messages begin that are about a cable's properties at a wrong place.
+const CABLE: [&str; 5] = [
+    "unknown field `linear_density`",
+    "unknown field `section`",
+    "unknown field `diameter`",
+    "unknown field `youngs_modulus`",
+    "unknown field `breaking_force`",
+];
+
+/// A natural slip at a place of a text: a comment, a comma too many, a decimal comma.
+fn slip(text: &str, line: usize, column: usize, message: &str) -> Option<String> {
+    let row = text.lines().nth(line.checked_sub(1)?)?;
+    let (before, at) = row.split_at_checked(column.checked_sub(1)?)?;
+    let before = before.trim_end();
+    if at.starts_with("//") || at.starts_with("/*") || at.starts_with('#') {
+        return Some("a comment, which JSON does not have: remove it".to_owned());
+    }
+    if at.starts_with(',') && before.ends_with(',') {
+        return Some("two commas in a row: remove one".to_owned());
+    }
+    if message == "trailing comma" {
+        return Some("a comma before a closing bracket: remove it".to_owned());
+    }
+    // What JSON takes for a name or one more value may be the decimals of the number before.
+    let is_beyond = matches!(message, "key must be a string" | "trailing characters");
+    let digits = |text: &str| text.chars().take_while(char::is_ascii_digit).collect::<String>();
+    let commas = row.match_indices(',').filter(|_| is_beyond);
+    let (whole, decimals) = commas
+        .map(|(comma, _)| {
+            let is_digit = |c: char| c.is_ascii_digit() || c == '-';
+            let start = row[..comma].rfind(|c| !is_digit(c)).map_or(0, |end| end + 1);
+            (&row[start..comma], digits(&row[comma + 1..]))
+        })
+        .find(|(whole, decimals)| whole.ends_with(|c: char| c.is_ascii_digit()) && !decimals.is_empty())?;
+    Some(format!("{whole},{decimals} has a decimal comma: expected a point, {whole}.{decimals}"))
+}
+
+/// The path of a field with the number of its cable: fields count from 0, names such as `a1.x` from 1.
+pub(crate) fn numbered(field: &str) -> String {
+    let index = field.strip_prefix("cables[").and_then(|rest| rest.split_once(']')?.0.parse::<usize>().ok());
+    index.map_or_else(|| field.to_owned(), |index| format!("cable {}, {field}", index + 1))
 }
 
 /// Reads a value from JSON text, all of it.
@@ -53,7 +118,7 @@ impl JsonError {
 pub fn from_json<T: DeserializeOwned>(text: &str) -> Result<T, JsonError> {
     let (value, mut deserializer) = read(text)?;
     // Text after the value is refused: half a file may have been pasted behind another.
-    deserializer.end().map_err(|error| JsonError::new(".".to_owned(), &error))?;
+    deserializer.end().map_err(|error| JsonError::new(".".to_owned(), &error, text))?;
     // Structs refuse a second entry of the same name. Maps would keep the last one.
     read::<DistinctKeys>(text)?;
     Ok(value)
@@ -64,7 +129,7 @@ fn read<T: DeserializeOwned>(text: &str) -> Result<(T, serde_json::Deserializer<
     let mut deserializer = serde_json::Deserializer::from_str(text);
     let value = serde_path_to_error::deserialize(&mut deserializer).map_err(|error| {
         let field = error.path().to_string();
-        JsonError::new(field, &error.into_inner())
+        JsonError::new(field, &error.into_inner(), text)
     })?;
     Ok((value, deserializer))
 }
@@ -163,6 +228,25 @@ mod tests {
         assert_eq!((error.field.as_str(), error.line), ("a", 2));
         assert_eq!(error.message, "duplicate field `x`");
         assert_eq!(read(r#"{"a": {}, "\u0061": {}}"#).unwrap_err().message, "duplicate field `a`");
+    }
+
+    #[test]
+    fn slips_of_those_who_type_json_have_their_cause_and_remedy() {
+        let read = |text| from_json::<BTreeMap<String, [f64; 2]>>(text).unwrap_err().message;
+        for (text, words) in [
+            ("{\n// mass\n\"a\": [1, 2]}", "a comment, which JSON does not have: remove it"),
+            ("{\"a\": [1, 2] # mass\n}", "a comment, which JSON does not have: remove it"),
+            ("{\"a\": [1, 2],, \"b\": [1, 2]}", "two commas in a row: remove one"),
+            ("{\"a\": [1, 2],}", "a comma before a closing bracket: remove it"),
+            ("{\"a\": [-1,5, 2]}", "-1,5 has a decimal comma: expected a point, -1.5"),
+            ("{a: [1, 2]}", "expected a name in double quotes"),
+            ("{\"a\": [1, 2, 3]}", "expected the end of the list here"),
+        ] {
+            assert_eq!(read(text), words, "{text}");
+        }
+        let of_number = from_json::<BTreeMap<String, f64>>("{\"mass\": 180,25, \"b\": 2}").unwrap_err();
+        assert_eq!(of_number.message, "180,25 has a decimal comma: expected a point, 180.25");
+        assert_eq!(super::numbered("cables[7].lead"), "cable 8, cables[7].lead");
     }
 
     #[test]

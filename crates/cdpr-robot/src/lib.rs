@@ -32,6 +32,7 @@ mod law;
 mod limits;
 mod number;
 mod parameter;
+pub mod plausible;
 mod pose;
 mod robot;
 mod shown;
@@ -39,6 +40,7 @@ mod wrench;
 
 pub use axis::Axis;
 pub use cdpr_cable::{PiecewiseLaw, Segment};
+pub use cdpr_cable::{counted, short, shortened};
 pub use error::RobotError;
 pub use format::cable_file::{CABLE_FORMAT, CatalogueCable, cable_schema};
 pub use format::library;
@@ -51,6 +53,7 @@ pub use limits::{CableEnd, NamedReference, OwnLimits, TensionLimits, TensionRefe
 pub use nalgebra::{Matrix3, Matrix6xX, Rotation3, UnitQuaternion, Vector2, Vector3, Vector6};
 pub use number::{decimal, rounded};
 pub use parameter::{Parameter, ParameterLayout, Perturbed, TiltAxis, deviations};
+pub use plausible::{Doubt, Doubts, frame};
 pub use pose::quaternion::{QuaternionError, rotation_by_angles, rotation_in_order, rotation_of};
 pub use pose::{Pose, orthonormalized};
 pub use robot::provenance::{Grade, Provenance};

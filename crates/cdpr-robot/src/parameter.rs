@@ -19,6 +19,7 @@ use crate::error::RobotError;
 use crate::robot::{Pulley, Robot, RobotCable, VERTICAL};
 use nalgebra::{Rotation3, Unit, Vector3};
 use std::fmt;
+use std::slice::ChunksExact;
 use std::str::FromStr;
 
 /// One uncertain parameter. Cables count from 0 here and from 1 in names (`a1.x`, as in the literature).
@@ -116,6 +117,34 @@ impl ParameterLayout {
     /// Number of parameters: `6 + 7n`, and those that not every robot has.
     pub const fn count(&self) -> usize {
         self.first_further() + self.further.len()
+    }
+
+    /// The deviations of each robot in a list of them, one row of all parameters after the other.
+    ///
+    /// # Errors
+    /// [`RobotError::DeviationRows`] for numbers that are not whole rows.
+    pub fn rows<'a>(&self, deviations: &'a [f64]) -> Result<ChunksExact<'a, f64>, RobotError> {
+        let (given, parameters) = (deviations.len(), self.count());
+        let whole = given.is_multiple_of(parameters);
+        whole
+            .then(|| deviations.chunks_exact(parameters))
+            .ok_or(RobotError::DeviationRows { given, parameters })
+    }
+
+    /// The same, with `answer` to each row; numbers that are not whole rows are refused once for each row that
+    /// they begin.
+    pub fn each_row<'a, T, E: From<RobotError>, I: IntoIterator<Item = Result<T, E>>>(
+        &self,
+        deviations: &'a [f64],
+        answers: impl FnOnce(ChunksExact<'a, f64>) -> I,
+    ) -> Vec<Result<T, E>> {
+        match self.rows(deviations) {
+            Ok(rows) => answers(rows).into_iter().collect(),
+            Err(error) => {
+                let begun = deviations.len().div_ceil(self.count());
+                (0..begun).map(|_| Err(error.clone().into())).collect()
+            }
+        }
     }
 
     /// The names of the parameters, as messages list them.

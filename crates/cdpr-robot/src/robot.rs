@@ -33,6 +33,9 @@ pub struct Robot {
     pub platform: Platform,
     /// The plane of the base frame in which the platform of a planar robot moves; `None` in space.
     pub plane: Option<Plane>,
+    /// Height of the ground in the base frame [m], below which no cable and no anchor point may be; `None` where
+    /// it is not known.
+    pub ground_z: Option<f64>,
     /// Limits of the tension of every cable that has none of its own; [`Robot::limits`] has both.
     pub tension_limits: TensionLimits,
     /// Where the greatest tension of every cable is limited that does not say so itself.
@@ -238,6 +241,14 @@ impl Robot {
         Freedoms::new(self.platform.point, self.plane)
     }
 
+    /// The axis at right angles to the plane of a planar robot, and the coordinate of P along it at which exit
+    /// and anchor points are at one height in the mean [m].
+    pub fn plane_offset(&self) -> Option<(usize, f64)> {
+        let normal = self.plane?.normal();
+        let apart = self.cables.iter().map(|cable| cable.exit_point[normal] - cable.anchor_point[normal]);
+        Some((normal, apart.sum::<f64>() / self.cables.len() as f64))
+    }
+
     /// Motion (dp, dφ) of the platform per unit of a coordinate of a pose. The one rotation of a planar robot
     /// is about an axis of the base frame, however its platform stands.
     pub fn motion(&self, coordinate: Coordinate, pose: &Pose) -> Vector6<f64> {
@@ -377,45 +388,13 @@ impl Robot {
             cable.properties.validate(|name| self.field(i, name))?;
             self.validate_limits(i)?;
         }
+        if let Some(ground) = self.ground_z {
+            require(named("ground_z"), ground, true, "a finite height in the base frame [m]")?;
+        }
         if let Some(reference) = &self.tension_reference {
             reference.validate(self.cables.len())?;
         }
         self.validate_points()
-    }
-
-    /// Questions values that are off by so much that they must be in another unit: a modulus below that of
-    /// any cable, points farther apart than those of any robot.
-    ///
-    /// # Errors
-    /// [`RobotError::Invalid`] names the field and says what its value would be in the unit that was meant.
-    pub fn check_units(&self) -> Result<(), RobotError> {
-        for (i, cable) in self.cables.iter().enumerate() {
-            let (modulus, stiffness) = (cable.properties.youngs_modulus, cable.properties.axial_stiffness());
-            // Not where EA is given as the modulus of a unit section.
-            if modulus < SOFTEST && stiffness < LEAST_STIFFNESS {
-                let expected = format!(
-                    "a modulus in Pa, soft rubber has {SOFTEST:e}: {modulus} GPa is {:e}, {modulus} MPa is {:e}",
-                    1e9 * modulus,
-                    1e6 * modulus
-                );
-                return Err(RobotError::invalid(self.field(i, "youngs_modulus"), modulus, expected));
-            }
-        }
-        let first = self.cables[0].exit_point;
-        let far = |(_, cable): &(usize, &RobotCable)| (cable.exit_point - first).norm();
-        let farthest = self.cables.iter().enumerate().max_by(|a, b| far(a).total_cmp(&far(b)));
-        if let Some((i, cable)) = farthest.filter(|cable| far(cable) > WIDEST) {
-            return Err(RobotError::invalid(
-                format!("cables[{i}].exit_point"),
-                format!(
-                    "{:?}, {:.0} m from that of cables[0]",
-                    cable.exit_point.as_slice(),
-                    far(&(i, cable))
-                ),
-                format!("coordinates in m, less than {WIDEST} m apart: from mm, divide by 1000"),
-            ));
-        }
-        Ok(())
     }
 
     /// Checks the limits of a cable that are not the robot's.
@@ -434,7 +413,7 @@ impl Robot {
     }
 
     /// Path of a property of cable i: those that all cables share stand in the common entry of the file.
-    fn field(&self, i: usize, name: &str) -> String {
+    pub(crate) fn field(&self, i: usize, name: &str) -> String {
         let properties = &self.cables[i].properties;
         let shared = self.cables.iter().all(|cable| cable.properties == *properties);
         if shared { format!("cable.{name}") } else { format!("cables[{i}].cable.{name}") }
@@ -499,15 +478,6 @@ pub(crate) const VERTICAL: f64 = 1e-9;
 
 /// Cables of a robot at most: the inverse model of more takes seconds where they hold no pose.
 const MOST_CABLES: usize = 200;
-
-/// Young's modulus below which nothing is a cable [Pa]: soft rubber.
-const SOFTEST: f64 = 1e6;
-
-/// Axial stiffness below which a cable of such a modulus carries nothing [N]: at 10 % strain, a kilogram.
-const LEAST_STIFFNESS: f64 = 100.0;
-
-/// Distance of exit points beyond which nothing is a robot [m]: the widest, a telescope, has 600 m.
-const WIDEST: f64 = 2000.0;
 
 /// Checks a value of a field.
 ///

@@ -77,7 +77,7 @@ fn values_in_another_unit_are_questioned_with_what_they_would_be() {
         robot
     };
     let question = Robot::from_json(&in_mm.to_json()).unwrap_err().to_string();
-    assert!(question.starts_with("cables["), "{question}");
+    assert!(question.starts_with("cable 8, cables[7].exit_point"), "{question}");
     assert!(question.contains("coordinates in m, less than 2000 m apart: from mm, divide by 1000"));
     // An inspection reads them all the same.
     assert_eq!(Robot::from_json_in_any_unit(&in_mm.to_json()).unwrap(), in_mm);
@@ -285,7 +285,7 @@ fn a_bad_file_is_refused_with_field_value_and_remedy() {
         (
             "[-3.5, 2, 3.5]",
             "[-3.5, 2]",
-            "line 15, column 28: cables[0].exit_point: invalid length 2, expected an array of length 3",
+            "line 15, column 28: cable 1, cables[0].exit_point: invalid length 2, expected an array of length 3",
         ),
     ];
     for (from, to, expected) in cases {
@@ -306,8 +306,8 @@ fn points_that_cannot_hold_a_platform_are_refused() {
     let twice = refusal(&|robot| robot.cables[2].anchor_point = robot.cables[0].anchor_point);
     assert_eq!(
         twice,
-        "cables[2] is coincident with another cable: expected exit or anchor point different from those of \
-         cables[0]"
+        "cable 3, cables[2] is coincident with another cable: expected exit or anchor point different from those \
+         of cables[0]"
     );
     let line = refusal(&|robot| {
         for (i, cable) in robot.cables.iter_mut().enumerate() {
@@ -316,7 +316,7 @@ fn points_that_cannot_hold_a_platform_are_refused() {
     });
     assert!(line.starts_with("cables[*].anchor_point is on one line"), "{line}");
     let nan = refusal(&|robot| robot.cables[3].exit_point.y = f64::NAN);
-    assert_eq!(nan, "cables[3].exit_point[1] is NaN: expected a finite number [m]");
+    assert_eq!(nan, "cable 4, cables[3].exit_point[1] is NaN: expected a finite number [m]");
 }
 
 #[test]

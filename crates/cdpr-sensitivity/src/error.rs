@@ -24,7 +24,10 @@ pub enum SensitivityError {
         source: Box<SensitivityError>,
     },
     /// A count is outside its bounds.
-    #[error("{field} = {value}: expected {minimum} to {maximum}")]
+    #[error(
+        "{field} = {value}: expected {}",
+        if *maximum == u64::MAX { format!("at least {minimum}") } else { format!("{minimum} to {maximum}") }
+    )]
     OutOfRange {
         /// Name of the count.
         field: &'static str,
@@ -63,12 +66,25 @@ pub enum SensitivityError {
         /// Value found.
         value: f64,
     },
+    /// The squares of such values overflow, or vanish.
+    #[error(
+        "{field}[{index}] = {value:e} is the largest: expected values from 1e-150 to 1e150 in size; choose another unit"
+    )]
+    Scale {
+        /// Name of the array.
+        field: &'static str,
+        /// Index of the largest value.
+        index: usize,
+        /// The largest value in size.
+        value: f64,
+    },
     /// Steps of equal mass are combined with a law that is not uniform.
     #[error("steps `equal_mass` are defined for a uniform law only: use `nearest`")]
     EqualMassNeedsUniform,
     /// The first point of the unscrambled sequence is all zeros, where the law of this input is infinite.
     #[error(
-        "input `{name}` is unbounded below, but point 0 of the sequence is 0: start at index 1 or scramble"
+        "input `{name}` is unbounded below, which point 0 of a sequence, all zeros, cannot draw: start at index \
+         1 or scramble"
     )]
     UnboundedAtZero {
         /// Name of the input.
@@ -120,7 +136,7 @@ pub enum SensitivityError {
         minimum: f64,
     },
     /// The likelihood equations did not converge.
-    #[error("the {family} law: no maximum of the likelihood was found in {iterations} iterations")]
+    #[error("the {family} law: no maximum of the likelihood was found in {iterations} steps")]
     NotConverged {
         /// Family asked for.
         family: Family,
@@ -230,4 +246,21 @@ pub(crate) fn check_finite(field: &'static str, index: usize, value: f64) -> Res
 /// Returns [`SensitivityError::InvalidParameter`] unless `level` is a confidence level, in (0, 1).
 pub(crate) fn check_level(level: f64) -> Result<(), SensitivityError> {
     require(level > 0.0 && level < 1.0, "level", level, "a number between 0 and 1")
+}
+
+/// Checks that values are finite, and that the computer holds their squares.
+pub(crate) fn check_values(
+    field: &'static str,
+    values: impl Iterator<Item = (usize, f64)>,
+) -> Result<(), SensitivityError> {
+    let mut largest = (0, 0.0_f64);
+    for (index, value) in values {
+        check_finite(field, index, value)?;
+        if value.abs() > largest.1.abs() {
+            largest = (index, value);
+        }
+    }
+    let (index, value) = largest;
+    let held = value == 0.0 || (1e-150..=1e150).contains(&value.abs());
+    if held { Ok(()) } else { Err(SensitivityError::Scale { field, index, value }) }
 }

@@ -83,18 +83,21 @@ pub use design::sobol::{Sobol, SobolDesign};
 pub use design::{IndependentSample, JointSample, Layout, POINTS_VERSION, SampleDesign};
 pub use error::SensitivityError;
 pub use family::Family;
-pub use given::analysis::{
-    Analyser, Analysis, CorrelatedPair, InputAnalysis, InputAtLimit, Limit, LimitFailures,
-};
+pub use given::analysis::{Analyser, Analysis, CorrelatedPair, InputAnalysis};
 #[cfg(feature = "faer")]
 pub use given::bures::{WassersteinBures, wasserstein_bures};
+pub use given::conditions::{Concern, Condition};
 pub use given::data::GivenData;
 pub use given::delta::{Delta, delta};
+pub use given::evidence::Measure;
 pub use given::expansion::{GivenExpansion, given_expansion};
 pub use given::halves::{Half, halves};
 pub use given::hsic::{Dependence, Rows, dependence, dependence_of_event};
+pub use given::levels::LevelMean;
+pub use given::limit::{InputAtLimit, Limit, LimitFailures};
 pub use given::pawn::{Pawn, pawn};
 pub use given::rank::rank_indices;
+pub use given::verdict::{Doubt, Finding, Verdict};
 pub use law::fit::{Fit, fit, fit_all, ks_distance};
 pub use law::verdict::{BestFit, DECIDED, Evidence, REJECTED, is_possible};
 pub use law::{Law, Support};

@@ -312,13 +312,28 @@ impl Derivatives {
     }
 
     /// The lowest stiffness [N/m] of `robot` under `load`, those of these derivatives, and its derivatives
-    /// [N/m per unit], one for each input: see [`crate::Stability::least_stiffness`].
+    /// [N/m per unit], one for each input: see [`crate::Stability::least_stiffness`]. The characteristic length
+    /// is that of `robot`, a constant.
     ///
     /// # Errors
     /// [`StaticsError::NoDerivative`] where two motions have the lowest stiffness or nothing resists any, and
     /// for a cable that hangs folded without width.
     pub fn least_stiffness(&self, robot: &Robot, load: &Load) -> Result<(f64, Vec<f64>), StaticsError> {
-        self.at_rest(robot, load).least_stiffness()
+        self.least_stiffness_with(robot, load, self.deflection.loaded.stability.characteristic_length())
+    }
+
+    /// As [`Derivatives::least_stiffness`], with another characteristic length ℓ [m]: that of the nominal robot
+    /// for one that deviates from it.
+    ///
+    /// # Errors
+    /// As [`Derivatives::least_stiffness`].
+    pub fn least_stiffness_with(
+        &self,
+        robot: &Robot,
+        load: &Load,
+        characteristic_length: f64,
+    ) -> Result<(f64, Vec<f64>), StaticsError> {
+        self.at_rest(robot, load).least_stiffness(characteristic_length)
     }
 
     fn at_rest<'a>(&'a self, robot: &'a Robot, load: &'a Load) -> AtRest<'a> {

@@ -2,6 +2,7 @@
 
 mod continuation;
 mod multistart;
+mod near;
 mod newton;
 mod search;
 mod solution;
@@ -9,11 +10,11 @@ mod stability;
 mod trust_region;
 
 pub(crate) use continuation::follow_from;
-pub use continuation::{Loss, LossKind, Path, PathStep, Setting};
+pub use continuation::{Loss, LossKind, Path, PathStep, Setting, follow_load};
 pub use multistart::{Equilibria, Found, Starts};
+pub(crate) use near::{KEPT, MAX_CORRECTION, SAME_POSE};
 #[cfg(test)]
 pub(crate) use newton::newton_step;
 pub use search::{Start, direct, rough_pose};
-pub(crate) use solution::MAX_STRAIN;
 pub use solution::{DirectMethod, DirectSolution, Report};
 pub use stability::{Mode, Stability};

@@ -1,8 +1,9 @@
 //! Errors of the models.
 
+use crate::rest_fault::RestFault;
 use crate::state::Residual;
 use cdpr_cable::CableError;
-use cdpr_robot::{Pose, RobotError};
+use cdpr_robot::{Pose, RobotError, counted, short, shortened};
 use cdpr_tension::{Bound, TensionError};
 
 /// Why a model has no answer.
@@ -12,7 +13,10 @@ pub enum StaticsError {
     #[error(transparent)]
     Robot(#[from] RobotError),
     /// No tensions hold the pose, or their problem could not be solved.
-    #[error("at position ({x}, {y}, {z}) m: {source}", x = position[0], y = position[1], z = position[2])]
+    #[error(
+        "at position ({x}, {y}, {z}) m: {source}",
+        x = short(position[0]), y = short(position[1]), z = short(position[2])
+    )]
     Tension {
         /// Position of the platform [m].
         position: [f64; 3],
@@ -43,7 +47,9 @@ pub enum StaticsError {
          the best \
          from {from} leave a residual of {force:.3} N and {moment:.3} N m beside tensions up to \
          {largest:.3} N{blocked}; change the pose, the load or the limits",
-        x = position[0], y = position[1], z = position[2],
+        x = short(position[0]), y = short(position[1]), z = short(position[2]),
+        min = short(*min),
+        max = short(*max),
         from = if *starts == 1 { "one start".to_owned() } else { format!("{starts} starts") },
         largest = tensions.iter().copied().fold(0.0, f64::max),
         why = if *rank_deficient { ", and cables at this pose cannot resist every wrench" } else { "" },
@@ -86,19 +92,13 @@ pub enum StaticsError {
         /// Number of coordinates that were named.
         named: usize,
     },
-    /// No lengths and free coordinates were found with which the platform rests at the others.
-    #[error(
-        "inverse model: no lengths and free coordinates were found that hold the other coordinates: the best \
-         from {starts} starts leave a residual of {force:.3} N and {moment:.3} N m; change the pose or name \
-         other coordinates as free"
-    )]
+    /// No lengths and free coordinates within the limits were found with which the platform rests at the others.
+    #[error("no rest with these coordinates was found from {starts} starts: {nearest}")]
     NoRest {
         /// Starts that were tried.
         starts: usize,
-        /// Norm of the residual force in the best attempt [N].
-        force: f64,
-        /// Norm of the residual moment in the best attempt [N m].
-        moment: f64,
+        /// What the nearest attempt lacks.
+        nearest: RestFault,
     },
     /// A cable's weight leaves no tension at the platform between the least one there and the greatest one at
     /// the exit point.
@@ -106,7 +106,9 @@ pub enum StaticsError {
         "cable {}: its greatest tension at the exit point, {exit} N, leaves {max:.3} N at the platform, \
          {depth:.3} m \
          below, less than its least tension there, {min} N; change the pose or the limits",
-        index + 1
+        index + 1,
+        exit = short(*exit),
+        min = short(*min)
     )]
     ExitLimit {
         /// Index of the cable, from 0.
@@ -122,9 +124,10 @@ pub enum StaticsError {
     },
     /// Tensions that hold the pose were found, but not the best of them.
     #[error(
-        "inverse model: tensions hold the pose, but in {iterations} iterations their optimum was not found: \
-         the \
-         best have a slope of {stationarity:e} N left"
+        "inverse model: tensions hold the pose, but in {} their optimum was not found: the \
+         best have a slope of {} N left",
+        counted(*iterations, "iteration"),
+        short(*stationarity)
     )]
     InverseNotConverged {
         /// Iterations made, from all starts.
@@ -132,19 +135,18 @@ pub enum StaticsError {
         /// What is left of the conditions of an optimum [N].
         stationarity: f64,
     },
-    /// The equilibrium found strains a cable by more than 10 %, beyond which the law of a linear,
-    /// small-strain cable is invalid.
+    /// What was found strains a cable beyond [`cdpr_cable::MAX_STRAIN`].
     #[error(
-        "cable {} is strained by {:.1} % at the equilibrium found: its unstrained length is {length} m, \
-        the distance of its points {distance:.4} m; it is too short or too soft for this load",
-        index + 1, 100.0 * strain
+        "cable {} is strained by {:.1} %, beyond the {:.0} % up to which the models hold: its unstrained \
+        length is {length} m, the distance of its points {distance:.4} m; it is too short or too soft for this",
+        index + 1, 100.0 * strain, 100.0 * cdpr_cable::MAX_STRAIN, length = short(*length)
     )]
     Overstrained {
         /// Index of the cable, from 0.
         index: usize,
         /// Its unstrained length [m].
         length: f64,
-        /// Distance of its points at the equilibrium [m].
+        /// Distance of its points [m].
         distance: f64,
         /// Its largest strain: the larger of its two end tensions over EA.
         strain: f64,
@@ -176,6 +178,10 @@ pub enum StaticsError {
         /// The last stable pose.
         pose: Box<Pose>,
     },
+    /// The equilibrium that was followed while the load was raised ends before the whole load, and the
+    /// platform falls.
+    #[error("{0}")]
+    BranchEnds(Box<BranchEnd>),
     /// The distance to the exact equilibrium could not be bounded.
     #[error(
         "not certified: {reason} (closest attempt: the enclosing box maps to {growth:.3e} times itself, \
@@ -207,9 +213,10 @@ pub enum StaticsError {
     },
     /// No equilibrium was found; the error holds the pose where the search ended.
     #[error(
-        "direct model: no equilibrium found in {iterations} iterations; the search ended at ({:.4}, {:.4}, \
-        {:.4}) m with a residual of {:e} N and {:e} N m",
-        pose.position.x, pose.position.y, pose.position.z, residual.force, residual.moment
+        "direct model: no equilibrium found in {}; the search ended at ({:.4}, {:.4}, {:.4}) m with a \
+         residual of {} N and {} N m",
+        counted(*iterations, "iteration"),
+        pose.position.x, pose.position.y, pose.position.z, short(residual.force), short(residual.moment)
     )]
     DirectNotConverged {
         /// Iterations made.
@@ -219,6 +226,37 @@ pub enum StaticsError {
         /// The residual there.
         residual: Residual,
     },
+}
+
+/// Where a followed equilibrium ends.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BranchEnd {
+    /// Share of the load at which it ends, 0 to 1.
+    pub share: f64,
+    /// The last pose.
+    pub pose: Pose,
+    /// The pose downhill, or the reason why it was not found.
+    pub falls_to: Result<Pose, StaticsError>,
+}
+
+impl BranchEnd {
+    /// What the platform does, as the end of a sentence.
+    pub fn fall(&self) -> String {
+        let place = |pose: &Pose| {
+            let p = pose.position;
+            format!("({:.4}, {:.4}, {:.4}) m", p.x, p.y, p.z)
+        };
+        let from = place(&self.pose);
+        let Ok(to) = &self.falls_to else { return format!("falls from {from}, to where is not known") };
+        let turned = self.pose.motion_to(to).fixed_rows::<3>(3).norm().to_degrees();
+        format!("falls from {from} to {} and turns by {turned:.1} degrees", place(to))
+    }
+}
+
+impl std::fmt::Display for BranchEnd {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "at {:.2} % of the load the platform {}", 100.0 * self.share, self.fall())
+    }
 }
 
 /// A limit that a tension rests on while the balance does not hold.
@@ -256,23 +294,40 @@ impl StaticsError {
             Self::Tension { source: TensionError::Infeasible { .. }, .. } => "infeasible_tension",
             Self::Tension { .. } => "tension_solver",
             Self::Cable { source: CableError::TensionTooSmall { .. }, .. } => "tension_too_small",
+            Self::Cable { source: CableError::Overstrained { .. }, .. } | Self::Overstrained { .. } => {
+                "cable_overstrained"
+            }
             Self::Cable { .. } => "cable",
             Self::Invalid { .. } => "invalid_input",
+            Self::NoRest { nearest: RestFault::TurnedOver { .. }, .. } => "unstable",
             Self::NoTensions { .. } | Self::ExitLimit { .. } | Self::NoRest { .. } => "infeasible_tension",
             Self::FreeCoordinates { .. } => "free_coordinates",
             Self::InverseNotConverged { .. } => "inverse_not_converged",
-            Self::Overstrained { .. } => "cable_overstrained",
             Self::Indifferent { .. } => "indifferent",
             Self::Unstable { .. } => "unstable",
             Self::EquilibriumLost { .. } => "equilibrium_lost",
+            Self::BranchEnds(_) => "branch_ends",
             Self::NoDerivative { .. } => "no_derivative",
             Self::NotCertified { .. } => "not_certified",
             Self::DirectNotConverged { .. } => "direct_not_converged",
         }
     }
 
+    /// With the share of a change of load as that of another one.
+    #[must_use]
+    pub fn with_share(mut self, of: impl Fn(f64) -> f64) -> Self {
+        if let Self::BranchEnds(end) = &mut self {
+            end.share = of(end.share);
+        }
+        self
+    }
+
     pub(crate) fn invalid(field: String, value: impl ToString, expected: impl ToString) -> Self {
-        Self::Invalid { field, value: value.to_string(), expected: expected.to_string() }
+        Self::Invalid {
+            field,
+            value: shortened(&value.to_string()),
+            expected: shortened(&expected.to_string()),
+        }
     }
 
     pub(crate) fn cable(index: usize) -> impl Fn(CableError) -> Self {

@@ -45,7 +45,9 @@ use cdpr_robot::{Pose, Robot, Vector6};
 use cdpr_tension::Bound;
 use feasible::{holds, search};
 pub(crate) use free::{BESIDE, FreeBranch};
-pub use free::{FreeSolution, FreeSolutions, held_at, inverse_free};
+pub use free::{
+    FreeSolution, FreeSolutions, LONGEST, held_at, inverse_free, inverse_free_with_loops, rest_near,
+};
 pub use greatest::{Blocking, Greatest, greatest_payload, tension_margin};
 pub(crate) use in_turn::InTurn;
 pub use limits::limits_at;
@@ -81,6 +83,7 @@ pub struct InverseSolution {
 ///
 /// # Errors
 /// - [`StaticsError::NoTensions`] where no tensions within the limits were found that hold the pose.
+/// - [`StaticsError::Overstrained`] where the tensions strain a cable by more than the models hold for.
 /// - [`StaticsError::ExitLimit`] where the limits of a cable contradict each other at this pose.
 /// - [`StaticsError::Cable`] where a cable's own weight demands more than the greatest tension.
 /// - [`StaticsError::Invalid`] for a pose, load or reference that is not finite, or a reference of another
@@ -106,7 +109,13 @@ pub fn inverse(
 /// # Errors
 /// Those of [`inverse`] but [`StaticsError::NoTensions`] and [`StaticsError::InverseNotConverged`].
 pub fn is_held(robot: &Robot, pose: &Pose, load: &Load) -> Result<bool, StaticsError> {
-    holds(&Question::of_whole_pose(robot, pose, load, None)?)
+    let question = Question::of_whole_pose(robot, pose, load, None)?;
+    let limits = question.limits.iter().enumerate();
+    if limits.into_iter().any(|(i, limits)| robot.cable(i).overstrain(limits.max).is_some()) {
+        // Tensions within the limits may strain a cable too much.
+        return Ok(search(&question).and_then(|found| InverseSolution::new(&question, found)).is_ok());
+    }
+    holds(&question)
 }
 
 /// The inverse model along a path: each pose is answered on the branch of the one before.
@@ -207,6 +216,7 @@ impl InverseSolution {
         let Optimum { catenaries, tensions, active, multipliers, iterations, stationarity, .. } = optimum;
         let HeldPose { lengths, equilibrium } = HeldPose::new(question.pose, &catenaries);
         let problem = DirectProblem::new(question.robot, &lengths, question.load)?;
+        problem.check_strains(&equilibrium)?;
         let residual = Residual::of(&problem, &equilibrium);
         Ok(Self { lengths, tensions, active, multipliers, equilibrium, iterations, stationarity, residual })
     }

@@ -3,6 +3,7 @@
 
 mod adjoint;
 mod algebra;
+mod branch;
 mod cable;
 mod chain;
 mod eigen;

@@ -52,6 +52,7 @@ mod lanes;
 mod loading;
 mod out_of_limits;
 mod problem;
+mod rest_fault;
 mod state;
 
 pub use certificate::Certificate;
@@ -61,26 +62,27 @@ pub use derivatives::{
 };
 pub use direct::{
     DirectMethod, DirectSolution, Equilibria, Found, Loss, LossKind, Mode, Path, PathStep, Report, Setting,
-    Stability, Start, Starts, direct, rough_pose,
+    Stability, Start, Starts, direct, follow_load, rough_pose,
 };
 pub use equations::{CableShape, Inputs, Linearization};
-pub use error::{Blocked, StaticsError};
+pub use error::{Blocked, BranchEnd, StaticsError};
 pub use inverse::{
-    Blocking, FreeSolution, FreeSolutions, Greatest, HeldPose, InversePath, InverseSolution, PathSolution,
-    greatest_payload, held_at, inverse, inverse_free, is_held, lengths_for_tensions, limits_at,
-    tension_margin,
+    Blocking, FreeSolution, FreeSolutions, Greatest, HeldPose, InversePath, InverseSolution, LONGEST,
+    PathSolution, greatest_payload, held_at, inverse, inverse_free, inverse_free_with_loops, is_held,
+    lengths_for_tensions, limits_at, rest_near, tension_margin,
 };
 pub use lanes::{
     LoadedPose, Observation, ObservationMotion, ObservationSlopes, Observer, PoseSlopes, ScalarReason,
     Tracker, inverse_all, loaded_poses, loaded_poses_slopes,
 };
 pub use loading::{
-    CycleStep, Deflection, HysteresisLaw, LoadCycle, NaturalMode, PoseDeflections, PoseModes, PoseStiffness,
-    Unloading, deflection, deflection_free, deflection_from, deflections, follow, load_cycle, modes_at,
-    stiffness_at, wound_lengths,
+    CableFrequency, CycleStep, Deflection, HysteresisLaw, LoadCycle, NaturalMode, PoseDeflections, PoseModes,
+    PoseStiffness, Unloading, deflection, deflection_free, deflection_from, deflections, follow, load_cycle,
+    modes_at, stiffness_at, wound_lengths,
 };
 pub use out_of_limits::{Limit, OutOfLimits, out_of_limits, tensions_out_of_limits};
 pub use problem::{DirectProblem, check_lengths};
+pub use rest_fault::RestFault;
 pub use state::{Equilibrium, Load, Residual};
 
 pub use cdpr_robot::{Matrix6xX, Vector2, Vector3, Vector6};

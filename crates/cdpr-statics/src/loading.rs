@@ -14,5 +14,5 @@ pub(crate) use deflection::{
 };
 pub use follow::follow;
 pub use hysteresis::{CycleStep, HysteresisLaw, LoadCycle, Unloading, load_cycle};
-pub use modes::{NaturalMode, PoseModes, modes_at};
+pub use modes::{CableFrequency, NaturalMode, PoseModes, modes_at};
 pub use stiffness::{PoseStiffness, stiffness_at};

@@ -25,6 +25,8 @@ pub struct DirectProblem<'a> {
     pub(crate) robot: &'a Robot,
     pub(crate) lengths: &'a [f64],
     pub(crate) load: Load,
+    /// ℓ where it is not that of this robot [m].
+    pub(crate) length_of_rotations: Option<f64>,
 }
 
 impl<'a> DirectProblem<'a> {
@@ -42,7 +44,14 @@ impl<'a> DirectProblem<'a> {
             }
         }
         load.validate()?;
-        Ok(Self { robot, lengths, load: *load })
+        Ok(Self { robot, lengths, load: *load, length_of_rotations: None })
+    }
+
+    /// The same problem with this characteristic length ℓ [m]. For robots that deviate from a nominal one it
+    /// is that of the nominal robot: a constant by which rotations are measured does not deviate.
+    #[must_use]
+    pub fn with_characteristic_length(self, length: f64) -> Self {
+        Self { length_of_rotations: Some(length), ..self }
     }
 
     /// Number of cables n.
@@ -69,7 +78,8 @@ impl<'a> DirectProblem<'a> {
     /// Length ℓ [m] that makes rotations comparable with translations, see
     /// [`crate::Stability::characteristic_length`].
     pub(crate) fn characteristic_length(&self) -> f64 {
-        self.robot.platform_size().max(1e-3 * self.size())
+        let own = || self.robot.platform_size().max(1e-3 * self.size());
+        self.length_of_rotations.unwrap_or_else(own)
     }
 
     /// Checks that an equilibrium has a finite pose and one finite force for each cable.

@@ -91,6 +91,7 @@ pub(crate) fn case(seed: u64) -> Option<Case> {
         },
         max_at,
         plane: None,
+        ground_z: None,
         tension_reference,
         cables,
     };

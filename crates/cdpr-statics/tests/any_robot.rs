@@ -75,6 +75,7 @@ fn case(seed: u64) -> Case {
         platform: Platform::new(mass, center_of_mass),
         tension_limits: TensionLimits { min: 1.0, max: 1e9 },
         max_at: CableEnd::Anchor,
+        ground_z: None,
         plane: None,
         tension_reference: None,
         cables,

@@ -44,6 +44,11 @@ pub(crate) fn stadium() -> Robot {
     Robot::from_json(include_str!("../../../data/reference/robots/stadium.json")).unwrap()
 }
 
+/// Eight cables that hang a platform, whose equilibrium ends under great moments.
+pub(crate) fn suspended() -> Robot {
+    Robot::from_json(include_str!("../../../data/reference/robots/suspended.json")).unwrap()
+}
+
 /// Six cables of 300 m that hold the receiver of a telescope.
 pub(crate) fn fast() -> Robot {
     Robot::from_json(include_str!("../../../data/reference/robots/fast.json")).unwrap()

@@ -62,6 +62,7 @@ pub(crate) fn drawn(seed: u64) -> Option<Drawn> {
         platform: Platform::new(mass, in_cube(rng) * platform),
         tension_limits: limits,
         max_at: CableEnd::Anchor,
+        ground_z: None,
         plane: None,
         tension_reference: None,
         cables,

@@ -31,6 +31,7 @@ pub(crate) fn robot(case: &Value) -> Robot {
         platform: Platform::new(number(&case["mass"]), vector(&case["center_of_mass"])),
         tension_limits: TensionLimits { min: 1.0, max: 1e6 },
         max_at: CableEnd::Anchor,
+        ground_z: None,
         plane: None,
         tension_reference: None,
         cables: exits.iter().zip(anchors).map(cable).collect(),

@@ -2,7 +2,7 @@
 
 use crate::common::caroca;
 use crate::elastic_law::law;
-use cdpr_robot::{Pose, Robot};
+use cdpr_robot::{Pose, Pulley, Robot, Vector3};
 use cdpr_statics::{HysteresisLaw, Load, StaticsError, Unloading, deflection, load_cycle};
 
 /// One law for all eight cables.
@@ -54,6 +54,54 @@ fn a_stiffer_way_back_leaves_the_platform_below_and_dissipates_the_loops_of_its_
     assert!(cycle.dissipated.iter().all(|energy| *energy > 0.0));
     // Second order in how much tensions vary along a cable by its weight, 4 N of 600 N.
     assert!((cycle.payload_work / loops - 1.0).abs() < 1e-4, "{}", cycle.payload_work / loops);
+}
+
+/// CAROCA hung up, over leads and pulleys whose axes may be tilted: the tension in them is that at the top, and
+/// a whole length begins at the winch.
+#[test]
+fn over_leads_and_pulleys_the_payload_gives_what_the_loops_of_the_cables_dissipate() {
+    let law = curves(&[(0.0, 0.8), (600.0, 0.9)], &[(0.0, 1.1)]);
+    let mut heavy = caroca();
+    heavy.cables.iter_mut().for_each(|cable| cable.properties.linear_density = 0.3);
+    let residual = |lead: f64, axis: Option<Vector3<f64>>| {
+        let mut robot = heavy.clone();
+        for cable in &mut robot.cables {
+            cable.lead = lead;
+            cable.pulley = axis.map(|axis| Pulley { radius: 0.05, axis });
+        }
+        let cycle = load_cycle(&robot, &law, &pose(), &[], 50.0, 200).unwrap();
+        let loops: f64 = cycle.dissipated.iter().sum();
+        let off = cycle.payload_work / loops - 1.0;
+        println!("lead {lead} m, axis {axis:?}: {off:e}, {:e} m stay", cycle.residual().z);
+        assert!(off.abs() < 1e-3, "lead {lead} m, axis {axis:?}: {} {loops}", cycle.payload_work);
+        cycle.residual().z
+    };
+    residual(0.0, None);
+    for lead in [2.0, 6.0, 12.0] {
+        residual(lead, None);
+        residual(lead, Some(Vector3::z()));
+    }
+    residual(6.0, Some(Vector3::new(0.1, -0.05, 1.0).normalize()));
+}
+
+/// `data/reference/robots/suspended-leads.json`: 75 kg on eight cables with leads of 12 m. The residual is that
+/// of every part of a cable turning back at its own tension, to second order in how the tension varies.
+#[test]
+fn a_suspended_robot_with_long_leads_keeps_its_energy() {
+    let file = include_str!("../../../data/reference/robots/suspended-leads.json");
+    let robot = Robot::from_json(file).unwrap();
+    let law = curves(&[(0.0, 0.7), (500.0, 0.8)], &[(0.0, 1.1)]);
+    let cycle = load_cycle(&robot, &law, &Pose::at(0.0, 0.0, 1.5), &[], 40.0, 50).unwrap();
+    let loops: f64 = cycle.dissipated.iter().sum();
+    println!("{:e} of {loops:e} J, {:e} m", cycle.payload_work, cycle.residual().z);
+    assert!((cycle.payload_work / loops - 1.0).abs() < 5e-4, "{} {loops}", cycle.payload_work);
+    for (i, tensions) in cycle.tensions.iter().enumerate() {
+        let equilibrium = &cycle.loading[0].solution.equilibrium;
+        let exit = equilibrium.exit_tensions(&robot, &cycle.lengths)[i];
+        let anchor = equilibrium.tensions()[i];
+        // Two thirds of the cable or more lie in the lead and on the pulley, at the exit's tension.
+        assert!(tensions[0] > anchor + 0.8 * (exit - anchor) && tensions[0] < exit, "cable {i}");
+    }
 }
 
 #[test]

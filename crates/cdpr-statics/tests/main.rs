@@ -4,6 +4,7 @@
 
 mod any_lanes;
 mod any_robot;
+mod branch;
 mod common;
 mod derivative_invariants;
 mod derivatives;
@@ -11,6 +12,7 @@ mod drawn;
 mod elastic_law;
 mod equilibria;
 mod few_cables;
+mod few_roots;
 mod free_coordinates;
 mod grab;
 mod gravity;
@@ -29,6 +31,7 @@ mod pulleys;
 mod reference;
 mod search;
 mod softest;
+mod strain;
 mod tangent;
 mod tensions;
 mod tracker;

@@ -170,7 +170,21 @@ fn what_lanes_do_not_know_is_left_with_its_reason() {
     // Limits within which four cables do not carry the platform: every rest is beyond them.
     let mut limited = robot.clone();
     limited.tension_limits.max = 0.2 * robot.platform.mass * robot.gravity.magnitude();
-    assert_eq!(why(&limited, &free, &vec![0.0; width]), Some(ScalarReason::FreeCoordinates));
+    let error = Observer::with_free(&limited, &pose, &load, &free).unwrap_err();
+    assert_eq!(error.kind(), "infeasible_tension");
+    // The ground, where it is so near that lanes cannot tell, and where the base may be tilted.
+    let lowest = robot.cables.iter().map(|cable| (wanted.position + wanted.rotation * cable.anchor_point).z);
+    let lowest = lowest.fold(f64::INFINITY, f64::min);
+    let mut grounded = Robot { ground_z: Some(lowest - 0.01), ..robot.clone() };
+    assert_eq!(why(&grounded, &free, &vec![0.0; width]), None);
+    let up = Parameter::of(&robot).iter().position(|one| matches!(one, Parameter::AnchorPoint(..)));
+    let mut row = vec![0.0; width];
+    row[up.unwrap() + 2] = -0.2;
+    let found = Observer::with_free(&grounded, &pose, &load, &free).unwrap().observe_all(&row);
+    assert!(found[0].is_err() || found[0].as_ref().unwrap().scalar == Some(ScalarReason::FreeCoordinates));
+    grounded.gravity = Vector3::new(0.0, 0.0, -9.81).into();
+    let row = vec![0.0; Parameter::of(&grounded).len()];
+    assert_eq!(why(&grounded, &free, &row), Some(ScalarReason::FreeCoordinates));
     // A plane is one of the base frame, which gravity as a vector may tilt.
     let [(mut planar, at, free, payload), ..] = with_few_cables();
     planar.gravity = Vector3::new(0.0, 0.0, -9.81).into();

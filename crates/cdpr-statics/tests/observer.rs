@@ -345,9 +345,23 @@ fn a_row_that_is_no_robot_fails_alone_and_says_why() {
         ["platform.mass", "cable.youngs_modulus", "a1.z", "dt7", "cable.linear_density"]
     );
     assert!(found[5..].iter().all(Result::is_ok));
-    let incomplete = observer.observe_all(&rows[..62 * 8 + 1]);
-    assert!(matches!(
-        incomplete[8],
-        Err(StaticsError::Robot(RobotError::DeviationCount { given: 1, parameters: 62 }))
-    ));
+}
+
+#[test]
+fn rows_of_another_width_are_refused_and_none_is_observed() {
+    let (robot, load) = (caroca(), Load::payload(50.0));
+    let observer = Observer::new(&robot, &Pose::at(0.0, 0.0, 1.75), &load).unwrap();
+    let width = Parameter::of(&robot).len();
+    for (rows, narrow) in [(8, width - 1), (3, width + 1), (1, 1)] {
+        let given = vec![0.0; rows * narrow];
+        let refused = RobotError::DeviationRows { given: given.len(), parameters: width };
+        let refused = Err(StaticsError::Robot(refused));
+        let begun = given.len().div_ceil(width);
+        assert_eq!(observer.observe_all(&given), vec![refused.clone(); begun]);
+        let motions = observer.observe_all_motions(&given).into_iter().map(|found| found.map(|_| ()));
+        let slopes = observer.observe_all_slopes(&given).into_iter().map(|found| found.map(|_| ()));
+        let refused = refused.map(|_| ());
+        assert!(motions.chain(slopes).all(|found| found == refused));
+    }
+    assert_eq!(observer.observe_all(&[]), []);
 }

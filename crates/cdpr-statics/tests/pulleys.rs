@@ -34,6 +34,7 @@ pub(crate) fn robot(case: &Value) -> Robot {
         platform: Platform::new(number(&case["mass"]), vector(&case["center_of_mass"])),
         tension_limits: TensionLimits { min: 1e-3, max: 1e7 },
         max_at: CableEnd::Anchor,
+        ground_z: None,
         plane: None,
         tension_reference: None,
         cables: cables.collect(),

@@ -38,8 +38,8 @@ impl Case {
         derivatives_free(&self.robot, &self.pose, &offsets, &Load::payload(self.payload), &self.free)
     }
 
-    /// Frequency [Hz] and stiffness [N/m], if one input is moved.
-    fn softest(&self, column: usize, step: f64) -> [f64; 2] {
+    /// Frequency [Hz] and stiffness [N/m] in (dp, `length` dφ), if one input is moved.
+    fn softest(&self, length: f64, column: usize, step: f64) -> [f64; 2] {
         let parameters = Parameter::of(&self.robot).len();
         let mut deviations = vec![0.0; parameters];
         let (mut payload, mut motion) = (self.payload, Vector6::zeros());
@@ -54,7 +54,8 @@ impl Case {
         let found = deflection_free(&moved.robot, &pose, &moved.tension_offsets, &load, &self.free).unwrap();
         let problem = DirectProblem::new(&moved.robot, &found.lengths, &load).unwrap();
         let frequency = problem.lowest_frequency(&found.loaded.equilibrium).unwrap();
-        [frequency, found.loaded.stability.least_stiffness()]
+        let problem = problem.with_characteristic_length(length);
+        [frequency, problem.stability(&found.loaded.equilibrium).unwrap().least_stiffness()]
     }
 
     fn step(&self, column: usize) -> f64 {
@@ -73,9 +74,9 @@ impl Case {
 }
 
 /// Six differences, twice extrapolated, of both outputs, and what they leave open.
-fn difference(case: &Case, column: usize, h: f64) -> [(f64, f64); 2] {
+fn difference(case: &Case, length: f64, column: usize, h: f64) -> [(f64, f64); 2] {
     let slope = |h: f64| {
-        let (up, down) = (case.softest(column, h), case.softest(column, -h));
+        let (up, down) = (case.softest(length, column, h), case.softest(length, column, -h));
         [0, 1].map(|k| (up[k] - down[k]) / (2.0 * h))
     };
     let [wide, middle, narrow] = [h, 0.5 * h, 0.25 * h].map(slope);
@@ -92,7 +93,8 @@ fn check(case: &Case) -> (usize, f64) {
     let found = case.derivatives().unwrap();
     let softest =
         [found.frequency(&case.robot, &load).unwrap(), found.least_stiffness(&case.robot, &load).unwrap()];
-    let values = case.softest(0, 0.0);
+    let length = found.deflection.loaded.stability.characteristic_length();
+    let values = case.softest(length, 0, 0.0);
     let (mut compared, mut worst) = (0, 0.0_f64);
     for (k, (value, slopes)) in softest.iter().enumerate() {
         assert!((value - values[k]).abs() <= 1e-12 * value.abs(), "{name} {k}: {value} {}", values[k]);
@@ -106,7 +108,7 @@ fn check(case: &Case) -> (usize, f64) {
             continue;
         }
         let h = case.step(column);
-        let differences = difference(case, column, h);
+        let differences = difference(case, length, column, h);
         for (k, (difference, open)) in differences.into_iter().enumerate() {
             let (value, slopes) = &softest[k];
             let exact = slopes[column];

@@ -2,8 +2,9 @@
 
 use crate::kind::InputKind;
 use crate::names::MANIFEST_NAME;
+use crate::table::TableError;
 use cdpr_cable::RecordError;
-use cdpr_robot::{JsonError, RobotError, place_of};
+use cdpr_robot::{JsonError, RobotError, place_of, shortened};
 use cdpr_sensitivity::SensitivityError;
 use cdpr_statics::StaticsError;
 use std::path::PathBuf;
@@ -105,6 +106,14 @@ pub enum StudyError {
         /// Line and reason.
         source: RecordError,
     },
+    /// The file is not a table, or has a cell that cannot be read.
+    #[error("{path}: {source}")]
+    Table {
+        /// The file.
+        path: PathBuf,
+        /// Line, column and reason.
+        source: TableError,
+    },
     /// One of these errors, with its place in the study file.
     #[error("{source} (line {line}, column {column})")]
     At {
@@ -116,7 +125,7 @@ pub enum StudyError {
         source: Box<StudyError>,
     },
     /// An invalid value in a study.
-    #[error("{path}: {field} is {value}: expected {expected}")]
+    #[error("{path}: {field} is {}: expected {expected}", shortened(value))]
     Invalid {
         /// The file.
         path: PathBuf,
@@ -128,7 +137,10 @@ pub enum StudyError {
         expected: String,
     },
     /// The nominal robot cannot hold the study's pose or bear its load.
-    #[error("{path}: {field} is {value}: expected a pose that the nominal robot can hold: {source}")]
+    #[error(
+        "{path}: {field} is {}: expected a pose that the nominal robot can hold: {source}",
+        shortened(value)
+    )]
     Nominal {
         /// The file.
         path: PathBuf,
@@ -328,6 +340,6 @@ impl StudyError {
 
     /// An invalid setting of a run or test: its name, its value, and what is expected.
     pub fn setting(field: impl Into<String>, value: impl ToString, expected: impl Into<String>) -> Self {
-        Self::Setting { field: field.into(), value: value.to_string(), expected: expected.into() }
+        Self::Setting { field: field.into(), value: shortened(&value.to_string()), expected: expected.into() }
     }
 }

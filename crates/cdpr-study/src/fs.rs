@@ -3,6 +3,7 @@
 pub(crate) mod atomic;
 pub(crate) mod disk;
 pub(crate) mod files;
+pub(crate) mod finite;
 pub(crate) mod input;
 pub(crate) mod manifest;
 pub(crate) mod owned;

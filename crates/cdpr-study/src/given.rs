@@ -2,13 +2,12 @@
 
 mod analyse;
 mod columns;
-mod csv;
 mod open;
 #[cfg(feature = "parquet")]
 mod parquet;
 mod write;
 
 pub use analyse::{TableAnalysis, TableRequest, VectorAnalysis, analyse_table};
-pub use columns::{BadCell, GivenTable};
+pub use columns::{BadCell, GivenColumn, GivenTable};
 pub use open::open_table;
 pub use write::{begin_analysis, write_analysis};

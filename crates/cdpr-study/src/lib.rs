@@ -48,6 +48,7 @@ mod observe;
 mod results;
 mod run;
 mod store;
+mod table;
 
 pub use analysis::comparison::{ComparisonRow, Verdict};
 pub use analysis::extremes::Extremes;
@@ -62,7 +63,7 @@ pub use analysis::sensitivity::{Agreement, SensitivitySummary, measure};
 pub use analysis::summary::Summary;
 pub use analysis::surface::{SurfaceResult, SurfaceSummary, SurfaceValues, compute_surface};
 pub use cdpr_sensitivity::{
-    Analyser, Analysis, BestFit, Delta, Dependence, Estimate, Evidence, Family, InputAnalysis,
+    Analyser, Analysis, BestFit, Delta, Dependence, Estimate, Evidence, Family, InputAnalysis, LevelMean,
     Limit as OutputLimit, Pawn, Truncation,
 };
 pub use error::StudyError;
@@ -78,20 +79,21 @@ pub use file::study_file::{
 pub use file::template::{TEMPLATE_NOTES, template, template_cost, write_template};
 pub use file::value::Value;
 pub use fs::files::{open_cable, open_robot, open_robot_in_any_unit};
-pub use fs::input::read_text;
+pub use fs::finite::is_not_finite;
+pub use fs::input::{read_bytes, read_table, read_text};
 pub use fs::manifest::{ResultsOf, read_result};
 pub use fs::owned::{Access, ResultsFolder};
 pub use fs::single::{IfExists, write_text};
 pub use given::{
-    BadCell, GivenTable, TableAnalysis, TableRequest, VectorAnalysis, analyse_table, begin_analysis,
-    open_table, write_analysis,
+    BadCell, GivenColumn, GivenTable, TableAnalysis, TableRequest, VectorAnalysis, analyse_table,
+    begin_analysis, open_table, write_analysis,
 };
 pub use indexmap::IndexMap;
 pub use kind::InputKind;
 pub use model::cable_law::{elastic_laws, open_law};
 pub use model::error_model::{ErrorModel, Term, uncertainties};
 pub use model::errors::open_errors;
-pub use model::grid::{Grid, frame};
+pub use model::grid::Grid;
 pub use model::hash::robot_hash;
 pub use model::observed::{Failure, Measured, MeasuredQuantity, Observed, ScalarCount};
 pub use model::observer::OutputObserver;
@@ -100,6 +102,7 @@ pub use names::{REPORT_NAME, ROBOT_NAME, STUDY_NAME};
 pub use observe::observation::{
     FITTED, KEPT, Part, Session, Tally, observe, observe_into, observe_replicate, observe_rows,
 };
+pub use observe::pace::ScalarSampling;
 pub use observe::plan::{BlockMaker, Plan, observe_shard};
 pub use observe::shard::Shard;
 pub use observe::status::{
@@ -114,3 +117,4 @@ pub use run::{Draw, Drawable, Figure, Run, Watcher, run};
 pub use store::block::BLOCK;
 pub use store::blocks::Blocks;
 pub use store::folder::{Existing, StoredStudy, begin, open_results, take_results};
+pub use table::{Blank, Cells, Column, Dimension, Table, TableError, Unit};

@@ -2,6 +2,7 @@
 
 pub(crate) mod cable_law;
 pub(crate) mod designs;
+pub(crate) mod doubts;
 pub(crate) mod error_model;
 pub(crate) mod errors;
 pub(crate) mod grid;

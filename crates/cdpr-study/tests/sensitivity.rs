@@ -430,7 +430,7 @@ fn invalid_settings_are_refused_with_field_value_and_remedy() {
         source.to_string()
     };
     let blocks = refusal("\"saltelli_blocks\": 4096", "\"saltelli_blocks\": 15");
-    assert!(blocks.ends_with("sensitivity.saltelli_blocks is 15: expected 16 to 1048576"), "{blocks}");
+    assert!(blocks.ends_with("sensitivity.saltelli_blocks is 15: expected 0, or at least 16"), "{blocks}");
     let norm = refusal("\"norm\": 0.75", "\"norm\": 0.0");
     assert!(
         norm.ends_with("sensitivity.expansion.norm is 0: expected a number above 0, at most 1"),
@@ -472,4 +472,48 @@ fn fewer_observations_shorten_all_measures_and_an_extension_keeps_them() {
     assert_eq!((whole.derivative_points, short.derivative_points), (64, 16));
     study.extend(4096).unwrap();
     assert_eq!(study.file.sensitivity, Some(short));
+}
+
+#[test]
+fn no_blocks_of_saltelli_leave_sobol_indices_out_and_few_are_refused() {
+    let found = of_sampling("mechanical", &SensitivitySpec { saltelli_blocks: 0, ..SMALL });
+    assert!(!found.methods.contains_key("sobol") && found.methods.contains_key("morris"));
+    assert_eq!(left_out(&found), Vec::<&str>::new());
+    assert!(
+        found.inputs.iter().all(|input| input.sobol_total.is_none() && input.morris_mean_absolute.is_some())
+    );
+    let mut study: serde_json::Value = serde_json::from_str(&text()).unwrap();
+    for (blocks, refused) in [(0, false), (5, true), (16, false)] {
+        study["sensitivity"]["saltelli_blocks"] = blocks.into();
+        let opened = Study::from_json(&study.to_string(), path());
+        assert_eq!(opened.is_err(), refused, "{blocks}");
+        if let Err(error) = opened {
+            assert!(
+                error.to_string().contains("saltelli_blocks is 5: expected 0, or at least 16"),
+                "{error}"
+            );
+        }
+    }
+    study["sensitivity"]["saltelli_blocks"] = 0.into();
+    let study = Study::from_json(&study.to_string(), path()).unwrap();
+    let some = Study::open(path()).unwrap();
+    assert!(study.observations("mechanical").unwrap() < some.observations("mechanical").unwrap());
+}
+
+#[test]
+fn a_study_says_which_samplings_the_scalar_models_observe_and_how_long() {
+    let mut study = Study::open(path()).unwrap();
+    assert_eq!(study.scalar_samplings().unwrap(), []);
+    for cable in &mut study.robot.cables {
+        cable.pulley =
+            Some(cdpr_robot::Pulley { radius: 0.045, axis: cdpr_robot::Vector3::new(0.1, 0.0, 0.99) });
+    }
+    let slow = study.scalar_samplings().unwrap();
+    let names: Vec<_> = slow.iter().map(|sampling| sampling.name.as_str()).collect();
+    assert!(names.contains(&"mechanical"), "{names:?}");
+    for sampling in &slow {
+        assert_eq!(sampling.observations, study.observations(&sampling.name).unwrap());
+        assert!(sampling.reason == cdpr_statics::ScalarReason::Pulleys && sampling.seconds > 0.0);
+        assert!(sampling.to_string().contains("pulleys with vertical axes only"), "{sampling}");
+    }
 }

@@ -1,6 +1,6 @@
 //! The distribution problem, and why it may have no solution.
 
-use cdpr_robot::TensionLimits;
+use cdpr_robot::{TensionLimits, short};
 use nalgebra::{DVector, Matrix6xX, Vector6};
 
 /// A distribution problem (T1).
@@ -30,8 +30,9 @@ pub enum Bound {
 pub enum TensionError {
     /// No tensions within the bounds balance the wrench.
     #[error(
-        "no tensions between {min} N and {max} N balance the wrench: the best of them leave a residual of \
-         {force:.3} N and {moment:.3} N m; change the pose, the load or the limits"
+        "no tensions between {} N and {} N balance the wrench: the best of them leave a residual of \
+         {force:.3} N and {moment:.3} N m; change the pose, the load or the limits",
+        short(*min), short(*max)
     )]
     Infeasible {
         /// Least tension allowed in any cable [N].

@@ -1,13 +1,15 @@
 // The page of a robot: ties state, engine, view and panels together.
 
+import { Address } from "./address.js";
 import { roundUp } from "./charts/scale.js";
-import { h, setText, whenOther } from "./dom.js";
+import { h, setText, undoStep, whenOther } from "./dom.js";
 import { entryWords, point, rangeWithUnit, sharePercent, short, withUnit } from "./format.js";
-import { extents } from "./geometry.js";
+import { extents, groundOf } from "./geometry.js";
 import { layout, WHOLE } from "./layout.js";
 import { loadOf, Mechanics, poseOf } from "./mechanics.js";
 import { Moves } from "./moves.js";
 import { DARK, LIGHT } from "./palette.js";
+import { Paper } from "./paper.js";
 import { cablesPanel } from "./panels/cables.js";
 import { chartsPanel, sentence } from "./panels/charts.js";
 import { commandsPanel } from "./panels/commands.js";
@@ -23,7 +25,7 @@ import { tolerancesPanel } from "./panels/tolerances.js";
 import { changedRobot, isChanged, shares, tolerances } from "./robot.js";
 import { Sampling } from "./sampling.js";
 import { Slicing } from "./slicing.js";
-import { decode, encode, initial, restore, Store } from "./state.js";
+import { decode, initial, restore, Store } from "./state.js";
 import { View } from "./view/scene.js";
 
 const SETTLED = 500;
@@ -49,13 +51,14 @@ export class App {
    */
   constructor(element, { engine, robot, file, name, saved, embedded }) {
     Object.assign(this, { element, engine, robot, file, name, embedded });
-    const box = extents(robot.exits);
-    this.size = box.size;
-    this.arm = Math.max(...robot.anchors.map((anchor) => Math.hypot(...anchor)), 0.01 * box.size);
+    this.size = extents(robot.exits).size;
+    this.ground = groundOf(robot);
+    this.arm = Math.max(...robot.anchors.map((anchor) => Math.hypot(...anchor)), 0.01 * this.size);
     this.first = initial(robot);
     const { state, refused } = restore(saved ?? (embedded ? null : decode(location.hash)), this.first);
     this.refused = refused;
     this.store = new Store(state);
+    this.address = new Address(this.store, this.first);
     this.mechanics = new Mechanics(engine, this.store, () => this.#mechanicsChanged());
     this.sampling = new Sampling(engine, robot.study, () => this.refresh());
     this.slicing = new Slicing(engine, robot, () => {
@@ -63,6 +66,10 @@ export class App {
       this.refresh();
     });
     this.moves = new Moves(this);
+    this.paper = new Paper(this, () => {
+      this.#repaint();
+      this.#update();
+    });
     this.dark = matchMedia("(prefers-color-scheme: dark)");
     this.less = matchMedia("(prefers-reduced-motion: reduce)");
     this.#build();
@@ -75,7 +82,7 @@ export class App {
   }
 
   get palette() {
-    return this.dark.matches ? DARK : LIGHT;
+    return this.dark.matches && !this.paper.printed ? DARK : LIGHT;
   }
 
   get reduced() {
@@ -144,17 +151,16 @@ export class App {
     this.#queued = true;
     requestAnimationFrame(() => {
       this.#queued = false;
-      for (const panel of this.panels) panel.update();
-      this.undo.disabled = !this.store.canUndo;
-      this.redo.disabled = !this.store.canRedo;
+      this.#update();
     });
     clearTimeout(this.#settle);
     this.#settle = setTimeout(() => this.#settled(), SETTLED);
   }
 
-  /** The address of this page in this state. */
-  link() {
-    return `${location.href.split("#")[0]}#state=${encode(this.store.state, this.first)}`;
+  #update() {
+    for (const panel of this.panels) panel.update();
+    this.undo.disabled = !this.store.canUndo;
+    this.redo.disabled = !this.store.canRedo;
   }
 
   /** Opens a saved state; returns what is to be said about it. */
@@ -175,14 +181,16 @@ export class App {
 
   dispose() {
     clearTimeout(this.#settle);
+    this.address.dispose();
     this.engine.dispose();
     this.sampling.dispose();
     this.charts.dispose();
     this.sizes.disconnect();
     this.view?.dispose();
     this.dark.removeEventListener("change", this.#repaint);
+    this.paper.dispose();
     this.less.removeEventListener("change", this.#redraw);
-    this.element.removeEventListener("keydown", this.#keys);
+    this.#keyboard.removeEventListener("keydown", this.#keys);
     this.element.replaceChildren();
     this.element.classList.remove("cdprx", "embedded", "whole", "phone");
   }
@@ -210,7 +218,7 @@ export class App {
     }
     this.panels = [this.stage, figures, this.charts, ...side];
     Object.assign(this, layout(this, { stage: this.stage, figures, charts: this.charts, side }));
-    this.element.addEventListener("keydown", this.#keys);
+    this.#keyboard.addEventListener("keydown", this.#keys);
     try {
       this.view = new View(this.stage.surface, this.robot, {
         grab: (phase, pose) => this.moves.grab(phase, pose),
@@ -224,16 +232,16 @@ export class App {
   }
 
   #keys = (event) => {
-    if (
-      !(event.ctrlKey || event.metaKey) ||
-      event.key.toLowerCase() !== "z" ||
-      event.target.matches("input[type=number], textarea")
-    )
-      return;
+    const step = undoStep(event);
+    if (step === null || event.defaultPrevented) return;
     event.preventDefault();
-    if (event.shiftKey) this.store.redo();
-    else this.store.undo();
+    this.store[step]();
   };
+
+  // Of a page of its own, whatever has the focus.
+  get #keyboard() {
+    return this.embedded ? this.element : document;
+  }
 
   #changed(now, before, stepped) {
     if (now.changes !== before.changes) this.#newRobot();
@@ -267,6 +275,7 @@ export class App {
     this.slicing.update(state, this.version);
     this.#drawSlice();
     this.#askModes();
+    if (!this.embedded) this.address.write();
     this.refresh();
   }
 
@@ -298,7 +307,7 @@ export class App {
       if (greatest > this.range || greatest < 0.4 * this.range) this.range = roundUp(greatest);
     }
     const { state } = this.store;
-    if (state.way === "kept" || state.free.length > 0) this.sampling.update(state, this.version);
+    if (state.free.length > 0) this.sampling.update(state, this.version);
     this.#draw();
     this.#askModes();
     this.refresh();
@@ -351,13 +360,7 @@ export class App {
   #settled() {
     if (this.mechanics.busy || this.sampling.busy) return;
     const { state } = this.store;
-    if (!this.embedded) {
-      try {
-        history.replaceState(history.state, "", `#state=${encode(state, this.first)}`);
-      } catch {
-        // A page without an address of its own, such as a frame of a notebook, has no link.
-      }
-    }
+    if (!this.embedded) this.address.write();
     this.#askModes();
     setText(this.live, this.#sentence());
     const told = JSON.stringify(state);
@@ -368,7 +371,7 @@ export class App {
 
   #sentence() {
     const { picture, failure } = this.mechanics;
-    if (failure || !picture) return failure ? `${notHeld(this.store.state)}: ${failure.reason}` : "";
+    if (failure || !picture) return failure ? `${notHeld(this.store.state, failure)}: ${failure.reason}` : "";
     const known = numbers(this);
     const [least, greatest] = known.tensions;
     return [

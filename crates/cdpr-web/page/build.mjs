@@ -8,9 +8,10 @@ import path from "node:path";
 const here = path.dirname(fileURLToPath(import.meta.url));
 
 /**
- * @param {{out: string, mock?: boolean}} options
+ * @param {{out: string, mock?: boolean, worker?: boolean}} options `worker`: whether the worker is bundled,
+ *   too, for which wasm-bindgen has to have written `pkg`
  */
-export async function bundle({ out, mock = false }) {
+export async function bundle({ out, mock = false, worker = true }) {
   const common = {
     bundle: true,
     minify: true,
@@ -37,12 +38,13 @@ export async function bundle({ out, mock = false }) {
       outfile: path.join(out, "explorer.js"),
       globalName: "cdprExplorer",
     }),
-    build({
-      ...common,
-      entryPoints: [path.join(here, "worker.js")],
-      outfile: path.join(out, "worker.js"),
-      plugins: mock ? [standIn] : [],
-    }),
+    worker &&
+      build({
+        ...common,
+        entryPoints: [path.join(here, "worker.js")],
+        outfile: path.join(out, "worker.js"),
+        plugins: mock ? [standIn] : [],
+      }),
     build({
       entryPoints: [path.join(here, "explorer.css")],
       outfile: path.join(out, "explorer.css"),

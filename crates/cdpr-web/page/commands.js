@@ -6,12 +6,13 @@ import { SLICE_AXES } from "./slices.js";
 
 /**
  * @param {{state: object, file: string, lengths: number[]|null,
- *   pose: {position: number[], rpy_deg: number[]}, slice: object|null, hasModes: boolean}} given
- *   `pose` is where the platform stands, `slice` the plane in view
+ *   pose: {position: number[], rpy_deg: number[]}, slice: object|null, hasModes: boolean,
+ *   observed: boolean}} given
+ *   `pose` is where the platform stands, `slice` the plane in view, `observed` whether robots are observed
  * @returns {Array<{title: string, text: string, needs: string[]}>} `needs`: files that the page writes,
  *   `robot` or `study`
  */
-export function commands({ state, file, lengths, pose, slice, hasModes }) {
+export function commands({ state, file, lengths, pose, slice, hasModes, observed }) {
   const changed = isChanged(state.changes);
   const robot = quote(changed ? changedName(file) : file);
   const needs = changed ? ["robot"] : [];
@@ -48,7 +49,8 @@ export function commands({ state, file, lengths, pose, slice, hasModes }) {
       ...load,
     ]);
   }
-  add("Histogram and effects", ["study", "run", quote(studyName(file)), "--out", "results"], ["study"]);
+  if (observed)
+    add("Histogram and effects", ["study", "run", quote(studyName(file)), "--out", "results"], ["study"]);
   if (slice) {
     add("The slice", [
       "workspace",

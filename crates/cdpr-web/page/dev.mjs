@@ -1,4 +1,5 @@
-// Writes the page of a robot as one file: `node dev.mjs ROBOT.json OUT.html [--mock] [--embedded]`.
+// Writes the page of a robot as one file: `node dev.mjs ROBOT.json OUT.html [--mock] [--embedded]`. Module
+// and worker are those of ../dist.
 
 import { readFile, writeFile, mkdtemp } from "node:fs/promises";
 import { gzipSync } from "node:zlib";
@@ -11,12 +12,14 @@ const here = path.dirname(fileURLToPath(import.meta.url));
 const [robot, out] = process.argv.slice(2).filter((word) => !word.startsWith("--"));
 const mock = process.argv.includes("--mock");
 const dist = await mkdtemp(path.join(tmpdir(), "cdprx-"));
-await bundle({ out: dist, mock });
+await bundle({ out: dist, mock, worker: mock });
 const read = (name) => readFile(path.join(dist, name), "utf8");
+const made = (name) => path.join(here, "../dist", name);
 // The smallest module stands for the real one, where the engine is the stand-in.
 const module = mock
-  ? Buffer.from([0, 97, 115, 109, 1, 0, 0, 0])
-  : await readFile(path.join(here, "pkg/cdpr_web_bg.wasm"));
+  ? gzipSync(Buffer.from([0, 97, 115, 109, 1, 0, 0, 0]))
+  : await readFile(made("cdpr_web.wasm.gz"));
+const worker = mock ? await read("worker.js") : await readFile(made("worker.js"), "utf8");
 const script = (text) => text.replaceAll("</script", "<\\/script");
 const policy = [
   "default-src 'none'",
@@ -37,8 +40,8 @@ const page = `<!doctype html>
 </head>
 <body>
 <div id="explorer"></div>
-<script type="text/plain" id="worker">${script(await read("worker.js"))}</script>
-<script type="text/plain" id="module">${gzipSync(module, { level: 9 }).toString("base64")}</script>
+<script type="text/plain" id="worker">${script(worker)}</script>
+<script type="text/plain" id="module">${module.toString("base64")}</script>
 <script type="application/json" id="robot">${script(await readFile(robot, "utf8"))}</script>
 <script>${script(await read("explorer.js"))}</script>
 <script>

@@ -1,5 +1,7 @@
 // Elements of the page: `h` builds one, the others are its controls.
 
+import { fieldText, parseNumber } from "./numbers.js";
+
 /**
  * Builds an element.
  * @param {string} tag
@@ -45,33 +47,90 @@ export function whenOther() {
   };
 }
 
-/** Sets the value of a field unless somebody is typing there. */
-export function setValue(input, value) {
-  const text = String(value);
-  if (document.activeElement !== input && input.value !== text) input.value = text;
+/**
+ * A text field for a number. What is typed is a draft, and marked as one, until Enter or leaving the field
+ * commits it; Escape and Ctrl+Z take it back. The browser's own undo is off: the page has one stack.
+ * @param {{label?: string, id?: string, min?: number, max?: number, why?: string, hint?: string,
+ *   commit: function(number): void}} options `commit` gets what was typed, once it is a number in range
+ * @returns {{input: HTMLInputElement, note: HTMLElement, set: function(number): void}}
+ */
+function typedNumber({ label, id = null, min, max, why, hint, commit }) {
+  const note = h("p", { id: unique("note"), class: "fieldnote", role: "status" });
+  const input = h("input", {
+    id,
+    type: "text",
+    class: "number",
+    inputmode: "decimal",
+    autocomplete: "off",
+    spellcheck: "false",
+    title: hint,
+    "aria-label": label,
+    "aria-describedby": note.id,
+  });
+  // The text of the number that the page computes with.
+  let computed = "";
+  const show = (text) => {
+    computed = input.value = text;
+    say("");
+  };
+  const say = (problem) => {
+    const draft = input.value !== computed;
+    input.classList.toggle("draft", draft);
+    input.setAttribute("aria-invalid", String(problem !== ""));
+    const still = computed === "" ? "" : ` ${computed} is computed.`;
+    setText(note, problem ? problem + still : draft ? "Enter computes it, Escape takes it back." : "");
+  };
+  const tell = () => {
+    if (input.value === computed) return;
+    const { value, problem } = parseNumber(input.value, { min, max, why });
+    if (problem) return say(problem);
+    show(fieldText(value));
+    commit(value);
+  };
+  input.addEventListener("input", () => say(""));
+  input.addEventListener("blur", tell);
+  input.addEventListener("beforeinput", (event) => {
+    if (event.inputType.startsWith("history")) event.preventDefault();
+  });
+  input.addEventListener("keydown", (event) => {
+    if (event.key === "Enter") return tell();
+    if (input.value === computed || !(event.key === "Escape" || undoStep(event))) return;
+    event.preventDefault();
+    event.stopPropagation();
+    show(computed);
+  });
+  const set = (value) => {
+    const text = fieldText(value);
+    if (text !== computed) show(text);
+  };
+  return { input, note, set };
+}
+
+/** The step that keys ask for: `undo`, `redo` or null. */
+export function undoStep({ ctrlKey, metaKey, shiftKey, key }) {
+  if (!ctrlKey && !metaKey) return null;
+  const letter = key.toLowerCase();
+  if (letter === "z") return shiftKey ? "redo" : "undo";
+  return letter === "y" ? "redo" : null;
 }
 
 /**
  * A number that is typed.
- * @param {{label: string, unit?: string, step?: number|string, min?: number, max?: number, hint?: string,
- *   change: function(number): void}} options `change` gets what was typed once it is a number in range
+ * @param {{label: string, unit?: string, min?: number, max?: number, why?: string, hint?: string,
+ *   change: function(number): void}} options `change` gets what was typed, `why` says what bounds it
  * @returns {{element: HTMLElement, input: HTMLInputElement, set: function(number): void}}
  */
-export function numberField({ label, unit = "", step = "any", min, max, hint, change }) {
+export function numberField({ label, unit = "", min, max, why, hint, change }) {
   const id = unique("field");
-  const input = h("input", { id, type: "number", step, min, max, inputmode: "decimal", title: hint });
-  const tell = () => {
-    if (input.value !== "" && input.checkValidity()) change(input.valueAsNumber);
-    else input.reportValidity();
-  };
-  input.addEventListener("change", tell);
+  const { input, note, set } = typedNumber({ id, min, max, why, hint, commit: change });
   const element = h(
     "div",
     { class: "field" },
     h("label", { for: id }, label, unit ? h("span", { class: "unit" }, ` [${unit}]`) : null),
     input,
+    note,
   );
-  return { element, input, set: (value) => setValue(input, value) };
+  return { element, input, set };
 }
 
 /**
@@ -83,40 +142,39 @@ export function numberField({ label, unit = "", step = "any", min, max, hint, ch
 export function slider({ label, unit = "", scale, digits = 4, min, max, input, commit }) {
   const id = unique("slider");
   const range = h("input", { id, type: "range", min: 0, max: 1000, step: 1 });
-  const typed = h("input", {
-    type: "number",
-    step: "any",
+  const field = typedNumber({
+    label: unit ? `${label} [${unit}]` : label,
     min,
     max,
-    inputmode: "decimal",
-    "aria-label": unit ? `${label} [${unit}]` : label,
+    commit: (value) => {
+      input(value);
+      commit();
+    },
   });
-  const show = (value) => {
-    range.setAttribute("aria-valuetext", `${Number(value.toPrecision(digits))} ${unit}`.trim());
-  };
+  // The number that the slider itself has set: its position stays, though the number is rounded.
+  let own = "";
   range.addEventListener("input", () => {
     const value = Number(scale.to(range.valueAsNumber / 1000).toPrecision(Math.max(3, digits - 3)));
-    typed.value = String(value);
-    show(value);
+    own = fieldText(value);
+    set(value);
     input(value);
   });
   range.addEventListener("change", commit);
-  typed.addEventListener("change", () => {
-    if (typed.value === "" || !typed.checkValidity()) return void typed.reportValidity();
-    input(typed.valueAsNumber);
-    commit();
-  });
   const element = h(
     "div",
     { class: "slider" },
     h("label", { for: id }, label, unit ? h("span", { class: "unit" }, ` [${unit}]`) : null),
     range,
-    typed,
+    field.input,
+    field.note,
   );
   const set = (value) => {
-    setValue(typed, Number(value.toPrecision(digits)));
-    if (document.activeElement !== range) range.value = String(Math.round(1000 * scale.from(value)));
-    show(value);
+    field.set(value);
+    if (fieldText(value) !== own) {
+      own = "";
+      range.value = String(Math.round(1000 * scale.from(value)));
+    }
+    range.setAttribute("aria-valuetext", `${Number(value.toPrecision(digits))} ${unit}`.trim());
   };
   return { element, set };
 }
@@ -186,7 +244,12 @@ export function select(label, options, choose) {
     ...options.map(([value, text]) => h("option", { value }, text)),
   );
   const element = h("div", { class: "field" }, h("label", { for: id }, label), box);
-  return { element, box, set: (value) => setValue(box, value) };
+  return {
+    element,
+    set: (value) => {
+      box.value = value;
+    },
+  };
 }
 
 /** A box to tick. */

@@ -1,5 +1,7 @@
 // Workers and the questions to them. A newer question of a lane replaces the older ones of that lane.
 
+import { readable } from "./format.js";
+
 // Lanes in the order in which they are served.
 const ORDER = ["pose", "modes", "observe", "slice"];
 
@@ -108,7 +110,8 @@ export class Engine {
       const { task } = entry;
       entry.task = null;
       const stale = task.generation !== this.#generation(task.lane);
-      task.resolve(stale ? STALE : { answers: data.answers, milliseconds: data.milliseconds });
+      const { answers, milliseconds } = data;
+      task.resolve(stale ? STALE : { answers: answers.map(inWords), milliseconds });
     }
     this.#give();
   }
@@ -136,4 +139,14 @@ export class Engine {
       });
     }
   }
+}
+
+// An answer whose reasons have numbers as people write them.
+function inWords(answer) {
+  for (const part of [answer?.error, answer?.ok]) {
+    for (const field of ["reason", "start_reason"]) {
+      if (typeof part?.[field] === "string") part[field] = readable(part[field]);
+    }
+  }
+  return answer;
 }

@@ -41,9 +41,31 @@ export function cablesCsv({ loaded, unloaded, limits: here }, limits) {
   return `${[head, ...lines].join("\n")}\n`;
 }
 
-/** The sorted observations as CSV. */
-export function observationsCsv({ summary }) {
-  return `rms_mm\n${Array.from(summary.sorted).join("\n")}\n`;
+/**
+ * The observations as CSV: a row for each, with the seed of the study, the deviations of all inputs in SI
+ * units, the outputs, and why one failed.
+ * @param {{seed: number, inputs: Array<{name: string, unit: string|null}>, outputs: string[],
+ *   rows: Array<{inputs: number[], outputs_mm: number[]|null,
+ *   failure: {kind: string, reason: string}|null}>}} table
+ */
+export function observationsCsv({ seed, inputs, outputs, rows }) {
+  const named = inputs.map(({ name, unit }) => (unit ? `d_${name} [${unit}]` : `d_${name}`));
+  const none = outputs.map(() => "");
+  const head = ["index", "seed", ...named, ...outputs, "status", "reason"];
+  const lines = rows.map(({ inputs: deviations, outputs_mm, failure }, index) => [
+    index,
+    seed,
+    ...deviations,
+    ...(outputs_mm ?? none),
+    failure?.kind ?? "ok",
+    failure?.reason ?? "",
+  ]);
+  return `${[head, ...lines].map((cells) => cells.map(cell).join(",")).join("\n")}\n`;
+}
+
+function cell(value) {
+  const text = String(value);
+  return /[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
 }
 
 /**

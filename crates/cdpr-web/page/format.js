@@ -32,9 +32,26 @@ export function withUnit(value, unit, count = 4) {
   return `${digits(value / scaled[0], count)} ${scaled[1]}${unit}`;
 }
 
-/** A vector [m] in millimetres or, if it is large, metres, all with the decimals that its length needs. */
+/**
+ * The unit in which a length of this size [m] reads well.
+ * @returns {[number, string]} how many of it are a metre, and its name
+ */
+export function lengthUnit(metres) {
+  const size = Math.abs(metres);
+  if (size >= 1) return [1, "m"];
+  return size > 0 && size < 1e-4 ? [1e6, "µm"] : [1e3, "mm"];
+}
+
+/** A length from metres, in the unit that its size asks for. */
+export function short(metres, count = 4) {
+  if (metres === null || metres === undefined || !Number.isFinite(metres)) return "none";
+  const [factor, unit] = lengthUnit(metres);
+  return `${digits(factor * metres, count)} ${unit}`;
+}
+
+/** A vector [m] in the unit that its length asks for, all with the decimals that it needs. */
 export function vectorShort(vector, count = 3) {
-  const [factor, unit] = Math.hypot(...vector) >= 1 ? [1, "m"] : [1e3, "mm"];
+  const [factor, unit] = lengthUnit(Math.hypot(...vector));
   const size = factor * Math.hypot(...vector);
   const decimals = size > 0 ? Math.min(9, Math.max(0, count - 1 - Math.floor(Math.log10(size)))) : 0;
   const shown = vector.map((value) => String(Number((factor * value).toFixed(decimals)) || 0));
@@ -50,12 +67,6 @@ export function sharePercent(share) {
 export function rangeWithUnit(least, greatest, unit) {
   const [factor, prefix] = greatest >= 1e4 ? [1e3, "k"] : [1, ""];
   return `${digits(least / factor)} to ${digits(greatest / factor)} ${prefix}${unit}`;
-}
-
-/** A length in millimetres from metres, or in metres where it is large. */
-export function short(metres, count = 4) {
-  if (metres === null || metres === undefined || !Number.isFinite(metres)) return "none";
-  return Math.abs(metres) >= 1 ? `${digits(metres, count)} m` : `${digits(1e3 * metres, count)} mm`;
 }
 
 /** A residual: two digits and an exponent. */
@@ -123,6 +134,11 @@ export function shownUnit(unit) {
 export function escape(text) {
   const entities = { "&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;", "'": "&#39;" };
   return String(text).replace(/[&<>"']/g, (letter) => entities[letter]);
+}
+
+/** A reason of the models with numbers of seven digits at most: 6.50625 for 6.5062500000000005. */
+export function readable(reason) {
+  return reason.replace(/\d+\.\d{7,}(e[-+]?\d+)?/g, (text) => String(Number(Number(text).toPrecision(7))));
 }
 
 const KINDS = {

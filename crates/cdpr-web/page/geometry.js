@@ -3,17 +3,37 @@
 import { fromVector, product, turned } from "./rotation.js";
 
 /**
- * The box around the exit points, and where the floor is drawn.
+ * The box around the exit points.
  * @param {number[][]} exits
- * @returns {{min: number[], max: number[], size: number, floor: number, middle: number[]}}
+ * @returns {{min: number[], max: number[], size: number, middle: number[]}}
  */
 export function extents(exits) {
   const min = [0, 1, 2].map((k) => Math.min(...exits.map((exit) => exit[k])));
   const max = [0, 1, 2].map((k) => Math.max(...exits.map((exit) => exit[k])));
   const size = Math.max(...max.map((value, k) => value - min[k]), 1e-3);
-  // Frames are surveyed from the floor; of those that hang above nothing the floor is below the lowest exit.
-  const floor = min[2] >= 0 && min[2] < 2 * size ? 0 : min[2];
-  return { min, max, size, floor, middle: min.map((value, k) => (value + max[k]) / 2) };
+  return { min, max, size, middle: min.map((value, k) => (value + max[k]) / 2) };
+}
+
+/**
+ * The height of the ground [m], below which the platform does not go: that of the robot file or, for a frame
+ * that is surveyed from the floor and a platform above it, zero; null where nothing says where it is.
+ * @param {{exits: number[][], anchors: number[][], start: {pose: number[]}|null, ground_z?: number}} robot
+ */
+export function groundOf({ exits, anchors, start, ground_z }) {
+  if (Number.isFinite(ground_z)) return ground_z;
+  const { min, size } = extents(exits);
+  const isSurveyed = min[2] >= 0 && min[2] < 2 * size;
+  return isSurveyed && Math.min(0, ...feet({ anchors, start })) === 0 ? 0 : null;
+}
+
+/** The height at which the floor is drawn: the ground or, without one, the lowest exit or anchor point. */
+export function floorOf(robot) {
+  return groundOf(robot) ?? Math.min(...robot.exits.map((exit) => exit[2]), ...feet(robot));
+}
+
+// Heights of the anchor points where the platform stands first.
+function feet({ anchors, start }) {
+  return start ? anchorsAt(start.pose, anchors).map((anchor) => anchor[2]) : [];
 }
 
 /** Indices of the exit points in the order of their angle about the vertical through their middle. */
@@ -55,18 +75,21 @@ export function bodyPoints(anchors, size) {
 }
 
 /**
- * Points of a cable with its distances from the chord times a factor.
+ * Points of a cable with the distances of its free part from the chord times a factor. What lies on a pulley
+ * stays there.
  * @param {number[]} points flat, from the exit point to the anchor point
+ * @param {number} [free] index of the first point of the free part: where the cable leaves its pulley
  */
-export function exaggerated(points, factor) {
+export function exaggerated(points, factor, free = 0) {
   if (factor === 1) return points;
-  const last = points.length - 3;
-  const chord = [0, 1, 2].map((k) => points[last + k] - points[k]);
+  const [first, last] = [3 * free, points.length - 3];
+  const chord = [0, 1, 2].map((k) => points[last + k] - points[first + k]);
   const square = dot(chord, chord) || 1;
   return points.map((value, i) => {
+    if (i < first) return value;
     const base = i - (i % 3);
-    const t = [0, 1, 2].reduce((sum, k) => sum + (points[base + k] - points[k]) * chord[k], 0) / square;
-    const onChord = points[i % 3] + t * chord[i % 3];
+    const along = [0, 1, 2].reduce((sum, k) => sum + (points[base + k] - points[first + k]) * chord[k], 0);
+    const onChord = points[first + (i % 3)] + (along / square) * chord[i % 3];
     return onChord + factor * (value - onChord);
   });
 }
@@ -85,10 +108,10 @@ export function anchorsAt(pose, anchors) {
   return anchors.map((anchor) => turned(pose.slice(3), anchor).map((value, k) => value + pose[k]));
 }
 
-/** Points of a cable whose anchor point has moved by `step`, the nearer to it the more. */
-export function followed(points, step) {
-  const count = points.length / 3 - 1;
-  return points.map((value, i) => value + (step[i % 3] * Math.floor(i / 3)) / count);
+/** Points of a cable whose anchor point has moved by `step`: those of its free part, the nearer the more. */
+export function followed(points, step, free = 0) {
+  const count = points.length / 3 - 1 - free;
+  return points.map((value, i) => value + (step[i % 3] * Math.max(0, Math.floor(i / 3) - free)) / count);
 }
 
 /** A motion of unit size, scaled so that its fastest point moves by `reach` [m]. */

@@ -69,7 +69,7 @@ export function mount(
       engine.dispose();
       return element.replaceChildren(message(`This robot cannot be shown: ${answer.error.reason}.`));
     }
-    const described = study ? { ...answer.ok, ...ofStudy(study) } : answer.ok;
+    const described = { ...answer.ok, ground_z: robot.ground_z, ...(study ? ofStudy(study) : {}) };
     if (pose) described.start = { ...described.start, pose };
     app = new App(element, {
       engine,

@@ -47,7 +47,7 @@ export class Moves {
       const position = state.position.map((value, k) =>
         k === axis ? rounded(value + sign * this.step * factor, 6) : value,
       );
-      store.set({ position }, { commit: true });
+      store.set({ position: this.#above(position) }, { commit: true });
     }
   }
 
@@ -78,7 +78,16 @@ export class Moves {
     const place = placeOf(pose);
     const kept = (now, before, digits) =>
       now.map((value, k) => (Math.abs(value - before[k]) < 1e-4 ? before[k] : rounded(value, digits)));
-    return { position: kept(place.position, position, decimals), rpy_deg: kept(place.rpy_deg, rpy_deg, 2) };
+    return {
+      position: this.#above(kept(place.position, position, decimals)),
+      rpy_deg: kept(place.rpy_deg, rpy_deg, 2),
+    };
+  }
+
+  // A position that is not below the ground, nor lower than the platform already is.
+  #above([x, y, z]) {
+    const { ground, store } = this.app;
+    return [x, y, ground === null ? z : Math.max(z, Math.min(ground, store.state.position[2]))];
   }
 
   // The hand pulls with a force in proportion to its way from where it took the platform.

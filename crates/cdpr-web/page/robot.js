@@ -115,6 +115,23 @@ export function studyOf(study, state, { robot, observations = state.observations
 }
 
 /**
+ * Why the study of the state would be of another state, or of nothing; null where it is of this one. Studies
+ * wind the cables for the pose, and load the platform with the payload alone.
+ * @param {object} study the study of the template
+ * @param {object} state
+ */
+export function unobserved(study, { way, force, moment, payload, tolerances: factors }) {
+  if (way === "kept")
+    return "the lengths are kept, but robots are observed with cables for the pose: choose tensions anew";
+  if ([...force, ...moment].some((value) => value !== 0))
+    return "robots are observed under the payload alone: set force and moment to zero";
+  if (payload === 0) return "there is no payload, so there is no deflection to observe: set a payload";
+  const entries = Object.keys(tolerances(study));
+  if (entries.every((entry) => factors[entry] === 0)) return "all tolerances are zero, so nothing deviates";
+  return null;
+}
+
+/**
  * Shares of the tolerances in the variance, by effects: the variance of a parameter that acts linearly is its
  * effect squared over 3 (uniform law), or over 8/π (normal law).
  * @param {Array<{entry: string, effect_mm: number}>} effects

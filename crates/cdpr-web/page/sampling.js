@@ -1,7 +1,7 @@
 // Observations of perturbed robots at the pose on screen: few while it moves, more and more once it rests.
 
 import { summary } from "./charts/statistics.js";
-import { studyOf, tolerances } from "./robot.js";
+import { studyOf, unobserved } from "./robot.js";
 
 // Time of the observations while the platform moves, and the longest time of one question at rest [ms].
 const COARSE_TIME = 120;
@@ -23,7 +23,7 @@ export function affordable(time, rate, most) {
 }
 
 export class Sampling {
-  /** {summary, nominal, failed, milliseconds, coarse, key, observations} of the last observations. */
+  /** {summary, nominal, failed, milliseconds, coarse, key, observations, study} of the last observations. */
   sample = null;
   /** {inputs, confidence, replicates, key, observations} of the last effects, with those of a replicate. */
   effects = null;
@@ -48,11 +48,14 @@ export class Sampling {
   update(state, version) {
     if (!this.study) return;
     const { position, rpy_deg, payload, free, tolerances: factors, observations, changes } = state;
-    const key = JSON.stringify([position, rpy_deg, payload, free, factors, observations, changes, version]);
+    const reason = unobserved(this.study, state);
+    const observed = [position, rpy_deg, payload, free, factors, observations, changes, version];
+    const key = JSON.stringify([reason, ...(reason === null ? observed : [])]);
     if (key === this.#wanted?.key) return;
     this.#wanted = { key, state, since: performance.now() };
     this.failure = null;
-    if (!this.busy) this.#run();
+    // Numbers of a state that is not observed must not stay until the running question is answered.
+    if (!this.#refused(state) && !this.busy) this.#run();
   }
 
   /** Whether the effects are of the state on screen. */
@@ -60,9 +63,24 @@ export class Sampling {
     return this.effects !== null && this.effects.key === this.#wanted?.key;
   }
 
-  /** Whether what is shown is of the state on screen. */
+  /** Whether the observations are of the state on screen. */
+  get hasSample() {
+    return this.sample !== null && this.sample.key === this.#wanted?.key;
+  }
+
+  /** The same, and as many as are made of it. */
   get current() {
-    return this.sample?.key === this.#wanted?.key && !this.sample?.coarse;
+    return this.hasSample && !this.sample.coarse;
+  }
+
+  /** The observations with their inputs, as the engine answers `table`. */
+  async table() {
+    const {
+      answers: [set, made],
+    } = await this.engine.ask("observe", [this.sample.study, { table: {} }]);
+    const { ok, error } = set.error ? set : made;
+    if (error) throw new Error(error.reason);
+    return ok;
   }
 
   dispose() {
@@ -97,17 +115,19 @@ export class Sampling {
 
   // All in one batch of one worker: it returns soon, and a newer pose waits for nothing else.
   async #coarse({ key, state }) {
-    if (this.#nothing(state)) return false;
+    if (this.#refused(state)) return false;
     if (this.#rate === null) await this.#measure(state);
     const count = affordable(COARSE_TIME / 3, this.#rate, state.observations);
     const slow = 3 * count * this.#rate > SLOW;
     const more = slow ? [] : [...observe(1, 2), { effects: "batch" }];
-    const asks = [this.#text(state, count), ...observe(0), ...more];
+    const text = this.#text(state, count);
+    const asks = [text, ...observe(0), ...more];
     const {
       answers: [set, first, , , effects],
       milliseconds,
     } = await this.engine.ask("observe", asks);
-    if (!this.#take(key, set, first, slow ? milliseconds : milliseconds / 3, true)) return false;
+    const asked = { key, study: text, coarse: true };
+    if (!this.#take(asked, set, first, slow ? milliseconds : milliseconds / 3)) return false;
     if (effects?.ok) this.effects = { ...effects.ok, key, observations: count };
     this.told();
     return true;
@@ -122,7 +142,7 @@ export class Sampling {
 
   // As many observations as are wanted, in steps where one takes long.
   async #refine({ key, state }) {
-    if (this.#nothing(state)) return;
+    if (this.#refused(state)) return;
     if (this.#rate === null) await this.#measure(state);
     let count = 0;
     while (count < state.observations && this.#wanted.key === key) {
@@ -141,11 +161,12 @@ export class Sampling {
       answers: [set, first],
       milliseconds,
     } = await ask(0);
-    if (!this.#take(key, set, first, milliseconds, false)) return false;
+    if (!this.#take({ key, study: text, coarse: false }, set, first, milliseconds)) return false;
     this.told();
     if (this.#wanted.key !== key) return false;
     const replicates = Math.max(2, this.study.replicates);
     const parts = await Promise.all(Array.from({ length: replicates }, (_, k) => ask(k + 1)));
+    if (this.#wanted.key !== key) return false;
     const of = parts.map(({ answers: [, part] }) => part.ok?.effects).filter(Boolean);
     if (of.length < 2) {
       const error = parts.map(({ answers: [, part] }) => part.error).find(Boolean);
@@ -156,32 +177,28 @@ export class Sampling {
     const {
       answers: [, effects],
     } = await this.engine.ask("observe", [text, { effects: { of } }]);
+    if (this.#wanted.key !== key) return false;
     if (effects.ok) this.effects = { ...effects.ok, key, observations: count };
     else this.failure = effects.error;
     this.told();
     return true;
   }
 
-  #nothing(state) {
-    const factors = Object.keys(tolerances(this.study)).map((entry) => state.tolerances[entry] ?? 1);
-    const reason =
-      state.payload === 0
-        ? "there is no payload, so there is no deflection to observe: set a payload"
-        : factors.every((factor) => factor === 0)
-          ? "all tolerances are zero, so nothing deviates"
-          : null;
+  #refused(state) {
+    const reason = unobserved(this.study, state);
     if (reason === null) return false;
-    this.failure = { kind: "nothing", reason };
+    this.failure = { kind: "unobserved", reason };
     this.sample = null;
     this.effects = null;
     this.told();
     return true;
   }
 
-  #take(key, set, observed, milliseconds, coarse) {
+  #take(asked, set, observed, milliseconds) {
+    if (this.#refused(this.#wanted.state)) return false;
     const { error } = set.error ? set : observed;
     if (error) {
-      this.failure = error;
+      if (asked.key === this.#wanted.key) this.failure = error;
       this.told();
       return false;
     }
@@ -190,7 +207,7 @@ export class Sampling {
     const observations = values_mm.length;
     this.#rate = Math.max(milliseconds / observations, 1e-3);
     const numbers = { summary: summary(values_mm), nominal: nominal_mm, failed, milliseconds, observations };
-    this.sample = { ...numbers, coarse, key };
+    this.sample = { ...numbers, ...asked };
     return true;
   }
 }

@@ -9,7 +9,7 @@ import { digits, point, short } from "./format.js";
 import { PAPER } from "./palette.js";
 import { effectsTitle, histogramTitle } from "./panels/charts.js";
 import { mapTitle, quantityOf } from "./panels/slice.js";
-import { changedRobot, isChanged, studyOf } from "./robot.js";
+import { changedRobot, isChanged, studyOf, unobserved } from "./robot.js";
 
 const WIDTH = 640;
 const SVG = "image/svg+xml";
@@ -17,27 +17,40 @@ const JSON_TYPE = "application/json";
 
 /** Files by kind: words, whether there is something to save, and name, content and type. */
 export const FILES = {
-  png: { words: "Picture of the view (PNG)", ready: (app) => app.view && app.mechanics.picture },
+  png: { words: "Picture of the view (PNG)", ready: (app) => app.view && isFound(app) },
   histogram: { words: "Histogram (SVG)", ready: observed, file: histogramFile },
-  effects: { words: "Effects (SVG)", ready: (app) => app.sampling.effects, file: effectsFile },
+  effects: { words: "Effects (SVG)", ready: (app) => app.sampling.hasEffects, file: effectsFile },
   map: { words: "Slice (SVG)", ready: (app) => app.slicing.plane, file: mapFile },
-  csv: { words: "Table of the cables (CSV)", ready: (app) => app.mechanics.picture, file: cablesFile },
+  csv: { words: "Table of the cables (CSV)", ready: isFound, file: cablesFile },
   observations: { words: "Observations (CSV)", ready: observed, file: observationsFile },
   robot: { words: "Robot (JSON)", ready: () => true, file: robotFile },
-  study: { words: "Study (JSON)", ready: (app) => app.robot.study, file: studyFile },
+  study: { words: "Study (JSON)", ready: hasStudy, file: studyFile },
   state: { words: "State of this page (JSON)", ready: () => true, file: stateFile },
 };
 
 /** Saves a file of a kind; returns what is to be said about it. */
-export function save(app, kind) {
+export async function save(app, kind) {
   if (kind === "png") return savePicture(app);
-  const [name, content, type] = FILES[kind].file(app);
-  download(name, content, type);
-  return `${name} is saved.`;
+  try {
+    const [name, content, type] = await FILES[kind].file(app);
+    download(name, content, type);
+    return `${name} is saved.`;
+  } catch (error) {
+    return `Not saved: ${error.message}.`;
+  }
+}
+
+// Files are of the state on screen: not of one before it, nor of the last that was found.
+function isFound({ mechanics }) {
+  return mechanics.picture && !mechanics.failure;
 }
 
 function observed({ sampling }) {
-  return sampling.sample?.summary.count > 1;
+  return sampling.hasSample && sampling.sample.summary.count > 1;
+}
+
+function hasStudy({ robot: { study }, store }) {
+  return study && unobserved(study, store.state) === null;
 }
 
 function histogramFile({ name, sampling: { sample } }) {
@@ -60,8 +73,8 @@ function cablesFile({ name, mechanics, robot }) {
   return [`${stem(name)}-cables.csv`, cablesCsv(mechanics.picture, robot.limits), "text/csv"];
 }
 
-function observationsFile({ name, sampling }) {
-  return [`${stem(name)}-observations.csv`, observationsCsv(sampling.sample), "text/csv"];
+async function observationsFile({ name, sampling }) {
+  return [`${stem(name)}-observations.csv`, observationsCsv(await sampling.table()), "text/csv"];
 }
 
 function robotFile({ name, file, store: { state } }) {

@@ -1,5 +1,7 @@
 // Slices of the workspace: their planes, their rows, and the quantities that are shown.
 
+import { lengthUnit } from "./format.js";
+
 /** The two axes in the plane across each axis. */
 export const SLICE_AXES = { x: ["y", "z"], y: ["x", "z"], z: ["x", "y"] };
 
@@ -97,6 +99,16 @@ export function rangeOf(cells, field) {
   if (list.length === 0) return null;
   const values = list.map((k) => cells.values[field][k]);
   return [values.reduce((a, b) => Math.min(a, b)), values.reduce((a, b) => Math.max(a, b))];
+}
+
+/**
+ * How a quantity of a slice with this range is shown: the factor of its values, and the unit. Deflections
+ * have the unit that the greatest of them asks for.
+ */
+export function shownIn({ field, unit }, range) {
+  if (field !== "deflection_mm" || range === null) return [1, unit];
+  const [factor, name] = lengthUnit(range[1] / 1e3);
+  return [factor / 1e3, name];
 }
 
 /** Column and row of the greatest (`sign` 1) or least (-1) of these values, or null. */

@@ -1,7 +1,7 @@
 // A slice of the workspace that fills in row by row.
 
 import { STALE } from "./engine.js";
-import { extents } from "./geometry.js";
+import { floorOf } from "./geometry.js";
 import { loadOf } from "./mechanics.js";
 import { quaternion } from "./rotation.js";
 import { emptyCells, fill, plane, rowOrder } from "./slices.js";
@@ -21,7 +21,7 @@ export class Slicing {
     this.engine = engine;
     this.robot = robot;
     this.told = told;
-    this.floor = extents(robot.exits).floor;
+    this.floor = floorOf(robot);
   }
 
   get filling() {

@@ -54,6 +54,7 @@ impl Live {
                 }))
             }
             Question::Observe(given) => text(self.study().and_then(|study| observe::observe(study, given))),
+            Question::Table {} => text(self.study().and_then(observe::table)),
             Question::Effects { of } => text(self.study().and_then(|study| observe::effects(study, &of))),
             Question::Slice(given) => text(slice::slice(robot, &given)),
         }

@@ -31,6 +31,8 @@ pub enum Question {
     },
     /// Observations of one design of the study.
     Observe(ObserveReplicate),
+    /// The observations of the study's own design with their inputs.
+    Table {},
     /// Signed effects from the opaque `effects` of the replicates 1, 2, .. of the study.
     Effects {
         /// Those of each replicate.

@@ -57,6 +57,7 @@ pub(crate) fn questions(live: &mut Live) -> Vec<Value> {
         json!({"study": {"text": study}}),
         json!({"observe": {"replicate": 0}}),
         json!({"observe": {"replicate": 1}}),
+        json!({"table": {}}),
         json!({"slice": slice}),
     ]
 }

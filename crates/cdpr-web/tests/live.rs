@@ -80,3 +80,51 @@ fn what_cannot_be_answered_says_why() {
     refused(&mut live, json!({"slice": rows}), "invalid_input", "rows");
     assert!(Live::new("{}").is_err());
 }
+
+#[test]
+fn a_table_has_the_inputs_and_outputs_of_every_observation() {
+    let mut live = Live::new(&robots().swap_remove(0).1).unwrap();
+    let mut study = ask(&mut live, &json!({"describe": {}}))["ok"]["study"].clone();
+    study["samplings"]["all"]["observations"] = json!(64);
+    ask(&mut live, &json!({"study": {"text": study}}));
+    let observed = ask(&mut live, &json!({"observe": {"replicate": 0}}))["ok"].clone();
+    let table = ask(&mut live, &json!({"table": {}}))["ok"].clone();
+    assert_eq!(table["seed"], study["seed"]);
+    assert_eq!(table["outputs"], json!(["dx_mm", "dy_mm", "dz_mm", "rms_mm"]));
+    let inputs = table["inputs"].as_array().unwrap();
+    assert!(inputs.contains(&json!({"name": "mass", "unit": "kg"})), "{inputs:?}");
+    let rows = table["rows"].as_array().unwrap();
+    assert_eq!(rows.len(), 64);
+    for (row, value) in rows.iter().zip(observed["values_mm"].as_array().unwrap()) {
+        assert_eq!(row["inputs"].as_array().unwrap().len(), inputs.len());
+        assert_eq!(row["outputs_mm"][3], *value);
+    }
+    let masses: Vec<_> = rows.iter().map(|row| row["inputs"][0].as_f64().unwrap()).collect();
+    assert!(masses.iter().any(|deviation| *deviation != masses[0]));
+}
+
+#[test]
+fn a_cable_says_where_it_leaves_its_pulley() {
+    for (name, robot) in robots() {
+        let mut live = Live::new(&robot).unwrap();
+        let hold = questions(&mut live).swap_remove(1);
+        let held = ask(&mut live, &hold)["ok"].clone();
+        for cable in held["loaded"]["cables"].as_array().unwrap() {
+            let (points, free) = (cable["points"].as_array().unwrap(), cable["free"].as_u64().unwrap());
+            let on_pulley = !cable["wheel"].as_array().unwrap().is_empty();
+            assert_eq!(on_pulley, free > 0, "{name}");
+            // The free cable begins on the wheel, as far from its middle as every point around it.
+            let place = |points: &[Value], k: usize| [0, 1, 2].map(|c| points[3 * k + c].as_f64().unwrap());
+            if let [wheel @ .., _, _, _] = cable["wheel"].as_array().unwrap().as_slice() {
+                let count = wheel.len() / 3;
+                let sum = (0..count)
+                    .map(|k| place(wheel, k))
+                    .fold([0.0; 3], |sum, p| [0, 1, 2].map(|c| sum[c] + p[c]));
+                let far =
+                    |p: [f64; 3]| (0..3).map(|c| (p[c] - sum[c] / count as f64).powi(2)).sum::<f64>().sqrt();
+                let [leave, radius] = [far(place(points, free as usize)), far(place(wheel, 0))];
+                assert!((leave - radius).abs() < 1e-9, "{name}: {leave} and {radius}");
+            }
+        }
+    }
+}

@@ -3,16 +3,15 @@
 
 use super::{Findings, Severity};
 use crate::clearance::HangingCables;
-use cdpr_robot::{Pose, Robot};
+use cdpr_robot::{Pose, Robot, frame};
 use cdpr_statics::{DirectProblem, InverseSolution, Load, Start, inverse};
-use cdpr_study::frame;
 
 /// Weight of the cables, as a share of the platform's weight, beyond which sag shapes the robot.
 const CABLE_WEIGHT: f64 = 0.5;
 /// Ratio of the extreme singular values of the wrench matrix beyond which it hardly resists some wrench.
 const CONDITION: f64 = 100.0;
 /// Distance of the surfaces of cables that touch [m].
-const TOUCHING: f64 = 1e-9;
+pub(super) const TOUCHING: f64 = 1e-9;
 
 impl Findings<'_> {
     /// Findings at a pose with feasible tensions.
@@ -21,8 +20,9 @@ impl Findings<'_> {
         let [x, y, z] = pose.position.into();
         let at = format!("at ({x:.3}, {y:.3}, {z:.3}) m");
         let cables = 0..robot.cables.len();
-        let weight: f64 =
-            cables.clone().map(|i| robot.cable(i).weight_per_length * solution.lengths[i]).sum();
+        // Leads have no weight.
+        let weight = |i| robot.cable(i).weight_per_length * (solution.lengths[i] - robot.cables[i].lead);
+        let weight: f64 = cables.clone().map(weight).sum();
         let share = weight / (robot.platform.mass * robot.gravity.magnitude());
         if share > CABLE_WEIGHT {
             self.add(
@@ -124,14 +124,23 @@ impl Findings<'_> {
 
 /// A level pose with feasible tensions, on the vertical through the middle of the exit points. Where the exit
 /// points have one height, it is as near as possible to half of the frame's size below them; otherwise it is
-/// as near as possible to the middle of their heights.
+/// as near as possible to the middle of their heights. The platform stays above `ground_z`; without it, under
+/// exit points that are all above z = 0, above this floor.
 pub(super) fn held(robot: &Robot) -> Option<(Pose, InverseSolution)> {
     let [[x_low, x_high], [y_low, y_high], [z_low, z_high]] = frame(robot);
     let size = (x_high - x_low).max(y_high - y_low).max(z_high - z_low);
-    let middle = if z_high - z_low > 0.1 * size { 0.5 * (z_low + z_high) } else { z_low - 0.5 * size };
+    let flat = z_high - z_low <= 0.1 * size;
+    let lowest = robot.cables.iter().map(|cable| cable.anchor_point.z).fold(0.0, f64::min);
+    let floor = match robot.ground_z {
+        Some(ground) if ground - lowest < z_low => ground - lowest,
+        _ if z_low > 0.0 => (-lowest).min(z_low),
+        _ => f64::NEG_INFINITY,
+    };
+    let middle = if flat { (z_low - 0.5 * size).max(0.5 * (floor + z_low)) } else { 0.5 * (z_low + z_high) };
     (0..=20).find_map(|k| {
         let offset = 0.05 * size * f64::from((k + 1) / 2) * if k % 2 == 0 { 1.0 } else { -1.0 };
-        let pose = Pose::at(0.5 * (x_low + x_high), 0.5 * (y_low + y_high), middle + offset);
+        let z = Some(middle + offset).filter(|z| *z >= floor)?;
+        let pose = Pose::at(0.5 * (x_low + x_high), 0.5 * (y_low + y_high), z);
         inverse(robot, &pose, &Load::none(), None).ok().map(|solution| (pose, solution))
     })
 }

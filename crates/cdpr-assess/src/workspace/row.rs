@@ -27,6 +27,8 @@ pub struct WorkspaceRow {
     pub least_stiffness: Option<f64>,
     /// Lowest natural frequency with the load.
     pub lowest_frequency_hz: Option<f64>,
+    /// That of the slowest cable, between ends at rest.
+    pub lowest_cable_frequency_hz: Option<f64>,
     /// Their numbers, from 1, with spaces between.
     pub slack_cables: Option<String>,
     /// Tensions out of limits, in words.
@@ -36,7 +38,7 @@ pub struct WorkspaceRow {
     pub dominant_share: Option<f64>,
     /// Standard deviation of |dp| from all tolerances.
     pub std_mm: Option<f64>,
-    /// Why the pose is not held.
+    /// Why the pose is not held, or a value is missing.
     pub reason: Option<String>,
     /// `held` where tensions distributed anew hold the pose under the load, else the kind of failure; this
     /// and the following are empty without a load.
@@ -76,6 +78,8 @@ impl WorkspaceRow {
         let loaded = held.filter(|_| workspace.load != Load::none());
         let displacement = loaded.map(|held| 1e3 * held.displacement);
         let dominant = held.and_then(|held| held.dominant);
+        let overflow = dominant.is_some_and(|dominant| !dominant.std.is_finite());
+        let dominant = dominant.filter(|_| !overflow);
         let anew = pose.anew.as_ref();
         let tensions = anew.and_then(|anew| anew.as_ref().ok());
         let figure = |of: fn(&Capacity) -> &Result<Figure, StaticsError>| {
@@ -105,6 +109,9 @@ impl WorkspaceRow {
             rms_mm: displacement.map(|dp| dp.norm()),
             least_stiffness: held.map(|held| held.least_stiffness),
             lowest_frequency_hz: held.and_then(|held| held.lowest_frequency),
+            lowest_cable_frequency_hz: held
+                .and_then(|held| held.lowest_cable_frequency)
+                .map(|of| of.frequency),
             slack_cables: held
                 .map(|held| held.slack.iter().map(|i| (i + 1).to_string()).collect::<Vec<_>>().join(" ")),
             out_of_limits: held
@@ -114,7 +121,7 @@ impl WorkspaceRow {
             dominant_share: dominant.map(|dominant| dominant.share),
             std_mm: dominant.map(|dominant| 1e3 * dominant.std),
             reason: match &pose.outcome {
-                Ok(held) if held.is_within_limits() => None,
+                Ok(held) if held.is_within_limits() => overflow.then(|| OVERFLOW.to_owned()),
                 Ok(held) => Some(in_words(&held.out_of_limits)),
                 Err(error) => Some(error.to_string()),
             },
@@ -137,6 +144,9 @@ impl WorkspaceRow {
         }
     }
 }
+
+/// Why a position that is held has no standard deviation.
+const OVERFLOW: &str = "the variance by the tolerances is too large a number: std_mm is left out";
 
 /// Tensions out of limits, in one cell.
 fn in_words(list: &[OutOfLimits]) -> String {
@@ -172,6 +182,7 @@ pub(super) fn columns<S: Serializer>(rows: &[WorkspaceRow], serializer: S) -> Re
         rms_mm,
         least_stiffness,
         lowest_frequency_hz,
+        lowest_cable_frequency_hz,
         slack_cables,
         out_of_limits,
         dominant,

@@ -54,6 +54,8 @@ pub struct WorkspaceSummary {
     pub least_stiffness: Option<Extremes>,
     /// Lowest natural frequency with the load [Hz]; absent without `platform.inertia`.
     pub lowest_frequency_hz: Option<Extremes>,
+    /// That of the slowest cable between ends at rest [Hz]; as the lowest frequency.
+    pub lowest_cable_frequency_hz: Option<Extremes>,
     /// Greatest tension [N].
     pub greatest_tension: Option<Extremes>,
     /// Least tension [N].
@@ -170,6 +172,7 @@ impl WorkspaceSummary {
             rms_mm: held_extremes(&rows, |row| row.rms_mm),
             least_stiffness: held_extremes(&rows, |row| row.least_stiffness),
             lowest_frequency_hz: held_extremes(&rows, |row| row.lowest_frequency_hz),
+            lowest_cable_frequency_hz: held_extremes(&rows, |row| row.lowest_cable_frequency_hz),
             greatest_tension: held_extremes(&rows, |row| row.greatest_tension),
             least_tension: held_extremes(&rows, |row| row.least_tension),
             anew_greatest_tension: extremes(rows.iter(), |row| row.anew_greatest_tension),

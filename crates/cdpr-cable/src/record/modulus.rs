@@ -1,5 +1,6 @@
 //! Secant and tangent moduli of a record.
 
+use crate::error::MAX_STRAIN;
 use crate::record::load_cycle::Record;
 use crate::record::sample::{Phase, RecordError, Sample};
 
@@ -42,8 +43,6 @@ pub struct TangentModulus {
     pub modulus: f64,
 }
 
-/// A strain above this, or a modulus outside of [`MODULI`], comes from another unit.
-const MAX_STRAIN: f64 = 0.1;
 /// Moduli of cables [Pa].
 const MODULI: std::ops::RangeInclusive<f64> = 1e9..=1e12;
 

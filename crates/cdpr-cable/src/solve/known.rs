@@ -74,15 +74,21 @@ impl Known {
     /// The equilibrium of a cable with these known quantities.
     ///
     /// # Errors
-    /// Those of [`end_force`], [`Catenary::new`] and [`length_for_tension`].
+    /// Those of [`end_force`], [`Catenary::new`] and [`length_for_tension`];
+    /// [`CableError::Overstrained`] beyond [`crate::MAX_STRAIN`].
     pub fn solve<'a>(&self, cable: &Cable<'a>) -> Result<Solution<'a>, CableError> {
-        match *self {
-            Self::LengthAndEnd { length, end } => end_force(cable, length, end),
+        let solution = match *self {
+            Self::LengthAndEnd { length, end } => end_force(cable, length, end)?,
             Self::LengthAndForce { length, force } => {
                 let catenary = Catenary::new(*cable, length, force)?;
-                Ok(Solution { catenary, end: catenary.end_position(), iterations: 0, residual: 0.0 })
+                Solution { catenary, end: catenary.end_position(), iterations: 0, residual: 0.0 }
             }
-            Self::EndAndTension { end, tension } => length_for_tension(cable, end, tension),
+            Self::EndAndTension { end, tension } => length_for_tension(cable, end, tension)?,
+        };
+        let tension = solution.catenary.anchor_tension().max(solution.catenary.exit_tension());
+        match cable.overstrain(tension) {
+            Some(strain) => Err(CableError::Overstrained { tension, strain }),
+            None => Ok(solution),
         }
     }
 }

@@ -2,11 +2,14 @@
 
 use crate::error::CalibrationError;
 use crate::fit::problem::{Problem, Seen};
-use crate::fit::search::{Found, Linearized, NEAR_ENOUGH};
-use crate::fitted::{Estimate, Fit, UnidentifiableCombination};
+use crate::fit::search::{Found, Linearized};
+use crate::fitted::{Estimate, Fit, FitStatus, UnidentifiableCombination, is_known};
 use crate::identify::own_parameters;
+use crate::model::Shared;
+use crate::model::read::inverse_of_right;
 use crate::solve::Decomposed;
-use cdpr_robot::Parameter;
+use crate::unknowns::SensorError;
+use cdpr_robot::{Parameter, UnitQuaternion};
 use nalgebra::{DMatrix, DVector};
 
 impl Problem<'_> {
@@ -14,44 +17,32 @@ impl Problem<'_> {
         &self,
         Found { state, at, steps, distance }: Found,
         (before, poses_before): Seen,
-        same: usize,
+        starts: [usize; 2],
     ) -> Result<Fit, CalibrationError> {
         let unknowns = self.model.unknowns;
         let robot = self.model.deviating(&state.shared.x)?;
         let compared = self.compared(&state, &robot)?;
         let after = self.differences(&compared);
-        let whole = self.decomposed(&at, &state.shared.x, true);
-        let data = self.decomposed(&at, &state.shared.x, false);
+        let whole = self.decomposed(&at, &state.shared, true);
+        let data = self.decomposed(&at, &state.shared, false);
         let count = unknowns.all.len();
         let scales = DVector::from_iterator(count, unknowns.all.iter().map(|unknown| unknown.scale));
-        let scaled = |mut matrix: DMatrix<f64>| {
-            for i in 0..count {
-                for j in 0..count {
-                    matrix[(i, j)] *= scales[i] * scales[j];
-                }
-            }
-            matrix
-        };
-        let covariance = scaled(whole.covariance());
-        // By the data alone, each unknown's share of every combination, however little the data tell it.
-        let of_data = |j: usize| {
-            let floor = crate::solve::ROUNDING * data.values.max().max(1.0);
-            let of = |k: usize| data.vectors[(k, j)] / data.values[k].max(floor);
-            let variance: f64 = (0..count).map(|k| of(k).powi(2)).sum();
-            // In scales: below 1 it is told.
-            (variance < 1.0).then(|| variance.sqrt() * scales[j])
+        let mut covariance = whole.covariance();
+        covariance.iter_mut().enumerate().for_each(|(k, of)| *of *= scales[k / count] * scales[k % count]);
+        let weights = self.weights(&state.shared);
+        let roots = [&whole, &data].map(Decomposed::root);
+        let std = |root: &DMatrix<f64>, j: usize| {
+            let std = (root * weights.column(j)).norm();
+            is_known(std, 1.0).then(|| std * scales[j])
         };
         let estimates = (0..count)
             .map(|j| {
                 let unknown = &unknowns.all[j];
-                let std_of_data = of_data(j);
-                // Without a prior, what a combination that keeps its value adds counts, too.
-                let with_prior = unknown.prior.map(|_| covariance[(j, j)].max(0.0).sqrt());
                 Estimate {
                     name: unknown.name.clone(),
                     value: state.shared.x[j],
-                    std: with_prior.or(std_of_data),
-                    std_of_data,
+                    std: std(&roots[0], j),
+                    std_of_data: std(&roots[1], j),
                     prior_std: unknown.prior.map(|[_, std]| std),
                 }
             })
@@ -59,9 +50,9 @@ impl Problem<'_> {
         let numbers: usize = after.len();
         let own: usize = compared.iter().map(|of| of.per_own.ncols()).sum();
         let told = (0..count).filter(|k| whole.tells(*k)).count();
-        let priors: Vec<_> = self.priors(&state.shared.x).map(|(_, r, _)| r * r).collect();
-        let chi_square =
-            compared.iter().map(|of| of.residuals.norm_squared()).sum::<f64>() + priors.iter().sum::<f64>();
+        let priors = self.priors(&state.shared);
+        let of_data = compared.iter().map(|of| of.residuals.norm_squared()).sum::<f64>();
+        let chi_square = of_data + priors.iter().map(|(_, r, _)| r * r).sum::<f64>();
         Ok(Fit {
             robot,
             estimates,
@@ -69,8 +60,10 @@ impl Problem<'_> {
             origin: state.shared.origin + self.translation(&state),
             deviations: unknowns.deviations(Parameter::of(self.model.robot).len(), &state.shared.x),
             covariance,
+            roots,
             unidentifiable: self.unidentifiable(&data),
             chi_square,
+            of_data: (of_data, numbers.saturating_sub(own + (0..count).filter(|k| data.tells(*k)).count())),
             degrees_of_freedom: (numbers + priors.len()).saturating_sub(own + told),
             before,
             after,
@@ -79,17 +72,30 @@ impl Problem<'_> {
             payloads: self.rows.iter().map(|row| row.load.payload).collect(),
             poses: state.rows.iter().map(|row| *row.pose()).collect(),
             steps,
-            converged: distance < NEAR_ENOUGH,
+            status: FitStatus::of(distance, starts),
             distance,
-            same,
+            starts,
             unknowns: unknowns.clone(),
         })
     }
 
-    /// Inputs of parameters that have to be known so that the data tell all others.
-    pub(super) fn unidentifiable_inputs(&self, at: &Linearized) -> Vec<usize> {
+    /// The combination of unknowns that each number printed depends on, in scales: its own unknown, but for a
+    /// rotation vector, whose unknowns are a further rotation.
+    fn weights(&self, shared: &Shared) -> DMatrix<f64> {
         let count = self.model.unknowns.all.len();
-        let decomposed = self.decomposed(at, &vec![0.0; count], false);
+        let mut weights = DMatrix::identity(count, count);
+        if let Some(first) = self.model.unknowns.sensor(SensorError::Frame) {
+            let turn = UnitQuaternion::from_rotation_matrix(&shared.frame).scaled_axis();
+            // log(exp(dφ) exp(r)) = r + J⁻¹ dφ with the left Jacobian J at r, the right one at -r.
+            let slopes = inverse_of_right(&-turn);
+            weights.view_mut((first + 3, first + 3), (3, 3)).copy_from(&slopes.transpose());
+        }
+        weights
+    }
+
+    /// Inputs of parameters that have to be known so that the data tell all others.
+    pub(super) fn unidentifiable_inputs(&self, shared: &Shared, at: &Linearized) -> Vec<usize> {
+        let decomposed = self.decomposed(at, shared, false);
         let rows = unidentifiable(&decomposed, self.model.unknowns.of_parameters());
         // A combination of errors of sensors alone has no parameter to fix.
         let has_parameter = |row: &DVector<f64>| row.amax() > 1e-6;

@@ -4,9 +4,9 @@ use crate::campaign::Row;
 use crate::error::CalibrationError;
 use crate::fitted::{Difference, FitSettings};
 use crate::model::compare::Compared;
-use crate::model::{Model, State};
+use crate::model::{Model, Shared, State};
 use crate::unknowns::SensorError;
-use cdpr_robot::{Pose, Robot, Vector3};
+use cdpr_robot::{Pose, Robot, UnitQuaternion, Vector3};
 use rayon::prelude::*;
 
 /// Residuals of all rows, and their poses.
@@ -21,19 +21,19 @@ pub(crate) struct Problem<'a> {
 
 impl Problem<'_> {
     pub(super) fn check(&self) -> Result<(), CalibrationError> {
-        let lengths = |row: &Row| if row.lengths.is_some() { row.length_std.len() } else { 0 };
-        let measured = |row: &Row| {
-            let noisy = row.length_std.iter().any(|std| *std > 0.0);
-            row.readings.len() + if noisy { lengths(row) } else { 0 }
-        };
-        let own = |row: &Row| {
-            let noisy = row.length_std.iter().any(|std| *std > 0.0);
-            if noisy || row.lengths.is_none() { self.model.robot.cables.len() } else { 0 }
-        };
+        let cables = self.model.robot.cables.len();
+        let noisy = |row: &Row| row.length_std.iter().any(|std| *std > 0.0);
+        let own = |row: &Row| if noisy(row) || row.lengths.is_none() { cables } else { 0 };
+        let lengths = |row: &Row| if row.lengths.is_some() && noisy(row) { row.length_std.len() } else { 0 };
+        let measured = |row: &Row| row.readings.len() + lengths(row);
         let measurements: usize = self.rows.iter().map(measured).sum();
         let nuisances: usize = self.rows.iter().map(own).sum();
         let free = self.model.unknowns.all.iter().filter(|unknown| unknown.prior.is_none()).count();
-        if measurements < free + nuisances || measurements == 0 {
+        if self.rows.iter().all(|row| measured(row) <= own(row)) {
+            let most = |of: &dyn Fn(&Row) -> usize| self.rows.iter().map(of).max().unwrap_or(0);
+            return Err(CalibrationError::NoSurplus { measured: most(&measured), unknown: most(&own) });
+        }
+        if measurements < free + nuisances {
             return Err(CalibrationError::TooFew { measurements, unknowns: free + nuisances, nuisances });
         }
         Ok(())
@@ -67,22 +67,29 @@ impl Problem<'_> {
         compared.iter().enumerate().flat_map(of).collect()
     }
 
-    /// Residual and square of the prior of each unknown.
-    pub(super) fn priors(&self, x: &[f64]) -> impl Iterator<Item = (usize, f64, f64)> {
-        let of = move |(j, unknown): (usize, &crate::unknowns::Unknown)| {
-            let [mean, std] = unknown.prior?;
-            Some((j, (x[j] - mean) / std, unknown.scale / std))
+    /// Residual of the prior of each unknown that has one, with its derivative in scales.
+    pub(super) fn priors(&self, shared: &Shared) -> Vec<(usize, f64, f64)> {
+        let turn = UnitQuaternion::from_rotation_matrix(&shared.frame).scaled_axis();
+        let frame = self.model.unknowns.sensor(SensorError::Frame);
+        let value = |j: usize| match frame.and_then(|first| j.checked_sub(first)) {
+            Some(k @ 0..3) => shared.origin[k] + shared.x[j],
+            Some(k @ 3..6) => turn[k - 3],
+            _ => shared.x[j],
         };
-        self.model.unknowns.all.iter().enumerate().filter_map(of).collect::<Vec<_>>().into_iter()
+        let of = |(j, unknown): (usize, &crate::unknowns::Unknown)| {
+            let [mean, std] = unknown.prior?;
+            Some((j, (value(j) - mean) / std, unknown.scale / std))
+        };
+        self.model.unknowns.all.iter().enumerate().filter_map(of).collect()
     }
 
     pub(super) fn row_cost(&self, of: &Compared) -> f64 {
         of.residuals.iter().map(|r| self.settings.loss.loss(*r)).sum()
     }
 
-    pub(super) fn cost(&self, compared: &[Compared], x: &[f64]) -> f64 {
+    pub(super) fn cost(&self, compared: &[Compared], shared: &Shared) -> f64 {
         compared.iter().map(|of| self.row_cost(of)).sum::<f64>()
-            + self.priors(x).map(|(_, r, _)| r * r).sum::<f64>()
+            + self.priors(shared).iter().map(|(_, r, _)| r * r).sum::<f64>()
     }
 
     pub(super) fn translation(&self, state: &State) -> Vector3<f64> {

@@ -5,22 +5,23 @@
 //! narrow valley, which stiff cables make of lengths and tensions, is followed so, in place of bouncing
 //! between its walls.
 
-use crate::campaign::Row;
 use crate::error::CalibrationError;
 use crate::fit::problem::Problem;
+use crate::fit::rows::{Look, RowAt, RowStep, Way};
 use crate::model::compare::Compared;
 use crate::model::{RowState, Shared, State};
 use crate::solve::{Decomposed, Eliminated, reduce, triangle};
 use crate::unknowns::SensorError;
-use cdpr_robot::{Robot, Rotation3, Vector3};
+use cdpr_robot::{Rotation3, Vector3};
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-/// A step is done where the minimum is as near as this, in standard deviations.
-const NEAR: f64 = 1e-8;
+/// The search is done where the minimum is as near as this, in standard deviations: the square is what a
+/// step would take from chi-square.
+pub(super) const NEAR: f64 = 1e-6;
 
-/// Distance at which rounding may stop the search.
-pub(super) const NEAR_ENOUGH: f64 = 1e-4;
+/// Distance at which it is seen where a start leads, in standard deviations: [`Found::leads_to`].
+pub(super) const SEEN: f64 = 1e-2;
 
 /// Distance below which the steps converge quadratically.
 const QUADRATIC: f64 = 1e-3;
@@ -35,10 +36,12 @@ const LEAST_DAMPING: f64 = 1e-10;
 const MOST_DAMPING: f64 = 1e4;
 
 /// All rows linearised at a state.
-pub(super) struct Linearized {
+pub(crate) struct Linearized {
     /// Triangular factor of [A ρ] in scales, without priors.
     data: DMatrix<f64>,
     rows: Vec<Eliminated>,
+    /// [`Compared::motion`] of each row.
+    motions: Vec<DMatrix<f64>>,
     pub(super) cost: f64,
 }
 
@@ -51,80 +54,49 @@ pub(super) struct Found {
     pub(super) distance: f64,
 }
 
-/// A row's own unknowns are at their best where a step would gain less than this share of its cost.
-const OWN_GAIN: f64 = 1e-3;
+impl Found {
+    /// The least chi-square by the last linearisation, where that is near enough to tell.
+    pub(super) fn leads_to(&self) -> f64 {
+        if self.distance <= SEEN { self.at.cost - self.distance * self.distance } else { self.at.cost }
+    }
+}
 
-/// Rows whose cost exceeds its expectation by so many of its standard deviations are begun anew.
-const BAD: f64 = 4.0;
-
-/// Share of a row's cost below which another equilibrium is taken.
-const WORTHWHILE: f64 = 0.9;
-
-/// Times that bad rows are begun anew at most.
+/// Times that rows are begun again at most.
 const MOST_LOOKS: usize = 10;
 
-/// Steps of the unknowns of a row at most.
-const MOST_OWN_STEPS: usize = 20;
-
-/// Shares of a step of the unknowns of a row that are tried.
-const SHARES: [f64; 6] = [1.0, 0.5, 0.25, 0.1, 0.03, 0.01];
-
 impl Problem<'_> {
-    /// Steps until the minimum is near, and none of the rows fits better with another equilibrium.
-    pub(super) fn search(&self, start: State, most: usize) -> Result<Found, CalibrationError> {
-        let mut found = self.descend(self.settled(start)?, most)?;
+    /// At most `most` steps, until the minimum is as near as `near`, in standard deviations, and none of the
+    /// rows fits better with another equilibrium.
+    pub(super) fn search(&self, start: State, near: f64, most: usize) -> Result<Found, CalibrationError> {
+        let mut found = self.descend(self.settled(start)?, near, most)?;
         for _ in 0..MOST_LOOKS {
-            let Some(better) = self.look_again(&found.state)? else { break };
+            let Some(better) = self.look_again(&found.state, Look::Bad)? else { break };
             let before = found.steps;
-            found = self.descend(better, most.saturating_sub(before))?;
+            found = self.descend(self.settled(better)?, near, most.saturating_sub(before))?;
             found.steps += before;
         }
         Ok(found)
     }
 
-    /// The state with rows that fit badly begun anew, if any of them fits better then: at an equilibrium with
-    /// other slack cables a row may be trapped.
-    fn look_again(&self, from: &State) -> Result<Option<(State, Linearized)>, CalibrationError> {
-        let robot = self.model.deviating(&from.shared.x)?;
-        let better: Vec<Option<RowState>> = (self.rows, &from.rows)
-            .into_par_iter()
-            .map(|(row, state)| {
-                let at = |state: RowState| {
-                    let compared = self.model.compare(row, &from.shared, &state, &robot).ok()?;
-                    Some(self.at_their_best(row, &from.shared, &robot, state, compared))
-                };
-                let now = self.row_cost(&at(state.clone())?.1);
-                let numbers = row.readings.len() as f64;
-                if now < numbers + BAD * (2.0 * numbers).sqrt() {
-                    return None;
-                }
-                let (again, compared) = at(self.model.begin(row, &from.shared.x).ok()?)?;
-                (self.row_cost(&compared) < WORTHWHILE * now).then_some(again)
-            })
-            .collect();
-        if better.iter().all(Option::is_none) {
-            return Ok(None);
-        }
-        let mut state = from.clone();
-        for (row, better) in state.rows.iter_mut().zip(better) {
-            if let Some(better) = better {
-                *row = better;
-            }
-        }
-        self.settled(state).map(Some)
+    /// The start with each row at the equilibrium, of those that are looked at, that fits it best.
+    pub(super) fn with_best_rows(&self, start: State) -> Result<State, CalibrationError> {
+        let (settled, _) = self.settled(start)?;
+        Ok(self.look_again(&settled, Look::All)?.unwrap_or(settled))
     }
 
-    fn descend(&self, start: (State, Linearized), most: usize) -> Result<Found, CalibrationError> {
+    fn descend(&self, start: (State, Linearized), near: f64, most: usize) -> Result<Found, CalibrationError> {
         let (mut state, mut at) = start;
         let mut damping: f64 = 0.0;
         let mut steps = 0;
         let mut before = f64::INFINITY;
         loop {
-            let decomposed = self.decomposed(&at, &state.shared.x, true);
-            let distance = decomposed.distance();
+            let decomposed = self.decomposed(&at, &state.shared, true);
+            // What the rows' own unknowns alone would gain counts, too: a row that is stuck is no minimum.
+            let own: f64 = at.rows.iter().map(Eliminated::gain).sum();
+            let distance = (decomposed.distance().powi(2) + own).sqrt();
             // Near the minimum rounding of the cost hides what a step gains.
             let is_near = distance < QUADRATIC;
-            if distance < NEAR || steps >= most || (is_near && distance > 0.9 * before) {
+            if distance < near || steps >= most || (is_near && distance > 0.9 * before) {
                 return Ok(Found { state, at, steps, distance });
             }
             before = if is_near { distance } else { f64::INFINITY };
@@ -158,7 +130,7 @@ impl Problem<'_> {
             .map(|(row, from)| {
                 let compared = self.model.compare(row, &state.shared, &from, &robot);
                 let compared = compared.map_err(CalibrationError::row(row.line))?;
-                Ok(self.at_their_best(row, &state.shared, &robot, from, compared))
+                Ok(self.at_their_best(&RowAt { row, shared: &state.shared, robot: &robot }, from, compared))
             })
             .collect::<Result<_, CalibrationError>>()?;
         let (rows, compared) = settled.into_iter().unzip();
@@ -182,20 +154,21 @@ impl Problem<'_> {
             (first + 3..first + 6).for_each(|j| x[j] = 0.0);
         }
         let robot = self.model.deviating(&x).ok()?;
+        let moved = DVector::from_iterator(x.len(), x.iter().zip(&from.shared.x).map(|(to, from)| to - from));
         let shared = Shared { x, frame, origin: from.shared.origin };
         let settled: Option<Vec<(RowState, Compared)>> = (0..self.rows.len())
             .into_par_iter()
             .map(|k| {
                 let (row, before) = (&self.rows[k], &from.rows[k]);
                 let own = at.rows[k].own(step);
-                let share = |share: f64| {
-                    let errors = before.own().iter().zip(&own).map(|(e, d)| e + share * d).collect();
-                    let state = self.model.follow(row, before, &robot, &shared.x, errors).ok()?;
-                    let compared = self.model.compare(row, &shared, &state, &robot).ok()?;
-                    Some((state, compared))
-                };
-                let (state, compared) = share(1.0).or_else(|| share(0.1)).or_else(|| share(0.0))?;
-                Some(self.at_their_best(row, &shared, &robot, state, compared))
+                let here = RowAt { row, shared: &shared, robot: &robot };
+                let tries = [1.0, 0.1, 0.0].into_iter().flat_map(|share| Way::ALL.map(|way| (share, way)));
+                let (state, compared) = tries.into_iter().find_map(|(share, way)| {
+                    let own = own.iter().map(|of| share * of).collect();
+                    let step = RowStep { unknowns: &moved, own, motion: &at.motions[k] };
+                    self.moved(&here, before, &step, way)
+                })?;
+                Some(self.at_their_best(&here, state, compared))
             })
             .collect();
         let (rows, compared) = settled?.into_iter().unzip();
@@ -203,46 +176,8 @@ impl Problem<'_> {
         Some((State { shared, rows }, linearized))
     }
 
-    /// A row with its own unknowns where they suit it best, near those given.
-    fn at_their_best(
-        &self,
-        row: &Row,
-        shared: &Shared,
-        robot: &Robot,
-        mut state: RowState,
-        mut compared: Compared,
-    ) -> (RowState, Compared) {
-        if state.own().is_empty() {
-            return (state, compared);
-        }
-        for _ in 0..MOST_OWN_STEPS {
-            let cost = self.row_cost(&compared);
-            let (mut slopes, mut residuals) = (compared.per_own.clone(), compared.residuals.clone());
-            for r in 0..residuals.len() {
-                let weight = self.settings.loss.weight(residuals[r]).sqrt();
-                residuals[r] *= weight;
-                slopes.row_mut(r).iter_mut().for_each(|slope| *slope *= weight);
-            }
-            let count = residuals.len();
-            let all = Eliminated::new(DMatrix::from_column_slice(count, 1, residuals.as_slice()), &slopes);
-            if all.gain() <= OWN_GAIN * (1.0 + cost) {
-                break;
-            }
-            let step = all.own(&DVector::zeros(0));
-            let tried = SHARES.iter().find_map(|share| {
-                let errors = state.own().iter().zip(&step).map(|(e, d)| e + share * d).collect();
-                let next = self.model.follow(row, &state, robot, &shared.x, errors).ok()?;
-                let compared = self.model.compare(row, shared, &next, robot).ok()?;
-                (self.row_cost(&compared) < cost).then_some((next, compared))
-            });
-            let Some(tried) = tried else { break };
-            (state, compared) = tried;
-        }
-        (state, compared)
-    }
-
     fn linearized(&self, shared: &Shared, compared: Vec<Compared>) -> Linearized {
-        let cost = self.cost(&compared, &shared.x);
+        let cost = self.cost(&compared, shared);
         let count = self.model.unknowns.all.len();
         let eliminated = |mut of: Compared| {
             let mut row = DMatrix::zeros(of.std.len(), count + 1);
@@ -254,18 +189,19 @@ impl Problem<'_> {
                 row[(r, count)] = weight * of.residuals[r];
                 of.per_own.row_mut(r).iter_mut().for_each(|slope| *slope *= weight);
             }
-            Eliminated::new(row, &of.per_own)
+            (Eliminated::new(row, &of.per_own), of.motion)
         };
-        let rows: Vec<_> = compared.into_par_iter().map(eliminated).collect();
-        Linearized { data: reduce(&rows, count + 1), rows, cost }
+        let (rows, motions): (Vec<_>, Vec<_>) = compared.into_par_iter().map(eliminated).unzip();
+        Linearized { data: reduce(&rows, count + 1), rows, motions, cost }
     }
 
     /// The whole problem in scales: data, priors, and zero columns for unknowns at their bounds.
-    pub(super) fn decomposed(&self, at: &Linearized, x: &[f64], with_priors: bool) -> Decomposed {
+    pub(super) fn decomposed(&self, at: &Linearized, shared: &Shared, with_priors: bool) -> Decomposed {
+        let x = &shared.x;
         let count = x.len();
         let mut whole = at.data.clone();
         if with_priors {
-            let priors: Vec<_> = self.priors(x).collect();
+            let priors: Vec<_> = self.priors(shared);
             let mut rows = DMatrix::zeros(priors.len(), count + 1);
             for (r, (j, residual, slope)) in priors.into_iter().enumerate() {
                 rows[(r, j)] = slope;

@@ -1,12 +1,16 @@
 //! Where a search begins.
 
-use crate::campaign::Quantity;
+use crate::campaign::{Quantity, Row};
 use crate::error::CalibrationError;
+use crate::fit::frame::RigidMotion;
 use crate::fit::problem::{Problem, Seen};
-use crate::model::{RowState, Shared, State, held_lengths};
-use crate::unknowns::{SensorError, Unknown};
+use crate::fit::search::SEEN;
+use crate::model::row::held_lengths;
+use crate::model::{Model, RowState, Shared, State};
+use crate::solve::Decomposed;
+use crate::unknowns::{SensorError, Unknown, size};
 use cdpr_robot::{Axis, Pose, Rotation3, Vector3};
-use nalgebra::Matrix3;
+use nalgebra::DVector;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::StandardNormal;
@@ -72,35 +76,16 @@ impl Problem<'_> {
         x
     }
 
-    /// Puts an unknown tracker where it fits the positions of the nominal robot best (Kabsch 1976), and
-    /// markers whose places are unknown where it sees them in the mean.
+    /// Puts an unknown tracker where it fits the positions of the nominal robot best, unless a prior says where
+    /// it is, and markers whose places are unknown where it sees them in the mean.
     fn align(&self, state: &mut State) {
         let poses: Vec<Pose> = state.rows.iter().map(|row| *row.pose()).collect();
-        if self.model.unknowns.sensor(SensorError::Frame).is_some() {
-            let mut pairs = Vec::new();
-            for (row, pose) in self.rows.iter().zip(&poses) {
-                let seen = Axis::ALL.map(|axis| {
-                    row.value(Quantity::Position(axis)).or_else(|| row.value(Quantity::Marker(0, axis)))
-                });
-                if let [Some(x), Some(y), Some(z)] = seen {
-                    pairs.push((pose.position, Vector3::new(x, y, z)));
-                }
-            }
-            let count = pairs.len() as f64;
-            if count >= 3.0 {
-                let sum =
-                    pairs.iter().fold((Vector3::zeros(), Vector3::zeros()), |s, p| (s.0 + p.0, s.1 + p.1));
-                let (from, to) = (sum.0 / count, sum.1 / count);
-                let scatter: Matrix3<f64> =
-                    pairs.iter().map(|(a, b)| (b - to) * (a - from).transpose()).sum();
-                let svd = scatter.svd(true, true);
-                if let (Some(u), Some(v)) = (svd.u, svd.v_t) {
-                    let sign = (u * v).determinant().signum();
-                    let turn = u * Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, sign)) * v;
-                    state.shared.frame = Rotation3::from_matrix_unchecked(turn);
-                    state.shared.origin = to - turn * from;
-                }
-            }
+        let frame = self.model.unknowns.sensor(SensorError::Frame);
+        if frame.is_some_and(|first| self.model.unknowns.all[first].prior.is_none())
+            && let Some(found) = RigidMotion::between(&self.seen(&poses))
+        {
+            state.shared.frame = found.rotation;
+            state.shared.origin = found.translation;
         }
         if let Some(first) = self.model.unknowns.sensor(SensorError::Markers) {
             for marker in 0..self.model.unknowns.marker_count {
@@ -123,8 +108,13 @@ impl Problem<'_> {
         }
     }
 
-    /// A random start.
-    pub(super) fn start(&self, number: usize) -> Option<State> {
+    /// A further start: where lengths are exact, from a fit in which they are not, then at random. Combinations
+    /// that the data do not tell have the values that they have at `found`, because searches keep them.
+    pub(super) fn start(&self, number: usize, found: &[f64], told: &Decomposed) -> Option<State> {
+        let is_exact = |row: &Row| row.lengths.is_some() && row.length_std.iter().all(|std| *std == 0.0);
+        if number == 1 && self.rows.iter().any(is_exact) {
+            return self.softened();
+        }
         let mut random = ChaCha8Rng::seed_from_u64(self.settings.seed);
         random.set_stream(number as u64);
         let draw = |unknown: &Unknown| {
@@ -133,8 +123,20 @@ impl Problem<'_> {
             share * unknown.scale * normal
         };
         let drawn = self.model.unknowns.all.iter().map(draw);
-        let x = self.winches().iter().zip(drawn).map(|(at, drawn)| at + drawn).collect();
-        let x = self.model.unknowns.within(x);
+        let all = &self.model.unknowns.all;
+        let wanted: Vec<f64> = self.winches().iter().zip(drawn).map(|(at, drawn)| at + drawn).collect();
+        let away = (0..all.len()).map(|j| (wanted[j] - found[j]) / all[j].scale);
+        let away = told.told_part(&DVector::from_iterator(all.len(), away), FARTHEST);
+        let x = (0..all.len()).map(|j| found[j] + all[j].scale * away[j]).collect();
+        self.at(self.model.unknowns.within(x))
+    }
+
+    /// The state of all rows at these unknowns.
+    fn at(&self, mut x: Vec<f64>) -> Option<State> {
+        if let Some(first) = self.model.unknowns.sensor(SensorError::Frame) {
+            // The place of a frame begins at its alignment.
+            x[first..first + 6].fill(0.0);
+        }
         let rows: Result<Vec<RowState>, _> =
             self.rows.par_iter().map(|row| self.model.begin(row, &x)).collect();
         let shared = Shared { x, frame: Rotation3::identity(), origin: Vector3::zeros() };
@@ -142,4 +144,32 @@ impl Problem<'_> {
         self.align(&mut state);
         Some(state)
     }
+
+    /// A start at the unknowns that suit lengths with errors: they show which cables are taut in truth, where
+    /// with the exact lengths of a wrong robot others are.
+    fn softened(&self) -> Option<State> {
+        let std = SOFT * size(self.model.robot);
+        let soften = |row: &Row| {
+            let mut row = row.clone();
+            let count = row.lengths.as_ref().map_or(0, Vec::len);
+            row.length_std.resize(count, 0.0);
+            row.length_std.iter_mut().filter(|of| **of == 0.0).for_each(|of| *of = std);
+            row
+        };
+        let rows: Vec<Row> = self.rows.iter().map(soften).collect();
+        let soft = Problem {
+            model: Model::new(self.model.robot, self.model.unknowns, &rows),
+            rows: &rows,
+            settings: self.settings,
+        };
+        let start = soft.with_best_rows(soft.begin().ok()?.0).ok()?;
+        let found = soft.search(start, SEEN, self.settings.max_steps).ok()?;
+        self.at(found.state.shared.x)
+    }
 }
+
+/// How far from the minimum that was found others begin at most, in standard deviations.
+const FARTHEST: f64 = 30.0;
+
+/// Errors of lengths that are exact, for a start, over the robot's size.
+const SOFT: f64 = 1e-3;

@@ -3,9 +3,9 @@
 use crate::campaign::{Quantity, Row};
 use crate::model::{Model, RowState, Shared};
 use crate::unknowns::SensorError;
-use cdpr_robot::Robot;
-use cdpr_statics::{DirectProblem, StaticsError};
-use nalgebra::{DMatrix, DVector};
+use cdpr_robot::{Robot, Vector3};
+use cdpr_statics::{DirectProblem, ForceDerivatives, StaticsError};
+use nalgebra::{DMatrix, DVector, RowDVector};
 
 /// A row at a state: residuals over standard deviations, and their derivatives.
 pub(crate) struct Compared {
@@ -20,6 +20,9 @@ pub(crate) struct Compared {
     pub(crate) per_unknown: DMatrix<f64>,
     /// Derivatives by the unknowns of the row.
     pub(crate) per_own: DMatrix<f64>,
+    /// Derivatives of the pose (dp, dφ) and of the tensions by the unknowns of all rows, then by those of the
+    /// row; empty where it has none.
+    pub(crate) motion: DMatrix<f64>,
 }
 
 impl Model<'_> {
@@ -53,7 +56,11 @@ impl Model<'_> {
             residuals: DVector::zeros(count),
             per_unknown: DMatrix::zeros(count, self.unknowns.all.len()),
             per_own: DMatrix::zeros(count, own),
+            motion: DMatrix::zeros(0, 0),
         };
+        if own > 0 {
+            compared.motion = self.motion(row, x, &lengths, &slopes);
+        }
         for (r, reading) in row.readings.iter().enumerate() {
             let (value, read) =
                 self.read(reading.quantity, row, robot, at, state, &lengths, &slopes, unloaded.as_ref());
@@ -67,29 +74,13 @@ impl Model<'_> {
             compared.std.push(reading.std);
             compared.residuals[r] = difference / reading.std;
             let by = -1.0 / reading.std;
-            let at_models = &read.models;
-            for term in &self.unknowns.terms {
-                if row.mass.is_some() && term.parameter == self.layout.mass() {
-                    continue;
-                }
-                compared.per_unknown[(r, term.input)] += by * term.factor * at_models[term.parameter];
-            }
+            let models = self.chained(row, x, &lengths, &read.models);
+            let unknowns = self.unknowns.all.len();
+            compared.per_unknown.row_mut(r).copy_from(&(models.columns(0, unknowns) * by));
             for (unknown, slope) in read.sensors {
                 compared.per_unknown[(r, unknown)] += by * slope;
             }
-            let first = at_models.len() - lengths.len();
-            for (i, length) in lengths.iter().enumerate() {
-                let stretch = 1.0 + self.of(SensorError::DrumScale, i, x);
-                let per_length = by * at_models[first + i] / stretch;
-                for (error, slope) in [(SensorError::LengthOffset, -1.0), (SensorError::DrumScale, -length)] {
-                    if let Some(index) = self.unknowns.sensor(error) {
-                        compared.per_unknown[(r, index + i)] += per_length * slope;
-                    }
-                }
-                if own > 0 {
-                    compared.per_own[(r, i)] -= per_length;
-                }
-            }
+            compared.per_own.row_mut(r).copy_from(&(models.columns(unknowns, own) * by));
         }
         for i in 0..measured_lengths {
             let r = row.readings.len() + i;
@@ -106,6 +97,43 @@ impl Model<'_> {
             factor.solve_lower_triangular_mut(&mut compared.per_own);
         }
         Ok(compared)
+    }
+}
+
+impl Model<'_> {
+    /// Derivatives by the unknowns of all rows and by those of the row, from those by the inputs of the models
+    /// and the lengths.
+    fn chained(&self, row: &Row, x: &[f64], lengths: &[f64], models: &RowDVector<f64>) -> RowDVector<f64> {
+        let unknowns = self.unknowns.all.len();
+        let mut chained = RowDVector::zeros(unknowns + lengths.len());
+        for term in &self.unknowns.terms {
+            if row.mass.is_none() || term.parameter != self.layout.mass() {
+                chained[term.input] += term.factor * models[term.parameter];
+            }
+        }
+        let first = models.len() - lengths.len();
+        for (i, length) in lengths.iter().enumerate() {
+            let per_length = models[first + i] / (1.0 + self.of(SensorError::DrumScale, i, x));
+            for (error, slope) in [(SensorError::LengthOffset, -1.0), (SensorError::DrumScale, -length)] {
+                if let Some(index) = self.unknowns.sensor(error) {
+                    chained[index + i] += per_length * slope;
+                }
+            }
+            chained[unknowns + i] -= per_length;
+        }
+        chained
+    }
+
+    fn motion(&self, row: &Row, x: &[f64], lengths: &[f64], slopes: &ForceDerivatives) -> DMatrix<f64> {
+        let of_pose = (0..6).map(|k| slopes.pose.row(k).into_owned());
+        let of_tension = slopes.forces.iter().enumerate().map(|(i, force)| {
+            let direction = force.try_normalize(0.0).unwrap_or_else(Vector3::zeros);
+            let slopes = direction.transpose() * slopes.per_input.fixed_rows::<3>(3 * i);
+            RowDVector::from_iterator(slopes.ncols(), slopes.iter().copied())
+        });
+        let rows: Vec<_> =
+            of_pose.chain(of_tension).map(|models| self.chained(row, x, lengths, &models)).collect();
+        DMatrix::from_rows(&rows)
     }
 }
 

@@ -170,7 +170,7 @@ impl Model<'_> {
 }
 
 /// Inverse of the right Jacobian of rotations at the vector r.
-fn inverse_of_right(r: &Vector3<f64>) -> Matrix3<f64> {
+pub(crate) fn inverse_of_right(r: &Vector3<f64>) -> Matrix3<f64> {
     let angle = r.norm();
     let cross = r.cross_matrix();
     let second = if angle < 1e-4 {

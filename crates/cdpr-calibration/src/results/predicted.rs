@@ -1,7 +1,7 @@
 //! What is left uncertain over the workspace.
 
 use crate::fitted::Fit;
-use crate::model::held_lengths;
+use crate::model::row::held_lengths;
 use cdpr_robot::{Pose, Robot};
 use cdpr_statics::{DirectProblem, Load, Start};
 use nalgebra::DMatrix;

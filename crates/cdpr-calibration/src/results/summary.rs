@@ -1,6 +1,6 @@
 //! The summary of a calibration, and what it takes besides the fit.
 
-use crate::fitted::Difference;
+use crate::fitted::{Difference, FitStatus};
 use crate::results::patterns::{Split, Trend};
 use crate::results::predicted::UncertaintyMap;
 use cdpr_robot::Robot;
@@ -18,8 +18,10 @@ pub struct ParameterSummary {
     pub before: f64,
     /// Value found.
     pub after: f64,
-    /// Standard deviation of what is left; none for what neither data nor a prior tell.
+    /// Standard deviation of what is left, by data and priors; none for what neither tells.
     pub std: Option<f64>,
+    /// Standard deviation by the data alone, without priors; none for what they do not tell.
+    pub std_of_data: Option<f64>,
     /// Standard deviation before.
     pub prior_std: Option<f64>,
     /// The change in standard deviations before.
@@ -79,6 +81,8 @@ pub struct CalibrationSummary {
     pub degrees_of_freedom: usize,
     /// Probability of such a chi-square or a greater one.
     pub p_value: Option<f64>,
+    /// Probability of residuals of the measurements as small as these or smaller.
+    pub p_value_of_less: Option<f64>,
     /// Factor by which standard deviations were multiplied, because no noise is stated: that of the
     /// residuals.
     pub noise_scale: f64,
@@ -102,9 +106,9 @@ pub struct CalibrationSummary {
     pub position_std_after: Option<f64>,
     /// Steps of the search.
     pub steps: usize,
-    /// Whether it ended at a minimum.
-    pub converged: bool,
-    /// Starts, and how many of them ended there.
+    /// Whether it ended at a minimum, and what shows that it is the least.
+    pub status: FitStatus,
+    /// Starts, and how many of them ended at the least chi-square.
     pub starts: [usize; 2],
     /// What is odd about the result, a sentence each.
     pub warnings: Vec<String>,
@@ -121,8 +125,6 @@ pub struct Context<'a> {
     pub noise_is_stated: bool,
     /// Errors of prediction, if they were computed.
     pub predicted: Option<&'a [Difference]>,
-    /// Starts of the search.
-    pub starts: usize,
     /// Number of rows.
     pub rows: usize,
 }

@@ -1,6 +1,6 @@
 //! What is odd about a calibration.
 
-use crate::fitted::Fit;
+use crate::fitted::{Fit, FitStatus};
 use crate::results::patterns::Trend;
 use crate::results::summary::{CalibrationSummary, Context};
 use std::collections::BTreeMap;
@@ -12,11 +12,20 @@ impl Fit {
     /// Sentences about what is odd.
     pub(super) fn warnings(&self, summary: &CalibrationSummary, context: &Context) -> Vec<String> {
         let mut warnings = Vec::new();
-        if !self.converged {
-            warnings.push(format!(
+        let [starts, _] = self.starts;
+        match self.status {
+            FitStatus::Converged => {}
+            FitStatus::AwayFromMinimum => warnings.push(format!(
                 "the search ended {:.1e} standard deviations from the minimum after {} steps",
                 self.distance, self.steps
-            ));
+            )),
+            FitStatus::StartsDisagree => warnings.push(format!(
+                "of {starts} starts no other ended at this chi-square: another minimum may be lower; make more \
+                 starts, or seek fewer parameters"
+            )),
+            FitStatus::OneStart => warnings.push(
+                "a single start was made: nothing shows that no other minimum is lower".to_owned(),
+            ),
         }
         for (unknown, estimate) in self.unknowns.all.iter().zip(&self.estimates) {
             if unknown.bounds.contains(&estimate.value) {
@@ -36,6 +45,13 @@ impl Fit {
             warnings.push(format!(
                 "chi-square is {:.1} with {} degrees of freedom: the model, the noise or some rows are wrong",
                 self.chi_square, self.degrees_of_freedom
+            ));
+        }
+        if summary.p_value_of_less.is_some_and(|p| p < UNLIKELY) {
+            let (chi_square, degrees) = self.of_data;
+            warnings.push(format!(
+                "chi-square of the measurements is {chi_square:.3} with {degrees} degrees of freedom, far too \
+                 small: is the noise stated in mm where it is m, or too large?"
             ));
         }
         if let Some(Trend { column, against, correlation, .. }) = summary.trends.first() {

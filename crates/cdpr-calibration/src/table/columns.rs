@@ -3,6 +3,7 @@
 use crate::campaign::Quantity;
 use crate::error::CalibrationError;
 use cdpr_robot::{Axis, CableEnd, Robot};
+use cdpr_study::{Dimension, Unit};
 
 /// What a column holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,12 +37,7 @@ pub(super) fn columns(header: &[String], robot: &Robot) -> Result<Vec<Named>, Ca
             |expected: &str| CalibrationError::Column { column: name.clone(), expected: expected.to_owned() };
         let expected = "a name such as x_m, qw, roll_deg, l1_m, t1_n, t1_winch_n, marker1_x_m, dx_m, \
                         swivel1_deg, payload_kg, mass_kg, fx_n, mx_nm, std_x_m or cov_x_m_y_m";
-        let lower = name.to_ascii_lowercase();
-        let (is_std, base) = lower.strip_prefix("std_").map_or((false, lower.as_str()), |base| (true, base));
-        let (column, factor) = covariance(base).or_else(|| column(base)).ok_or_else(|| {
-            let is_one_cell = header.len() == 1 && name.contains([';', '\t']);
-            wrong(if is_one_cell { "cells separated by commas" } else { expected })
-        })?;
+        let (is_std, column, factor) = known(&name.to_lowercase()).ok_or_else(|| wrong(expected))?;
         if !is_std && matches!(column, Column::Reading(Quantity::Rotation(_))) {
             return Err(wrong("qw, qx, qy, qz; std_ and cov_ go before rx_rad"));
         }
@@ -62,8 +58,8 @@ pub(super) fn columns(header: &[String], robot: &Robot) -> Result<Vec<Named>, Ca
         if is_std && !matches!(column, Column::Reading(_)) {
             return Err(wrong("a quantity that is measured behind std_"));
         }
-        if columns.iter().any(|other| other.column == column && other.is_std == is_std) {
-            return Err(wrong("each quantity once"));
+        if let Some(other) = columns.iter().find(|other| other.column == column && other.is_std == is_std) {
+            return Err(wrong(&format!("each quantity once; it is in column {}, too", other.name)));
         }
         columns.push(Named { name: name.clone(), column, factor, is_std });
     }
@@ -85,17 +81,32 @@ pub(super) fn columns(header: &[String], robot: &Robot) -> Result<Vec<Named>, Ca
     Ok(columns)
 }
 
+/// Whether a name in small letters is that of a quantity.
+pub(super) fn is_known(name: &str) -> bool {
+    known(name).is_some()
+}
+
+/// Whether a name is that of a standard deviation, and what it is of.
+fn known(name: &str) -> Option<(bool, Column, f64)> {
+    let (is_std, base) = name.strip_prefix("std_").map_or((false, name), |base| (true, base));
+    covariance(base).or_else(|| column(base)).map(|(column, factor)| (is_std, column, factor))
+}
+
 /// A covariance by its name, `cov_x_m_y_m`.
 fn covariance(name: &str) -> Option<(Column, f64)> {
     let (one, other, factor) = covariance_of(name)?;
     Some((Column::Covariance(one, other), factor))
 }
 
-/// The two quantities of the name of a covariance, `cov_x_m_y_m`, and its factor to SI units.
+/// The two quantities of the name of a covariance, `cov_x_m_y_m`, and its factor to SI units. Of `cov_y_m_x_m`
+/// they are in the same order: it is the same number. A quantity has no covariance with itself.
 pub(super) fn covariance_of(name: &str) -> Option<(Quantity, Quantity, f64)> {
     let pair = name.strip_prefix("cov_")?;
     pair.match_indices('_').find_map(|(at, _)| match (column(&pair[..at])?, column(&pair[at + 1..])?) {
-        ((Column::Reading(one), by), (Column::Reading(other), per)) => Some((one, other, by * per)),
+        ((Column::Reading(one), by), (Column::Reading(other), per)) if one != other => {
+            let (one, other) = if one.to_string() < other.to_string() { (one, other) } else { (other, one) };
+            Some((one, other, by * per))
+        }
         _ => None,
     })
 }
@@ -106,21 +117,9 @@ fn column(name: &str) -> Option<(Column, f64)> {
         return Some((Column::Quaternion(k), 1.0));
     }
     let (base, unit) = name.rsplit_once('_')?;
-    let length = match unit {
-        "m" => Some(1.0),
-        "mm" => Some(1e-3),
-        _ => None,
-    };
-    let force = match unit {
-        "n" => Some(1.0),
-        "kn" => Some(1e3),
-        _ => None,
-    };
-    let angle = match unit {
-        "rad" => Some(1.0),
-        "deg" => Some(1f64.to_radians()),
-        _ => None,
-    };
+    let unit = Unit::of(unit)?;
+    let factor = |dimension| (unit.dimension == dimension).then_some(unit.factor);
+    let [length, force, angle] = [Dimension::Length, Dimension::Force, Dimension::Angle].map(factor);
     let axis = |letter: &str| Axis::from_letter(letter);
     let numbered = |word: &str| base.strip_prefix(word)?.parse::<usize>().ok()?.checked_sub(1);
     let of = |quantity: Quantity, factor: Option<f64>| Some((Column::Reading(quantity), factor?));
@@ -140,15 +139,15 @@ fn column(name: &str) -> Option<(Column, f64)> {
         return Some((Column::Wrench(axis.index()), force?));
     }
     if let Some(axis) = base.strip_prefix('m').and_then(axis) {
-        return (unit == "nm").then_some((Column::Wrench(3 + axis.index()), 1.0));
+        return Some((Column::Wrench(3 + axis.index()), factor(Dimension::Moment)?));
     }
-    if unit == "kg" {
+    if let Some(mass) = factor(Dimension::Mass) {
         let column = match base {
             "payload" => Column::Payload,
             "mass" => Column::Mass,
             _ => return None,
         };
-        return Some((column, 1.0));
+        return Some((column, mass));
     }
     if let Some(i) = base.strip_suffix("_winch").and_then(|base| base.strip_prefix('t')) {
         return of(Quantity::Tension(i.parse::<usize>().ok()?.checked_sub(1)?, CableEnd::Exit), force);

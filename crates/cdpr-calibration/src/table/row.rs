@@ -1,6 +1,6 @@
 //! A row of a table of measurements.
 
-use crate::campaign::{Noise, Quantity, Reading, Row};
+use crate::campaign::{Noise, Quantity, Reading, Row, STD_EXPECTED, is_std};
 use crate::error::CalibrationError;
 use crate::table::columns::{Column, Named};
 use cdpr_robot::{Axis, Robot, rotation_in_order};
@@ -15,7 +15,7 @@ pub(super) struct Stated {
 /// A row by its cells.
 pub(super) fn row(
     line: usize,
-    cells: &[String],
+    cells: &[Option<f64>],
     columns: &[Named],
     robot: &Robot,
     noise: &Stated,
@@ -26,25 +26,16 @@ pub(super) fn row(
         value: value.to_owned(),
         expected: expected.to_owned(),
     };
-    let mut values: Vec<Option<f64>> = Vec::with_capacity(columns.len());
-    for (named, text) in columns.iter().zip(cells) {
-        let value = match text.as_str() {
-            "" => None,
-            text => {
-                let number = text.parse::<f64>().ok().filter(|number| number.is_finite());
-                Some(number.ok_or_else(|| cell_error(named, text, "a finite number, or an empty cell"))?)
-            }
-        };
-        values.push(value.map(|value| value * named.factor));
-    }
+    let values: Vec<Option<f64>> =
+        columns.iter().zip(cells).map(|(named, cell)| Some((*cell)? * named.factor)).collect();
     let find = |column: Column, is_std: bool| {
         let found = columns.iter().position(|named| named.column == column && named.is_std == is_std)?;
         values[found].map(|value| (value, &columns[found]))
     };
     let std_of = |quantity: Quantity| -> Result<Option<f64>, CalibrationError> {
         match find(Column::Reading(quantity), true) {
-            Some((std, _)) if std > 0.0 => Ok(Some(std)),
-            Some((std, named)) => Err(cell_error(named, &std.to_string(), "a positive standard deviation")),
+            Some((std, _)) if is_std(std) => Ok(Some(std)),
+            Some((std, named)) => Err(cell_error(named, &std.to_string(), STD_EXPECTED)),
             None => Ok(noise.stds.of(quantity)),
         }
     };
@@ -132,8 +123,7 @@ pub(super) fn row(
         }
     }
     for (one, other, value) in &noise.covariances {
-        let is_same =
-            |of: &(Quantity, Quantity, f64)| (of.0, of.1) == (*one, *other) || (of.1, of.0) == (*one, *other);
+        let is_same = |of: &(Quantity, Quantity, f64)| (of.0, of.1) == (*one, *other);
         if !row.covariances.iter().any(is_same) {
             row.covariances.push((*one, *other, *value));
         }

@@ -3,7 +3,9 @@
 use crate::answer::vector;
 use crate::arguments::{self, Format};
 use crate::error::ProgramError;
+use crate::questions;
 use cdpr_cable::{Cable, Known, Vector2};
+use cdpr_robot::plausible;
 use serde::Serialize;
 
 /// The cable and what is known of it.
@@ -33,6 +35,9 @@ pub(crate) struct Settings {
 }
 
 pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
+    let Settings { weight, stiffness, length, end, .. } = settings;
+    let chord = end.map(|[x, z]| x.hypot(z));
+    questions::ask(plausible::span(*weight, *stiffness, *length, chord));
     let answer = Answer::new(settings)?;
     Ok(settings.format.print(&answer, Answer::print)?)
 }

@@ -2,7 +2,9 @@
 
 use crate::arguments::{Format, number};
 use crate::error::ProgramError;
+use crate::questions;
 use cdpr_cable::{Measured, linear_density};
+use cdpr_robot::plausible;
 use serde::Serialize;
 
 /// The piece of cable that was weighed.
@@ -37,6 +39,7 @@ pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
         Measured { value: settings.mass, error: settings.mass_error },
         Measured { value: settings.length, error: settings.length_error },
     )?;
+    questions::ask(plausible::linear_density(found.value));
     let found = Found { linear_density: found.value, error: found.error, unit: "kg/m" };
     let text = |found: &Found| println!("{:.6} kg/m +- {:.6} kg/m", found.linear_density, found.error);
     Ok(settings.format.print(&found, text)?)

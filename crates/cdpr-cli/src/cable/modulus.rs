@@ -2,11 +2,13 @@
 
 mod published;
 
-use crate::arguments::{Format, Overwrite, number};
+use crate::arguments::{self, Format, Overwrite, number};
 use crate::error::ProgramError;
 use crate::output::{patiently, table};
+use crate::questions;
 use cdpr_cable::{Phase, Record, SecantModulus, Specimen};
 use cdpr_report::{Cycle, CycleBranch, cycle};
+use cdpr_robot::plausible;
 use cdpr_study::{CableLaw, law_json, open_record};
 use published::{Entry, Published, percent};
 use serde::Serialize;
@@ -47,7 +49,7 @@ pub(crate) struct Settings {
     #[arg(long, value_parser = number, allow_hyphen_values = true, default_value_t = 0.0)]
     section_error: f64,
     /// File for a figure of the loop (SVG).
-    #[arg(long)]
+    #[arg(long, value_parser = arguments::svg)]
     figure: Option<PathBuf>,
     /// File for the record's law (JSON, `cdpr-law/1`).
     ///
@@ -136,6 +138,9 @@ pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
         published: None,
     };
     let moduli = found.ranges.iter().map(|range| [range.loading.modulus_gpa, range.unloading.modulus_gpa]);
+    let asked =
+        |range: &InRange| plausible::modulus("modulus of the record", 1e9 * range.loading.modulus_gpa);
+    questions::ask(found.ranges.iter().find_map(asked));
     found.published = published.as_ref().map(|table| table.beside(moduli));
     settings.format.print(&found, |found| {
         print(found);

@@ -3,14 +3,20 @@
 use crate::answer::OutOfLimits;
 use crate::arguments::{Format, FreeArguments, LoadArguments, Preference};
 use crate::error::ProgramError;
+use crate::lists::pose_file;
 use crate::output::{Ending, patiently, progress};
-use crate::poses::{Angles, COLUMNS, place, pose, pose_file, pose_numbers};
+use crate::poses::{Angles, COLUMNS, place, pose, pose_numbers};
+use crate::questions;
 use cdpr_robot::{Pose, Robot, shown};
 use cdpr_statics::StaticsError;
+use cdpr_study::is_not_finite;
 use indicatif::ProgressBar;
 use rayon::prelude::*;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
+
+/// Why a cell is empty at a pose that has an answer.
+const NOT_FINITE: &str = "numbers that are too large for the computer are left out";
 
 /// Poses that are answered before their rows are printed.
 const CHUNK: usize = 1024;
@@ -79,11 +85,33 @@ pub(crate) trait Row: Serialize + Send {
 pub(crate) struct Failure {
     kind: &'static str,
     pub(crate) message: String,
+    #[serde(flatten, skip_serializing_if = "Option::is_none")]
+    fall: Option<Box<Fall>>,
+}
+
+/// Where the platform falls while a load is raised; poses have a quaternion.
+#[derive(Serialize)]
+struct Fall {
+    /// Share of the load at which it falls.
+    share: f64,
+    /// The last pose before.
+    falls_from: [f64; 7],
+    /// `None` where it is not known.
+    falls_to: Option<[f64; 7]>,
 }
 
 impl From<StaticsError> for Failure {
     fn from(error: StaticsError) -> Self {
-        Self { kind: error.kind(), message: error.to_string() }
+        let (kind, message) = (error.kind(), error.to_string());
+        let fall = match error {
+            StaticsError::BranchEnds(end) => Some(Fall {
+                share: end.share,
+                falls_from: pose_numbers(&end.pose),
+                falls_to: end.falls_to.ok().as_ref().map(pose_numbers),
+            }),
+            _ => None,
+        };
+        Self { kind, message, fall: fall.map(Box::new) }
     }
 }
 
@@ -122,8 +150,18 @@ impl RobotAtPose {
             (None, None) => return Err(ProgramError::Usage("expected --pose or --poses".to_owned())),
         };
         let heading = format!("{} at {}", shown(&robot.name), place(&pose));
-        let answer = patiently("solving", || solve(&robot, &pose))?;
-        self.print(&answer, |answer| text(answer, &heading))
+        match patiently("solving", || solve(&robot, &pose)) {
+            // That the platform falls is an answer.
+            Err(error @ StaticsError::BranchEnds(_)) => {
+                let fallen = Err(Failure::from(error));
+                match (&fallen, self.format) {
+                    (Err(Failure { message, .. }), Format::Text) => println!("{heading}\n{message}"),
+                    _ => self.print_answer::<T>(&pose, &fallen, 0)?,
+                }
+                Ok(Ending::SomethingWrong)
+            }
+            answer => self.print(&answer?, |answer| text(answer, &heading)),
+        }
     }
 
     /// Prints a single answer.
@@ -132,9 +170,14 @@ impl RobotAtPose {
         Ok(answer.ending())
     }
 
-    /// The robot of the file.
+    /// The robot of the file, once load and pose have been compared with it.
     pub(crate) fn robot(&self) -> Result<Robot, ProgramError> {
-        self.preference.open_robot(&self.robot)
+        let robot = self.preference.open_robot(&self.robot)?;
+        questions::about_load(&robot, &self.load.load());
+        if let Some(pose) = &self.pose {
+            questions::about_pose(&robot, "--pose", pose);
+        }
+        Ok(robot)
     }
 
     /// Answers what `solve` answers at the poses of the file, one after the other.
@@ -161,6 +204,7 @@ impl RobotAtPose {
         mut solve: impl FnMut(&[Pose], &ProgressBar) -> Vec<Result<T, Failure>>,
     ) -> Result<Ending, ProgramError> {
         let poses = pose_file(path)?;
+        questions::about_poses(robot, "--poses", &poses);
         let columns = T::columns(robot);
         if self.format == Format::Text {
             let names = COLUMNS.iter().map(ToString::to_string);
@@ -196,7 +240,7 @@ impl RobotAtPose {
             Format::Json => {
                 let (pose, error) = (pose_numbers(pose), answer.as_ref().err());
                 let line = Line { pose, answer: answer.as_ref().ok(), error };
-                println!("{}", serde_json::to_string(&line)?);
+                println!("{}", questions::added_to(serde_json::to_string(&line)?)?);
             }
             Format::Text => print_row(pose, answer, columns),
         }
@@ -207,18 +251,23 @@ impl RobotAtPose {
 /// Prints the line of CSV of a pose; `columns` of them are empty where there is no answer.
 fn print_row<T: Row>(pose: &Pose, answer: &Result<T, Failure>, columns: usize) {
     let (status, found, reason) = match answer {
-        Ok(answer) => ("held", answer.cells(), answer.remark()),
-        Err(Failure { kind, message }) => (*kind, vec![String::new(); columns], message.clone()),
+        Ok(answer) => {
+            let (cells, remark) = (answer.cells(), answer.remark());
+            let beyond = cells.iter().any(|cell| is_not_finite(cell)).then(|| NOT_FINITE.to_owned());
+            let remarks = Some(remark).filter(|remark| !remark.is_empty()).into_iter().chain(beyond);
+            ("held", cells, remarks.collect::<Vec<_>>().join("; "))
+        }
+        Err(Failure { kind, message, .. }) => (*kind, vec![String::new(); columns], message.clone()),
     };
     let pose = cells(&pose_numbers(pose));
     print_record(pose.into_iter().chain([status.to_owned()]).chain(found).chain([reason]));
 }
 
-/// Prints a line of CSV.
+/// Prints a line of CSV; what is not finite is left out.
 fn print_record(cells: impl Iterator<Item = String>) {
     let mut writer = csv::Writer::from_writer(Vec::new());
     // Writing to memory cannot fail.
-    let _ = writer.write_record(cells);
+    let _ = writer.write_record(cells.map(|cell| if is_not_finite(&cell) { String::new() } else { cell }));
     let line = writer.into_inner().unwrap_or_default();
     println!("{}", String::from_utf8_lossy(&line).trim_end_matches('\n'));
 }

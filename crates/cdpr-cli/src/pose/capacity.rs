@@ -5,6 +5,7 @@ use crate::arguments::FreeArguments;
 use crate::error::ProgramError;
 use crate::output::{Ending, table};
 use crate::pose::at_pose::{Failure, RobotAtPose, Row};
+use crate::questions;
 use crate::wrenches::WrenchArguments;
 use cdpr_assess::{
     Block, CableDistance, Capacity, Clearance, Figure, PlatformDistance, TiltTowards, WrenchSet, capacity_at,
@@ -34,6 +35,7 @@ const TILT_ACCURACY: f64 = 0.01;
 
 pub(crate) fn run(Settings { at, free, set, tilt }: &Settings) -> Result<Ending, ProgramError> {
     let (load, set) = (at.load.load(), set.set()?);
+    questions::about_wrenches(&at.robot()?, set.wrenches());
     let solve = |robot: &Robot, pose: &_| {
         let found = capacity_at(robot, pose, &load, &set, &free.free);
         // Whatever else fails, fails with it.
@@ -165,11 +167,17 @@ impl Shown {
             ..none
         };
         for block in blocking {
+            let message = block.to_string();
             match block {
                 Block::Limit { cable, limit, value, gain } => {
                     shown.blocking.push(Blocking { cable: cable + 1, limit: name(limit), value, gain });
                 }
-                Block::Lost(error) => shown.error = Some(error.into()),
+                Block::Lost(error) => {
+                    // At this payload, and not at a share of one.
+                    let mut failure = Failure::from(error.with_share(|_| 1.0));
+                    failure.message = message;
+                    shown.error = Some(failure);
+                }
             }
         }
         shown

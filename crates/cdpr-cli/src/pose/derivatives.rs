@@ -6,7 +6,7 @@ use crate::error::ProgramError;
 use crate::output::{Ending, table};
 use crate::pose::at_pose::{RobotAtFreePose, Row, cells};
 use cdpr_robot::{Parameter, Robot};
-use cdpr_statics::{Derivatives, Load, OneSided, StaticsError, derivatives_free};
+use cdpr_statics::{Derivatives, DirectProblem, Load, OneSided, StaticsError, derivatives_free};
 use cdpr_study::ErrorModel;
 use indexmap::IndexMap;
 use serde::Serialize;
@@ -92,7 +92,16 @@ struct Slopes {
     /// Derivative of the lowest natural frequency with the load [Hz].
     #[serde(skip_serializing_if = "Option::is_none")]
     frequency_hz: Option<Vec<f64>>,
-    /// Why one of these two is missing.
+    /// The lowest natural frequency with the load [Hz].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    lowest_frequency_hz: Option<f64>,
+    /// That of the slowest cable between ends at rest [Hz].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    lowest_cable_frequency_hz: Option<f64>,
+    /// What follows where that is less than twice as high.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    warning: Option<String>,
+    /// Why one of the two derivatives is missing.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     without: Vec<String>,
     /// Parameters whose left and right derivatives differ.
@@ -176,7 +185,14 @@ impl Slopes {
         };
         let deflection = &found.deflection;
         let equilibria = [&deflection.unloaded.equilibrium, &deflection.loaded.equilibrium];
+        let problem = DirectProblem::new(robot, &deflection.lengths, load)?;
+        let lowest_frequency_hz = problem.lowest_frequency(&deflection.loaded.equilibrium).ok();
+        let slowest = problem.lowest_cable_frequency(&deflection.loaded.equilibrium)?;
+        let slowest = slowest.filter(|_| lowest_frequency_hz.is_some());
         Ok(Self {
+            lowest_frequency_hz,
+            lowest_cable_frequency_hz: slowest.map(|cable| cable.frequency),
+            warning: slowest.zip(lowest_frequency_hz).and_then(|(cable, platform)| cable.warning(platform)),
             deflection_rms_mm: 1e3 * found.deflection.rms(),
             inputs: parameters.clone(),
             parameters: parameters.iter().map(ToString::to_string).collect(),
@@ -258,6 +274,10 @@ impl Slopes {
             println!("{parameter}: {} on one side only", cables.join(", "));
         }
         self.without.iter().for_each(|reason| println!("{reason}"));
+        if let (Some(platform), Some(cable)) = (self.lowest_frequency_hz, self.lowest_cable_frequency_hz) {
+            println!("lowest frequency {platform:.4} Hz; of the cables themselves {cable:.4} Hz");
+        }
+        self.warning.iter().for_each(|warning| println!("warning: {warning}"));
         self.uncertainty.iter().for_each(Uncertainty::print);
         OutOfLimits::print(&self.out_of_limits);
     }

@@ -8,9 +8,10 @@ use crate::error::ProgramError;
 use crate::output::{Ending, patiently, progress};
 use crate::pose::at_pose::Failure;
 use crate::poses::{self, Angles};
-use cdpr_robot::{Pose, Robot, Vector3, Wrench, from_json};
+use crate::questions;
+use cdpr_robot::{Pose, Robot, Vector3, Wrench, from_json, plausible};
 use cdpr_statics::{Certificate, DirectProblem, Load, Start, StaticsError, check_lengths, rough_pose};
-use cdpr_study::{InputKind, StudyError, open_robot, read_text};
+use cdpr_study::{InputKind, StudyError, read_text};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
@@ -71,13 +72,14 @@ struct Case {
 }
 
 pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
-    let robot = open_robot(&settings.robot)?;
+    let robot = questions::open_robot(&settings.robot)?;
     let cases = match (&settings.from, &settings.lengths) {
         (Some(path), _) => Cases::read(path)?,
         (None, lengths) => Cases::One(Box::new(settings.case(lengths.as_ref())?)),
     };
     match cases {
         Cases::One(case) => {
+            case.question(&robot);
             let answer = patiently("solving", || solve(&robot, &case, settings.certify));
             let answer = match &settings.from {
                 Some(path) => answer.map_err(ProgramError::in_file(path))?,
@@ -87,6 +89,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
             Ok(answer.ending())
         }
         Cases::List(cases) => {
+            cases.iter().for_each(|case| case.question(&robot));
             let progress = progress(cases.len(), "cases");
             let answer = |case| {
                 let answer = solve(&robot, case, settings.certify).into();
@@ -125,6 +128,24 @@ impl Settings {
             start,
             certify: self.certify,
         })
+    }
+}
+
+impl Case {
+    /// Asks about lengths, mass, load and start.
+    fn question(&self, robot: &Robot) {
+        questions::about_lengths(robot, &self.lengths);
+        questions::ask(self.mass.and_then(|mass| plausible::mass("mass", mass)));
+        questions::about_load(robot, &self.load());
+        if let Some(start) = self.start.as_ref().and_then(|numbers| poses::pose_of(numbers).ok()) {
+            questions::about_pose(robot, "start", &start);
+        }
+    }
+
+    fn load(&self) -> Load {
+        let vector = |components: Option<[f64; 3]>| components.map_or_else(Vector3::zeros, Vector3::from);
+        let wrench = Wrench { force: vector(self.force), moment: vector(self.moment) };
+        Load { payload: self.payload.unwrap_or(0.0), wrench }
     }
 }
 
@@ -176,9 +197,7 @@ fn solve(robot: &Robot, case: &Case, prove: bool) -> Result<Answer, StaticsError
         robot.platform.mass = mass;
         robot.validate()?;
     }
-    let vector = |components: Option<[f64; 3]>| components.map_or_else(Vector3::zeros, Vector3::from);
-    let wrench = Wrench { force: vector(case.force), moment: vector(case.moment) };
-    let load = Load { payload: case.payload.unwrap_or(0.0), wrench };
+    let load = case.load();
     let start = match &case.start {
         Some(numbers) => poses::pose_of(numbers).map_err(|_| StaticsError::Invalid {
             field: "start".to_owned(),

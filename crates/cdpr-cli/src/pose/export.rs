@@ -4,9 +4,9 @@ use crate::arguments::Overwrite;
 use crate::error::ProgramError;
 use crate::output::patiently;
 use crate::poses::{Angles, place, pose};
+use crate::questions;
 use cdpr_exchange::{Target, export};
 use cdpr_robot::{Pose, shown};
-use cdpr_study::open_robot;
 use std::path::PathBuf;
 
 /// A robot, a pose and a format.
@@ -51,8 +51,9 @@ impl Format {
 }
 
 pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
-    let robot = open_robot(&settings.robot)?;
+    let robot = questions::open_robot(&settings.robot)?;
     let pose = settings.angles.of(&settings.pose)?;
+    questions::about_pose(&robot, "--pose", &pose);
     let exported = patiently("solving", || export(&robot, &pose, settings.to.target()))?;
     let single = exported.files.len() == 1;
     for (ending, text) in &exported.files {

@@ -1,13 +1,14 @@
 //! `cdpr hysteresis`: where a payload that is put on and taken off again leaves the platform.
 
 use crate::answer::{OutOfLimits, vector};
-use crate::arguments::{Format, FreeArguments, Overwrite, Preference, number, payload};
+use crate::arguments::{self, Format, FreeArguments, Overwrite, Preference, number, payload};
 use crate::error::ProgramError;
 use crate::output::{Ending, patiently, table};
 use crate::poses::{self, Angles};
+use crate::questions;
 use cdpr_report::{Cycle, CycleBranch, cycle};
 use cdpr_robot::{Pose, Robot};
-use cdpr_statics::{CycleStep, HysteresisLaw, LoadCycle, Unloading, load_cycle};
+use cdpr_statics::{CycleStep, HysteresisLaw, Load, LoadCycle, Unloading, load_cycle};
 use cdpr_study::{CableLaw, elastic_laws, open_law, open_record};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -45,10 +46,10 @@ pub(crate) struct Settings {
     #[arg(long, value_enum, default_value_t = Branch::TurningPoint)]
     unloading: Branch,
     /// Steps of the payload each way.
-    #[arg(long, default_value_t = 50)]
+    #[arg(long, default_value_t = 50, value_parser = arguments::count::<1, 100_000>)]
     steps: usize,
     /// File for a figure of payload over height (SVG).
-    #[arg(long)]
+    #[arg(long, value_parser = arguments::svg)]
     figure: Option<PathBuf>,
     #[command(flatten)]
     overwrite: Overwrite,
@@ -93,6 +94,8 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     let robot = settings.preference.open_robot(&settings.robot)?;
     let laws = laws(&robot, settings)?;
     let pose = settings.angles.of(&settings.pose)?;
+    questions::about_pose(&robot, "--pose", &pose);
+    questions::about_load(&robot, &Load::payload(settings.payload));
     let cycle = || load_cycle(&robot, &laws, &pose, &settings.free.free, settings.payload, settings.steps);
     let cycle = patiently("following the load", cycle)?;
     let found = Found::new(&robot, &laws, &cycle);

@@ -7,7 +7,9 @@ use crate::output::Ending;
 use crate::pose::at_pose::{RobotAtPose, Row, cells, numbered};
 use crate::poses::{COLUMNS, pose_numbers};
 use cdpr_robot::Robot;
-use cdpr_statics::{FreeSolution, FreeSolutions, InversePath, InverseSolution, inverse, inverse_free};
+use cdpr_statics::{
+    FreeSolution, FreeSolutions, InversePath, InverseSolution, inverse, inverse_free, inverse_free_with_loops,
+};
 use serde::Serialize;
 
 /// The robot, its poses and the load.
@@ -23,9 +25,12 @@ pub(crate) struct Settings {
     /// before, as long as it exists between them, even where another becomes better.
     #[arg(long, requires = "poses", conflicts_with = "free")]
     path: bool,
+    /// Also take solutions whose cables hang in loops, of any length.
+    #[arg(long, requires = "free")]
+    loops: bool,
 }
 
-pub(crate) fn run(Settings { at, free, path }: &Settings) -> Result<Ending, ProgramError> {
+pub(crate) fn run(Settings { at, free, path, loops }: &Settings) -> Result<Ending, ProgramError> {
     let load = at.load.load();
     if *path {
         let robot = at.robot()?;
@@ -36,8 +41,8 @@ pub(crate) fn run(Settings { at, free, path }: &Settings) -> Result<Ending, Prog
         });
     }
     if !free.free.is_empty() {
-        let solve =
-            |robot: &Robot, pose: &_| Ok(Rest::new(robot, &inverse_free(robot, pose, &load, &free.free)?));
+        let model = if *loops { inverse_free_with_loops } else { inverse_free };
+        let solve = |robot: &Robot, pose: &_| Ok(Rest::new(robot, &model(robot, pose, &load, &free.free)?));
         return at.answer(solve, Rest::print);
     }
     let solve =
@@ -73,7 +78,7 @@ impl Row for OnPath {
 struct Rest {
     #[serde(flatten)]
     first: Resting,
-    /// Further solutions, stable ones first.
+    /// Further solutions: those within the limits come first, and of them stable ones.
     others: Vec<Resting>,
 }
 
@@ -90,6 +95,8 @@ struct Resting {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     out_of_limits: Vec<OutOfLimits>,
     cable_forces: Vec<[f64; 2]>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    loops: Vec<LoopedCable>,
     stable: bool,
     /// Stiffness of the softest motion with the lengths held.
     least_stiffness: f64,
@@ -97,6 +104,15 @@ struct Resting {
     neutral: Vec<Neutral>,
     iterations: usize,
     residual: Residual,
+}
+
+/// A cable that hangs in a loop.
+#[derive(Serialize)]
+struct LoopedCable {
+    /// Number of the cable, from 1.
+    cable: usize,
+    /// Its unstrained length over the distance of its points.
+    chords: f64,
 }
 
 impl Resting {
@@ -111,6 +127,11 @@ impl Resting {
             exit_tensions: equilibrium.exit_tensions(robot, lengths),
             out_of_limits: OutOfLimits::all(robot, lengths, &[equilibrium]),
             cable_forces: answer::forces(equilibrium),
+            loops: found
+                .loops(robot)
+                .into_iter()
+                .map(|(i, chords)| LoopedCable { cable: i + 1, chords })
+                .collect(),
             stable: stability.is_stable(),
             least_stiffness: stability.least_stiffness(),
             neutral: Neutral::all(stability),
@@ -167,9 +188,13 @@ impl Rest {
         println!("{}, softest motion {:.1} N/m", self.first.stable(), self.first.least_stiffness);
         Neutral::print(&self.first.neutral);
         OutOfLimits::print(&self.first.out_of_limits);
+        for LoopedCable { cable, chords } in &self.first.loops {
+            println!("cable {cable} is a loop of {chords:.1} chords");
+        }
         self.first.residual.print();
         for other in &self.others {
-            println!("also {} at {}", other.stable(), other.place());
+            let beyond = if other.out_of_limits.is_empty() { "" } else { ", out of limits," };
+            println!("also {}{beyond} at {}", other.stable(), other.place());
         }
     }
 }

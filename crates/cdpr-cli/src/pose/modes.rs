@@ -6,6 +6,7 @@ use crate::error::ProgramError;
 use crate::output::{Ending, table};
 use crate::pose::at_pose::{RobotAtPose, Row, cells, numbered};
 use crate::poses;
+use crate::questions;
 use cdpr_robot::{Pose, Robot, shown};
 use cdpr_statics::{DirectProblem, PoseModes, Start, StaticsError, modes_at, rough_pose};
 use serde::Serialize;
@@ -36,12 +37,12 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
         return at.answer(solve, Answer::print);
     };
     let robot = at.robot()?;
+    questions::about_lengths(&robot, lengths);
     let solve = || -> Result<_, StaticsError> {
         let problem = DirectProblem::new(&robot, lengths, &load)?;
         let start = start.unwrap_or_else(|| rough_pose(&robot, lengths));
         let found = problem.direct(Start::Pose(&start))?;
-        let modes = problem.modes(&found.equilibrium)?;
-        Ok(PoseModes { modes, lengths: lengths.clone(), equilibrium: found.equilibrium })
+        PoseModes::new(&problem, found.equilibrium)
     };
     let found = solve()?;
     let answer = Answer::new(&robot, &found);
@@ -56,6 +57,13 @@ struct Answer {
     frequencies_hz: Vec<f64>,
     /// The motion of each frequency.
     modes: Vec<Mode>,
+    /// The lowest of each cable between ends at rest [Hz]; `null` for one without mass.
+    cable_frequencies_hz: Vec<Option<f64>>,
+    /// The lowest of these [Hz].
+    lowest_cable_frequency_hz: Option<f64>,
+    /// What follows where that is less than twice the lowest of the platform.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    warning: Option<String>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     out_of_limits: Vec<OutOfLimits>,
 }
@@ -75,11 +83,13 @@ struct Mode {
 
 impl Row for Answer {
     fn columns(robot: &Robot) -> Vec<String> {
-        numbered("frequency", "hz", robot.freedoms().count()).collect()
+        let platform = numbered("frequency", "hz", robot.freedoms().count());
+        platform.chain(["lowest_cable_frequency_hz".to_owned()]).collect()
     }
 
     fn cells(&self) -> Vec<String> {
-        cells(&self.frequencies_hz)
+        let lowest = self.lowest_cable_frequency_hz.map(|frequency| format!("{frequency:?}"));
+        cells(&self.frequencies_hz).into_iter().chain([lowest.unwrap_or_default()]).collect()
     }
 
     fn out_of_limits(&self) -> Vec<&[OutOfLimits]> {
@@ -88,8 +98,13 @@ impl Row for Answer {
 }
 
 impl Answer {
-    fn new(robot: &Robot, PoseModes { modes, lengths, equilibrium }: &PoseModes) -> Self {
+    fn new(robot: &Robot, found: &PoseModes) -> Self {
+        let PoseModes { modes, lengths, equilibrium, cable_frequencies } = found;
+        let (slowest, platform) = found.lowest();
         Self {
+            cable_frequencies_hz: cable_frequencies.clone(),
+            lowest_cable_frequency_hz: slowest.map(|cable| cable.frequency),
+            warning: slowest.zip(platform).and_then(|(cable, platform)| cable.warning(platform)),
             out_of_limits: OutOfLimits::all(robot, lengths, &[equilibrium]),
             frequencies_hz: modes.iter().map(|mode| mode.frequency).collect(),
             modes: modes
@@ -124,6 +139,10 @@ impl Answer {
         }
         println!("{rows}");
         println!("weight and cables: share of each in the energy of the motion");
+        let of_cable = |frequency: &Option<f64>| frequency.map_or("-".to_owned(), |f| format!("{f:.3}"));
+        let cables: Vec<_> = self.cable_frequencies_hz.iter().map(of_cable).collect();
+        println!("lowest of each cable itself, between ends at rest: {} Hz", cables.join(" "));
+        self.warning.iter().for_each(|warning| println!("warning: {warning}"));
         OutOfLimits::print(&self.out_of_limits);
     }
 }

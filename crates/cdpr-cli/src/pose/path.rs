@@ -1,7 +1,7 @@
 //! `cdpr path`: what a robot does along a path of poses.
 
-use crate::answer::OutOfLimits;
-use crate::arguments::{ErrorModelArguments, Overwrite};
+use crate::answer::{OutOfLimits, warn_of_cables};
+use crate::arguments::{self, ErrorModelArguments, Overwrite};
 use crate::error::ProgramError;
 use crate::output::Ending;
 use crate::pose::at_pose::{RobotAtPose, Row, cells, numbered};
@@ -20,7 +20,7 @@ pub(crate) struct Settings {
     #[command(flatten)]
     errors: ErrorModelArguments,
     /// File for a figure of the path (SVG), with bands of two standard deviations if an error model is given.
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = arguments::svg)]
     figure: Option<PathBuf>,
     #[command(flatten)]
     overwrite: Overwrite,
@@ -31,8 +31,11 @@ pub(crate) fn run(Settings { at, errors, figure, overwrite }: &Settings) -> Resu
     let model = errors.model(&robot)?;
     let mut path = Path::new(&robot, load, model.as_ref())?;
     let mut passed = Vec::new();
+    let mut frequencies = Vec::new();
     let mut solve = |pose: &_| {
         let found = path.solve(pose);
+        let passed_by = found.as_ref().ok();
+        frequencies.extend(passed_by.and_then(|at| at.lowest_cable_frequency.zip(at.lowest_frequency)));
         if figure.is_some() {
             passed.push(found.clone().ok());
         }
@@ -43,6 +46,7 @@ pub(crate) fn run(Settings { at, errors, figure, overwrite }: &Settings) -> Resu
     } else {
         at.answer_in_order(&robot, |pose| Ok(Passed::new(&robot, solve(pose)?)))?
     };
+    warn_of_cables(frequencies.into_iter());
     if let Some(file) = figure {
         overwrite.write(file, &path_view(&robot, &load, &passed)?)?;
     }
@@ -68,6 +72,8 @@ struct Passed {
     least_stiffness: f64,
     /// With the load; `null` for a robot that lacks `platform.inertia`.
     lowest_frequency_hz: Option<f64>,
+    /// That of the slowest cable between ends at rest.
+    lowest_cable_frequency_hz: Option<f64>,
     /// Numbers, from 1, of the cables that are slack with the load.
     slack_cables: Vec<usize>,
     /// Standard deviations, in SI units; absent without an error model, `null` without derivatives.
@@ -80,7 +86,7 @@ struct Passed {
 
 impl Passed {
     fn new(robot: &Robot, found: PathPose) -> Self {
-        let PathPose { jump, tensions, exit_tensions, sags, deflection, lowest_frequency, bands } = found;
+        let PathPose { jump, tensions, exit_tensions, sags, deflection, bands, .. } = found;
         let dp = 1e3 * deflection.displacement();
         let Deflection { lengths, unloaded, loaded } = deflection;
         Self {
@@ -91,7 +97,8 @@ impl Passed {
             deflection_mm: dp.into(),
             rms_mm: dp.norm(),
             least_stiffness: loaded.stability.least_stiffness(),
-            lowest_frequency_hz: lowest_frequency,
+            lowest_frequency_hz: found.lowest_frequency,
+            lowest_cable_frequency_hz: found.lowest_cable_frequency.map(|cable| cable.frequency),
             slack_cables: loaded.report.slack.iter().map(|i| i + 1).collect(),
             standard_deviations: bands,
             out_of_limits: OutOfLimits::all(robot, &lengths, &[&unloaded.equilibrium, &loaded.equilibrium]),
@@ -105,8 +112,16 @@ impl Row for Passed {
         let cables = robot.cables.len();
         let of_cables = [("length", "m"), ("tension", "n"), ("exit_tension", "n"), ("sag", "m")];
         let of_cables = of_cables.into_iter().flat_map(|(name, unit)| numbered(name, unit, cables));
-        let of_platform =
-            ["dx_mm", "dy_mm", "dz_mm", "rms_mm", "least_stiffness", "lowest_frequency_hz", "slack_cables"];
+        let of_platform = [
+            "dx_mm",
+            "dy_mm",
+            "dz_mm",
+            "rms_mm",
+            "least_stiffness",
+            "lowest_frequency_hz",
+            "lowest_cable_frequency_hz",
+            "slack_cables",
+        ];
         let platform = of_platform.into_iter().map(str::to_owned);
         ["jump".to_owned()].into_iter().chain(of_cables).chain(platform).collect()
     }
@@ -116,9 +131,10 @@ impl Row for Passed {
         let of_cables = lengths.iter().chain(tensions).chain(exit_tensions).chain(sags);
         let numbers = of_cables.chain(deflection_mm).chain([&self.rms_mm, &self.least_stiffness]);
         let slack: Vec<_> = self.slack_cables.iter().map(ToString::to_string).collect();
-        let frequency = self.lowest_frequency_hz.map(|frequency| format!("{frequency:?}"));
+        let frequencies = [self.lowest_frequency_hz, self.lowest_cable_frequency_hz];
+        let frequencies = frequencies.map(|of| of.map_or_else(String::new, |of| format!("{of:?}")));
         let first = [self.jump.to_string()].into_iter().chain(cells(numbers));
-        first.chain([frequency.unwrap_or_default(), slack.join(" ")]).collect()
+        first.chain(frequencies).chain([slack.join(" ")]).collect()
     }
 
     fn out_of_limits(&self) -> Vec<&[OutOfLimits]> {

@@ -3,13 +3,14 @@
 use crate::arguments::{self, Format, Named, Overwrite, Preference, Threads, study_errors};
 use crate::error::ProgramError;
 use crate::output::{Ending, patiently, table};
+use crate::questions;
 use cdpr_calibration::{
     Calibrated, CalibrationError, CalibrationSummary, Campaign, Fit, FitSettings, Measurements, RobustLoss,
     SensorError, Unknowns, carry_out, read_measurements,
 };
 use cdpr_report::calibration_report;
-use cdpr_robot::{Robot, Vector3, rounded, shown};
-use cdpr_study::{ErrorModel, InputKind, open_errors, read_text};
+use cdpr_robot::{Robot, Vector3, counted, rounded, shown};
+use cdpr_study::{ErrorModel, InputKind, read_bytes};
 use std::path::PathBuf;
 
 /// The robot, the measurements and what is sought.
@@ -44,8 +45,9 @@ pub(crate) struct Settings {
     /// How great residuals count: by their squares, or less (outliers).
     #[arg(long, value_enum, default_value_t = LossName::Squares)]
     loss: LossName,
-    /// Starts of the search: the robot file, and others at random.
-    #[arg(long, default_value_t = 1)]
+    /// Starts of the search: the robot file, and others at random. Twice as many at most, until two agree.
+    #[arg(long, default_value_t = FitSettings::STARTS,
+          value_parser = arguments::count::<1, { FitSettings::MOST_STARTS }>)]
     starts: usize,
     /// Seed of the random starts.
     #[arg(long, default_value_t = 1)]
@@ -55,7 +57,7 @@ pub(crate) struct Settings {
     only_identifiable: bool,
     /// Predict each part of the rows by robots calibrated without it, so many parts; 0 for none, as many as
     /// rows for one at a time.
-    #[arg(long, default_value_t = 5)]
+    #[arg(long, default_value_t = 5, value_parser = arguments::count::<0, { Campaign::MOST_FOLDS }>)]
     folds: usize,
     #[command(flatten)]
     preference: Preference,
@@ -104,7 +106,7 @@ impl Sought {
         let Some(path) = &self.model else { return Ok(None) };
         Ok(Some(match &self.error_model {
             Some(name) => study_errors(path, name, robot)?,
-            None => open_errors(path, robot)?,
+            None => questions::open_errors(path, robot)?,
         }))
     }
 
@@ -148,9 +150,12 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     let prior = settings.sought.prior(&robot)?;
     let path = &settings.measurements;
     let in_file = ProgramError::in_file(path);
-    let text = read_text(path, InputKind::Measurements)?;
+    let bytes = read_bytes(path, InputKind::Measurements)?;
     let noise = settings.noise.as_ref().map_or(&[][..], |Named(named)| named);
-    let measured = read_measurements(&text, &robot, noise).map_err(&in_file)?;
+    questions::about_noise(&robot, noise);
+    let markers = settings.markers.iter().map(|marker| Vector3::from(*marker));
+    questions::about_markers(&robot, markers);
+    let measured = read_measurements(&bytes, &robot, noise).map_err(&in_file)?;
     let unknowns = settings.unknowns(&robot, prior.as_ref(), &measured)?;
     let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
     let campaign = Campaign {
@@ -212,10 +217,10 @@ impl Settings {
 
 fn print(summary: &CalibrationSummary, found: &Fit) {
     println!(
-        "{}: {} rows, {} unknowns, chi-square {:.1} with {} degrees of freedom",
+        "{}: {}, {}, chi-square {:.1} with {} degrees of freedom",
         shown(&summary.robot),
-        summary.rows,
-        found.estimates.len(),
+        counted(summary.rows, "row"),
+        counted(found.estimates.len(), "unknown"),
         summary.chi_square,
         summary.degrees_of_freedom
     );
@@ -233,13 +238,16 @@ fn print(summary: &CalibrationSummary, found: &Fit) {
         ]);
     }
     println!("{rows}");
-    let mut rows = table(&["parameter", "before", "after", "std", "moved [prior std]", "identifiable"]);
+    let columns =
+        ["parameter", "before", "after", "std", "std by data alone", "moved [prior std]", "identifiable"];
+    let mut rows = table(&columns);
     for (name, of) in summary.parameters.iter().chain(&summary.sensors) {
         rows.add_row([
             name.clone(),
             rounded(of.before, 9).to_string(),
             rounded(of.after, 9).to_string(),
             of.std.map_or_else(|| "-".to_owned(), |std| format!("{std:.2e}")),
+            of.std_of_data.map_or_else(|| "-".to_owned(), |std| format!("{std:.2e}")),
             of.moved_by_prior_std.map_or_else(|| "-".to_owned(), |moved| format!("{moved:+.2}")),
             if of.identifiable { "yes" } else { "no" }.to_owned(),
         ]);
@@ -247,7 +255,7 @@ fn print(summary: &CalibrationSummary, found: &Fit) {
     println!("{rows}");
     let [starts, same] = summary.starts;
     if starts > 1 {
-        println!("{same} of {starts} starts ended at the least sum of squares");
+        println!("{same} of {starts} starts ended at this chi-square");
     }
     if let Some(after) = summary.position_std_after {
         let before = summary.position_std_before;

@@ -4,7 +4,7 @@ use crate::arguments::{Format, Preference};
 use crate::error::ProgramError;
 use crate::output::{Ending, patiently};
 use cdpr_assess::{Finding, Severity, inspect};
-use cdpr_robot::shown;
+use cdpr_robot::{counted, shown};
 use std::path::PathBuf;
 
 /// The robot file.
@@ -29,10 +29,11 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
             println!("    remedy: {remedy}");
         }
         println!(
-            "{}: {} cables, {warnings} warnings, {} notes",
+            "{}: {}, {}, {}",
             shown(&robot.name),
-            robot.cables.len(),
-            findings.len() - warnings
+            counted(robot.cables.len(), "cable"),
+            counted(warnings, "warning"),
+            counted(findings.len() - warnings, "note")
         );
     })?;
     Ok(if warnings > 0 { Ending::SomethingWrong } else { Ending::Well })

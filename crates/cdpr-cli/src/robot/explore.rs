@@ -3,9 +3,10 @@
 use crate::arguments::{Format, Overwrite, named_after};
 use crate::error::ProgramError;
 use crate::output::patiently;
+use crate::questions;
 use cdpr_report::{Explored, explored_study, explorer};
 use cdpr_robot::Robot;
-use cdpr_study::{InputKind, ROBOT_NAME, Results, Study, StudyError, open_robot};
+use cdpr_study::{InputKind, ROBOT_NAME, Results, Study, StudyError};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
@@ -60,15 +61,15 @@ pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
     Ok(format.print(&written, |written| println!("explorer in {}", written.explorer))?)
 }
 
-fn read(path: &Path) -> Result<Input, StudyError> {
+fn read(path: &Path) -> Result<Input, ProgramError> {
     let of_study = |study: Study, file| Input { robot: study.robot.clone(), file, study: Some(study) };
     if path.is_dir() {
         return Ok(of_study(Results::read(path)?.study, path.join(ROBOT_NAME)));
     }
-    match open_robot(path) {
+    match questions::open_robot(path) {
         Ok(robot) => Ok(Input { robot, file: path.to_owned(), study: None }),
-        Err(StudyError::OtherKind { found: InputKind::Study, .. }) => {
-            let study = Study::open(path)?;
+        Err(ProgramError::Study(StudyError::OtherKind { found: InputKind::Study, .. })) => {
+            let study = questions::open_study(path)?;
             let named = Path::new(&study.file.robot);
             // Beside the study, or else of the library.
             let beside = path.with_file_name("").join(named);

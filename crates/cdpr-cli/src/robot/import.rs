@@ -3,8 +3,9 @@
 use crate::arguments::{self, Overwrite, components};
 use crate::error::ProgramError;
 use crate::output::Ending;
+use crate::questions;
 use cdpr_exchange::{ForeignFile, ImportOptions, Imported, NoteKind, import};
-use cdpr_robot::{TensionLimits, shown};
+use cdpr_robot::{TensionLimits, plausible, shown};
 use cdpr_study::{InputKind, StudyError, open_cable, read_text};
 use std::path::{Path, PathBuf};
 
@@ -54,6 +55,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
         cable_set: settings.cable_set.clone(),
     };
     let Imported { robot, notes } = import(&files, &options)?;
+    questions::ask(plausible::robot(&robot));
     let text = format!("{}\n", robot.to_json());
     let mut lines = Vec::new();
     for note in &notes {

@@ -3,9 +3,10 @@
 use crate::arguments::Format;
 use crate::error::ProgramError;
 use crate::output::table;
+use crate::questions;
 use cdpr_robot::library::{CABLES, ROBOTS};
 use cdpr_robot::{Grade, Robot, shown};
-use cdpr_study::{open_cable, open_robot};
+use cdpr_study::open_cable;
 use serde::Serialize;
 use std::path::Path;
 
@@ -68,7 +69,7 @@ pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
 
 impl RobotEntry {
     fn open(name: &str) -> Result<Self, ProgramError> {
-        let robot = open_robot(Path::new(name))?;
+        let robot = questions::open_robot(Path::new(name))?;
         Ok(Self {
             name: name.to_owned(),
             cables: robot.cables.len(),

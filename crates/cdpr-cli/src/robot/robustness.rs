@@ -3,11 +3,12 @@
 use crate::arguments::{self, Format, FreeArguments, Overwrite, Preference};
 use crate::error::ProgramError;
 use crate::output::{drawn, progress, table};
+use crate::questions;
 use cdpr_assess::{
     PoseRegion, ProtocolSummary, RobustnessRow, RobustnessSummary, Spread, begin_robustness, protocols,
     run_robustness, write_robustness,
 };
-use cdpr_robot::{rounded, shown};
+use cdpr_robot::{Pose, plausible, rounded, shown};
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -20,7 +21,7 @@ pub(crate) struct Settings {
     #[arg(long)]
     robot: PathBuf,
     /// Poses of the protocol of Mahnke and Caverly.
-    #[arg(long, default_value_t = 10_000)]
+    #[arg(long, default_value_t = 10_000, value_parser = arguments::count::<1, 1_000_000>)]
     poses: usize,
     /// Young's modulus of all cables in that protocol [Pa]; the thirty poses keep the robot's [default: 35e9
     /// for CoGiRo, else the robot's].
@@ -51,6 +52,10 @@ pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
     let clock = Instant::now();
     let robot = settings.preference.open_robot(&settings.robot)?;
     let Settings { poses, modulus, region, free, seed, .. } = settings;
+    questions::ask(modulus.and_then(|modulus| plausible::modulus("--modulus", modulus)));
+    if let Some(PoseRegion { low: [x, y, z], high: [to_x, to_y, to_z], .. }) = region {
+        questions::about_poses(&robot, "--region", &[Pose::at(*x, *y, *z), Pose::at(*to_x, *to_y, *to_z)]);
+    }
     let protocols = protocols(&robot, *poses, *modulus, *region, &free.free, *seed);
     for protocol in &protocols {
         protocol.validate()?;

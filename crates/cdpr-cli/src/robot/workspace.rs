@@ -1,18 +1,20 @@
 //! `cdpr workspace`: where the cables hold the platform, and how far it gives there, over a plane or a box.
 
+use crate::answer::warn_of_cables;
 use crate::arguments::{
     self, ErrorModelArguments, Format, FreeArguments, LoadArguments, Overwrite, Preference, Threads,
 };
 use crate::error::ProgramError;
 use crate::output::{Ending, drawn, patiently, progress, table};
 use crate::poses::{self, Angles};
+use crate::questions;
 use crate::wrenches::WrenchArguments;
 use cdpr_assess::{
     BoundarySummary, Further, TiltDirections, Way, Workspace, WorkspaceSummary, begin_workspace,
     compute_workspace, workspace_boundary, write_workspace,
 };
 use cdpr_report::{layers, workspace_maps};
-use cdpr_robot::{Axis, Rotation3, shown};
+use cdpr_robot::{Axis, Rotation3, counted, shown};
 use cdpr_study::{Extremes, Grid};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -51,7 +53,7 @@ pub(crate) struct Settings {
     #[command(flatten)]
     further: FurtherArguments,
     /// Layers of a box that are drawn, spread evenly from the lowest to the highest one; 0 draws nothing.
-    #[arg(long, value_name = "LAYERS", default_value = "12")]
+    #[arg(long, value_name = "LAYERS", default_value = "12", value_parser = arguments::count::<0, 10_000>)]
     draw: usize,
     /// Folder for the results, made if missing; NAME-workspace in the current folder if left out.
     #[arg(long)]
@@ -140,6 +142,8 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
         }
         (None, None) => return Err(ProgramError::Usage("expected --plane or --box".to_owned())),
     };
+    questions::about_poses(&robot, "the map", &grid.corners());
+    questions::about_load(&robot, &settings.load.load());
     let tolerances = settings.errors.model(&robot)?;
     if settings.further.set.are_given() && !settings.further.capacity {
         let usage =
@@ -149,6 +153,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     let out = settings.out.clone().unwrap_or_else(|| arguments::named_after(&settings.robot, "workspace"));
     let folder = begin_workspace(&out, settings.overwrite.if_exists())?;
     let set = settings.further.set.set()?;
+    questions::about_wrenches(&robot, set.wrenches());
     let further = &settings.further;
     let workspace = Workspace {
         robot: &robot,
@@ -170,7 +175,10 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     let poses = compute_workspace(&workspace, &|| progress.inc(1), &|| false)?;
     let seconds = clock.elapsed().as_secs_f64();
     progress.finish_and_clear();
+    let held = poses.iter().filter_map(|pose| pose.outcome.as_ref().ok());
+    warn_of_cables(held.filter_map(|held| held.lowest_cable_frequency.zip(held.lowest_frequency)));
     let mut summary = WorkspaceSummary::new(&workspace, &poses);
+    questions::about_map(&summary);
     let mut boundary = None;
     if let Some(way) = further.boundary {
         let found = patiently("boundary", || workspace_boundary(&workspace, way.into(), &|| false))?;
@@ -186,7 +194,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
         if drawn < all {
             println!("{drawn} of {all} layers are drawn: --draw {all} draws all of them");
         }
-        println!("{} poses in {seconds:.2} s; results in {}", poses.len(), out.display());
+        println!("{} in {seconds:.2} s; results in {}", counted(poses.len(), "pose"), out.display());
     })?;
     Ok(if summary.too_much > 0 { Ending::SomethingWrong } else { Ending::Well })
 }
@@ -224,6 +232,7 @@ fn print(summary: &WorkspaceSummary) {
         ("|dp| [mm]", summary.rms_mm),
         ("least stiffness [N/m]", summary.least_stiffness),
         ("lowest natural frequency [Hz]", summary.lowest_frequency_hz),
+        ("that of the slowest cable [Hz]", summary.lowest_cable_frequency_hz),
         ("greatest tension [N]", summary.greatest_tension),
         ("least tension [N]", summary.least_tension),
         ("greatest tension, distributed anew [N]", summary.anew_greatest_tension),

@@ -7,6 +7,7 @@ use super::print;
 use crate::arguments::Format;
 use crate::error::ProgramError;
 use crate::output::{Ending, progress};
+use crate::questions;
 use cdpr_report::{draw, report_with};
 use cdpr_study::{
     Blocks, Plan, REPORT_NAME, Run, STUDY_NAME, Session, Shard, Study, StudyError, Summary, TableFormat,
@@ -55,6 +56,7 @@ pub(super) fn whole(
     common: &Common,
     first: impl FnOnce(&Session) -> Result<(), ProgramError>,
 ) -> Result<Ending, ProgramError> {
+    announce_slow(study)?;
     let progress = progress(study.all_observations()?, "observations");
     leave_when_interrupted(&progress, out, format!("go on with: {}", resumed(out, common)))?;
     let watcher = Watcher {
@@ -80,15 +82,22 @@ pub(super) fn whole(
     Ok(ending(&results.summary))
 }
 
+/// Seconds from which on a run is announced.
+const LONG: f64 = 20.0;
+
+/// Says before the run which samplings take long because the scalar models observe them.
+fn announce_slow(study: &Study) -> Result<(), ProgramError> {
+    let slow = study.scalar_samplings()?.into_iter().filter(|sampling| sampling.seconds > LONG);
+    slow.for_each(|sampling| eprintln!("note: {sampling}; `--observations N` makes fewer"));
+    Ok(())
+}
+
 /// Names what is wrong about results: parts without any, nominal robots that are strained too much.
 fn ending(summary: &Summary) -> Ending {
     let mut ending = Ending::Well;
     for (name, part) in &summary.studies {
         let failed: usize = part.failed().values().sum();
-        if failed > 0 && failed == part.observations() {
-            eprintln!("warning: {name}: every observation failed");
-            ending = Ending::SomethingWrong;
-        }
+        questions::about_failed(name, failed, part.observations());
         for beyond in part.out_of_limits() {
             eprintln!("warning: {name}, nominal robot {beyond}");
             ending = Ending::SomethingWrong;

@@ -1,6 +1,6 @@
 //! The arguments that several commands of `cdpr study` share, and the start of a study.
 
-use crate::arguments::{Format, Preference, Threads};
+use crate::arguments::{self, Format, Preference, Threads};
 use crate::error::ProgramError;
 use crate::output::patiently;
 use cdpr_study::{Blocks, Existing, Shard, Study, StudyError, TableFormat};
@@ -17,7 +17,7 @@ pub(crate) struct RunSettings {
     /// Number of observations of each sampling, in place of the file's.
     ///
     /// Fewer than the file's shorten the measures of sensitivity in proportion.
-    #[arg(long)]
+    #[arg(long, value_parser = arguments::count::<3, 10_000_000_000>)]
     observations: Option<usize>,
     #[command(flatten)]
     preference: Preference,

@@ -1,5 +1,6 @@
 //! The results of a study on the terminal.
 
+pub(super) mod analysis;
 mod sensitivity;
 
 use crate::output::table;

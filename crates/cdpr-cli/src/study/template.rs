@@ -3,7 +3,8 @@
 use crate::arguments::{self, FreeArguments};
 use crate::error::ProgramError;
 use crate::output::patiently;
-use cdpr_study::{TEMPLATE_NOTES, open_robot, template, template_cost, write_template};
+use crate::questions;
+use cdpr_study::{TEMPLATE_NOTES, template, template_cost, write_template};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -27,7 +28,7 @@ pub(crate) struct Settings {
 
 pub(super) fn run(settings: &Settings) -> Result<(), ProgramError> {
     let Settings { robot: path, out, position, payload, free } = settings;
-    let robot = open_robot(path)?;
+    let robot = questions::open_robot(path)?;
     let text =
         |path: &str| patiently("trying poses", || template(&robot, path, *position, *payload, &free.free));
     let notes = format!("{TEMPLATE_NOTES}\n\n{}", template_cost(&robot));

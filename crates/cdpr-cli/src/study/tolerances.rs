@@ -33,7 +33,7 @@ pub(crate) struct Settings {
     #[arg(long, value_parser = arguments::named)]
     costs: Option<Named>,
     /// Independent robots that the budget is verified with.
-    #[arg(long, default_value_t = 20_000)]
+    #[arg(long, default_value_t = 20_000, value_parser = arguments::count::<2, 100_000_000>)]
     observations: usize,
     #[command(flatten)]
     preference: Preference,

@@ -10,6 +10,9 @@ pub(crate) fn write(robot: &Robot, pose: &Pose) -> Result<Exported, ExchangeErro
         return Err(ExchangeError::NoPlace { field: "platform.point".to_owned(), value: "true".to_owned() });
     }
     let mut notes = unplaced(robot);
+    if robot.ground_z.is_some() {
+        notes.push("the height of the ground (ground_z) has no place".to_owned());
+    }
     notes.push("CASPR's cables have no density and no section: their stiffness K is EA".to_owned());
     let earthly = robot.gravity.vector();
     notes.push(format!("CASPR has its own gravity along -z; that of the robot is {} m/s²", words(&earthly)));

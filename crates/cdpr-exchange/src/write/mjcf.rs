@@ -50,6 +50,12 @@ pub(crate) fn write(robot: &Robot, pose: &Pose) -> Result<Exported, ExchangeErro
     for (i, cable) in robot.cables.iter().enumerate() {
         let _ = writeln!(text, "    <site name=\"exit_{}\" pos=\"{}\"/>", i + 1, words(&cable.exit_point));
     }
+    if let Some(ground) = robot.ground_z {
+        let _ = writeln!(
+            text,
+            "    <geom name=\"ground\" type=\"plane\" pos=\"0 0 {ground:?}\" size=\"0 0 1\"/>"
+        );
+    }
     let _ = writeln!(
         text,
         "    <body name=\"platform\" pos=\"{}\" quat=\"{quaternion}\">

@@ -1,4 +1,5 @@
-//! MoorPy and MoorDyn: fixed points, a free body and elastic catenaries, in air.
+//! MoorPy and MoorDyn: fixed points, a free body and elastic catenaries, in air. Stiff and light lines need small
+//! steps of a method of high order: MoorDyn's own, 1 ms and second order, end in NaN within six.
 
 use crate::error::ExchangeError;
 use crate::write::scene::{Exported, check_plain, inertia, unplaced, words};
@@ -17,6 +18,9 @@ pub(crate) fn write(robot: &Robot, pose: &Pose) -> Result<Exported, ExchangeErro
     let lengths = inverse(robot, pose, &Load::none(), None)?.lengths;
     let (about_center, assumed) = inertia(robot);
     let mut notes = unplaced(robot);
+    if robot.ground_z.is_some() {
+        notes.push("the height of the ground (ground_z) has no place".to_owned());
+    }
     notes.push(
         "MoorPy's lines are elastic catenaries between points: limits of tension and products of inertia \
          have no place"
@@ -90,6 +94,8 @@ ID LineType AttachA AttachB UnstrLen NumSegs Outputs
 {:?} g
 0 rho
 {:?} depth
+rk4 tScheme
+1e-4 dtM
 ---------------------- need this line -----------------------------------
 ",
         down.norm(),

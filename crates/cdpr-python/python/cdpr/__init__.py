@@ -32,7 +32,7 @@ from ._core import (
     Workspace,
     catenary,
 )
-from .errors import CdprError, FileError, InputError, NoSolutionError
+from .errors import CdprError, FaultError, FileError, InputError, NoSolutionError
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -49,6 +49,7 @@ __all__ = [
     "Derivatives",
     "DirectSolution",
     "FileError",
+    "FaultError",
     "InputError",
     "InverseSolution",
     "NoSolutionError",

@@ -98,6 +98,8 @@ class Robot:
         9.81 if left out.
     point: whether the platform is a point mass: its rotation is held.
     plane: "xy", "xz" or "yz" for a planar robot, whose platform moves in this plane of the base frame.
+    ground_z: height of the ground in the base frame [m]: with free coordinates no cable and no anchor point is
+        below it.
 
     Raises InputError naming the field, its value and what would be right.
     """
@@ -119,6 +121,7 @@ class Robot:
         tension_reference: ArrayLike | str | None = None,
         point: bool = False,
         plane: str | None = None,
+        ground_z: float | None = None,
     ) -> Robot: ...
     @staticmethod
     def from_file(path: _Path) -> Robot:
@@ -175,6 +178,9 @@ class Robot:
     @property
     def max_at(self) -> list[str]:
         """The end at which the greatest tension of each cable is limited: "anchor" or "exit"."""
+    @property
+    def ground_z(self) -> float | None:
+        """Height of the ground in the base frame [m]; None where it is not known."""
     @property
     def tension_reference(self) -> _Floats:
         """Tension of each cable that the inverse model comes as near to as it can [N], (n,); zeros for the least
@@ -250,8 +256,9 @@ class Robot:
             long as it exists on the straight way between them.
         free: names of the coordinates of the pose that are found, for a robot with fewer cables than free
             motions: as many of x, y, z, roll, pitch, yaw as cables are missing, with
-            R = Rz(yaw) Ry(pitch) Rx(roll). They start from the pose and end where the platform rests;
-            limits and reference do not matter.
+            R = Rz(yaw) Ry(pitch) Rx(roll). They start from the pose and end where the platform rests,
+            within the limits, with no cable longer than three chords or below `ground_z`; a reference does
+            not matter.
 
         Raises InputError; for one case NoSolutionError.
         """
@@ -604,8 +611,8 @@ class InverseSolution:
         """Whether the platform stays there with these lengths; only with `free` coordinates."""
     @property
     def others(self) -> list[Any] | None:
-        """Further solutions with `free` coordinates, stable ones first: a list of dicts of pose, lengths,
-        tensions and stable, or for m poses a list of m such lists.
+        """Further solutions with `free` coordinates, those within the limits first: a list of dicts of pose,
+        lengths, tensions, stable and out_of_limits, or for m poses a list of m such lists.
         """
     @property
     def reasons(self) -> _Words:
@@ -668,7 +675,7 @@ class DirectSolution:
         """Stiffness of the softest motion that is resisted [N/m]."""
     @property
     def slack(self) -> NDArray[np.bool_]:
-        """Whether each cable is longer than the distance of its points, (n,)."""
+        """Whether each cable carries at its lower end at most its own weight, (n,)."""
     @property
     def residual(self) -> _Floats:
         """Residuals of the 6 + 2n equations: closure of the cables [m], force [N], moment [N m], (3,)."""
@@ -755,6 +762,10 @@ class Modes:
     @property
     def weight_shares(self) -> _Floats:
         """Share of the weight in the energy of each motion, (6,)."""
+    @property
+    def cable_frequencies_hz(self) -> _Floats:
+        """The lowest frequency of each cable between ends at rest [Hz], (n,); NaN for one without mass. The
+        motions take cables without mass: they hold where this is at least twice as high."""
     @property
     def reasons(self) -> _Words:
         """Why there is no answer, None where there is one; None for one pose."""
@@ -921,6 +932,9 @@ class PathStates:
     @property
     def lowest_frequency(self) -> _Floats:
         """Lowest natural frequency with the load [Hz], (m,); NaN for a robot without `inertia`."""
+    @property
+    def lowest_cable_frequency(self) -> _Floats:
+        """That of the slowest cable between ends at rest [Hz], (m,); NaN without a lowest frequency."""
     @property
     def std(self) -> dict[str, _Floats] | None:
         """Standard deviations of lengths, tensions, displacement, rms, least stiffness and lowest frequency
@@ -1143,6 +1157,9 @@ class Workspace:
     def lowest_frequency(self) -> _Floats:
         """Lowest natural frequency with the load [Hz], (m,); NaN for a robot without inertia."""
     @property
+    def lowest_cable_frequency(self) -> _Floats:
+        """That of the slowest cable between ends at rest [Hz], (m,); NaN without a lowest frequency."""
+    @property
     def dominant(self) -> list[str | None]:
         """Uncertain parameter with the largest share of the variance of |dp|, or None; m of them."""
     @property
@@ -1296,12 +1313,16 @@ def analyse(
     rows: ArrayLike,
     outputs: ArrayLike,
     names: list[str],
+    labels: list[list[str]],
     limit: tuple[str, float] | None,
     level: float,
     seed: int,
     dependence_rows: int,
 ) -> str:
-    """Analyses rows of inputs, (n, k), and their outputs, (n,): the analysis as JSON."""
+    """Analyses rows of inputs, (n, k), and their outputs, (n,): the analysis as JSON. An input of words has its
+
+    labels, and their numbers as values.
+    """
 def check(robot: Robot) -> str:
     """What is odd about a robot and yet no error, as JSON."""
 def check_file(path: _Path) -> str:

@@ -6,8 +6,10 @@
 >>> found = cdpr.analyse(x, x[:, 0] + 2 * x[:, 1] ** 2, names=["a", "b", "c"])
 >>> found.inputs
 ['a', 'b', 'c']
->>> [name for name, p in zip(found.inputs, found.p_value) if p < 0.001]
-['a', 'b']
+>>> found.certain
+['b', 'a']
+>>> print(found.verdict)
+certain to matter: b, a
 """
 
 from __future__ import annotations
@@ -57,13 +59,35 @@ class Analysis(Table):
         """What was left out, and what is not to be relied on."""
         return list(self.content["notes"])
 
+    @property
+    def certain(self) -> list[str]:
+        """Inputs that are certain to matter: no more than 5 % of tables name one without an effect."""
+        return [finding["input"] for finding in self.content["verdict"]["certain"]]
+
+    @property
+    def related(self) -> dict[str, list[str]]:
+        """Inputs that are related to the output and need not be causes, with the reasons."""
+        return {finding["input"]: finding["reasons"] for finding in self.content["verdict"]["related"]}
+
+    @property
+    def conditions(self) -> list[str]:
+        """What was found of the conditions of the verdict, and of values that may be wrong."""
+        return [condition["text"] for condition in self.content["verdict"]["conditions"]]
+
+    @property
+    def verdict(self) -> str:
+        """The verdict in words."""
+        return "\n".join(self.content["verdict"]["sentences"])
+
     effect = Column("half.effect", "Mean output of the upper half of an input's values less that of the lower half.")
     student = Column("half.student", "Student's t of the effect, for independent rows.")
     standardised = Column("standardised", "Standardised regression coefficients (SRC).")
     rank_standardised = Column("rank_standardised", "Standardised regression coefficients of ranks (SRRC).")
-    first = Column("first.value", "First-order Sobol' indices by ranks.")
+    first = Column("first.value", "First-order Sobol' indices by ranks, or by levels where these are few.")
     first_interval = Interval("first", "Intervals of these, (k, 2).")
-    expansion_first = Column("shares.closed", "First-order Sobol' indices of the polynomial model.")
+    expansion_first = Column(
+        "shares.closed", "First-order Sobol' indices of the polynomial model, if it explains half of the variance."
+    )
     expansion_total = Column("shares.total", "Total Sobol' indices of the polynomial model.")
     dependence = Column(
         "dependence.r_squared", "R^2 of the Hilbert-Schmidt independence criterion (HSIC), from 0 to 1."
@@ -116,6 +140,29 @@ class Analysis(Table):
         )
 
 
+def _numbers(X: ArrayLike) -> tuple[NDArray[Any], list[list[str]]]:
+    """Returns columns of numbers, those of texts as the numbers of their labels, and the labels of each."""
+    given = numpy.asarray(X)
+    if given.dtype.kind not in "OUS":
+        x = given.astype(float)
+        x = x[:, None] if x.ndim == 1 else x
+        return x, [[] for _ in range(x.shape[-1])]
+    given = given[:, None] if given.ndim == 1 else given
+    x, labels = numpy.full(given.shape, numpy.nan), []
+    for k in range(given.shape[-1]):
+        try:
+            x[:, k] = given[:, k].astype(float)
+            labels.append([])
+        except ValueError:
+            missing = [value is None or value != value or value == "" for value in given[:, k]]
+            words = [str(value) for value in given[:, k]]
+            known = sorted({word for word, none in zip(words, missing) if not none})
+            codes = {word: code for code, word in enumerate(known)}
+            x[:, k] = [numpy.nan if none else codes[word] for word, none in zip(words, missing)]
+            labels.append(known)
+    return x, labels
+
+
 def analyse(
     X: ArrayLike,
     Y: Union[ArrayLike, Mapping[str, ArrayLike]],
@@ -129,7 +176,7 @@ def analyse(
 ) -> Annotated[Any, Analysis]:
     """Analyses rows of inputs and their outputs: which inputs matter, and how.
 
-    X: values of the inputs, (n, k), or a pandas.DataFrame.
+    X: values of the inputs, (n, k), or a pandas.DataFrame. Columns of texts are categories.
     Y: outputs, (n,), NaN where a row failed; or several outputs: a dictionary, a pandas.DataFrame or (n, m).
     names: names of the inputs; those of the DataFrame, of `problem`, or x1, x2, ... if left out.
     problem: SALib's dictionary of a problem, for its `names`.
@@ -143,9 +190,7 @@ def analyse(
 
     Raises InputError.
     """
-    x = numpy.asarray(X, dtype=float)
-    if x.ndim == 1:
-        x = x[:, None]
+    x, labels = _numbers(X)
     if names is None and problem is not None:
         names = problem["names"]
     if names is None:
@@ -154,7 +199,7 @@ def analyse(
     listed = [str(name) for name in names]
 
     def one(output: str, values: ArrayLike) -> Analysis:
-        text = _analyse(x, values, listed, limit, level, seed, dependence_rows)
+        text = _analyse(x, values, listed, labels, limit, level, seed, dependence_rows)
         return Analysis(output, json.loads(text), x, values)
 
     return by_output(Y, one)

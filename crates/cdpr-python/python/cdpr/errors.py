@@ -15,11 +15,15 @@ class FileError(CdprError, OSError):
     """A file or folder that cannot be read, written or used."""
 
 
+class FaultError(CdprError, RuntimeError):
+    """A fault of the package itself, which should be reported with the call that raises it."""
+
+
 class NoSolutionError(CdprError):
     """A question without an answer, such as a pose that no tensions can hold.
 
     ``kind`` names the kind of failure as tables of studies do: ``infeasible_tension``,
-    ``cable_overstrained``, ...
+    ``cable_overstrained``, ``branch_ends`` where the platform falls before the whole load is on it, ...
     """
 
     def __init__(self, message: str, kind: str = "") -> None:

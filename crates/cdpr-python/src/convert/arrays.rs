@@ -1,13 +1,13 @@
 //! Arrays in and out: one case, or one case in each row.
 
 use crate::convert::error::{Answer, Failure, Raised};
+use crate::convert::question::{question, warn};
 use cdpr_cable::Vector2;
-use cdpr_robot::{Pose, QuaternionError, Vector3, Wrench, rotation_in_order, rotation_of};
+use cdpr_robot::{Pose, QuaternionError, Robot, Vector3, Wrench, plausible, rotation_in_order, rotation_of};
 use cdpr_statics::{Load, StaticsError};
 use numpy::{Element, IxDyn, PyArray1, PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
-use pyo3::exceptions::{PyMemoryError, PyTypeError, PyUserWarning, PyValueError};
+use pyo3::exceptions::{PyMemoryError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use std::ffi::CString;
 
 /// Anything that NumPy makes an array of real numbers of.
 pub(crate) type Numbers<'py> = Bound<'py, PyAny>;
@@ -140,10 +140,13 @@ impl Rows {
     }
 
     /// Poses: x, y, z [m], or x, y, z, qw, qx, qy, qz.
-    pub(crate) fn poses(name: &'static str, numbers: &Numbers) -> Answer<Self> {
+    pub(crate) fn poses(name: &'static str, numbers: &Numbers, robot: &Robot) -> Answer<Self> {
         let rows = Self::vectors(name, numbers)?;
         if matches!(rows.width, 3 | 7) {
             rows.question_order()?;
+            let position = |row: &[f64]| Vector3::new(row[0], row[1], row[2]);
+            let mut positions = rows.values.chunks_exact(rows.width).map(position);
+            question(positions.find_map(|place| plausible::position(robot, name, &place)))?;
             Ok(rows)
         } else {
             let width = rows.width;
@@ -166,10 +169,12 @@ impl Rows {
         });
         let Some(question) = question else { return Ok(()) };
         let message = format!("{}: {question}; it is taken as given", self.name);
-        Python::attach(|py| {
-            PyErr::warn(py, &py.get_type::<PyUserWarning>(), &CString::new(message).unwrap_or_default(), 1)
-        })?;
-        Ok(())
+        warn(&message)
+    }
+
+    /// The first answer of a row.
+    pub(crate) fn first<T>(&self, of: impl Fn(&[f64]) -> Option<T>) -> Option<T> {
+        self.values.chunks_exact(self.width.max(1)).find_map(of)
     }
 
     /// Numbers, one or one for each case.
@@ -259,6 +264,7 @@ impl Loads {
         force: Option<&Numbers>,
         moment: Option<&Numbers>,
         payload: Option<&Numbers>,
+        robot: &Robot,
     ) -> Answer<Self> {
         let force = Rows::components::<3>("force", force)?;
         let moment = Rows::components::<3>("moment", moment)?;
@@ -266,7 +272,18 @@ impl Loads {
             Some(payload) => Rows::scalars("payload", payload)?,
             None => Rows::constant("payload", 0.0),
         };
-        Ok(Self { force, moment, payload })
+        let loads = Self { force, moment, payload };
+        loads.question(robot)?;
+        Ok(loads)
+    }
+
+    /// Warns of the first load that all cables together cannot bear.
+    fn question(&self, robot: &Robot) -> Answer<()> {
+        let rows = [&self.force, &self.moment, &self.payload].map(|rows| rows.count);
+        let cases = rows.into_iter().flatten().min().unwrap_or(1);
+        let doubts = |load: Load| plausible::load(robot, load.payload, &load.wrench);
+        let mut doubts = (0..cases).filter_map(|case| self.load(case).ok()).map(doubts);
+        question(doubts.find(|doubts| !doubts.is_empty()).unwrap_or_default())
     }
 
     /// Loads of which at least one must be given.
@@ -274,12 +291,13 @@ impl Loads {
         force: Option<&Numbers>,
         moment: Option<&Numbers>,
         payload: Option<&Numbers>,
+        robot: &Robot,
     ) -> Answer<Self> {
         if [force, moment, payload].iter().all(Option::is_none) {
             let message = "nothing displaces the platform: expected payload, force or moment";
             return Err(Raised::Input(message.to_owned()));
         }
-        Self::new(force, moment, payload)
+        Self::new(force, moment, payload, robot)
     }
 
     /// The number of cases that the load has together with other arguments.

@@ -23,6 +23,8 @@ pub(crate) enum Raised {
         kind: &'static str,
         message: String,
     },
+    /// `FaultError`: a fault of the program, whatever the input.
+    Fault(String),
     /// An exception of Python itself.
     Python(PyErr),
 }
@@ -39,6 +41,10 @@ impl From<Raised> for PyErr {
                 Raised::File(message) => class(py, "FileError").map(|class| Self::from_type(class, message)),
                 Raised::NoSolution { kind, message } => {
                     class(py, "NoSolutionError").map(|class| Self::from_type(class, (message, kind)))
+                }
+                Raised::Fault(message) => {
+                    let message = format!("a fault of cdpr, which should be reported: {message}");
+                    class(py, "FaultError").map(|class| Self::from_type(class, message))
                 }
                 Raised::Python(error) => Ok(error),
             };
@@ -75,6 +81,7 @@ impl Failure for CableError {
         match self {
             Self::InvalidInput { .. } => "invalid_input",
             Self::TensionTooSmall { .. } => "tension_too_small",
+            Self::Overstrained { .. } => "cable_overstrained",
             Self::NotConverged { .. } => "cable",
         }
     }

@@ -4,10 +4,15 @@ use crate::convert::error::{Answer, Raised};
 use pyo3::prelude::*;
 use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
+
+/// Threads at most.
+const MOST_THREADS: usize = 1024;
 
 /// Time between two looks at signals and callbacks.
 const POLL: Duration = Duration::from_millis(50);
@@ -28,6 +33,9 @@ fn pool(threads: Option<usize>) -> Answer<Arc<ThreadPool>> {
     };
     match threads {
         Some(0) => return Err(Raised::Input("threads is 0: expected one or more".to_owned())),
+        Some(threads) if threads > MOST_THREADS => {
+            return Err(Raised::Input(format!("threads is {threads}: expected 1 to {MOST_THREADS}")));
+        }
         Some(threads) => return make(threads),
         None => {}
     }
@@ -79,8 +87,19 @@ pub(crate) fn watched<T: Send>(
     match (outcome, raised) {
         (_, Some(error)) => Err(error.into()),
         (Ok(outcome), None) => Ok(outcome),
-        (Err(panic), None) => std::panic::resume_unwind(panic),
+        (Err(panic), None) => Err(Raised::Fault(words(panic))),
     }
+}
+
+/// Does `work` here. A fault of the program is an exception like others, never the end of the interpreter.
+pub(crate) fn guarded<T>(work: impl FnOnce() -> T) -> Answer<T> {
+    catch_unwind(AssertUnwindSafe(work)).map_err(|panic| Raised::Fault(words(panic)))
+}
+
+/// What a panic says.
+fn words(panic: Box<dyn Any + Send>) -> String {
+    let text = panic.downcast_ref::<&str>().map(ToString::to_string);
+    text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_else(|| "no message".to_owned())
 }
 
 /// Runs `work` on the pool of this process, with nothing to poll.
@@ -91,7 +110,7 @@ pub(crate) fn run<T: Send>(py: Python, work: impl FnOnce(&AtomicBool) -> T + Sen
 /// Computes `one` for each case in parallel; the results are in the order of the cases.
 pub(crate) fn each<T: Send>(py: Python, cases: usize, one: impl Fn(usize) -> T + Sync) -> Answer<Vec<T>> {
     if cases == 1 {
-        return Ok(vec![py.detach(|| one(0))]);
+        return Ok(vec![py.detach(|| guarded(|| one(0)))?]);
     }
     let all = run(py, |stop| {
         let one = |case| (!stop.load(Ordering::Relaxed)).then(|| one(case));

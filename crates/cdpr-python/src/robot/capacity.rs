@@ -91,8 +91,8 @@ impl Robot {
         free: Option<Vec<String>>,
     ) -> Answer<Capacity> {
         let free = coordinates(free)?;
-        let poses = Rows::poses("pose", &pose)?;
-        let loads = Loads::new(force.as_ref(), moment.as_ref(), payload.as_ref())?;
+        let poses = Rows::poses("pose", &pose, &self.robot)?;
+        let loads = Loads::new(force.as_ref(), moment.as_ref(), payload.as_ref(), &self.robot)?;
         let cases = loads.cases([&poses])?;
         let set = wrenches.as_ref().map(wrench_set).transpose()?.unwrap_or_else(|| WrenchSet::of(Vec::new()));
         let outcomes = each(py, cases.count, |case| {

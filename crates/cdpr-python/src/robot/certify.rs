@@ -1,7 +1,8 @@
 //! `Robot.certify`: proofs of how close the exact equilibrium is.
 
-use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each};
+use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each, question};
 use crate::robot::Robot;
+use cdpr_robot::plausible;
 use cdpr_statics::{Certificate as Proof, DirectProblem, Start, StaticsError, check_lengths, rough_pose};
 use pyo3::prelude::*;
 
@@ -50,8 +51,9 @@ impl Robot {
     ) -> Answer<Certificate> {
         let robot = &self.robot;
         let lengths = Rows::of_cables("lengths", &lengths, robot.cables.len())?;
-        let loads = Loads::new(force.as_ref(), moment.as_ref(), payload.as_ref())?;
-        let start = start.map(|start| Rows::poses("start", &start)).transpose()?;
+        question(lengths.first(|row| plausible::lengths(&self.robot, row)))?;
+        let loads = Loads::new(force.as_ref(), moment.as_ref(), payload.as_ref(), &self.robot)?;
+        let start = start.map(|start| Rows::poses("start", &start, &self.robot)).transpose()?;
         let cases = loads.cases([&lengths].into_iter().chain(&start))?;
         let one = |case| -> Result<([f64; 7], Proof), StaticsError> {
             let (lengths, load) = (lengths.row(case), loads.load(case)?);

@@ -86,8 +86,8 @@ impl Robot {
     ) -> Answer<Deflection> {
         let cables = self.robot.cables.len();
         let free = coordinates(free)?;
-        let poses = Rows::poses("pose", &pose)?;
-        let loads = Loads::given(force.as_ref(), moment.as_ref(), payload.as_ref())?;
+        let poses = Rows::poses("pose", &pose, &self.robot)?;
+        let loads = Loads::given(force.as_ref(), moment.as_ref(), payload.as_ref(), &self.robot)?;
         let offsets = tension_offsets
             .map(|offsets| Rows::of_cables("tension_offsets", &offsets, cables))
             .transpose()?;

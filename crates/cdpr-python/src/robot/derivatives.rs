@@ -130,8 +130,8 @@ impl Robot {
         free: Option<Vec<String>>,
     ) -> Answer<Derivatives> {
         let free = coordinates(free)?;
-        let poses = Rows::poses("pose", &pose)?;
-        let loads = Loads::new(force.as_ref(), moment.as_ref(), payload.as_ref())?;
+        let poses = Rows::poses("pose", &pose, &self.robot)?;
+        let loads = Loads::new(force.as_ref(), moment.as_ref(), payload.as_ref(), &self.robot)?;
         let cases = loads.cases([&poses])?;
         let robot = &self.robot;
         let cables = robot.cables.len();

@@ -1,7 +1,8 @@
 //! `Robot.direct`: where the platform stands for given unstrained lengths.
 
-use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each};
+use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each, question};
 use crate::robot::Robot;
+use cdpr_robot::plausible;
 use cdpr_statics::{
     Limit, OutOfLimits, Start, StaticsError, check_lengths, direct, out_of_limits, rough_pose,
 };
@@ -38,7 +39,7 @@ answer! {
         neutral: Py<PyAny>,
         /// Stiffness of the softest motion that is resisted [N/m].
         least_stiffness: Py<PyAny>,
-        /// Whether each cable is longer than the distance of its points, (n,).
+        /// Whether each cable carries at its lower end at most its own weight, (n,).
         slack: Py<PyAny>,
         /// Residuals of the 6 + 2n equations: closure of the cables [m], force [N], moment [N m], (3,).
         residual: Py<PyAny>,
@@ -111,8 +112,9 @@ impl Robot {
         start: Option<Numbers>,
     ) -> Answer<DirectSolution> {
         let lengths = Rows::of_cables("lengths", &lengths, self.robot.cables.len())?;
-        let loads = Loads::new(force.as_ref(), moment.as_ref(), payload.as_ref())?;
-        let start = start.map(|start| Rows::poses("start", &start)).transpose()?;
+        question(lengths.first(|row| plausible::lengths(&self.robot, row)))?;
+        let loads = Loads::new(force.as_ref(), moment.as_ref(), payload.as_ref(), &self.robot)?;
+        let start = start.map(|start| Rows::poses("start", &start, &self.robot)).transpose()?;
         let cases = loads.cases([&lengths].into_iter().chain(&start))?;
         let robot = &self.robot;
         let one = |case| -> Result<Found, StaticsError> {

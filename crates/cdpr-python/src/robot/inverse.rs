@@ -42,8 +42,8 @@ answer! {
         pose: Py<PyAny>,
         /// Whether the platform stays there with these lengths; only with `free` coordinates.
         stable: Py<PyAny>,
-        /// Further solutions with `free` coordinates, stable ones first: a list of dicts of pose, lengths,
-        /// tensions and stable, or for m poses a list of m such lists.
+        /// Further solutions with `free` coordinates, those within the limits first: a list of dicts of pose,
+        /// lengths, tensions, stable and out_of_limits, or for m poses a list of m such lists.
         others: Py<PyAny>,
         /// Why there is no answer, None where there is one; None for one pose.
         reasons: Py<PyAny>,
@@ -90,6 +90,7 @@ pub(crate) fn coordinates(names: Option<Vec<String>>) -> Answer<Vec<Coordinate>>
 /// Further solutions: a list of dicts, or one for each case; None where no coordinate is free.
 fn others_of(
     py: Python,
+    robot: &cdpr_robot::Robot,
     outcomes: &[Result<Solved, StaticsError>],
     single: bool,
     free: bool,
@@ -105,6 +106,9 @@ fn others_of(
         dict.set_item("lengths", &other.lengths)?;
         dict.set_item("tensions", &other.tensions)?;
         dict.set_item("stable", other.stability.is_stable())?;
+        let mut limits = vec![0_i8; other.lengths.len()];
+        numbers_of_limits(&out_of_limits(robot, &other.lengths, &[&other.equilibrium]), &mut limits);
+        dict.set_item("out_of_limits", limits)?;
         Ok(dict)
     };
     let lists = outcomes.iter().map(|outcome| -> PyResult<_> {
@@ -138,8 +142,9 @@ impl Robot {
     ///     long as it exists on the straight way between them.
     /// free: names of the coordinates of the pose that are found, for a robot with fewer cables than free
     ///     motions: as many of x, y, z, roll, pitch, yaw as cables are missing, with
-    ///     R = Rz(yaw) Ry(pitch) Rx(roll). They start from the pose and end where the platform rests;
-    ///     limits and reference do not matter.
+    ///     R = Rz(yaw) Ry(pitch) Rx(roll). They start from the pose and end where the platform rests,
+    ///     within the limits, with no cable longer than three chords or below `ground_z`; a reference does
+    ///     not matter.
     ///
     /// Raises InputError; for one case NoSolutionError.
     #[pyo3(signature = (pose, *, force=None, moment=None, payload=None, reference=None, path=false,
@@ -158,8 +163,8 @@ impl Robot {
     ) -> Answer<InverseSolution> {
         let cables = self.robot.cables.len();
         let free = coordinates(free)?;
-        let poses = Rows::poses("pose", &pose)?;
-        let loads = Loads::new(force.as_ref(), moment.as_ref(), payload.as_ref())?;
+        let poses = Rows::poses("pose", &pose, &self.robot)?;
+        let loads = Loads::new(force.as_ref(), moment.as_ref(), payload.as_ref(), &self.robot)?;
         let reference =
             reference.map(|reference| Rows::of_cables("reference", &reference, cables)).transpose()?;
         let cases = loads.cases([&poses].into_iter().chain(&reference))?;
@@ -185,7 +190,7 @@ impl Robot {
                 Ok(Solved::from(PathSolution { solution, jump: false }))
             })?
         };
-        let others = others_of(py, &outcomes, cases.single, !free.is_empty())?;
+        let others = others_of(py, robot, &outcomes, cases.single, !free.is_empty())?;
         let all = Columns::new(py, cases, &outcomes)?;
         let jump = path.then(|| all.array(false, &[], |found, out: &mut [bool]| out[0] = found.jump));
         Ok(InverseSolution {

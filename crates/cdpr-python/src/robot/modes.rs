@@ -4,7 +4,7 @@ use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each};
 use crate::robot::Robot;
 use crate::robot::inverse::coordinates;
 use cdpr_robot::Vector3;
-use cdpr_statics::{NaturalMode, modes_at};
+use cdpr_statics::{NaturalMode, PoseModes, modes_at};
 use pyo3::prelude::*;
 
 answer! {
@@ -24,6 +24,9 @@ answer! {
         cable_shares: Py<PyAny>,
         /// Share of the weight in the energy of each motion, (6,).
         weight_shares: Py<PyAny>,
+        /// The lowest frequency of each cable between ends at rest [Hz], (n,); NaN for one without mass. The
+        /// motions take cables without mass: they hold where this is at least twice as high.
+        cable_frequencies_hz: Py<PyAny>,
         /// Why there is no answer, None where there is one; None for one pose.
         reasons: Py<PyAny>,
         /// The kind of each failure, in the same form: `infeasible_tension`, ...
@@ -55,16 +58,16 @@ impl Robot {
         free: Option<Vec<String>>,
     ) -> Answer<Modes> {
         let free = coordinates(free)?;
-        let poses = Rows::poses("pose", &pose)?;
-        let loads = Loads::new(force.as_ref(), moment.as_ref(), payload.as_ref())?;
+        let poses = Rows::poses("pose", &pose, &self.robot)?;
+        let loads = Loads::new(force.as_ref(), moment.as_ref(), payload.as_ref(), &self.robot)?;
         let cases = loads.cases([&poses])?;
         let outcomes = each(py, cases.count, |case| {
-            modes_at(&self.robot, &poses.pose(case)?, &loads.load(case)?, &free).map(|found| found.modes)
+            modes_at(&self.robot, &poses.pose(case)?, &loads.load(case)?, &free)
         })?;
         let all = Columns::new(py, cases, &outcomes)?;
         let count = self.robot.freedoms().count();
         let vectors = |vector: fn(&NaturalMode) -> Vector3<f64>| {
-            all.numbers(&[count, 3], |modes: &Vec<NaturalMode>, out| {
+            all.numbers(&[count, 3], |PoseModes { modes, .. }: &PoseModes, out| {
                 for (out, mode) in out.chunks_exact_mut(3).zip(modes) {
                     out.copy_from_slice(vector(mode).as_slice());
                 }
@@ -72,7 +75,7 @@ impl Robot {
         };
         let cables = self.robot.cables.len();
         let each = |value: fn(&NaturalMode) -> f64| {
-            all.numbers(&[count], |modes: &Vec<NaturalMode>, out| {
+            all.numbers(&[count], |PoseModes { modes, .. }: &PoseModes, out| {
                 out.iter_mut().zip(modes).for_each(|(out, mode)| *out = value(mode));
             })
         };
@@ -80,12 +83,16 @@ impl Robot {
             frequencies_hz: each(|mode| mode.frequency)?,
             translations: vectors(|mode| mode.translation)?,
             rotations: vectors(|mode| mode.rotation)?,
-            cable_shares: all.numbers(&[count, cables], |modes, out| {
+            cable_shares: all.numbers(&[count, cables], |PoseModes { modes, .. }, out| {
                 for (out, mode) in out.chunks_exact_mut(cables).zip(modes) {
                     out.copy_from_slice(&mode.cables);
                 }
             })?,
             weight_shares: each(|mode| mode.weight)?,
+            cable_frequencies_hz: all.numbers(&[cables], |found, out| {
+                let each = found.cable_frequencies.iter().map(|of| of.unwrap_or(f64::NAN));
+                out.iter_mut().zip(each).for_each(|(out, frequency)| *out = frequency);
+            })?,
             reasons: all.reasons(),
             kinds: all.kinds(),
         })

@@ -55,8 +55,8 @@ impl Robot {
         free: Option<Vec<String>>,
     ) -> Answer<Observations> {
         let free = coordinates(free)?;
-        let pose = Rows::poses("pose", &pose)?;
-        let loads = Loads::given(force.as_ref(), moment.as_ref(), payload.as_ref())?;
+        let pose = Rows::poses("pose", &pose, &self.robot)?;
+        let loads = Loads::given(force.as_ref(), moment.as_ref(), payload.as_ref(), &self.robot)?;
         if !loads.cases([&pose])?.single {
             return Err(Raised::Input(
                 "pose or load has a row for each case: expected one of each for all robots".to_owned(),

@@ -35,6 +35,8 @@ answer! {
         least_stiffness: Py<PyAny>,
         /// Lowest natural frequency with the load [Hz], (m,); NaN for a robot without `inertia`.
         lowest_frequency: Py<PyAny>,
+        /// That of the slowest cable between ends at rest [Hz], (m,); NaN without a lowest frequency.
+        lowest_cable_frequency: Py<PyAny>,
         /// Standard deviations of lengths, tensions, displacement, rms, least stiffness and lowest frequency
         /// by their names; NaN where there are no derivatives. None without an uncertainty.
         std: Py<PyAny>,
@@ -76,8 +78,8 @@ impl Robot {
         uncertainty: Option<&Bound<PyDict>>,
     ) -> Answer<PathStates> {
         let robot = &self.robot;
-        let poses = Rows::poses("poses", &poses)?;
-        let loads = Loads::new(force.as_ref(), moment.as_ref(), payload.as_ref())?;
+        let poses = Rows::poses("poses", &poses, &self.robot)?;
+        let loads = Loads::new(force.as_ref(), moment.as_ref(), payload.as_ref(), &self.robot)?;
         if !loads.cases([])?.single {
             let message = "payload, force or moment has several rows: expected one load for the whole path";
             return Err(Raised::Input(message.to_owned()));
@@ -123,6 +125,9 @@ impl Robot {
             rms: all.number(|passed| passed.at.deflection.displacement().norm())?,
             least_stiffness: all.number(|passed| passed.at.deflection.loaded.stability.least_stiffness())?,
             lowest_frequency: all.number(|passed| passed.at.lowest_frequency.unwrap_or(f64::NAN))?,
+            lowest_cable_frequency: all.number(|passed| {
+                passed.at.lowest_cable_frequency.map_or(f64::NAN, |cable| cable.frequency)
+            })?,
             std: if model.is_some() { stds.into_any().unbind() } else { py.None() },
             loaded: Py::new(py, DirectSolution::new(&all.part(|passed| &passed.loaded), cables)?)?,
             reasons: all.reasons(),

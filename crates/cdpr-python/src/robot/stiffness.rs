@@ -73,8 +73,8 @@ impl Robot {
         free: Option<Vec<String>>,
     ) -> Answer<Stiffness> {
         let free = coordinates(free)?;
-        let poses = Rows::poses("pose", &pose)?;
-        let loads = Loads::new(force.as_ref(), moment.as_ref(), payload.as_ref())?;
+        let poses = Rows::poses("pose", &pose, &self.robot)?;
+        let loads = Loads::new(force.as_ref(), moment.as_ref(), payload.as_ref(), &self.robot)?;
         let cases = loads.cases([&poses])?;
         let outcomes = each(py, cases.count, |case| {
             let stiffness = stiffness_at(&self.robot, &poses.pose(case)?, &loads.load(case)?, &free)?;

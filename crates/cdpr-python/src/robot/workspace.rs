@@ -1,6 +1,6 @@
 //! `Robot.workspace`: where the cables hold the platform, and how far it gives there, over a plane or a box.
 
-use crate::convert::{Answer, Array, Numbers, Raised, answer, run};
+use crate::convert::{Answer, Array, Numbers, Raised, answer, question, run};
 use crate::robot::Robot;
 use crate::robot::inverse::coordinates;
 use cdpr_assess::{WorkspaceRow, compute_workspace};
@@ -39,6 +39,8 @@ answer! {
         least_stiffness: Py<PyAny>,
         /// Lowest natural frequency with the load [Hz], (m,); NaN for a robot without inertia.
         lowest_frequency: Py<PyAny>,
+        /// That of the slowest cable between ends at rest [Hz], (m,); NaN without a lowest frequency.
+        lowest_cable_frequency: Py<PyAny>,
         /// Uncertain parameter with the largest share of the variance of |dp|, or None; m of them.
         dominant: Vec<Option<String>>,
         /// Share of that parameter, 0 to 1, (m,).
@@ -125,6 +127,7 @@ impl Robot {
             rms: column(&|row| Some(loaded(row)?.displacement.norm())),
             least_stiffness: column(&|row| Some(held(row)?.least_stiffness)),
             lowest_frequency: column(&|row| held(row)?.lowest_frequency),
+            lowest_cable_frequency: column(&|row| Some(held(row)?.lowest_cable_frequency?.frequency)),
             dominant: rows.iter().map(|row| row.dominant.clone()).collect(),
             dominant_share: column(&|row| Some(held(row)?.dominant?.share)),
             std: column(&|row| Some(held(row)?.dominant?.std)),
@@ -180,5 +183,7 @@ fn normal(axis: &str) -> Answer<Axis> {
 pub(crate) fn tolerances(robot: &cdpr_robot::Robot, named: &Bound<PyDict>) -> Answer<ErrorModel> {
     let named: Vec<(String, f64)> =
         named.iter().map(|(name, std)| Ok((name.extract()?, std.extract()?))).collect::<PyResult<_>>()?;
-    Ok(ErrorModel::normal(robot, &uncertainties(robot, &named)?))
+    let model = ErrorModel::normal(robot, &uncertainties(robot, &named)?);
+    question(model.doubts(robot))?;
+    Ok(model)
 }

@@ -14,7 +14,9 @@ struct Found {
     analysis: Analysis,
 }
 
-/// Analyses rows of inputs, (n, k), and their outputs, (n,): the analysis as JSON.
+/// Analyses rows of inputs, (n, k), and their outputs, (n,): the analysis as JSON. An input of words has its
+///
+/// labels, and their numbers as values.
 #[pyfunction]
 #[allow(clippy::too_many_arguments)]
 pub(crate) fn analyse(
@@ -22,6 +24,7 @@ pub(crate) fn analyse(
     rows: Numbers,
     outputs: Numbers,
     names: Vec<String>,
+    labels: Vec<Vec<String>>,
     limit: Option<(String, f64)>,
     level: f64,
     seed: u64,
@@ -49,7 +52,10 @@ pub(crate) fn analyse(
             .collect();
         let column = |input: usize| complete.iter().map(|row| x.values[row * k + input]).collect();
         let outputs = complete.iter().map(|&row| Some(y.values[row]).filter(|value| value.is_finite()));
-        let data = GivenData::new(names, (0..k).map(column).collect(), outputs.collect())?;
+        let mut data = GivenData::new(names, (0..k).map(column).collect(), outputs.collect())?;
+        for (input, labels) in labels.into_iter().enumerate().filter(|(_, labels)| !labels.is_empty()) {
+            data = data.with_levels(input, labels)?;
+        }
         let analysis = Analyser { level, seed, dependence_rows, limit }.analyse(&data)?;
         Ok::<_, cdpr_sensitivity::SensitivityError>(Found {
             left_out: y.values.len() - complete.len(),

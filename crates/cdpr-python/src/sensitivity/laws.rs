@@ -1,6 +1,6 @@
 //! Laws of inputs, and laws fitted to a sample.
 
-use crate::convert::{Answer, Array, Numbers, Raised, run, to_json, whole};
+use crate::convert::{Answer, Array, Numbers, Raised, guarded, run, to_json, whole};
 use crate::sensitivity::observed::{outputs, read};
 use cdpr_sensitivity::{BestFit, Bootstrap, Family, Fit, Law, fit, fit_all, poincare_constant};
 use numpy::{IxDyn, PyArray1, PyArrayMethods};
@@ -24,7 +24,7 @@ pub(crate) fn law_values(py: Python, law: Bound<PyAny>, of: &str, values: Number
         }
         _ => return Err(Raised::Input(format!("{of:?}: expected cdf, pdf or quantile"))),
     };
-    let values = values.iter().map(|&value| function(&law, value)).collect();
+    let values = guarded(|| values.iter().map(|&value| function(&law, value)).collect())?;
     Ok(PyArray1::from_vec(py, values).reshape(IxDyn(&shape))?.into_any().unbind())
 }
 
@@ -33,7 +33,7 @@ pub(crate) fn law_values(py: Python, law: Bound<PyAny>, of: &str, values: Number
 pub(crate) fn law_moments(law: Bound<PyAny>) -> Answer<(f64, f64, Option<f64>)> {
     let law: Law = read("law", &law)?;
     law.validate()?;
-    Ok((law.mean(), law.std(), poincare_constant(&law)))
+    guarded(|| (law.mean(), law.std(), poincare_constant(&law)))
 }
 
 #[derive(Serialize)]
@@ -72,6 +72,6 @@ pub(crate) fn fit_laws(
 /// Factors of tolerances that leave a variance at the least cost.
 #[pyfunction]
 pub(crate) fn allocate(py: Python, variances: Vec<f64>, costs: Vec<f64>, target: f64) -> Answer<Py<PyAny>> {
-    let factors = cdpr_sensitivity::allocate(&variances, &costs, target)?;
+    let factors = guarded(|| cdpr_sensitivity::allocate(&variances, &costs, target))??;
     Ok(PyArray1::from_vec(py, factors).into_any().unbind())
 }

@@ -5,8 +5,8 @@ use crate::drawing::color_map::{COLOR_BAR, Cells, ColorMap, Nodes};
 use crate::drawing::heading::Heading;
 use crate::drawing::style::{self, DrawingError, GREY, MARGIN, ORANGE, Pen, VERMILLION, X_AXIS, px};
 use crate::error::ReportError;
-use cdpr_robot::{Axis as Direction, Robot};
-use cdpr_study::{Grid, frame};
+use cdpr_robot::{Axis as Direction, Robot, frame};
+use cdpr_study::Grid;
 use plotters::prelude::*;
 use std::ops::Range;
 

@@ -6,7 +6,7 @@ use crate::page::analysis::drawings::{cobweb, scatter};
 use crate::page::elements::{cell, numeric, plain_page, table};
 use crate::text;
 use cdpr_robot::shown;
-use cdpr_sensitivity::WassersteinBures;
+use cdpr_sensitivity::{LevelMean, WassersteinBures};
 use cdpr_study::{Analysis, Dependence, GivenTable, InputAnalysis, TableAnalysis, VectorAnalysis};
 use maud::{Markup, html};
 
@@ -24,9 +24,11 @@ pub fn analysis_report(table: &GivenTable, found: &TableAnalysis) -> String {
             h1 { (title) }
             p {
                 (found.rows) " rows, " (found.inputs.len()) " inputs, " (found.outputs.len()) " outputs"
-                @if found.left_out > 0 { "; " (found.left_out) " rows are left out: an input has no number" }
+                @if found.left_out > 0 { "; " (found.left_out) " rows are left out: an input has no value" }
                 "."
+                @if !found.unused.is_empty() { " Not analysed: " (found.unused.join(", ")) "." }
             }
+            @for question in &found.questions { p.note { "Question: " (question) "." } }
             @if found.bad_cells > 0 {
                 p.note {
                     (found.bad_cells) " cells hold no number"
@@ -43,6 +45,7 @@ pub fn analysis_report(table: &GivenTable, found: &TableAnalysis) -> String {
                 (summary(name, analysis))
                 (measures(analysis))
                 @if analysis.limit.is_some() { (at_limit(analysis)) }
+                (verdict(analysis))
                 @for note in &analysis.notes { p.note { (note) "." } }
                 @let drawn = leading(analysis).into_iter().take(DRAWN).collect::<Vec<_>>();
                 @if let Some(y) = column(table, name) {
@@ -66,7 +69,7 @@ pub fn analysis_report(table: &GivenTable, found: &TableAnalysis) -> String {
 }
 
 fn column<'a>(table: &'a GivenTable, name: &str) -> Option<&'a [f64]> {
-    table.columns.iter().find(|(known, _)| known == name).map(|(_, values)| values.as_slice())
+    table.columns.iter().find(|column| column.name == name).map(|column| column.values.as_slice())
 }
 
 /// Inputs by their dependence, the strongest first.
@@ -89,6 +92,27 @@ fn summary(name: &str, analysis: &Analysis) -> Markup {
     html! {
         (table(&format!("Values of {name}"), &head, &[row]))
         @if let Some(fit) = analysis.best_fit { p { "Law of the values: " (fit) "." } }
+    }
+}
+
+/// The verdict, what was found of its conditions, and the levels of words.
+fn verdict(analysis: &Analysis) -> Markup {
+    let verdict = &analysis.verdict;
+    let head = ["level", "rows", "mean"];
+    html! {
+        @for sentence in &verdict.sentences { p { (sentence) "." } }
+        p {
+            (verdict.tests) " tests of all inputs and measures, corrected together: one or more false certainties \
+             in 5 % of all tables at most."
+        }
+        @for condition in &verdict.conditions {
+            p.note { @if condition.is_question() { "Question: " } (condition.text) "." }
+        }
+        @for input in analysis.inputs.iter().filter(|input| !input.levels.is_empty()) {
+            @let row = |of: &LevelMean| vec![cell(&of.level), cell(of.rows.to_string()), numeric(of.mean, 4)];
+            @let rows = input.levels.iter().map(row).collect::<Vec<_>>();
+            (table(&format!("Levels of {}", input.input), &head, &rows))
+        }
     }
 }
 
@@ -131,8 +155,8 @@ fn measures(analysis: &Analysis) -> Markup {
     let row = |input: &&InputAnalysis| {
         vec![
             cell(&input.input),
-            numeric(input.half.effect, 3),
-            numeric(input.half.student, 3),
+            numeric(input.half.map(|half| half.effect), 3),
+            numeric(input.half.map(|half| half.student), 3),
             numeric(input.standardised, 3),
             numeric(input.rank_standardised, 3),
             estimate(input.first),

@@ -134,14 +134,24 @@ fn parameters(summary: &CalibrationSummary) -> Markup {
             numeric(of.before, 7),
             numeric(of.after, 7),
             numeric(of.std, 3),
+            numeric(of.std_of_data, 3),
             numeric(of.prior_std, 3),
             numeric(of.moved_by_prior_std, 3),
             cell(if of.identifiable { "yes" } else { "no" }),
             cell(of.unit),
         ]
     };
-    let head =
-        ["parameter", "before", "after", "std", "std before", "moved by std before", "identifiable", "unit"];
+    let head = [
+        "parameter",
+        "before",
+        "after",
+        "std",
+        "std by data alone",
+        "std before",
+        "moved by std before",
+        "identifiable",
+        "unit",
+    ];
     let rows: Vec<_> = summary.parameters.iter().chain(&summary.sensors).map(row).collect();
     table("Parameters before and after", &head, &rows)
 }

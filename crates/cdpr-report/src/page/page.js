@@ -132,13 +132,14 @@
     const lerp = (a, b, share) => a.map((value, axis) => value + share * (b[axis] - value));
     const times = (input) => STEPS[input.value];
 
-    // A point of a cable with its distance from the chord stretched, on a chord whose anchor point is
-    // `anchor`.
-    function stretched(points, sag, anchor) {
-      const [exit, end] = [points[0], points[points.length - 1]];
+    // The points of a cable with the distances of its free part from the chord stretched, on a chord whose
+    // anchor point is `anchor`. What lies on a pulley stays there.
+    function stretched({ points, free }, sag, anchor) {
+      const [exit, end] = [points[free], points[points.length - 1]];
       const chord = end.map((value, axis) => value - exit[axis]);
       const squared = chord.reduce((sum, value) => sum + value * value, 0);
-      return points.map((point) => {
+      return points.map((point, k) => {
+        if (k < free) return point;
         const along = point.reduce((sum, value, axis) => sum + (value - exit[axis]) * chord[axis], 0);
         const share = along / squared;
         const [true_place, place] = [lerp(exit, end, share), lerp(exit, anchor, share)];
@@ -181,7 +182,7 @@
       const top = [...ring, ring[0]].map((i) => exits[i]);
       const ground = top.map((exit) => exit.with(2, floor));
       const posts = exits.flatMap((exit) => [exit, exit.with(2, floor), gap]);
-      const cables = state.cables.map((cable, i) => stretched(cable.points, sag, anchors[i]));
+      const cables = state.cables.map((cable, i) => stretched(cable, sag, anchors[i]));
       const [x, y, z] = columns(cables.flatMap((points) => [...points, gap]));
       const of_cables = (value) =>
         state.cables.flatMap((cable, i) => [...cable.points.map(() => value(cable, i)), value(cable, i)]);

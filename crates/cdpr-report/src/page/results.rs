@@ -103,7 +103,7 @@ fn fits(sampling: &SamplingSummary) -> Markup {
             numeric(fit.probability, 3),
             numeric(fit.aic - least, 4),
             numeric(fit.ks, 3),
-            numeric(fit.p_value, 3),
+            html! { @if fit.p_is_bound { "\u{2264} " } (numeric(fit.p_value, 3)) },
         ]
     };
     let rows: Vec<_> = sampling.fits.iter().map(row).collect();

@@ -15,15 +15,20 @@ fn robots() -> Vec<(&'static str, Value)> {
     let mut robots: Vec<_> =
         ["caroca", "cogiro", "fast", "grab"].map(|name| (name, data(&format!("robots/{name}.json")))).into();
     let mut led = robots[0].1.clone();
-    for cable in led["cables"].as_array_mut().unwrap() {
-        cable["pulley"] = json!({"radius": 0.045, "axis": [0, 0, 1]});
-        cable["lead"] = json!(1.0);
-    }
+    lead_over_pulleys(&mut led);
     robots.push(("caroca-pulleys", led));
     robots
 }
 
-fn write_page(name: &str, robot: &Value) -> PathBuf {
+/// Leads all cables of a robot over pulleys.
+pub(crate) fn lead_over_pulleys(robot: &mut Value) {
+    for cable in robot["cables"].as_array_mut().unwrap() {
+        cable["pulley"] = json!({"radius": 0.045, "axis": [0, 0, 1]});
+        cable["lead"] = json!(1.0);
+    }
+}
+
+pub(crate) fn write_page(name: &str, robot: &Value) -> PathBuf {
     let (file, text) = (format!("{name}.json"), robot.to_string());
     let explored = Explored { name, file: &file, robot: &text, study: None };
     let path = screenshots().join(format!("explorer-{name}.html"));

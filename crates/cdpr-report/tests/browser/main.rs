@@ -8,5 +8,6 @@
 #[path = "../common.rs"]
 mod common;
 mod explorer;
+mod fields;
 mod page;
 mod report;

@@ -163,6 +163,27 @@ impl Page {
         self.call("Input.dispatchMouseEvent", event);
     }
 
+    /// Types a text where the focus is.
+    pub(crate) fn write(&mut self, text: &str) {
+        for letter in text.chars() {
+            self.call("Input.dispatchKeyEvent", json!({"type": "char", "text": letter}));
+        }
+    }
+
+    /// Presses a key; `modifiers` is 2 for Ctrl.
+    pub(crate) fn press(&mut self, key: &str, modifiers: u8) {
+        let code = match key {
+            "Enter" => 13,
+            "Escape" => 27,
+            letter => letter.to_uppercase().bytes().next().map_or(0, u32::from),
+        };
+        for kind in ["rawKeyDown", "keyUp"] {
+            let event =
+                json!({"type": kind, "key": key, "windowsVirtualKeyCode": code, "modifiers": modifiers});
+            self.call("Input.dispatchKeyEvent", event);
+        }
+    }
+
     /// Everything that the page complained of or asked the network for.
     pub(crate) fn complaints(&self, file: &Path) -> Vec<String> {
         let own = format!("file://{}", file.display());

@@ -1,8 +1,9 @@
 //! The report in a browser.
 
 use crate::common;
+use crate::explorer::lead_over_pulleys;
 use crate::page::{Page, chromium, screenshots};
-use serde_json::Value;
+use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
 const EYE: &str = "(() => { const robot = document.getElementById('plot-robot'); \
@@ -106,6 +107,35 @@ fn the_report_is_whole_quiet_and_turns_in_a_browser() {
     page.show(&other);
     page.photograph(&folder, "cogiro-1400-light");
     assert_eq!(page.complaints(&other), [""; 0]);
+}
+
+#[test]
+fn a_cable_lies_on_its_pulley_however_large_its_sag_is_drawn() {
+    let results = common::caroca(|study, robot| {
+        lead_over_pulleys(robot);
+        let all = study["samplings"].as_object_mut().unwrap();
+        let rest: Vec<_> = all.keys().skip(1).cloned().collect();
+        rest.iter().for_each(|name| drop(all.shift_remove(name)));
+        for field in ["surfaces", "comparison", "sensitivity"] {
+            study.as_object_mut().unwrap().remove(field);
+        }
+        study["replicates"] = json!(0);
+    });
+    let exits = results.study.robot.cables.iter().map(|cable| cable.exit_point.z);
+    let highest = exits.fold(f64::NEG_INFINITY, f64::max);
+    let file = write_report(&screenshots(), "caroca-pulleys", &results);
+    let mut page = Page::open(chromium());
+    page.surround(1400, "light");
+    page.show(&file);
+    page.evaluate("document.getElementById('plot-robot').scrollIntoView({behavior: 'instant'})");
+    page.wait_for("document.getElementById('plot-robot').dataset.drawn");
+    let drawn = "document.getElementById('plot-robot').data.find((trace) => trace.line?.colorscale).z";
+    let range = page.evaluate(&format!("[Math.min(...{drawn}), Math.max(...{drawn})]"));
+    let stretched = page.evaluate("document.getElementById('sag-times').textContent");
+    assert_ne!(stretched, "\u{d7}1 (true)");
+    // A wheel of this radius is beside or above its exit point; nothing sags upwards.
+    assert!(range[1].as_f64().unwrap() < highest + 0.1, "{range} beside {highest}, sag {stretched}");
+    page.picture(&screenshots(), "caroca-pulleys");
 }
 
 /// Deflection, rotation and tensions on screen.

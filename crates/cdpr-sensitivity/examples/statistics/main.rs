@@ -13,11 +13,15 @@ mod functions;
 mod given;
 mod gradients;
 mod indices;
+#[path = "../../tests/known_tables.rs"]
+#[allow(dead_code, clippy::unwrap_used)]
+mod known_tables;
 mod measures;
 mod reliability;
 mod tables;
 #[cfg(feature = "faer")]
 mod vectors;
+mod verdicts;
 
 use cdpr_sensitivity::SensitivityError;
 
@@ -32,6 +36,7 @@ fn main() -> Result<(), SensitivityError> {
         ("expansions", |studies, _| expansions::table(studies)),
         ("given", |studies, _| given::table(studies)),
         ("levels", |studies, _| given::table_of_levels(studies)),
+        ("verdicts", verdicts::table),
         ("brackets", |studies, _| brackets::table(studies)),
         ("gradients", gradients::table),
         ("measures", measures::table),

@@ -39,6 +39,13 @@ use crate::sample::interval::Estimate;
 use crate::sample::random::stream;
 use crate::sample::summary::Spread;
 
+/// Largest number of components, up to 32: the time grows with its cube, and with the number of inputs.
+fn most_components(inputs: usize) -> u64 {
+    /// Some seconds.
+    const AFFORDABLE: u64 = 1 << 20;
+    (1..=32_u64).rev().find(|m| m.pow(3) * inputs as u64 <= AFFORDABLE).unwrap_or(1)
+}
+
 /// Index of one input.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
@@ -65,7 +72,8 @@ const MOST_PARTS: usize = 50;
 /// - [`SensitivityError::LengthMismatch`] unless all columns have a value for each output, and all outputs as
 ///   many components, at least one;
 /// - [`SensitivityError::NotFinite`] for a value or a component that is not finite;
-/// - [`SensitivityError::OutOfRange`] for fewer than [`MIN_ROWS`] outputs;
+/// - [`SensitivityError::OutOfRange`] for fewer than [`MIN_ROWS`] outputs, for more components than can be
+///   computed in some seconds (32 of up to 32 inputs);
 /// - [`SensitivityError::DependentRows`] for rows of a sequence;
 /// - [`SensitivityError::ConstantSample`] if all outputs are equal;
 /// - [`SensitivityError::InvalidParameter`] for a level outside (0, 1).
@@ -79,7 +87,7 @@ pub fn wasserstein_bures(
     let kept: Vec<usize> = (0..outputs.len()).filter(|&row| outputs[row].is_some()).collect();
     let vectors: Vec<&Vec<f64>> = outputs.iter().flatten().collect();
     check_range("observed outputs", kept.len() as u64, MIN_ROWS as u64, u64::MAX)?;
-    check_range("components", vectors[0].len() as u64, 1, u64::MAX)?;
+    check_range("components", vectors[0].len() as u64, 1, most_components(columns.len()))?;
     for (row, vector) in kept.iter().zip(&vectors) {
         check_length("components", vector.len(), vectors[0].len())?;
         vector.iter().try_for_each(|&value| check_finite("outputs", *row, value))?;

@@ -7,19 +7,18 @@
 //! Σ_j ψ_m(x_j) ψ_n(x_j) / n = 1 if m = n, 0 otherwise                                 (V1)
 //! ```
 //!
-//! or Legendre's of the ranks, which suit values with long tails; the leave-one-out error decides. (V1): S.
+//! or those of the ranks (Legendre's, but for equal values), which suit values with long tails; the
+//! leave-one-out error decides, unless both models are exact to rounding. An input of m levels has m - 1
+//! polynomials: a table of a design has those of its levels, exactly orthonormal where it is balanced. (V1): S.
 //! Oladyshkin, W. Nowak, *Data-driven uncertainty quantification using the arbitrary polynomial chaos
 //! expansion*, Reliab. Eng. Syst. Saf. 106 (2012). Terms, degree and indices are found as in
-//! [`crate::measure::expansion`], Eq. (X1) to (X4) there. The inputs must be independent of each other. The
-//! indices are those of the polynomial model: a leave-one-out error near 1 says that they mean nothing.
+//! [`crate::measure::expansion`], Eq. (X1) to (X4) there. The inputs must be independent of each other.
 
 use serde::{Deserialize, Serialize};
 
-use crate::design::input::Input;
 use crate::design::observation::Observed;
 use crate::error::SensitivityError;
 use crate::given::data::GivenData;
-use crate::law::Law;
 use crate::measure::expansion::basis::Polynomials;
 use crate::measure::expansion::polynomial::Truncation;
 use crate::measure::expansion::{Expansion, Found, Shares, Term, search, shares};
@@ -42,12 +41,19 @@ pub struct GivenExpansion {
 }
 
 impl GivenExpansion {
-    /// Indices of an input, by its number.
+    /// Shares of an input, by its number, in the variance of the outputs: those of the model times what it
+    /// explains of them. A model without terms, or with a leave-one-out error above [`MOST_ERROR`], has none.
     #[must_use]
-    pub fn shares(&self, input: usize) -> Shares {
-        shares(&self.terms, &[input])
+    pub fn shares(&self, input: usize) -> Option<Shares> {
+        let explained = 1.0 - self.leave_one_out;
+        let Shares { closed, total } = shares(&self.terms, &[input]);
+        let scaled = Shares { closed: explained * closed, total: explained * total };
+        (!self.terms.is_empty() && self.leave_one_out <= MOST_ERROR).then_some(scaled)
     }
 }
+
+/// Largest leave-one-out error at which shares of a model say something of the outputs.
+pub const MOST_ERROR: f64 = 0.5;
 
 /// Candidate values (terms times rows) of [`affordable`]: about a second.
 const AFFORDABLE: usize = 1 << 22;
@@ -60,6 +66,9 @@ pub fn affordable(inputs: usize, rows: usize) -> Truncation {
         |degree: &usize| truncation(*degree).products(inputs, *degree, AFFORDABLE / rows.max(1)).is_some();
     truncation((2..=8).rev().find(fits).unwrap_or(1))
 }
+
+/// Leave-one-out error of a model that is exact to rounding.
+const EXACT: f64 = 1e-12;
 
 /// Fits an expansion.
 ///
@@ -74,17 +83,14 @@ pub(crate) fn of_observed(
     truncation: Truncation,
 ) -> Result<GivenExpansion, SensitivityError> {
     truncation.check()?;
-    let degree = truncation.max_degree;
-    let of_values: Vec<Polynomials> =
-        observed.columns.iter().map(|column| Polynomials::of_values(column, degree)).collect();
-    let by_values = search(&observed.columns, &observed.outputs, None, &of_values, truncation)?;
-    let unit = Input::continuous("", Law::Uniform { min: 0.0, max: 1.0 });
-    let legendre = vec![Polynomials::new(&unit, degree); observed.columns.len()];
-    let n = observed.outputs.len() as f64;
-    let share = |column: &Vec<f64>| ranks(column).into_iter().map(|rank| (rank - 0.5) / n).collect();
-    let columns: Vec<Vec<f64>> = observed.columns.iter().map(share).collect();
-    let by_ranks = search(&columns, &observed.outputs, None, &legendre, truncation)?;
-    let of_ranks = by_ranks.leave_one_out < by_values.leave_one_out;
+    let polynomials = |columns: &[Vec<f64>]| -> Vec<Polynomials> {
+        columns.iter().map(|column| Polynomials::of_values(column, truncation.max_degree)).collect()
+    };
+    let found =
+        |columns: &[Vec<f64>]| search(columns, &observed.outputs, None, &polynomials(columns), truncation);
+    let by_values = found(&observed.columns)?;
+    let by_ranks = found(&observed.columns.iter().map(|column| ranks(column)).collect::<Vec<_>>())?;
+    let of_ranks = by_ranks.leave_one_out < by_values.leave_one_out && by_values.leave_one_out > EXACT;
     let Found { degree, mean, terms, leave_one_out } = if of_ranks { by_ranks } else { by_values };
     Ok(GivenExpansion { of_ranks, degree, mean, terms, leave_one_out })
 }

@@ -10,6 +10,9 @@
 //! The effect has the unit of the output. For independent random rows t is that of Student, with the variance
 //! V of all outputs; rows of a balanced design make it too small (see [`crate::measure::effect`]). An effect
 //! that turns round within the range of an input is not seen.
+//!
+//! Values equal to the median are in neither half. Where no value lies below it (or none above), as for an
+//! input of two levels, they are the lower (or upper) half. A constant input has no halves and no effect.
 
 use serde::{Deserialize, Serialize};
 
@@ -22,39 +25,40 @@ use crate::sample::summary::Spread;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct Half {
-    /// Signed effect, in the unit of the output. It is 0 for an input of which one half has no value.
+    /// Signed effect, in the unit of the output.
     pub effect: f64,
     /// t.
     pub student: f64,
 }
 
-/// Effects of all inputs.
+/// Effects of all inputs, `None` for a constant one.
 ///
 /// # Errors
 /// [`SensitivityError::OutOfRange`] for fewer than two outputs, [`SensitivityError::ConstantSample`] if all
 /// are equal.
-pub fn halves(data: &GivenData) -> Result<Vec<Half>, SensitivityError> {
+pub fn halves(data: &GivenData) -> Result<Vec<Option<Half>>, SensitivityError> {
     Ok(of_observed(&data.observed(2)?))
 }
 
-pub(crate) fn of_observed(observed: &Observed) -> Vec<Half> {
+pub(crate) fn of_observed(observed: &Observed) -> Vec<Option<Half>> {
     let variance = Spread::of(&observed.outputs).variance();
     let of_input = |column: &Vec<f64>| {
         let median = median(column);
-        let [mut above, mut below] = [(0.0, 0.0); 2];
+        // Number and sum of the outputs below the median, at it and above it.
+        let mut parts = [(0.0, 0.0); 3];
         for (&x, &y) in column.iter().zip(&observed.outputs) {
-            let half = match x.total_cmp(&median) {
-                std::cmp::Ordering::Greater => &mut above,
-                std::cmp::Ordering::Less => &mut below,
-                std::cmp::Ordering::Equal => continue,
-            };
-            *half = (half.0 + 1.0, half.1 + y);
+            let part = &mut parts[(1 + x.total_cmp(&median) as i8) as usize];
+            *part = (part.0 + 1.0, part.1 + y);
         }
-        if above.0 == 0.0 || below.0 == 0.0 {
-            return Half { effect: 0.0, student: 0.0 };
-        }
-        let effect = above.1 / above.0 - below.1 / below.0;
-        Half { effect, student: effect.abs() / (variance / above.0 + variance / below.0).sqrt() }
+        let [below, at, above] = parts;
+        let (lower, upper) = match (below.0 > 0.0, above.0 > 0.0) {
+            (true, true) => (below, above),
+            (false, true) => (at, above),
+            (true, false) => (below, at),
+            (false, false) => return None,
+        };
+        let effect = upper.1 / upper.0 - lower.1 / lower.0;
+        Some(Half { effect, student: effect.abs() / (variance / upper.0 + variance / lower.0).sqrt() })
     };
     observed.columns.iter().map(of_input).collect()
 }

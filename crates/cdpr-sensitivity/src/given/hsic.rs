@@ -27,6 +27,7 @@
 //!
 //! - (D4): A. Gretton et al., *A kernel statistical test of independence* (2008). It holds at usual levels;
 //!   p below 1e-4 is an indication of its size only.
+//! - An input of words has the kernel K = 1 for two rows of the same word, 0 otherwise.
 //! - An event has the kernel L = 1 for two rows in which it happens or in neither, 0 otherwise. The rows in
 //!   which a limit fails give the target measure, and the rows among these alone the conditional one: A.
 //!   Marrel, V. Chabridon, *Statistical developments for target and conditional sensitivity analysis*,
@@ -39,7 +40,7 @@ use serde::{Deserialize, Serialize};
 use statrs::distribution::{ContinuousCDF, Gamma};
 
 use crate::error::{SensitivityError, check_length, check_range};
-use crate::given::data::GivenData;
+use crate::given::data::{GivenData, Kind};
 use crate::parallel::*;
 use crate::sample::random::stream;
 use crate::sample::summary::{Spread, check_varies};
@@ -65,6 +66,8 @@ pub struct Rows {
 
 /// Least number of rows.
 pub const MIN_ROWS: usize = 6;
+/// Largest number of rows at which dependences are computed: two matrices of 200 MB.
+pub const MOST_ROWS: usize = 5000;
 
 /// Dependence of the output on each input.
 ///
@@ -73,21 +76,24 @@ pub const MIN_ROWS: usize = 6;
 /// all outputs are equal.
 pub fn dependence(data: &GivenData, rows: Rows) -> Result<Vec<Dependence>, SensitivityError> {
     let observed = data.observed(MIN_ROWS)?;
-    of_output(&observed.columns, &observed.outputs, rows)
+    let kinds: Vec<Kind> = (0..data.names().len()).map(|input| data.kind(input)).collect();
+    of_output(&observed.columns, &kinds, &observed.outputs, rows)
 }
 
 /// The same of columns of inputs, and of outputs that are not all equal.
 pub(crate) fn of_output(
     columns: &[Vec<f64>],
+    kinds: &[Kind],
     outputs: &[f64],
     rows: Rows,
 ) -> Result<Vec<Dependence>, SensitivityError> {
-    check_varies(outputs)?;
     let chosen = rows.of(outputs.len())?;
-    Ok(of_gram(columns, &chosen, &Centred::new(&gaussian(&select(outputs, &chosen)), chosen.len())))
+    let output = Kernel::new(select(outputs, &chosen), Kind::Numbers);
+    check_varies(outputs)?;
+    Ok(of_gram(columns, kinds, &chosen, &Centred::new(&output.gram(), chosen.len())))
 }
 
-/// Dependence of an event, which happens in some of the rows, on each input.
+/// Dependence of an event, which happens in some of the rows, on each input of numbers.
 ///
 /// # Errors
 /// - [`SensitivityError::LengthMismatch`] unless each column has a value for each row;
@@ -97,19 +103,28 @@ pub fn dependence_of_event(
     happens: &[bool],
     rows: Rows,
 ) -> Result<Vec<Dependence>, SensitivityError> {
+    of_event(columns, &vec![Kind::Numbers; columns.len()], happens, rows)
+}
+
+/// The same of inputs of numbers and of levels.
+pub(crate) fn of_event(
+    columns: &[Vec<f64>],
+    kinds: &[Kind],
+    happens: &[bool],
+    rows: Rows,
+) -> Result<Vec<Dependence>, SensitivityError> {
     columns.iter().try_for_each(|column| check_length("column", column.len(), happens.len()))?;
     let count = |chosen: &[usize]| chosen.iter().filter(|&&row| happens[row]).count();
     let chosen = rows.of_event(happens)?;
     check_range("rows of the event", count(&chosen) as u64, 1, chosen.len() as u64 - 1)?;
-    let n = chosen.len();
-    let same = |k: usize| f64::from(happens[chosen[k / n]] == happens[chosen[k % n]]);
-    let gram: Vec<f64> = (0..n * n).map(same).collect();
-    Ok(of_gram(columns, &chosen, &Centred::new(&gram, n)))
+    let event = Kernel::new(chosen.iter().map(|&row| f64::from(happens[row])).collect(), Kind::Levels);
+    Ok(of_gram(columns, kinds, &chosen, &Centred::new(&event.gram(), chosen.len())))
 }
 
 impl Rows {
     fn of(&self, n: usize) -> Result<Vec<usize>, SensitivityError> {
-        check_range("observed outputs", n.min(self.most) as u64, MIN_ROWS as u64, u64::MAX)?;
+        check_range("dependence_rows", self.most as u64, MIN_ROWS as u64, MOST_ROWS as u64)?;
+        check_range("observed outputs", n as u64, MIN_ROWS as u64, u64::MAX)?;
         let mut chosen = sample(&mut stream(self.seed, 0), n, n.min(self.most)).into_vec();
         chosen.sort_unstable();
         Ok(chosen)
@@ -118,7 +133,8 @@ impl Rows {
     /// A rare event keeps up to half of the rows, so that a draw does not lose it. The test holds for any
     /// choice of rows by the event.
     fn of_event(&self, happens: &[bool]) -> Result<Vec<usize>, SensitivityError> {
-        check_range("rows", happens.len().min(self.most) as u64, MIN_ROWS as u64, u64::MAX)?;
+        check_range("dependence_rows", self.most as u64, MIN_ROWS as u64, MOST_ROWS as u64)?;
+        check_range("rows", happens.len() as u64, MIN_ROWS as u64, u64::MAX)?;
         if happens.len() <= self.most {
             return Ok((0..happens.len()).collect());
         }
@@ -148,18 +164,33 @@ fn select(values: &[f64], rows: &[usize]) -> Vec<f64> {
     rows.iter().map(|&row| values[row]).collect()
 }
 
-/// Gaussian kernel of each pair of values, row by row. Constant values give ones.
-fn gaussian(values: &[f64]) -> Vec<f64> {
-    let factor = exponent(values);
-    let n = values.len();
-    let kernel = |k: usize| (factor * (values[k / n] - values[k % n]).powi(2)).exp();
-    (0..n * n).map(kernel).collect()
+/// Kernel of two rows: Gaussian for numbers, 1 or 0 for the same level and another one.
+struct Kernel {
+    values: Vec<f64>,
+    /// -1 / (2 s²) for numbers; 0 for constant values, whose kernel is 1.
+    factor: Option<f64>,
 }
 
-/// -1 / (2 s²), or 0 for constant values.
-fn exponent(values: &[f64]) -> f64 {
-    let variance = Spread::of(values).variance();
-    if variance > 0.0 { -0.5 / variance } else { 0.0 }
+impl Kernel {
+    fn new(values: Vec<f64>, kind: Kind) -> Self {
+        let variance = Spread::of(&values).variance();
+        let exponent = if variance > 0.0 { -0.5 / variance } else { 0.0 };
+        Self { factor: (kind == Kind::Numbers).then_some(exponent), values }
+    }
+
+    fn of(&self, i: usize, j: usize) -> f64 {
+        let [one, other] = [self.values[i], self.values[j]];
+        match self.factor {
+            Some(factor) => (factor * (one - other) * (one - other)).exp(),
+            None => f64::from(one == other),
+        }
+    }
+
+    /// Each pair of rows, row by row.
+    fn gram(&self) -> Vec<f64> {
+        let n = self.values.len();
+        (0..n * n).map(|k| self.of(k / n, k % n)).collect()
+    }
 }
 
 /// A centred matrix B and its invariants.
@@ -170,10 +201,10 @@ struct Centred {
 
 /// T, T2 and S2 of (D5).
 #[derive(Clone, Copy, Debug)]
-struct Invariants {
-    trace: f64,
-    square: f64,
-    diagonal: f64,
+pub(crate) struct Invariants {
+    pub(crate) trace: f64,
+    pub(crate) square: f64,
+    pub(crate) diagonal: f64,
 }
 
 impl Centred {
@@ -194,23 +225,24 @@ impl Centred {
 }
 
 /// Dependences on all inputs of what has the centred matrix B.
-fn of_gram(columns: &[Vec<f64>], rows: &[usize], output: &Centred) -> Vec<Dependence> {
-    let of_column = |column: &Vec<f64>| of_input(&select(column, rows), output);
-    columns.par_iter().map(of_column).collect()
+fn of_gram(columns: &[Vec<f64>], kinds: &[Kind], rows: &[usize], output: &Centred) -> Vec<Dependence> {
+    let of_column =
+        |(column, &kind): (&Vec<f64>, &Kind)| of_input(&Kernel::new(select(column, rows), kind), output);
+    columns.par_iter().zip(kinds).map(of_column).collect()
 }
 
 /// Dependence on the values of one input. A is not stored: its products and invariants follow from sums over
 /// the pairs of rows.
-fn of_input(x: &[f64], output: &Centred) -> Dependence {
-    let (n, size, factor) = (x.len(), x.len() as f64, exponent(x));
-    if factor == 0.0 {
+fn of_input(input: &Kernel, output: &Centred) -> Dependence {
+    let (n, size) = (input.values.len(), input.values.len() as f64);
+    if check_varies(&input.values).is_err() {
         return Dependence { r_squared: 0.0, p_value: 1.0 };
     }
     let (mut sums, mut squares, mut product) = (vec![1.0; n], size, output.invariants.trace);
     for i in 0..n {
         let (row, mut sum) = (&output.entries[i * n..i * n + i], 0.0);
         for j in 0..i {
-            let kernel = (factor * (x[i] - x[j]) * (x[i] - x[j])).exp();
+            let kernel = input.of(i, j);
             sums[j] += kernel;
             sum += kernel;
             squares += 2.0 * kernel * kernel;
@@ -234,7 +266,7 @@ fn of_input(x: &[f64], output: &Centred) -> Dependence {
 }
 
 /// Mean (D3) and variance (D5) over all permutations.
-fn moments(a: Invariants, b: Invariants, n: f64) -> (f64, f64) {
+pub(crate) fn moments(a: Invariants, b: Invariants, n: f64) -> (f64, f64) {
     let spread = |m: Invariants| (n - 1.0) * m.square - m.trace * m.trace;
     let q = |m: Invariants| n * (n + 1.0) * m.diagonal - (n - 1.0) * (m.trace * m.trace + 2.0 * m.square);
     let mean = a.trace * b.trace / (n - 1.0);
@@ -268,7 +300,8 @@ mod tests {
         let x = [0.1, 0.7, -0.4, 2.0, 1.1, 0.3, -1.5];
         let y = [1.0, 0.2, 0.9, 4.0, -0.3, 0.0, 0.5];
         let n = x.len();
-        let (a, b) = (Centred::new(&gaussian(&x), n), Centred::new(&gaussian(&y), n));
+        let kernel = |values: &[f64]| Kernel::new(values.to_vec(), Kind::Numbers);
+        let (a, b) = (Centred::new(&kernel(&x).gram(), n), Centred::new(&kernel(&y).gram(), n));
         let statistic = |p: &Vec<usize>| -> f64 {
             (0..n * n).map(|k| a.entries[k] * b.entries[p[k / n] * n + p[k % n]]).sum()
         };
@@ -282,7 +315,7 @@ mod tests {
         // The sums over pairs give the same statistic: R² of (D1), (D2) by the matrices.
         let identity: Vec<usize> = (0..n).collect();
         let scale = (a.invariants.square * b.invariants.square).sqrt();
-        let by_pairs = of_input(&x, &b);
+        let by_pairs = of_input(&kernel(&x), &b);
         assert!((by_pairs.r_squared - statistic(&identity) / scale).abs() < 1e-12);
         let p = p_value(statistic(&identity), found);
         assert!((by_pairs.p_value - p).abs() < 1e-9, "{by_pairs:?} {p}");

@@ -16,7 +16,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::error::{SensitivityError, check_finite, check_range, require};
+use crate::error::{SensitivityError, check_range, check_values, require};
 
 /// Observed outputs in ascending order, and the number of failed observations.
 #[derive(Debug, Clone, PartialEq)]
@@ -133,16 +133,12 @@ impl Sample {
     /// Makes a sample of outputs, with `None` for a failed observation.
     ///
     /// # Errors
-    /// [`SensitivityError::NotFinite`] for a value that is not finite, [`SensitivityError::OutOfRange`] for
-    /// fewer than two values.
+    /// [`SensitivityError::NotFinite`] for a value that is not finite, [`SensitivityError::Scale`] for values
+    /// whose squares a computer does not hold, [`SensitivityError::OutOfRange`] for fewer than two values.
     pub fn new(outputs: &[Option<f64>]) -> Result<Self, SensitivityError> {
-        let mut sorted = Vec::with_capacity(outputs.len());
-        for (index, &output) in outputs.iter().enumerate() {
-            if let Some(value) = output {
-                check_finite("outputs", index, value)?;
-                sorted.push(value);
-            }
-        }
+        let observed = || outputs.iter().enumerate().filter_map(|(index, output)| Some((index, (*output)?)));
+        check_values("outputs", observed())?;
+        let mut sorted: Vec<f64> = observed().map(|(_, value)| value).collect();
         check_range("observed outputs", sorted.len() as u64, 2, u64::MAX)?;
         sorted.sort_unstable_by(f64::total_cmp);
         let failed = outputs.len() - sorted.len();
@@ -220,8 +216,9 @@ impl Sample {
 
 /// Returns [`SensitivityError::ConstantSample`] unless at least two values differ.
 pub(crate) fn check_varies(values: &[f64]) -> Result<(), SensitivityError> {
-    if values.iter().all(|value| *value == values[0]) {
-        return Err(SensitivityError::ConstantSample { value: values[0], count: values.len() });
+    let first = values.first().copied().unwrap_or(f64::NAN);
+    if values.iter().all(|value| *value == first) {
+        return Err(SensitivityError::ConstantSample { value: first, count: values.len() });
     }
     Ok(())
 }

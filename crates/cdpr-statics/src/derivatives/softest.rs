@@ -7,7 +7,8 @@
 //! dλ = d(vᵀ K v) - λ d(vᵀ N v),      v constant                                                   (D12)
 //! ```
 //!
-//! unless two motions have the same λ. The motion moves the anchor point A_i by `v_i = v_p + v_r x s_i`, and
+//! unless two motions have the same λ. The length ℓ is a constant: it does not deviate with the inputs. The
+//! motion moves the anchor point A_i by `v_i = v_p + v_r x s_i`, and
 //! with (S5)
 //!
 //! ```text
@@ -23,7 +24,7 @@ use crate::equations::{CableDerivatives, Inputs, Reading, Weighed, each_effect_o
 use crate::error::StaticsError;
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load};
-use cdpr_robot::{Matrix6xX, Parameter, Robot, Vector3};
+use cdpr_robot::{Matrix6xX, Robot, Vector3};
 use nalgebra::{DMatrix, RowDVector};
 use std::f64::consts::TAU;
 
@@ -73,11 +74,12 @@ impl AtRest<'_> {
         finite(slopes, QUANTITY).map(|slopes| (frequency, slopes))
     }
 
-    /// The lowest stiffness [N/m] and its derivatives.
-    pub(super) fn least_stiffness(&self) -> Result<(f64, Vec<f64>), StaticsError> {
+    /// The lowest stiffness [N/m] with the characteristic length ℓ [m], and its derivatives.
+    pub(super) fn least_stiffness(&self, length: f64) -> Result<(f64, Vec<f64>), StaticsError> {
         const QUANTITY: &str = "the lowest stiffness";
         let problem = DirectProblem::new(self.robot, self.lengths, self.load)?;
-        let modes = self.found.stability.modes();
+        let problem = problem.with_characteristic_length(length);
+        let modes = problem.stability(&self.found.equilibrium)?.modes();
         let mut resisted = modes.iter();
         let lowest = resisted.next().map(|mode| Softest {
             value: mode.stiffness,
@@ -86,10 +88,7 @@ impl AtRest<'_> {
         });
         let next = resisted.next().map(|mode| mode.stiffness);
         let softest = single(lowest, next, QUANTITY)?;
-        let mut slopes = self.energy(&problem, &softest);
-        let length = problem.characteristic_length();
-        let per_length = 2.0 * softest.value * length * softest.rotation.norm_squared();
-        slopes -= per_length * self.characteristic_length();
+        let slopes = self.energy(&problem, &softest);
         finite(slopes, QUANTITY).map(|slopes| (softest.value, slopes))
     }
 
@@ -151,22 +150,6 @@ impl AtRest<'_> {
             (0..3).for_each(|axis| slopes[first + axis] += per_turn[axis]);
         }
         self.follow(&mut slopes);
-        slopes
-    }
-
-    /// Derivatives of the characteristic length ℓ.
-    fn characteristic_length(&self) -> RowDVector<f64> {
-        let (robot, size, lengths) = (self.robot, self.robot.platform_size(), self.lengths);
-        let longest = (0..lengths.len()).max_by(|i, j| lengths[*i].total_cmp(&lengths[*j]));
-        if let Some(longest) = longest.filter(|longest| 1e-3 * lengths[*longest] > size) {
-            return 1e-3 * self.length_slopes.row(longest);
-        }
-        let mut slopes = self.zeros();
-        for (column, parameter) in self.inputs.parameters.iter().enumerate() {
-            if let Parameter::AnchorPoint(i, axis) = *parameter {
-                slopes[column] = robot.cables[i].anchor_point[axis as usize] / (lengths.len() as f64 * size);
-            }
-        }
         slopes
     }
 

@@ -5,15 +5,17 @@
 //! taken only where the iteration ends near that prediction and at a stable equilibrium; otherwise h shrinks.
 //! Near a turning point the pose moves like the square root of the share that remains up to it: steps then
 //! fall geometrically. Where h is below 1e-9 the equilibrium is lost, unless the one downhill a millionth
-//! later is the same (Allgower and Georg, *Introduction to Numerical Continuation Methods*, 2003, chapter 2).
-//! So a jump of the platform is reported, not stepped over.
+//! later is the same (Allgower and Georg, *Introduction to Numerical Continuation Methods*, 2003, chapter 2)
+//! or grows out of it: beside a symmetric equilibrium that becomes unstable, the platform moves away like the
+//! square root of the share. So a jump of the platform is reported, not stepped over.
 
-use crate::direct::newton::{Converged, newton};
-use crate::direct::solution::{DirectMethod, DirectSolution, descend, solution};
-use crate::error::StaticsError;
+use crate::direct::near::{is_near_prediction, keeps_stiffness, motion};
+use crate::direct::newton::newton;
+use crate::direct::solution::{DirectMethod, DirectSolution, Report, descend, solution};
+use crate::error::{BranchEnd, StaticsError};
 use crate::problem::DirectProblem;
-use crate::state::{Equilibrium, Load};
-use cdpr_robot::{Robot, Vector6, Wrench};
+use crate::state::Load;
+use cdpr_robot::{Robot, Wrench};
 
 /// Unstrained lengths and load, as they are set from outside.
 #[derive(Clone, Debug, PartialEq)]
@@ -80,8 +82,72 @@ const MAX_STEPS: usize = 10_000;
 /// that has become taut.
 const SAME: f64 = 1e-5;
 
-/// Largest correction of a prediction, relative to it.
-const MAX_CORRECTION: f64 = 0.2;
+/// Share of the change behind a loss at which the equilibrium downhill is searched.
+const BEYOND: f64 = 1e-6;
+
+/// What the platform moves in this share, over what it moves in a hundred times of it, where it goes on from
+/// where it stood: a tenth where it moves like the square root. A jump is as long in both.
+const GROWING: f64 = 0.3;
+
+/// The stable equilibrium under the load `to` that the one `from`, under another load, becomes while the load
+/// changes in proportion and the lengths stay.
+///
+/// Where one step of the continuation is the whole change, that is Newton's method and no more.
+///
+/// # Errors
+/// - [`StaticsError::BranchEnds`] where the equilibrium is lost before.
+/// - [`StaticsError::Overstrained`] where it strains a cable by more than the models hold for.
+/// - [`StaticsError::Invalid`] as [`DirectProblem::new`]; [`StaticsError::DirectNotConverged`].
+pub fn follow_load(
+    robot: &Robot,
+    lengths: &[f64],
+    (load, from): (&Load, &DirectSolution),
+    to: &Load,
+) -> Result<DirectSolution, StaticsError> {
+    if load == to {
+        return Ok(from.clone());
+    }
+    let problem = DirectProblem::new(robot, lengths, to)?;
+    let start = (&from.equilibrium, &from.stability);
+    let found = newton(&problem, from.equilibrium.clone()).filter(|found| found.stability.is_stable());
+    if let Some(found) = found
+        && (is_near_prediction(&problem, &from.equilibrium, &found)
+            || keeps_stiffness(&problem, start, &found))
+    {
+        return solution(&problem, found, DirectMethod::Newton);
+    }
+    let [begin, end] = [load, to].map(|load| Setting { lengths: lengths.to_vec(), load: *load });
+    let Path { mut steps, lost } = follow_from(robot, &begin, &end, from.clone())?;
+    let iterations = steps[1..].iter().map(|step| step.solution.report.iterations).sum();
+    match (steps.pop(), lost) {
+        (Some(PathStep { mut solution, .. }), None) => {
+            solution.report = Report { method: DirectMethod::Continuation, iterations, ..solution.report };
+            Ok(solution)
+        }
+        (_, Some(lost)) => Err(lost.into_error(iterations)),
+        (None, None) => Ok(from.clone()),
+    }
+}
+
+impl Loss {
+    /// As the reason why there is no equilibrium at the end of the change, after so many iterations.
+    fn into_error(self, iterations: usize) -> StaticsError {
+        let Self { share, kind, before, after } = self;
+        let pose = before.equilibrium.pose;
+        match (kind, after) {
+            (LossKind::Overstrained, Err(error)) => error,
+            (LossKind::StepLimit, _) => {
+                let residual = before.report.residual;
+                StaticsError::DirectNotConverged { iterations, pose: Box::new(pose), residual }
+            }
+            (_, after) => StaticsError::BranchEnds(Box::new(BranchEnd {
+                share,
+                pose,
+                falls_to: after.map(|after| after.equilibrium.pose),
+            })),
+        }
+    }
+}
 
 pub(crate) fn follow_from(
     robot: &Robot,
@@ -89,7 +155,6 @@ pub(crate) fn follow_from(
     to: &Setting,
     first: DirectSolution,
 ) -> Result<Path, StaticsError> {
-    let size = DirectProblem::new(robot, &from.lengths, &from.load)?.size();
     let mut steps = vec![PathStep { share: 0.0, solution: first.clone() }];
     let (mut share, mut now, mut step) = (0.0, first, 0.1);
     while share < 1.0 {
@@ -97,7 +162,7 @@ pub(crate) fn follow_from(
         let setting = between(from, to, next);
         let problem = DirectProblem::new(robot, &setting.lengths, &setting.load)?;
         let found = newton(&problem, now.equilibrium.clone());
-        let kind = match found.filter(|found| is_near_prediction(&problem, &now.equilibrium, found, size)) {
+        let kind = match found.filter(|found| is_near_prediction(&problem, &now.equilibrium, found)) {
             Some(found) if found.stability.is_stable() => {
                 match solution(&problem, found, DirectMethod::Continuation) {
                     Ok(solution) => now = solution,
@@ -116,39 +181,58 @@ pub(crate) fn follow_from(
         };
         step = 0.25 * (next - share);
         let limit = steps.len() >= MAX_STEPS;
-        let kind = if limit { LossKind::StepLimit } else { kind };
         if step < LEAST_STEP || limit {
-            let beyond = (share + 1e-6).min(1.0);
-            let setting = between(from, to, beyond);
-            let problem = DirectProblem::new(robot, &setting.lengths, &setting.load)?;
-            let after = descend(&problem, &now.equilibrium.pose);
-            if let Ok(same) = &after
-                && !limit
-                && motion(&problem, &now.equilibrium, &same.equilibrium).norm() <= SAME * size
-            {
-                now = same.clone();
-                steps.push(PathStep { share: beyond, solution: now.clone() });
-                (share, step) = (beyond, 1e-6);
-                continue;
-            }
-            let lost = Some(Loss { share, kind, before: Box::new(now), after: after.map(Box::new) });
-            return Ok(Path { steps, lost });
+            let kind = if limit { LossKind::StepLimit } else { kind };
+            let after = match beyond(robot, (from, to), share, &now)? {
+                Beyond::Same(next) if !limit => {
+                    step = next.share - share;
+                    (share, now) = (next.share, next.solution.clone());
+                    steps.push(*next);
+                    continue;
+                }
+                Beyond::Same(next) => Ok(Box::new(next.solution)),
+                Beyond::Elsewhere(after) => after,
+            };
+            return Ok(Path { steps, lost: Some(Loss { share, kind, before: Box::new(now), after }) });
         }
     }
     Ok(Path { steps, lost: None })
 }
 
-/// Whether the iteration ended near what its first step predicted: on the same branch.
-fn is_near_prediction(problem: &DirectProblem, from: &Equilibrium, found: &Converged, size: f64) -> bool {
-    let motion = motion(problem, from, &found.equilibrium);
-    (motion - found.first_step).norm() <= MAX_CORRECTION * found.first_step.norm() + 1e-7 * size
+/// What is downhill of an equilibrium that seems to be lost.
+enum Beyond {
+    /// The equilibrium itself a little later, behind a kink or beside one that has become unstable.
+    Same(Box<PathStep>),
+    /// Another one, to which the platform jumps.
+    Elsewhere(Result<Box<DirectSolution>, StaticsError>),
 }
 
-/// (dp, ℓ dφ) from one equilibrium to another [m].
-fn motion(problem: &DirectProblem, from: &Equilibrium, to: &Equilibrium) -> Vector6<f64> {
-    let mut motion = from.pose.motion_to(&to.pose);
-    motion.fixed_rows_mut::<3>(3).scale_mut(problem.characteristic_length());
-    motion
+/// What is downhill of the equilibrium `now` at a share.
+fn beyond(
+    robot: &Robot,
+    (from, to): (&Setting, &Setting),
+    share: f64,
+    now: &DirectSolution,
+) -> Result<Beyond, StaticsError> {
+    let downhill = |further: f64| -> Result<(PathStep, f64), StaticsError> {
+        let share = (share + further).min(1.0);
+        let setting = between(from, to, share);
+        let problem = DirectProblem::new(robot, &setting.lengths, &setting.load)?;
+        let solution = descend(&problem, &now.equilibrium.pose)?;
+        let moved = motion(&problem, &now.equilibrium, &solution.equilibrium).norm() / problem.size();
+        Ok((PathStep { share, solution }, moved))
+    };
+    let (after, moved) = match downhill(BEYOND) {
+        Ok(after) => after,
+        Err(error) => return Ok(Beyond::Elsewhere(Err(error))),
+    };
+    if moved <= SAME {
+        return Ok(Beyond::Same(Box::new(after)));
+    }
+    Ok(match downhill(100.0 * BEYOND) {
+        Ok((later, farther)) if moved <= GROWING * farther => Beyond::Same(Box::new(later)),
+        _ => Beyond::Elsewhere(Ok(Box::new(after.solution))),
+    })
 }
 
 fn between(from: &Setting, to: &Setting, share: f64) -> Setting {

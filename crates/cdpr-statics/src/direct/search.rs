@@ -84,7 +84,8 @@ impl DirectProblem<'_> {
 ///
 /// With `d_i` the exit points seen from their middle and q the point seen from there,
 /// `L_i² = |d_i|² - 2 d_i·q + |q|²`. The differences of these equations give q, by least squares, in the
-/// space that the exit points span; their mean gives the rest of |q|, which points downwards.
+/// space that the exit points span; their mean gives the rest of |q|, which points downwards. A planar robot
+/// starts in its plane.
 pub fn rough_pose(robot: &Robot, lengths: &[f64]) -> Pose {
     let n = robot.cables.len() as f64;
     let middle = robot.cables.iter().map(|cable| cable.exit_point).sum::<Vector3<f64>>() / n;
@@ -101,7 +102,12 @@ pub fn rough_pose(robot: &Robot, lengths: &[f64]) -> Pose {
     let q = -0.5 * inverse * moment;
     let depth = (mean - q.norm_squared()).max(0.0).sqrt();
     let up = to_base(robot.gravity.level(), [0.0, 0.0, 1.0]);
-    Pose { position: middle + q - Vector3::from(up) * depth, rotation: Rotation3::identity() }
+    let mut position = middle + q - Vector3::from(up) * depth;
+    // A planar robot cannot leave its plane, and no search from elsewhere would bring it there.
+    if let Some((normal, offset)) = robot.plane_offset() {
+        position[normal] = offset;
+    }
+    Pose { position, rotation: Rotation3::identity() }
 }
 
 fn search(

@@ -52,9 +52,12 @@ pub struct Report {
     pub iterations: usize,
     /// Residuals of all equations.
     pub residual: Residual,
-    /// Indices of the slack cables, whose length at rest `L (1 + ε(0))` is at least the distance of their
-    /// points: they carry little but their own weight.
+    /// Indices of the slack cables, which carry next to nothing but their own weight:
+    /// [`cdpr_cable::SLACK_BELOW_OWN_WEIGHTS`].
     pub slack: Vec<usize>,
+    /// Indices of the cables whose length at rest `L (1 + ε(0))` is at least the distance of their points.
+    /// They sag, and a load may let the platform stand at several places, however much they carry.
+    pub longer_than_chord: Vec<usize>,
 }
 
 /// An equilibrium of the platform.
@@ -68,10 +71,6 @@ pub struct DirectSolution {
     pub stability: Stability,
 }
 
-/// Strain beyond which the law of a linear, small-strain cable is invalid: steel and fibre ropes break at
-/// less.
-pub(crate) const MAX_STRAIN: f64 = 0.1;
-
 /// The minimum of the potential downhill of a pose.
 pub(crate) fn descend(problem: &DirectProblem, pose: &Pose) -> Result<DirectSolution, StaticsError> {
     solution(problem, minimise(problem, pose)?, DirectMethod::TrustRegion)
@@ -83,20 +82,39 @@ pub(crate) fn solution(
     method: DirectMethod,
 ) -> Result<DirectSolution, StaticsError> {
     let Converged { equilibrium, iterations, residual, stability, .. } = converged;
-    let mut slack = Vec::new();
+    problem.check_strains(&equilibrium)?;
+    let (mut slack, mut longer_than_chord) = (Vec::new(), Vec::new());
     for (i, force) in equilibrium.cable_forces.iter().enumerate() {
         let cable = problem.cable(i);
         let span = end(problem.robot, &equilibrium.pose, i);
-        let (length, straight) = (problem.lengths[i], cable.straight_length_in_space(span));
         let catenary = problem.catenary_at(&equilibrium.pose, i, *force);
-        let tension = catenary.anchor_tension().max(catenary.exit_tension());
-        let strain = cable.strain(tension);
-        if strain > MAX_STRAIN {
-            return Err(StaticsError::Overstrained { index: i, length, distance: straight, strain });
-        }
-        if catenary.length_at_rest() >= straight {
+        if catenary.is_slack() {
             slack.push(i);
         }
+        if catenary.length_at_rest() >= cable.straight_length_in_space(span) {
+            longer_than_chord.push(i);
+        }
     }
-    Ok(DirectSolution { equilibrium, report: Report { method, iterations, residual, slack }, stability })
+    let report = Report { method, iterations, residual, slack, longer_than_chord };
+    Ok(DirectSolution { equilibrium, report, stability })
+}
+
+impl DirectProblem<'_> {
+    /// Refuses forces that strain a cable by more than the models hold for.
+    ///
+    /// # Errors
+    /// [`StaticsError::Overstrained`] for the first such cable.
+    pub(crate) fn check_strains(&self, equilibrium: &Equilibrium) -> Result<(), StaticsError> {
+        for (index, force) in equilibrium.cable_forces.iter().enumerate() {
+            let (cable, length) = (self.cable(index), self.lengths[index]);
+            let catenary = self.catenary_at(&equilibrium.pose, index, *force);
+            let tension = catenary.anchor_tension().max(catenary.exit_tension());
+            if let Some(strain) = cable.overstrain(tension) {
+                let span = end(self.robot, &equilibrium.pose, index);
+                let distance = cable.straight_length_in_space(span);
+                return Err(StaticsError::Overstrained { index, length, distance, strain });
+            }
+        }
+        Ok(())
+    }
 }

@@ -1,6 +1,7 @@
 //! Stability of an equilibrium, and the stiffness of its motions.
 
 use crate::equations::{Motions, is_definite, per_length};
+use crate::error::StaticsError;
 use crate::problem::DirectProblem;
 use crate::state::Equilibrium;
 use cdpr_robot::Vector3;
@@ -49,6 +50,19 @@ impl Mode {
     }
 }
 
+impl DirectProblem<'_> {
+    /// The stability of an equilibrium, which it need not have reported itself: with the characteristic length
+    /// of this problem.
+    ///
+    /// # Errors
+    /// As [`DirectProblem::linearize`].
+    pub fn stability(&self, equilibrium: &Equilibrium) -> Result<Stability, StaticsError> {
+        let stiffness = self.linearize(equilibrium)?.symmetric_stiffness();
+        let hessian = self.robot.freedoms().of_matrix(&stiffness);
+        Ok(Stability::new(self, equilibrium, &hessian))
+    }
+}
+
 impl Stability {
     /// Of an equilibrium with a symmetric Hessian in (dp, dφ).
     pub(crate) fn new(problem: &DirectProblem, equilibrium: &Equilibrium, hessian: &Matrix6<f64>) -> Self {
@@ -81,6 +95,11 @@ impl Stability {
     /// back.
     pub fn is_stable(&self) -> bool {
         self.stable
+    }
+
+    /// Whether every motion is stiffer than `share` of what it is in `other`, and none is held or neutral.
+    pub(crate) fn exceeds(&self, share: f64, other: &Self) -> bool {
+        self.some.is_none() && (self.hessian - share * other.hessian).cholesky().is_some()
     }
 
     /// Eigenvalues of the stiffness, ascending, of all motions that are neither held nor neutral [N/m].

@@ -14,7 +14,7 @@ pub(crate) const ABOVE_ANY_LEAST: f64 = 1.3;
 
 /// No cable without a guide whose tension rises with its chord force is longer than this many chords: the one
 /// of least tension over a level span has 1.2584.
-const LONGEST: f64 = 1.3;
+pub(crate) const LONGEST_TAUT: f64 = 1.3;
 
 /// Bounds of the force of a cable without a guide on the platform, `σ along + V sag` with V from zero to the
 /// cable's weight: with W that weight and x its centre of gravity as a share of the horizontal distance from
@@ -110,7 +110,7 @@ impl<'a> Ends<'a> {
         Some(Bounds {
             along: self.chord_pull(),
             sag: self.on_platform([0.0, 0.0, 1.0]),
-            weight: LONGEST * self.cable.weight_per_length * self.end.norm(),
+            weight: LONGEST_TAUT * self.cable.weight_per_length * self.end.norm(),
         })
     }
 
@@ -223,7 +223,7 @@ impl<'a> Held<'a> {
 
 #[cfg(test)]
 mod tests {
-    use super::LONGEST;
+    use super::LONGEST_TAUT;
 
     /// Tension at A over half the weight of a chord's length, of an inextensible catenary over a span of the
     /// slope `z` and length one, and its length.
@@ -246,6 +246,6 @@ mod tests {
             let at_least = taut.last().map_or(0.0, |u| catenary(slope, u)[1]);
             longest = longest.max(at_least);
         }
-        assert!((1.257..LONGEST).contains(&longest), "{longest}");
+        assert!((1.257..LONGEST_TAUT).contains(&longest), "{longest}");
     }
 }

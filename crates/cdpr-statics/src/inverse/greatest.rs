@@ -164,7 +164,9 @@ impl Greatest {
             question.pose,
             &point.strands.iter().map(|s| s.held.catenary()).collect::<Vec<_>>(),
         );
-        let residual = Residual::of(&DirectProblem::new(question.robot, &lengths, load)?, &equilibrium);
+        let problem = DirectProblem::new(question.robot, &lengths, load)?;
+        problem.check_strains(&equilibrium)?;
+        let residual = Residual::of(&problem, &equilibrium);
         let n = point.strands.len();
         let mut blocking = Vec::new();
         for (index, row) in point.rows.iter().enumerate() {

@@ -43,6 +43,17 @@ impl<'a> Question<'a> {
         load: &'a Load,
         reference: Option<&[f64]>,
     ) -> Result<Self, StaticsError> {
+        let question = Self::with_platform_limits(robot, pose, load, reference)?;
+        Ok(Self { limits: limits_at(robot, pose)?, ..question })
+    }
+
+    /// The same with every limit taken as one at the platform: for a pose that is not known yet.
+    pub(super) fn with_platform_limits(
+        robot: &'a Robot,
+        pose: &'a Pose,
+        load: &'a Load,
+        reference: Option<&[f64]>,
+    ) -> Result<Self, StaticsError> {
         let n = robot.cables.len();
         load.validate()?;
         if !pose.is_finite() {
@@ -61,7 +72,8 @@ impl<'a> Question<'a> {
         if let Some((i, value)) = reference.iter().enumerate().find(|(_, value)| !value.is_finite()) {
             return Err(StaticsError::invalid(format!("reference[{i}]"), value, "a finite tension [N]"));
         }
-        let (limits, (arm, external)) = (limits_at(robot, pose)?, external(robot, pose, load));
+        let limits = (0..n).map(|i| robot.limits(i)).collect();
+        let (arm, external) = external(robot, pose, load);
         Ok(Self { robot, pose, load, reference, limits, arm, external })
     }
 

@@ -90,6 +90,28 @@ impl<S: Simd> SymmetricFactors<S> {
         regular
     }
 
+    /// The upper triangle of the matrix itself; the other elements are zero.
+    // Indices as in the formula.
+    #[allow(clippy::needless_range_loop)]
+    #[inline(always)]
+    pub(crate) fn product(&self) -> Lanes6x6<S> {
+        let zero = self.pivots_inv[0].all(0.0);
+        let mut matrix = [[zero; 6]; 6];
+        for k in 0..6 {
+            let mut of_k = [zero; 6];
+            of_k[k] = zero + 1.0;
+            of_k[k + 1..].copy_from_slice(&self.upper[k][k + 1..]);
+            let pivot = self.pivots_inv[k].recip();
+            for row in k..6 {
+                let share = of_k[row] * pivot;
+                for column in row..6 {
+                    matrix[row][column] += share * of_k[column];
+                }
+            }
+        }
+        matrix
+    }
+
     /// Takes over another one in the lanes that are `going`.
     #[inline(always)]
     pub(crate) fn replace(&mut self, other: &Self, going: Mask<S>) {

@@ -13,11 +13,11 @@ use crate::equations::{LinearizedCable, Span, between};
 use crate::lanes::algebra::{Lanes2, Lanes3, replace};
 use crate::lanes::simd::{Lanes, Mask, Simd, WithSimd};
 use crate::state::Equilibrium;
-use cdpr_cable::Catenary;
 use cdpr_cable::kernel::{
     Field, LaneEnd, LaneGuide, LaneSegment, LaneWay, LeavePoint, Response, lane_end, lane_law_end,
     lane_law_energy, lane_law_response, lane_law_strain, lane_law_stretch, lane_response,
 };
+use cdpr_cable::{Catenary, MAX_STRAIN};
 use cdpr_robot::{Robot, Vector2};
 
 /// A cable of every robot, or several cables of one.
@@ -284,6 +284,14 @@ impl<S: Simd> LaneCable<'_, S> {
             [] => tension * self.axial_flexibility,
             law => lane_law_strain(law, self.axial_flexibility, tension),
         }
+    }
+
+    /// The lanes in which this tension at the platform [N] may strain the cable beyond [`MAX_STRAIN`] at one
+    /// of its ends.
+    #[inline(always)]
+    pub(crate) fn may_be_overstrained(&self, tension: Lanes<S>) -> Mask<S> {
+        let strain = self.strain(tension + self.weight_per_length * self.length);
+        !strain.less_or_equal(tension.all(MAX_STRAIN))
     }
 
     /// The integral of the strain over the tension up to `tension`, both in newtons.

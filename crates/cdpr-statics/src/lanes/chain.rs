@@ -188,7 +188,7 @@ fn chain<'a, S: Simd>(
     let own = PlatformLoad::weight(robots.weight);
     robots.assemble(&own, &mut platform, zero.less_or_equal(zero));
     let (standing, unloaded) = robots.settle(&own, &mut platform, &shared.scale, converged & sound & held);
-    let stood = robots.position;
+    let (stood, stiffness) = (robots.position, platform.factored);
     if let Some(keep) = &mut keep {
         keep.state(robots);
     }
@@ -198,6 +198,7 @@ fn chain<'a, S: Simd>(
     let added = hold(freedoms, payload.wrench(&robots.center));
     platform.gradient = six!(|k| platform.gradient[k] - added[k]);
     let (answered, loaded) = robots.settle(&load, &mut platform, &shared.scale, standing);
+    let answered = robots.on_branch(&load, &platform, &stiffness, &shared.scale, answered);
     if let Some(keep) = &mut keep {
         keep.state(robots);
     }
@@ -456,6 +457,8 @@ pub(crate) fn wind<S: Simd>(
         linearized.predicted = cable.force;
         // A root with a cable of negative length is invalid.
         all = all & !going & taut & zero.less_or_equal(cable.length) & zero.less_or_equal(cable.force[0]);
+        let [fx, fz] = cable.force;
+        all = all & !cable.may_be_overstrained((fx * fx + fz * fz).sqrt());
     }
     all
 }

@@ -4,7 +4,6 @@
 //! Each lane holds a robot, or a cable of one robot. A lane stops by its own steps alone: the other lanes of
 //! a batch change none of its digits.
 
-use crate::direct::MAX_STRAIN;
 use crate::equations::vector::{cross, dot};
 use crate::equations::{CablePlane, LinearizedCable};
 use crate::lanes::algebra::{
@@ -119,6 +118,16 @@ pub(crate) struct LinearizedPlatform<S: Simd> {
     pub(crate) gradient: Lanes6<S>,
     /// Its derivative, factored.
     pub(crate) factored: SymmetricFactors<S>,
+    /// The steps of the last search.
+    pub(crate) steps: Steps<S>,
+}
+
+/// The steps (dp, ℓ dφ) of a search.
+pub(crate) struct Steps<S: Simd> {
+    /// Square of the first one, which the linearisation at the start predicts [m²].
+    pub(crate) first: Lanes<S>,
+    /// The sum of all others [m].
+    pub(crate) others: Lanes6<S>,
 }
 
 impl<S: Simd> LinearizedPlatform<S> {
@@ -136,6 +145,7 @@ impl<S: Simd> LinearizedPlatform<S> {
             free: Vec::new(),
             gradient: [zero; 6],
             factored: SymmetricFactors::new([[zero; 6]; 6]),
+            steps: Steps { first: zero, others: [zero; 6] },
         }
     }
 
@@ -151,6 +161,29 @@ impl<S: Simd> LinearizedPlatform<S> {
     #[inline(always)]
     pub(crate) fn is_stable(&self) -> Mask<S> {
         self.factored.positive
+    }
+}
+
+impl<S: Simd> Steps<S> {
+    /// Takes a step of the square `moved` in the lanes that are `going`.
+    #[inline(always)]
+    fn take(
+        &mut self,
+        iteration: usize,
+        moved: Lanes<S>,
+        step: &Lanes6<S>,
+        characteristic_length: f64,
+        going: Mask<S>,
+    ) {
+        let zero = moved.all(0.0);
+        if iteration == 0 {
+            *self = Self { first: moved, others: [zero; 6] };
+            return;
+        }
+        for (k, (sum, part)) in self.others.iter_mut().zip(step).enumerate() {
+            let scaled = if k < 3 { *part } else { *part * characteristic_length };
+            *sum += going.select(scaled, zero);
+        }
     }
 }
 
@@ -221,7 +254,11 @@ impl<S: Simd> Robots<'_, S> {
     // Indices as in the formula.
     #[allow(clippy::needless_range_loop)]
     #[inline(always)]
-    fn balance(&self, load: &PlatformLoad<S>, platform: &LinearizedPlatform<S>) -> (Lanes6<S>, Lanes6x6<S>) {
+    pub(crate) fn balance(
+        &self,
+        load: &PlatformLoad<S>,
+        platform: &LinearizedPlatform<S>,
+    ) -> (Lanes6<S>, Lanes6x6<S>) {
         let zero = self.weight.all(0.0);
         let (mut gradient, mut hessian) = ([zero; 6], [[zero; 6]; 6]);
         for (i, (cable, linearized)) in self.cables.iter().zip(&platform.cables).enumerate() {
@@ -337,12 +374,11 @@ impl<S: Simd> Robots<'_, S> {
             add(&mut gradient, &cable.anchor_arm, &moved.plane.lift([x, z]));
             linearized.replace(&moved, near);
             tensions += self.counted(i, tension);
-            let strain = cable.strain(tension + cable.weight_per_length * cable.length);
             // A slack cable may hang from either side of its wheel.
             let folded = if cable.guided.is_some() { FOLDED_ON_WHEEL } else { FOLDED };
             let sound = zero.less_or_equal(fx)
                 & slackness.less_or_equal(zero.all(folded))
-                & strain.less_or_equal(zero.all(MAX_STRAIN));
+                & !cable.may_be_overstrained(tension);
             failed = failed.max((!sound).select(zero.all(1.0), zero));
         }
         residual.closure = self.largest(residual.closure);
@@ -376,7 +412,7 @@ impl<S: Simd> Robots<'_, S> {
         let small_step = zero + (SMALL_STEP * scale.size).powi(2);
         let (mut going, mut found) = (alive, alive & !alive);
         let mut residual = LaneResidual { closure: small_step, wrench: platform.gradient };
-        for _ in 0..MAX_ITERATIONS {
+        for iteration in 0..MAX_ITERATIONS {
             let gradient = six!(|k| -platform.gradient[k]);
             let mut step = platform.factored.solve(&gradient);
             if load.moment.is_some() {
@@ -390,6 +426,7 @@ impl<S: Simd> Robots<'_, S> {
                 + turned * (scale.characteristic_length * scale.characteristic_length);
             // The linearisation is invalid farther away; a comparison with NaN is false, which ends the lane.
             going = going & moved.less_or_equal(farthest) & turned.less_or_equal(turned_most);
+            platform.steps.take(iteration, moved, &step, scale.characteristic_length, going);
             let [steady, held] = self.apply(&translation, &rotation, turned, platform, going);
             going = going & held;
             let near = going & steady & moved.less_or_equal(small_step);

@@ -140,28 +140,25 @@ impl<'a> Observer<'a> {
     /// rounding, but for one row in 10^4 of random robots: where a robot has several minima of its
     /// tensions, `observe` takes the one next to the nominal robot's, and this may take another, mostly the
     /// least of all, as [`deflection`] does (docs/VALIDATION.md). [`Observation::scalar`] says which
-    /// ones were left to the scalar models, and why. An incomplete last row is a failure.
+    /// ones were left to the scalar models, and why. Numbers that are not whole rows are a failure of all of
+    /// them, [`RobotError::DeviationRows`].
     pub fn observe_all(&self, deviations: &[f64]) -> Vec<Result<Observation, StaticsError>> {
         self.each(deviations, dispatch, |row, why| {
             Ok(Observation { scalar: Some(why), ..self.observe(row)? })
         })
     }
 
-    /// The answers of the lanes, and of `alone` to rows that they leave, for a reason, or that are
-    /// incomplete.
+    /// The answers of the lanes, and of `alone` to rows that they leave, for a reason.
     fn each<'o, T>(
         &'o self,
         deviations: &'o [f64],
         in_lanes: impl FnOnce(Batch<'o>) -> Vec<Result<T, ScalarReason>>,
         alone: impl Fn(&[f64], ScalarReason) -> Result<T, StaticsError>,
     ) -> Vec<Result<T, StaticsError>> {
-        let rows = deviations.chunks_exact(self.layout.count());
-        let rest = rows.remainder();
-        let whole = &deviations[..deviations.len() - rest.len()];
-        let found = in_lanes(Batch { observer: self, deviations: whole });
-        let answers = found.into_iter().zip(rows).map(|(found, row)| found.or_else(|why| alone(row, why)));
-        let incomplete = (!rest.is_empty()).then(|| alone(rest, ScalarReason::OneByOne));
-        answers.chain(incomplete).collect()
+        self.layout.each_row(deviations, |rows| {
+            let found = in_lanes(Batch { observer: self, deviations });
+            found.into_iter().zip(rows).map(|(found, row)| found.or_else(|why| alone(row, why)))
+        })
     }
 
     fn deflection(&self, deviations: &[f64]) -> Result<Deflection, StaticsError> {

@@ -177,7 +177,8 @@ impl<'a> Setting<'a> {
         let residual = Residual::of(&problem, &equilibrium);
         let tensions: Vec<f64> = answer.cables.iter().map(|cable| cable.tension).collect();
         let stationarity = answer.cables.iter().map(|cable| cable.stationarity).fold(0.0, f64::max);
-        let holds = residual.is_rounding(&problem, &equilibrium)
+        let holds = problem.check_strains(&equilibrium).is_ok()
+            && residual.is_rounding(&problem, &equilibrium)
             && stationarity <= STATIONARY * tensions.iter().sum::<f64>();
         holds.then(|| InverseSolution {
             tensions,

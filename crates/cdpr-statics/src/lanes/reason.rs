@@ -1,6 +1,7 @@
 //! Why a robot is left to the scalar models.
 
 use cdpr_robot::{Coordinate, Robot};
+use std::fmt;
 
 /// Why an observation is made by the scalar models and not in the lanes of the vector unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -30,12 +31,19 @@ pub enum ScalarReason {
     Lengths,
     /// No stable equilibrium without the load was found.
     Unloaded,
-    /// No stable equilibrium with the load was found.
+    /// No stable equilibrium with the load was found that is close to what the unloaded one predicts, so
+    /// that the platform may fall while the load is raised.
     Loaded,
     /// Derivatives were asked for that lanes do not have: with free coordinates, where those by some
     /// parameter may differ on its two sides or do not exist, and where a tension is at its greatest value at
     /// the leave point of a pulley.
     Derivatives,
+}
+
+impl fmt::Display for ScalarReason {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.sentence())
+    }
 }
 
 impl ScalarReason {
@@ -59,6 +67,25 @@ impl ScalarReason {
     /// Its name in files.
     pub fn name(self) -> &'static str {
         Self::NAMES.iter().find(|(reason, _)| *reason == self).map_or("", |(_, name)| name)
+    }
+
+    /// What about the robot or the question the lanes do not have, as the end of a sentence.
+    fn sentence(self) -> &'static str {
+        match self {
+            Self::OneByOne => "they were asked for one by one",
+            Self::Output => "only the output \"deflection\" has the fast models",
+            Self::FreeCoordinates => "no stable rest with taut cables within their limits was found nearby",
+            Self::FewCables => "there are fewer cables than free motions and no coordinate is free",
+            Self::Pulleys => "the fast models have pulleys with vertical axes only",
+            Self::NominalRobot => "the nominal robot has no tensions at the pose",
+            Self::InvalidRobot => "parameters are out of their ranges",
+            Self::Tensions => "the best tensions were not found by the fast models",
+            Self::Folded => "cables fold, or the limits of their tensions exclude each other",
+            Self::Lengths => "the lengths for the set-points were not found by the fast models",
+            Self::Unloaded => "no stable equilibrium without the load was found by the fast models",
+            Self::Loaded => "the load changes the stiffness so much that it is raised in steps",
+            Self::Derivatives => "the fast models do not have these derivatives",
+        }
     }
 
     /// The reason of that name.

@@ -4,7 +4,7 @@
 //! of the tension set-points change those lengths. Then the direct model runs without and with the load, and
 //! the deflection is `dp = p_loaded - p_unloaded`.
 
-use crate::direct::{DirectSolution, Start, direct};
+use crate::direct::{DirectSolution, Start, follow_load};
 use crate::equations::FORCES;
 use crate::error::StaticsError;
 use crate::inverse::{
@@ -235,11 +235,12 @@ fn check_offsets(robot: &Robot, tension_offsets: &[f64]) -> Result<(), StaticsEr
     }
 }
 
-/// Deflection under `load` for given unstrained lengths [m], searched from `start`.
+/// Deflection under `load` for given unstrained lengths [m]: the equilibrium without the load is searched
+/// from `start`, and the one with it is what that becomes while the load is raised.
 ///
 /// # Errors
 /// [`StaticsError::Unstable`] where the equilibrium without the load is unstable, from which the platform
-/// would fall elsewhere; those of the direct model.
+/// would fall elsewhere; those of the direct model and of [`follow_load`].
 pub fn deflection_from(
     robot: &Robot,
     lengths: Vec<f64>,
@@ -247,10 +248,7 @@ pub fn deflection_from(
     start: &Equilibrium,
 ) -> Result<Deflection, StaticsError> {
     let unloaded = DirectProblem::new(robot, &lengths, &Load::none())?.direct_held(Start::Near(start))?;
-    let loaded = match *load == Load::none() {
-        true => unloaded.clone(),
-        false => direct(robot, &lengths, load, Start::Near(&unloaded.equilibrium))?,
-    };
+    let loaded = follow_load(robot, &lengths, (&Load::none(), &unloaded), load)?;
     Ok(Deflection { lengths, unloaded, loaded })
 }
 

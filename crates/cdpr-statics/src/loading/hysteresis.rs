@@ -10,15 +10,16 @@
 //! ```
 //!
 //! with L and U the strains of the loading and unloading curves: each continues from where the cable is
-//! ([`Unloading`] says which part of U). One law holds for a whole cable; T* is the tension at its middle,
-//! from which the ends differ by half its weight.
+//! ([`Unloading`] says which part of U). One law holds for a whole cable; T* is its mean tension, over lead and
+//! arc of a guide, which carry T0, and over the free part, whose ends differ from its middle by half its
+//! weight. With the mean, a turn keeps the length of the cable although its parts do not turn at once.
 //!
 //! The energy that the payload gives is the area `∮ m g dz` of payload over the height of its centre; the
 //! energy that a cable dissipates is the area `∮ T dε L`, closed by a straight line from C to A, over which
-//! all tensions together do no work on a payload. Both sums agree but for the weight of the cables, because
-//! of which the tension varies along them.
+//! all tensions together do no work on a payload. Both sums agree to second order in how much the tension
+//! varies along a cable.
 
-use crate::direct::{DirectSolution, Start, direct};
+use crate::direct::{DirectSolution, Start, follow_load};
 use crate::error::StaticsError;
 use crate::inverse::{HeldPose, held_at};
 use crate::problem::DirectProblem;
@@ -58,7 +59,7 @@ pub struct LoadCycle {
     pub loading: Vec<CycleStep>,
     /// Steps back to own weight; the first is the last one of loading.
     pub unloading: Vec<CycleStep>,
-    /// Tension at the middle of each cable under own weight, with the payload, and without it again [N].
+    /// Mean tension of each cable under own weight, with the payload, and without it again [N].
     pub tensions: Vec<[f64; 3]>,
     /// Energy dissipated by each cable [J]: the area of its loop.
     pub dissipated: Vec<f64>,
@@ -154,20 +155,20 @@ pub fn load_cycle(
     if !(1..=MOST_STEPS).contains(&steps) {
         return invalid("steps", steps.to_string(), &format!("1 to {MOST_STEPS} steps"));
     }
-    let n = robot.cables.len();
+    let (n, most) = (robot.cables.len(), payload);
     if laws.len() != n {
         return invalid("laws", format!("a list of {}", laws.len()), &format!("{n}, one a cable"));
     }
     let mut robot = with_laws(robot, laws.iter().map(|law| law.loading.clone()).collect());
     let HeldPose { lengths, equilibrium: held } = held_at(&robot, pose, &Load::none(), free)?;
     let mut ways = Vec::with_capacity(2);
-    let mut middles = Vec::with_capacity(3);
+    let mut means = Vec::with_capacity(3);
     let mut energies = vec![0.0; n];
     let first = DirectProblem::new(&robot, &lengths, &Load::none())?.direct_held(Start::Near(&held))?;
     let mut here = CycleStep { payload: 0.0, solution: first };
-    middles.push(middle_tensions(&robot, &lengths, &here.solution.equilibrium)?);
+    means.push(mean_tensions(&robot, &lengths, &here.solution.equilibrium)?);
     for up in [true, false] {
-        let from = &middles[middles.len() - 1];
+        let from = &means[means.len() - 1];
         let turned = laws
             .iter()
             .enumerate()
@@ -176,24 +177,27 @@ pub fn load_cycle(
         let mut way = vec![here];
         for step in 1..=steps {
             let share = step as f64 / steps as f64;
-            let payload = payload * if up { share } else { 1.0 - share };
-            let near = &way[way.len() - 1].solution.equilibrium;
-            let solution = direct(&robot, &lengths, &Load::payload(payload), Start::Near(near))?;
+            let payload = most * if up { share } else { 1.0 - share };
+            let CycleStep { payload: last, solution: from } = &way[way.len() - 1];
+            let [begin, end] = [*last, payload].map(Load::payload);
+            let followed = follow_load(&robot, &lengths, (&begin, from), &end);
+            let of_all = |share: f64| (last + share * (payload - last)) / most;
+            let solution = followed.map_err(|error| error.with_share(of_all))?;
             way.push(CycleStep { payload, solution });
         }
         here = way[way.len() - 1].clone();
-        let to = middle_tensions(&robot, &lengths, &here.solution.equilibrium)?;
+        let to = mean_tensions(&robot, &lengths, &here.solution.equilibrium)?;
         for i in 0..n {
             // ∫ T dε = [T ε] - ∫ ε dT, in multiples of 1/EA
             let law = law_of(&robot, i, &laws[i]);
             let [begin, end] = [from[i], to[i]].map(|t| t * law.scaled_strain(t) - law.scaled_energy(t));
             energies[i] += end - begin;
         }
-        middles.push(to);
+        means.push(to);
         ways.push(way);
     }
     let dissipated = (0..n).map(|i| {
-        let (begin, end) = (middles[0][i], middles[2][i]);
+        let (begin, end) = (means[0][i], means[2][i]);
         let last = law_of(&robot, i, &laws[i]);
         let strained = laws[i].loading.scaled_strain(begin) - last.scaled_strain(end);
         let around = energies[i] + 0.5 * (begin + end) * strained;
@@ -213,7 +217,7 @@ pub fn load_cycle(
             weight.dot(&(center(&b.solution) - center(&a.solution)))
         })
         .sum();
-    let tensions = (0..n).map(|i| [middles[0][i], middles[1][i], middles[2][i]]).collect();
+    let tensions = (0..n).map(|i| [means[0][i], means[1][i], means[2][i]]).collect();
     let (unloading, loading) = (ways.pop().unwrap_or_default(), ways.pop().unwrap_or_default());
     Ok(LoadCycle { lengths, loading, unloading, tensions, dissipated, payload_work })
 }
@@ -230,15 +234,13 @@ fn law_of<'a>(robot: &'a Robot, i: usize, law: &'a HysteresisLaw) -> &'a Piecewi
     robot.cables[i].properties.law.as_ref().unwrap_or(&law.loading)
 }
 
-/// Tension half way along each cable [N].
-fn middle_tensions(
+/// Mean tension of each cable [N].
+fn mean_tensions(
     robot: &Robot,
     lengths: &[f64],
     equilibrium: &Equilibrium,
 ) -> Result<Vec<f64>, StaticsError> {
     let problem = DirectProblem::new(robot, lengths, &Load::none())?;
     let forces = equilibrium.cable_forces.iter().enumerate();
-    Ok(forces
-        .map(|(i, force)| problem.catenary_at(&equilibrium.pose, i, *force).tension(0.5 * lengths[i]))
-        .collect())
+    Ok(forces.map(|(i, force)| problem.catenary_at(&equilibrium.pose, i, *force).mean_tension()).collect())
 }

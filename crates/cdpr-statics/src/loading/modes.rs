@@ -16,6 +16,10 @@
 //! ```
 //!
 //! K is the symmetric part of the stiffness, [`crate::Linearization::symmetric_stiffness`].
+//!
+//! These frequencies hold where the cables themselves vibrate much faster than the platform. The lowest
+//! frequency of each cable between ends at rest, (C29) of `cdpr_cable` with the mean of its end tensions, says
+//! whether they do: [`CableFrequency`].
 
 use crate::direct::{Stability, Start};
 use crate::equations::{Balance, SpannedCable};
@@ -51,6 +55,79 @@ pub struct PoseModes {
     pub lengths: Vec<f64>,
     /// The equilibrium.
     pub equilibrium: Equilibrium,
+    /// Lowest frequency of each cable between ends at rest [Hz]; `None` for one without mass.
+    pub cable_frequencies: Vec<Option<f64>>,
+}
+
+/// The cable that vibrates slowest between ends at rest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CableFrequency {
+    /// Its number, from 0.
+    pub cable: usize,
+    /// Its lowest natural frequency [Hz].
+    pub frequency: f64,
+}
+
+/// Cables that vibrate at this multiple of the platform's frequency or faster act nearly as without mass: a
+/// string whose end moves at half its own frequency pulls with 4/π instead of 1 of its inertia.
+const MUCH_FASTER: f64 = 2.0;
+
+impl CableFrequency {
+    /// The slowest of these, of every cable in their order: unstrained length beyond the exit point [m] and
+    /// tensions at both ends [N].
+    pub(crate) fn lowest(robot: &Robot, cables: impl Iterator<Item = (f64, [f64; 2])>) -> Option<Self> {
+        Self::slowest(cables.enumerate().map(|(i, (length, ends))| cable_frequency(robot, i, length, ends)))
+    }
+
+    /// The slowest of all cables, in their order.
+    pub fn slowest(frequencies: impl Iterator<Item = Option<f64>>) -> Option<Self> {
+        let each = frequencies.enumerate();
+        let each = each.filter_map(|(cable, frequency)| Some(Self { cable, frequency: frequency? }));
+        each.min_by(|one, other| one.frequency.total_cmp(&other.frequency))
+    }
+
+    /// Whether it vibrates less than twice as fast as the platform, `platform` [Hz]: then its mass changes
+    /// the frequencies of the platform, and adds others.
+    pub fn is_near(&self, platform: f64) -> bool {
+        self.frequency < MUCH_FASTER * platform
+    }
+
+    /// What follows for the platform's lowest frequency [Hz], if the cable is near it.
+    pub fn warning(&self, platform: f64) -> Option<String> {
+        self.is_near(platform).then(|| {
+            format!(
+                "cable {} itself vibrates at {:.3} Hz, less than twice {platform:.3} Hz:\nthe platform's \
+                 frequencies are those on cables without mass; with it they differ, and there are others",
+                self.cable + 1,
+                self.frequency
+            )
+        })
+    }
+}
+
+/// Lowest frequency of cable `i` between ends at rest [Hz], with this unstrained length beyond its exit point
+/// [m] and these tensions at its ends [N].
+fn cable_frequency(robot: &Robot, i: usize, free_length: f64, [one, other]: [f64; 2]) -> Option<f64> {
+    let density = robot.cables[i].properties.linear_density;
+    robot.cable(i).lowest_frequency(density, free_length, 0.5 * (one + other))
+}
+
+impl PoseModes {
+    /// Those of a stable equilibrium.
+    ///
+    /// # Errors
+    /// As [`DirectProblem::modes`].
+    pub fn new(problem: &DirectProblem, equilibrium: Equilibrium) -> Result<Self, StaticsError> {
+        let modes = problem.modes(&equilibrium)?;
+        let cable_frequencies = problem.cable_frequencies(&equilibrium)?;
+        Ok(Self { modes, lengths: problem.lengths.to_vec(), equilibrium, cable_frequencies })
+    }
+
+    /// The slowest cable, and the lowest frequency of the platform that is not zero [Hz].
+    pub fn lowest(&self) -> (Option<CableFrequency>, Option<f64>) {
+        let platform = self.modes.iter().map(|mode| mode.frequency).find(|frequency| *frequency > 0.0);
+        (CableFrequency::slowest(self.cable_frequencies.iter().copied()), platform)
+    }
 }
 
 impl DirectProblem<'_> {
@@ -134,6 +211,32 @@ impl DirectProblem<'_> {
         Ok(resisted.unwrap_or(0.0))
     }
 
+    /// Lowest natural frequency of each cable between ends at rest [Hz]; `None` for one without mass.
+    ///
+    /// # Errors
+    /// [`StaticsError::Invalid`] unless the equilibrium is finite and has one force for each cable.
+    pub fn cable_frequencies(&self, equilibrium: &Equilibrium) -> Result<Vec<Option<f64>>, StaticsError> {
+        self.check("equilibrium", equilibrium)?;
+        let forces = equilibrium.cable_forces.iter().enumerate();
+        let frequency = |(i, force): (usize, &_)| {
+            let catenary = self.catenary_at(&equilibrium.pose, i, *force);
+            let ends = [catenary.anchor_tension(), catenary.exit_tension()];
+            cable_frequency(self.robot, i, catenary.free_length(), ends)
+        };
+        Ok(forces.map(frequency).collect())
+    }
+
+    /// The slowest cable at an equilibrium; `None` where none has mass.
+    ///
+    /// # Errors
+    /// As [`DirectProblem::cable_frequencies`].
+    pub fn lowest_cable_frequency(
+        &self,
+        equilibrium: &Equilibrium,
+    ) -> Result<Option<CableFrequency>, StaticsError> {
+        Ok(CableFrequency::slowest(self.cable_frequencies(equilibrium)?.into_iter()))
+    }
+
     /// M of (V1) [kg, kg m, kg m²].
     fn mass_matrix(&self, pose: &Pose) -> Result<Matrix6<f64>, StaticsError> {
         let platform = &self.robot.platform;
@@ -179,6 +282,5 @@ pub fn modes_at(
     let wanted = held_at(robot, pose, load, free)?;
     let problem = DirectProblem::new(robot, &wanted.lengths, load)?;
     let held = problem.direct_any(Start::Near(&wanted.equilibrium))?;
-    let modes = problem.modes(&held.equilibrium)?;
-    Ok(PoseModes { modes, lengths: wanted.lengths.clone(), equilibrium: held.equilibrium })
+    PoseModes::new(&problem, held.equilibrium)
 }

@@ -366,6 +366,9 @@ fn useful(model: Expansion) -> Result<Expansion, Box<dyn Error>> {
 }
 
 fn sobol(run: &Run, found: &mut Found) -> Result<Option<MethodSummary>, Box<dyn Error>> {
+    if run.spec.saltelli_blocks == 0 {
+        return Ok(None);
+    }
     let design = run.sampling.saltelli_design(run.spec.saltelli_blocks)?;
     let measured = run.observe_quantities(Design::Saltelli(run.spec.vector.recorded()), &design)?;
     let outputs: Vec<_> = measured.iter().map(|of| of.as_ref().map(Measured::value)).collect();
@@ -393,7 +396,7 @@ fn sobol(run: &Run, found: &mut Found) -> Result<Option<MethodSummary>, Box<dyn 
 
 fn sobol_of_groups(run: &Run, found: &mut Found) -> Result<Option<MethodSummary>, Box<dyn Error>> {
     let groups = &run.sampling.groups;
-    if groups.is_empty() {
+    if groups.is_empty() || run.spec.saltelli_blocks == 0 {
         return Ok(None);
     }
     let design = run.sampling.saltelli_design(run.spec.saltelli_blocks)?.grouped(groups.clone())?;

@@ -130,6 +130,9 @@ pub struct FitSummary {
     /// p-value of that distance for fitted parameters, by parametric bootstrap: at least 1/(resamples + 1),
     /// and for independent observations; on Sobol points it is an indication.
     pub p_value: f64,
+    /// Whether no sample of the bootstrap had so large a distance: p may be smaller.
+    #[serde(default)]
+    pub p_is_bound: bool,
     /// Probability of this family among those fitted, for independent observations.
     #[serde(default)]
     pub probability: f64,
@@ -161,9 +164,19 @@ impl NominalSummary {
 
 impl From<Fit> for FitSummary {
     fn from(fit: Fit) -> Self {
-        let Fit { family, law, log_likelihood, aic, bic, ks_distance, p_value, resamples: _, probability } =
-            fit;
-        Self { law: family, parameters: law, log_likelihood, aic, bic, ks: ks_distance, p_value, probability }
+        let p_is_bound = fit.p_is_bound();
+        let Fit {
+            family,
+            law,
+            log_likelihood,
+            aic,
+            bic,
+            ks_distance: ks,
+            p_value,
+            resamples: _,
+            probability,
+        } = fit;
+        Self { law: family, parameters: law, log_likelihood, aic, bic, ks, p_value, p_is_bound, probability }
     }
 }
 
@@ -185,6 +198,7 @@ pub fn analyse(sampling: &Sampling, tally: &Tally, session: &Session) -> Result<
     if sampling.correlation.is_some() {
         notes.push("t_student, signed effects: the inputs are correlated".to_owned());
     }
+    notes.extend(sampling.observer.cable_warning().map(|warning| warning.replace('\n', " ")));
     let mut note = |what: &str, error: SensitivityError| notes.push(format!("{what}: {error}"));
     let moments = tally.sums.outputs().summary().map_err(|error| note(output.name(), error)).ok();
     // An output that is no length has this value for every robot, if at all, where nothing resists.

@@ -171,9 +171,10 @@ pub struct SamplingSpec {
     pub error_model: String,
     /// Number of observations at each pose.
     pub observations: usize,
-    /// Index of the first observation in Sobol's sequence. It is at least 1 where inputs are correlated.
-    #[serde(default)]
-    pub first_index: u32,
+    /// Index of the first observation in Sobol's sequence; if left out 0, and 1 where inputs are correlated or
+    /// a law has no lower bound, which point 0 cannot draw.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub first_index: Option<u32>,
     /// Correlations between inputs (a Gaussian copula); all others are independent. What needs independent
     /// inputs is left out then: of the measures of sensitivity, regressions and Shapley effects remain.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -198,7 +199,7 @@ pub struct SensitivitySpec {
     /// Number of observations, the first of the sampling, behind t-Student, regressions and expansion: 3 to
     /// 65536, but no more than the sampling has.
     pub observations: usize,
-    /// Saltelli's blocks behind Sobol' indices, of k + 2 observations: 16 to 1048576.
+    /// Saltelli's blocks behind Sobol' indices, of k + 2 observations: 16 to 1048576, or 0 for none.
     pub saltelli_blocks: usize,
     /// Bootstrap resamples behind the intervals of Sobol' indices: 2 to 1048576.
     pub bootstrap_resamples: usize,
@@ -252,7 +253,7 @@ impl SensitivitySpec {
     /// Keeps this share of all observations, of blocks a power of two, and no fewer than each measure needs.
     pub(crate) fn shorten(&mut self, share: f64) {
         let fewer = |count: usize, least: usize| ((share * count as f64) as usize).max(least.min(count));
-        let power = |count: usize| 1 << count.max(1).ilog2();
+        let power = |count: usize| if count == 0 { 0 } else { 1 << count.ilog2() };
         self.observations = fewer(self.observations, 3);
         self.saltelli_blocks = power(fewer(self.saltelli_blocks, SobolIndices::MIN_BLOCKS));
         self.morris_blocks = power(fewer(self.morris_blocks, 2));
@@ -267,7 +268,11 @@ impl SensitivitySpec {
         let Truncation { max_degree, norm, interactions } = self.expansion;
         let counts = [
             ("observations", self.observations, 3..=1 << 16),
-            ("saltelli_blocks", self.saltelli_blocks, SobolIndices::MIN_BLOCKS..=MOST),
+            (
+                "saltelli_blocks",
+                self.saltelli_blocks.max(SobolIndices::MIN_BLOCKS),
+                SobolIndices::MIN_BLOCKS..=MOST,
+            ),
             ("bootstrap_resamples", self.bootstrap_resamples, 2..=MOST),
             ("morris_blocks", self.morris_blocks, 2..=MOST),
             ("derivative_points", self.derivative_points, 2..=MOST),
@@ -278,6 +283,7 @@ impl SensitivitySpec {
         ];
         // Zero leaves these out.
         let few = [
+            ("saltelli_blocks", self.saltelli_blocks, SobolIndices::MIN_BLOCKS),
             ("shapley_walks", self.shapley_walks, MIN_WALKS),
             ("bures_observations", self.bures_observations, MIN_ROWS),
         ];

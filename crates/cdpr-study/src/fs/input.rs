@@ -3,6 +3,7 @@
 
 use crate::error::StudyError;
 use crate::kind::InputKind;
+use crate::table::Table;
 use serde::Deserialize;
 use std::fs::File;
 use std::io::{self, ErrorKind, Read};
@@ -15,6 +16,15 @@ use std::path::Path;
 /// [`StudyError::TooLarge`].
 pub fn read_text(path: &Path, kind: InputKind) -> Result<String, StudyError> {
     text_of(path, read_bytes(path, kind)?)
+}
+
+/// The table of a file: CSV and its relatives.
+///
+/// # Errors
+/// As [`read_text`]; [`StudyError::Table`] as [`Table::read`].
+pub fn read_table(path: &Path, kind: InputKind) -> Result<Table, StudyError> {
+    let table = Table::read(&read_bytes(path, kind)?);
+    table.map_err(|source| StudyError::Table { path: path.to_owned(), source })
 }
 
 /// The text that the bytes of a file are, as [`read_text`] has it.
@@ -34,7 +44,7 @@ pub(crate) fn text_of(path: &Path, bytes: Vec<u8>) -> Result<String, StudyError>
 ///
 /// # Errors
 /// As [`read_text`].
-pub(crate) fn read_bytes(path: &Path, kind: InputKind) -> Result<Vec<u8>, StudyError> {
+pub fn read_bytes(path: &Path, kind: InputKind) -> Result<Vec<u8>, StudyError> {
     let unread = |source| StudyError::Read { path: path.to_owned(), source };
     let file = open(path, kind)?;
     let too_large = || StudyError::TooLarge { path: path.to_owned(), kind, most: kind.most_bytes() };

@@ -9,6 +9,7 @@ use crate::error::StudyError;
 use crate::fs::atomic::{AtomicFile, is_unfinished, remove_unfinished};
 use crate::fs::disk;
 use crate::fs::files::check_folder;
+use crate::fs::finite::FiniteCells;
 use crate::fs::manifest::{Manifest, ResultsOf, digest, entries, is_plain_file, is_plain_folder};
 use crate::fs::single::IfExists;
 use crate::names::LOCK_NAME;
@@ -397,13 +398,13 @@ impl ResultsFolder {
     fn write_table(
         &self,
         name: &str,
-        write: impl FnOnce(&mut csv::Writer<ResultFile>) -> Result<(), csv::Error>,
+        write: impl FnOnce(&mut csv::Writer<FiniteCells<ResultFile>>) -> Result<(), csv::Error>,
     ) -> Result<PathBuf, StudyError> {
-        let mut table = csv::Writer::from_writer(self.create(name)?);
+        let mut table = csv::Writer::from_writer(FiniteCells::new(self.create(name)?));
         let unwritten = |source| StudyError::Write { path: self.path.join(name), source };
         write(&mut table).map_err(|error| unwritten(error.into()))?;
-        let file = table.into_inner().map_err(|error| unwritten(error.into_error()))?;
-        file.finish()
+        let cells = table.into_inner().map_err(|error| unwritten(error.into_error()))?;
+        cells.into_inner().map_err(unwritten)?.finish()
     }
 
     /// Removes a file that a run has written, if it exists. Its name stays in the list.

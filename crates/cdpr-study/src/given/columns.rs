@@ -1,6 +1,7 @@
 //! Columns of a table and the cells that hold no number.
 
 use crate::error::StudyError;
+use crate::table::{Blank, Cells, Table, TableError};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
@@ -15,19 +16,47 @@ pub struct BadCell {
     pub text: String,
 }
 
-/// A table of named columns. Columns without any number, such as a status, are left out.
+/// A column of numbers, or of words.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GivenColumn {
+    /// Its name.
+    pub name: String,
+    /// Its numbers, or those of its words among the labels; NaN where a cell has none.
+    pub values: Vec<f64>,
+    /// Its different words in alphabetical order; none for numbers.
+    pub labels: Vec<String>,
+}
+
+impl GivenColumn {
+    fn of_words(name: String, words: &[String]) -> Self {
+        let mut labels: Vec<String> = words.iter().filter(|word| !word.is_empty()).cloned().collect();
+        labels.sort_unstable();
+        labels.dedup();
+        let code = |word: &String| labels.binary_search(word).map_or(f64::NAN, |code| code as f64);
+        Self { name, values: words.iter().map(code).collect(), labels }
+    }
+
+    /// Whether it has words instead of numbers.
+    pub fn is_words(&self) -> bool {
+        !self.labels.is_empty()
+    }
+}
+
+/// A table of named columns.
 #[derive(Clone, Debug)]
 pub struct GivenTable {
     /// The file.
     pub path: PathBuf,
     /// Number of rows.
     pub rows: usize,
-    /// Columns of numbers; a cell without a finite number is NaN.
-    pub columns: Vec<(String, Vec<f64>)>,
-    /// Names of the columns without numbers.
-    pub texts: Vec<String>,
+    /// Columns of numbers and of words.
+    pub columns: Vec<GivenColumn>,
+    /// Names of the columns without any value.
+    pub empty: Vec<String>,
     /// The cells without a finite number in the columns of numbers, by row.
     pub bad: Vec<BadCell>,
+    /// Columns with a cell that cannot be read, and what is wrong with it.
+    pub(super) unread: Vec<(String, TableError)>,
 }
 
 /// Columns that number the rows.
@@ -37,61 +66,59 @@ const INDEX: [&str; 2] = ["index", "row"];
 const DEVIATION: &str = "d_";
 
 impl GivenTable {
-    /// Makes a table of columns of texts.
-    pub(super) fn of_texts(
-        path: &Path,
-        names: Vec<String>,
-        cells: &[Vec<String>],
-    ) -> Result<Self, StudyError> {
-        let rows = cells.first().map_or(0, Vec::len);
-        let number = |text: &String| text.trim().parse::<f64>().ok().filter(|number| number.is_finite());
-        let columns = names.into_iter().zip(cells).map(|(name, texts)| {
-            let values = texts.iter().map(|text| number(text).unwrap_or(f64::NAN)).collect();
-            (name, values, |row: usize| texts[row].clone())
-        });
-        Self::of_columns(path, rows, columns.collect::<Vec<_>>())
-    }
-
-    /// Makes a table of columns, each with its values, NaN without a number, and the texts of its cells.
-    pub(super) fn of_columns(
-        path: &Path,
-        rows: usize,
-        columns: Vec<(String, Vec<f64>, impl Fn(usize) -> String)>,
-    ) -> Result<Self, StudyError> {
-        let mut table = Self { path: path.to_owned(), rows, columns: vec![], texts: vec![], bad: vec![] };
-        for (number, (name, values, text)) in columns.into_iter().enumerate() {
-            let name = if name.is_empty() { format!("column{}", number + 1) } else { name };
-            if table.columns.iter().any(|(known, _)| *known == name) || table.texts.contains(&name) {
-                return Err(table.invalid("header", &name, "a different name for each column"));
+    /// Makes a table of what a file has.
+    pub(super) fn of(path: &Path, table: Table) -> Self {
+        let rows = table.rows();
+        let mut given =
+            Self { path: path.to_owned(), rows, columns: vec![], empty: vec![], bad: vec![], unread: vec![] };
+        for column in table.columns {
+            match column.cells() {
+                Err(error) => given.unread.push((column.name, error)),
+                Ok(Cells::Numbers(values)) if column.blanks.len() < rows => {
+                    let bad = |blank: &Blank| BadCell {
+                        row: blank.row + 1,
+                        column: column.name.clone(),
+                        text: blank.text.clone(),
+                    };
+                    given.bad.extend(column.blanks.iter().map(bad));
+                    let (name, values) = (column.name.clone(), values.clone());
+                    given.columns.push(GivenColumn { name, values, labels: vec![] });
+                }
+                Ok(Cells::Text(words)) if words.iter().any(|word| !word.is_empty()) => {
+                    given.columns.push(GivenColumn::of_words(column.name.clone(), words));
+                }
+                Ok(_) => given.empty.push(column.name),
             }
-            if values.iter().all(|value| value.is_nan()) {
-                table.texts.push(name);
-                continue;
-            }
-            let bad = values.iter().enumerate().filter(|(_, value)| value.is_nan());
-            table.bad.extend(bad.map(|(row, _)| BadCell {
-                row: row + 1,
-                column: name.clone(),
-                text: text(row),
-            }));
-            table.columns.push((name, values));
         }
-        table.bad.sort_by_key(|cell| cell.row);
-        Ok(table)
+        given.bad.sort_by_key(|cell| cell.row);
+        given
     }
 
-    /// Numbers of the columns of these names; `NAME*` stands for all that begin so.
+    /// The error of the first column that could not be read and that `wanted` is true of.
+    pub(super) fn readable(&self, wanted: impl Fn(&str) -> bool) -> Result<(), StudyError> {
+        match self.unread.iter().find(|(name, _)| wanted(name)) {
+            Some((_, error)) => Err(StudyError::Table { path: self.path.clone(), source: error.clone() }),
+            None => Ok(()),
+        }
+    }
+
+    /// Numbers of the columns of these names; `NAME*` stands for all that begin so. Words do for inputs only.
     pub(super) fn named(&self, field: &str, names: &[String]) -> Result<Vec<usize>, StudyError> {
+        let takes_words = field == "input";
+        let fits = |column: &GivenColumn| takes_words || !column.is_words();
         let mut found = Vec::new();
         for name in names {
             let matches = |column: &str| match name.strip_suffix('*') {
                 Some(start) => column.starts_with(start),
                 None => column == name,
             };
+            self.readable(matches)?;
             let before = found.len();
-            found.extend((0..self.columns.len()).filter(|&i| matches(&self.columns[i].0)));
+            let columns = self.columns.iter().enumerate();
+            found.extend(columns.filter(|(_, of)| matches(&of.name) && fits(of)).map(|(i, _)| i));
             if found.len() == before {
-                let expected = format!("a column of numbers, one of {}", self.shown_names());
+                let kind = if takes_words { "a column with values" } else { "a column of numbers" };
+                let expected = format!("{kind}, one of {}", self.shown_names(fits));
                 return Err(self.invalid(field, name, &expected));
             }
         }
@@ -106,11 +133,23 @@ impl GivenTable {
     }
 
     /// The inputs, if none is named: the columns `d_..` of a table of a study, otherwise all that are no
-    /// output.
+    /// output. Words are inputs if most of them occur several times: a status, a name or a date is none.
     pub(super) fn usual_inputs(&self, outputs: &[usize]) -> Vec<usize> {
         let deviations = self.deviations();
+        let has_output =
+            |row: usize| outputs.iter().any(|&output| !self.columns[output].values[row].is_nan());
+        let is_input = |column: &GivenColumn| {
+            let observed = (0..self.rows).filter(|&row| has_output(row) && !column.values[row].is_nan());
+            let mut codes: Vec<u64> = observed.map(|row| column.values[row].to_bits()).collect();
+            let count = codes.len();
+            codes.sort_unstable();
+            codes.dedup();
+            !column.is_words() || codes.len() > 1 && 2 * codes.len() <= count
+        };
         let candidates = if deviations.is_empty() {
-            (0..self.columns.len()).filter(|&i| !INDEX.contains(&self.columns[i].0.as_str())).collect()
+            let is_index = |of: &GivenColumn| INDEX.contains(&of.name.as_str());
+            let columns = self.columns.iter().enumerate();
+            columns.filter(|(_, of)| !is_index(of) && is_input(of)).map(|(i, _)| i).collect()
         } else {
             deviations
         };
@@ -120,16 +159,54 @@ impl GivenTable {
     /// The output, if none is named: the last column of numbers that is no input of a study.
     pub(super) fn usual_output(&self) -> Option<usize> {
         let deviations = self.deviations();
-        (0..self.columns.len()).rev().find(|column| !deviations.contains(column))
+        (0..self.columns.len())
+            .rev()
+            .find(|column| !deviations.contains(column) && !self.columns[*column].is_words())
+    }
+
+    /// Inputs that nobody named and whose names are those of outputs: `y1` where the output is `y2`, `rms_mm`.
+    /// The deviations of a study are inputs, such as `d_a1.y`.
+    pub(super) fn like_outputs(&self, inputs: &[usize], output: usize) -> Vec<String> {
+        const WORDS: [&str; 14] = [
+            "y",
+            "out",
+            "output",
+            "result",
+            "response",
+            "target",
+            "objective",
+            "rms",
+            "error",
+            "deflection",
+            "displacement",
+            "cost",
+            "loss",
+            "stress",
+        ];
+        let stem = |column: usize| self.columns[column].name.trim_end_matches(|c: char| c.is_ascii_digit());
+        let alike = |&&input: &&usize| stem(input) == stem(output);
+        // Columns of one stem throughout have no names to judge by.
+        let by_stem = 2 * inputs.iter().filter(alike).count() <= inputs.len();
+        let by_word = |&&input: &&usize| {
+            let name = self.columns[input].name.to_lowercase();
+            name.split(|c: char| !c.is_alphabetic()).any(|word| WORDS.contains(&word))
+        };
+        let like = |input: &&usize| {
+            let is_deviation = self.columns[**input].name.starts_with(DEVIATION);
+            !is_deviation && (by_stem && alike(input) || by_word(input))
+        };
+        inputs.iter().filter(like).map(|&input| self.columns[input].name.clone()).collect()
     }
 
     fn deviations(&self) -> Vec<usize> {
-        (0..self.columns.len()).filter(|&i| self.columns[i].0.starts_with(DEVIATION)).collect()
+        let columns = self.columns.iter().enumerate();
+        columns.filter(|(_, of)| of.name.starts_with(DEVIATION) && !of.is_words()).map(|(i, _)| i).collect()
     }
 
-    fn shown_names(&self) -> String {
+    fn shown_names(&self, fits: impl Fn(&GivenColumn) -> bool) -> String {
         const MOST: usize = 20;
-        let names: Vec<&str> = self.columns.iter().map(|(name, _)| name.as_str()).collect();
+        let names: Vec<&str> =
+            self.columns.iter().filter(|column| fits(column)).map(|column| column.name.as_str()).collect();
         match names.len().checked_sub(MOST) {
             Some(more) if more > 0 => format!("{} and {more} more", names[..MOST].join(", ")),
             _ => names.join(", "),
@@ -147,5 +224,46 @@ pub(super) fn invalid(path: &Path, field: &str, value: &str, expected: &str) -> 
         field: field.to_owned(),
         value: value.to_owned(),
         expected: expected.to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn given(text: &str) -> GivenTable {
+        GivenTable::of("table.csv".as_ref(), Table::read(text.as_bytes()).unwrap())
+    }
+
+    #[test]
+    fn cells_without_a_number_are_named_and_columns_of_words_too() {
+        let found = given("x,y,status\n1,nan,failed\n2,3,ok\n,4,ok\n");
+        let status = &found.columns[2];
+        assert_eq!(
+            (&status.labels[..], &status.values[..]),
+            (&["failed".into(), "ok".into()][..], &[0.0, 1.0, 1.0][..])
+        );
+        assert_eq!(found.usual_inputs(&[1]), [0], "a status is no input");
+        let bad: Vec<_> = found.bad.iter().map(|cell| (cell.row, cell.column.as_str())).collect();
+        assert_eq!(bad, [(1, "y"), (3, "x")]);
+        assert_eq!(found.bad[0].text, "nan");
+    }
+
+    #[test]
+    fn words_are_inputs_and_columns_named_as_outputs_are_asked_for() {
+        let found = given("mat,x,y1,y2\na,1,2,3\nb,2,3,4\na,3,4,5\nb,4,5,6\n");
+        assert_eq!((found.usual_output(), found.usual_inputs(&[3])), (Some(3), vec![0, 1, 2]));
+        assert_eq!(found.like_outputs(&[0, 1, 2], 3), ["y1"]);
+        let plain = given("x1,x2,x3,x4\n1,2,3,4\n");
+        assert!(plain.like_outputs(&[0, 1, 2], 3).is_empty());
+    }
+
+    #[test]
+    fn a_column_that_cannot_be_read_is_an_error_for_those_who_ask_for_it() {
+        let found = given("x,y\n1,2\n3,four\n4,5\n");
+        assert!(found.named("input", &["x".to_owned()]).is_ok());
+        let error = found.named("output", &["y".to_owned()]).unwrap_err().to_string();
+        assert!(error.starts_with("table.csv: line 3, column y: `four`: expected a number"), "{error}");
+        assert!(found.readable(|_| true).is_err());
     }
 }

@@ -1,11 +1,10 @@
 //! A table from a file, or from a folder of results.
 
 use crate::error::StudyError;
-use crate::fs::input::read_text;
+use crate::fs::input::read_table;
 use crate::fs::manifest::check_unchanged;
 use crate::fs::owned::hold_still;
 use crate::given::columns::{GivenTable, invalid};
-use crate::given::csv;
 use crate::kind::InputKind;
 use std::path::{Path, PathBuf};
 
@@ -17,8 +16,8 @@ const MEASURES: &str = "_sensitivity";
 ///
 /// # Errors
 /// [`StudyError::Read`], [`StudyError::NotRegular`], [`StudyError::TooLarge`]; [`StudyError::FolderBusy`]
-/// where a process writes into the folder; [`StudyError::Invalid`] for lines of different lengths, equal
-/// names, a folder without such a table, and for Parquet without its feature.
+/// where a process writes into the folder; [`StudyError::Table`] for lines of different lengths and equal
+/// names; [`StudyError::Invalid`] for a folder without such a table, and for Parquet without its feature.
 pub fn open_table(path: &Path, name: Option<&str>) -> Result<GivenTable, StudyError> {
     if path.is_dir() {
         let _lock = hold_still(path)?;
@@ -31,11 +30,11 @@ fn read(path: &Path) -> Result<GivenTable, StudyError> {
     check_unchanged(path)?;
     if path.extension().is_some_and(|ending| ending == "parquet") {
         #[cfg(feature = "parquet")]
-        return crate::given::parquet::read(path);
+        return Ok(GivenTable::of(path, crate::given::parquet::read(path)?));
         #[cfg(not(feature = "parquet"))]
         return Err(invalid(path, "format", "Parquet", "CSV, or a program built with the feature `parquet`"));
     }
-    csv::read(path, &read_text(path, InputKind::Table)?)
+    Ok(GivenTable::of(path, read_table(path, InputKind::Table)?))
 }
 
 /// The table of this name in a folder, or its only one.

@@ -2,15 +2,15 @@
 
 use crate::error::StudyError;
 use crate::fs::input::open;
-use crate::given::columns::GivenTable;
 use crate::kind::InputKind;
+use crate::table::{Column, Table};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 use std::io::{Error, ErrorKind};
 use std::path::Path;
 
 /// The table of a file.
-pub(super) fn read(path: &Path) -> Result<GivenTable, StudyError> {
+pub(super) fn read(path: &Path) -> Result<Table, StudyError> {
     let unread = |error: parquet::errors::ParquetError| StudyError::Read {
         path: path.to_owned(),
         source: Error::new(ErrorKind::InvalidData, error),
@@ -33,15 +33,19 @@ pub(super) fn read(path: &Path) -> Result<GivenTable, StudyError> {
         }
         rows += 1;
     }
-    let with_texts = columns.into_iter().map(|(name, values, texts)| {
+    let column = |(name, values, texts): (String, Vec<f64>, Vec<String>)| {
+        if texts.len() == rows && texts.iter().any(|text| !text.is_empty()) {
+            return Column::of_texts(name, texts);
+        }
         // Texts are kept for cells without a number only.
-        let places: Vec<usize> = (0..values.len()).filter(|&row| values[row].is_nan()).collect();
-        let text = move |row: usize| {
+        let places: Vec<usize> = (0..rows).filter(|&row| values[row].is_nan()).collect();
+        let text = |row: usize| {
             places.binary_search(&row).ok().and_then(|k| texts.get(k).cloned()).unwrap_or_default()
         };
-        (name, values, text)
-    });
-    GivenTable::of_columns(path, rows, with_texts.collect())
+        Column::of_numbers(name, values, text)
+    };
+    let columns = columns.into_iter().map(column).collect();
+    Ok(Table { columns, lines: (1..=rows).collect(), header: None })
 }
 
 fn number_of(field: &Field) -> Option<f64> {

@@ -178,6 +178,7 @@ impl Study {
                     (Design::Groups(Grouped::Saltelli, key), saltelli(groups.len())),
                 ]);
             }
+            designs.retain(|(_, points)| *points > 0);
         }
         if measures.bures_observations > 0 {
             designs.push((Design::Random(measures.vector.recorded()), measures.bures_observations));

@@ -96,6 +96,13 @@ pub fn uncertainties(robot: &Robot, named: &[(String, f64)]) -> Result<Vec<f64>,
 }
 
 impl ErrorModel {
+    /// The unit of an input by its index; none for a cause of parameters in different units.
+    pub fn unit(&self, input: usize) -> Option<&'static str> {
+        let mut terms = self.terms.iter().filter(|term| term.input == input);
+        let unit = self.parameters[terms.next()?.parameter].unit();
+        terms.all(|term| self.parameters[term.parameter].unit() == unit).then_some(unit)
+    }
+
     pub(crate) fn new(model: &IndexMap<String, InputSpec>, robot: &Robot) -> Result<Self, Wrong> {
         let parameters = Parameter::of(robot);
         let names: Vec<String> = parameters.iter().map(ToString::to_string).collect();

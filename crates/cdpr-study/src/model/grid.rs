@@ -2,7 +2,7 @@
 
 use crate::error::StudyError;
 use crate::file::grid::{GridAxis, GridSpec};
-use cdpr_robot::{Axis, Pose, Robot};
+use cdpr_robot::{Axis, Pose, Robot, frame};
 use serde::{Deserialize, Serialize};
 
 /// Level positions on a grid of the base frame, x slowest and z fastest.
@@ -116,18 +116,15 @@ impl Grid {
         )
     }
 
+    /// The first and the last position as level poses: two opposite corners.
+    pub fn corners(&self) -> [Pose; 2] {
+        [self.pose(0), self.pose(self.count() - 1)]
+    }
+
     /// All positions as level poses.
     pub fn poses(&self) -> Vec<Pose> {
         (0..self.count()).map(|number| self.pose(number)).collect()
     }
-}
-
-/// Least and greatest coordinate of the exit points along x, y and z [m].
-pub fn frame(robot: &Robot) -> [[f64; 2]; 3] {
-    [0, 1, 2].map(|axis| {
-        let exits = || robot.cables.iter().map(|cable| cable.exit_point[axis]);
-        [exits().fold(f64::INFINITY, f64::min), exits().fold(f64::NEG_INFINITY, f64::max)]
-    })
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@
 use crate::file::output::Output;
 use crate::model::error_model::ErrorModel;
 use crate::model::observed::{Measured, MeasuredQuantity};
-use cdpr_robot::{Coordinate, Parameter, Perturbed, Pose, Robot, Vector3, Vector6};
+use cdpr_robot::{Coordinate, ParameterLayout, Perturbed, Pose, Robot, Vector3, Vector6};
 use cdpr_statics::{
     Deflection, Derivatives, DirectProblem, Load, Matrix3xX, Observation, ObservationMotion,
     ObservationSlopes, Observer, ScalarReason, Start, StaticsError, deflection_free, derivatives_free,
@@ -57,6 +57,18 @@ impl<'a> OutputObserver<'a> {
         }
     }
 
+    /// What an output that is a frequency says less of: the cables of the nominal robot vibrate less than twice
+    /// as fast as its platform.
+    pub(crate) fn cable_warning(&self) -> Option<String> {
+        if self.output != Output::Frequency {
+            return None;
+        }
+        let Deflection { lengths, loaded, .. } = &self.nominal;
+        let problem = DirectProblem::new(self.robot, lengths, &self.load).ok()?;
+        let slowest = problem.lowest_cable_frequency(&loaded.equilibrium).ok()??;
+        slowest.warning(problem.lowest_frequency(&loaded.equilibrium).ok()?)
+    }
+
     /// Observes any number of robots: `deviations` has a row of all parameters for each, one after the other.
     /// A robot without the output is an error with the reason.
     pub fn observe_all(&self, deviations: &[f64]) -> Vec<Result<Measured, StaticsError>> {
@@ -72,7 +84,7 @@ impl<'a> OutputObserver<'a> {
             };
             Ok(Measured { quantity, scalar: Some(ScalarReason::Output) })
         };
-        self.rows(deviations).map(observed).collect()
+        self.layout().each_row(deviations, |rows| rows.map(observed))
     }
 
     /// The same with the rotation of the platform, for an output that is a length.
@@ -96,7 +108,7 @@ impl<'a> OutputObserver<'a> {
             };
             Ok(moved(motion, Some(ScalarReason::Output)))
         };
-        self.rows(deviations).map(observed).collect()
+        self.layout().each_row(deviations, |rows| rows.map(observed))
     }
 
     /// Displacements under the load [m] of any number of robots, whatever the output is.
@@ -105,8 +117,13 @@ impl<'a> OutputObserver<'a> {
         outcomes.map(|found| found.map(|found| found.displacement)).collect()
     }
 
-    fn rows<'b>(&self, deviations: &'b [f64]) -> impl Iterator<Item = &'b [f64]> {
-        deviations.chunks(Parameter::of(self.robot).len())
+    /// By which rotations are measured [m]: of the nominal robot, whatever robot is observed.
+    fn characteristic_length(&self) -> f64 {
+        self.nominal.loaded.stability.characteristic_length()
+    }
+
+    fn layout(&self) -> ParameterLayout {
+        ParameterLayout::of(self.robot)
     }
 
     fn deflection(&self, perturbed: &Perturbed) -> Result<Deflection, StaticsError> {
@@ -125,7 +142,11 @@ impl<'a> OutputObserver<'a> {
     fn of_deflection(&self, robot: &Robot, found: &Deflection) -> Result<Measured, StaticsError> {
         let quantity = match self.output {
             Output::Deflection | Output::Position => MeasuredQuantity::Displacement(found.displacement()),
-            Output::Stiffness => MeasuredQuantity::Number(found.loaded.stability.least_stiffness()),
+            Output::Stiffness => {
+                let problem = DirectProblem::new(robot, &found.lengths, &self.load)?;
+                let problem = problem.with_characteristic_length(self.characteristic_length());
+                MeasuredQuantity::Number(problem.stability(&found.loaded.equilibrium)?.least_stiffness())
+            }
             Output::Frequency => {
                 let problem = DirectProblem::new(robot, &found.lengths, &self.load)?;
                 MeasuredQuantity::Number(problem.lowest_frequency(&found.loaded.equilibrium)?)
@@ -203,7 +224,7 @@ impl<'a> OutputObserver<'a> {
             let outcomes = self.lanes.observe_all_slopes(deviations).into_iter();
             return outcomes.map(|found| found.map(in_unit)).collect();
         }
-        self.rows(deviations).map(|row| self.slopes_one_by_one(row, errors)).collect()
+        self.layout().each_row(deviations, |rows| rows.map(|row| self.slopes_one_by_one(row, errors)))
     }
 
     fn slopes_one_by_one(
@@ -218,7 +239,10 @@ impl<'a> OutputObserver<'a> {
         let found = self.derivatives(&perturbed)?;
         let ((value, slopes), per_unit) = match self.output {
             Output::Frequency => (found.frequency(&perturbed.robot, &self.load)?, 1.0),
-            Output::Stiffness => (found.least_stiffness(&perturbed.robot, &self.load)?, 1.0),
+            Output::Stiffness => {
+                let length = self.characteristic_length();
+                (found.least_stiffness_with(&perturbed.robot, &self.load, length)?, 1.0)
+            }
             Output::Deflection | Output::Position => ((found.deflection.rms(), found.rms()?), 1e3),
         };
         Ok((per_unit * value, scaled(per_unit, errors.gradient(&slopes))))

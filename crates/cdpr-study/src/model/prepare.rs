@@ -8,7 +8,7 @@ use crate::model::operating_point::{Moduli, resolved};
 use crate::model::pose_set::Located;
 use crate::model::study::{NominalPose, Sampling, Study, Surface, SurfaceAxis, keys};
 use cdpr_robot::{Coordinate, Parameter, Pose};
-use cdpr_sensitivity::SobolDesign;
+use cdpr_sensitivity::{Input, SobolDesign};
 use cdpr_statics::{Deflection, Load, StaticsError};
 use indexmap::IndexMap;
 
@@ -83,7 +83,10 @@ impl Study {
                 "at least 3, for laws to be fitted",
             ));
         }
-        let design = SobolDesign::new(errors.inputs.clone(), spec.first_index, spec.observations)
+        let is_unbounded = |input: &Input| input.law.support().min == f64::NEG_INFINITY;
+        let skips_origin = !spec.correlations.is_empty() || errors.inputs.iter().any(is_unbounded);
+        let first = spec.first_index.unwrap_or_else(|| u32::from(skips_origin));
+        let design = SobolDesign::new(errors.inputs.clone(), first, spec.observations)
             .map_err(|source| self.statistics(format!("{field}.first_index"), source))?;
         Ok((errors, moduli, design))
     }

@@ -268,7 +268,7 @@ fn observe_part(sampling: &Sampling, design: Task, range: Range<usize>, known: &
     Part { first: range.start, rows, outcomes, output: sampling.output() }
 }
 
-fn draw(design: &dyn Points, range: Range<usize>) -> Vec<f64> {
+pub(crate) fn draw(design: &dyn Points, range: Range<usize>) -> Vec<f64> {
     let mut rows = vec![0.0; range.len() * design.columns()];
     design.fill(range.start, &mut rows);
     rows

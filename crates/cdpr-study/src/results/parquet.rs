@@ -6,7 +6,6 @@ use crate::fs::owned::{ResultFile, ResultsFolder};
 use crate::model::observed::{Observed, status};
 use crate::model::study::Sampling;
 use crate::observe::observation::Part;
-use cdpr_robot::Parameter;
 use cdpr_sensitivity::SampleDesign;
 use parquet::basic::{ConvertedType, Repetition, Type as PhysicalType};
 use parquet::data_type::{ByteArray, ByteArrayType, DataType, DoubleType, Int64Type};
@@ -104,14 +103,10 @@ fn schema(sampling: &Sampling) -> Result<TypePtr> {
 
 /// The study of the table, and the unit of each column that has one.
 fn provenance(sampling: &Sampling, hash: String) -> Vec<KeyValue> {
-    let (parameters, output) = (Parameter::of(sampling.robot), sampling.output());
-    let inputs = sampling.design.inputs().iter().enumerate().filter_map(|(number, input)| {
-        // A cause of parameters in different units has no unit.
-        let mut terms = sampling.errors.terms.iter().filter(|term| term.input == number);
-        let unit = parameters[terms.next()?.parameter].unit();
-        let same = terms.all(|term| parameters[term.parameter].unit() == unit);
-        same.then(|| (format!("d_{}", input.name), unit))
-    });
+    let output = sampling.output();
+    let inputs = sampling.design.inputs().iter().enumerate();
+    let inputs = inputs
+        .filter_map(|(number, input)| Some((format!("d_{}", input.name), sampling.errors.unit(number)?)));
     let units = inputs
         .chain(output.columns().iter().map(|name| ((*name).to_owned(), output.unit())))
         .map(|(column, unit)| (column, unit.into()));

@@ -7,6 +7,7 @@ use crate::analysis::summary::Summary;
 use crate::analysis::surface::SurfaceResult;
 use crate::error::StudyError;
 use crate::file::output::Output;
+use crate::fs::finite::FiniteCells;
 use crate::fs::owned::ResultsFolder;
 use crate::model::study::Surface;
 use crate::names::{REPORT_NAME, ROBOT_NAME, STUDY_NAME, SUMMARY_NAME, TIMINGS_NAME};
@@ -77,9 +78,10 @@ fn write_named<T: Serialize>(
     rows: &[T],
 ) -> Result<PathBuf, StudyError> {
     let unwritten = |source| StudyError::Write { path: folder.path().join(name), source };
-    let mut table = csv::Writer::from_writer(Vec::new());
+    let mut table = csv::Writer::from_writer(FiniteCells::new(Vec::new()));
     rows.iter().try_for_each(|row| table.serialize(row)).map_err(|error| unwritten(error.into()))?;
-    let text = table.into_inner().map_err(|error| unwritten(error.into_error()))?;
+    let cells = table.into_inner().map_err(|error| unwritten(error.into_error()))?;
+    let text = cells.into_inner().map_err(unwritten)?;
     let text = String::from_utf8(text).map_err(|error| unwritten(std::io::Error::other(error)))?;
     folder.write(name, To::File.table(output, &text).as_bytes())
 }

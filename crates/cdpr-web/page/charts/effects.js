@@ -1,6 +1,6 @@
 // The largest signed effects as bars with intervals, as SVG.
 
-import { parameterWords } from "../format.js";
+import { lengthUnit, parameterWords } from "../format.js";
 import { map, tickLabel, ticks } from "./scale.js";
 import { fix, line, path, rect, svg, text } from "./svg.js";
 
@@ -20,11 +20,12 @@ export function effectBars(inputs, { width, count = 10, title }, palette) {
   const [low, high] = [Math.min(...ends, 0), Math.max(...ends, 0)];
   const pad = (high - low) * 0.04 || 1;
   const x = map([low - pad, high + pad], [left, width - 10]);
-  const grid = ticks(low, high, Math.max(2, Math.floor((width - left) / 85))).map(
-    (tick) =>
-      line(x(tick), 4, x(tick), height - 34, palette.line) +
-      text(x(tick), height - 20, tickLabel(tick), palette.soft),
-  );
+  const [factor, unit] = lengthUnit(Math.max(-low, high) / 1e3);
+  const scale = factor / 1e3;
+  const grid = ticks(scale * low, scale * high, Math.max(2, Math.floor((width - left) / 85))).map((tick) => {
+    const at = x(tick / scale);
+    return line(at, 4, at, height - 34, palette.line) + text(at, height - 20, tickLabel(tick), palette.soft);
+  });
   const bars = shown.map(({ name, effect_mm, low_mm, high_mm }, k) => {
     const y = 6 + k * ROW;
     const [from, to] = [x(0), x(effect_mm)].sort((a, b) => a - b);
@@ -37,7 +38,7 @@ export function effectBars(inputs, { width, count = 10, title }, palette) {
     ].join("");
   });
   const zero = line(x(0), 2, x(0), height - 34, palette.ink);
-  const name = text((left + width) / 2, height - 5, "effect on the deflection [mm]", palette.soft);
+  const name = text((left + width) / 2, height - 5, `effect on the deflection [${unit}]`, palette.soft);
   return svg(width, height, title, [...grid, ...bars, zero, name], palette);
 }
 

@@ -1,5 +1,6 @@
 // The histogram of the deflection, as SVG.
 
+import { lengthUnit } from "../format.js";
 import { map, tickLabel, ticks } from "./scale.js";
 import { bins } from "./statistics.js";
 import { fix, line, rect, svg, text } from "./svg.js";
@@ -33,11 +34,14 @@ export function histogram(summary, { width, height, nominal, title }, palette) {
   if (nominal !== null) {
     marks.push(`<path d="M${fix(x(nominal))},${frame.bottom} l-5,8 h10 z" fill="${palette.accent}"/>`);
   }
-  const labels = ticks(low, high, Math.max(2, Math.floor(width / 90)))
-    .filter((tick) => x(tick) > 12 && x(tick) < width - 12)
-    .map((tick) => text(x(tick), height - 18, tickLabel(tick), palette.soft));
+  const [factor, unit] = lengthUnit(Math.max(Math.abs(low), Math.abs(high)) / 1e3);
+  const shown = factor / 1e3;
+  const labels = ticks(shown * low, shown * high, Math.max(2, Math.floor(width / 90)))
+    .map((tick) => [tick, x(tick / shown)])
+    .filter(([, at]) => at > 12 && at < width - 12)
+    .map(([tick, at]) => text(at, height - 18, tickLabel(tick), palette.soft));
   const axis = line(frame.left, frame.bottom, frame.right, frame.bottom, palette.line);
-  const name = text(width / 2, height - 3, "deflection [mm]", palette.soft);
+  const name = text(width / 2, height - 3, `deflection [${unit}]`, palette.soft);
   return svg(width, height, title, [...bars, axis, ...marks, ...labels, name], palette);
 
   function dashed(px, words, anchor) {

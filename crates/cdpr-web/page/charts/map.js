@@ -1,7 +1,7 @@
 // A slice of the workspace as a heat map: pixels for the 3D view, and SVG with axes.
 
 import { digits } from "../format.js";
-import { rangeOf, SLICE_AXES } from "../slices.js";
+import { rangeOf, shownIn, SLICE_AXES } from "../slices.js";
 import { css, magma, map, stops, tickLabel, ticks } from "./scale.js";
 import { fix, path, rect, svg, text } from "./svg.js";
 
@@ -114,15 +114,17 @@ function cross(px, py, palette) {
   return [path(d, palette.paper, 'stroke-width="5"'), path(d, palette.ink, 'stroke-width="2"')];
 }
 
-function legend({ left, right, bottom }, [min, max], { field, words, unit }, palette) {
+function legend({ left, right, bottom }, [min, max], quantity, palette) {
+  const { field, words } = quantity;
+  const [factor, unit] = shownIn(quantity, [min, max]);
   const top = bottom + 40;
   const scale = isWide([min, max]) ? ", log. scale" : "";
   const colors = stops(magma).map(([t, color]) => `<stop offset="${t}" stop-color="${color}"/>`);
   return [
     `<defs><linearGradient id="cdprx-${field}">${colors.join("")}</linearGradient></defs>`,
     rect(left, top, right - left, 10, `url(#cdprx-${field})`),
-    text(left, top + 24, digits(min, 3), palette.soft, "start"),
-    text(right, top + 24, digits(max, 3), palette.soft, "end"),
+    text(left, top + 24, digits(factor * min, 3), palette.soft, "start"),
+    text(right, top + 24, digits(factor * max, 3), palette.soft, "end"),
     text((left + right) / 2, top + 24, `${words} [${unit}]${scale}`, palette.ink),
   ];
 }

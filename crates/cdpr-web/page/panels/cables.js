@@ -93,11 +93,13 @@ export function cablesPanel(app) {
     setText(
       note,
       [
+        ...(mechanics.failure ? ["These are of the last state that was found."] : []),
         slack.length > 0 ? `Slack: ${slack.join(", ")}.` : "No cable is slack.",
         out.length > 0 ? `Out of limits: ${out.join("; ")}.` : "All tensions are within their limits.",
       ].join(" "),
     );
     note.classList.toggle("warns", out.length > 0);
+    body.classList.toggle("stale", Boolean(mechanics.failure));
   }
 }
 
@@ -129,7 +131,7 @@ function row(app, k) {
     const [min, max] = limits?.[i] ?? limitsOf(app, i);
     const { share, scale } = between(cable.tension, min, max);
     bar.firstChild.style.width = `${(100 * share).toFixed(2)}%`;
-    bar.firstChild.style.background = cable.slack ? "" : css(viridis(cable.tension / app.range));
+    bar.firstChild.style.background = css(viridis(cable.tension / app.range));
     bar.title = `from ${withUnit(min, "N")} to ${withUnit(max, "N")}, ${scale} scale`;
     setText(cells[2], unloaded ? digits(unloaded.cables[i].tension) : "none");
     setText(cells[3], short(cable.sag, 3));

@@ -1,7 +1,7 @@
 // Histogram and effects at the pose on screen, with what they say in a sentence.
 
 import { h, setText, whenOther } from "../dom.js";
-import { digits, entryWords, parameterWords, sharePercent } from "../format.js";
+import { digits, entryWords, lengthUnit, parameterWords, sharePercent } from "../format.js";
 import { effectBars, largest } from "../charts/effects.js";
 import { histogram } from "../charts/histogram.js";
 import { shares, tolerances } from "../robot.js";
@@ -36,12 +36,13 @@ export function chartsPanel(app) {
       ),
     ),
   ];
+  const pair = h("div", { class: "pair" }, ...parts);
   const element = h(
     "section",
     { class: "charts", "aria-label": "Uncertainty of the deflection" },
     says,
     failed,
-    h("div", { class: "pair" }, ...parts),
+    pair,
   );
   const [firstOther, secondOther] = [whenOther(), whenOther()];
   const observer = new ResizeObserver(() => update());
@@ -55,13 +56,14 @@ export function chartsPanel(app) {
     }
     const { sample, effects, failure } = sampling;
     failed.hidden = !failure;
-    if (failure) setText(failed, `No observations here: ${reasonWords(app, failure)}`);
+    if (failure) setText(failed, `No observations here: ${reasonWords(app, failure)}.`);
+    pair.hidden = failure?.kind === "unobserved";
     element.classList.toggle("stale", Boolean(failure) || !sampling.hasEffects);
     setText(says, sentence(app));
     const { palette } = app;
     const width = Math.max(240, Math.floor(first.clientWidth));
     firstOther([sample, width, palette], () => drawHistogram(sample, width));
-    if (sample) setText(counted, `${countWords(app)} ${conditionWords(app)}`);
+    if (sample) setText(counted, `${countWords(app)} ${restWords(app)}`);
     secondOther([effects, width, palette], () => {
       if (!effects) return second.replaceChildren();
       second.innerHTML = effectBars(effects.inputs, { width, title: effectsTitle(effects) }, palette);
@@ -86,13 +88,16 @@ export function sentence({ sampling, robot }) {
   const [top] = shares(effects.inputs, tolerances(robot.study));
   const [one] = largest(effects.inputs, 1);
   if (!top || !one) return "";
+  if (!sampling.hasEffects)
+    return `Of the state before: ${entryWords(top.entry)} mattered most. This one is being observed …`;
   const soFar = busy ? `, so far from ${effects.replicates} times ${effects.observations} robots` : "";
   if (one.low_mm <= 0 && one.high_mm >= 0) return `No tolerance stands out${soFar}.`;
+  const length = lengths(one.effect_mm);
   return (
     `The tolerance that matters most here${soFar}: ${entryWords(top.entry)}, with ` +
     `${sharePercent(top.share)} of the variance that the effects explain. The largest effect of a parameter ` +
-    `is ${parameterWords(one.name)} (${one.name}), ${digits(one.effect_mm, 4)} mm, ` +
-    `95 % interval ${digits(one.low_mm, 4)} to ${digits(one.high_mm, 4)} mm.${lossWords(sample)}`
+    `is ${parameterWords(one.name)} (${one.name}), ${length(one.effect_mm)}, ` +
+    `95 % interval ${length(one.low_mm)} to ${length(one.high_mm)}.${lossWords(sample)}`
   );
 }
 
@@ -100,17 +105,19 @@ export function sentence({ sampling, robot }) {
 function lossWords(sample) {
   const lost = Object.values(sample?.failed ?? {}).reduce((sum, count) => sum + count, 0);
   const share = lost / (sample?.observations ?? 1);
-  return share < 0.05 ? "" : ` ${sharePercent(share)} of the robots cannot be held here: this is of the others.`;
+  return share < 0.05
+    ? ""
+    : ` ${sharePercent(share)} of the robots cannot be held here: this is of the others.`;
 }
 
 /** Statistics of the observations in words. */
 export function statisticsWords({ summary, nominal }) {
   const { mean, std, q05, q50, q95, min, max } = summary;
-  const mm = (value) => `${digits(value)} mm`;
+  const length = lengths(mean);
   return (
-    `Mean ${mm(mean)}, standard deviation ${mm(std)}; ` +
-    `quantiles 5 % ${mm(q05)}, 50 % ${mm(q50)}, 95 % ${mm(q95)}; ` +
-    `from ${mm(min)} to ${mm(max)}; nominal robot ${mm(nominal)} (triangle).`
+    `Mean ${length(mean)}, standard deviation ${length(std)}; ` +
+    `quantiles 5 % ${length(q05)}, 50 % ${length(q50)}, 95 % ${length(q95)}; ` +
+    `from ${length(min)} to ${length(max)}; nominal robot ${length(nominal)} (triangle).`
   );
 }
 
@@ -119,15 +126,23 @@ export function histogramTitle(sample) {
 }
 
 export function effectsTitle({ inputs }) {
+  const [one] = largest(inputs, 1);
+  const length = lengths(one?.effect_mm ?? 0, 3);
   const list = largest(inputs, 10).map(
-    ({ name, effect_mm }) => `${parameterWords(name)} ${digits(effect_mm, 3)} mm`,
+    ({ name, effect_mm }) => `${parameterWords(name)} ${length(effect_mm)}`,
   );
   return `The ten largest effects on the deflection: ${list.join(", ")}`;
 }
 
+// Texts of lengths [mm], all in the unit that one of them asks for.
+function lengths(like_mm, count = 4) {
+  const [factor, unit] = lengthUnit(like_mm / 1e3);
+  return (value_mm) => `${digits((factor * value_mm) / 1e3, count)} ${unit}`;
+}
+
 // The reason of the mechanics is told above already; of a study that of its pose is enough.
-function reasonWords({ mechanics, store }, { reason }) {
-  if (mechanics.failure && store.state.way === "anew") return "the pose is not held.";
+function reasonWords({ mechanics }, { kind, reason }) {
+  if (mechanics.failure && kind !== "unobserved") return "the pose is not held";
   return reason.replace(/^study\.json: .*? that the nominal robot can hold: /, "");
 }
 
@@ -139,17 +154,12 @@ function countWords({ sampling: { sample }, store }) {
   return `${time}${coarse ? ", few while it moves" : ""}; ${failuresWords(failed)}.`;
 }
 
-// What the observations leave out of the state on screen.
-function conditionWords({ store: { state }, sampling: { sample, busy } }) {
-  const { way, force, moment, observations } = state;
-  if (!busy && sample.observations < observations) {
-    const each = digits(sample.milliseconds / sample.observations, 2);
-    return `One takes ${each} ms here: the command of all is under “As commands”.`;
-  }
-  const more = [...force, ...moment].some((value) => value !== 0);
-  if (way === "anew" && !more) return "";
-  const without = more ? ", without force and moment" : "";
-  return `They wind the cables anew for this pose, and load it with the payload${without}.`;
+// Why there are fewer observations than are wanted, or that they are of another state than that on screen.
+function restWords({ store: { state }, sampling: { sample, busy, hasSample } }) {
+  if (!hasSample) return "They are of the state before.";
+  if (busy || sample.observations >= state.observations) return "";
+  const each = digits(sample.milliseconds / sample.observations, 2);
+  return `One takes ${each} ms here: the command of all is under “As commands”.`;
 }
 
 function failuresWords(failed) {

@@ -2,6 +2,7 @@
 
 import { button, h } from "../dom.js";
 import { commands } from "../commands.js";
+import { unobserved } from "../robot.js";
 import { save } from "../saving.js";
 import { panel } from "./panel.js";
 
@@ -26,7 +27,8 @@ export function commandsPanel(app) {
     const found = commands({
       state,
       file: app.name,
-      lengths: picture?.lengths ?? state.lengths,
+      lengths: state.lengths ?? (app.mechanics.failure ? null : (picture?.lengths ?? null)),
+      observed: app.robot.study !== null && unobserved(app.robot.study, state) === null,
       pose: { position: state.position, rpy_deg: state.rpy_deg },
       slice: app.slicing.plane,
       hasModes: app.robot.inertia,

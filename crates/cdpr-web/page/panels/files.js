@@ -21,16 +21,16 @@ export function filesPanel(app) {
   });
   const link = button("Copy a link with this state", async () => {
     try {
-      await navigator.clipboard.writeText(app.link());
+      await navigator.clipboard.writeText(app.address.link);
       told.textContent = "The link is copied. It opens this page in this state.";
     } catch {
-      told.textContent = `Copy the address of this page: ${app.link()}`;
+      told.textContent = `Copy the address of this page: ${app.address.link}`;
     }
   });
   const saves = Object.entries(FILES).map(([kind, { words }]) => [
     kind,
-    button(words, () => {
-      told.textContent = save(app, kind);
+    button(words, async () => {
+      told.textContent = await save(app, kind);
     }),
   ]);
   const open = button("Open a saved state …", () => input.click());

@@ -4,7 +4,7 @@ import { h, setText } from "../dom.js";
 import { digits } from "../format.js";
 import { magma, stops, viridis } from "../charts/scale.js";
 import { isWide } from "../charts/map.js";
-import { rangeOf } from "../slices.js";
+import { rangeOf, shownIn } from "../slices.js";
 import { quantityOf } from "./slice.js";
 
 /** @param {object} app */
@@ -18,22 +18,20 @@ export function legendOf(app) {
   function update() {
     const { store, slicing, mechanics, range } = app;
     tensions.update("tension at the platform [N]", [0, range / 2, range]);
-    const { words, unit, field } = quantityOf(store.state.slice.quantity);
-    const found = slicing.plane && rangeOf(slicing.cells, field);
+    const quantity = quantityOf(store.state.slice.quantity);
+    const found = slicing.plane && rangeOf(slicing.cells, quantity.field);
     slice.element.hidden = !found;
     if (found) {
-      const [min, max] = found;
-      slice.update(`slice: ${words} [${unit}]`, [
-        min,
-        isWide(found) ? Math.sqrt(min * max) : (min + max) / 2,
-        max,
-      ]);
+      const [factor, unit] = shownIn(quantity, found);
+      const [min, max] = found.map((value) => factor * value);
+      const middle = isWide(found) ? Math.sqrt(min * max) : (min + max) / 2;
+      slice.update(`slice: ${quantity.words} [${unit}]`, [min, middle, max]);
     }
     const lines = [];
     if (found) lines.push("click on the slice to go there");
     if (mechanics.picture?.rms > 0) lines.push(`deflection × ${digits(app.deflectionFactor, 3)}`);
     if (store.state.view.sag !== 1) lines.push(`sag × ${digits(store.state.view.sag, 3)}`);
-    lines.push("grey: slack; orange band: out of limits");
+    lines.push("no dark edge: slack; orange band: out of limits");
     setText(caption, lines.join(" · "));
   }
 }

@@ -47,8 +47,9 @@ export function motionsPanel(app) {
   }
 }
 
-function noteOf({ modes, reduced }) {
+function noteOf({ modes, reduced, mechanics }) {
   const sentences = ["With the load, on these lengths. The size of a motion is exaggerated."];
+  if (mechanics.failure) sentences.unshift("These are of the last state that was found.");
   if (modes?.reason) sentences.unshift(`No natural frequencies: ${modes.reason}.`);
   if (modes?.neutral > 0) sentences.push(`Nothing resists ${modes.neutral} of the motions.`);
   if (reduced) {

@@ -22,7 +22,7 @@ export function numbersPanel(app) {
 
   function update() {
     const { picture, failure } = app.mechanics;
-    element.classList.toggle("stale", Boolean(failure));
+    element.classList.toggle("stale", Boolean(failure) || app.mechanics.busy);
     if (!picture) return;
     const texts = words(picture);
     items.forEach((item, k) => setText(item.value, texts[k]));

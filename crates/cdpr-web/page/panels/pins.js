@@ -12,8 +12,8 @@ const ROWS = [
   ["least stiffness", ({ stiffness }) => withUnit(stiffness, "N/m")],
   ["least tension", ({ tensions }) => withUnit(tensions[0], "N")],
   ["greatest tension", ({ tensions }) => withUnit(tensions[1], "N")],
-  ["mean observed", ({ mean_mm }) => (mean_mm === null ? "none" : `${digits(mean_mm)} mm`)],
-  ["standard deviation", ({ std_mm }) => (std_mm === null ? "none" : `${digits(std_mm)} mm`)],
+  ["mean observed", ({ mean_mm }) => short(mean_mm === null ? null : mean_mm / 1e3)],
+  ["standard deviation", ({ std_mm }) => short(std_mm === null ? null : std_mm / 1e3)],
   ["matters most", ({ most }) => most ?? "none"],
 ];
 

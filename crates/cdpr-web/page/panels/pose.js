@@ -12,6 +12,7 @@ export function posePanel(app) {
     numberField({
       label: name,
       unit: k < 3 ? "m" : "°",
+      ...(name === "z" && app.ground !== null ? { min: app.ground, why: "the ground is there" } : {}),
       change: (value) => {
         const field = k < 3 ? "position" : "rpy_deg";
         store.set(

@@ -3,7 +3,7 @@
 import { button, check, choice, h, linear, select, setText, slider, whenOther } from "../dom.js";
 import { digits } from "../format.js";
 import { cellAt, heatMap, pixels } from "../charts/map.js";
-import { rangeOf, extreme, positionOf, QUANTITIES, reach, SLICE_AXES } from "../slices.js";
+import { rangeOf, extreme, positionOf, QUANTITIES, reach, shownIn, SLICE_AXES } from "../slices.js";
 import { panel } from "./panel.js";
 
 // Why positions are not held, and how they are drawn.
@@ -158,8 +158,11 @@ export function slicePixels({ cells }, field) {
 }
 
 /** What a map shows, in a sentence. */
-export function mapTitle({ plane, cells }, { field, words, unit }) {
+export function mapTitle({ plane, cells }, quantity) {
+  const { field, words } = quantity;
   const range = rangeOf(cells, field);
-  const numbers = range ? `, ${digits(range[0], 3)} to ${digits(range[1], 3)} ${unit}` : "";
+  const [factor, unit] = shownIn(quantity, range);
+  const [least, greatest] = (range ?? []).map((value) => digits(factor * value, 3));
+  const numbers = range ? `, ${least} to ${greatest} ${unit}` : "";
   return `${words} over the plane ${plane.normal} = ${digits(plane.at, 4)} m${numbers}`;
 }

@@ -45,6 +45,7 @@ export function stagePanel(app) {
     button("Forget it", () => mechanics.forgetJump()),
   );
   const pull = h("div", { class: "banner pull", hidden: true });
+  const low = h("div", { class: "banner warns", role: "status", hidden: true });
   const legend = legendOf(app);
   const looks = h(
     "div",
@@ -102,13 +103,13 @@ export function stagePanel(app) {
   const workspace = button("Workspace", () => app.toggleSlice(), {
     title: "a slice of the workspace, to see where the platform can go and to go there",
   });
-  const banners = h("div", { class: "banners" }, failure, jump, pull);
-  const picture = h("div", { class: "picture" }, surface, banners);
+  const banners = h("div", { class: "banners" }, failure, jump, low, pull);
+  const picture = h("div", { class: "picture" }, surface);
   const element = h(
     "section",
     { class: "stage", "aria-label": "Robot" },
     h("div", { class: "stagebar" }, way.element, handle.element, workspace, options),
-    h("div", { class: "view" }, picture, legend.element, looks),
+    h("div", { class: "view" }, picture, banners, legend.element, looks),
   );
   surface.addEventListener("keydown", (event) => {
     const key = KEYS[event.key];
@@ -133,15 +134,18 @@ export function stagePanel(app) {
     failure.hidden = !failed;
     if (failed) {
       const shown = mechanics.picture
-        ? ` The grey picture is of the last pose that was held, ${point(mechanics.picture.loaded.pose)}.`
+        ? ` Picture and numbers are of the last state that was found, ${point(mechanics.picture.loaded.pose)}.`
         : "";
-      setText(failure, `${notHeld(state)}: ${failed.reason}.${shown}`);
+      setText(failure, `${notHeld(state, failed)}: ${failed.reason}.${shown}`);
     }
     element.classList.toggle("stale", Boolean(failed));
     element.classList.toggle("busy", mechanics.busy);
     const lost = mechanics.jump;
     jump.hidden = !lost;
     if (lost) setText(jumpText, jumpWords(lost));
+    const ground = groundWords(app);
+    low.hidden = ground === "";
+    setText(low, ground);
     const size = Math.hypot(...mechanics.pull.force);
     const turn = Math.hypot(...mechanics.pull.moment);
     pull.hidden = size === 0 && turn === 0;
@@ -154,9 +158,35 @@ export function stagePanel(app) {
   }
 }
 
+// What a failure means where it does not mean that nothing was found.
+const FAILURES = {
+  cable_overstrained: "Beyond the strain for which the models hold",
+  overstrained: "Beyond the strain for which the models hold",
+  unstable: "No stable equilibrium here",
+  equilibrium_lost: "The platform does not stay here",
+  indifferent: "No single equilibrium here",
+  inverse_not_converged: "Tensions were found, but not the best ones",
+  step_limit: "Not computed to its end",
+};
+const NOT_COMPUTED = ["invalid_input", "invalid_question", "invalid_robot", "robot", "module", "cable"];
+
 /** The beginning of a sentence on why there is no picture of the state. */
-export function notHeld({ way }) {
-  return way === "kept" ? "No equilibrium on these lengths" : "Not held here";
+export function notHeld({ way }, { kind }) {
+  if (NOT_COMPUTED.includes(kind)) return "Not computed";
+  return FAILURES[kind] ?? (way === "kept" ? "No equilibrium found on these lengths" : "Not held here");
+}
+
+/** What is to be said of a platform at or below the ground; empty without need. */
+export function groundWords({ ground, store: { state }, mechanics: { picture } }) {
+  if (ground === null) return "";
+  const place = `the ground, z = ${digits(ground, 4)} m`;
+  const { anchors = [], cables = [] } = picture?.loaded ?? {};
+  const lowest = Math.min(...anchors.map((anchor) => anchor[2]));
+  if (lowest < ground - 1e-9) return `Anchor points are below ${place}: down to z = ${digits(lowest, 4)} m.`;
+  const isBelow = (value, i) => i % 3 === 2 && value < ground - 1e-9;
+  const hanging = cables.flatMap(({ points }, k) => (points.some(isBelow) ? [k + 1] : []));
+  if (hanging.length > 0) return `Cables that hang below ${place}: ${hanging.join(", ")}.`;
+  return state.position[2] <= ground ? `The platform is at ${place}, and goes no lower here.` : "";
 }
 
 /** A jump in words. */

@@ -60,6 +60,7 @@ export function tolerancesPanel(app) {
       set(nominal * (store.state.tolerances[name] ?? 1));
       const part = found.find(({ entry }) => entry === name)?.share;
       setText(share, part === undefined ? "" : sharePercent(part));
+      share.classList.toggle("stale", !sampling.hasEffects);
       share.style.setProperty("--share", String(part ?? 0));
     }
     count.set(String(store.state.observations));

@@ -12,7 +12,14 @@ const state = {
   free: [],
   changes: { modulus: 1, density: 1, reference: null, least: null, greatest: null },
 };
-const given = { file: "cogiro.json", lengths: [9.5, 8], pose: state, slice: null, hasModes: true };
+const given = {
+  file: "cogiro.json",
+  lengths: [9.5, 8],
+  pose: state,
+  slice: null,
+  hasModes: true,
+  observed: true,
+};
 const texts = (change, more = {}) =>
   commands({ ...given, ...more, state: { ...state, ...change } }).map(({ text }) => text);
 
@@ -42,6 +49,11 @@ test("angles, force, moment, free coordinates and tension reference", () => {
 test("lengths that are kept", () => {
   const [direct] = texts({ way: "kept" });
   assert.equal(direct, "cdpr direct cogiro.json --lengths=9.5,8 --start=-1,0.5,2 --payload=50");
+});
+
+test("a study that is of another state is no command", () => {
+  const list = texts({ force: [5, 0, 0] }, { observed: false });
+  assert.ok(list.every((text) => !text.includes("study")));
 });
 
 test("a slice has its normal as a range of one position", () => {

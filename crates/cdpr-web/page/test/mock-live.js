@@ -191,6 +191,12 @@ export class Live {
     };
   }
 
+  table() {
+    const { values_mm } = this.observe({ replicate: 0 }).ok;
+    const rows = values_mm.map((value, k) => ({ inputs: [k / 1000], outputs_mm: [value], failure: null }));
+    return { ok: { seed: 1, inputs: [{ name: "mass", unit: "kg" }], outputs: ["rms_mm"], rows } };
+  }
+
   effects() {
     const inputs = this.describe().ok.parameters.map(({ name, group }, k) => {
       const effect_mm = Math.sin(k * 1.7) / (1 + k / 5);

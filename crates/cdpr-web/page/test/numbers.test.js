@@ -2,7 +2,21 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { bins, quantile, summary } from "../charts/statistics.js";
 import { css, map, roundUp, ticks, viridis } from "../charts/scale.js";
-import { digits, entryWords, parameterWords, residual, short, vectorShort, withUnit } from "../format.js";
+import {
+  digits,
+  entryWords,
+  lengthUnit,
+  parameterWords,
+  readable,
+  residual,
+  short,
+  vectorShort,
+  withUnit,
+} from "../format.js";
+import { undoStep } from "../dom.js";
+import { observationsCsv } from "../export.js";
+import { fieldText, parseNumber } from "../numbers.js";
+import { groundWords, notHeld } from "../panels/stage.js";
 import { affordable } from "../sampling.js";
 import { angles, product, quaternion, turned, turnedAngles, vectorBetween } from "../rotation.js";
 
@@ -116,4 +130,125 @@ test("a vector has the decimals that its length needs", () => {
   assert.equal(vectorShort([0.0127, -0.0003, 0]), "(12.7, −0.3, 0) mm");
   assert.equal(vectorShort([0, 0, 3.4804]), "(0, 0, 3.48) m");
   assert.equal(vectorShort([0, 0, 0]), "(0, 0, 0) mm");
+});
+
+test("a number may have a decimal comma", () => {
+  const read = (text) => parseNumber(text).value;
+  assert.deepEqual(
+    ["1.7", "1,7", " 2,5 ", "−0,5", "+3", ".5", ",5", "5.", "1,5e-3"].map(read),
+    [1.7, 1.7, 2.5, -0.5, 3, 0.5, 0.5, 5, 0.0015],
+  );
+  assert.ok(Object.is(read("-0"), 0));
+});
+
+test("what is no number, or none in its range, has a problem in words", () => {
+  for (const text of ["abc", "1.2.3", "1,234.5", "1 000", "0x10", "Infinity", "1e999", "12 kg", "--1"])
+    assert.match(parseNumber(text).problem, /is not a number/, text);
+  assert.match(parseNumber(" ").problem, /Type a number/);
+  assert.match(
+    parseNumber("-5", { min: 0, why: "the ground is there" }).problem,
+    /least value is 0: the ground/,
+  );
+  assert.match(parseNumber("9", { max: 8 }).problem, /greatest value is 8/);
+});
+
+test("what a field shows is read back as the same number", () => {
+  for (const value of [0, 1.7, -9.486832981, 1e-7, 2.5e12]) {
+    assert.equal(parseNumber(fieldText(value)).value, value);
+  }
+  assert.equal(fieldText(6.5062500000000005), "6.50625");
+});
+
+test("lengths have the unit that their size asks for", () => {
+  assert.equal(short(7.844e-7), "0.7844 µm");
+  assert.equal(short(-9.9e-5), "−99.00 µm");
+  assert.equal(short(0), "0 mm");
+  assert.equal(vectorShort([0, 0, -7.844e-7]), "(0, 0, −0.784) µm");
+  assert.deepEqual(
+    [2, 0.5, 1e-4, 9e-5].map((size) => lengthUnit(size)[1]),
+    ["m", "mm", "mm", "µm"],
+  );
+});
+
+test("reasons of the models have no more digits than a reader wants", () => {
+  assert.equal(
+    readable("at position (0, -1.25, 6.5062500000000005) m: 3.552713678800501e-15 N, 10.4 %"),
+    "at position (0, -1.25, 6.50625) m: 3.552714e-15 N, 10.4 %",
+  );
+});
+
+test("a failure after an equilibrium was found does not say that there is none", () => {
+  const [kept, anew] = [{ way: "kept" }, { way: "anew" }];
+  assert.equal(notHeld(kept, { kind: "direct_not_converged" }), "No equilibrium found on these lengths");
+  assert.equal(notHeld(anew, { kind: "infeasible_tension" }), "Not held here");
+  for (const kind of ["cable_overstrained", "overstrained"])
+    assert.match(notHeld(kept, { kind }), /^Beyond the strain for which the models hold/);
+  for (const kind of [
+    "unstable",
+    "indifferent",
+    "inverse_not_converged",
+    "equilibrium_lost",
+    "invalid_input",
+  ])
+    assert.doesNotMatch(notHeld(kept, { kind }), /No equilibrium|Not held/, kind);
+});
+
+test("a platform at the ground, and anchor points and cables below it, are told", () => {
+  const app = (z, lowest, ground = 0) => ({
+    ground,
+    store: { state: { position: [0, 0, z] } },
+    mechanics: {
+      picture: {
+        loaded: {
+          anchors: [
+            [0, 0, 1],
+            [0, 0, lowest],
+          ],
+        },
+      },
+    },
+  });
+  assert.equal(groundWords(app(1, 0.5)), "");
+  assert.match(groundWords(app(0, 0.1)), /at the ground, z = 0 m, and goes no lower/);
+  assert.match(groundWords(app(0.2, -0.3)), /below the ground, z = 0 m: down to z = −0.3000 m/);
+  assert.equal(groundWords(app(-5, -6, null)), "");
+  const hanging = app(1, 0.5);
+  hanging.mechanics.picture.loaded.cables = [
+    [0, 0, 3, 1, 0, 0.2],
+    [0, 0, 3, 1, 0, -8],
+  ].map((points) => ({ points }));
+  assert.equal(groundWords(hanging), "Cables that hang below the ground, z = 0 m: 2.");
+});
+
+test("keys of undo and redo", () => {
+  const keys = (key, more) => undoStep({ key, ctrlKey: true, metaKey: false, shiftKey: false, ...more });
+  assert.deepEqual(
+    [keys("z"), keys("Z", { shiftKey: true }), keys("y"), keys("a")],
+    ["undo", "redo", "redo", null],
+  );
+  assert.equal(keys("z", { ctrlKey: false }), null);
+  assert.equal(keys("z", { ctrlKey: false, metaKey: true }), "undo");
+});
+
+test("a table of observations has seed, inputs with units, outputs, and reasons of failures", () => {
+  const inputs = [
+    { name: "mass", unit: "kg" },
+    { name: "weather", unit: null },
+  ];
+  const failure = { kind: "infeasible_tension", reason: 'none, "at all"' };
+  const text = observationsCsv({
+    seed: 7,
+    inputs,
+    outputs: ["dx_mm", "rms_mm"],
+    rows: [
+      { inputs: [1.5, -0.25], outputs_mm: [0.5, 2], failure: null },
+      { inputs: [0, 3], outputs_mm: null, failure },
+    ],
+  });
+  assert.deepEqual(text.split("\n"), [
+    "index,seed,d_mass [kg],d_weather,dx_mm,rms_mm,status,reason",
+    "0,7,1.5,-0.25,0.5,2,ok,",
+    '1,7,0,3,,,infeasible_tension,"none, ""at all"""',
+    "",
+  ]);
 });

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { bodyPoints, exaggerated, extents, followed, moved, ring } from "../geometry.js";
-import { changedRobot, isChanged, ofStudy, scaled, shares, studyOf, width } from "../robot.js";
+import { bodyPoints, exaggerated, floorOf, followed, groundOf, moved, ring } from "../geometry.js";
+import { changedRobot, isChanged, ofStudy, scaled, shares, studyOf, unobserved, width } from "../robot.js";
 import { initial } from "../state.js";
 import { cellAt, mapFrame, mapScales } from "../charts/map.js";
 import { emptyCells, extreme, fill, plane, positionOf, rangeOf, rowOrder } from "../slices.js";
@@ -174,7 +174,7 @@ test("bodies have a volume: flat ones and bars get a thickness, a point mass is 
   assert.deepEqual(bodyPoints([...box, [0, 0, -1]], 10).length, 5);
 });
 
-test("the ring goes around, and the floor is zero below a surveyed frame", () => {
+test("the ring goes around", () => {
   const exits = [
     [1, 1, 3],
     [-1, -1, 3],
@@ -186,20 +186,54 @@ test("the ring goes around, and the floor is zero below a surveyed frame", () =>
     const [a, b] = [exits[order[k]], exits[order[(k + 1) % 4]]];
     assert.equal(Math.hypot(a[0] - b[0], a[1] - b[1]), 2);
   }
-  assert.equal(extents(exits).floor, 0);
-  assert.equal(
-    extents([
-      [0, 0, -1],
-      [1, 1, 0],
-    ]).floor,
-    -1,
-  );
+});
+
+test("the ground is that of the file, else zero below a surveyed frame, else unknown", () => {
+  const exits = [
+    [0, 0, 3],
+    [4, 4, 3],
+  ];
+  const anchors = [[0, 0, -0.2]];
+  const at = (z) => ({ exits, anchors, start: { pose: [0, 0, z, 1, 0, 0, 0] } });
+  assert.equal(groundOf(at(1)), 0);
+  assert.equal(groundOf({ ...at(1), ground_z: -0.5 }), -0.5);
+  // A platform that hangs below the origin, as where heights are counted from the frame.
+  assert.deepEqual([groundOf(at(-2)), floorOf(at(-2))], [null, -2.2]);
+  const low = { exits: [[0, 0, -1], ...exits], anchors, start: null };
+  assert.deepEqual([groundOf(low), floorOf(low)], [null, -1]);
 });
 
 test("an exaggerated cable keeps its ends", () => {
   const points = [0, 0, 0, 1, 0, -0.1, 2, 0, 0];
   assert.deepEqual(exaggerated(points, 10), [0, 0, 0, 1, 0, -1, 2, 0, 0]);
   assert.deepEqual(followed(points, [0, 0, 1]), [0, 0, 0, 1, 0, 0.4, 2, 0, 1]);
+});
+
+test("what lies on a pulley is drawn where it is, however large the sag is drawn", () => {
+  // Over a wheel from the exit point, up and forwards; then free to the anchor point.
+  const points = [0, 0, 0, 0.1, 0, 0.2, 0.3, 0, 0.2, 1.3, 0, 0.1, 2.3, 0, 0.2];
+  const drawn = exaggerated(points, 100, 2);
+  assert.deepEqual(drawn.slice(0, 9), points.slice(0, 9));
+  assert.ok(Math.abs(drawn[11] - (0.2 - 100 * 0.1)) < 1e-12);
+  assert.deepEqual(drawn.slice(12), points.slice(12));
+  const moving = followed(points, [0, 0, 1], 2);
+  assert.deepEqual(moving.slice(0, 9), points.slice(0, 9));
+  assert.ok(Math.abs(moving[11] - 0.6) < 1e-12 && Math.abs(moving[14] - 1.2) < 1e-12);
+});
+
+test("a state that robots are not observed in says why", () => {
+  const study = {
+    error_models: { t: { mass: uniform(4), a: uniform(0.002) } },
+    samplings: { all: { error_model: "t" } },
+  };
+  const state = { way: "anew", force: [0, 0, 0], moment: [0, 0, 0], payload: 9, tolerances: { mass: 0 } };
+  const why = (change) => unobserved(study, { ...state, ...change });
+  assert.equal(why({}), null);
+  assert.match(why({ way: "kept" }), /lengths are kept/);
+  assert.match(why({ force: [0, -3, 0] }), /payload alone/);
+  assert.match(why({ moment: [0, 0, 1] }), /payload alone/);
+  assert.match(why({ payload: 0 }), /no payload/);
+  assert.match(why({ tolerances: { mass: 0, a: 0 } }), /nothing deviates/);
 });
 
 test("a small motion moves and turns a pose", () => {

@@ -1,4 +1,5 @@
-// The cables: their shapes, tensions as colours, pulley wheels, and marks on those out of limits.
+// The cables: their shapes, tensions as colours, pulley wheels, and marks on those out of limits. Slack ones
+// have their colour, too, without a dark edge.
 
 import { Color, SRGBColorSpace } from "three";
 import { viridis } from "../charts/scale.js";
@@ -48,11 +49,11 @@ export class Cables {
     const { palette } = this;
     for (const part of [this.casing, this.marks, this.lines, this.wheels]) part.clear();
     state.cables.forEach((cable, k) => {
-      let points = exaggerated(cable.points, sag);
-      if (steps) points = followed(points, steps[k]);
-      const color = faded || cable.slack ? rgb(palette.slack) : linear(viridis(cable.tension / range));
+      let points = exaggerated(cable.points, sag, cable.free);
+      if (steps) points = followed(points, steps[k], cable.free);
+      const color = faded ? rgb(palette.slack) : linear(viridis(cable.tension / range));
       this.lines.line(points, color);
-      if (!faded) this.casing.line(points);
+      if (!faded && !cable.slack) this.casing.line(points);
       if (k === selected) this.marks.line(points, rgb(palette.ink));
       else if (cable.limit && !faded) this.marks.line(points, rgb(palette.warn));
       if (cable.wheel.length > 0) this.wheels.line([...cable.wheel, ...cable.wheel.slice(0, 3)]);

@@ -12,7 +12,7 @@ import {
   Color,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
-import { amplitude, anchorsAt, extents, moved } from "../geometry.js";
+import { amplitude, anchorsAt, extents, floorOf, moved } from "../geometry.js";
 import { Arrow } from "./arrow.js";
 import { Cables } from "./cables.js";
 import { Frame, Names } from "./frame.js";
@@ -46,7 +46,7 @@ export class View {
     this.container = container;
     this.robot = robot;
     this.hooks = hooks;
-    this.box = extents(robot.exits);
+    this.box = { ...extents(robot.exits), floor: floorOf(robot) };
     this.renderer = new WebGLRenderer({ antialias: true, preserveDrawingBuffer: false });
     this.renderer.setPixelRatio(Math.min(2, globalThis.devicePixelRatio || 1));
     this.surface = this.renderer.domElement;
@@ -79,9 +79,9 @@ export class View {
       change: () => this.invalidate(),
     });
     this.#listen();
-    this.resize = new ResizeObserver(() => this.#fitCanvas());
+    this.resize = new ResizeObserver(() => this.fit());
     this.resize.observe(container);
-    this.#fitCanvas();
+    this.fit();
     this.look("default");
     this.#frame = requestAnimationFrame(this.#loop);
   }
@@ -176,9 +176,23 @@ export class View {
     this.invalidate();
   }
 
+  /** Takes the size of its container. */
+  fit() {
+    const { clientWidth, clientHeight } = this.container;
+    this.width = Math.max(clientWidth, 50);
+    this.height = Math.max(clientHeight, 50);
+    this.renderer.setSize(this.width, this.height);
+    this.camera.aspect = this.width / this.height;
+    this.camera.updateProjectionMatrix();
+    this.invalidate();
+  }
+
   /** The picture as it is now. */
   snapshot() {
     this.renderer.render(this.scene, this.camera);
+    const named = Boolean(this.picture?.names);
+    this.names.element.hidden = !named;
+    if (named) this.names.place(this.camera, this.#scratch, this.width, this.height);
     return this.surface;
   }
 
@@ -220,9 +234,7 @@ export class View {
     }
     if (!this.#needed) return;
     this.#needed = false;
-    this.renderer.render(this.scene, this.camera);
-    this.names.element.hidden = !picture?.names;
-    if (picture?.names) this.names.place(this.camera, this.#scratch, this.width, this.height);
+    this.snapshot();
   };
 
   #scratch = new Vector3();
@@ -247,16 +259,6 @@ export class View {
     }
     place(this.platform.body, pose);
     this.cables.draw(loaded, { sag, range, selected, faded, steps });
-  }
-
-  #fitCanvas() {
-    const { clientWidth, clientHeight } = this.container;
-    this.width = Math.max(clientWidth, 50);
-    this.height = Math.max(clientHeight, 50);
-    this.renderer.setSize(this.width, this.height);
-    this.camera.aspect = this.width / this.height;
-    this.camera.updateProjectionMatrix();
-    this.invalidate();
   }
 
   // A click on the slice goes there; a drag turns the view.

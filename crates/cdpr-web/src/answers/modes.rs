@@ -4,7 +4,7 @@ use crate::answers::failure::Failure;
 use crate::answers::state::Motion;
 use crate::question::Motions;
 use cdpr_robot::Robot;
-use cdpr_statics::{DirectProblem, NaturalMode, Start};
+use cdpr_statics::{CableFrequency, DirectProblem, NaturalMode, Start};
 use serde::Serialize;
 
 /// How the platform moves about an equilibrium.
@@ -14,6 +14,10 @@ pub(crate) struct Moves {
     frequencies: Vec<Natural>,
     /// Why the natural modes are missing.
     reason: Option<String>,
+    /// The lowest of each cable between ends at rest [Hz]; `null` for one without mass.
+    cable_frequencies: Vec<Option<f64>>,
+    /// What follows where one of these is less than twice the lowest of the platform.
+    warning: Option<String>,
     /// Motions from the softest to the stiffest.
     motions: Vec<Motion>,
     /// Length that makes rotations comparable with translations [m].
@@ -45,6 +49,10 @@ pub(crate) fn modes(robot: &Robot, given: &Motions) -> Result<Moves, Failure> {
         Ok(modes) => (modes, None),
         Err(error) => (Vec::new(), Some(error.to_string())),
     };
+    let cable_frequencies = problem.cable_frequencies(&found.equilibrium)?;
+    let slowest = CableFrequency::slowest(cable_frequencies.iter().copied());
+    let platform = natural.iter().map(|mode| mode.frequency).find(|frequency| *frequency > 0.0);
+    let warning = slowest.zip(platform).and_then(|(cable, platform)| cable.warning(platform));
     let of = |mode: NaturalMode| Natural {
         frequency: mode.frequency,
         translation: mode.translation.into(),
@@ -55,6 +63,8 @@ pub(crate) fn modes(robot: &Robot, given: &Motions) -> Result<Moves, Failure> {
     Ok(Moves {
         frequencies: natural.into_iter().map(of).collect(),
         reason,
+        cable_frequencies,
+        warning,
         motions: found.stability.modes().iter().map(Motion::from).collect(),
         characteristic_length: found.stability.characteristic_length(),
         neutral: found.stability.neutral().len(),

@@ -5,8 +5,8 @@ use crate::question::ObserveReplicate;
 use cdpr_robot::Robot;
 use cdpr_sensitivity::{Effects, SampleDesign};
 use cdpr_study::{
-    STUDY_NAME, ScalarCount, Session, Study, StudyFile, ValueSummary, effects_of_replicates,
-    observe as observe_sampling, observe_replicate,
+    Measured, Part, STUDY_NAME, ScalarCount, Session, Study, StudyFile, ValueSummary, effects_of_replicates,
+    observe as observe_sampling, observe_into, observe_replicate,
 };
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -38,6 +38,36 @@ pub(crate) struct Observed {
     nominal_mm: f64,
     /// Effects of the inputs in this design, for the question `effects`.
     effects: Option<Effects>,
+}
+
+/// Observations with their inputs.
+#[derive(Serialize)]
+pub(crate) struct Table {
+    /// Seed of the study.
+    seed: u64,
+    inputs: Vec<Column>,
+    /// Names of the outputs, with their units.
+    outputs: &'static [&'static str],
+    rows: Vec<Row>,
+}
+
+/// An input of a table.
+#[derive(Serialize)]
+struct Column {
+    name: String,
+    /// Unit of its deviations; absent for a cause of parameters in different units.
+    unit: Option<&'static str>,
+}
+
+/// An observation.
+#[derive(Serialize)]
+struct Row {
+    /// Deviations of the inputs, in SI units.
+    inputs: Vec<f64>,
+    /// The outputs; absent if it failed.
+    outputs_mm: Option<Vec<f64>>,
+    /// Why it failed.
+    failure: Option<Failure>,
 }
 
 /// A signed effect with its interval.
@@ -86,6 +116,40 @@ pub(crate) fn observe(study: &Study, given: ObserveReplicate) -> Result<Observed
         failed: tally.failed,
         scalar: tally.scalar,
     })
+}
+
+pub(crate) fn table(study: &Study) -> Result<Table, Failure> {
+    let sampling = study.sampling(SAMPLING)?;
+    let named = sampling.design.inputs();
+    let of_part = |part: &Part| -> Vec<Row> {
+        let inputs = part.rows.chunks_exact(named.len());
+        inputs.zip(&part.outcomes).map(|(inputs, outcome)| row(inputs, outcome)).collect()
+    };
+    let mut rows = Vec::new();
+    observe_into(&sampling, &Session::in_memory(), of_part, |part| {
+        rows.extend(part);
+        Ok(())
+    })?;
+    let column = |(number, input): (usize, &cdpr_sensitivity::Input)| Column {
+        name: input.name.clone(),
+        unit: sampling.errors.unit(number),
+    };
+    Ok(Table {
+        seed: study.file.seed,
+        inputs: named.iter().enumerate().map(column).collect(),
+        outputs: sampling.output().columns(),
+        rows,
+    })
+}
+
+fn row(inputs: &[f64], outcome: &cdpr_study::Observed) -> Row {
+    let failure =
+        |failed: &cdpr_study::Failure| Failure { kind: failed.kind.clone(), reason: failed.reason.clone() };
+    Row {
+        inputs: inputs.to_vec(),
+        outputs_mm: outcome.as_ref().ok().map(|measured| Measured::cells(measured).collect()),
+        failure: outcome.as_ref().err().map(failure),
+    }
 }
 
 pub(crate) fn effects(study: &Study, of: &[Effects]) -> Result<InputEffects, Failure> {

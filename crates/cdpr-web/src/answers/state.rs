@@ -39,6 +39,8 @@ pub(crate) struct State {
 struct CableState {
     /// Coordinates of points from the exit point, over the pulley, to the anchor point [m].
     points: Vec<f64>,
+    /// Index of the point where the cable leaves its pulley: the first one of the free cable.
+    free: usize,
     /// Coordinates of points around the wheel of its pulley [m]; empty without one.
     wheel: Vec<f64>,
     /// Tension at the platform [N].
@@ -47,6 +49,7 @@ struct CableState {
     exit_tension: f64,
     /// Greatest distance across the chord [m].
     sag: f64,
+    /// Whether it carries less than its own weight; a loaded cable that sags is not slack.
     slack: bool,
     /// Unstrained length [m].
     length: f64,
@@ -100,6 +103,7 @@ impl State {
                 problem.shape(equilibrium, i, POINTS_ON_PULLEY, POINTS)?;
             Ok(CableState {
                 points: flat(&points),
+                free: points.len() - POINTS,
                 wheel: flat(&wheel),
                 tension: equilibrium.cable_forces[i].norm(),
                 exit_tension: exit_tensions[i],

@@ -2,8 +2,9 @@
 
 use crate::arguments::{self, Named};
 use crate::error::ProgramError;
+use crate::lists;
 use crate::output::progress;
-use crate::poses;
+use crate::questions;
 use crate::robot::calibrate::Sought;
 use cdpr_calibration::{Calibration, Measurement};
 use cdpr_robot::{Parameter, Pose, Robot};
@@ -25,12 +26,14 @@ pub(crate) struct Candidates {
 }
 
 impl Candidates {
-    pub(super) fn read(&self) -> Result<Vec<Pose>, ProgramError> {
-        match (&self.grid, &self.poses) {
-            (Some(grid), _) => Ok(grid.poses()),
-            (None, Some(path)) => poses::pose_file(path),
-            (None, None) => Err(ProgramError::Usage("expected --poses or --grid".to_owned())),
-        }
+    pub(super) fn read(&self, robot: &Robot) -> Result<Vec<Pose>, ProgramError> {
+        let poses = match (&self.grid, &self.poses) {
+            (Some(grid), _) => grid.poses(),
+            (None, Some(path)) => lists::pose_file(path)?,
+            (None, None) => return Err(ProgramError::Usage("expected --poses or --grid".to_owned())),
+        };
+        questions::about_poses(robot, "the candidates", &poses);
+        Ok(poses)
     }
 }
 
@@ -94,8 +97,9 @@ impl Known {
     }
 
     /// What is measured.
-    pub(super) fn measurements(&self) -> Result<Vec<Measurement>, ProgramError> {
+    pub(super) fn measurements(&self, robot: &Robot) -> Result<Vec<Measurement>, ProgramError> {
         let Named(named) = &self.noise;
+        questions::about_noise(robot, named);
         Measurement::named(named).map_err(|error| ProgramError::Usage(format!("--{error}")))
     }
 }

@@ -4,9 +4,10 @@ use crate::arguments::{self, Format, FreeArguments, Preference};
 use crate::error::ProgramError;
 use crate::output::{patiently, table};
 use crate::poses;
+use crate::questions;
 use crate::robot::calibration::candidates::{Candidates, Known, add};
 use cdpr_calibration::{Calibration, Combination, Identifiability, ParameterValue};
-use cdpr_robot::{Pose, Robot, rounded, shown};
+use cdpr_robot::{Pose, Robot, counted, rounded, shown};
 use cdpr_statics::Load;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -29,7 +30,7 @@ pub(crate) struct Settings {
     #[command(flatten)]
     preference: Preference,
     /// Number of poses to choose.
-    #[arg(long, default_value_t = 10)]
+    #[arg(long, default_value_t = 10, value_parser = arguments::count::<0, 100_000>)]
     choose: usize,
     /// How the results are printed.
     #[arg(long, value_enum, default_value_t = Format::Text)]
@@ -38,11 +39,12 @@ pub(crate) struct Settings {
 
 pub(super) fn identify(settings: &Settings) -> Result<(), ProgramError> {
     let robot = settings.preference.open_robot(&settings.robot)?;
-    let candidates = settings.candidates.read()?;
-    let measurements = settings.known.measurements()?;
+    let candidates = settings.candidates.read(&robot)?;
+    let measurements = settings.known.measurements(&robot)?;
     let uncertainties = settings.known.deviations(&robot)?;
     let mut calibration = Calibration::new(&robot, &uncertainties)?.with_free(&settings.free.free);
     let load = Load::payload(settings.payload);
+    questions::about_load(&robot, &load);
     let (poses, refused) = add(&mut calibration, candidates, &load, &measurements)?;
     let output = patiently("choosing poses", || {
         let found = calibration.identify(0..poses.len());
@@ -109,9 +111,9 @@ impl Output {
 }
 
 fn print(robot: &Robot, output: &Output) {
-    println!("{}: measured at {} poses", shown(&robot.name), output.poses);
+    println!("{}: measured at {}", shown(&robot.name), counted(output.poses, "pose"));
     for (reason, count) in &output.refused {
-        println!("{count} poses left out: {reason}");
+        println!("{} left out: {reason}", counted(*count, "pose"));
     }
     let words = |part: &Part| {
         let largest = part.weights.iter().take(5).map(|(name, weight)| format!("{weight:+.2} {name}"));

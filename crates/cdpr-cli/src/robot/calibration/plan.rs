@@ -4,9 +4,10 @@ use crate::arguments::{self, Format, FreeArguments, LoadArguments, Overwrite, Pr
 use crate::error::ProgramError;
 use crate::output::{patiently, table};
 use crate::poses;
+use crate::questions;
 use crate::robot::calibration::candidates::{Candidates, Known, add};
 use cdpr_calibration::{AtWork, Calibration, Criterion, PosePlan, Quality};
-use cdpr_robot::{Pose, Robot, rounded, shown};
+use cdpr_robot::{Pose, Robot, counted, rounded, shown};
 use cdpr_study::Grid;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -22,7 +23,7 @@ pub(crate) struct PlanSettings {
     #[command(flatten)]
     known: Known,
     /// Number of poses.
-    #[arg(long, default_value_t = 20)]
+    #[arg(long, default_value_t = 20, value_parser = arguments::count::<1, 100_000>)]
     count: usize,
     /// What the set is to be best in.
     #[arg(long, value_enum, default_value_t = CriterionName::Information)]
@@ -76,8 +77,8 @@ enum OfWork {
 
 pub(super) fn plan(settings: &PlanSettings) -> Result<(), ProgramError> {
     let robot = settings.preference.open_robot(&settings.robot)?;
-    let candidates = settings.candidates.read()?;
-    let measurements = settings.known.measurements()?;
+    let candidates = settings.candidates.read(&robot)?;
+    let measurements = settings.known.measurements(&robot)?;
     let uncertainties = settings.known.deviations(&robot)?;
     let criterion = match settings.criterion {
         CriterionName::Information => Criterion::Information,
@@ -93,12 +94,15 @@ pub(super) fn plan(settings: &PlanSettings) -> Result<(), ProgramError> {
     }
     let mut calibration = Calibration::new(&robot, &uncertainties)?.with_free(&settings.free.free);
     let load = settings.load.load();
+    questions::about_load(&robot, &load);
+    questions::about_accuracy(&robot, settings.accuracy);
     let (poses, refused) = add(&mut calibration, candidates, &load, &measurements)?;
     let of = match settings.of {
         OfWork::Position => AtWork::Position,
         OfWork::Deflection => AtWork::Deflection,
     };
     let work = settings.work.map(|grid| grid.poses()).unwrap_or_default();
+    questions::about_poses(&robot, "--work", &work);
     let worked = work.iter().filter(|pose| calibration.add_work(pose, &load, of).is_ok()).count();
     if at_work && worked == 0 {
         return Err(ProgramError::NoPoseHeld { reasons: "none of --work is held".to_owned() });
@@ -178,7 +182,7 @@ fn print_plan(robot: &Robot, output: &Plan) {
     let count = output.poses.len();
     println!("{}: {count} of {} poses", shown(&robot.name), output.candidates);
     for (reason, count) in &output.refused {
-        println!("{count} poses left out: {reason}");
+        println!("{} left out: {reason}", counted(*count, "pose"));
     }
     let mut rows = table(&[
         "set of poses",

@@ -2,10 +2,11 @@
 
 use crate::arguments::{self, FreeArguments, LoadArguments, Named, Overwrite, Preference};
 use crate::error::ProgramError;
+use crate::questions;
 use crate::robot::calibrate::{Sought, sensor_errors};
 use crate::robot::calibration::candidates::Candidates;
 use cdpr_calibration::{Noise, SensorError, Simulated, drawn_errors, simulate, write_measurements};
-use cdpr_robot::{CableEnd, Vector3};
+use cdpr_robot::{CableEnd, Vector3, counted};
 use std::path::PathBuf;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -58,16 +59,19 @@ pub(crate) struct SimulateSettings {
 
 pub(super) fn simulated(settings: &SimulateSettings) -> Result<(), ProgramError> {
     let robot = settings.preference.open_robot(&settings.robot)?;
-    let poses = settings.candidates.read()?;
+    let poses = settings.candidates.read(&robot)?;
     let Some(model) = settings.sought.prior(&robot)? else {
         return Err(ProgramError::Usage(
             "expected --model, the tolerances to draw deviations from".to_owned(),
         ));
     };
     let Named(noise) = &settings.noise;
+    questions::about_noise(&robot, noise);
+    questions::about_load(&robot, &settings.load.load());
     let noise = Noise::named(noise)?;
     let deviations = cdpr_calibration::drawn(&model, settings.seed);
     let markers: Vec<Vector3<f64>> = settings.markers.iter().map(|marker| Vector3::from(*marker)).collect();
+    questions::about_markers(&robot, markers.iter().copied());
     let errors = sensor_errors(&settings.unknown)?;
     let sized = |(error, std): (SensorError, Option<f64>)| {
         let name = error.name();
@@ -99,6 +103,7 @@ pub(super) fn simulated(settings: &SimulateSettings) -> Result<(), ProgramError>
         let truth = robot.perturbed(&deviations).map_err(cdpr_calibration::CalibrationError::from)?.robot;
         settings.overwrite.write(path, &(truth.to_json() + "\n"))?;
     }
-    println!("{}: {} rows at {} poses", settings.out.display(), rows.len(), poses.len());
+    let [rows, poses] = [counted(rows.len(), "row"), counted(poses.len(), "pose")];
+    println!("{}: {rows} at {poses}", settings.out.display());
     Ok(())
 }

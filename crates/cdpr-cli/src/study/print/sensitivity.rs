@@ -19,7 +19,9 @@ pub(crate) fn print(heading: &str, output: Output, found: &SensitivitySummary) {
     let agreed = if agreement.inputs.is_empty() { "none".to_owned() } else { agreement.inputs.join(", ") };
     println!("above zero and among the first {} of every measure: {agreed}", agreement.first);
     for note in &found.notes {
-        println!("left out: {note}");
+        // A measure that is in the table has intervals in doubt; the others are not there.
+        let is_there = note.split_once(':').is_some_and(|(name, _)| found.methods.contains_key(name));
+        println!("{}: {note}", if is_there { "note" } else { "left out" });
     }
     println!();
 }

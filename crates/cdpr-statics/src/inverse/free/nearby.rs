@@ -9,10 +9,13 @@
 //!
 //! so that no slope is computed anew as long as every step halves the residual at least.
 
-use super::{Point, ROUNDING, SINGULAR_VALUES, SOLVED, Search, check_free, held_at};
+use super::search::{Outcome, Point, ROUNDING, SINGULAR_VALUES, SOLVED, Search, Unknowns};
+use super::sound::Loops;
+use super::{check_free, held_at};
 use crate::error::StaticsError;
 use crate::inverse::HeldPose;
-use crate::state::Load;
+use crate::rest_fault::RestFault;
+use crate::state::{Equilibrium, Load};
 use cdpr_robot::{Coordinate, Pose, Robot};
 use nalgebra::{DMatrix, DVector};
 
@@ -50,7 +53,9 @@ impl FreeBranch {
         let none = Load::none();
         let rest = held_at(robot, pose, &none, free)?;
         let search = Search::new(robot, &rest.equilibrium.pose, &none, free)?;
-        let start = search.known(chord_forces(robot, &rest)).and_then(|near| Some(search.follow(near)?.1));
+        let start = search
+            .known(chord_forces(robot, &rest.equilibrium))
+            .and_then(|near| Some(search.follow(near)?.1));
         Ok(Self { free: free.to_vec(), rest, start })
     }
 
@@ -83,8 +88,35 @@ impl FreeBranch {
     }
 }
 
+/// The rest under another load to which steps lead from one nearby, in or out of the limits, stable or
+/// not: the same branch.
+///
+/// # Errors
+/// [`StaticsError::NoRest`] where the steps lead to none, to a loop or below the ground; those of
+/// [`super::inverse_free`] for invalid inputs.
+pub fn rest_near(
+    robot: &Robot,
+    near: &Equilibrium,
+    load: &Load,
+    free: &[Coordinate],
+) -> Result<HeldPose, StaticsError> {
+    check_free(robot, free)?;
+    let search = Search::new(robot, &near.pose, load, free)?;
+    let start = Unknowns { changes: vec![0.0; free.len()], chord_forces: chord_forces(robot, near) };
+    let no_rest = |nearest| Err(StaticsError::NoRest { starts: 1, nearest });
+    let point = match search.descend(start) {
+        Outcome::Found(point, ..) => point,
+        Outcome::Stuck(point) => return no_rest(search.left(&point)),
+        Outcome::Lost => return no_rest(search.unbalanced()),
+    };
+    match Loops::Refused.fault(robot, &point.held) {
+        None | Some(RestFault::Limit(_)) => Ok(point.held),
+        Some(fault) => no_rest(fault),
+    }
+}
+
 /// Chord forces of the cables [N], (C16) of `cdpr_cable`; of vertical ones their tensions.
-fn chord_forces(robot: &Robot, HeldPose { equilibrium, .. }: &HeldPose) -> Vec<f64> {
+fn chord_forces(robot: &Robot, equilibrium: &Equilibrium) -> Vec<f64> {
     let of_cable = |(i, force): (usize, &cdpr_robot::Vector2<f64>)| {
         let span = robot.span(&equilibrium.pose, i);
         let span = robot.gravity.level().map_or(span, |level| level * span);

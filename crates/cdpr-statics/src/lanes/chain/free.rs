@@ -30,6 +30,7 @@ use crate::lanes::held::HeldCable;
 use crate::lanes::load::PlatformLoad;
 use crate::lanes::newton::{LinearizedPlatform, Robots, rotate};
 use crate::lanes::simd::{Lanes, Mask, Simd, WithSimd};
+use cdpr_cable::MAX_STRAIN;
 use cdpr_cable::kernel::{FOLDED, Field};
 
 /// Motions of a platform in space.
@@ -249,6 +250,18 @@ impl<S: Simd> Rest<'_, '_, S> {
                 & held.tension.less_or_equal(greatest)
                 & held.tension.less_or_equal(bearable)
                 & dot(&exit, &exit).sqrt().less_or_equal(bearable);
+            if shared.ground > f64::NEG_INFINITY {
+                let anchor = robots.position[2] + cable.anchor_arm[2];
+                // At most how far the cable hangs below its anchor point, where it is level between its ends:
+                // fz²/w (t + fx), stretched by no more than the strain at which the models end.
+                let depth =
+                    fz * fz * (1.0 + MAX_STRAIN) * (cable.weight_per_length * (held.tension + fx)).recip();
+                let lowest = anchor - depth;
+                let is_lower_end = fz.less_or_equal(zero) | zero.less_or_equal(exit[1]);
+                let ground = zero.all(shared.ground);
+                let above = ground.less_or_equal(lowest) | (anchor - span.end[1]).less_or_equal(lowest);
+                within = within & ground.less_or_equal(anchor) & (is_lower_end | above);
+            }
             let set_point = (held.tension + *offset).max(least);
             *offset = set_point.less_or_equal(greatest).select(set_point, greatest);
         }

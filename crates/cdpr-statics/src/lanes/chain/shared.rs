@@ -58,6 +58,20 @@ pub(crate) struct Shared {
     pub(crate) scale: Scale,
     /// Whether a cable may come near the least tension of its span.
     pub(crate) may_be_slack: bool,
+    /// Height of the ground where free coordinates are found [m]; -∞ without one, +∞ where lanes cannot tell
+    /// because the base may be tilted.
+    pub(crate) ground: f64,
+}
+
+impl Shared {
+    /// The ground of a robot in lanes.
+    pub(crate) fn ground(robot: &Robot) -> f64 {
+        match robot.ground_z {
+            None => f64::NEG_INFINITY,
+            Some(_) if robot.gravity.is_vector() => f64::INFINITY,
+            Some(height) => height,
+        }
+    }
 }
 
 /// Segments of the elastic law of each cable; none of a linear one.

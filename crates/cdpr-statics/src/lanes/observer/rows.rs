@@ -48,7 +48,7 @@ impl Nominal {
         let (HeldPose { lengths, equilibrium }, multipliers) = solution.ok_or(ScalarReason::NominalRobot)?;
         let (pose, tensions) = (&equilibrium.pose, equilibrium.tensions());
         let tension = tensions.iter().sum();
-        let problem = DirectProblem { robot, lengths: &lengths, load: *load };
+        let problem = DirectProblem { robot, lengths: &lengths, load: *load, length_of_rotations: None };
         let exits = robot.cables.iter().map(|cable| cable.exit_point.norm()).fold(0.0, f64::max);
         let reference = robot.reference();
         let choice = |(i, reference): (usize, &f64)| {
@@ -58,6 +58,7 @@ impl Nominal {
         let shared = Shared {
             may_be_slack: (0..robot.cables.len()).any(near_least),
             choices: reference.iter().enumerate().map(choice).collect(),
+            ground: Shared::ground(robot),
             tension,
             forces: tension,
             scale: Scale {

@@ -19,12 +19,12 @@ use crate::lanes::poses::placed::{PlacedRobot, each};
 use crate::lanes::poses::slopes::{Nominal, SlopesOfLanes};
 use crate::lanes::reason::ScalarReason;
 use crate::lanes::simd::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
-use crate::loading::{Deflection, deflection_from};
+use crate::loading::{CableFrequency, Deflection, deflection_from};
 use crate::problem::DirectProblem;
 use crate::state::{Load, Residual};
-use cdpr_cable::Catenary;
 use cdpr_cable::kernel::Field;
-use cdpr_robot::{Freedoms, Matrix3, ParameterLayout, Pose, Robot, Vector2, Vector3};
+use cdpr_cable::{Catenary, is_slack};
+use cdpr_robot::{Freedoms, Matrix3, ParameterLayout, Pose, Robot, Vector3};
 use smallvec::SmallVec;
 use std::f64::consts::TAU;
 
@@ -43,6 +43,8 @@ pub struct LoadedPose {
     /// Lowest natural frequency with the load [Hz], see [`DirectProblem::lowest_frequency`]; `None` for a
     /// robot that lacks `platform.inertia`.
     pub lowest_frequency: Option<f64>,
+    /// The slowest cable, between ends at rest, where there is a lowest frequency.
+    pub lowest_cable_frequency: Option<CableFrequency>,
     /// Cables (from 0) that are slack with the load.
     pub slack: Vec<usize>,
     /// Why the scalar models found it; `None` for one found in lanes.
@@ -53,13 +55,16 @@ impl LoadedPose {
     /// That of a deflection, by the scalar models.
     pub fn of(robot: &Robot, load: &Load, deflection: &Deflection) -> Self {
         let Deflection { lengths, unloaded, loaded } = deflection;
-        let frequency = || DirectProblem::new(robot, lengths, load)?.lowest_frequency(&loaded.equilibrium);
+        let problem = DirectProblem::new(robot, lengths, load).ok();
+        let lowest_frequency = problem.and_then(|problem| problem.lowest_frequency(&loaded.equilibrium).ok());
+        let of_cables = || problem?.lowest_cable_frequency(&loaded.equilibrium).ok()?;
         Self {
             displacement: deflection.displacement(),
             tensions: [unloaded, loaded].map(|solution| solution.equilibrium.end_tensions(robot, lengths)),
             residuals: [unloaded, loaded].map(|solution| solution.report.residual),
             least_stiffness: loaded.stability.least_stiffness(),
-            lowest_frequency: frequency().ok(),
+            lowest_frequency,
+            lowest_cable_frequency: lowest_frequency.and_then(|_| of_cables()),
             slack: loaded.report.slack.clone(),
             scalar: Some(ScalarReason::OneByOne),
         }
@@ -212,7 +217,7 @@ impl<S: Simd> InLanes<'_, S> {
         if let Some(record) = &mut record {
             record.state(&robots);
         }
-        let stood = robots.position;
+        let (stood, stiffness) = (robots.position, platform.factored);
         let (mut loaded, mut payload) = (None, PlatformLoad::weight(zero));
         if *load != Load::none() {
             let weight = self.all(load.payload * placed.robot.gravity.magnitude());
@@ -222,7 +227,10 @@ impl<S: Simd> InLanes<'_, S> {
             platform.gradient = six!(|k| platform.gradient[k] - wrench[k]);
             carried = added.on(carried.weight);
             payload = added;
-            loaded = Some(self.settled(&mut robots, &mut platform, &carried, unloaded.found));
+            let mut settled = self.settled(&mut robots, &mut platform, &carried, unloaded.found);
+            let scale = &placed.scale;
+            settled.found = robots.on_branch(&carried, &platform, &stiffness, scale, settled.found);
+            loaded = Some(settled);
         }
         let displacement = three!(|k| robots.position[k] - stood[k]);
         let slopes = match (&mut record, self.slopes) {
@@ -375,9 +383,8 @@ impl<S: Simd> InLanes<'_, S> {
             let arrays = settled.iter().map(|[one, other]| [one.to_array(), other.to_array()]);
             arrays.collect::<SmallVec<[_; 8]>>()
         });
-        let spans: SmallVec<[_; 8]> =
-            robots.cables.iter().map(|cable| cable.span(&robots.position).end.map(Lanes::to_array)).collect();
-        for (lane, wanted) in wanted.iter().enumerate() {
+        let free: SmallVec<[_; 8]> = robots.cables.iter().map(|cable| cable.length.to_array()).collect();
+        for lane in 0..wanted.len() {
             if !(stands[lane] && carries[lane]) {
                 answers.push(Err(if stands[lane] { ScalarReason::Loaded } else { ScalarReason::Unloaded }));
                 continue;
@@ -390,21 +397,21 @@ impl<S: Simd> InLanes<'_, S> {
                 };
                 rms = Some(slopes.iter().map(|slope| slope[lane]).collect());
             }
-            let is_slack = |i: &usize| {
-                let [h, z] = spans[*i].map(|of| of[lane]);
-                let cable = robot.cable(*i);
-                let at_rest = wanted.lengths[*i] * (1.0 + cable.strain(0.0));
-                at_rest >= cable.straight_length(Vector2::new(h, z))
-            };
             let of_lane = |ends: &[[f64; MAX_LANES]; 2]| ends.map(|of| of[lane]);
+            let ends = |i: usize| of_lane(&tensions[1][i]);
+            let is_slack = |i: &usize| is_slack(robot.cable(*i).weight_per_length * free[*i][lane], ends(*i));
+            let lowest_frequency = square
+                .filter(|(_, positive)| positive[lane])
+                .map(|(square, _)| square[lane].max(0.0).sqrt() / TAU);
+            let of_cables =
+                || CableFrequency::lowest(robot, (0..free.len()).map(|i| (free[i][lane], ends(i))));
             let loaded = LoadedPose {
                 displacement: self.placed.to_base(Vector3::from_fn(|k, _| displacement[k][lane])),
                 tensions: [0, 1].map(|k: usize| tensions[k].iter().map(of_lane).collect()),
                 residuals: residuals.map(|residuals| residuals[lane]),
                 least_stiffness: least_stiffness[lane],
-                lowest_frequency: square
-                    .filter(|(_, positive)| positive[lane])
-                    .map(|(square, _)| square[lane].max(0.0).sqrt() / TAU),
+                lowest_frequency,
+                lowest_cable_frequency: lowest_frequency.and_then(|_| of_cables()),
                 slack: (0..robot.cables.len()).filter(is_slack).collect(),
                 scalar: None,
             };

@@ -58,6 +58,7 @@ impl<'a> PlacedRobot<'a> {
             forces: weight + least,
             scale,
             may_be_slack: true,
+            ground: Shared::ground(robot),
         }
     }
 

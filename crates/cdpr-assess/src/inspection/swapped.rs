@@ -1,0 +1,59 @@
+//! Anchor points of two cables that were given for one another: the robot holds a pose, without cables that
+//! touch, as soon as they are exchanged.
+
+use super::pose::{TOUCHING, held};
+use super::{Findings, Severity};
+use crate::clearance::HangingCables;
+use cdpr_robot::Robot;
+
+/// Cables at most of a robot all of whose pairs are tried.
+const MOST_CABLES: usize = 12;
+
+/// Pairs that are named, those with the least tensions first.
+const MOST_PAIRS: usize = 4;
+
+impl Findings<'_> {
+    /// Which two anchor points are to be exchanged, if the robot holds no pose or its cables touch.
+    pub(super) fn swapped_anchors(&mut self) {
+        let robot = self.robot;
+        let n = robot.cables.len();
+        if robot.platform.point || n > MOST_CABLES || !robot.is_fully_actuated() || effort(robot).is_some() {
+            return;
+        }
+        let pairs = (0..n).flat_map(|j| (0..j).map(move |i| (i, j)));
+        let tried = pairs.filter_map(|(i, j)| Some((effort(&exchanged(robot, i, j))?, i, j)));
+        let mut found: Vec<_> = tried.collect();
+        found.sort_by(|one, other| one.0.total_cmp(&other.0));
+        if found.is_empty() {
+            return;
+        }
+        let pairs: Vec<_> = found.iter().take(MOST_PAIRS).map(|(_, i, j)| format!("{i} and {j}")).collect();
+        self.add(
+            Severity::Warning,
+            "cables[*].anchor_point",
+            format!("those of cables {}", pairs.join(", or ")),
+            "exchanged, the robot holds a pose at which no cables touch; as it is, it does not",
+            "check which cable is at which anchor point",
+        );
+    }
+}
+
+/// The robot with the anchor points of two cables exchanged.
+fn exchanged(robot: &Robot, i: usize, j: usize) -> Robot {
+    let mut other = robot.clone();
+    other.cables[i].anchor_point = robot.cables[j].anchor_point;
+    other.cables[j].anchor_point = robot.cables[i].anchor_point;
+    other
+}
+
+/// Sum of the tensions [N] where the robot holds a pose at which no cables touch.
+fn effort(robot: &Robot) -> Option<f64> {
+    let (_, solution) = held(robot)?;
+    let hanging = HangingCables::new(robot, &solution.lengths, &solution.equilibrium).ok()?;
+    let touch = |i, j| {
+        let near = hanging.thickness(i, j).max(TOUCHING);
+        hanging.pair(i, j, near).is_some_and(|distance| distance <= near)
+    };
+    let free = (0..robot.cables.len()).all(|j| (0..j).all(|i| !touch(i, j)));
+    free.then(|| solution.tensions.iter().sum())
+}

@@ -1,0 +1,164 @@
+//! Single rows: their own unknowns at their best, and other equilibria of theirs.
+//!
+//! A row is stepped in its pose and tensions where cables are taut, else in its lengths
+//! ([`crate::model::row`]).
+
+use crate::campaign::Row;
+use crate::error::CalibrationError;
+use crate::fit::problem::Problem;
+use crate::model::compare::Compared;
+use crate::model::{RowState, Shared, State};
+use crate::solve::Eliminated;
+use cdpr_robot::Robot;
+use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
+
+/// A row's own unknowns are at their best where a step would gain less than this share of its cost.
+const OWN_GAIN: f64 = 1e-3;
+
+/// Rows whose cost exceeds its expectation by this many of its standard deviations are begun again.
+const BAD: f64 = 4.0;
+
+/// Share of a row's cost below which another equilibrium is taken.
+const WORTHWHILE: f64 = 0.9;
+
+/// Steps of the unknowns of a row at most.
+const MOST_OWN_STEPS: usize = 20;
+
+/// Shares of a step of the unknowns of a row that are tried.
+const SHARES: [f64; 6] = [1.0, 0.5, 0.25, 0.1, 0.03, 0.01];
+
+/// Which rows are begun again.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Look {
+    All,
+    /// Those that fit badly.
+    Bad,
+}
+
+/// A row with all that its state depends on.
+#[derive(Clone, Copy)]
+pub(super) struct RowAt<'a> {
+    pub(super) row: &'a Row,
+    pub(super) shared: &'a Shared,
+    pub(super) robot: &'a Robot,
+}
+
+/// A step of a row.
+pub(super) struct RowStep<'a> {
+    /// Of the unknowns of all rows.
+    pub(super) unknowns: &'a DVector<f64>,
+    /// Of those of the row.
+    pub(super) own: Vec<f64>,
+    /// [`Compared::motion`] where the step begins.
+    pub(super) motion: &'a DMatrix<f64>,
+}
+
+/// In which coordinates a row is stepped.
+#[derive(Clone, Copy)]
+pub(super) enum Way {
+    Tensions,
+    Lengths,
+}
+
+impl Way {
+    pub(super) const ALL: [Self; 2] = [Self::Tensions, Self::Lengths];
+}
+
+impl Problem<'_> {
+    /// The state with rows begun again, as they were read and with taut cables, if any of them fits better
+    /// then: at an equilibrium with other slack cables a row may be trapped.
+    pub(super) fn look_again(&self, from: &State, which: Look) -> Result<Option<State>, CalibrationError> {
+        let shared = &from.shared;
+        let robot = self.model.deviating(&shared.x)?;
+        let better: Vec<Option<RowState>> = (self.rows, &from.rows)
+            .into_par_iter()
+            .map(|(row, state)| {
+                let at = |state: RowState| {
+                    let compared = self.model.compare(row, shared, &state, &robot).ok()?;
+                    Some(self.at_their_best(&RowAt { row, shared, robot: &robot }, state, compared))
+                };
+                let now = self.row_cost(&at(state.clone())?.1);
+                let numbers = row.readings.len() as f64;
+                if which == Look::Bad && now < numbers + BAD * (2.0 * numbers).sqrt() {
+                    return None;
+                }
+                let as_read = if which == Look::Bad { self.model.as_read(row, &shared.x).ok() } else { None };
+                let taut = [state.pose()].into_iter().chain(as_read.as_ref().map(RowState::pose));
+                let taut: Vec<_> =
+                    taut.filter_map(|near| self.model.taut(row, &shared.x, near).ok()).collect();
+                let tried = as_read.into_iter().chain(taut).filter_map(at);
+                let (cost, best) = tried
+                    .map(|(state, compared)| (self.row_cost(&compared), state))
+                    .min_by(|a, b| a.0.total_cmp(&b.0))?;
+                (cost < WORTHWHILE * now).then_some(best)
+            })
+            .collect();
+        if better.iter().all(Option::is_none) {
+            return Ok(None);
+        }
+        let rows = from.rows.iter().zip(better).map(|(row, better)| better.unwrap_or_else(|| row.clone()));
+        Ok(Some(State { shared: shared.clone(), rows: rows.collect() }))
+    }
+
+    /// A row after a step of its own unknowns and of those of all rows.
+    pub(super) fn moved(
+        &self,
+        at: &RowAt,
+        from: &RowState,
+        step: &RowStep,
+        way: Way,
+    ) -> Option<(RowState, Compared)> {
+        let RowAt { row, shared, robot } = *at;
+        let errors: Vec<f64> = from.own().iter().zip(&step.own).map(|(e, d)| e + d).collect();
+        let state = match way {
+            Way::Lengths => self.model.follow(row, from, robot, &shared.x, errors).ok()?,
+            Way::Tensions if step.own.is_empty() => return None,
+            Way::Tensions => {
+                let both = step.unknowns.iter().chain(&step.own).copied();
+                let change = step.motion * DVector::from_iterator(step.motion.ncols(), both);
+                self.model.follow_tensions(row, from, robot, &shared.x, &errors, &change)?
+            }
+        };
+        let compared = self.model.compare(row, shared, &state, robot).ok()?;
+        Some((state, compared))
+    }
+
+    /// A row with its own unknowns where they suit it best, near those given.
+    pub(super) fn at_their_best(
+        &self,
+        at: &RowAt,
+        mut state: RowState,
+        mut compared: Compared,
+    ) -> (RowState, Compared) {
+        if state.own().is_empty() {
+            return (state, compared);
+        }
+        let unknowns = DVector::zeros(at.shared.x.len());
+        for _ in 0..MOST_OWN_STEPS {
+            let cost = self.row_cost(&compared);
+            let (mut slopes, mut residuals) = (compared.per_own.clone(), compared.residuals.clone());
+            for r in 0..residuals.len() {
+                let weight = self.settings.loss.weight(residuals[r]).sqrt();
+                residuals[r] *= weight;
+                slopes.row_mut(r).iter_mut().for_each(|slope| *slope *= weight);
+            }
+            let count = residuals.len();
+            let all = Eliminated::new(DMatrix::from_column_slice(count, 1, residuals.as_slice()), &slopes);
+            if all.gain() <= OWN_GAIN * (1.0 + cost) {
+                break;
+            }
+            let step = all.own(&DVector::zeros(0));
+            let motion = &compared.motion;
+            let tried =
+                Way::ALL.iter().flat_map(|way| SHARES.map(|share| (*way, share))).find_map(|(way, share)| {
+                    let own = step.iter().map(|of| share * of).collect();
+                    let moved = self.moved(at, &state, &RowStep { unknowns: &unknowns, own, motion }, way)?;
+                    (self.row_cost(&moved.1) < cost).then_some(moved)
+                });
+            let Some(tried) = tried else { break };
+            (state, compared) = tried;
+        }
+        (state, compared)
+    }
+}

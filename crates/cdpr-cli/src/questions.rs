@@ -1,0 +1,140 @@
+//! Questions about numbers that are probably not what was meant: asked on the standard error and in JSON. The
+//! number is taken as it is, and the program ends with exit code 3.
+//!
+//! Robots and studies are opened here and nowhere else, so that no command forgets to ask.
+
+use crate::error::ProgramError;
+use cdpr_assess::{HELD, WorkspaceSummary};
+use cdpr_robot::{Doubt, Pose, Robot, Vector3, Wrench, plausible};
+use cdpr_statics::Load;
+use cdpr_study::{Access, ErrorModel, StoredStudy, Study};
+use std::path::Path;
+use std::sync::{Mutex, PoisonError};
+
+/// What was asked so far.
+static ASKED: Mutex<Vec<Doubt>> = Mutex::new(Vec::new());
+
+/// Asks what was not asked before.
+pub(crate) fn ask(doubts: impl IntoIterator<Item = Doubt>) {
+    let mut asked = ASKED.lock().unwrap_or_else(PoisonError::into_inner);
+    for doubt in doubts {
+        if !asked.contains(&doubt) {
+            eprintln!("question: {doubt}");
+            asked.push(doubt);
+        }
+    }
+}
+
+/// Whether anything was asked.
+pub(crate) fn were_asked() -> bool {
+    !ASKED.lock().unwrap_or_else(PoisonError::into_inner).is_empty()
+}
+
+/// The text of a JSON object with the questions as its last field, if there are any.
+pub(crate) fn added_to(object: String) -> serde_json::Result<String> {
+    let asked = ASKED.lock().unwrap_or_else(PoisonError::into_inner);
+    let Some(open) = object.strip_suffix('}').filter(|_| !asked.is_empty()) else { return Ok(object) };
+    let comma = if open == "{" { "" } else { "," };
+    Ok(format!("{open}{comma}\"questions\":{}}}", serde_json::to_string(&*asked)?))
+}
+
+/// The robot of a file.
+pub(crate) fn open_robot(path: &Path) -> Result<Robot, ProgramError> {
+    let robot = cdpr_study::open_robot(path)?;
+    ask(plausible::robot(&robot));
+    Ok(robot)
+}
+
+/// The study of a file.
+pub(crate) fn open_study(path: &Path) -> Result<Study, ProgramError> {
+    let study = Study::open(path)?;
+    ask(plausible::robot(&study.robot).into_iter().chain(study.doubts()));
+    Ok(study)
+}
+
+/// The study of a folder of results.
+pub(crate) fn take_results(folder: &Path, access: Access) -> Result<StoredStudy, ProgramError> {
+    let stored = cdpr_study::take_results(folder, access)?;
+    ask(plausible::robot(&stored.study.robot).into_iter().chain(stored.study.doubts()));
+    Ok(stored)
+}
+
+/// The error model of a file.
+pub(crate) fn open_errors(path: &Path, robot: &Robot) -> Result<ErrorModel, ProgramError> {
+    let model = cdpr_study::open_errors(path, robot)?;
+    about_model(robot, &model);
+    Ok(model)
+}
+
+/// Asks about the deviations of an error model.
+pub(crate) fn about_model(robot: &Robot, model: &ErrorModel) {
+    ask(model.doubts(robot));
+}
+
+/// Asks about a pose.
+pub(crate) fn about_pose(robot: &Robot, name: &str, pose: &Pose) {
+    ask(plausible::position(robot, name, &pose.position));
+}
+
+/// Asks about the first of several poses that is far away, and how many are.
+pub(crate) fn about_poses(robot: &Robot, name: &str, poses: &[Pose]) {
+    let far = |pose: &Pose| plausible::position(robot, name, &pose.position);
+    let mut doubts = poses.iter().enumerate().filter_map(|(i, pose)| Some((i, far(pose)?)));
+    let Some((i, doubt)) = doubts.next() else { return };
+    let others = match doubts.count() {
+        0 => String::new(),
+        1 => ", and of another pose".to_owned(),
+        more => format!(", and of {more} more poses"),
+    };
+    let quantity = format!("pose {} of {}", i + 1, doubt.quantity);
+    ask([Doubt { quantity, value: format!("{}{others}", doubt.value), ..doubt }]);
+}
+
+/// Asks about a load.
+pub(crate) fn about_load(robot: &Robot, load: &Load) {
+    ask(plausible::load(robot, load.payload, &load.wrench));
+}
+
+/// Asks about the first wrench of a set that no cables bear.
+pub(crate) fn about_wrenches<'a>(robot: &Robot, wrenches: impl IntoIterator<Item = &'a Wrench>) {
+    let first = wrenches.into_iter().map(|wrench| plausible::wrench(robot, "wrench: ", wrench));
+    ask(first.flatten().take(1));
+}
+
+/// Asks about markers on the platform, in the platform frame.
+pub(crate) fn about_markers(robot: &Robot, markers: impl IntoIterator<Item = Vector3<f64>>) {
+    ask(markers.into_iter().find_map(|marker| plausible::on_platform(robot, "marker", &marker)));
+}
+
+/// Asks about a map on which no position is held.
+pub(crate) fn about_map(summary: &WorkspaceSummary) {
+    let held = summary.rows.iter().any(|row| row.status == HELD || row.anew_status == Some(HELD));
+    ask((!held).then(|| plausible::nothing_held(summary.rows.len())));
+}
+
+/// Asks about unstrained lengths.
+pub(crate) fn about_lengths(robot: &Robot, lengths: &[f64]) {
+    ask(plausible::lengths(robot, lengths));
+}
+
+/// Asks about standard deviations of sensors by their names.
+pub(crate) fn about_noise(robot: &Robot, named: &[(String, f64)]) {
+    let unit = |name: &str| match name {
+        "position" | "length" | "lengths" | "displacement" | "marker" => "m",
+        "rotation" | "swivel" => "rad",
+        "tension" | "tensions" => "N",
+        _ => "",
+    };
+    ask(named.iter().filter_map(|(name, std)| plausible::noise(robot, name, unit(name), *std)));
+}
+
+/// Asks about the standard deviation of a position that is to be reached [m].
+pub(crate) fn about_accuracy(robot: &Robot, accuracy: Option<f64>) {
+    let doubt = accuracy.and_then(|std| plausible::noise(robot, "position", "m", std));
+    ask(doubt.map(|doubt| Doubt { quantity: "accuracy".to_owned(), ..doubt }));
+}
+
+/// Asks about a result of which more than half of the observations are missing.
+pub(crate) fn about_failed(name: &str, failed: usize, all: usize) {
+    ask(plausible::more_than_half_failed(name, failed, all));
+}

@@ -1,0 +1,154 @@
+//! The explorer under real keys: its fields, numbers and address are of one state.
+
+use crate::common::data;
+use crate::explorer::write_page;
+use crate::page::{Page, chromium};
+use cdpr_web::Live;
+use serde_json::{Value, json};
+
+/// What the page shows: its field of z, the address, the beginning of its numbers.
+const SHOWN: &str = r#"(() => {
+  const hash = location.hash.split("state=")[1] ?? "";
+  const saved = hash ? JSON.parse(atob(hash.replaceAll("-", "+").replaceAll("_", "/"))) : {};
+  const { input, note } = field("z");
+  return {
+    text: input.value, draft: input.classList.contains("draft"), note: note.textContent,
+    position: saved.position ?? null, numbers: document.querySelector(".numbers").textContent,
+  };
+})()"#;
+
+/// Finds a field by its label, and gives it the focus with all its text selected.
+const FIELD: &str = r#"
+  window.field = (name) => {
+    const one = [...document.querySelectorAll(".field")].find((one) => one.textContent.startsWith(`${name} `));
+    return { input: one.querySelector("input"), note: one.querySelector(".fieldnote") };
+  };
+  window.enter = (name) => { const { input } = field(name); input.focus(); input.select(); };"#;
+
+/// The explorer of CAROCA with its first numbers, and the deflection of the native model at a height [mm].
+fn caroca() -> (Page, impl FnMut(f64) -> String) {
+    let robot = data("robots/caroca.json");
+    let file = write_page("caroca-fields", &robot);
+    let mut page = Page::open(chromium());
+    page.surround(1400, "dark");
+    page.show(&file);
+    page.wait_for("document.querySelector('#explorer .numbers')?.textContent.includes('mm')");
+    page.evaluate(FIELD);
+    let mut live = Live::new(&robot.to_string()).unwrap();
+    let deflection = move |z: f64| {
+        let ask = json!({"hold": {"pose": [0, 0, z, 1, 0, 0, 0], "load": {"payload": 18}}});
+        let answer: Value = serde_json::from_str(&live.ask(&ask.to_string())).unwrap();
+        let deflection = 1e3 * answer["ok"]["rms"].as_f64().unwrap();
+        // Four digits, as the page has them.
+        format!("{deflection:.*} mm", if deflection < 1.0 { 4 } else { 3 })
+    };
+    (page, deflection)
+}
+
+/// Waits until field, address and numbers are of this height.
+fn shows(page: &mut Page, z: f64, deflection: &str) {
+    page.wait_for(&format!("({SHOWN}).numbers.startsWith('deflection{deflection}')"));
+    let shown = page.evaluate(SHOWN);
+    assert_eq!(shown["text"], json!(z.to_string()), "{shown}");
+    assert_eq!(shown["draft"], json!(false), "{shown}");
+    // The address leaves out what is as it was first.
+    let position = if z == 1.75 { Value::Null } else { json!([0, 0, z]) };
+    assert_eq!(shown["position"], position, "{shown}");
+}
+
+#[test]
+fn fields_numbers_and_address_follow_one_stack_of_undo() {
+    let (mut page, mut deflection) = caroca();
+    shows(&mut page, 1.75, &deflection(1.75));
+    page.evaluate("enter('z')");
+    page.write("2.5");
+    page.press("Enter", 0);
+    shows(&mut page, 2.5, &deflection(2.5));
+    // In the field that was typed in, the browser would take back the text alone.
+    page.press("z", 2);
+    shows(&mut page, 1.75, &deflection(1.75));
+    page.press("y", 2);
+    shows(&mut page, 2.5, &deflection(2.5));
+    for key in ["Escape", "z"] {
+        page.evaluate("enter('z')");
+        page.write("9.1");
+        let shown = page.evaluate(SHOWN);
+        assert_eq!((&shown["text"], &shown["draft"]), (&json!("9.1"), &json!(true)), "{shown}");
+        assert_eq!(shown["note"], "Enter computes it, Escape takes it back.");
+        page.press(key, if key == "z" { 2 } else { 0 });
+        shows(&mut page, 2.5, &deflection(2.5));
+    }
+    // A list that has the focus follows, too.
+    page.evaluate(
+        "(() => { const list = document.querySelector('.side select'); list.focus(); list.value = 'mid'; \
+         list.dispatchEvent(new Event('change')); })()",
+    );
+    page.press("z", 2);
+    page.wait_for("document.querySelector('.side select').value === 'norm'");
+    shows(&mut page, 2.5, &deflection(2.5));
+}
+
+#[test]
+fn a_decimal_comma_is_read_and_what_is_no_number_is_told() {
+    let (mut page, mut deflection) = caroca();
+    page.evaluate("enter('z')");
+    page.write("1,7");
+    page.press("Enter", 0);
+    shows(&mut page, 1.7, &deflection(1.7));
+    for (typed, words) in
+        [("abc", "“abc” is not a number"), ("-5", "The least value is 0: the ground is there")]
+    {
+        page.evaluate("enter('z')");
+        page.write(typed);
+        page.press("Enter", 0);
+        let shown = page.evaluate(SHOWN);
+        let note = shown["note"].as_str().unwrap();
+        assert!(note.starts_with(words) && note.ends_with("1.7 is computed."), "{shown}");
+        assert_eq!(shown["position"], json!([0, 0, 1.7]), "{shown}");
+        page.press("Escape", 0);
+        shows(&mut page, 1.7, &deflection(1.7));
+    }
+}
+
+#[test]
+fn observations_of_another_state_are_hidden_with_the_reason() {
+    let (mut page, _) = caroca();
+    let hidden = "document.querySelector('.charts .pair').hidden";
+    let says = |words: &str| {
+        let told = "document.querySelector('.charts .failure')";
+        format!("{hidden} && {told}.textContent.includes('{words}') && !{told}.hidden")
+    };
+    let seen =
+        format!("!{hidden} && document.querySelector('.charts .says').textContent.includes('matters')");
+    page.wait_for(&seen);
+    page.evaluate("enter('force x')");
+    page.write("100");
+    page.press("Enter", 0);
+    page.wait_for(&says("under the payload alone"));
+    assert_eq!(page.evaluate("document.querySelector('.charts .says').textContent"), "");
+    page.press("z", 2);
+    page.wait_for(&seen);
+    page.evaluate("document.querySelector('.stagebar input[value=kept]').click()");
+    page.wait_for(&says("the lengths are kept"));
+}
+
+#[test]
+fn the_view_has_most_of_a_window_and_a_dark_page_is_printed_in_dark_on_white() {
+    let (mut page, _) = caroca();
+    let window = json!({"width": 1440, "height": 900, "deviceScaleFactor": 1, "mobile": false});
+    page.call("Emulation.setDeviceMetricsOverride", window);
+    let share = "(() => { const { width, height } = document.querySelector('.picture').getBoundingClientRect(); \
+         return width * height / (innerWidth * innerHeight); })()";
+    assert!(page.evaluate(share).as_f64().unwrap() > 0.5);
+    let color = "document.querySelector('.chart text').getAttribute('fill')";
+    page.wait_for("document.querySelector('.chart text')");
+    let dark = page.evaluate(color);
+    page.evaluate("dispatchEvent(new Event('beforeprint'))");
+    assert_eq!([page.evaluate(color), dark.clone()], [json!("#59636e"), json!("#9aa5b1")]);
+    // The middle of the sky, as it is printed.
+    let sky = "[...document.querySelector('canvas.paper').getContext('2d').getImageData(9, 9, 1, 1).data]";
+    assert!(page.evaluate(sky)[0].as_f64().unwrap() > 200.0);
+    page.evaluate("dispatchEvent(new Event('afterprint'))");
+    assert_eq!(page.evaluate(color), dark);
+    assert_eq!(page.evaluate("document.querySelector('canvas.paper')"), Value::Null);
+}

@@ -1,0 +1,156 @@
+//! Doubts about what is typed besides a robot: positions, loads, lengths.
+
+use super::doubt::{
+    Doubt, Doubts, capacity, four_digits, frame, frame_size, in_other_unit, is_possible, reach,
+};
+use super::{cable, file};
+use crate::robot::Robot;
+use crate::wrench::Wrench;
+use nalgebra::Vector3;
+
+/// Distance of a position from the frame over the frame's size, beyond which it is in another unit.
+const FAR: f64 = 10.0;
+/// Length of a cable over the size of the frame, beyond which it is in another unit.
+const LONG: f64 = 20.0;
+/// What cables may stretch: beyond it two of them do not reach each other's exit points.
+const STRETCH: f64 = 1.2;
+/// Units that lengths and positions are typed in by mistake.
+const MILLIMETRES: [(&str, f64); 2] = [("mm", 1e-3), ("cm", 1e-2)];
+
+/// Doubts about the mass of a platform [kg] that replaces the one of a robot file.
+pub fn mass(quantity: &str, value: f64) -> Option<Doubt> {
+    file::mass(quantity, value)
+}
+
+/// Doubts about a Young's modulus [Pa].
+pub fn modulus(quantity: &str, value: f64) -> Option<Doubt> {
+    cable::modulus(quantity, value)
+}
+
+/// A position of the platform far away from the robot.
+pub fn position(robot: &Robot, quantity: &str, position: &Vector3<f64>) -> Option<Doubt> {
+    let (frame, size) = (frame(robot), frame_size(robot));
+    let away = |position: &Vector3<f64>| {
+        let beyond = |k: usize| (frame[k][0] - position[k]).max(position[k] - frame[k][1]).max(0.0);
+        Vector3::from([0, 1, 2].map(beyond)).norm() / size
+    };
+    if size == 0.0 || away(position) <= FAR {
+        return None;
+    }
+    // Only the coordinates that are far away are in another unit.
+    let scaled = |factor: f64| {
+        let is_far = |k: usize| position[k] < frame[k][0] - size || position[k] > frame[k][1] + size;
+        Vector3::from([0, 1, 2].map(|k| if is_far(k) { factor * position[k] } else { position[k] }))
+    };
+    let meant = MILLIMETRES.iter().find(|(_, factor)| away(&scaled(*factor)) < 1.0);
+    let texts = |position: &Vector3<f64>| position.map(four_digits).data.0[0].join(", ");
+    Some(Doubt::new(
+        quantity,
+        format!("({}) m", texts(position)),
+        format!(
+            "{} times the size of the frame, {} m, away from its exit points",
+            four_digits(away(position)),
+            four_digits(size)
+        ),
+        meant.map_or_else(
+            || "a position in m in the base frame".to_owned(),
+            |(unit, factor)| format!("({}) m, if it is in {unit}", texts(&scaled(*factor))),
+        ),
+    ))
+}
+
+/// A point of the platform far away from its anchor points.
+pub fn on_platform(robot: &Robot, quantity: &str, point: &Vector3<f64>) -> Option<Doubt> {
+    let size = if reach(robot) > 0.0 { reach(robot) } else { frame_size(robot) };
+    (size > 0.0 && point.norm() > FAR * size).then(|| {
+        let meant = in_other_unit(point.norm(), "m", &MILLIMETRES, |distance| distance < 2.0 * size);
+        Doubt::new(
+            quantity,
+            format!("{} m from P", four_digits(point.norm())),
+            format!("the anchor points are {} m from P at most", four_digits(size)),
+            meant.unwrap_or_else(|| "coordinates in m in the platform frame".to_owned()),
+        )
+    })
+}
+
+/// A payload [kg] or a wrench that all cables together cannot bear.
+pub fn load(robot: &Robot, payload: f64, wrench_of_load: &Wrench) -> Doubts {
+    let (most, gravity) = (capacity(robot), robot.gravity.magnitude());
+    let heavy = (payload * gravity > most).then(|| {
+        let meant = in_other_unit(payload, "kg", &[("g", 1e-3)], |mass| mass * gravity < most);
+        Doubt::new(
+            "payload",
+            format!("{} kg, {} N", four_digits(payload), four_digits(payload * gravity)),
+            format!("all cables at their greatest tensions, drawn straight up, hold {} N", four_digits(most)),
+            meant.unwrap_or_else(|| "a mass in kg".to_owned()),
+        )
+    });
+    heavy.into_iter().chain(wrench(robot, "", wrench_of_load)).collect()
+}
+
+/// A wrench that all cables together cannot bear; `of` stands before the names of its parts.
+pub fn wrench(robot: &Robot, of: &str, wrench: &Wrench) -> Doubts {
+    let most = capacity(robot);
+    let size = if reach(robot) > 0.0 { reach(robot) } else { frame_size(robot) };
+    let part = |name: &str, value: f64, unit: &str, other: &str, most: f64| {
+        (value > most && most > 0.0).then(|| {
+            let meant = in_other_unit(value, unit, &[(other, 1e-3)], |value| value < most);
+            Doubt::new(
+                format!("{of}{name}"),
+                format!("{} {unit}", four_digits(value)),
+                format!("all cables at their greatest tensions make {} {unit} at most", four_digits(most)),
+                meant.unwrap_or_else(|| format!("a {name} in {unit}")),
+            )
+        })
+    };
+    let force = part("force", wrench.force.norm(), "N", "mN", most);
+    let moment = part("moment", wrench.moment.norm(), "N m", "N mm", most * size);
+    force.into_iter().chain(moment).collect()
+}
+
+/// Unstrained lengths [m] in another unit, or without their leads, or too short to reach the platform.
+pub fn lengths(robot: &Robot, lengths: &[f64]) -> Option<Doubt> {
+    let size = frame_size(robot) + reach(robot);
+    let cables = &robot.cables;
+    let are_possible = lengths.iter().copied().all(is_possible);
+    if size == 0.0 || lengths.len() != cables.len() || !are_possible {
+        return None;
+    }
+    let doubt = |i: usize, why: String, meant: String| {
+        Doubt::new(format!("length {}", i + 1), format!("{} m", four_digits(lengths[i])), why, meant)
+    };
+    let own = |i: usize| lengths[i] - cables[i].lead;
+    let long = (0..cables.len()).find(|i| own(*i) > LONG * size);
+    if let Some(i) = long {
+        let why =
+            format!("{} times the size of the robot, {} m", four_digits(own(i) / size), four_digits(size));
+        let meant = in_other_unit(lengths[i], "m", &MILLIMETRES, |length| length < LONG * size);
+        return Some(doubt(i, why, meant.unwrap_or_else(|| "unstrained lengths in m".to_owned())));
+    }
+    let pairs = || (0..cables.len()).flat_map(|j| (0..j).map(move |i| (i, j)));
+    let short = |free: &dyn Fn(usize) -> f64| {
+        pairs().find(|(i, j)| {
+            let apart = (cables[*i].exit_point - cables[*j].exit_point).norm();
+            let across = (cables[*i].anchor_point - cables[*j].anchor_point).norm();
+            apart > STRETCH * (free(*i).max(0.0) + free(*j).max(0.0)) + across
+        })
+    };
+    let (i, j) = short(&own)?;
+    let why = format!(
+        "with length {}, {} m, too short to join exit points {} m apart",
+        j + 1,
+        four_digits(lengths[j]),
+        four_digits((cables[i].exit_point - cables[j].exit_point).norm())
+    );
+    let led = cables.iter().any(|cable| cable.lead > 0.0);
+    let meant = if led && short(&|i| lengths[i]).is_none() {
+        format!(
+            "{} m: a length has its lead in it, {} m",
+            four_digits(lengths[i] + cables[i].lead),
+            cables[i].lead
+        )
+    } else {
+        "unstrained lengths in m, leads included, in the order of the file".to_owned()
+    };
+    Some(doubt(i, why, meant))
+}

@@ -1,0 +1,306 @@
+//! Evidence that an input matters: several tests of independence, each with its p-value.
+//!
+//! With the scores v of the output (mean 0, norm 1) and the projection A on the functions of an input,
+//!
+//! ```text
+//! R² = vᵀ A v = Σ_g (Σ_(i in g) v_i)² / n_g   for groups g of rows,   (u · v)²   for scores u         (J1)
+//! p = P(B >= R²),   B a beta variable of the mean and variance of R² over all permutations of v       (J2)
+//! p >= Π n_g! / n!                                                                                    (J3)
+//! Q = Σ (v_(j+1) - v_(j))² in the order of the input,   p = P(N <= Q)                                  (J4)
+//! ```
+//!
+//! - (J1), (J2): the moments are (D3) and (D5) of [`hsic`](crate::given::hsic), exact for any scores and any
+//!   ties, where F or χ² assume normal ones. (J3) is the share of the permutations that are as far apart as
+//!   any can be: no permutation test has a smaller p.
+//! - (J4) is the index by ranks ([`rank`](crate::given::rank)) of the ranks of the output (R. Bartels 1982; S.
+//!   Chatterjee 2021), with a normal law of the exact moments over all permutations.
+//!
+//! | measure | scores of the output | functions of the input |
+//! |---|---|---|
+//! | trend | ranks | its ranks (Spearman) |
+//! | location | ranks | steps: ten parts, or its levels (Kruskal and Wallis) |
+//! | spread | distances of the ranks from the middle | the same steps |
+//! | together | ranks times those of another input | the same steps; least p times the number of others |
+//! | neighbours | ranks | any (J4) |
+//! | dependence | values | any (HSIC) |
+//!
+//! An output of ranks is as little moved by long tails as by a diverged run. *Together* finds an input that
+//! acts with another one only: under its hypothesis the input is independent of the other and the output.
+
+use serde::{Deserialize, Serialize};
+use statrs::distribution::{ContinuousCDF, Normal};
+use statrs::function::beta::beta_reg;
+use statrs::function::gamma::ln_gamma;
+
+use crate::given::data::Kind;
+use crate::given::hsic::{Invariants, moments};
+use crate::given::rank::{MIN_ROWS as ROWS_OF_NEIGHBOURS, order};
+use crate::measure::regression::ranks;
+use crate::parallel::*;
+
+/// A measure with a test of independence.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum Measure {
+    /// Rank correlation.
+    Trend,
+    /// Means of ranks by parts or levels of the input.
+    Location,
+    /// The same of the distances of the ranks from the middle.
+    Spread,
+    /// What the input does together with another one.
+    Together,
+    /// Differences of neighbours in the input, as the index by ranks.
+    Neighbours,
+    /// HSIC.
+    Dependence,
+}
+
+impl Measure {
+    /// Word for a sentence.
+    #[must_use]
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Trend => "trend",
+            Self::Location => "location",
+            Self::Spread => "spread",
+            Self::Together => "together",
+            Self::Neighbours => "neighbours",
+            Self::Dependence => "HSIC",
+        }
+    }
+}
+
+/// Result of a test.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
+pub struct Test {
+    /// The measure.
+    pub measure: Measure,
+    /// Probability of as much without an effect, of this test alone.
+    pub p_value: f64,
+}
+
+/// Least number of rows of tests.
+pub(crate) const MIN_ROWS: usize = 8;
+/// Largest number of parts of an input.
+const PARTS: usize = 10;
+/// Largest number of inputs of which pairs are tested: the time grows with its square.
+pub(crate) const MOST_OF_PAIRS: usize = 200;
+
+/// Values of mean 0 and norm 1.
+#[derive(Clone, Debug)]
+pub(crate) struct Scores(Vec<f64>);
+
+impl Scores {
+    /// Without scores for constant values.
+    pub(crate) fn new(mut values: Vec<f64>) -> Option<Self> {
+        let mean = values.iter().sum::<f64>() / values.len() as f64;
+        values.iter_mut().for_each(|value| *value -= mean);
+        let norm = values.iter().map(|value| value * value).sum::<f64>().sqrt();
+        let rounding = 1e-12 * mean.abs() * (values.len() as f64).sqrt();
+        values.iter_mut().for_each(|value| *value /= norm);
+        (norm > rounding).then_some(Self(values))
+    }
+
+    pub(crate) fn of_ranks(values: &[f64]) -> Option<Self> {
+        Self::new(ranks(values))
+    }
+
+    /// Distances of the ranks from the middle.
+    pub(crate) fn of_spread(values: &[f64]) -> Option<Self> {
+        let middle = 0.5 * (values.len() as f64 + 1.0);
+        Self::new(ranks(values).into_iter().map(|rank| (rank - middle).abs()).collect())
+    }
+
+    /// Scores of the product with others, row by row.
+    fn times(&self, other: &Self) -> Option<Self> {
+        Self::new(self.0.iter().zip(&other.0).map(|(one, other)| one * other).collect())
+    }
+
+    fn invariants(&self) -> Invariants {
+        Invariants { trace: 1.0, square: 1.0, diagonal: self.0.iter().map(|v| v.powi(4)).sum() }
+    }
+}
+
+/// Functions of an input.
+#[derive(Clone, Debug)]
+pub(crate) enum Space {
+    Line(Scores),
+    /// Group of each row, and the sizes of the groups.
+    Steps(Vec<usize>, Vec<f64>),
+}
+
+impl Space {
+    /// Steps between the parts of an input, or between its levels.
+    pub(crate) fn steps(values: &[f64], kind: Kind, seed: u64) -> Self {
+        let n = values.len();
+        let most = (n / 3).clamp(2, PARTS);
+        let order = order(values, seed, 0);
+        let mut group = vec![0; n];
+        let levels = order.chunk_by(|&i, &j| values[i] == values[j]);
+        let count = if kind == Kind::Levels || levels.clone().count() <= most {
+            let number = |(level, rows): (usize, &[usize])| rows.iter().for_each(|&row| group[row] = level);
+            let count = levels.clone().count();
+            levels.enumerate().for_each(number);
+            count
+        } else {
+            let count = (n / 10).clamp(2, PARTS);
+            order.iter().enumerate().for_each(|(place, &row)| group[row] = place * count / n);
+            count
+        };
+        let mut sizes = vec![0.0; count];
+        group.iter().for_each(|&group| sizes[group] += 1.0);
+        Self::Steps(group, sizes)
+    }
+
+    /// R² (J1).
+    fn share(&self, scores: &Scores) -> f64 {
+        match self {
+            Self::Line(u) => u.0.iter().zip(&scores.0).map(|(u, v)| u * v).sum::<f64>().powi(2),
+            Self::Steps(groups, sizes) => {
+                let mut sums = vec![0.0; sizes.len()];
+                groups.iter().zip(&scores.0).for_each(|(&group, v)| sums[group] += v);
+                sums.iter().zip(sizes).map(|(sum, size)| sum * sum / size).sum()
+            }
+        }
+    }
+
+    fn invariants(&self, n: f64) -> Invariants {
+        match self {
+            Self::Line(u) => u.invariants(),
+            Self::Steps(_, sizes) => {
+                let freedoms = sizes.len() as f64 - 1.0;
+                let diagonal = sizes.iter().map(|size| size * (1.0 / size - 1.0 / n).powi(2)).sum();
+                Invariants { trace: freedoms, square: freedoms, diagonal }
+            }
+        }
+    }
+
+    /// ln of (J3).
+    fn log_least(&self, n: f64) -> f64 {
+        let ln_factorial = |count: f64| ln_gamma(count + 1.0);
+        let equal = match self {
+            // The same values in the opposite order are as far apart.
+            Self::Line(u) => {
+                let mut sorted = u.0.clone();
+                sorted.sort_unstable_by(f64::total_cmp);
+                let ties = sorted.chunk_by(|one, other| one == other);
+                2.0_f64.ln() + ties.map(|ties| ln_factorial(ties.len() as f64)).sum::<f64>()
+            }
+            Self::Steps(_, sizes) => sizes.iter().map(|size| ln_factorial(*size)).sum(),
+        };
+        equal - ln_factorial(n)
+    }
+
+    /// p (J2).
+    pub(crate) fn p_value(&self, scores: &Scores) -> f64 {
+        let n = scores.0.len() as f64;
+        let share = self.share(scores).clamp(0.0, 1.0);
+        let (mean, variance) = moments(self.invariants(n), scores.invariants(), n);
+        let sum = mean * (1.0 - mean) / variance - 1.0;
+        // Without a variance, no permutation differs from another.
+        if !(sum.is_finite() && sum > 0.0 && variance > 1e-14) {
+            return 1.0;
+        }
+        let tail = beta_reg((1.0 - mean) * sum, mean * sum, 1.0 - share);
+        tail.max(self.log_least(n).exp()).min(1.0)
+    }
+}
+
+/// p (J4) of scores in the order of an input.
+fn of_neighbours(values: &[f64], scores: &Scores, seed: u64) -> f64 {
+    let sorted: Vec<f64> = order(values, seed, 1).into_iter().map(|row| scores.0[row]).collect();
+    let found: f64 = sorted.windows(2).map(|pair| (pair[1] - pair[0]).powi(2)).sum();
+    let n = sorted.len() as f64;
+    // Q = vᵀ L v with the Laplacian L of the path from row to row: 1, 2, .. 2, 1 on its diagonal, -1 beside.
+    let squares = 4.0 * (n - 2.0) + 2.0;
+    let path = Invariants { trace: 2.0 * (n - 1.0), square: squares + 2.0 * (n - 1.0), diagonal: squares };
+    let (mean, variance) = moments(path, scores.invariants(), n);
+    Normal::new(mean, variance.sqrt()).map_or(1.0, |normal| normal.cdf(found))
+}
+
+/// An input as tests take it.
+pub(crate) struct Tested<'a> {
+    pub(crate) values: &'a [f64],
+    kind: Kind,
+    pub(crate) steps: Space,
+    /// Of its ranks, where these have a meaning.
+    scores: Option<Scores>,
+}
+
+impl<'a> Tested<'a> {
+    pub(crate) fn new(values: &'a [f64], kind: Kind, seed: u64) -> Self {
+        let steps = Space::steps(values, kind, seed);
+        let two = matches!(&steps, Space::Steps(_, sizes) if sizes.len() == 2);
+        let scores = if kind == Kind::Numbers || two { Scores::of_ranks(values) } else { None };
+        Self { values, kind, steps, scores }
+    }
+
+    /// What another input is tested against, as if this one were an output: ranks and their distances from the
+    /// middle, or for levels whether a row has each of them.
+    fn as_output(&self) -> Vec<Scores> {
+        match (&self.steps, self.kind) {
+            (Space::Steps(groups, sizes), Kind::Levels) => {
+                let has = |level| groups.iter().map(|&group| f64::from(group == level)).collect();
+                (0..sizes.len()).filter_map(|level| Scores::new(has(level))).collect()
+            }
+            _ => [Scores::of_ranks(self.values), Scores::of_spread(self.values)]
+                .into_iter()
+                .flatten()
+                .collect(),
+        }
+    }
+
+    /// p of the independence of two inputs: the least of all tests, times their number.
+    pub(crate) fn depends_on(&self, other: &Self) -> f64 {
+        let one_way = |one: &Self, other: &Self| -> Vec<f64> {
+            other.as_output().iter().map(|scores| one.steps.p_value(scores)).collect()
+        };
+        let mut all = [one_way(self, other), one_way(other, self)].concat();
+        if let Some((one, other)) = self.scores.as_ref().zip(other.scores.as_ref()) {
+            all.push(Space::Line(one.clone()).p_value(other));
+        }
+        bonferroni(&all)
+    }
+}
+
+/// The least p times the number of tests.
+fn bonferroni(all: &[f64]) -> f64 {
+    all.iter().fold(1.0 / all.len().max(1) as f64, |least, p| p.min(least)) * all.len().max(1) as f64
+}
+
+/// All tests of each input but HSIC.
+pub(crate) fn tests(inputs: &[Tested], outputs: &[f64], seed: u64) -> Vec<Vec<Test>> {
+    let (Some(scores), spread) = (Scores::of_ranks(outputs), Scores::of_spread(outputs)) else {
+        return vec![vec![]; inputs.len()];
+    };
+    let pairs = (2..=MOST_OF_PAIRS).contains(&inputs.len());
+    let products: Vec<Option<Scores>> =
+        inputs.par_iter().map(|of| of.scores.as_ref().filter(|_| pairs)?.times(&scores)).collect();
+    let of_input = |(number, input): (usize, &Tested)| {
+        let mut tests = Vec::new();
+        let mut add = |measure, p_value| tests.push(Test { measure, p_value });
+        if let Some(ranks) = &input.scores {
+            add(Measure::Trend, Space::Line(ranks.clone()).p_value(&scores));
+        }
+        add(Measure::Location, input.steps.p_value(&scores));
+        if let Some(spread) = &spread {
+            add(Measure::Spread, input.steps.p_value(spread));
+        }
+        let others = products.iter().enumerate().filter(|(other, _)| *other != number);
+        let together: Vec<f64> =
+            others.filter_map(|(_, product)| Some(input.steps.p_value(product.as_ref()?))).collect();
+        if !together.is_empty() {
+            add(Measure::Together, bonferroni(&together));
+        }
+        let parts = matches!(&input.steps, Space::Steps(groups, sizes)
+            if input.kind == Kind::Numbers && sizes.len() > 2 && groups.len() >= ROWS_OF_NEIGHBOURS);
+        if parts {
+            add(Measure::Neighbours, of_neighbours(input.values, &scores, seed));
+        }
+        tests
+    };
+    inputs.par_iter().enumerate().map(of_input).collect()
+}

@@ -1,0 +1,129 @@
+//! Why a solution of the balance with free coordinates is no answer.
+
+use crate::out_of_limits::{Limit, OutOfLimits};
+use cdpr_robot::decimal;
+use std::fmt;
+
+/// What is wrong about lengths and free coordinates with which a platform might rest.
+#[derive(Clone, Debug, PartialEq)]
+pub enum RestFault {
+    /// A tension is below its least or above its greatest value.
+    Limit(OutOfLimits),
+    /// A cable or an anchor point is below the ground.
+    BelowGround {
+        /// Index of the cable, from 0.
+        cable: usize,
+        /// Whether it is the anchor point; else the lowest point of the cable.
+        is_anchor: bool,
+        /// Height of this point [m].
+        height: f64,
+        /// Height of the ground [m].
+        ground: f64,
+    },
+    /// A cable is paid out so far that it is a loop.
+    Loop {
+        /// Index of the cable, from 0.
+        cable: usize,
+        /// Its unstrained length over the distance of its points.
+        chords: f64,
+        /// The greatest value allowed.
+        most: f64,
+    },
+    /// The platform is turned over, and does not stay there.
+    TurnedOver {
+        /// Angle from the given pose [rad].
+        angle: f64,
+    },
+    /// A cable would have to push, if all were straight.
+    Pushing {
+        /// Index of the cable, from 0.
+        cable: usize,
+        /// The force [N].
+        force: f64,
+    },
+    /// A wrench is left that nothing balances.
+    Residual {
+        /// Norm of the residual force [N].
+        force: f64,
+        /// Norm of the residual moment [N m].
+        moment: f64,
+    },
+}
+
+impl RestFault {
+    /// Its kind, from the nearest to a rest to the farthest.
+    pub(crate) fn order(&self) -> u8 {
+        match self {
+            Self::Limit(_) => 0,
+            Self::BelowGround { .. } => 1,
+            Self::Loop { .. } => 2,
+            Self::TurnedOver { .. } => 3,
+            Self::Pushing { .. } => 4,
+            Self::Residual { .. } => 5,
+        }
+    }
+
+    /// How much is wrong, among faults of one kind but residuals.
+    pub(crate) fn extent(&self) -> f64 {
+        match self {
+            Self::Limit(passed) => (passed.tension / passed.value).ln().abs(),
+            Self::BelowGround { height, ground, .. } => ground - height,
+            Self::Loop { chords, .. } => *chords,
+            Self::TurnedOver { angle } => *angle,
+            Self::Pushing { force, .. } => *force,
+            Self::Residual { .. } => 0.0,
+        }
+    }
+}
+
+impl fmt::Display for RestFault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let number = |cable: &usize| cable + 1;
+        match self {
+            Self::Limit(OutOfLimits { cable, end, tension, limit, value }) => {
+                let side = if matches!(limit, Limit::Min) { "below" } else { "above" };
+                let end = if end.is_anchor() { "" } else { " at its exit point" };
+                let tension = decimal(*tension, 3);
+                write!(
+                    f,
+                    "taut solutions exist only with cable {} at {tension} N{end}, {side} its limit of \
+                     {value} N; change the pose, the load or tension_limits",
+                    number(cable)
+                )
+            }
+            Self::BelowGround { cable, is_anchor, height, ground } => {
+                let what = if *is_anchor { "the anchor point" } else { "the lowest point" };
+                let height = decimal(*height, 3);
+                write!(
+                    f,
+                    "only with {what} of cable {} at z = {height} m, below the ground at {ground} m; change \
+                     the pose or ground_z",
+                    number(cable)
+                )
+            }
+            Self::Loop { cable, chords, most } => write!(
+                f,
+                "only with cable {} as a loop of {} chords, where {most} are allowed; change the pose, or \
+                 name other coordinates as free",
+                number(cable),
+                decimal(*chords, 1)
+            ),
+            Self::TurnedOver { angle } => write!(
+                f,
+                "only with the platform turned over by {} degrees, where it does not stay; change the pose",
+                decimal(angle.to_degrees(), 0)
+            ),
+            Self::Pushing { cable, force } => write!(
+                f,
+                "cable {} would have to push with {} N; change the pose, or name other coordinates as free",
+                number(cable),
+                decimal(*force, 3)
+            ),
+            Self::Residual { force, moment } => write!(
+                f,
+                "the best leave {force:.3} N and {moment:.3} N m; change the pose or name other coordinates \
+                 as free"
+            ),
+        }
+    }
+}
