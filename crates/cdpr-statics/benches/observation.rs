@@ -123,15 +123,15 @@ fn observation(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// Robots whose four cables leave roll and pitch free, without pulleys.
+/// Robots whose four cables leave two angles free, without pulleys.
 fn on_four_cables() -> [(Robot, Pose, [Coordinate; 2]); 2] {
     let [_, (mut cogiro, at), ..] = robots();
-    cogiro.cables = [0, 2, 4, 6].map(|i| cogiro.cables[i].clone()).to_vec();
+    cogiro.cables = [1, 3, 5, 7].map(|i| cogiro.cables[i].clone()).to_vec();
     cogiro.name += ", four cables";
     let mut grab = Robot::from_json(include_str!("../../../data/robots/grab.json")).unwrap();
     grab.cables.iter_mut().for_each(|cable| cable.pulley = None);
-    let free = [Coordinate::Roll, Coordinate::Pitch];
-    [(cogiro, at, free), (grab, Pose::at(1.2, -0.2, -0.3), free)]
+    use Coordinate::{Pitch, Roll, Yaw};
+    [(cogiro, at, [Roll, Yaw]), (grab, Pose::at(1.2, -0.2, -0.3), [Roll, Pitch])]
 }
 
 criterion_group! {

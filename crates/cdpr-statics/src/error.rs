@@ -299,7 +299,7 @@ impl StaticsError {
             }
             Self::Cable { .. } => "cable",
             Self::Invalid { .. } => "invalid_input",
-            Self::NoRest { nearest: RestFault::TurnedOver { .. }, .. } => "unstable",
+            Self::NoRest { nearest: RestFault::TurnedOver { is_stable: false, .. }, .. } => "unstable",
             Self::NoTensions { .. } | Self::ExitLimit { .. } | Self::NoRest { .. } => "infeasible_tension",
             Self::FreeCoordinates { .. } => "free_coordinates",
             Self::InverseNotConverged { .. } => "inverse_not_converged",

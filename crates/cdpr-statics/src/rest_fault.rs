@@ -29,10 +29,12 @@ pub enum RestFault {
         /// The greatest value allowed.
         most: f64,
     },
-    /// The platform is turned over, and does not stay there.
+    /// The platform is turned over.
     TurnedOver {
         /// Angle from the given pose [rad].
         angle: f64,
+        /// Whether it stays there: its pitch is beyond a right angle, so that roll and yaw are not the given ones.
+        is_stable: bool,
     },
     /// A cable would have to push, if all were straight.
     Pushing {
@@ -69,7 +71,7 @@ impl RestFault {
             Self::Limit(passed) => (passed.tension / passed.value).ln().abs(),
             Self::BelowGround { height, ground, .. } => ground - height,
             Self::Loop { chords, .. } => *chords,
-            Self::TurnedOver { angle } => *angle,
+            Self::TurnedOver { angle, .. } => *angle,
             Self::Pushing { force, .. } => *force,
             Self::Residual { .. } => 0.0,
         }
@@ -108,10 +110,11 @@ impl fmt::Display for RestFault {
                 number(cable),
                 decimal(*chords, 1)
             ),
-            Self::TurnedOver { angle } => write!(
+            Self::TurnedOver { angle, is_stable } => write!(
                 f,
-                "only with the platform turned over by {} degrees, where it does not stay; change the pose",
-                decimal(angle.to_degrees(), 0)
+                "only with the platform turned over by {} degrees, {}; change the pose",
+                decimal(angle.to_degrees(), 0),
+                if *is_stable { "at other angles than those given" } else { "where it does not stay" }
             ),
             Self::Pushing { cable, force } => write!(
                 f,

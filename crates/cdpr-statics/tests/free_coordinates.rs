@@ -10,8 +10,8 @@ use cdpr_robot::{
     Vector6, Wrench,
 };
 use cdpr_statics::{
-    Deflection, DirectProblem, DirectSolution, FreeSolutions, Load, Start, StaticsError, deflection_free,
-    derivatives_free, held_at, inverse, inverse_free, modes_at, stiffness_at,
+    Deflection, DirectProblem, DirectSolution, FreeSolution, FreeSolutions, Load, Start, StaticsError,
+    deflection_free, derivatives_free, held_at, inverse, inverse_free, modes_at, stiffness_at,
 };
 use nalgebra::DVector;
 use serde_json::Value;
@@ -30,17 +30,29 @@ fn lengths_and_free_coordinates_match_arithmetic_of_20_digits() {
         };
         let FreeSolutions { first, others } = inverse_free(&robot, &wanted, &load(&case), &free).unwrap();
         let expected = pose(&case);
-        let motion = expected.motion_to(&first.equilibrium.pose).norm();
+        let away = |one: &FreeSolution| expected.motion_to(&one.equilibrium.pose).norm();
+        let all = [&first].into_iter().chain(&others);
+        let nearest = all.min_by(|one, other| away(one).total_cmp(&away(other))).unwrap();
+        let motion = away(nearest);
         let lengths = case["unstrained_lengths_found"].as_array().unwrap();
-        let each = first.lengths.iter().zip(lengths).map(|(l, exact)| (l / number(exact) - 1.0).abs());
+        let each = nearest.lengths.iter().zip(lengths).map(|(l, exact)| (l / number(exact) - 1.0).abs());
         let worst = each.fold(0.0, f64::max);
+        // Of two stable solutions the one with taut cables comes first.
+        let longest = |one: &FreeSolution| {
+            let chord = |i| robot.span(&one.equilibrium.pose, i).norm();
+            one.lengths.iter().enumerate().map(|(i, length)| length / chord(i)).fold(0.0, f64::max)
+        };
+        assert!(std::ptr::eq(nearest, &raw const first) || longest(&first) < longest(nearest));
         let line = format!(
             "{kind:22} {motion:8.1e} m, rad, lengths {worst:8.1e}, {} iterations, {} others",
             first.iterations,
             others.len()
         );
         println!("{line}");
-        assert!(motion < 1e-9 && worst < 1e-9 && first.stability.is_stable(), "{line}");
+        assert!(
+            motion < 1e-9 && worst < 1e-9 && nearest.stability.is_stable() && first.stability.is_stable(),
+            "{line}"
+        );
         // Every other is a solution, too: the direct model stays there.
         for other in &others {
             let problem = DirectProblem::new(&robot, &other.lengths, &load(&case)).unwrap();
@@ -131,14 +143,16 @@ fn four_cables_of_cogiro_hold_chosen_coordinates() {
     let whole = cogiro();
     let cables: Vec<_> = [1, 3, 5, 7].map(|i| whole.cables[i].clone()).to_vec();
     let robot = Robot { cables, ..whole };
-    let wanted = Pose::at(1.0, 0.5, 2.0);
+    let wanted = Pose::at(1.0, -0.3, 2.0);
     use Coordinate::{Pitch, Roll, Yaw};
-    // Its upper cables cross and turn the platform by about 70 degrees: where the yaw is given they hold it
-    // in no stable equilibrium.
-    for (free, stable) in [([Roll, Pitch], false), ([Yaw, Pitch], true), ([Yaw, Roll], true)] {
+    // Its upper cables cross and turn the platform by about 70 degrees: where the yaw is given they do not
+    // hold it.
+    let error = inverse_free(&robot, &wanted, &Load::payload(20.0), &[Roll, Pitch]).unwrap_err();
+    assert!(matches!(error, StaticsError::NoRest { .. }), "{error}");
+    for free in [[Yaw, Pitch], [Yaw, Roll]] {
         let FreeSolutions { first, others } =
             inverse_free(&robot, &wanted, &Load::payload(20.0), &free).unwrap();
-        assert_eq!(first.stability.is_stable(), stable, "{free:?}");
+        assert!(first.stability.is_stable(), "{free:?}");
         for one in [&first].into_iter().chain(&others) {
             assert!(one.residual.force < 1e-7 && one.residual.closure < 1e-12, "{:?}", one.residual);
             for coordinate in Coordinate::ALL[..3].iter().filter(|coordinate| !free.contains(coordinate)) {
@@ -150,7 +164,7 @@ fn four_cables_of_cogiro_hold_chosen_coordinates() {
     // Level it rests nowhere at this height.
     let free = [Coordinate::X, Coordinate::Y];
     let error = inverse_free(&robot, &wanted, &Load::payload(20.0), &free).unwrap_err();
-    assert!(matches!(error, StaticsError::NoRest { starts: 32, .. }), "{error}");
+    assert!(matches!(error, StaticsError::NoRest { starts: 182, .. }), "{error}");
     let names = |free: &[Coordinate]| inverse_free(&robot, &wanted, &Load::none(), free).unwrap_err();
     let error = inverse(&robot, &wanted, &Load::none(), None).unwrap_err();
     assert_eq!(error.kind(), "free_coordinates");
@@ -196,7 +210,7 @@ pub(crate) fn with_few_cables() -> [(Robot, Pose, Vec<Coordinate>, f64); 3] {
     let rope = CableProperties::linear(1.0, 0.08, 5e4);
     let planar = Robot { plane: Some(Plane::Xz), ..suspended(&points, &rope, platform) };
     let mut four = cogiro();
-    four.cables = [0, 2, 4, 6].map(|i| four.cables[i].clone()).to_vec();
+    four.cables = [1, 3, 5, 7].map(|i| four.cables[i].clone()).to_vec();
     let mut grab = Robot::from_json(include_str!("../../../data/robots/grab.json")).unwrap();
     grab.cables.iter_mut().for_each(|cable| {
         cable.properties.youngs_modulus = 2e9;
@@ -204,10 +218,10 @@ pub(crate) fn with_few_cables() -> [(Robot, Pose, Vec<Coordinate>, f64); 3] {
     });
     let at_grab =
         Pose { rotation: Rotation3::from_euler_angles(0.0, 0.0, 0.136), ..Pose::at(1.28, -0.19, -0.92) };
-    let [roll, pitch] = [Coordinate::Roll, Coordinate::Pitch];
+    let [roll, pitch, yaw] = [Coordinate::Roll, Coordinate::Pitch, Coordinate::Yaw];
     [
         (planar, Pose::at(0.5, 0.0, 1.5), vec![pitch], 2.0),
-        (four, Pose::at(1.0, 0.5, 2.0), vec![roll, pitch], 20.0),
+        (four, Pose::at(1.0, -0.3, 2.0), vec![roll, yaw], 20.0),
         (grab, at_grab, vec![roll, pitch], 0.2),
     ]
 }
@@ -295,9 +309,9 @@ fn derivatives_with_free_coordinates_are_central_differences() {
 #[test]
 fn an_offset_that_a_limit_keeps_has_no_derivative_with_free_coordinates() {
     let mut four = cogiro();
-    four.cables = [0, 2, 4, 6].map(|i| four.cables[i].clone()).to_vec();
-    let free = [Coordinate::Roll, Coordinate::Pitch];
-    let wanted = Pose::at(1.0, 0.5, 2.0);
+    four.cables = [1, 3, 5, 7].map(|i| four.cables[i].clone()).to_vec();
+    let free = [Coordinate::Roll, Coordinate::Yaw];
+    let wanted = Pose::at(1.0, -0.3, 2.0);
     let found = derivatives_free(&four, &wanted, &[-1e4, 0.0, 0.0, 0.0], &Load::payload(20.0), &free);
     assert_eq!(found.unwrap_err().kind(), "no_derivative");
     let found = derivatives_free(&four, &wanted, &[0.0; 4], &Load::payload(20.0), &free[..1]);
@@ -326,6 +340,6 @@ fn a_search_in_which_a_force_vanishes_ends() {
         Ok(FreeSolutions { first, others }) => {
             assert!(others.iter().chain([&first]).all(|found| found.residual.force < 1e-9));
         }
-        Err(error) => assert_eq!(error.kind(), "infeasible_tension", "{error}"),
+        Err(error) => assert!(matches!(error, StaticsError::NoRest { .. }), "{error}"),
     }
 }

@@ -140,7 +140,7 @@ fn a_pose_that_is_held_upside_down_alone_is_refused() {
     // The only solutions from 49 x 32 starts have the platform turned over.
     for (x, y) in [(0.1, 0.48), (0.52, -0.78), (1.36, 0.48), (1.78, -1.2)] {
         let only = inverse_free(&robot, &at(x, y), &Load::none(), &free).unwrap_err();
-        let StaticsError::NoRest { nearest: RestFault::TurnedOver { angle }, .. } = only else {
+        let StaticsError::NoRest { nearest: RestFault::TurnedOver { angle, .. }, .. } = only else {
             panic!("{only}")
         };
         assert!(angle > 2.0, "{x}, {y}: {angle}");

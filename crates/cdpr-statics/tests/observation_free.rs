@@ -42,7 +42,7 @@ fn robots() -> Vec<Few> {
     (point.platform.point, point.plane) = (true, None);
     let out_of_plane = Pose { rotation: Rotation3::from_euler_angles(0.2, 0.1, -0.3), ..in_plane };
     vec![
-        few(cogiro(), &[0, 2, 4, 6], Pose::at(1.0, 0.5, 2.0), &[Roll, Pitch]),
+        few(cogiro(), &[1, 3, 5, 7], Pose::at(1.0, -0.3, 2.0), &[Roll, Yaw]),
         few(named("grab"), &[0, 1, 2, 3], at_grab, &[Pitch, Roll]),
         few(fast(), &[0, 1, 3, 4], Pose::at(10.0, 5.0, 100.0), &[Roll, Pitch]),
         few(named("four-cables"), &[0, 2], Pose::at(0.0, 0.0, 1.0), &[X, Y, Pitch, Roll]),
@@ -145,7 +145,7 @@ fn an_answer_has_the_free_coordinates_of_a_search_from_the_nominal_robots() {
 
 #[test]
 fn what_lanes_do_not_know_is_left_with_its_reason() {
-    let Few { robot, pose, free } = few(cogiro(), &[0, 2, 4, 6], Pose::at(1.0, 0.5, 2.0), &[Roll, Pitch]);
+    let Few { robot, pose, free } = few(cogiro(), &[1, 3, 5, 7], Pose::at(1.0, -0.3, 2.0), &[Roll, Yaw]);
     let load = Load::payload(9.0);
     let width = Parameter::of(&robot).len();
     let why = |robot: &Robot, free: &[Coordinate], row: &[f64]| {

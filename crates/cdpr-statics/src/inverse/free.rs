@@ -50,7 +50,7 @@ use sound::{Loops, longest};
 /// let mut robot = Robot::from_json(include_str!("../../../../data/robots/cogiro.json"))?;
 /// robot.cables = [1, 3, 5, 7].map(|i| robot.cables[i].clone()).to_vec();
 /// let free = [Coordinate::Roll, Coordinate::Yaw];
-/// let found = inverse_free(&robot, &Pose::at(1.0, 0.5, 2.0), &Load::none(), &free)?.first;
+/// let found = inverse_free(&robot, &Pose::at(1.0, -0.3, 2.0), &Load::none(), &free)?.first;
 /// assert!(found.stability.is_stable() && found.residual.force < 1e-8);
 /// assert_eq!(found.equilibrium.pose.position.z, 2.0);
 /// # Ok::<(), cdpr_statics::StaticsError>(())

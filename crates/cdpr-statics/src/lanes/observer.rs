@@ -287,14 +287,14 @@ mod tests {
     #[test]
     fn the_vector_unit_changes_no_bit_of_robots_with_free_coordinates() {
         let mut robot = Robot::from_json(include_str!("../../../../data/robots/cogiro.json")).unwrap();
-        robot.cables = [0, 2, 4, 6].map(|i| robot.cables[i].clone()).to_vec();
+        robot.cables = [1, 3, 5, 7].map(|i| robot.cables[i].clone()).to_vec();
         let tilted = Robot { gravity: Vector3::new(0.1, -0.2, -9.8).into(), ..robot.clone() };
         let mut guided = robot.clone();
         for cable in &mut guided.cables {
             (cable.pulley, cable.lead) = (Some(Pulley { radius: 0.045, axis: Vector3::z() }), 1.0);
         }
         for robot in [&robot, &tilted, &guided] {
-            let (pose, free) = (Pose::at(1.0, 0.5, 2.0), [Coordinate::Pitch, Coordinate::Roll]);
+            let (pose, free) = (Pose::at(1.0, -0.3, 2.0), [Coordinate::Yaw, Coordinate::Roll]);
             let observer = &Observer::with_free(robot, &pose, &Load::payload(9.0), &free).unwrap();
             let half = Parameter::of(robot).into_iter().map(|parameter| match parameter {
                 Parameter::Mass => 1.0,

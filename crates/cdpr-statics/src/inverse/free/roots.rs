@@ -23,7 +23,8 @@ const NEAR: [f64; 2] = [0.2 * REACH[0], 0.2 * REACH[1]];
 const MOST_ROOTS: usize = 24;
 
 /// An unstable solution that is turned by more than this from the given pose [rad] is no answer: turned over, a
-/// platform is in balance nearly everywhere.
+/// platform is in balance nearly everywhere. Nor is one whose pitch is beyond a right angle: its roll and yaw are
+/// not the given ones.
 const TURNED_OVER: f64 = std::f64::consts::FRAC_PI_2;
 
 /// Roots of the balance as they are found.
@@ -48,8 +49,6 @@ struct Lacking {
 /// A solution with what is wrong about it.
 struct Root {
     solution: FreeSolution,
-    /// Whether its pitch is beyond a right angle: another roll, pitch and yaw describe it, too.
-    is_turned_about: bool,
     fault: Option<RestFault>,
 }
 
@@ -98,11 +97,9 @@ impl<'s, 'a> Roots<'s, 'a> {
 
     fn add(&mut self, outcome: Outcome) -> Result<(), StaticsError> {
         let Question { robot, load, .. } = self.search.question;
-        let mut is_turned_about = false;
-        let (point, iterations) = match outcome {
+        let (point, is_turned_about, iterations) = match outcome {
             Outcome::Found(point, unknowns, iterations) => {
-                is_turned_about = self.search.is_turned_about(&unknowns.changes);
-                (point, iterations)
+                (point, self.search.is_turned_about(&unknowns.changes), iterations)
             }
             Outcome::Stuck(point) => {
                 self.lacks(false, point.residual.norm() / point.forces, self.search.left(&point));
@@ -128,13 +125,15 @@ impl<'s, 'a> Roots<'s, 'a> {
             return Ok(());
         }
         let angle = self.search.question.pose.rotation.angle_to(&solution.equilibrium.pose.rotation);
-        let is_turned_over = angle > TURNED_OVER && !solution.stability.is_stable();
-        let fault = fault.or(is_turned_over.then_some(RestFault::TurnedOver { angle }));
+        let is_stable = solution.stability.is_stable();
+        let is_turned_over = is_turned_about || (angle > TURNED_OVER && !is_stable);
+        let fault = fault.or(is_turned_over.then_some(RestFault::TurnedOver { angle, is_stable }));
         if let Some(fault) = &fault {
-            self.lacks(solution.stability.is_stable(), 0.0, fault.clone());
+            self.lacks(is_stable, 0.0, fault.clone());
         }
-        if !matches!(fault, Some(RestFault::Loop { .. } | RestFault::BelowGround { .. })) {
-            self.found.push(Root { solution, is_turned_about, fault });
+        let is_no_answer = matches!(fault, Some(RestFault::Loop { .. } | RestFault::BelowGround { .. }));
+        if !is_no_answer && !is_turned_about {
+            self.found.push(Root { solution, fault });
         }
         Ok(())
     }
@@ -153,12 +152,12 @@ impl<'s, 'a> Roots<'s, 'a> {
 
     fn chosen(mut self, straight: &[StraightRoot]) -> Result<FreeSolutions, StaticsError> {
         let Question { robot, pose, .. } = self.search.question;
-        let order = |Root { solution, is_turned_about, fault }: &Root| {
+        let order = |Root { solution, fault }: &Root| {
             let FreeSolution { stability, lengths, equilibrium, .. } = solution;
             let is_taut =
                 longest(robot, lengths, equilibrium).is_none_or(|(_, chords)| chords <= LONGEST_TAUT);
             let is_within = out_of_limits(robot, lengths, &[equilibrium]).is_empty();
-            (fault.is_some(), !stability.is_stable(), *is_turned_about, !is_taut, !is_within)
+            (fault.is_some(), !stability.is_stable(), !is_taut, !is_within)
         };
         let away = |root: &Root| self.search.distance(pose, &root.solution.equilibrium.pose);
         self.found
