@@ -19,7 +19,7 @@
 
 use cdpr_robot::{CableEnd, Coordinate, Pose, Robot, Wrench, decimal};
 use cdpr_statics::{
-    Blocking, Bound, DirectProblem, DirectSolution, Equilibrium, Greatest, HeldPose, Limit, Load, Start,
+    Blocking, DirectProblem, DirectSolution, Equilibrium, Greatest, HeldPose, Limit, Load, MAX_STRAIN, Start,
     StaticsError, direct, follow_load, greatest_payload, held_at, rest_near, tension_margin,
 };
 use std::fmt;
@@ -107,12 +107,13 @@ impl fmt::Display for Block {
             Self::Lost(StaticsError::BranchEnds(end)) => write!(f, "the platform {}", end.fall()),
             Self::Lost(error) => error.fmt(f),
             Self::Limit { cable, limit, value, .. } => {
+                let value = decimal(*value, 1);
                 let limit = match limit {
-                    Limit::BreakingForce => "breaking force",
-                    Limit::Max | Limit::MaxElsewhere => "max",
-                    Limit::Min => "min",
+                    Limit::BreakingForce => "breaking force".to_owned(),
+                    Limit::Strain => format!("greatest strain of {:.0} %", 100.0 * MAX_STRAIN),
+                    Limit::Max | Limit::MaxElsewhere | Limit::Min => limit.name().to_owned(),
                 };
-                write!(f, "cable {} at its {limit}, {} N", cable + 1, decimal(*value, 1))
+                write!(f, "cable {} at its {limit}, {value} N", cable + 1)
             }
         }
     }
@@ -193,7 +194,7 @@ pub(crate) fn capacity_of(
     let (anew, kept): (Way, Way) = ((&first, &anew), (&unloaded, &kept));
     let any = |limit| limit != Limit::MaxElsewhere;
     let payload_kept = payload(kept, any);
-    let is_max = |limit: Limit| matches!(limit, Limit::Max | Limit::BreakingForce);
+    let is_max = |limit: Limit| matches!(limit, Limit::Max | Limit::BreakingForce | Limit::Strain);
     let first_is_max = payload_kept.as_ref().is_ok_and(|figure| {
         figure.blocking.iter().all(|block| matches!(block, Block::Limit { limit, .. } if is_max(*limit)))
     });
@@ -252,16 +253,13 @@ fn rest_on(robot: &Robot, near: &Rest, load: &Load, free: &[Coordinate]) -> Resu
 }
 
 fn found(Greatest { value, blocking, .. }: Greatest) -> (f64, Vec<Block>) {
-    let block = |Blocking { index, bound, limit, gain }| Block::Limit {
-        cable: index,
-        limit: match bound {
-            Bound::Min => Limit::Min,
-            Bound::Max => Limit::Max,
-        },
-        value: limit,
-        gain: Some(gain),
-    };
-    (value, blocking.into_iter().map(block).collect())
+    (value, blocking.into_iter().map(Block::from).collect())
+}
+
+impl From<Blocking> for Block {
+    fn from(Blocking { index, limit, value, gain }: Blocking) -> Self {
+        Self::Limit { cable: index, limit, value, gain: Some(gain) }
+    }
 }
 
 impl WrenchSet {
@@ -419,6 +417,11 @@ impl Rising<'_> {
         let block = match high {
             None => return Ok((f64::INFINITY, Vec::new())),
             Some((_, Ok(near))) => near.block(),
+            // What strains a cable too much is refused.
+            Some((_, Err(StaticsError::Overstrained { index, .. }))) => {
+                let value = self.robot.cable(index).tension(MAX_STRAIN);
+                Block::Limit { cable: index, limit: Limit::Strain, value, gain: None }
+            }
             Some((_, Err(error))) => Block::Lost(error),
         };
         Ok((low.mass, vec![block]))
