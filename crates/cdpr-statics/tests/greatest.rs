@@ -84,7 +84,7 @@ fn drawn_in(robot: &Robot, margin: f64) -> Robot {
 #[test]
 fn payloads_and_margins_are_found_wherever_the_platform_is_held() {
     let cases = std::env::var("CDPR_CASES").map_or(60, |count| count.parse().unwrap());
-    for name in ["caroca", "cogiro", "copacabana-handling", "ipanema-3", "fast"] {
+    for name in ["caroca", "cogiro", "copacabana-handling", "ipanema-3", "expo2015-lucia"] {
         let robot = robot(name);
         let none = Load::none();
         let held = |pose: &Pose| inverse(&robot, pose, &none, None).is_ok();
