@@ -1,6 +1,6 @@
 //! `cdpr hysteresis` as a user meets it.
 
-use crate::common::{answered, cdpr, data_path, text};
+use crate::common::{answered, cdpr, data_path, data_text, text};
 use serde_json::Value;
 use std::process::Output;
 

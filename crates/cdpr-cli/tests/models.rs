@@ -398,7 +398,7 @@ fn the_inverse_model_says_whether_the_platform_stays_with_its_lengths() {
     let folder = TempDir::new().unwrap();
     let path = folder.path().join("top-heavy.json");
     let mut robot: Value = serde_json::from_str(&data_text("robots/cogiro.json")).unwrap();
-    robot["platform"]["center_of_mass"][2] = 40.0.into();
+    robot["platform"]["center_of_mass"][2] = 4e4.into();
     std::fs::write(&path, robot.to_string()).unwrap();
     let given = ["inverse", path.to_str().unwrap(), "--pose", "0,0,2", "--format", "json"];
     let unstable: Value = serde_json::from_slice(&cdpr(&given).stdout).unwrap();
