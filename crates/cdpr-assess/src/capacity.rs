@@ -17,11 +17,14 @@
 //! of the direct model. The payload then is the one at which the first limit is reached, or the platform
 //! falls, while it grows from zero.
 
-use cdpr_robot::{CableEnd, Coordinate, Pose, Robot, Wrench, decimal};
+mod rising;
+
+use cdpr_robot::{Coordinate, Pose, Robot, Wrench, decimal};
 use cdpr_statics::{
-    Blocking, Bound, DirectProblem, DirectSolution, Equilibrium, Greatest, HeldPose, Limit, Load, Start,
+    Blocking, DirectProblem, DirectSolution, Equilibrium, Greatest, HeldPose, Limit, Load, MAX_STRAIN, Start,
     StaticsError, direct, follow_load, greatest_payload, held_at, rest_near, tension_margin,
 };
+use rising::{Rising, nearest};
 use std::fmt;
 
 /// Loads whose effect on a robot is asked for.
@@ -107,12 +110,13 @@ impl fmt::Display for Block {
             Self::Lost(StaticsError::BranchEnds(end)) => write!(f, "the platform {}", end.fall()),
             Self::Lost(error) => error.fmt(f),
             Self::Limit { cable, limit, value, .. } => {
+                let value = decimal(*value, 1);
                 let limit = match limit {
-                    Limit::BreakingForce => "breaking force",
-                    Limit::Max | Limit::MaxElsewhere => "max",
-                    Limit::Min => "min",
+                    Limit::BreakingForce => "breaking force".to_owned(),
+                    Limit::Strain => format!("greatest strain of {:.0} %", 100.0 * MAX_STRAIN),
+                    Limit::Max | Limit::MaxElsewhere | Limit::Min => limit.name().to_owned(),
                 };
-                write!(f, "cable {} at its {limit}, {} N", cable + 1, decimal(*value, 1))
+                write!(f, "cable {} at its {limit}, {value} N", cable + 1)
             }
         }
     }
@@ -162,13 +166,17 @@ pub(crate) fn capacity_of(
     wound_up: Result<&HeldPose, StaticsError>,
 ) -> Capacity {
     let set = set.shifted(load.wrench);
-    let smallest = ROUNDED * robot.platform.mass;
     let loaded = |payload: f64, wrench: &Wrench| Load { payload, wrench: *wrench };
     let first = wound_up.map(|HeldPose { lengths, equilibrium }| Rest {
         lengths: lengths.clone(),
         equilibrium: equilibrium.clone(),
         stands: None,
     });
+    // Weights and forces that are rounding.
+    let gravity = robot.gravity.magnitude();
+    let carried: f64 = first.iter().flat_map(|rest| rest.equilibrium.tensions()).sum();
+    let smallest_force = ROUNDED * (robot.platform.mass * gravity + carried);
+    let smallest = if gravity > 0.0 { smallest_force / gravity } else { ROUNDED * robot.platform.mass };
     // Lengths that are kept hold no unstable pose.
     let unloaded = first.clone().and_then(|Rest { lengths, equilibrium, .. }| {
         let none = Load::none();
@@ -184,7 +192,7 @@ pub(crate) fn capacity_of(
         })
     };
     let margin = |(first, answer): Way| {
-        set.least(smallest * robot.gravity.magnitude(), |wrench| {
+        set.least(smallest_force, |wrench| {
             let rest = answer(&loaded(load.payload, wrench), &first.clone()?)?;
             let nearest = nearest(robot, &rest, |_| true);
             Ok((nearest.distance, vec![nearest.block()]))
@@ -193,7 +201,7 @@ pub(crate) fn capacity_of(
     let (anew, kept): (Way, Way) = ((&first, &anew), (&unloaded, &kept));
     let any = |limit| limit != Limit::MaxElsewhere;
     let payload_kept = payload(kept, any);
-    let is_max = |limit: Limit| matches!(limit, Limit::Max | Limit::BreakingForce);
+    let is_max = |limit: Limit| matches!(limit, Limit::Max | Limit::BreakingForce | Limit::Strain);
     let first_is_max = payload_kept.as_ref().is_ok_and(|figure| {
         figure.blocking.iter().all(|block| matches!(block, Block::Limit { limit, .. } if is_max(*limit)))
     });
@@ -210,7 +218,7 @@ pub(crate) fn capacity_of(
         },
         payload_kept,
         margin_anew: if free.is_empty() {
-            set.least(smallest * robot.gravity.magnitude(), |wrench| {
+            set.least(smallest_force, |wrench| {
                 tension_margin(robot, pose, &loaded(load.payload, wrench)).map(found)
             })
         } else {
@@ -219,6 +227,9 @@ pub(crate) fn capacity_of(
         margin_kept: margin(kept),
     }
 }
+
+/// Force that is rounding, relative to the platform's weight and the tensions.
+const ROUNDED: f64 = 1e-9;
 
 /// Lengths and equilibrium at a load.
 #[derive(Clone)]
@@ -252,16 +263,13 @@ fn rest_on(robot: &Robot, near: &Rest, load: &Load, free: &[Coordinate]) -> Resu
 }
 
 fn found(Greatest { value, blocking, .. }: Greatest) -> (f64, Vec<Block>) {
-    let block = |Blocking { index, bound, limit, gain }| Block::Limit {
-        cable: index,
-        limit: match bound {
-            Bound::Min => Limit::Min,
-            Bound::Max => Limit::Max,
-        },
-        value: limit,
-        gain: Some(gain),
-    };
-    (value, blocking.into_iter().map(block).collect())
+    (value, blocking.into_iter().map(Block::from).collect())
+}
+
+impl From<Blocking> for Block {
+    fn from(Blocking { index, limit, value, gain }: Blocking) -> Self {
+        Self::Limit { cable: index, limit, value, gain: Some(gain) }
+    }
 }
 
 impl WrenchSet {
@@ -280,158 +288,5 @@ impl WrenchSet {
             }
         }
         Ok(least)
-    }
-}
-
-/// A limit and the way to it.
-#[derive(Clone, Copy)]
-struct Near {
-    cable: usize,
-    limit: Limit,
-    value: f64,
-    /// From the tension to the limit [N], negative beyond it.
-    distance: f64,
-}
-
-impl Near {
-    fn block(&self) -> Block {
-        let Self { cable, limit, value, .. } = *self;
-        Block::Limit { cable, limit, value, gain: None }
-    }
-}
-
-/// The limits of all cables, in an order that depends on the robot alone.
-fn limits(robot: &Robot, Rest { lengths, equilibrium, .. }: &Rest) -> Vec<Near> {
-    let exits = equilibrium.exit_tensions(robot, lengths);
-    let each = equilibrium.tensions().into_iter().zip(exits).enumerate();
-    each.flat_map(|(cable, (anchor, exit))| {
-        let limits = robot.limits(cable);
-        let limited = if robot.max_at(cable) == CableEnd::Anchor { anchor } else { exit };
-        let near = |limit, value, distance| Near { cable, limit, value, distance };
-        let breaking = robot.cables[cable].properties.breaking_force;
-        let breaking = breaking.map(|force| near(Limit::BreakingForce, force, force - anchor.max(exit)));
-        let [min, max] = [
-            near(Limit::Min, limits.min, anchor - limits.min),
-            near(Limit::Max, limits.max, limits.max - limited),
-        ];
-        [Some(min), Some(max), breaking].into_iter().flatten()
-    })
-    .collect()
-}
-
-/// The limit next to the tensions, or farthest behind them.
-fn nearest(robot: &Robot, rest: &Rest, counts: impl Fn(Limit) -> bool) -> Near {
-    let all = limits(robot, rest).into_iter().filter(|near| counts(near.limit));
-    let none = Near { cable: 0, limit: Limit::Max, value: f64::INFINITY, distance: f64::INFINITY };
-    all.fold(none, |nearest, near| if near.distance < nearest.distance { near } else { nearest })
-}
-
-/// A payload that grows until a limit is reached.
-struct Rising<'a> {
-    robot: &'a Robot,
-    /// The equilibrium at a payload [kg], from one nearby.
-    answer: &'a dyn Fn(f64, &Rest) -> Result<Rest, StaticsError>,
-    /// Which limits end it.
-    counts: fn(Limit) -> bool,
-}
-
-/// A payload [kg] with its equilibrium and the limit next to it.
-struct Step {
-    mass: f64,
-    rest: Rest,
-    near: Near,
-}
-
-/// First payload over the platform's mass, greatest ratio of one to the one before, accuracy of the last one.
-const FIRST: f64 = 0.01;
-const GROWTH: f64 = 8.0;
-const ACCURACY: f64 = 1e-10;
-
-/// Payload that is none, relative to the platform's mass.
-const ROUNDED: f64 = 1e-9;
-
-/// A tension beyond its limit by this share is on it.
-const ON_LIMIT: f64 = 1e-9;
-
-impl Rising<'_> {
-    fn at(&self, mass: f64, near: &Rest) -> Result<Step, StaticsError> {
-        let rest = (self.answer)(mass, near)?;
-        let near = nearest(self.robot, &rest, self.counts);
-        Ok(Step { mass, rest, near })
-    }
-
-    /// Whether no limit is passed.
-    fn holds(step: &Step) -> bool {
-        step.near.distance >= -ON_LIMIT * step.near.value
-    }
-
-    /// The payload at which the first limit is reached.
-    fn top(&self, start: &Rest) -> Result<(f64, Vec<Block>), StaticsError> {
-        const MAX_STEPS: usize = 200;
-        let mut low = self.at(0.0, start)?;
-        if !Self::holds(&low) {
-            return Ok((f64::NEG_INFINITY, vec![low.near.block()]));
-        }
-        let unit = self.robot.platform.mass;
-        let mut next = FIRST * unit;
-        // The end of the bracket: a payload that passes a limit, or why it has no equilibrium.
-        let mut high: Option<(f64, Result<Near, StaticsError>)> = None;
-        for step in 0..MAX_STEPS {
-            let end = high.as_ref().map_or(f64::INFINITY, |(mass, _)| *mass);
-            if end.is_finite() && end - low.mass <= ACCURACY * (unit + end) {
-                break;
-            }
-            let tried = self.at(next, &low.rest);
-            match tried {
-                Ok(found) if Self::holds(&found) => {
-                    // Beyond what is foreseen, so that the limit is enclosed.
-                    let beyond = found.mass + 0.1 * (found.mass - low.mass);
-                    next = self.foreseen(&low, &found).max(beyond).min(GROWTH * found.mass);
-                    low = found;
-                }
-                Ok(found) => {
-                    next = self.foreseen(&low, &found);
-                    high = Some((found.mass, Ok(found.near)));
-                }
-                Err(error) => {
-                    let mut end = next;
-                    next = f64::INFINITY;
-                    if let StaticsError::BranchEnds(branch) = &error {
-                        // The share is known to less than this.
-                        next = low.mass + branch.share * (end - low.mass);
-                        end = end.min(next + 1e-8 * (end - low.mass));
-                    }
-                    high = Some((end, Err(error)));
-                }
-            }
-            if let Some((end, _)) = &high {
-                // A root foreseen from two sides; in between a bisection.
-                let width = end - low.mass;
-                let beside = ACCURACY * (unit + end);
-                let is_inside = next > low.mass && next < *end && step % 3 != 2;
-                next = if is_inside {
-                    next.clamp(low.mass + 0.4 * beside.min(width), end - 0.4 * beside.min(width))
-                } else {
-                    low.mass + 0.5 * width
-                };
-            }
-        }
-        let block = match high {
-            None => return Ok((f64::INFINITY, Vec::new())),
-            Some((_, Ok(near))) => near.block(),
-            Some((_, Err(error))) => Block::Lost(error),
-        };
-        Ok((low.mass, vec![block]))
-    }
-
-    /// The payload at which, by two others, the first limit is reached; infinite if all become more distant.
-    fn foreseen(&self, one: &Step, other: &Step) -> f64 {
-        let each = [one, other].map(|step| limits(self.robot, &step.rest));
-        let roots = each[0].iter().zip(&each[1]).filter(|(near, _)| (self.counts)(near.limit));
-        let root = |(a, b): (&Near, &Near)| {
-            let slope = (b.distance - a.distance) / (other.mass - one.mass);
-            if slope < 0.0 { one.mass - a.distance / slope } else { f64::INFINITY }
-        };
-        roots.map(root).fold(f64::INFINITY, f64::min)
     }
 }

@@ -105,6 +105,42 @@ fn with_the_lengths_kept_the_payload_ends_where_a_tension_reaches_its_limit() {
 }
 
 #[test]
+fn with_free_coordinates_the_payload_ends_where_a_tension_reaches_its_limit() {
+    let robot = Robot::from_json(include_str!("../../../data/robots/four-cables.json")).unwrap();
+    let free = [Coordinate::Roll, Coordinate::Pitch];
+    let set = WrenchSet::of(Vec::new());
+    for pose in [Pose::at(0.5, 0.3, 2.0), Pose::at(0.4, 0.2, 1.5)] {
+        let found = capacity_at(&robot, &pose, &Load::none(), &set, &free).payload_anew.unwrap();
+        let [Block::Limit { cable, limit: Limit::Max, value, .. }] = found.blocking[..] else {
+            panic!("{found:?}")
+        };
+        println!("{} kg, {}", found.value, found.blocked_by());
+        assert!(found.value > 3.0 * robot.platform.mass);
+        let rests = inverse_free(&robot, &pose, &Load::payload(found.value * (1.0 - 1e-9)), &free).unwrap();
+        assert!((rests.first.tensions[cable] / value - 1.0).abs() < 1e-6, "{found:?}");
+    }
+}
+
+#[test]
+fn a_payload_that_is_rounding_is_zero() {
+    // The greatest tension of a cable is what it has already.
+    let pose = Pose::at(0.3, 0.2, 1.5);
+    let mut robot = cogiro();
+    let held = inverse(&robot, &pose, &Load::none(), None).unwrap();
+    let steepest = held.tensions.iter().copied().fold(0.0, f64::max);
+    for cable in &mut robot.cables {
+        cable.tension_limits.max = Some(steepest);
+    }
+    let found = capacity_at(&robot, &pose, &Load::none(), &WrenchSet::of(Vec::new()), &[]);
+    assert_eq!(found.payload_kept.unwrap().value, 0.0);
+    // So is the least one of a cable.
+    let ipanema = Robot::from_json(include_str!("../../../data/robots/ipanema-3.json")).unwrap();
+    let pose = Pose::at(0.2, 0.1, 1.3);
+    let found = capacity_at(&ipanema, &pose, &Load::none(), &WrenchSet::of(Vec::new()), &[]);
+    assert_eq!(found.payload_kept.unwrap().value, 0.0);
+}
+
+#[test]
 fn few_cables_points_and_planes_have_a_capacity_or_say_why_not() {
     let mut few = cogiro();
     few.cables = [1, 3, 5, 7].map(|i| few.cables[i].clone()).to_vec();

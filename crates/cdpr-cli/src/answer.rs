@@ -6,7 +6,7 @@ use crate::output::{Ending, table};
 use cdpr_cable::SLACK_BELOW_OWN_WEIGHTS;
 pub(crate) use cdpr_robot::decimal;
 use cdpr_robot::{CableEnd, Pose, Robot, counted};
-use cdpr_statics::{Bound, CableFrequency, DirectSolution, Equilibrium, Limit, Mode, Stability};
+use cdpr_statics::{Bound, CableFrequency, DirectSolution, Equilibrium, Mode, Stability};
 use serde::Serialize;
 
 /// Residuals of the equations at a solution.
@@ -55,11 +55,7 @@ impl OutOfLimits {
             cable: found.cable + 1,
             end: found.end,
             tension: found.tension,
-            limit: match found.limit {
-                Limit::BreakingForce => "breaking_force",
-                Limit::Max | Limit::MaxElsewhere => "max",
-                Limit::Min => "min",
-            },
+            limit: found.limit.name(),
             value: found.value,
             found,
         };

@@ -1,6 +1,6 @@
 //! `cdpr hysteresis` as a user meets it.
 
-use crate::common::{answered, cdpr, data_path, text};
+use crate::common::{answered, cdpr, data_path, data_text, text};
 use serde_json::Value;
 use std::process::Output;
 
@@ -130,4 +130,26 @@ fn a_platform_on_four_cables_needs_its_free_coordinates() {
     let [given, lost] =
         ["payload_work_j", "dissipated_j"].map(|name| found.get(name).and_then(Value::as_f64).unwrap());
     assert!(given > 0.0 && (given / lost - 1.0).abs() < 1e-3, "{given} {lost}");
+}
+
+#[test]
+fn a_platform_that_falls_in_its_load_cycle_has_an_answer_and_the_exit_code_3() {
+    let folder = tempfile::TempDir::new().unwrap();
+    let path = folder.path().join("top-heavy.json");
+    let mut robot: Value = serde_json::from_str(&data_text("robots/four-cables.json")).unwrap();
+    robot["platform"]["center_of_mass"][2] = 0.4.into();
+    std::fs::write(&path, robot.to_string()).unwrap();
+    let law = data_path("cables/caroca-4mm-law.json");
+    let given = ["hysteresis", path.to_str().unwrap(), "--law", &law, "--pose", "0.5,0.3,2", "--free"];
+    let given = [&given[..], &["roll,pitch", "--payload", "150", "--steps", "5"]].concat();
+    let output = cdpr(&given);
+    assert_eq!(output.status.code(), Some(3), "{}", text(output.stderr));
+    assert!(text(output.stdout).contains("the platform falls from"));
+    let output = cdpr(&[&given[..], &["--format", "json"]].concat());
+    assert_eq!(output.status.code(), Some(3));
+    let found: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let error = &found["error"];
+    assert_eq!(error["kind"], "branch_ends");
+    let share = error["share"].as_f64().unwrap();
+    assert!(0.0 < share && share < 1.0 && error["falls_from"].is_array(), "{found}");
 }

@@ -85,6 +85,7 @@ pub use problem::{DirectProblem, check_lengths};
 pub use rest_fault::RestFault;
 pub use state::{Equilibrium, Load, Residual};
 
+pub use cdpr_cable::MAX_STRAIN;
 pub use cdpr_robot::{Matrix6xX, Vector2, Vector3, Vector6};
 pub use cdpr_tension::Bound;
 pub use nalgebra::{DMatrix, Matrix3xX, Matrix6};

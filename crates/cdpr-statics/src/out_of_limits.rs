@@ -24,6 +24,9 @@ pub struct OutOfLimits {
 pub enum Limit {
     /// The breaking force of the cable.
     BreakingForce,
+    /// The tension that strains the cable by [`cdpr_cable::MAX_STRAIN`]: no model answers beyond it, so that
+    /// it only ends what grows.
+    Strain,
     /// Its greatest tension, limited at this end.
     Max,
     /// Its greatest tension, which is limited at the other end.
@@ -38,10 +41,22 @@ const ON_LIMIT: f64 = 1e-9;
 /// Strain that rounding of the length leaves open.
 const ROUNDED_STRAIN: f64 = 1e-12;
 
+impl Limit {
+    /// Its name in result files: that of the robot file's field, or `strain`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::BreakingForce => "breaking_force",
+            Self::Strain => "strain",
+            Self::Max | Self::MaxElsewhere => "max",
+            Self::Min => "min",
+        }
+    }
+}
+
 impl OutOfLimits {
     /// Whether the cable breaks or is strained beyond what is allowed; a slack cable is worth knowing only.
     pub fn is_too_much(&self) -> bool {
-        matches!(self.limit, Limit::BreakingForce | Limit::Max)
+        matches!(self.limit, Limit::BreakingForce | Limit::Strain | Limit::Max)
     }
 
     /// The one of a cable: beyond the most serious limit of all, at the anchor point if it is passed there,
@@ -104,6 +119,7 @@ impl fmt::Display for OutOfLimits {
         write!(f, "cable {}: its tension of {tension} N{end} is ", cable + 1)?;
         match limit {
             Limit::BreakingForce => write!(f, "above its breaking force, {value} N"),
+            Limit::Strain => write!(f, "above the one of the greatest strain, {value} N"),
             Limit::Max => write!(f, "above tension_limits.max, {value} N"),
             Limit::MaxElsewhere => write!(f, "above tension_limits.max, {value} N, of its other end"),
             Limit::Min => write!(f, "below tension_limits.min, {value} N"),

@@ -343,3 +343,25 @@ fn a_search_in_which_a_force_vanishes_ends() {
         Err(error) => assert!(matches!(error, StaticsError::NoRest { .. }), "{error}"),
     }
 }
+
+#[test]
+fn a_rest_with_free_coordinates_is_followed_to_many_times_its_load() {
+    let path = format!("{}/../../data/robots/four-cables.json", env!("CARGO_MANIFEST_DIR"));
+    let robot = Robot::from_json(&std::fs::read_to_string(path).unwrap()).unwrap();
+    let free = [Coordinate::Roll, Coordinate::Pitch];
+    for pose in [Pose::at(0.5, 0.3, 2.0), Pose::at(0.3, 0.2, 1.5), Pose::at(0.6, 0.4, 2.5)] {
+        let Ok(unloaded) = cdpr_statics::held_at(&robot, &pose, &Load::none(), &free) else { continue };
+        for times in [3.0, 10.0, 30.0, 100.0] {
+            let load = Load::payload(times * robot.platform.mass);
+            let at_once = cdpr_statics::rest_near(&robot, &unloaded.equilibrium, &load, &free).unwrap();
+            let mut stepwise = unloaded.clone();
+            for step in 1..=20 {
+                let share = f64::from(step) / 20.0;
+                let load = Load::payload(((1.0 + times).powf(share) - 1.0) * robot.platform.mass);
+                stepwise = cdpr_statics::rest_near(&robot, &stepwise.equilibrium, &load, &free).unwrap();
+            }
+            let apart = at_once.equilibrium.pose.motion_to(&stepwise.equilibrium.pose).norm();
+            assert!(apart < 1e-7, "{times} times the load at {:?}: {apart}", pose.position);
+        }
+    }
+}

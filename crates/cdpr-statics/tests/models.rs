@@ -115,7 +115,7 @@ fn invalid_inputs_are_named() {
     );
     assert_eq!(
         text(solve(&lengths, &Load::payload(f64::NAN), &pose)),
-        "load.payload is NaN: expected a finite mass [kg]"
+        "load.payload is NaN: expected a mass from -1e12 to 1e12 kg"
     );
     assert!(text(solve(&lengths, &Load::none(), &Pose::at(f64::NAN, 0.0, 0.0))).starts_with("start is [NaN"));
 }

@@ -85,14 +85,11 @@ fn payloads_and_margins_with_tensions_distributed_anew_have_the_same_bound() {
     for found in
         [greatest_payload(&robot, &pose, &Wrench::zero()), tension_margin(&robot, &pose, &Load::none())]
     {
-        let within = |found: &cdpr_statics::Greatest| {
-            let tensions = found.equilibrium.exit_tensions(&robot, &found.lengths);
-            tensions.iter().enumerate().all(|(i, t)| robot.cable(i).strain(*t) <= MAX_STRAIN)
-        };
-        assert!(
-            found.as_ref().map_or_else(|error| error.kind() == "cable_overstrained", within),
-            "{found:?}"
-        );
+        let found = found.unwrap();
+        let tensions = found.equilibrium.exit_tensions(&robot, &found.lengths);
+        assert!(tensions.iter().enumerate().all(|(i, t)| robot.cable(i).strain(*t) <= MAX_STRAIN));
     }
+    // Where the platform's own weight strains cables too much, nothing is carried.
+    let robot = soft(cogiro(), &pose, 1.1);
     assert_eq!(greatest_payload(&robot, &pose, &Wrench::zero()).unwrap_err().kind(), "cable_overstrained");
 }

@@ -49,7 +49,7 @@ pub struct WorkspaceRow {
     /// Greatest mass at the centre of mass [kg], tensions distributed anew; this and all that follows is
     /// empty where it was not asked for or does not exist.
     pub payload_anew_kg: Option<f64>,
-    /// The cables and limits that block it, in words.
+    /// The cables and limits that block it, in words; where it is missing at a pose that is held, why.
     pub payload_anew_blocked_by: Option<String>,
     /// Greatest mass at the centre of mass [kg], lengths kept.
     pub payload_kept_kg: Option<f64>,
@@ -87,6 +87,19 @@ impl WorkspaceRow {
                 .as_ref()
                 .and_then(|capacity| of(capacity).as_ref().ok())
                 .filter(|f| f.value.is_finite())
+        };
+        // At a pose that is not held, `reason` says why already.
+        let blocked = |of: fn(&Capacity) -> &Result<Figure, StaticsError>| {
+            let found = of(pose.capacity.as_deref()?);
+            let same =
+                |error: &StaticsError| pose.outcome.as_ref().is_err_and(|own| own.kind() == error.kind());
+            match found {
+                Ok(figure) if figure.value == f64::NEG_INFINITY => {
+                    Some(format!("even without a payload {}", figure.blocked_by()))
+                }
+                Ok(figure) => Some(figure.blocked_by()),
+                Err(error) => Some(error.to_string()).filter(|_| !same(error)),
+            }
         };
         let clearance = pose.clearance.as_deref().and_then(|clearance| clearance.as_ref().ok());
         let (cables, platform) = (clearance.and_then(|c| c.cables), clearance.and_then(|c| c.platform));
@@ -130,9 +143,9 @@ impl WorkspaceRow {
             anew_greatest_tension: tensions.map(|anew| anew.greatest_tension),
             anew_reason: anew.and_then(|anew| anew.as_ref().err().map(ToString::to_string)),
             payload_anew_kg: figure(|capacity| &capacity.payload_anew).map(|figure| figure.value),
-            payload_anew_blocked_by: figure(|capacity| &capacity.payload_anew).map(Figure::blocked_by),
+            payload_anew_blocked_by: blocked(|capacity| &capacity.payload_anew),
             payload_kept_kg: figure(|capacity| &capacity.payload_kept).map(|figure| figure.value),
-            payload_kept_blocked_by: figure(|capacity| &capacity.payload_kept).map(Figure::blocked_by),
+            payload_kept_blocked_by: blocked(|capacity| &capacity.payload_kept),
             margin_anew: figure(|capacity| &capacity.margin_anew).map(|figure| figure.value),
             margin_kept: figure(|capacity| &capacity.margin_kept).map(|figure| figure.value),
             nearest_cables_mm: cables.map(|near| 1e3 * near.distance),

@@ -3,7 +3,6 @@
 use super::{HELD, Way, Workspace, WorkspacePose, WorkspaceRow, row};
 use crate::boundary::Boundary;
 use cdpr_robot::{Pose, Vector3};
-use cdpr_statics::Limit;
 use cdpr_study::{Extremes, Grid, robot_hash};
 use indexmap::IndexMap;
 use serde::Serialize;
@@ -196,7 +195,7 @@ fn left_out(poses: &[WorkspacePose]) -> BTreeMap<String, usize> {
         let why = match &pose.outcome {
             Ok(held) if held.is_within_limits() => continue,
             Ok(held) => match held.out_of_limits.iter().min_by_key(|found| found.limit) {
-                Some(found) => format!("beyond_limits: cable {}, {}", found.cable + 1, name(found.limit)),
+                Some(found) => format!("beyond_limits: cable {}, {}", found.cable + 1, found.limit.name()),
                 None => continue,
             },
             Err(error) => error.kind().to_owned(),
@@ -204,14 +203,6 @@ fn left_out(poses: &[WorkspacePose]) -> BTreeMap<String, usize> {
         *counts.entry(why).or_insert(0) += 1;
     }
     counts
-}
-
-fn name(limit: Limit) -> &'static str {
-    match limit {
-        Limit::BreakingForce => "breaking_force",
-        Limit::Max | Limit::MaxElsewhere => "max",
-        Limit::Min => "min",
-    }
 }
 
 fn held_extremes(rows: &[WorkspaceRow], value: impl Fn(&WorkspaceRow) -> Option<f64>) -> Option<Extremes> {

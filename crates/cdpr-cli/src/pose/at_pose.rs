@@ -149,18 +149,9 @@ impl RobotAtPose {
             (Some(pose), None) => self.angles.of(pose)?,
             (None, None) => return Err(ProgramError::Usage("expected --pose or --poses".to_owned())),
         };
-        let heading = format!("{} at {}", shown(&robot.name), place(&pose));
         match patiently("solving", || solve(&robot, &pose)) {
-            // That the platform falls is an answer.
-            Err(error @ StaticsError::BranchEnds(_)) => {
-                let fallen = Err(Failure::from(error));
-                match (&fallen, self.format) {
-                    (Err(Failure { message, .. }), Format::Text) => println!("{heading}\n{message}"),
-                    _ => self.print_answer::<T>(&pose, &fallen, 0)?,
-                }
-                Ok(Ending::SomethingWrong)
-            }
-            answer => self.print(&answer?, |answer| text(answer, &heading)),
+            Err(error @ StaticsError::BranchEnds(_)) => print_fall(self.format, &robot, &pose, error),
+            answer => self.print(&answer?, |answer| text(answer, &heading(&robot, &pose))),
         }
     }
 
@@ -237,15 +228,37 @@ impl RobotAtPose {
         columns: usize,
     ) -> Result<(), ProgramError> {
         match self.format {
-            Format::Json => {
-                let (pose, error) = (pose_numbers(pose), answer.as_ref().err());
-                let line = Line { pose, answer: answer.as_ref().ok(), error };
-                println!("{}", questions::added_to(serde_json::to_string(&line)?)?);
-            }
+            Format::Json => print_line(pose, answer.as_ref())?,
             Format::Text => print_row(pose, answer, columns),
         }
         Ok(())
     }
+}
+
+fn heading(robot: &Robot, pose: &Pose) -> String {
+    format!("{} at {}", shown(&robot.name), place(pose))
+}
+
+/// Prints that the platform falls before the whole load is on it: that is an answer.
+pub(crate) fn print_fall(
+    format: Format,
+    robot: &Robot,
+    pose: &Pose,
+    error: StaticsError,
+) -> Result<Ending, ProgramError> {
+    let failure = Failure::from(error);
+    match format {
+        Format::Text => println!("{}\n{}", heading(robot, pose), failure.message),
+        Format::Json => print_line::<()>(pose, Err(&failure))?,
+    }
+    Ok(Ending::SomethingWrong)
+}
+
+/// Prints the line of JSON of a pose.
+fn print_line<T: Serialize>(pose: &Pose, answer: Result<&T, &Failure>) -> Result<(), ProgramError> {
+    let line = Line { pose: pose_numbers(pose), answer: answer.ok(), error: answer.err() };
+    println!("{}", questions::added_to(serde_json::to_string(&line)?)?);
+    Ok(())
 }
 
 /// Prints the line of CSV of a pose; `columns` of them are empty where there is no answer.

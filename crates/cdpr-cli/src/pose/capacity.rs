@@ -1,6 +1,6 @@
 //! `cdpr capacity`: what a robot can carry at a pose, and how far its tensions are from their limits.
 
-use crate::answer::{OutOfLimits, bound_name, decimal, vector};
+use crate::answer::{OutOfLimits, decimal, vector};
 use crate::arguments::FreeArguments;
 use crate::error::ProgramError;
 use crate::output::{Ending, table};
@@ -12,7 +12,7 @@ use cdpr_assess::{
     clearance_under, tilt_at,
 };
 use cdpr_robot::{Pose, Robot};
-use cdpr_statics::{Limit, Load, StaticsError, tension_margin};
+use cdpr_statics::{Load, StaticsError, tension_margin};
 use serde::Serialize;
 
 /// The robot, its poses, and the wrenches.
@@ -86,12 +86,8 @@ impl Towards {
     fn new(robot: &Robot, pose: &Pose, load: &Load, towards: &TiltTowards) -> Self {
         let margin = (!towards.is_free()).then(|| tension_margin(robot, &towards.of(robot, pose), load).ok());
         let blocking = margin.flatten().and_then(|margin| margin.blocking.first().copied());
-        let blocking = blocking.map(|found| Blocking {
-            cable: found.index + 1,
-            limit: bound_name(found.bound),
-            value: found.limit,
-            gain: None,
-        });
+        let blocking = blocking.and_then(|found| Blocking::new(&found.into()));
+        let blocking = blocking.map(|blocking| Blocking { gain: None, ..blocking });
         Self { azimuth_deg: towards.azimuth.to_degrees(), angle_deg: towards.angle.to_degrees(), blocking }
     }
 }
@@ -137,19 +133,22 @@ struct Shown {
 #[derive(Serialize)]
 struct Blocking {
     cable: usize,
-    /// `min`, `max` or `breaking_force`.
+    /// `min`, `max`, `breaking_force` or `strain`.
     limit: &'static str,
     /// The limit [N].
     value: f64,
     /// By how much the figure grows where the limit gives way [kg/N, N/N].
     #[serde(skip_serializing_if = "Option::is_none")]
     gain: Option<f64>,
+    #[serde(skip)]
+    words: String,
 }
 
 impl Blocking {
-    fn words(&self) -> String {
-        let Self { cable, limit, value, .. } = self;
-        format!("cable {cable} at its {limit}, {} N", decimal(*value, 1))
+    /// `None` where the platform is lost and no limit reached.
+    fn new(block: &Block) -> Option<Self> {
+        let Block::Limit { cable, limit, value, gain } = *block else { return None };
+        Some(Self { cable: cable + 1, limit: limit.name(), value, gain, words: block.to_string() })
     }
 }
 
@@ -167,17 +166,13 @@ impl Shown {
             ..none
         };
         for block in blocking {
+            shown.blocking.extend(Blocking::new(&block));
             let message = block.to_string();
-            match block {
-                Block::Limit { cable, limit, value, gain } => {
-                    shown.blocking.push(Blocking { cable: cable + 1, limit: name(limit), value, gain });
-                }
-                Block::Lost(error) => {
-                    // At this payload, and not at a share of one.
-                    let mut failure = Failure::from(error.with_share(|_| 1.0));
-                    failure.message = message;
-                    shown.error = Some(failure);
-                }
+            if let Block::Lost(error) = block {
+                // At this payload, and not at a share of one.
+                let mut failure = Failure::from(error.with_share(|_| 1.0));
+                failure.message = message;
+                shown.error = Some(failure);
             }
         }
         shown
@@ -185,7 +180,7 @@ impl Shown {
 
     /// What blocks, in words.
     fn words(&self) -> String {
-        let mut words: Vec<_> = self.blocking.iter().map(Blocking::words).collect();
+        let mut words: Vec<_> = self.blocking.iter().map(|blocking| blocking.words.clone()).collect();
         if let Some(wrench) = &self.wrench {
             words.push(format!("under the wrench {}", vector(wrench, 1)));
         }
@@ -195,14 +190,6 @@ impl Shown {
 
     fn number(&self) -> String {
         self.value.map_or_else(String::new, |value| format!("{value:?}"))
-    }
-}
-
-fn name(limit: Limit) -> &'static str {
-    match limit {
-        Limit::BreakingForce => "breaking_force",
-        Limit::Max | Limit::MaxElsewhere => "max",
-        Limit::Min => "min",
     }
 }
 
@@ -295,7 +282,8 @@ impl Answer {
         }
         let mut rows = table(&["tilt towards [deg]", "reached [deg]", "ended by"]);
         for Towards { azimuth_deg, angle_deg, blocking } in &self.tilt {
-            let ended = blocking.as_ref().map(Blocking::words).unwrap_or_default();
+            let ended =
+                blocking.as_ref().map(|blocking| blocking.words.as_str()).unwrap_or_default().to_owned();
             rows.add_row([decimal(*azimuth_deg, 1), decimal(*angle_deg, 2), ended]);
         }
         println!("{rows}");

@@ -4,11 +4,12 @@ use crate::answer::{OutOfLimits, vector};
 use crate::arguments::{self, Format, FreeArguments, Overwrite, Preference, number, payload};
 use crate::error::ProgramError;
 use crate::output::{Ending, patiently, table};
+use crate::pose::at_pose::print_fall;
 use crate::poses::{self, Angles};
 use crate::questions;
 use cdpr_report::{Cycle, CycleBranch, cycle};
 use cdpr_robot::{Pose, Robot};
-use cdpr_statics::{CycleStep, HysteresisLaw, Load, LoadCycle, Unloading, load_cycle};
+use cdpr_statics::{CycleStep, HysteresisLaw, Load, LoadCycle, StaticsError, Unloading, load_cycle};
 use cdpr_study::{CableLaw, elastic_laws, open_law, open_record};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -97,7 +98,10 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     questions::about_pose(&robot, "--pose", &pose);
     questions::about_load(&robot, &Load::payload(settings.payload));
     let cycle = || load_cycle(&robot, &laws, &pose, &settings.free.free, settings.payload, settings.steps);
-    let cycle = patiently("following the load", cycle)?;
+    let cycle = match patiently("following the load", cycle) {
+        Err(error @ StaticsError::BranchEnds(_)) => return print_fall(settings.format, &robot, &pose, error),
+        cycle => cycle?,
+    };
     let found = Found::new(&robot, &laws, &cycle);
     settings.format.print(&found, print)?;
     if found.cables.iter().any(|cable| cable.dissipated_j < 0.0) {

@@ -8,7 +8,8 @@ use crate::pose::at_pose::{RobotAtPose, Row, cells, numbered};
 use crate::poses::{COLUMNS, pose_numbers};
 use cdpr_robot::Robot;
 use cdpr_statics::{
-    FreeSolution, FreeSolutions, InversePath, InverseSolution, inverse, inverse_free, inverse_free_with_loops,
+    DirectProblem, FreeSolution, FreeSolutions, InversePath, InverseSolution, Load, Stability, StaticsError,
+    inverse, inverse_free, inverse_free_with_loops,
 };
 use serde::Serialize;
 
@@ -37,7 +38,7 @@ pub(crate) fn run(Settings { at, free, path, loops }: &Settings) -> Result<Endin
         let mut path = InversePath::new(&robot);
         return at.answer_in_order(&robot, |pose| {
             let found = path.solve(pose, &load, None)?;
-            Ok(OnPath { jump: found.jump, answer: Answer::new(&robot, &found.solution) })
+            Ok(OnPath { jump: found.jump, answer: Answer::new(&robot, &load, &found.solution)? })
         });
     }
     if !free.free.is_empty() {
@@ -45,8 +46,7 @@ pub(crate) fn run(Settings { at, free, path, loops }: &Settings) -> Result<Endin
         let solve = |robot: &Robot, pose: &_| Ok(Rest::new(robot, &model(robot, pose, &load, &free.free)?));
         return at.answer(solve, Rest::print);
     }
-    let solve =
-        |robot: &Robot, pose: &_| inverse(robot, pose, &load, None).map(|found| Answer::new(robot, &found));
+    let solve = |robot: &Robot, pose: &_| Answer::new(robot, &load, &inverse(robot, pose, &load, None)?);
     at.answer(solve, Answer::print)
 }
 
@@ -97,13 +97,39 @@ struct Resting {
     cable_forces: Vec<[f64; 2]>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     loops: Vec<LoopedCable>,
+    #[serde(flatten)]
+    stays: Stays,
+    iterations: usize,
+    residual: Residual,
+}
+
+/// Whether the platform stays there with these lengths.
+#[derive(Serialize)]
+struct Stays {
     stable: bool,
-    /// Stiffness of the softest motion with the lengths held.
+    /// Stiffness of the softest motion [N/m].
     least_stiffness: f64,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     neutral: Vec<Neutral>,
-    iterations: usize,
-    residual: Residual,
+}
+
+impl Stays {
+    fn new(stability: &Stability) -> Self {
+        Self {
+            stable: stability.is_stable(),
+            least_stiffness: stability.least_stiffness(),
+            neutral: Neutral::all(stability),
+        }
+    }
+
+    fn word(&self) -> &'static str {
+        if self.stable { "stable" } else { "unstable" }
+    }
+
+    fn print(&self) {
+        println!("{} with these lengths, softest motion {:.1} N/m", self.word(), self.least_stiffness);
+        Neutral::print(&self.neutral);
+    }
 }
 
 /// A cable that hangs in a loop.
@@ -132,16 +158,10 @@ impl Resting {
                 .into_iter()
                 .map(|(i, chords)| LoopedCable { cable: i + 1, chords })
                 .collect(),
-            stable: stability.is_stable(),
-            least_stiffness: stability.least_stiffness(),
-            neutral: Neutral::all(stability),
+            stays: Stays::new(stability),
             iterations: *iterations,
             residual: Residual::new(residual),
         }
-    }
-
-    fn stable(&self) -> &'static str {
-        if self.stable { "stable" } else { "unstable" }
     }
 
     /// Position and angles in one line.
@@ -162,9 +182,9 @@ impl Row for Rest {
     }
 
     fn cells(&self) -> Vec<String> {
-        let Resting { found_pose, lengths, tensions, exit_tensions, stable, .. } = &self.first;
+        let Resting { found_pose, lengths, tensions, exit_tensions, stays, .. } = &self.first;
         let numbers = found_pose.iter().chain(lengths).chain(tensions).chain(exit_tensions);
-        cells(numbers).into_iter().chain([stable.to_string(), self.others.len().to_string()]).collect()
+        cells(numbers).into_iter().chain([stays.stable.to_string(), self.others.len().to_string()]).collect()
     }
 
     fn out_of_limits(&self) -> Vec<&[OutOfLimits]> {
@@ -185,8 +205,7 @@ impl Rest {
         println!("{heading}");
         println!("rests at {}", self.first.place());
         answer::print_cables(lengths, cable_forces, tensions, exit_tensions);
-        println!("{}, softest motion {:.1} N/m", self.first.stable(), self.first.least_stiffness);
-        Neutral::print(&self.first.neutral);
+        self.first.stays.print();
         OutOfLimits::print(&self.first.out_of_limits);
         for LoopedCable { cable, chords } in &self.first.loops {
             println!("cable {cable} is a loop of {chords:.1} chords");
@@ -194,7 +213,7 @@ impl Rest {
         self.first.residual.print();
         for other in &self.others {
             let beyond = if other.out_of_limits.is_empty() { "" } else { ", out of limits," };
-            println!("also {}{beyond} at {}", other.stable(), other.place());
+            println!("also {}{beyond} at {}", other.stays.word(), other.place());
         }
     }
 }
@@ -211,6 +230,8 @@ struct Answer {
     out_of_limits: Vec<OutOfLimits>,
     /// Force (fx, fz) on each cable at its anchor point, in its vertical plane.
     cable_forces: Vec<[f64; 2]>,
+    #[serde(flatten)]
+    stays: Stays,
     report: Report,
 }
 
@@ -227,11 +248,14 @@ impl Row for Answer {
     fn columns(robot: &Robot) -> Vec<String> {
         let cables = robot.cables.len();
         let tensions = ["tension", "exit_tension"].into_iter().flat_map(|name| numbered(name, "n", cables));
-        numbered("length", "m", cables).chain(tensions).collect()
+        let more = ["stable", "least_stiffness_n_per_m"].into_iter().map(str::to_owned);
+        numbered("length", "m", cables).chain(tensions).chain(more).collect()
     }
 
     fn cells(&self) -> Vec<String> {
-        cells(self.lengths.iter().chain(&self.tensions).chain(&self.exit_tensions))
+        let Stays { stable, least_stiffness, .. } = &self.stays;
+        let numbers = cells(self.lengths.iter().chain(&self.tensions).chain(&self.exit_tensions));
+        numbers.into_iter().chain([stable.to_string()]).chain(cells([least_stiffness])).collect()
     }
 
     fn out_of_limits(&self) -> Vec<&[OutOfLimits]> {
@@ -240,24 +264,27 @@ impl Row for Answer {
 }
 
 impl Answer {
-    fn new(robot: &Robot, solution: &InverseSolution) -> Self {
-        Self {
+    fn new(robot: &Robot, load: &Load, solution: &InverseSolution) -> Result<Self, StaticsError> {
+        let problem = DirectProblem::new(robot, &solution.lengths, load)?;
+        Ok(Self {
             lengths: solution.lengths.clone(),
             tensions: solution.tensions.clone(),
             exit_tensions: solution.equilibrium.exit_tensions(robot, &solution.lengths),
             out_of_limits: OutOfLimits::all(robot, &solution.lengths, &[&solution.equilibrium]),
             cable_forces: answer::forces(&solution.equilibrium),
+            stays: Stays::new(&problem.stability(&solution.equilibrium)?),
             report: Report {
                 iterations: solution.iterations,
                 active: solution.active.iter().map(|bound| bound.map(bound_name)).collect(),
                 residual: Residual::new(&solution.residual),
             },
-        }
+        })
     }
 
     fn print(&self, heading: &str) {
         println!("{heading}");
         answer::print_cables(&self.lengths, &self.cable_forces, &self.tensions, &self.exit_tensions);
+        self.stays.print();
         OutOfLimits::print(&self.out_of_limits);
         for (i, bound) in self.report.active.iter().enumerate() {
             if let Some(bound) = bound {

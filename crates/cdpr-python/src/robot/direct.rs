@@ -81,7 +81,7 @@ impl Found {
 pub(crate) fn numbers_of_limits(found: &[OutOfLimits], out: &mut [i8]) {
     for one in found {
         out[one.cable] = match one.limit {
-            Limit::BreakingForce => 2,
+            Limit::BreakingForce | Limit::Strain => 2,
             Limit::Max => 1,
             Limit::MaxElsewhere => 0,
             Limit::Min => -1,

@@ -111,6 +111,11 @@ impl<'a> Strand<'a> {
         y.dot(&self.wrench(self.ends.curvatures(&self.held).0, arm))
     }
 
+    /// d²t/dσ² [1/N].
+    pub(super) fn tension_curvature(&self) -> f64 {
+        self.ends.curvatures(&self.held).1
+    }
+
     /// Changes of the chord force [N] that lead to the limits; where a limit's chord force has not been asked
     /// for, a change that does not pass it, because t(σ) is convex with a slope of at most one.
     pub(super) fn room(&self) -> [f64; 2] {

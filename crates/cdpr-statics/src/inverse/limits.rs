@@ -4,8 +4,9 @@
 //! difference in height adds to it, (C26) of `cdpr_cable`: it depends on the pose and not on the sag. With a
 //! pulley the height is that above the leave point, which moves a little with the tension.
 
-use crate::equations::Ends;
+use crate::equations::{Ends, LONGEST_TAUT};
 use crate::error::StaticsError;
+use cdpr_cable::MAX_STRAIN;
 use cdpr_robot::{CableEnd, Pose, Robot, TensionLimits};
 
 /// The limits of every cable's tension at the platform, which stands at `pose`.
@@ -18,18 +19,52 @@ pub fn limits_at(robot: &Robot, pose: &Pose) -> Result<Vec<TensionLimits>, Stati
         let limits = robot.limits(i);
         match robot.max_at(i) {
             CableEnd::Anchor => Ok(limits),
-            CableEnd::Exit => below_exit(robot, pose, i, limits),
+            CableEnd::Exit => {
+                let TensionLimits { min, max: exit } = limits;
+                let (max, depth) = below_exit(robot, pose, i, limits)?;
+                if max < min {
+                    return Err(StaticsError::ExitLimit { index: i, exit, depth, max, min });
+                }
+                Ok(TensionLimits { min, max })
+            }
         }
     };
     (0..robot.cables.len()).map(at_platform).collect()
 }
 
+/// The greatest tension of cable i at the platform [N] that strains it by no more than
+/// [`cdpr_cable::MAX_STRAIN`] at either end; `None` where its limit allows no more than that.
+///
+/// # Errors
+/// [`StaticsError::Cable`] where a cable on a pulley has no shape.
+pub(super) fn strain_limit(
+    robot: &Robot,
+    pose: &Pose,
+    i: usize,
+    TensionLimits { min, max }: TensionLimits,
+) -> Result<Option<f64>, StaticsError> {
+    /// Share that rounding of a strain may leave open.
+    const WITHIN: f64 = 1.0 - 1e-12;
+    let cable = robot.cable(i);
+    // No part of a cable is longer than this many chords.
+    let heaviest = max + LONGEST_TAUT * cable.weight_per_length * robot.span(pose, i).norm();
+    if cable.overstrain(heaviest).is_none() {
+        return Ok(None);
+    }
+    let greatest = WITHIN * cable.tension(MAX_STRAIN);
+    let (at_platform, _) = below_exit(robot, pose, i, TensionLimits { min, max: greatest })?;
+    let greatest = greatest.min(at_platform);
+    Ok((greatest < max).then_some(greatest))
+}
+
+/// The tension at the platform [N] where it is `max` at the exit point, and how far the platform's end is below
+/// the leave point [m].
 fn below_exit(
     robot: &Robot,
     pose: &Pose,
     index: usize,
     TensionLimits { min, max: exit }: TensionLimits,
-) -> Result<TensionLimits, StaticsError> {
+) -> Result<(f64, f64), StaticsError> {
     const MAX_ITERATIONS: usize = 50;
     let ends = Ends::of(robot, pose, index);
     let allowed = |height: f64| ends.cable.tension_above(exit, height).unwrap_or(0.0);
@@ -45,8 +80,5 @@ fn below_exit(
             }
         }
     }
-    if max < min {
-        return Err(StaticsError::ExitLimit { index, exit, depth: -height, max, min });
-    }
-    Ok(TensionLimits { min, max })
+    Ok((max, -height))
 }

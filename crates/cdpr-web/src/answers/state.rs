@@ -140,7 +140,7 @@ fn flat(points: &[Vector3<f64>]) -> Vec<f64> {
 
 fn limit(found: &OutOfLimits) -> Option<&'static str> {
     match found.limit {
-        Limit::BreakingForce => Some("breaks"),
+        Limit::BreakingForce | Limit::Strain => Some("breaks"),
         Limit::Max => Some("above"),
         Limit::Min => Some("below"),
         Limit::MaxElsewhere => None,

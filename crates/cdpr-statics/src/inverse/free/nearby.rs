@@ -102,7 +102,8 @@ pub fn rest_near(
 ) -> Result<HeldPose, StaticsError> {
     check_free(robot, free)?;
     let search = Search::new(robot, &near.pose, load, free)?;
-    let start = Unknowns { changes: vec![0.0; free.len()], chord_forces: chord_forces(robot, near) };
+    let chord_forces = search.in_proportion(chord_forces(robot, near));
+    let start = Unknowns { changes: vec![0.0; free.len()], chord_forces };
     let no_rest = |nearest| Err(StaticsError::NoRest { starts: 1, nearest });
     let point = match search.descend(start) {
         Outcome::Found(point, ..) => point,
@@ -127,6 +128,22 @@ fn chord_forces(robot: &Robot, equilibrium: &Equilibrium) -> Vec<f64> {
 }
 
 impl Search<'_> {
+    /// Chord forces [N] in proportion to the load, where this leaves less of the balance than the forces that
+    /// hold another load.
+    fn in_proportion(&self, chord_forces: Vec<f64>) -> Vec<f64> {
+        let changes = vec![0.0; self.free.len()];
+        let Some(point) = self.point(&changes, &chord_forces) else { return chord_forces };
+        let external = self.question.external;
+        let ratio = external.norm() / (point.residual - external).norm();
+        if !(ratio.is_finite() && ratio > 0.0) {
+            return chord_forces;
+        }
+        let scaled: Vec<f64> = chord_forces.iter().map(|force| ratio * force).collect();
+        let left = |point: &Point| point.residual.norm() / point.forces;
+        let is_nearer = self.point(&changes, &scaled).is_some_and(|other| left(&other) < left(&point));
+        if is_nearer { scaled } else { chord_forces }
+    }
+
     /// The given coordinates with these chord forces [N].
     fn known(&self, chord_forces: Vec<f64>) -> Option<Known> {
         let changes = vec![0.0; self.free.len()];

@@ -1,0 +1,340 @@
+//! The maximization (I7) by linear programs.
+//!
+//! Every iteration linearises the balance at the cables' chord forces and solves a linear program within a
+//! region about them. With the multipliers y of the balance in that program, steps are judged by
+//!
+//! ```text
+//! m(σ, z) = z - M |F(σ, z)|_1,      M = 2 max |y|,      F = sum w_i + w_ex + z w_z                 (I9)
+//! ```
+//!
+//! where |F|_1 includes by how much tensions pass limits that z draws closer. A greater M would allow only
+//! tiny steps along a balance that is curved. For the same reason a long step is followed by one back to the
+//! balance, a second-order correction. Where a step gains nothing, `newton` solves the conditions of a maximum
+//! with the limits that the program rests on. What is accepted as the maximum has been proved so to first
+//! order: no step within the limits gains anything.
+
+use crate::error::StaticsError;
+use crate::inverse::feasible::{BALANCED, search, straight};
+use crate::inverse::held::Strand;
+use crate::inverse::optimum::{ELASTICITY, Optimum, Point};
+use crate::inverse::question::Question;
+use cdpr_robot::{TensionLimits, Vector6};
+use cdpr_tension::{BoxProblem, BoxUnknown, LinearProgram, LinearSolution};
+
+/// z of (I7) and what it acts on.
+pub(super) struct Maximization {
+    /// w_z, moments divided by the length that makes them comparable with forces.
+    pub(super) direction: Vector6<f64>,
+    /// The limits that z draws closer; `None` where they do not depend on z.
+    pub(super) drawn: Option<Vec<TensionLimits>>,
+    /// Least and greatest value of z [N].
+    pub(super) range: [f64; 2],
+    /// Components of a wrench that the cables have to balance.
+    pub(super) components: Vec<usize>,
+}
+
+/// Cables and z between two steps.
+#[derive(Clone)]
+pub(super) struct Iterate<'a> {
+    pub(super) point: Point<'a>,
+    /// [N]
+    pub(super) z: f64,
+}
+
+/// The maximum that was found.
+pub(super) struct Maximum<'a> {
+    /// z [N].
+    pub(super) value: f64,
+    pub(super) point: Point<'a>,
+    /// The program whose solution gains nothing.
+    pub(super) solution: LinearSolution,
+    pub(super) iterations: usize,
+}
+
+/// A residual below this, relative to wrench and tensions, may become a balance from another start.
+const NEARLY_BALANCED: f64 = 1e-3;
+
+/// Largest growth of a chord force in a step at first.
+const REGION: f64 = 100.0;
+
+/// A region below this has no step left.
+const LEAST_REGION: f64 = 1e-9;
+
+/// What a unit of the residual costs in a program, in units of z: more than z gains by it. The greater one is
+/// for poses at which a moment has hardly a lever arm.
+const LEAST_COST: f64 = 1e2;
+const GREATEST_COST: f64 = 1e6;
+
+/// Share of its last value that M of (I9) keeps at least.
+const KEPT_PENALTY: f64 = 0.3;
+
+/// Steps that hardly bring the balance nearer while even the linearised cables do not balance.
+const MOST_STALLED: usize = 3;
+
+/// Steps back to the balance that follow a long one.
+const MOST_BACK: usize = 3;
+
+/// A residual below this, relative to wrench and tensions, leaves nothing to z.
+pub(super) const BALANCE: f64 = 1e-11;
+
+/// Least share of a chord force that a step leaves, as [`Point::moved`] has it.
+const LEAST_SHARE: f64 = 0.1;
+
+/// A step or a gain below this, relative to the forces, is rounding, or nearly.
+const ROUNDING: f64 = 1e-12;
+const NEARLY_ROUNDING: f64 = 1e-9;
+
+const MAX_ITERATIONS: usize = 100;
+
+/// The region of a program and the prices of a residual.
+struct Trust {
+    /// Largest relative change of a chord force.
+    region: f64,
+    /// Of a unit of the residual in a program.
+    cost: f64,
+    /// M of (I9).
+    penalty: f64,
+}
+
+impl Maximization {
+    /// The greatest z and the cables there; `own` is the question with the limits of the robot.
+    pub(super) fn solve<'a>(
+        &self,
+        question: &Question<'a>,
+        own: &Question<'a>,
+    ) -> Result<Maximum<'a>, StaticsError> {
+        let (mut point, found) = self.climb(question, &straight(question).0)?;
+        if let Some(found) = found {
+            return Ok(found);
+        }
+        // What refutes a balance at z = 0 refutes one at any z, unless z pulls the other way.
+        if point.residual().dot(&self.direction) >= 0.0 && point.residue() > BALANCED && point.refutes() {
+            return Err(point.refusal(question, 1, point.iterations, true));
+        }
+        // Far from a balance within wide limits, another start is not worth its time.
+        if self.drawn.is_some() && point.residue() > NEARLY_BALANCED {
+            return Err(point.refusal(question, 1, point.iterations, false));
+        }
+        let Optimum { tensions, iterations, stationarity, .. } = search(own)?;
+        let (_, found) = self.climb(question, &tensions)?;
+        found.ok_or(StaticsError::InverseNotConverged { iterations, stationarity })
+    }
+
+    /// Climbs from some tensions [N]; returns where it ends, and the maximum if it is one.
+    fn climb<'a>(
+        &self,
+        question: &Question<'a>,
+        tensions: &[f64],
+    ) -> Result<(Point<'a>, Option<Maximum<'a>>), StaticsError> {
+        let mut at = Iterate { point: Point::new(question, tensions)?, z: self.range[0].max(0.0) };
+        let mut trust = Trust { region: REGION, cost: LEAST_COST, penalty: 0.0 };
+        let mut stalled = 0;
+        for iterations in 1..=MAX_ITERATIONS {
+            at.point.iterations += 1;
+            let size = at.point.size();
+            let Some(solution) = self.step(&mut at.point, size, &trust)? else { break };
+            let unbalanced = solution.residual > BALANCED && trust.region == REGION;
+            if unbalanced && trust.cost < GREATEST_COST {
+                trust.cost *= 100.0;
+                continue;
+            }
+            let multiplier = solution.multipliers.iter().fold(1.0, |most: f64, y| most.max(y.abs()));
+            trust.penalty = (2.0 * multiplier).max(KEPT_PENALTY * trust.penalty);
+            let step = Step::new(&solution, &at.point, size);
+            let merit = self.merit(&at, trust.penalty);
+            let gain = step.z - trust.penalty * solution.residual * size - merit;
+            // Other tensions may reach the same z.
+            let still = step.z - at.z <= ROUNDING * size
+                || step.change <= ROUNDING
+                || trust.region < LEAST_REGION
+                || gain <= ROUNDING * trust.penalty * size;
+            if still && self.open(&at) <= BALANCE * size {
+                if gain > NEARLY_ROUNDING * trust.penalty * size {
+                    break;
+                }
+                let point = at.point.clone();
+                return Ok((at.point, Some(Maximum { value: at.z, point, solution, iterations })));
+            }
+            if unbalanced && (step.change <= 1e-6 || stalled >= MOST_STALLED) {
+                break;
+            }
+            let wanted = merit + 0.1 * gain - 0.1 * ROUNDING * trust.penalty * size;
+            let next = self.after(&at, &step, &trust, wanted);
+            if let Some((next, reached)) = next.filter(|(_, reached)| *reached >= wanted) {
+                stalled += usize::from(unbalanced && self.open(&next) > 0.9 * self.open(&at));
+                if reached - merit > 0.7 * gain {
+                    trust.region = (4.0 * trust.region).min(REGION);
+                }
+                at = next;
+                continue;
+            }
+            let polished = self.polished(&at, &solution, size);
+            match polished.filter(|next| self.merit(next, trust.penalty) > merit) {
+                Some(next) => (at, trust.region) = (next, REGION),
+                None => trust.region = 0.25 * trust.region.min(step.change),
+            }
+        }
+        Ok((at.point, None))
+    }
+
+    /// The iterate after a step, with steps back to the balance until its merit is `wanted`, and its merit.
+    /// `None` where a cable cannot be closed.
+    fn after<'a>(
+        &self,
+        at: &Iterate<'a>,
+        step: &Step,
+        trust: &Trust,
+        wanted: f64,
+    ) -> Option<(Iterate<'a>, f64)> {
+        let mut next = at.moved(&step.changes, step.z)?;
+        let mut reached = self.merit(&next, trust.penalty);
+        for _ in 0..MOST_BACK {
+            if reached >= wanted {
+                break;
+            }
+            let Some(back) = self.balanced(&next) else { break };
+            let merit = self.merit(&back, trust.penalty);
+            if merit <= reached {
+                break;
+            }
+            (next, reached) = (back, merit);
+        }
+        Some((next, reached))
+    }
+
+    /// The least relative change of the chord forces that leads back to the balance, to first order.
+    fn balanced<'a>(&self, at: &Iterate<'a>) -> Option<Iterate<'a>> {
+        let point = &at.point;
+        let largest = point.strands.iter().map(|strand| strand.held.chord_force()).fold(0.0, f64::max);
+        let unknown = |(i, strand): (usize, &Strand)| {
+            let row = &point.rows[i];
+            let [mut low, mut high] = strand.room();
+            if let Some(limits) = self.drawn.as_ref().map(|drawn| drawn[i]) {
+                low = low.max((limits.min + at.z - row.tension) / row.tension_slope);
+                high = high.min((limits.max - at.z - row.tension) / row.tension_slope);
+            }
+            let curvature = (largest / strand.held.chord_force()).powi(2);
+            BoxUnknown { gradient: 0.0, curvature, column: row.slope, bounds: [low.min(high), high.max(low)] }
+        };
+        let unknowns: Vec<BoxUnknown> = point.strands.iter().enumerate().map(unknown).collect();
+        let residual = point.residual() + self.direction * at.z;
+        let program = BoxProblem {
+            unknowns: &unknowns,
+            residual,
+            elasticity: ELASTICITY,
+            multipliers: Vector6::zeros(),
+        };
+        at.moved(&program.solve().values, at.z)
+    }
+
+    /// m of (I9) [N].
+    fn merit(&self, at: &Iterate, penalty: f64) -> f64 {
+        at.z - penalty * self.open(at)
+    }
+
+    /// |F|_1 and by how much tensions pass the limits drawn closer [N].
+    pub(super) fn open(&self, Iterate { point, z }: &Iterate) -> f64 {
+        let balance: f64 = (point.residual() + self.direction * *z).lp_norm(1);
+        let passed = |(i, limits): (usize, &TensionLimits)| {
+            let t = point.rows[i].tension;
+            (limits.min + z - t).max(0.0) + (t - limits.max + z).max(0.0)
+        };
+        balance + self.drawn.iter().flatten().enumerate().map(passed).sum::<f64>()
+    }
+
+    /// Solves the program for a step, and computes the chord forces of all limits that it meets.
+    fn step(
+        &self,
+        point: &mut Point,
+        size: f64,
+        trust: &Trust,
+    ) -> Result<Option<LinearSolution>, StaticsError> {
+        loop {
+            let Some(solution) = self.program(point, size, trust).solve() else { return Ok(None) };
+            let mut learned = false;
+            for (i, strand) in point.strands.iter_mut().enumerate() {
+                for side in 0..2 {
+                    let room = strand.room()[side] / size;
+                    let met = [solution.values[i] <= room, solution.values[i] >= room][side];
+                    if met && !strand.knows(side) {
+                        strand.learn(side).map_err(StaticsError::cable(i))?;
+                        learned = true;
+                    }
+                }
+            }
+            if !learned {
+                return Ok(Some(solution));
+            }
+        }
+    }
+
+    /// The program linearised at the cables, its forces in units of `size` [N]: unknowns are the changes of
+    /// the chord forces, z, and the distances of tensions from limits drawn closer.
+    fn program(&self, point: &Point, size: f64, trust: &Trust) -> LinearProgram {
+        let n = point.strands.len();
+        let slacks = self.drawn.as_ref().map_or(0, |limits| 2 * limits.len());
+        let within = |strand: &Strand| {
+            let at = strand.held.chord_force();
+            let [low, high] = strand.room();
+            let least = low.max((1.0 / (1.0 + trust.region)).max(LEAST_SHARE) * at - at);
+            [least, high.min(trust.region * at).max(least)].map(|d| d / size)
+        };
+        let mut bounds: Vec<[f64; 2]> = point.strands.iter().map(within).collect();
+        bounds.push(self.range.map(|z| z / size));
+        bounds.extend(vec![[0.0, f64::INFINITY]; slacks]);
+        let mut objective = vec![0.0; n + 1 + slacks];
+        objective[n] = 1.0;
+        let residual = point.residual();
+        let balance = self.components.iter().map(|&k| {
+            let mut row: Vec<f64> = point.rows.iter().map(|row| row.slope[k]).collect();
+            row.push(self.direction[k]);
+            row.extend(vec![0.0; slacks]);
+            (row, -residual[k] / size)
+        });
+        let drawn = self.drawn.iter().flatten().enumerate().flat_map(|(i, limits)| {
+            // t + t' d - z - p = min,  t + t' d + z + q = max
+            [(-1.0, limits.min), (1.0, limits.max)].into_iter().enumerate().map(
+                move |(side, (sign, limit))| {
+                    let mut row = vec![0.0; n + 1 + slacks];
+                    row[i] = point.rows[i].tension_slope;
+                    row[n] = sign;
+                    row[n + 1 + 2 * i + side] = sign;
+                    (row, (limit - point.rows[i].tension) / size)
+                },
+            )
+        });
+        let (rows, right) = balance.chain(drawn).unzip();
+        LinearProgram { objective, rows, right, bounds, penalty: trust.cost }
+    }
+}
+
+/// A step that a program leads to.
+struct Step {
+    /// Changes of the chord forces [N].
+    changes: Vec<f64>,
+    /// Where z goes [N].
+    z: f64,
+    /// The largest relative change of a chord force.
+    change: f64,
+}
+
+impl Step {
+    fn new(solution: &LinearSolution, point: &Point, size: f64) -> Self {
+        let n = point.strands.len();
+        let changes: Vec<f64> = solution.values[..n].iter().map(|x| x * size).collect();
+        let relative = point.strands.iter().zip(&changes).map(|(s, d)| d.abs() / s.held.chord_force());
+        let change = relative.fold(0.0, f64::max);
+        Self { changes, z: solution.values[n] * size, change }
+    }
+}
+
+impl<'a> Iterate<'a> {
+    /// The cables with these changes of their chord forces [N], at z [N].
+    pub(super) fn moved(&self, changes: &[f64], z: f64) -> Option<Self> {
+        let moved = self.point.moved(changes)?;
+        let mut next = Self { point: self.point.clone(), z };
+        let rows = next.point.rows_of(&moved);
+        next.point.set(moved, rows);
+        Some(next)
+    }
+}

@@ -1,0 +1,209 @@
+//! Newton's method for the conditions of a maximum of (I7) whose active limits are known.
+//!
+//! With c the equations, those of the balance and of the active limits that z draws closer, and the Lagrangian
+//! `L = z + λ·c`, a maximum has `∂L/∂(σ, z) = 0` and `c = 0`. Each step solves
+//!
+//! ```text
+//! [ H  Aᵀ ] [ x ]   [ -∂z/∂(σ, z) ]
+//! [ A  0  ] [ λ ] = [     -c      ]      H = ∂²L/∂(σ, z)²,  diagonal,      A = ∂c/∂(σ, z)        (I10)
+//! ```
+//!
+//! for the chord forces of cables between their limits, and z. Where as many limits are active as there are
+//! unknowns beyond the balance, A is square and H takes no part; where fewer are, only H makes the steps
+//! converge.
+
+use super::maximization::{BALANCE, Iterate, Maximization};
+use crate::inverse::held::Strand;
+use cdpr_robot::Vector6;
+use cdpr_tension::LinearSolution;
+use nalgebra::{DMatrix, DVector};
+
+const MAX_ITERATIONS: usize = 20;
+
+/// Greatest relative change of a chord force in one step.
+const GREATEST_CHANGE: f64 = 1.0;
+
+/// A relative change below this is rounding; one below the other if it does not decrease.
+const ROUNDING: f64 = 1e-14;
+const NEARLY_ROUNDING: f64 = 1e-8;
+
+/// A distance from a limit drawn closer that is zero, relative to the forces.
+const ON_LIMIT: f64 = 1e-12;
+
+/// The limits that a program rests on.
+struct Active {
+    /// Of each cable the limit, 0 the least and 1 the greatest.
+    fixed: Vec<Option<usize>>,
+    /// Cables at a limit that z draws closer, and which.
+    drawn: Vec<(usize, usize)>,
+}
+
+/// Multipliers of (I10).
+struct Multipliers {
+    balance: Vector6<f64>,
+    /// Of the active limits drawn closer.
+    drawn: Vec<f64>,
+}
+
+impl Maximization {
+    /// The maximum with the limits that a program rests on; `None` where Newton's method does not lead to one
+    /// within the other limits.
+    pub(super) fn polished<'a>(
+        &self,
+        at: &Iterate<'a>,
+        solution: &LinearSolution,
+        size: f64,
+    ) -> Option<Iterate<'a>> {
+        let active = self.active(at, solution, size);
+        let mut multipliers = self.multipliers(&active, solution);
+        let mut at = at.clone();
+        let mut before = f64::INFINITY;
+        for _ in 0..MAX_ITERATIONS {
+            let (step, matrix, next) = self.newton_step(&at, &active, &multipliers)?;
+            let n = at.point.strands.len();
+            let relative =
+                at.point.strands.iter().zip(&step).map(|(strand, d)| d.abs() / strand.held.chord_force());
+            let change = relative.fold(0.0, f64::max);
+            if change > GREATEST_CHANGE || !self.stays_within(&mut at, &active, &step)? {
+                return None;
+            }
+            let is_last = change <= ROUNDING || (change <= NEARLY_ROUNDING && change >= 0.5 * before);
+            at = at.moved(&step[..n], at.z + step[n])?;
+            if !(self.range[0]..=self.range[1]).contains(&at.z) {
+                return None;
+            }
+            (before, multipliers) = (change, next);
+            if is_last {
+                let is_maximum = self.open(&at) <= BALANCE * at.point.size()
+                    && is_maximum(matrix, self.components.len() + active.drawn.len());
+                return is_maximum.then_some(at);
+            }
+        }
+        None
+    }
+
+    fn active(&self, at: &Iterate, solution: &LinearSolution, size: f64) -> Active {
+        let n = at.point.strands.len();
+        let fixed = |(strand, d): (&Strand, &f64)| {
+            let [low, high] = strand.room().map(|room| room / size);
+            let met = [*d <= low, *d >= high];
+            (0..2).find(|side| met[*side] && strand.knows(*side))
+        };
+        let fixed = at.point.strands.iter().zip(&solution.values[..n]).map(fixed).collect();
+        let slacks = solution.values[n + 1..].iter().enumerate();
+        let drawn = slacks.filter(|(_, slack)| **slack <= ON_LIMIT).map(|(k, _)| (k / 2, k % 2)).collect();
+        Active { fixed, drawn }
+    }
+
+    fn multipliers(&self, active: &Active, solution: &LinearSolution) -> Multipliers {
+        let mut balance = Vector6::zeros();
+        for (k, y) in self.components.iter().zip(&solution.multipliers) {
+            balance[*k] = -y;
+        }
+        let of_drawn = |(i, side): &(usize, usize)| {
+            let multiplier = solution.multipliers[self.components.len() + 2 * i + side];
+            if *side == 0 { -multiplier } else { multiplier }
+        };
+        Multipliers { balance, drawn: active.drawn.iter().map(of_drawn).collect() }
+    }
+
+    /// Changes of all chord forces and of z, the matrix of (I10) and the multipliers.
+    fn newton_step(
+        &self,
+        at: &Iterate,
+        active: &Active,
+        multipliers: &Multipliers,
+    ) -> Option<(Vec<f64>, DMatrix<f64>, Multipliers)> {
+        let point = &at.point;
+        let n = point.strands.len();
+        let free: Vec<usize> = (0..n).filter(|i| active.fixed[*i].is_none()).collect();
+        let mut step: Vec<f64> = (point.strands.iter().zip(&active.fixed))
+            .map(|(strand, fixed)| fixed.map_or(0.0, |side| strand.room()[side]))
+            .collect();
+        let (k, m) = (free.len(), self.components.len());
+        let rows = m + active.drawn.len();
+        let mut matrix = DMatrix::zeros(k + 1 + rows, k + 1 + rows);
+        let mut right = DVector::zeros(k + 1 + rows);
+        right[k] = -1.0;
+        for (column, &i) in free.iter().enumerate() {
+            let strand = &point.strands[i];
+            let of_cable = active.drawn.iter().zip(&multipliers.drawn).filter(|((j, _), _)| *j == i);
+            let of_tension: f64 = of_cable.map(|((_, side), mu)| [*mu, -mu][*side]).sum();
+            matrix[(column, column)] =
+                strand.bend(&multipliers.balance, point.arm) + of_tension * strand.tension_curvature();
+        }
+        let residual = point
+            .rows
+            .iter()
+            .zip(&step)
+            .fold(point.residual() + self.direction * at.z, |sum, (row, d)| sum + row.slope * *d);
+        let mut set = |row: usize, column: usize, value: f64| {
+            matrix[(k + 1 + row, column)] = value;
+            matrix[(column, k + 1 + row)] = value;
+        };
+        for (row, &component) in self.components.iter().enumerate() {
+            for (column, &i) in free.iter().enumerate() {
+                set(row, column, point.rows[i].slope[component]);
+            }
+            set(row, k, self.direction[component]);
+            right[k + 1 + row] = -residual[component];
+        }
+        for (row, &(i, side)) in active.drawn.iter().enumerate() {
+            let limits = self.drawn.as_ref()?[i];
+            let sign = [1.0, -1.0][side];
+            let slope = sign * point.rows[i].tension_slope;
+            let limit = [limits.min, limits.max][side];
+            if let Some(column) = free.iter().position(|j| *j == i) {
+                set(m + row, column, slope);
+            }
+            set(m + row, k, -1.0);
+            // Of a fixed cable the change is known.
+            right[k + 1 + m + row] = -(sign * (point.rows[i].tension - limit) - at.z) - slope * step[i];
+        }
+        let solution = matrix.clone().lu().solve(&right)?;
+        if solution.iter().any(|x| !x.is_finite()) {
+            return None;
+        }
+        for (column, &i) in free.iter().enumerate() {
+            step[i] = solution[column];
+        }
+        step.push(solution[k]);
+        let mut balance = Vector6::zeros();
+        for (row, component) in self.components.iter().enumerate() {
+            balance[*component] = solution[k + 1 + row];
+        }
+        let drawn = solution.rows(k + 1 + m, active.drawn.len()).iter().copied().collect();
+        Some((step, matrix, Multipliers { balance, drawn }))
+    }
+
+    /// Whether cables between their limits stay there; computes the limits that a step meets.
+    fn stays_within(&self, at: &mut Iterate, active: &Active, step: &[f64]) -> Option<bool> {
+        for ((strand, d), fixed) in at.point.strands.iter_mut().zip(step).zip(&active.fixed) {
+            if fixed.is_some() {
+                continue;
+            }
+            for side in 0..2 {
+                let passed = |strand: &Strand| {
+                    let room = strand.room()[side];
+                    [*d < room, *d > room][side]
+                };
+                if passed(strand) && !strand.knows(side) {
+                    strand.learn(side).ok()?;
+                }
+                if passed(strand) {
+                    return Some(false);
+                }
+            }
+        }
+        Some(true)
+    }
+}
+
+/// Whether the second derivatives of the Lagrangian are negative along all motions that keep the equations:
+/// (I10) then has as many positive eigenvalues as equations.
+fn is_maximum(matrix: DMatrix<f64>, equations: usize) -> bool {
+    let unknowns = matrix.nrows() - equations;
+    let eigenvalues = matrix.symmetric_eigenvalues();
+    let negative = eigenvalues.iter().filter(|value| **value < 0.0).count();
+    negative == unknowns
+}
