@@ -94,16 +94,6 @@ pub(crate) fn named_after(robot: &Path, of: &str) -> PathBuf {
     PathBuf::from(format!("{stem}-{of}"))
 }
 
-/// A file for a figure, whose name says that it is SVG.
-pub(crate) fn svg(text: &str) -> Result<PathBuf, String> {
-    let path = PathBuf::from(text);
-    let ending = path.extension().map(std::ffi::OsStr::to_ascii_lowercase);
-    if ending.is_some_and(|ending| ending == "svg") {
-        return Ok(path);
-    }
-    Err("figures are SVG: expected a name that ends in .svg; other programs make PDF or PNG of it".to_owned())
-}
-
 /// A count between two bounds, both of them allowed.
 pub(crate) fn count<const LEAST: usize, const MOST: usize>(text: &str) -> Result<usize, String> {
     let count = text.trim().parse().ok().filter(|count| (LEAST..=MOST).contains(count));

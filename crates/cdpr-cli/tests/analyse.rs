@@ -124,6 +124,9 @@ fn a_vector_of_columns_has_an_index_for_each_input() {
         assert!(index(input, "index", "low") < index(input, "index", "high"));
     }
     assert!(index("x3", "index", "value") > 0.03, "x3 changes the spread of y");
+    // Three rows failed: y has no number there, x4 has one.
+    let usual = json_of(&["analyse", &table, "--vector", "y,x4"]);
+    assert_eq!((&usual["inputs"], &usual["unused"]), (&json!(["x1", "x2", "x3"]), &json!(["status"])));
     let printed = answered(cdpr(&["analyse", &table, "--vector", "y"]));
     assert!(printed.contains("(y): how much an input moves the law of this vector"), "{printed}");
 }

@@ -425,6 +425,8 @@ fn edited_files_of_results_are_noticed_wherever_they_are_read() {
         ("summary.json", ["\"mean\": ", "\"mean\": 1"], &["report"]),
         ("plane.csv", ["held,", "held,1"], &["report"]),
         ("surface_E_rho.csv", [",ok", "1,ok"], &["report"]),
+        // A table of observations, which the report does not show.
+        ("mechanical.csv", [",ok", "1,ok"], &["report"]),
     ] {
         let path = bench.path("out").join(name);
         let kept = std::fs::read_to_string(&path).unwrap();

@@ -1,6 +1,7 @@
 //! `cdpr import`: a robot file made of the files of another program.
 
 use crate::arguments::{self, Overwrite, components};
+use crate::endings;
 use crate::error::ProgramError;
 use crate::output::Ending;
 use crate::questions;
@@ -18,7 +19,7 @@ pub(crate) struct Settings {
     #[arg(required = true)]
     files: Vec<PathBuf>,
     /// Robot file to write; if left out, it is printed.
-    #[arg(long)]
+    #[arg(long, value_parser = endings::json())]
     out: Option<PathBuf>,
     #[command(flatten)]
     overwrite: Overwrite,

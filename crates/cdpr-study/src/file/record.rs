@@ -2,7 +2,7 @@
 //! or `unloading`). Lines that begin with `#` are comments.
 
 use crate::error::StudyError;
-use crate::fs::input::read_text;
+use crate::fs::input::{other_kind, read_text};
 use crate::kind::InputKind;
 use cdpr_cable::{Phase, Record, RecordError, Sample};
 use csv::{ReaderBuilder, StringRecord, Trim};
@@ -15,8 +15,11 @@ const COLUMNS: [&str; 3] = ["force_n", "elongation_mm", "phase"];
 /// # Errors
 /// [`StudyError::Read`]; [`StudyError::Record`] names the line.
 pub fn open_record(path: &Path) -> Result<Record, StudyError> {
-    let record = read_record(&read_text(path, InputKind::Record)?);
-    record.map_err(|source| StudyError::Record { path: path.to_owned(), source })
+    let text = read_text(path, InputKind::Record)?;
+    read_record(&text).map_err(|source| {
+        let other = other_kind(path, &text, InputKind::Record);
+        other.unwrap_or_else(|| StudyError::Record { path: path.to_owned(), source })
+    })
 }
 
 /// Reads and checks a record from the text of a file.

@@ -135,6 +135,22 @@ impl Manifest {
     }
 }
 
+/// Checks that no table of a folder was changed since its run, also one that is not read again. A table that
+/// was removed is none.
+///
+/// # Errors
+/// [`StudyError::Changed`]; [`StudyError::Read`], [`StudyError::NotRegular`].
+pub(crate) fn check_tables(folder: &Path, list: &Manifest) -> Result<(), StudyError> {
+    let tables = list.files.keys().filter(|name| name.ends_with(".csv") || name.ends_with(".parquet"));
+    for name in tables {
+        match list.check(folder, name) {
+            Err(StudyError::Read { source, .. }) if source.kind() == ErrorKind::NotFound => (),
+            checked => checked?,
+        }
+    }
+    Ok(())
+}
+
 /// Checks that a file is not one that a run has written and somebody has changed since.
 ///
 /// # Errors
