@@ -54,7 +54,8 @@ pub(crate) fn check_foreign(path: &Path, is: &str, endings: &[&str]) -> Result<(
 }
 
 fn refusal(is: &str, endings: &[&str]) -> String {
-    let expected = endings.first().map_or("without an ending".to_owned(), |usual| format!("that ends in .{usual}"));
+    let expected =
+        endings.first().map_or("without an ending".to_owned(), |usual| format!("that ends in .{usual}"));
     format!("{is}: expected a name {expected}")
 }
 

@@ -145,7 +145,9 @@ fn with_options(error: &StudyError) -> String {
         StudyError::OtherKind { found: InputKind::Errors, .. } => {
             ": `cdpr calibrate --model` takes it, and so do the `error_models` of a study, {\"file\": ...}"
         }
-        StudyError::OtherKind { found: InputKind::Measurements, .. } => ": `cdpr calibrate --measurements` takes it",
+        StudyError::OtherKind { found: InputKind::Measurements, .. } => {
+            ": `cdpr calibrate --measurements` takes it"
+        }
         StudyError::OtherKind { found: InputKind::Results, .. } => ": `cdpr report` takes its folder",
         StudyError::OtherKind { found: InputKind::Foreign, .. } => ": `cdpr import` makes a robot file of it",
         StudyError::OtherKind { found: InputKind::Table, kind: InputKind::Robot, .. } => {

@@ -53,8 +53,9 @@ fn tables_of_designs_and_of_words_have_their_shares_and_contrasts() {
         assert!((shares["closed"].as_f64().unwrap() - exact).abs() < 1e-5, "{shares}");
         assert!((shares["total"].as_f64().unwrap() - exact).abs() < 1e-5, "{shares}");
     }
+    // Of 9 different rows the tests, which look at one input at a time, find A; the 11 % of B are in its shares.
     let certain = found["outputs"]["y"]["verdict"]["certain"].as_array().unwrap();
-    assert_eq!(certain.len(), 2, "{certain:?}");
+    assert_eq!(certain.iter().map(|of| &of["input"]).collect::<Vec<_>>(), [&json!("A")]);
 
     let (found, code) = of_table("l9-text-levels.csv");
     assert_eq!((&found["inputs"], code), (&json!(["temp", "mat", "speed"]), 0));

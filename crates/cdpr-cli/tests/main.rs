@@ -21,6 +21,7 @@ mod library;
 mod models;
 mod modulus;
 mod natural_mistakes;
+mod other_kinds;
 mod ours;
 mod path;
 mod poses;

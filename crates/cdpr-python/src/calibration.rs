@@ -12,7 +12,9 @@ use cdpr_calibration::{
 use cdpr_report::calibration_report;
 use cdpr_robot::{CableEnd, Pose, Vector3};
 use cdpr_statics::Load;
-use cdpr_study::{ErrorModel, IfExists, InputKind, check_table, open_errors, read_bytes, uncertainties, write_text};
+use cdpr_study::{
+    ErrorModel, IfExists, InputKind, check_table, open_errors, read_bytes, uncertainties, write_text,
+};
 use pyo3::prelude::*;
 use serde_json::{Map, Value, json};
 use std::path::{Path, PathBuf};

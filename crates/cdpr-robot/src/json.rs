@@ -51,7 +51,8 @@ fn plain(message: &str, field: &str) -> String {
     let message = message
         .replace("EOF while parsing", "the text ends within")
         .replace("expected f64", "expected a number")
-        .replace("expected usize", "expected a whole number");
+        .replace("expected usize", COUNT)
+        .replace("expected u64", COUNT);
     let (before, behind) = message.split_once("expected struct ").unwrap_or((&message, ""));
     let behind = behind.trim_start_matches(char::is_alphanumeric);
     let message = if before.len() < message.len() {
@@ -67,6 +68,9 @@ fn plain(message: &str, field: &str) -> String {
         _ => message,
     }
 }
+
+/// What counts and seeds are.
+const COUNT: &str = "expected a whole number, 0 to 1.8e19";
 
 /// How messages begin that are about a cable's properties at a wrong place.
 const CABLE: [&str; 5] = [
@@ -284,6 +288,12 @@ mod tests {
             let error = from_json::<BTreeMap<String, Vec<[f64; 2]>>>(&text).unwrap_err();
             assert_eq!(error.message, words, "{text}");
         }
+        let of_count = |text| from_json::<u64>(text).unwrap_err().message;
+        assert_eq!(of_count("-1"), "invalid value: integer `-1`, expected a whole number, 0 to 1.8e19");
+        assert_eq!(
+            of_count("1.5"),
+            "invalid type: floating point `1.5`, expected a whole number, 0 to 1.8e19"
+        );
         assert_eq!(super::numbered("cables[7].lead"), "cable 8, cables[7].lead");
     }
 

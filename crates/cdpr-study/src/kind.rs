@@ -65,9 +65,9 @@ const FORMATS: [(&str, InputKind); 8] = [
 ];
 
 impl InputKind {
-    /// Whether it is a table as text.
-    pub(crate) fn is_table(self) -> bool {
-        matches!(self, Self::Table | Self::Poses | Self::Measurements | Self::Record)
+    /// Whether it may be a table as text.
+    pub(crate) fn may_be_table(self) -> bool {
+        matches!(self, Self::Table | Self::Poses | Self::Measurements | Self::Record | Self::Foreign)
     }
 
     /// What a text is, by the format that it states or by how it begins. It need not be without errors.
@@ -80,14 +80,13 @@ impl InputKind {
                 let format = value.strip_prefix('"')?.split(['/', '"']).next()?;
                 FORMATS.iter().find(|(name, _)| *name == format).map(|(_, kind)| *kind)
             }
-            _ if text.contains('{') => None,
             _ => {
                 let first = text.lines().find(|line| !line.trim().is_empty() && !line.starts_with('#'))?;
                 let is_key = |line: &str| line.split_once(':').is_some_and(|(key, _)| is_name(key));
                 if is_key(first) {
                     return Some(Self::Foreign);
                 }
-                first.contains([',', ';', '\t']).then_some(Self::Table)
+                (first.contains([',', ';', '\t']) && !text.contains('{')).then_some(Self::Table)
             }
         }
     }
@@ -132,7 +131,7 @@ mod tests {
             ("{\"mass\": 3}", None),
             ("// mine, old\n{\"mass\": 3}", None),
             ("<mujoco/>", Some(InputKind::Foreign)),
-            ("# a robot\npoints:\n  - [1, 2]\n", Some(InputKind::Foreign)),
+            ("# a robot\npoints:\n  - {frame: [1, 2]}\n", Some(InputKind::Foreign)),
             ("x,y,z\n0,0,2\n", Some(InputKind::Table)),
             ("# poses\n0;0;2\n", Some(InputKind::Table)),
             ("", None),

@@ -50,7 +50,7 @@ pub(crate) struct Settings {
           value_parser = arguments::count::<1, { FitSettings::MOST_STARTS }>)]
     starts: usize,
     /// Seed of the random starts.
-    #[arg(long, default_value_t = 1)]
+    #[arg(long, default_value_t = 1, value_parser = arguments::seed, allow_negative_numbers = true)]
     seed: u64,
     /// Keep the values of parameters that the data do not tell, instead of leaving them to their priors.
     #[arg(long)]

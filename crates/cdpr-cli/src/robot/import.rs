@@ -7,7 +7,7 @@ use crate::output::Ending;
 use crate::questions;
 use cdpr_exchange::{ForeignFile, ImportOptions, Imported, NoteKind, import};
 use cdpr_robot::{TensionLimits, plausible, shown};
-use cdpr_study::{InputKind, StudyError, open_cable, read_text};
+use cdpr_study::{InputKind, StudyError, open_cable, other_kind, read_text};
 use std::path::{Path, PathBuf};
 
 /// Files of another program, and what they lack.
@@ -45,6 +45,9 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     for path in &settings.files {
         for path in of_folder(path)? {
             let text = read_text(&path, InputKind::Foreign)?;
+            if let Some(own) = other_kind(&path, &text, InputKind::Foreign) {
+                return Err(own.into());
+            }
             files.push(ForeignFile { name: path.display().to_string(), text });
         }
     }

@@ -36,7 +36,8 @@ pub fn read_table(path: &Path, kind: InputKind) -> Result<Table, StudyError> {
 pub fn check_table(path: &Path, bytes: &[u8], kind: InputKind) -> Result<(), StudyError> {
     let Ok(text) = std::str::from_utf8(bytes) else { return Ok(()) };
     let text = text.trim_start_matches('\u{feff}').trim_start();
-    let is_json = text.starts_with('{') || text.starts_with('[') && serde_json::from_str::<IgnoredAny>(text).is_ok();
+    let is_json =
+        text.starts_with('{') || text.starts_with('[') && serde_json::from_str::<IgnoredAny>(text).is_ok();
     match other_kind(path, text, kind) {
         Some(other) if is_json || text.starts_with('<') => Err(other),
         _ if is_json && kind != InputKind::Measurements => {
@@ -79,7 +80,8 @@ pub fn read_bytes(path: &Path, kind: InputKind) -> Result<Vec<u8>, StudyError> {
 /// The error of a text that was not read as one kind because it is of another.
 pub fn other_kind(path: &Path, text: &str, kind: InputKind) -> Option<StudyError> {
     let found = InputKind::of_text(text)?;
-    let is_other = found != kind && !(found == InputKind::Table && kind.is_table());
+    // Measurements and points to import may be tables, too.
+    let is_other = found != kind && !(found == InputKind::Table && kind.may_be_table());
     is_other.then(|| StudyError::OtherKind { path: path.to_owned(), found, kind })
 }
 

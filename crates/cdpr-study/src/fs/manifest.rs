@@ -82,6 +82,9 @@ impl Manifest {
     /// [`StudyError::Invalid`] for names that no run has given.
     pub(crate) fn read(folder: &Path) -> Result<Option<Self>, StudyError> {
         let path = folder.join(MANIFEST_NAME);
+        if folder.is_file() {
+            return Err(StudyError::NoFolder { path: folder.to_owned() });
+        }
         if !is_plain_file(&path)? {
             return Ok(None);
         }

@@ -139,7 +139,8 @@ impl GivenTable {
         let deviations = self.deviations();
         let varies_with = |column: &GivenColumn, output: usize| {
             let values = &self.columns[output].values;
-            let observed = (0..self.rows).filter(|&row| !values[row].is_nan() && !column.values[row].is_nan());
+            let observed =
+                (0..self.rows).filter(|&row| !values[row].is_nan() && !column.values[row].is_nan());
             let mut codes: Vec<u64> = observed.map(|row| column.values[row].to_bits()).collect();
             let count = codes.len();
             codes.sort_unstable();

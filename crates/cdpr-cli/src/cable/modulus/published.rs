@@ -44,10 +44,11 @@ const ROUNDING: f64 = 1e-6;
 impl Published {
     pub(super) fn open(path: &Path) -> Result<Self, ProgramError> {
         let text = read_text(path, InputKind::Moduli)?;
-        let found: Self = from_json(&text).map_err(|error| match other_kind(path, &text, InputKind::Moduli) {
-            Some(other) => other.into(),
-            None => ProgramError::in_file(path)(error),
-        })?;
+        let found: Self =
+            from_json(&text).map_err(|error| match other_kind(path, &text, InputKind::Moduli) {
+                Some(other) => other.into(),
+                None => ProgramError::in_file(path)(error),
+            })?;
         let expected = found.ranges.len();
         for (field, moduli) in [("loading_gpa", &found.loading_gpa), ("unloading_gpa", &found.unloading_gpa)]
         {

@@ -46,7 +46,7 @@ pub(crate) struct PlanSettings {
     #[command(flatten)]
     preference: Preference,
     /// Seed of the random sets beside it.
-    #[arg(long, default_value_t = 1)]
+    #[arg(long, default_value_t = 1, value_parser = arguments::seed, allow_negative_numbers = true)]
     seed: u64,
     /// File for the poses (CSV), as --poses reads them.
     #[arg(long, value_parser = endings::csv())]

@@ -46,7 +46,7 @@ pub(crate) struct SimulateSettings {
     #[command(flatten)]
     preference: Preference,
     /// Seed of deviations and noise.
-    #[arg(long)]
+    #[arg(long, value_parser = arguments::seed, allow_negative_numbers = true)]
     seed: u64,
     /// File for the measurements (CSV).
     #[arg(long, value_parser = endings::csv())]
