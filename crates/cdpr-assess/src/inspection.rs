@@ -5,6 +5,7 @@ mod ground;
 mod pose;
 mod pulley;
 mod swapped;
+mod symmetry;
 
 use cdpr_robot::{Doubt, Robot, RobotCable, Vector3, plausible};
 use serde::Serialize;

@@ -7,7 +7,7 @@ use crate::questions;
 use cdpr_assess::PoseRegion;
 use cdpr_robot::{Coordinate, Parameter, Robot, TensionReference, Wrench, counted, plausible, shown};
 use cdpr_statics::Load;
-use cdpr_study::{ErrorModel, Grid, GridAxis, IfExists, Study, open_robot_in_any_unit, write_text};
+use cdpr_study::{ErrorModel, Grid, GridAxis, IfExists, Study, Unit, open_robot_in_any_unit, write_text};
 use serde::Serialize;
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
@@ -94,16 +94,6 @@ pub(crate) fn named_after(robot: &Path, of: &str) -> PathBuf {
     PathBuf::from(format!("{stem}-{of}"))
 }
 
-/// A file for a figure, whose name says that it is SVG.
-pub(crate) fn svg(text: &str) -> Result<PathBuf, String> {
-    let path = PathBuf::from(text);
-    let ending = path.extension().map(std::ffi::OsStr::to_ascii_lowercase);
-    if ending.is_some_and(|ending| ending == "svg") {
-        return Ok(path);
-    }
-    Err("figures are SVG: expected a name that ends in .svg; other programs make PDF or PNG of it".to_owned())
-}
-
 /// A count between two bounds, both of them allowed.
 pub(crate) fn count<const LEAST: usize, const MOST: usize>(text: &str) -> Result<usize, String> {
     let count = text.trim().parse().ok().filter(|count| (LEAST..=MOST).contains(count));
@@ -112,16 +102,28 @@ pub(crate) fn count<const LEAST: usize, const MOST: usize>(text: &str) -> Result
     count.ok_or_else(|| format!("expected a count, {LEAST} to {most}"))
 }
 
+/// A seed of random numbers.
+pub(crate) fn seed(text: &str) -> Result<u64, String> {
+    text.trim().parse().map_err(|_| "expected a seed, a whole number, 0 to 1.8e19".to_owned())
+}
+
 /// A finite number.
 pub(crate) fn number(text: &str) -> Result<f64, String> {
     let text = text.trim();
     let finite = |text: &str| text.parse().ok().filter(|number: &f64| number.is_finite());
     let hint = || match finite(&text.replacen(',', ".", 1)) {
         Some(meant) => format!(": expected a decimal point, {meant}"),
-        None => match finite(text.trim_end_matches(|c: char| c.is_alphabetic() || c == ' ')) {
-            Some(meant) => format!(": expected {meant}, without a unit"),
-            None => String::new(),
-        },
+        None => {
+            let end = text.trim_end_matches(|c: char| c.is_alphabetic() || c == ' ').len();
+            let (value, unit) = text.split_at(end);
+            match (finite(value), Unit::of(unit)) {
+                (Some(meant), Some(Unit { factor: 1.0, .. })) => {
+                    format!(": expected {meant}, without a unit")
+                }
+                (Some(_), _) => ": expected a number alone, in the unit that `--help` states".to_owned(),
+                (None, _) => String::new(),
+            }
+        }
     };
     finite(text).ok_or_else(|| format!("`{text}` is not a finite number{}", hint()))
 }

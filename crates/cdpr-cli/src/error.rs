@@ -142,6 +142,18 @@ fn with_options(error: &StudyError) -> String {
         }
         StudyError::OtherKind { found: InputKind::Law, .. } => ": `cdpr hysteresis --law` takes it",
         StudyError::OtherKind { found: InputKind::Cable, .. } => ": `cdpr import --cable` takes it",
+        StudyError::OtherKind { found: InputKind::Errors, .. } => {
+            ": `cdpr calibrate --model` takes it, and so do the `error_models` of a study, {\"file\": ...}"
+        }
+        StudyError::OtherKind { found: InputKind::Measurements, .. } => {
+            ": `cdpr calibrate --measurements` takes it"
+        }
+        StudyError::OtherKind { found: InputKind::Results, .. } => ": `cdpr report` takes its folder",
+        StudyError::OtherKind { found: InputKind::Foreign, .. } => ": `cdpr import` makes a robot file of it",
+        StudyError::OtherKind { found: InputKind::Table, kind: InputKind::Robot, .. } => {
+            ": `cdpr import` makes a robot file of a table of points"
+        }
+        StudyError::OtherKind { found: InputKind::Table, .. } => ": `cdpr analyse` takes it",
         StudyError::NoSuchName { kind: InputKind::Cable, .. } => "; `cdpr robots --cables` lists them all",
         StudyError::NoSuchName { .. } => "; `cdpr robots` lists them all",
         StudyError::FileExists { .. } => "; --overwrite replaces it",

@@ -8,6 +8,7 @@ mod output;
 mod answer;
 mod arguments;
 mod cable;
+mod endings;
 mod error;
 mod lists;
 mod pose;

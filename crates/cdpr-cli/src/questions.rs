@@ -73,13 +73,17 @@ pub(crate) fn about_model(robot: &Robot, model: &ErrorModel) {
 
 /// Asks about a pose.
 pub(crate) fn about_pose(robot: &Robot, name: &str, pose: &Pose) {
-    ask(plausible::position(robot, name, &pose.position));
+    ask(odd_pose(robot, name, pose));
 }
 
-/// Asks about the first of several poses that is far away, and how many are.
+/// A pose that is far away, or in the ground.
+fn odd_pose(robot: &Robot, name: &str, pose: &Pose) -> Option<Doubt> {
+    plausible::position(robot, name, &pose.position).or_else(|| plausible::in_ground(robot, name, pose))
+}
+
+/// Asks about the first of several poses that is far away or in the ground, and how many are.
 pub(crate) fn about_poses(robot: &Robot, name: &str, poses: &[Pose]) {
-    let far = |pose: &Pose| plausible::position(robot, name, &pose.position);
-    let mut doubts = poses.iter().enumerate().filter_map(|(i, pose)| Some((i, far(pose)?)));
+    let mut doubts = poses.iter().enumerate().filter_map(|(i, pose)| Some((i, odd_pose(robot, name, pose)?)));
     let Some((i, doubt)) = doubts.next() else { return };
     let others = match doubts.count() {
         0 => String::new(),

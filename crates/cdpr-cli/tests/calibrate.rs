@@ -56,6 +56,23 @@ fn changed(path: &str, change: impl Fn(&mut Vec<Vec<String>>)) {
 }
 
 #[test]
+fn noise_stated_in_millimetres_makes_chi_square_too_small_and_is_questioned() {
+    let (folder, path) = campaign();
+    let model = data_path("calibration/caroca-tolerances.json");
+    let noise = "position=0.05,rotation=0.05,length=0.05";
+    let output = calibrate(&path, &folder.path().join("out"), &["--model", &model, "--noise", noise]);
+    assert_eq!(output.status.code(), Some(3), "{}", text(output.stderr));
+    let summary: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let warnings = summary["warnings"].as_array().unwrap();
+    let is_of_noise = |warning: &Value| {
+        let warning = warning.as_str().unwrap();
+        warning.contains("far too small: is the noise stated in mm where it is m, or too large?")
+    };
+    assert!(warnings.iter().any(is_of_noise), "{summary}");
+    assert!(summary["p_value_of_less"].as_f64().unwrap() < 1e-4, "{summary}");
+}
+
+#[test]
 fn a_campaign_gives_a_robot_and_what_is_left_and_a_study_takes_both() {
     let (folder, path) = campaign();
     let model = data_path("calibration/caroca-tolerances.json");
@@ -179,7 +196,7 @@ fn what_cannot_be_written_and_settings_that_cannot_be_meant_are_refused() {
     for (more, words) in [
         (&["--noise", "position=0"][..], "noise position is 0: expected a standard deviation from 1e-15"),
         (&["--noise", "tensoin=1"], "noise tensoin is 1: expected one of position"),
-        (&["--noise", "cov_x_m_y=1"], "noise cov_x_m_y is 1: expected two quantities"),
+        (&["--noise", "cov_x_m_y=1"], "noise cov_x_m_y is 1: expected two different quantities"),
         (&["--noise", NOISE, "--share", "r"], "share is r: expected parameters that are sought"),
         (&["--noise", NOISE, "--bounds", "mass=1"], "`mass=1`: expected name=least:greatest"),
         (&["--noise", NOISE, "--bounds", "lead=0:1"], "bounds is lead: expected the name of something"),

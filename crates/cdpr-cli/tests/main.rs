@@ -22,6 +22,7 @@ mod models;
 mod modulus;
 mod natural_mistakes;
 mod odd_numbers;
+mod other_kinds;
 mod ours;
 mod path;
 mod poses;

@@ -142,6 +142,10 @@ fn numbers_of_an_option_stand_between_commas_semicolons_or_blanks() {
             &["--pose", "0,0,2", "--payload", "20kg"],
             "`20kg` is not a finite number: expected 20, without a unit",
         ),
+        (
+            &["--pose", "0,0,2000mm"],
+            "`2000mm` is not a finite number: expected a number alone, in the unit that `--help` states",
+        ),
         (&["--pose", "0,0,2", "--force", "0,0,-20kg"], "a force is in N, and a mass in kg is `--payload`"),
         (&["--pose", "0,0,2", "--force", "20"], "1 number: expected 3"),
         (
@@ -219,6 +223,22 @@ fn a_uniform_law_of_the_template_may_become_normal() {
         }
     }
     assert!(changed > 0, "{study}");
+    for seed in [json!(-1), json!(1.5), json!(1e20)] {
+        let mut other = study.clone();
+        other["seed"] = seed;
+        std::fs::write(&path, other.to_string()).unwrap();
+        contains(
+            &refused(folder.path(), &["study", "run", "study.json"]),
+            &["seed: invalid ", "expected a whole number, 0 to 1.8e19"],
+        );
+    }
+    let table = data_path("tables/ishigami.csv");
+    for seed in ["-1", "1.5"] {
+        contains(
+            &refused(folder.path(), &["analyse", &table, &format!("--seed={seed}")]),
+            &["expected a seed, a whole number, 0 to 1.8e19"],
+        );
+    }
     std::fs::write(&path, study.to_string()).unwrap();
     let checked =
         cdpr_in(folder.path(), &["study", "run", "study.json", "--observations", "200", "--out", "out"]);

@@ -15,21 +15,26 @@ fn done(output: Output) {
     assert!(output.status.success(), "{}", text(output.stderr));
 }
 
-/// Commands that write one file, `FILE`, and a text by which such files were once recognised.
-fn writers() -> Vec<(Vec<String>, &'static str)> {
+/// Commands that write one file, `FILE`, the ending of its format, and a text by which such files were once
+/// recognised.
+fn writers() -> Vec<(Vec<String>, &'static str, &'static str)> {
     let (caroca, record) = (data_path("robots/caroca.json"), data_path("cables/caroca-4mm-record.csv"));
     let source = data_path("reference/exchange/caroca.yaml");
     let modulus = "--breaking-force 10290 --section 1.2566370614e-5 --length 1 --range 5-10";
     [
-        (format!("import {source} --cable steel-4mm --tension-limits 50,10000 --out FILE"), "cdpr-robot/1"),
-        (format!("export {caroca} --to mjcf --pose 0,0,1.75 --out FILE"), "<mujoco"),
-        (format!("export {caroca} --to moorpy --pose 0,0,1.75 --out FILE"), "LINE TYPES"),
-        (format!("modulus {record} {modulus} --law FILE"), "cdpr-law/1"),
-        (format!("modulus {record} {modulus} --figure FILE"), "<svg"),
-        (format!("path {caroca} --poses poses.csv --payload 50 --figure FILE"), " along a path of "),
-        (format!("explore {caroca} --out FILE"), "content=\"cdpr explorer "),
+        (
+            format!("import {source} --cable steel-4mm --tension-limits 50,10000 --out FILE"),
+            "json",
+            "cdpr-robot/1",
+        ),
+        (format!("export {caroca} --to mjcf --pose 0,0,1.75 --out FILE"), "xml", "<mujoco"),
+        (format!("export {caroca} --to moorpy --pose 0,0,1.75 --out FILE"), "txt", "LINE TYPES"),
+        (format!("modulus {record} {modulus} --law FILE"), "json", "cdpr-law/1"),
+        (format!("modulus {record} {modulus} --figure FILE"), "svg", "<svg"),
+        (format!("path {caroca} --poses poses.csv --payload 50 --figure FILE"), "svg", " along a path of "),
+        (format!("explore {caroca} --out FILE"), "html", "content=\"cdpr explorer "),
     ]
-    .map(|(command, mark)| (command.split(' ').map(str::to_owned).collect(), mark))
+    .map(|(command, ending, mark)| (command.split(' ').map(str::to_owned).collect(), ending, mark))
     .into()
 }
 
@@ -37,8 +42,8 @@ fn writers() -> Vec<(Vec<String>, &'static str)> {
 fn a_file_is_replaced_on_request_only_whatever_stands_in_it() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("poses.csv"), "0,0,1.75\n0.1,0,1.75\n").unwrap();
-    for (k, (command, mark)) in writers().into_iter().enumerate() {
-        let name = format!("file{k}.svg");
+    for (k, (command, ending, mark)) in writers().into_iter().enumerate() {
+        let name = format!("file{k}.{ending}");
         let path = folder.path().join(&name);
         let mine = format!("mine, with {mark} in it");
         let run = |more: &[&str]| {
@@ -55,6 +60,33 @@ fn a_file_is_replaced_on_request_only_whatever_stands_in_it() {
         done(run(&[]));
         assert!(ours != mine.as_bytes() && std::fs::read(&path).unwrap() == ours, "{command:?}");
     }
+}
+
+#[test]
+fn a_name_that_says_another_format_is_refused_before_anything_is_computed() {
+    let folder = tempfile::tempdir().unwrap();
+    let caroca = data_path("robots/caroca.json");
+    let more = [
+        (format!("export {caroca} --to caspr --pose 0,0,1.75 --out FILE"), "json"),
+        (format!("study new --robot {caroca} --out FILE"), "json"),
+        (format!("calibration plan {caroca} --poses poses.csv --parameters mass --out FILE"), "csv"),
+        ("report results --out FILE".to_owned(), "html"),
+    ];
+    let split = |(command, ending): (String, _)| (command.split(' ').map(str::to_owned).collect(), ending);
+    let known = writers().into_iter().map(|(command, ending, _)| (command, ending));
+    for (command, ending) in known.chain(more.map(split)) {
+        let command: Vec<String> = command;
+        for other in ["pdf", "html", "json", "xlsx", "xml"].into_iter().filter(|other| *other != ending) {
+            let name = format!("file.{other}");
+            let arguments: Vec<&str> =
+                command.iter().map(|word| if word == "FILE" { &name } else { word.as_str() }).collect();
+            let output = cdpr_in(folder.path(), &arguments);
+            let message = text(output.stderr);
+            assert_eq!(output.status.code(), Some(2), "{arguments:?}: {message}");
+            assert!(message.contains("expected a name "), "{arguments:?}: {message}");
+        }
+    }
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
 }
 
 #[test]

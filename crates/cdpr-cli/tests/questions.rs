@@ -73,6 +73,25 @@ fn a_position_far_away_is_the_first_thing_that_is_said() {
 }
 
 #[test]
+fn a_pose_in_the_ground_is_questioned_alone_and_in_a_list() {
+    let bench = Bench::new("caroca.json", |_| ());
+    bench.change("robot.json", |robot| robot["ground_z"] = json!(1.0));
+    std::fs::write(bench.path("poses.csv"), "0,0,1.75\n0,0,0.9\n0,0,0.5\n").unwrap();
+    let (robot, poses) = (bench.path("robot.json"), bench.path("poses.csv"));
+    let [robot, poses] = [robot.to_str().unwrap(), poses.to_str().unwrap()];
+    asks(
+        &format!("inverse {robot} --pose 0,0,0.9"),
+        &[("--pose is at z = 0.9 m", "below the ground, ground_z = 1 m")],
+    );
+    let output = cdpr(&["inverse", robot, "--poses", poses]);
+    let (found, code) = questions(&output);
+    assert!(code == Some(3) && found.len() == 1, "{found:?}");
+    assert!(found[0].contains("is at z = 0.9 m, and of another pose"), "{found:?}");
+    let high = cdpr(&["inverse", robot, "--pose", "0,0,1.75"]);
+    assert_eq!(questions(&high), (vec![], Some(0)));
+}
+
+#[test]
 fn loads_lengths_and_cables_are_questioned() {
     let first = |command: &str, begin: &str, within: &str| {
         let output = cdpr(&command.split(' ').collect::<Vec<_>>());
@@ -225,6 +244,14 @@ fn a_robot_file_is_questioned_for_the_field_that_is_wrong_and_for_no_other() {
         robot["cables"][4]["anchor_point"] = first;
     });
     assert!(swapped.iter().any(|found| found.contains("exchanged, the robot holds a pose")), "{swapped:?}");
+    // Of two cables with which the robot holds as much.
+    let swapped = warned("cogiro", |robot| {
+        let anchor = |i: usize| robot["cables"][i]["anchor_point"].clone();
+        let (first, second) = (anchor(0), anchor(2));
+        robot["cables"][0]["anchor_point"] = second;
+        robot["cables"][2]["anchor_point"] = first;
+    });
+    assert!(swapped.iter().any(|found| found.contains("exchanged, the layout is symmetric")), "{swapped:?}");
 }
 
 #[test]

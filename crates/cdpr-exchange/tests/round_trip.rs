@@ -125,6 +125,35 @@ fn a_robot_with_another_gravity_comes_back() {
 }
 
 #[test]
+fn a_tendon_of_mujoco_that_was_edited_counts_and_is_questioned() {
+    let (robot, pose) = (robot("cogiro"), Pose::at(0.0, 0.0, 2.0));
+    let text = export(&robot, &pose, Target::Mjcf).unwrap().files.remove(0).1;
+    let stiffness = text.split_once("stiffness=\"").unwrap().1.split('"').next().unwrap();
+    let halved = format!("stiffness=\"{}\"", 0.5 * stiffness.parse::<f64>().unwrap());
+    let edited = text.replacen(&format!("stiffness=\"{stiffness}\""), &halved, 1);
+    let file = ForeignFile { name: "r.xml".to_owned(), text: edited };
+    let found = import(&[file], &ImportOptions::default()).unwrap();
+    for (i, (cable, was)) in found.robot.cables.iter().zip(&robot.cables).enumerate() {
+        let modulus = was.properties.youngs_modulus * if i == 0 { 0.5 } else { 1.0 };
+        assert!(close(cable.properties.youngs_modulus, modulus), "{i}: {modulus}");
+        assert_eq!(cable.properties.section, was.properties.section);
+    }
+    let questions = found.notes.iter().filter(|note| note.kind == NoteKind::Questioned);
+    let questions: Vec<&str> = questions.map(|note| note.text.as_str()).collect();
+    assert!(questions.len() == 1 && questions[0].contains("the tendon's counts"), "{questions:?}");
+}
+
+#[test]
+fn laws_that_caspr_has_no_place_for_are_named() {
+    let notes = |name: &str| {
+        let robot = robot(name);
+        export(&robot, &rest(&robot).unwrap(), Target::Caspr).unwrap().notes
+    };
+    let of_laws = |notes: &[String]| notes.iter().any(|note| note.contains("elastic laws of cables"));
+    assert!(of_laws(&notes("caroca-law")) && !of_laws(&notes("caroca")));
+}
+
+#[test]
 fn the_cable_that_is_given_goes_first() {
     let (robot, pose) = (robot("cogiro"), Pose::at(0.0, 0.0, 2.0));
     let properties = cdpr_robot::CableProperties::linear(1e-5, 0.1, 1e11);

@@ -1,7 +1,7 @@
 //! Assessments of a robot and its cables, as the commands `check`, `tolerances`, `robustness`, `hysteresis`,
 //! `modulus` and `linear-density` make them. `assess.py` makes classes of these.
 
-use crate::convert::{Answer, Raised, Rows, question, run, to_json, watched, whole};
+use crate::convert::{Answer, Raised, Rows, guarded, question, run, to_json, watched, whole};
 use crate::robot::Robot;
 use crate::robot::inverse::coordinates;
 use cdpr_assess::{
@@ -231,7 +231,7 @@ pub(crate) fn modulus(
     length_error: f64,
     section_error: f64,
 ) -> Answer<String> {
-    let record = open_record(&record)?;
+    let record = guarded(|| open_record(&record))??;
     let specimen = Specimen {
         breaking_force,
         section,
@@ -251,7 +251,7 @@ pub(crate) fn modulus(
         }))
     };
     to_json(&json!({
-        "ranges": ranges.into_iter().map(range).collect::<Answer<Vec<_>>>()?,
+        "ranges": guarded(|| ranges.into_iter().map(range).collect::<Answer<Vec<_>>>())??,
         "dissipated": record.dissipated_energy(),
     }))
 }
@@ -269,7 +269,8 @@ pub(crate) fn linear_density(
     length_error: f64,
 ) -> Answer<(f64, f64)> {
     let mass = Measured { value: mass, error: mass_error };
-    let found = cdpr_cable::linear_density(mass, Measured { value: length, error: length_error });
+    let length = Measured { value: length, error: length_error };
+    let found = guarded(|| cdpr_cable::linear_density(mass, length))?;
     let found = found.map_err(|error| Raised::from(&error))?;
     Ok((found.value, found.error))
 }

@@ -12,7 +12,9 @@ use cdpr_calibration::{
 use cdpr_report::calibration_report;
 use cdpr_robot::{CableEnd, Pose, Vector3};
 use cdpr_statics::Load;
-use cdpr_study::{ErrorModel, IfExists, InputKind, open_errors, read_bytes, uncertainties, write_text};
+use cdpr_study::{
+    ErrorModel, IfExists, InputKind, check_table, open_errors, read_bytes, uncertainties, write_text,
+};
 use pyo3::prelude::*;
 use serde_json::{Map, Value, json};
 use std::path::{Path, PathBuf};
@@ -54,6 +56,7 @@ pub(crate) fn calibrate(
     let work = |_: &_| -> Answer<String> {
         let prior = model.map(|path| questioned(&path, robot)).transpose()?;
         let bytes = read_bytes(&measurements, InputKind::Measurements)?;
+        check_table(&measurements, &bytes, InputKind::Measurements)?;
         let measured = read_measurements(&bytes, robot, &noise)?;
         let names: Vec<&str> = parameters.iter().map(String::as_str).collect();
         let share: Vec<&str> = share.iter().map(String::as_str).collect();

@@ -1,7 +1,7 @@
 //! Robots from and for other programs, and those that come with the package.
 
 use crate::assess::single;
-use crate::convert::{Answer, Numbers, Raised, components, run};
+use crate::convert::{Answer, Numbers, Raised, components, guarded, run};
 use crate::robot::Robot;
 use cdpr_exchange::{Exported, ForeignFile, ImportOptions, Imported, NoteKind, Target};
 use cdpr_robot::TensionLimits;
@@ -52,7 +52,7 @@ pub(crate) fn import_robot(
         },
         cable_set,
     };
-    let Imported { robot, notes } = cdpr_exchange::import(&files, &options)?;
+    let Imported { robot, notes } = guarded(|| cdpr_exchange::import(&files, &options))??;
     let kind = |kind| match kind {
         NoteKind::Assumed => "assumed",
         NoteKind::Questioned => "questioned",

@@ -15,7 +15,7 @@ pub(crate) mod path;
 pub(crate) mod stiffness;
 pub(crate) mod workspace;
 
-use crate::convert::{Answer, Array, Numbers, Raised, components, json_text, question};
+use crate::convert::{Answer, Array, Numbers, Raised, components, guarded, json_text, question};
 use cdpr_robot::{
     CableEnd, CableProperties, Gravity, OwnLimits, Parameter, Plane, Platform, Provenance, RobotCable,
     TensionLimits, TensionReference, Vector3, plausible,
@@ -60,7 +60,7 @@ pub(crate) struct Robot {
 impl Robot {
     /// The robot; what is improbable of it is asked as warnings.
     fn questioned(robot: cdpr_robot::Robot) -> Answer<Self> {
-        question(plausible::robot(&robot))?;
+        question(guarded(|| plausible::robot(&robot))?)?;
         Ok(Self { robot })
     }
 }
@@ -154,13 +154,13 @@ impl Robot {
     /// Raises FileError, and InputError with line, column, field and what would be right.
     #[staticmethod]
     fn from_file(path: PathBuf) -> Answer<Self> {
-        Self::questioned(open_robot(&path)?)
+        Self::questioned(guarded(|| open_robot(&path))??)
     }
 
     /// Makes a robot from the text of a robot file.
     #[staticmethod]
     fn from_json(text: &str) -> Answer<Self> {
-        Self::questioned(cdpr_robot::Robot::from_json(text)?)
+        Self::questioned(guarded(|| cdpr_robot::Robot::from_json(text))??)
     }
 
     /// Makes a robot from the dictionary that `json.loads` makes of a robot file.

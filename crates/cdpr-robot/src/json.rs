@@ -51,7 +51,8 @@ fn plain(message: &str, field: &str) -> String {
     let message = message
         .replace("EOF while parsing", "the text ends within")
         .replace("expected f64", "expected a number")
-        .replace("expected usize", "expected a whole number");
+        .replace("expected usize", COUNT)
+        .replace("expected u64", COUNT);
     let (before, behind) = message.split_once("expected struct ").unwrap_or((&message, ""));
     let behind = behind.trim_start_matches(char::is_alphanumeric);
     let message = if before.len() < message.len() {
@@ -67,6 +68,9 @@ fn plain(message: &str, field: &str) -> String {
         _ => message,
     }
 }
+
+/// What counts and seeds are.
+const COUNT: &str = "expected a whole number, 0 to 1.8e19";
 
 /// How messages begin that are about a cable's properties at a wrong place.
 const CABLE: [&str; 5] = [
@@ -91,18 +95,42 @@ fn slip(text: &str, line: usize, column: usize, message: &str) -> Option<String>
     if message == "trailing comma" {
         return Some("a comma before a closing bracket: remove it".to_owned());
     }
-    // What JSON takes for a name or one more value may be the decimals of the number before.
-    let is_beyond = matches!(message, "key must be a string" | "trailing characters");
-    let digits = |text: &str| text.chars().take_while(char::is_ascii_digit).collect::<String>();
-    let commas = row.match_indices(',').filter(|_| is_beyond);
-    let (whole, decimals) = commas
-        .map(|(comma, _)| {
-            let is_digit = |c: char| c.is_ascii_digit() || c == '-';
-            let start = row[..comma].rfind(|c| !is_digit(c)).map_or(0, |end| end + 1);
-            (&row[start..comma], digits(&row[comma + 1..]))
-        })
-        .find(|(whole, decimals)| whole.ends_with(|c: char| c.is_ascii_digit()) && !decimals.is_empty())?;
+    // What JSON takes for a name may be the decimals of the number before, what it takes for a value too many
+    // follows from those of a number in the same list.
+    let (whole, decimals) = match message {
+        "key must be a string" => number_around(before.strip_suffix(',')?, at)?,
+        "trailing characters" => decimal_comma_in(list_around(text, line, column)?)?,
+        _ => return None,
+    };
     Some(format!("{whole},{decimals} has a decimal comma: expected a point, {whole}.{decimals}"))
+}
+
+/// The whole number at the end of one text and the digits at the beginning of the next.
+fn number_around<'a>(before: &'a str, behind: &'a str) -> Option<(&'a str, &'a str)> {
+    let digits = |text: &str| text.bytes().take_while(u8::is_ascii_digit).count();
+    let start = before.len() - before.bytes().rev().take_while(u8::is_ascii_digit).count();
+    let decimals = &behind[..digits(behind)];
+    let is_fraction = before[..start].ends_with('.');
+    let signed = start - usize::from(before[..start].ends_with('-'));
+    (start < before.len() && !decimals.is_empty() && !is_fraction).then(|| (&before[signed..], decimals))
+}
+
+/// The first number with a decimal comma in a list that has commas between its values, too: those have a blank
+/// behind them. Where all commas look alike, none is blamed.
+fn decimal_comma_in(list: &str) -> Option<(&str, &str)> {
+    let mut commas = list.match_indices(',').map(|(at, _)| (&list[..at], &list[at + 1..]));
+    let is_between = |(_, behind): &(&str, &str)| behind.starts_with(char::is_whitespace);
+    commas.clone().any(|comma| is_between(&comma)).then_some(())?;
+    commas.find_map(|(before, behind)| number_around(before, behind))
+}
+
+/// The inside of the innermost list around a place of a text, up to the first bracket that follows.
+fn list_around(text: &str, line: usize, column: usize) -> Option<&str> {
+    let start: usize = text.split_inclusive('\n').take(line.checked_sub(1)?).map(str::len).sum();
+    let (before, behind) = text.split_at_checked(start + column.checked_sub(1)?)?;
+    let open = before.rfind(['[', ']', '{', '}', '"']).filter(|open| before[*open..].starts_with('['))?;
+    let end = behind.find(['[', ']', '{', '}', '"']).unwrap_or(behind.len());
+    Some(&text[open + 1..before.len() + end])
 }
 
 /// The path of a field with the number of its cable: fields count from 0, names such as `a1.x` from 1.
@@ -246,6 +274,26 @@ mod tests {
         }
         let of_number = from_json::<BTreeMap<String, f64>>("{\"mass\": 180,25, \"b\": 2}").unwrap_err();
         assert_eq!(of_number.message, "180,25 has a decimal comma: expected a point, 180.25");
+        // Correct values on the line of another fault are not blamed.
+        let cables = "{\"exit\": [[1,2],[3,4]], ";
+        for (end, words) in [
+            ("mass: 3}", "expected a name in double quotes"),
+            ("\"mass\": [[2,5, 3]]}", "2,5 has a decimal comma: expected a point, 2.5"),
+            ("\"mass\": [[2,5,3]]}", "expected the end of the list here"),
+            ("\"mass\": [[2.5,5, 3]]}", "expected the end of the list here"),
+            ("\"mass\": [[2, 5\n, 3]]}", "expected the end of the list here"),
+            ("\"mass\": [[2, 5]], 5}", "expected a name in double quotes"),
+        ] {
+            let text = format!("{cables}{end}");
+            let error = from_json::<BTreeMap<String, Vec<[f64; 2]>>>(&text).unwrap_err();
+            assert_eq!(error.message, words, "{text}");
+        }
+        let of_count = |text| from_json::<u64>(text).unwrap_err().message;
+        assert_eq!(of_count("-1"), "invalid value: integer `-1`, expected a whole number, 0 to 1.8e19");
+        assert_eq!(
+            of_count("1.5"),
+            "invalid type: floating point `1.5`, expected a whole number, 0 to 1.8e19"
+        );
         assert_eq!(super::numbered("cables[7].lead"), "cable 8, cables[7].lead");
     }
 

@@ -30,6 +30,12 @@ pub enum StudyError {
         /// What the file is to be.
         kind: InputKind,
     },
+    /// A file stands where a folder of results is expected.
+    #[error("{path} is a file: expected a folder of results")]
+    NoFolder {
+        /// The file.
+        path: PathBuf,
+    },
     /// A file is larger than any of its kind.
     #[error("{path} is larger than {} MB: expected {kind}", most / 1_000_000)]
     TooLarge {

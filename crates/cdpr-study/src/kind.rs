@@ -52,17 +52,49 @@ impl InputKind {
     }
 }
 
+/// Names of the formats that files state, without their versions.
+const FORMATS: [(&str, InputKind); 8] = [
+    ("cdpr-robot", InputKind::Robot),
+    ("cdpr-cable", InputKind::Cable),
+    ("cdpr-study", InputKind::Study),
+    ("cdpr-law", InputKind::Law),
+    ("cdpr-errors", InputKind::Errors),
+    ("cdpr-measurements", InputKind::Measurements),
+    ("cdpr-results", InputKind::Results),
+    ("cdpr-workspace", InputKind::Results),
+];
+
 impl InputKind {
-    /// Name of the format that such a file states, without its version.
-    pub(crate) fn format(self) -> Option<&'static str> {
-        match self {
-            Self::Robot => Some("cdpr-robot"),
-            Self::Cable => Some("cdpr-cable"),
-            Self::Study => Some("cdpr-study"),
-            Self::Law => Some("cdpr-law"),
-            _ => None,
+    /// Whether it may be a table as text.
+    pub(crate) fn may_be_table(self) -> bool {
+        matches!(self, Self::Table | Self::Poses | Self::Measurements | Self::Record | Self::Foreign)
+    }
+
+    /// What a text is, by the format that it states or by how it begins. It need not be without errors.
+    pub(crate) fn of_text(text: &str) -> Option<Self> {
+        let text = text.trim_start();
+        match text.chars().next()? {
+            '<' => Some(Self::Foreign),
+            '{' | '[' => {
+                let value = text.split_once("\"format\"")?.1.trim_start().strip_prefix(':')?.trim_start();
+                let format = value.strip_prefix('"')?.split(['/', '"']).next()?;
+                FORMATS.iter().find(|(name, _)| *name == format).map(|(_, kind)| *kind)
+            }
+            _ => {
+                let first = text.lines().find(|line| !line.trim().is_empty() && !line.starts_with('#'))?;
+                let is_key = |line: &str| line.split_once(':').is_some_and(|(key, _)| is_name(key));
+                if is_key(first) {
+                    return Some(Self::Foreign);
+                }
+                (first.contains([',', ';', '\t']) && !text.contains('{')).then_some(Self::Table)
+            }
         }
     }
+}
+
+/// Whether a text may be a key of YAML.
+fn is_name(text: &str) -> bool {
+    text.starts_with(char::is_alphabetic) && text.chars().all(|c| c.is_alphanumeric() || "_-".contains(c))
 }
 
 impl fmt::Display for InputKind {
@@ -83,5 +115,28 @@ impl fmt::Display for InputKind {
             Self::Table => "a table",
             Self::Block => "a block",
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::InputKind;
+
+    #[test]
+    fn a_text_is_known_by_its_format_or_by_how_it_begins() {
+        for (text, kind) in [
+            ("{\"format\": \"cdpr-study/1\", \"robot\": ,}", Some(InputKind::Study)),
+            ("\n{\"title\": 1,\n \"format\" : \"cdpr-errors/1\"}", Some(InputKind::Errors)),
+            ("{\"format\": \"other/1\"}", None),
+            ("{\"mass\": 3}", None),
+            ("// mine, old\n{\"mass\": 3}", None),
+            ("<mujoco/>", Some(InputKind::Foreign)),
+            ("# a robot\npoints:\n  - {frame: [1, 2]}\n", Some(InputKind::Foreign)),
+            ("x,y,z\n0,0,2\n", Some(InputKind::Table)),
+            ("# poses\n0;0;2\n", Some(InputKind::Table)),
+            ("", None),
+        ] {
+            assert_eq!(InputKind::of_text(text), kind, "{text}");
+        }
     }
 }

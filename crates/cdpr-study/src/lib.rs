@@ -80,7 +80,7 @@ pub use file::template::{TEMPLATE_NOTES, template, template_cost, write_template
 pub use file::value::Value;
 pub use fs::files::{open_cable, open_robot, open_robot_in_any_unit};
 pub use fs::finite::is_not_finite;
-pub use fs::input::{read_bytes, read_table, read_text};
+pub use fs::input::{check_table, other_kind, read_bytes, read_table, read_text};
 pub use fs::manifest::{ResultsOf, read_result};
 pub use fs::owned::{Access, ResultsFolder};
 pub use fs::single::{IfExists, write_text};

@@ -1,8 +1,8 @@
 //! Anchor points of two cables that were given for one another: the robot holds a pose, without cables that
-//! touch, as soon as they are exchanged.
+//! touch, as soon as they are exchanged, or its layout becomes symmetric.
 
 use super::pose::{TOUCHING, held};
-use super::{Findings, Severity};
+use super::{Findings, Severity, symmetry};
 use crate::clearance::HangingCables;
 use cdpr_robot::Robot;
 
@@ -17,7 +17,11 @@ impl Findings<'_> {
     pub(super) fn swapped_anchors(&mut self) {
         let robot = self.robot;
         let n = robot.cables.len();
-        if robot.platform.point || n > MOST_CABLES || !robot.is_fully_actuated() || effort(robot).is_some() {
+        if robot.platform.point || n > MOST_CABLES || !robot.is_fully_actuated() {
+            return;
+        }
+        if effort(robot).is_some() {
+            self.asymmetric();
             return;
         }
         let pairs = (0..n).flat_map(|j| (0..j).map(move |i| (i, j)));
@@ -33,6 +37,22 @@ impl Findings<'_> {
             "cables[*].anchor_point",
             format!("those of cables {}", pairs.join(", or ")),
             "exchanged, the robot holds a pose at which no cables touch; as it is, it does not",
+            "check which cable is at which anchor point",
+        );
+    }
+
+    /// Which two anchor points are to be exchanged, if the layout is symmetric then.
+    fn asymmetric(&mut self) {
+        let found = symmetry::broken(self.robot);
+        let pairs: Vec<_> = found.iter().take(MOST_PAIRS).map(|(i, j)| format!("{i} and {j}")).collect();
+        if pairs.is_empty() {
+            return;
+        }
+        self.add(
+            Severity::Warning,
+            "cables[*].anchor_point",
+            format!("those of cables {}", pairs.join(", or ")),
+            "exchanged, the layout is symmetric, as that of most robots; as it is, it is not",
             "check which cable is at which anchor point",
         );
     }

@@ -2,7 +2,8 @@
 
 mod published;
 
-use crate::arguments::{self, Format, Overwrite, number};
+use crate::arguments::{Format, Overwrite, number};
+use crate::endings;
 use crate::error::ProgramError;
 use crate::output::{patiently, table};
 use crate::questions;
@@ -49,12 +50,12 @@ pub(crate) struct Settings {
     #[arg(long, value_parser = number, allow_hyphen_values = true, default_value_t = 0.0)]
     section_error: f64,
     /// File for a figure of the loop (SVG).
-    #[arg(long, value_parser = arguments::svg)]
+    #[arg(long, value_parser = endings::svg)]
     figure: Option<PathBuf>,
     /// File for the record's law (JSON, `cdpr-law/1`).
     ///
     /// `cdpr hysteresis --law` and an operating point of a study take such a law.
-    #[arg(long)]
+    #[arg(long, value_parser = endings::json())]
     law: Option<PathBuf>,
     #[command(flatten)]
     overwrite: Overwrite,

@@ -11,7 +11,7 @@ use crate::poses::{self, Angles};
 use crate::questions;
 use cdpr_robot::{Pose, Robot, Vector3, Wrench, from_json, plausible};
 use cdpr_statics::{Certificate, DirectProblem, Load, Start, StaticsError, check_lengths, rough_pose};
-use cdpr_study::{InputKind, StudyError, read_text};
+use cdpr_study::{InputKind, StudyError, other_kind, read_text};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
@@ -162,7 +162,10 @@ impl Cases {
         } else {
             from_json(&text).map(|case| Self::One(Box::new(case)))
         };
-        cases.map_err(|source| StudyError::Format { path: path.to_owned(), source })
+        cases.map_err(|source| {
+            let other = other_kind(path, &text, InputKind::Cases);
+            other.unwrap_or_else(|| StudyError::Format { path: path.to_owned(), source })
+        })
     }
 }
 

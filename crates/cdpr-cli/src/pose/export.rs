@@ -1,13 +1,14 @@
 //! `cdpr export`: a robot in the files of another program.
 
 use crate::arguments::Overwrite;
+use crate::endings::check_foreign;
 use crate::error::ProgramError;
 use crate::output::patiently;
 use crate::poses::{Angles, place, pose};
 use crate::questions;
 use cdpr_exchange::{Target, export};
 use cdpr_robot::{Pose, shown};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// A robot, a pose and a format.
 #[derive(clap::Args)]
@@ -41,6 +42,16 @@ enum Format {
 }
 
 impl Format {
+    /// Refuses the name of a file that says another format.
+    fn check(self, out: &Path) -> Result<(), ProgramError> {
+        let checked = match self {
+            Self::Mjcf => check_foreign(out, "a model of MuJoCo is XML", &["xml", "mjcf"]),
+            Self::Moorpy => check_foreign(out, "a system of MoorPy is text", &["txt", "dat"]),
+            Self::Caspr => check_foreign(out, "`_bodies.xml` and `_cables.xml` are put behind it", &[]),
+        };
+        checked.map_err(ProgramError::Usage)
+    }
+
     fn target(self) -> Target {
         match self {
             Self::Mjcf => Target::Mjcf,
@@ -51,6 +62,7 @@ impl Format {
 }
 
 pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
+    settings.to.check(&settings.out)?;
     let robot = questions::open_robot(&settings.robot)?;
     let pose = settings.angles.of(&settings.pose)?;
     questions::about_pose(&robot, "--pose", &pose);

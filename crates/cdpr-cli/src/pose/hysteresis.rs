@@ -2,6 +2,7 @@
 
 use crate::answer::{OutOfLimits, vector};
 use crate::arguments::{self, Format, FreeArguments, Overwrite, Preference, number, payload};
+use crate::endings;
 use crate::error::ProgramError;
 use crate::output::{Ending, patiently, table};
 use crate::pose::at_pose::print_fall;
@@ -50,7 +51,7 @@ pub(crate) struct Settings {
     #[arg(long, default_value_t = 50, value_parser = arguments::count::<1, 100_000>)]
     steps: usize,
     /// File for a figure of payload over height (SVG).
-    #[arg(long, value_parser = arguments::svg)]
+    #[arg(long, value_parser = endings::svg)]
     figure: Option<PathBuf>,
     #[command(flatten)]
     overwrite: Overwrite,

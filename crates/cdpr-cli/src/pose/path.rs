@@ -1,7 +1,8 @@
 //! `cdpr path`: what a robot does along a path of poses.
 
 use crate::answer::{OutOfLimits, warn_of_cables};
-use crate::arguments::{self, ErrorModelArguments, Overwrite};
+use crate::arguments::{ErrorModelArguments, Overwrite};
+use crate::endings;
 use crate::error::ProgramError;
 use crate::output::Ending;
 use crate::pose::at_pose::{RobotAtPose, Row, cells, numbered};
@@ -20,7 +21,7 @@ pub(crate) struct Settings {
     #[command(flatten)]
     errors: ErrorModelArguments,
     /// File for a figure of the path (SVG), with bands of two standard deviations if an error model is given.
-    #[arg(long, value_name = "FILE", value_parser = arguments::svg)]
+    #[arg(long, value_name = "FILE", value_parser = endings::svg)]
     figure: Option<PathBuf>,
     #[command(flatten)]
     overwrite: Overwrite,

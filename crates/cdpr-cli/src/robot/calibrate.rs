@@ -10,7 +10,7 @@ use cdpr_calibration::{
 };
 use cdpr_report::calibration_report;
 use cdpr_robot::{Robot, Vector3, counted, rounded, shown};
-use cdpr_study::{ErrorModel, InputKind, read_bytes};
+use cdpr_study::{ErrorModel, InputKind, check_table, read_bytes};
 use std::path::PathBuf;
 
 /// The robot, the measurements and what is sought.
@@ -50,7 +50,7 @@ pub(crate) struct Settings {
           value_parser = arguments::count::<1, { FitSettings::MOST_STARTS }>)]
     starts: usize,
     /// Seed of the random starts.
-    #[arg(long, default_value_t = 1)]
+    #[arg(long, default_value_t = 1, value_parser = arguments::seed, allow_negative_numbers = true)]
     seed: u64,
     /// Keep the values of parameters that the data do not tell, instead of leaving them to their priors.
     #[arg(long)]
@@ -151,6 +151,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     let path = &settings.measurements;
     let in_file = ProgramError::in_file(path);
     let bytes = read_bytes(path, InputKind::Measurements)?;
+    check_table(path, &bytes, InputKind::Measurements)?;
     let noise = settings.noise.as_ref().map_or(&[][..], |Named(named)| named);
     questions::about_noise(&robot, noise);
     let markers = settings.markers.iter().map(|marker| Vector3::from(*marker));

@@ -1,6 +1,7 @@
 //! `cdpr explore`: a robot that computes in the browser, as one HTML file.
 
 use crate::arguments::{Format, Overwrite, named_after};
+use crate::endings;
 use crate::error::ProgramError;
 use crate::output::patiently;
 use crate::questions;
@@ -17,7 +18,7 @@ pub(crate) struct Settings {
     #[arg(value_name = "ROBOT|STUDY|RESULTS", default_value = "caroca")]
     input: PathBuf,
     /// File for the page; NAME-explorer.html in the current folder if left out.
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = endings::html())]
     out: Option<PathBuf>,
     #[command(flatten)]
     overwrite: Overwrite,

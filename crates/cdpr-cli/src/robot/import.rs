@@ -1,12 +1,13 @@
 //! `cdpr import`: a robot file made of the files of another program.
 
 use crate::arguments::{self, Overwrite, components};
+use crate::endings;
 use crate::error::ProgramError;
 use crate::output::Ending;
 use crate::questions;
 use cdpr_exchange::{ForeignFile, ImportOptions, Imported, NoteKind, import};
 use cdpr_robot::{TensionLimits, plausible, shown};
-use cdpr_study::{InputKind, StudyError, open_cable, read_text};
+use cdpr_study::{InputKind, StudyError, open_cable, other_kind, read_text};
 use std::path::{Path, PathBuf};
 
 /// Files of another program, and what they lack.
@@ -18,7 +19,7 @@ pub(crate) struct Settings {
     #[arg(required = true)]
     files: Vec<PathBuf>,
     /// Robot file to write; if left out, it is printed.
-    #[arg(long)]
+    #[arg(long, value_parser = endings::json())]
     out: Option<PathBuf>,
     #[command(flatten)]
     overwrite: Overwrite,
@@ -44,6 +45,9 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     for path in &settings.files {
         for path in of_folder(path)? {
             let text = read_text(&path, InputKind::Foreign)?;
+            if let Some(own) = other_kind(&path, &text, InputKind::Foreign) {
+                return Err(own.into());
+            }
             files.push(ForeignFile { name: path.display().to_string(), text });
         }
     }

@@ -34,7 +34,7 @@ pub(crate) struct Settings {
     #[command(flatten)]
     free: FreeArguments,
     /// Seed of poses and starts. The same seed gives the same numbers, but for the times.
-    #[arg(long, default_value_t = 2017)]
+    #[arg(long, default_value_t = 2017, value_parser = arguments::seed, allow_negative_numbers = true)]
     seed: u64,
     #[command(flatten)]
     preference: Preference,

@@ -41,7 +41,7 @@ pub(crate) struct Settings {
     >)]
     dependence_rows: usize,
     /// Seed of all that is random.
-    #[arg(long, default_value_t = 2017)]
+    #[arg(long, default_value_t = 2017, value_parser = arguments::seed, allow_negative_numbers = true)]
     seed: u64,
     /// Folder for `report.html`, with scatter plots and a cobweb, and `analysis.json`; made if missing.
     #[arg(long, value_name = "DIR")]

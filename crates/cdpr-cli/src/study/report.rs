@@ -1,6 +1,7 @@
 //! `cdpr report`: the report of a study, from its folder of results.
 
 use crate::arguments::{Format, Overwrite};
+use crate::endings;
 use crate::error::ProgramError;
 use crate::output::patiently;
 use cdpr_assess::read_region;
@@ -15,7 +16,7 @@ pub(crate) struct Settings {
     /// Folder that `cdpr study run` has written.
     folder: PathBuf,
     /// File for the report; `report.html` in the folder if left out.
-    #[arg(long)]
+    #[arg(long, value_parser = endings::html())]
     out: Option<PathBuf>,
     #[command(flatten)]
     overwrite: Overwrite,

@@ -1,6 +1,7 @@
 //! `cdpr study new`: a first study of a robot.
 
 use crate::arguments::{self, FreeArguments};
+use crate::endings;
 use crate::error::ProgramError;
 use crate::output::patiently;
 use crate::questions;
@@ -14,7 +15,7 @@ pub(crate) struct Settings {
     #[arg(long)]
     robot: PathBuf,
     /// File to write, which must not exist; if left out, the study is printed.
-    #[arg(long)]
+    #[arg(long, value_parser = endings::json())]
     out: Option<PathBuf>,
     /// Position of the platform: x,y,z [m]; if left out, the middle of the exit points.
     #[arg(long, value_parser = arguments::components::<3>, allow_hyphen_values = true)]

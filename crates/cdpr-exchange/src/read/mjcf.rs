@@ -53,7 +53,10 @@ pub(crate) fn read(document: &Document) -> Result<Draft, ExchangeError> {
     }
     for (tendon, path) in tendons.iter().zip(&paths) {
         match cable(&mut draft, tendon, path, &bodies, platform, &scene)? {
-            Some(cable) => draft.cables.push(custom.complete(tendon, cable)?),
+            Some(cable) => {
+                let cable = custom.complete(&mut draft, tendon, cable)?;
+                draft.cables.push(cable);
+            }
             None => {
                 draft.note_once(NoteKind::Questioned, tendon, "a tendon that does not end at the platform");
             }
@@ -183,6 +186,9 @@ fn question_limits(draft: &mut Draft, root: &Node) {
     }
 }
 
+/// Relative difference of two stiffnesses that are the same but for rounding.
+const SAME: f64 = 1e-9;
+
 /// Numbers and texts under `custom`.
 struct Custom<'a> {
     numbers: HashMap<&'a str, Node<'a>>,
@@ -206,8 +212,14 @@ fn custom<'a>(root: &Node<'a>) -> Result<Custom<'a>, ExchangeError> {
 }
 
 impl Custom<'_> {
-    /// What our own export says of the cable of a tendon.
-    fn complete(&self, tendon: &Node, mut cable: DraftCable) -> Result<DraftCable, ExchangeError> {
+    /// What our own export says of the cable of a tendon. Where the tendon was given another stiffness since,
+    /// the tendon's counts.
+    fn complete(
+        &self,
+        draft: &mut Draft,
+        tendon: &Node,
+        mut cable: DraftCable,
+    ) -> Result<DraftCable, ExchangeError> {
         let name = tendon.text_in("@name");
         if let Some(limits) = self.numbers.get(format!("{name}.tension_limits").as_str()) {
             let [min, max] = limits.components()?;
@@ -216,12 +228,20 @@ impl Custom<'_> {
         if let Some(data) = self.numbers.get(format!("{name}.properties").as_str()) {
             let [section, density, modulus, diameter, force] = data.components()?;
             let known = |value: f64| Some(value).filter(|value| *value > 0.0);
+            let stiffness = cable.stiffness.take();
+            let edited = stiffness.filter(|stiffness| (stiffness / (section * modulus) - 1.0).abs() > SAME);
+            if edited.is_some() {
+                let text = format!(
+                    "stiffness times springlength is not EA of {name}.properties under custom: the tendon's \
+                     counts, and the modulus follows from it"
+                );
+                draft.note_once(NoteKind::Questioned, tendon, &text);
+            }
             cable.properties = Some(CableProperties {
                 diameter: known(diameter),
                 breaking_force: known(force),
-                ..CableProperties::linear(section, density, modulus)
+                ..CableProperties::linear(section, density, edited.map_or(modulus, |edited| edited / section))
             });
-            cable.stiffness = None;
         }
         Ok(cable)
     }

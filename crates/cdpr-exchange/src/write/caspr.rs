@@ -19,6 +19,9 @@ pub(crate) fn write(robot: &Robot, pose: &Pose) -> Result<Exported, ExchangeErro
     if robot.cables.iter().any(|cable| cable.lead > 0.0) {
         notes.push("leads have no place".to_owned());
     }
+    if robot.cables.iter().any(|cable| cable.properties.law.is_some()) {
+        notes.push("elastic laws of cables have no place: K is EA of their moduli".to_owned());
+    }
     let (about_center, assumed) = inertia(robot);
     if assumed {
         notes.push(

@@ -202,6 +202,7 @@ fn is_of_files(error: &StudyError) -> bool {
         error,
         StudyError::Read { .. }
             | StudyError::NotRegular { .. }
+            | StudyError::NoFolder { .. }
             | StudyError::OtherKind { .. }
             | StudyError::TooLarge { .. }
             | StudyError::Write { .. }

@@ -4,6 +4,7 @@ use super::doubt::{
     Doubt, Doubts, capacity, four_digits, frame, frame_size, in_other_unit, is_possible, reach,
 };
 use super::{cable, file};
+use crate::pose::Pose;
 use crate::robot::Robot;
 use crate::wrench::Wrench;
 use nalgebra::Vector3;
@@ -12,6 +13,8 @@ use nalgebra::Vector3;
 const FAR: f64 = 10.0;
 /// Length of a cable over the size of the frame, beyond which it is in another unit.
 const LONG: f64 = 20.0;
+/// Depth below the ground that is an error of surveying [m].
+const SURVEYED: f64 = 1e-3;
 /// What cables may stretch: beyond it two of them do not reach each other's exit points.
 const STRETCH: f64 = 1.2;
 /// Units that lengths and positions are typed in by mistake.
@@ -57,6 +60,25 @@ pub fn position(robot: &Robot, quantity: &str, position: &Vector3<f64>) -> Optio
             |(unit, factor)| format!("({}) m, if it is in {unit}", texts(&scaled(*factor))),
         ),
     ))
+}
+
+/// A pose with an anchor point, or P, below the ground of the robot file.
+pub fn in_ground(robot: &Robot, quantity: &str, pose: &Pose) -> Option<Doubt> {
+    let ground = robot.ground_z?;
+    let anchors = robot.cables.iter().map(|cable| (pose.rotation * cable.anchor_point).z);
+    let lowest = pose.position.z + anchors.fold(0.0, f64::min);
+    (lowest < ground - SURVEYED).then(|| {
+        Doubt::new(
+            quantity,
+            format!("at z = {} m", four_digits(pose.position.z)),
+            format!(
+                "its lowest point is at {} m, below the ground, ground_z = {} m",
+                four_digits(lowest),
+                four_digits(ground)
+            ),
+            format!("z of {} m or more", four_digits(pose.position.z + ground - lowest)),
+        )
+    })
 }
 
 /// A point of the platform far away from its anchor points.

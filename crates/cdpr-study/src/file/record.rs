@@ -1,8 +1,9 @@
 //! Load-elongation records as files: CSV with the columns `force_n`, `elongation_mm` and `phase` (`loading`
-//! or `unloading`). Lines that begin with `#` are comments.
+//! or `unloading`), or with semicolons or tabs between the cells and decimal commas. Lines that begin with `#` are
+//! comments.
 
 use crate::error::StudyError;
-use crate::fs::input::read_text;
+use crate::fs::input::{other_kind, read_text};
 use crate::kind::InputKind;
 use cdpr_cable::{Phase, Record, RecordError, Sample};
 use csv::{ReaderBuilder, StringRecord, Trim};
@@ -15,8 +16,11 @@ const COLUMNS: [&str; 3] = ["force_n", "elongation_mm", "phase"];
 /// # Errors
 /// [`StudyError::Read`]; [`StudyError::Record`] names the line.
 pub fn open_record(path: &Path) -> Result<Record, StudyError> {
-    let record = read_record(&read_text(path, InputKind::Record)?);
-    record.map_err(|source| StudyError::Record { path: path.to_owned(), source })
+    let text = read_text(path, InputKind::Record)?;
+    read_record(&text).map_err(|source| {
+        let other = other_kind(path, &text, InputKind::Record);
+        other.unwrap_or_else(|| StudyError::Record { path: path.to_owned(), source })
+    })
 }
 
 /// Reads and checks a record from the text of a file.
@@ -26,14 +30,18 @@ pub fn open_record(path: &Path) -> Result<Record, StudyError> {
 pub fn read_record(text: &str) -> Result<Record, RecordError> {
     let mut samples = Vec::new();
     let mut columns = None;
+    let mut separator = b',';
     for (i, text) in text.lines().enumerate() {
         if text.starts_with('#') || text.trim().is_empty() {
             continue;
         }
-        let row = cells(text);
+        if columns.is_none() {
+            separator = [b';', b'\t'].into_iter().find(|of| text.contains(char::from(*of))).unwrap_or(b',');
+        }
+        let row = cells(text, separator);
         match columns {
             None => columns = Some(header(&row, i + 1)?),
-            Some(columns) => samples.push(sample(&row, columns, i + 1)?),
+            Some(columns) => samples.push(sample(&row, columns, separator != b',', i + 1)?),
         }
     }
     if columns.is_none() {
@@ -44,8 +52,12 @@ pub fn read_record(text: &str) -> Result<Record, RecordError> {
 
 /// The cells of a line, without the blanks around them. Lines are read one by one, so that the line numbers
 /// of errors count comments, too.
-fn cells(line: &str) -> StringRecord {
-    let mut reader = ReaderBuilder::new().has_headers(false).trim(Trim::All).from_reader(line.as_bytes());
+fn cells(line: &str, separator: u8) -> StringRecord {
+    let mut reader = ReaderBuilder::new()
+        .delimiter(separator)
+        .has_headers(false)
+        .trim(Trim::All)
+        .from_reader(line.as_bytes());
     reader.records().find_map(Result::ok).unwrap_or_default()
 }
 
@@ -61,10 +73,16 @@ fn header(row: &StringRecord, line: usize) -> Result<[usize; 3], RecordError> {
     Ok(columns)
 }
 
-fn sample(row: &StringRecord, columns: [usize; 3], line: usize) -> Result<Sample, RecordError> {
+fn sample(
+    row: &StringRecord,
+    columns: [usize; 3],
+    has_commas: bool,
+    line: usize,
+) -> Result<Sample, RecordError> {
     let text = |k: usize| row.get(columns[k]).unwrap_or_default();
     let number = |k: usize| -> Result<f64, RecordError> {
-        text(k).parse().map_err(|_| invalid(line, COLUMNS[k], format!("`{}`", text(k)), "a number"))
+        let decimal = if has_commas { text(k).replacen(',', ".", 1) } else { text(k).to_owned() };
+        decimal.parse().map_err(|_| invalid(line, COLUMNS[k], format!("`{}`", text(k)), "a number"))
     };
     let phase = match text(2) {
         "loading" => Phase::Loading,
@@ -93,6 +111,15 @@ mod tests {
             record.samples(Phase::Unloading)[2],
             Sample { line: 6, force: 50.0, elongation: 2e-4, phase: Phase::Unloading }
         );
+    }
+
+    #[test]
+    fn a_record_may_have_semicolons_and_decimal_commas() {
+        let record =
+            read_record(&GOOD.replace(',', ";").replace("0.5", "0,5").replace("0.2", "0,2")).unwrap();
+        let plain = read_record(GOOD).unwrap();
+        assert_eq!(record.samples(Phase::Unloading), plain.samples(Phase::Unloading));
+        assert_eq!(record.samples(Phase::Loading), plain.samples(Phase::Loading));
     }
 
     #[test]

@@ -3,8 +3,8 @@
 
 use crate::error::StudyError;
 use crate::kind::InputKind;
-use crate::table::Table;
-use serde::Deserialize;
+use crate::table::{Table, TableError};
+use serde::de::IgnoredAny;
 use std::fs::File;
 use std::io::{self, ErrorKind, Read};
 use std::path::Path;
@@ -21,10 +21,30 @@ pub fn read_text(path: &Path, kind: InputKind) -> Result<String, StudyError> {
 /// The table of a file: CSV and its relatives.
 ///
 /// # Errors
-/// As [`read_text`]; [`StudyError::Table`] as [`Table::read`].
+/// As [`read_text`] and [`check_table`]; [`StudyError::Table`] as [`Table::read`].
 pub fn read_table(path: &Path, kind: InputKind) -> Result<Table, StudyError> {
-    let table = Table::read(&read_bytes(path, kind)?);
-    table.map_err(|source| StudyError::Table { path: path.to_owned(), source })
+    let bytes = read_bytes(path, kind)?;
+    check_table(path, &bytes, kind)?;
+    Table::read(&bytes).map_err(|source| StudyError::Table { path: path.to_owned(), source })
+}
+
+/// Refuses bytes that are no table but JSON, XML or HTML: read as lines of cells they make no sense.
+/// Measurements may be JSON.
+///
+/// # Errors
+/// [`StudyError::OtherKind`]; [`StudyError::Table`] for JSON that states no format of this program.
+pub fn check_table(path: &Path, bytes: &[u8], kind: InputKind) -> Result<(), StudyError> {
+    let Ok(text) = std::str::from_utf8(bytes) else { return Ok(()) };
+    let text = text.trim_start_matches('\u{feff}').trim_start();
+    let is_json =
+        text.starts_with('{') || text.starts_with('[') && serde_json::from_str::<IgnoredAny>(text).is_ok();
+    match other_kind(path, text, kind) {
+        Some(other) if is_json || text.starts_with('<') => Err(other),
+        _ if is_json && kind != InputKind::Measurements => {
+            Err(StudyError::Table { path: path.to_owned(), source: TableError::NoText { found: "JSON" } })
+        }
+        _ => Ok(()),
+    }
 }
 
 /// The text that the bytes of a file are, as [`read_text`] has it.
@@ -57,17 +77,12 @@ pub fn read_bytes(path: &Path, kind: InputKind) -> Result<Vec<u8>, StudyError> {
     if bytes.len() as u64 > kind.most_bytes() { Err(too_large()) } else { Ok(bytes) }
 }
 
-/// The error of a text that is a file of this program, but not of the kind that is wanted.
-pub(crate) fn other_kind(path: &Path, text: &str, kind: InputKind) -> Option<StudyError> {
-    #[derive(Deserialize)]
-    struct Formatted {
-        format: String,
-    }
-    let format = serde_json::from_str::<Formatted>(text).ok()?.format;
-    let is_of = |kind: &InputKind| kind.format().is_some_and(|name| format.split('/').next() == Some(name));
-    let found =
-        [InputKind::Robot, InputKind::Cable, InputKind::Study, InputKind::Law].into_iter().find(is_of)?;
-    (found != kind).then(|| StudyError::OtherKind { path: path.to_owned(), found, kind })
+/// The error of a text that was not read as one kind because it is of another.
+pub fn other_kind(path: &Path, text: &str, kind: InputKind) -> Option<StudyError> {
+    let found = InputKind::of_text(text)?;
+    // Measurements and points to import may be tables, too.
+    let is_other = found != kind && !(found == InputKind::Table && kind.may_be_table());
+    is_other.then(|| StudyError::OtherKind { path: path.to_owned(), found, kind })
 }
 
 /// The first bytes of a file, so many at most.

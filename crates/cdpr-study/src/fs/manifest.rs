@@ -82,6 +82,9 @@ impl Manifest {
     /// [`StudyError::Invalid`] for names that no run has given.
     pub(crate) fn read(folder: &Path) -> Result<Option<Self>, StudyError> {
         let path = folder.join(MANIFEST_NAME);
+        if folder.is_file() {
+            return Err(StudyError::NoFolder { path: folder.to_owned() });
+        }
         if !is_plain_file(&path)? {
             return Ok(None);
         }
@@ -133,6 +136,22 @@ impl Manifest {
             Err(source) => Err(StudyError::Read { path, source }),
         }
     }
+}
+
+/// Checks that no table of a folder was changed since its run, also one that is not read again. A table that
+/// was removed is none.
+///
+/// # Errors
+/// [`StudyError::Changed`]; [`StudyError::Read`], [`StudyError::NotRegular`].
+pub(crate) fn check_tables(folder: &Path, list: &Manifest) -> Result<(), StudyError> {
+    let tables = list.files.keys().filter(|name| name.ends_with(".csv") || name.ends_with(".parquet"));
+    for name in tables {
+        match list.check(folder, name) {
+            Err(StudyError::Read { source, .. }) if source.kind() == ErrorKind::NotFound => (),
+            checked => checked?,
+        }
+    }
+    Ok(())
 }
 
 /// Checks that a file is not one that a run has written and somebody has changed since.

@@ -564,6 +564,9 @@ fn take_lock(folder: &Path, lock: &File, access: Access) -> Result<bool, StudyEr
 /// made.
 pub(crate) fn hold_still(folder: &Path) -> Result<Option<Lock>, StudyError> {
     let path = folder.join(LOCK_NAME);
+    if folder.is_file() {
+        return Err(StudyError::NoFolder { path: folder.to_owned() });
+    }
     if !is_plain_file(&path)? {
         return Ok(None);
     }

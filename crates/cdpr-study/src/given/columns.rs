@@ -133,18 +133,22 @@ impl GivenTable {
     }
 
     /// The inputs, if none is named: the columns `d_..` of a table of a study, otherwise all that are no
-    /// output. Words are inputs if most of them occur several times: a status, a name or a date is none.
+    /// output. Words are inputs if most of them occur several times where an output has a value, whichever
+    /// output: a status, a name or a date is none.
     pub(super) fn usual_inputs(&self, outputs: &[usize]) -> Vec<usize> {
         let deviations = self.deviations();
-        let has_output =
-            |row: usize| outputs.iter().any(|&output| !self.columns[output].values[row].is_nan());
-        let is_input = |column: &GivenColumn| {
-            let observed = (0..self.rows).filter(|&row| has_output(row) && !column.values[row].is_nan());
+        let varies_with = |column: &GivenColumn, output: usize| {
+            let values = &self.columns[output].values;
+            let observed =
+                (0..self.rows).filter(|&row| !values[row].is_nan() && !column.values[row].is_nan());
             let mut codes: Vec<u64> = observed.map(|row| column.values[row].to_bits()).collect();
             let count = codes.len();
             codes.sort_unstable();
             codes.dedup();
-            !column.is_words() || codes.len() > 1 && 2 * codes.len() <= count
+            codes.len() > 1 && 2 * codes.len() <= count
+        };
+        let is_input = |column: &GivenColumn| {
+            !column.is_words() || outputs.iter().all(|&output| varies_with(column, output))
         };
         let candidates = if deviations.is_empty() {
             let is_index = |of: &GivenColumn| INDEX.contains(&of.name.as_str());
@@ -247,6 +251,16 @@ mod tests {
         let bad: Vec<_> = found.bad.iter().map(|cell| (cell.row, cell.column.as_str())).collect();
         assert_eq!(bad, [(1, "y"), (3, "x")]);
         assert_eq!(found.bad[0].text, "nan");
+    }
+
+    #[test]
+    fn a_status_of_rows_in_which_one_of_several_outputs_failed_is_no_input() {
+        let rows = "1,2,nan,failed\n2,3,4,ok\n3,1,5,ok\n4,7,nan,failed\n5,6,1,ok\n6,5,2,ok\n";
+        let found = given(&format!("x,force,y,status\n{rows}"));
+        assert_eq!(found.usual_inputs(&[1, 2]), [0], "force has a value in failed rows, too");
+        let apart = "1,2,,a\n2,3,,b\n3,1,,a\n4,7,,b\n5,,1,a\n6,,2,b\n7,,3,a\n8,,4,b\n";
+        let found = given(&format!("x,force,y,material\n{apart}"));
+        assert_eq!(found.usual_inputs(&[1, 2]), [0, 3], "a material of each output is an input");
     }
 
     #[test]

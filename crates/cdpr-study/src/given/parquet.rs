@@ -64,3 +64,48 @@ fn number_of(field: &Field) -> Option<f64> {
         _ => return None,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::read;
+    use crate::given::columns::GivenTable;
+    use parquet::data_type::{ByteArray, ByteArrayType, DoubleType};
+    use parquet::file::properties::WriterProperties;
+    use parquet::file::writer::SerializedFileWriter;
+    use parquet::schema::parser::parse_message_type;
+    use std::sync::Arc;
+
+    #[test]
+    fn nan_and_absent_values_of_parquet_are_cells_without_a_number() {
+        let file = tempfile::NamedTempFile::new().unwrap();
+        let schema = "message t { required double x; optional double y; optional binary s (UTF8); }";
+        let schema = Arc::new(parse_message_type(schema).unwrap());
+        let properties = Arc::new(WriterProperties::builder().build());
+        let mut writer = SerializedFileWriter::new(file.reopen().unwrap(), schema, properties).unwrap();
+        let mut group = writer.next_row_group().unwrap();
+        let mut column = group.next_column().unwrap().unwrap();
+        column.typed::<DoubleType>().write_batch(&[1.0, f64::NAN, 3.0], None, None).unwrap();
+        column.close().unwrap();
+        let mut column = group.next_column().unwrap().unwrap();
+        column.typed::<DoubleType>().write_batch(&[4.0, f64::INFINITY], Some(&[1, 1, 0]), None).unwrap();
+        column.close().unwrap();
+        let mut column = group.next_column().unwrap().unwrap();
+        column
+            .typed::<ByteArrayType>()
+            .write_batch(&[ByteArray::from("ok")], Some(&[1, 0, 0]), None)
+            .unwrap();
+        column.close().unwrap();
+        group.close().unwrap();
+        writer.close().unwrap();
+        let found = GivenTable::of(file.path(), read(file.path()).unwrap());
+        assert_eq!(found.rows, 3);
+        let names: Vec<(&str, bool)> =
+            found.columns.iter().map(|column| (column.name.as_str(), column.is_words())).collect();
+        assert_eq!(names, [("x", false), ("y", false), ("s", true)]);
+        assert!(
+            found.columns[0].values[1].is_nan() && found.columns[1].values[1..].iter().all(|y| y.is_nan())
+        );
+        let bad: Vec<_> = found.bad.iter().map(|cell| (cell.row, cell.column.as_str())).collect();
+        assert_eq!(bad, [(2, "x"), (2, "y"), (3, "y")]);
+    }
+}

@@ -4,7 +4,7 @@ use crate::file::grid::GridSpec;
 use crate::file::study_file::{AxisSpec, PosesSpec};
 use crate::model::error_model::{ErrorModel, Term};
 use crate::model::study::Study;
-use cdpr_robot::{Doubt, Doubts, Parameter, Robot, Vector3, Wrench, plausible};
+use cdpr_robot::{Doubt, Doubts, Parameter, Pose, Robot, Vector3, Wrench, plausible};
 use indexmap::IndexMap;
 use std::str::FromStr;
 
@@ -99,5 +99,9 @@ fn ends(grid: &GridSpec) -> Vec<[f64; 3]> {
 }
 
 fn first_far(robot: &Robot, name: &str, positions: &[[f64; 3]]) -> Option<Doubt> {
-    positions.iter().find_map(|position| plausible::position(robot, name, &Vector3::from(*position)))
+    let doubt = |&[x, y, z]: &[f64; 3]| {
+        let far = plausible::position(robot, name, &Vector3::new(x, y, z));
+        far.or_else(|| plausible::in_ground(robot, name, &Pose::at(x, y, z)))
+    };
+    positions.iter().find_map(doubt)
 }

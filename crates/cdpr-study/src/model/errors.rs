@@ -3,7 +3,7 @@
 use crate::error::StudyError;
 use crate::file::errors_file::ErrorsFile;
 use crate::file::study_file::InputSpec;
-use crate::fs::input::read_text;
+use crate::fs::input::{other_kind, read_text};
 use crate::kind::InputKind;
 use crate::model::error_model::{ErrorModel, Wrong};
 use cdpr_robot::{Robot, from_json};
@@ -41,7 +41,10 @@ pub(crate) fn with_error_files<'t>(text: &'t str, path: &Path) -> Result<Cow<'t,
 /// `error_models`.
 fn read_entries(path: &Path) -> Result<IndexMap<String, InputSpec>, StudyError> {
     let text = read_text(path, InputKind::Errors)?;
-    let unread = |source| StudyError::Format { path: path.to_owned(), source };
+    let unread = |source| {
+        let other = other_kind(path, &text, InputKind::Errors);
+        other.unwrap_or_else(|| StudyError::Format { path: path.to_owned(), source })
+    };
     let is_errors = serde_json::from_str::<Value>(&text).is_ok_and(|value| value.get("format").is_some());
     if !is_errors {
         return from_json(&text).map_err(unread);

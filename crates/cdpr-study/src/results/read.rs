@@ -7,7 +7,7 @@ use crate::analysis::summary::Summary;
 use crate::analysis::surface::{SurfaceResult, SurfaceSummary};
 use crate::error::StudyError;
 use crate::fs::input::read_text;
-use crate::fs::manifest::{Manifest, ResultsOf, read};
+use crate::fs::manifest::{Manifest, ResultsOf, check_tables, read};
 use crate::fs::owned::{Access, ResultsFolder, hold_still};
 use crate::fs::single::{IfExists, write_text};
 use crate::kind::InputKind;
@@ -66,6 +66,7 @@ impl Results {
             return Err(StudyError::Mixed { path, found: summary.hash, expected: hash });
         }
         listed(SUMMARY_NAME)?;
+        list.iter().try_for_each(|list| check_tables(folder, list))?;
         let (mut surfaces, mut poses) = (IndexMap::new(), IndexMap::new());
         for (name, found) in &summary.studies {
             let table = format!("{name}.csv");

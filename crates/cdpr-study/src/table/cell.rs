@@ -1,5 +1,7 @@
 //! What the text of a cell is: a number, none, or a word.
 
+use crate::table::unit::Unit;
+
 /// What a cell is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Reading {
@@ -63,6 +65,14 @@ pub(super) fn reading(text: &str) -> Reading {
 fn number(text: &str) -> Option<f64> {
     let number = text.parse::<f64>().or_else(|_| text.replacen('\u{2212}', "-", 1).parse());
     number.ok().filter(|number| number.is_finite())
+}
+
+/// The number and the unit of a cell such as `3.2 mm`.
+pub(super) fn with_unit(text: &str) -> Option<(&str, &str)> {
+    let is_of_number = |c: char| c.is_ascii_digit() || "+-.,\u{2212}".contains(c);
+    let (value, unit) = text.trim().split_at(text.trim().find(|c| !is_of_number(c))?);
+    let is_number = matches!(reading(value), Reading::Number { .. } | Reading::Unclear);
+    (is_number && Unit::of(unit).is_some()).then(|| (value, unit.trim()))
 }
 
 /// Whether a number looks as one with marks of thousands: `1,234`, and not `0,234`, `1234,567` or `1,23`.

@@ -1,6 +1,6 @@
 //! A column: all numbers, or all texts, or an error.
 
-use crate::table::cell::{Marks, Reading, reading, with_comma};
+use crate::table::cell::{Marks, Reading, reading, with_comma, with_unit};
 use crate::table::error::TableError;
 use crate::table::unit::{Dimension, Unit, plain, split};
 
@@ -48,13 +48,20 @@ impl Column {
         let words = readings.iter().filter(|reading| **reading == Reading::Word).count();
         let blank = readings.iter().filter(|reading| **reading == Reading::Blank).count();
         let numbers = readings.len() - words - blank;
-        if words > 0 && numbers <= words {
+        // A column of `3.2 mm` has numbers.
+        let with_units = texts.iter().filter(|text| with_unit(text).is_some()).count();
+        if words > 0 && numbers + with_units <= words - with_units {
             return Self::of_texts(name, texts.iter().map(|text| text.trim().to_owned()).collect());
         }
         if let Some(row) = readings.iter().position(is_flaw) {
             let texts: Vec<String> = texts.iter().map(|text| text.trim().to_owned()).collect();
             let cell = texts[row].clone();
-            let expected = expected(&readings[row], &cell, own);
+            let expected = match with_unit(&cell) {
+                Some((value, unit)) => {
+                    format!("{value}, and the unit in the name of the column: {name} [{unit}]")
+                }
+                None => expected(&readings[row], &cell, own),
+            };
             let flaw = Some(TableError::Cell { line: lines[row], column: name.clone(), cell, expected });
             return Self { flaw, ..Self::of_texts(name, texts) };
         }

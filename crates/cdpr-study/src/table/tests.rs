@@ -197,3 +197,18 @@ fn even(bytes: &[u8]) {
         }
     }
 }
+
+#[test]
+fn a_unit_behind_each_number_belongs_into_the_name_of_the_column() {
+    let table =
+        Table::read(b"x;load;cable\n1;3.2 mm;4 mm steel\n2;-1,5mm;4 mm steel\n3;2 kN;6 mm fibre\n").unwrap();
+    let error = table.columns[1].cells().unwrap_err().to_string();
+    assert_eq!(
+        error,
+        "line 2, column load: `3.2 mm`: expected 3.2, and the unit in the name of the column: load [mm]"
+    );
+    assert!(matches!(table.columns[2].cells(), Ok(Cells::Text(_))), "a name of a cable");
+    let one = Table::read(b"x,y\n1,2\n2,3\n3,4 N\n").unwrap();
+    let error = one.columns[1].cells().unwrap_err().to_string();
+    assert!(error.starts_with("line 4, column y: `4 N`: expected 4, and the unit in"), "{error}");
+}

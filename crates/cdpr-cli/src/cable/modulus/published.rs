@@ -3,7 +3,7 @@
 use crate::error::ProgramError;
 use crate::output::table;
 use cdpr_robot::{from_json, shown};
-use cdpr_study::{InputKind, read_text};
+use cdpr_study::{InputKind, other_kind, read_text};
 use serde::{Deserialize, Serialize};
 use serde_json::Number;
 use std::path::Path;
@@ -44,7 +44,11 @@ const ROUNDING: f64 = 1e-6;
 impl Published {
     pub(super) fn open(path: &Path) -> Result<Self, ProgramError> {
         let text = read_text(path, InputKind::Moduli)?;
-        let found: Self = from_json(&text).map_err(ProgramError::in_file(path))?;
+        let found: Self =
+            from_json(&text).map_err(|error| match other_kind(path, &text, InputKind::Moduli) {
+                Some(other) => other.into(),
+                None => ProgramError::in_file(path)(error),
+            })?;
         let expected = found.ranges.len();
         for (field, moduli) in [("loading_gpa", &found.loading_gpa), ("unloading_gpa", &found.unloading_gpa)]
         {

@@ -1,6 +1,7 @@
 //! `cdpr calibration plan`: the poses to measure.
 
 use crate::arguments::{self, Format, FreeArguments, LoadArguments, Overwrite, Preference};
+use crate::endings;
 use crate::error::ProgramError;
 use crate::output::{patiently, table};
 use crate::poses;
@@ -45,10 +46,10 @@ pub(crate) struct PlanSettings {
     #[command(flatten)]
     preference: Preference,
     /// Seed of the random sets beside it.
-    #[arg(long, default_value_t = 1)]
+    #[arg(long, default_value_t = 1, value_parser = arguments::seed, allow_negative_numbers = true)]
     seed: u64,
     /// File for the poses (CSV), as --poses reads them.
-    #[arg(long)]
+    #[arg(long, value_parser = endings::csv())]
     out: Option<PathBuf>,
     #[command(flatten)]
     overwrite: Overwrite,

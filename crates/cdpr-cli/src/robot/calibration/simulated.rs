@@ -1,6 +1,7 @@
 //! `cdpr calibration simulate`: what a campaign would read.
 
 use crate::arguments::{self, FreeArguments, LoadArguments, Named, Overwrite, Preference};
+use crate::endings;
 use crate::error::ProgramError;
 use crate::questions;
 use crate::robot::calibrate::{Sought, sensor_errors};
@@ -45,13 +46,13 @@ pub(crate) struct SimulateSettings {
     #[command(flatten)]
     preference: Preference,
     /// Seed of deviations and noise.
-    #[arg(long)]
+    #[arg(long, value_parser = arguments::seed, allow_negative_numbers = true)]
     seed: u64,
     /// File for the measurements (CSV).
-    #[arg(long)]
+    #[arg(long, value_parser = endings::csv())]
     out: PathBuf,
     /// File for the robot as it truly is (JSON).
-    #[arg(long)]
+    #[arg(long, value_parser = endings::json())]
     truth: Option<PathBuf>,
     #[command(flatten)]
     overwrite: Overwrite,
