@@ -5,7 +5,9 @@ use crate::error::CalibrationError;
 use crate::unknowns::{SensorError, check_each_once};
 use cdpr_cable::SpatialCable;
 use cdpr_robot::{Axis, CableEnd, Coordinate, Pose, Robot, Rotation3, TiltAxis, Vector3};
-use cdpr_statics::{DirectProblem, FreeSolution, Load, Start, inverse_free};
+use cdpr_statics::{
+    DirectProblem, DirectSolution, FreeSolution, Load, Start, StaticsError, follow_load, inverse_free,
+};
 use cdpr_study::ErrorModel;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -76,8 +78,8 @@ impl Simulated<'_> {
 /// The rows of a campaign, one for each pose that the nominal robot holds.
 ///
 /// # Errors
-/// [`CalibrationError::Row`] where the true robot has no equilibrium; [`CalibrationError::Robot`] for
-/// deviations that make no robot.
+/// [`CalibrationError::Row`] where the true robot has no equilibrium, or loses it on the way to the load;
+/// [`CalibrationError::Robot`] for deviations that make no robot.
 pub fn simulate(of: &Simulated) -> Result<Vec<Row>, CalibrationError> {
     check_each_once(of.errors.iter().map(|(error, _)| *error))?;
     let truth = of.nominal.perturbed(of.deviations)?.robot;
@@ -91,8 +93,8 @@ pub fn simulate(of: &Simulated) -> Result<Vec<Row>, CalibrationError> {
         random.set_stream(k as u64);
         let mut draw = || -> f64 { random.sample(StandardNormal) };
         let lengths = &lengths[..];
-        let problem = DirectProblem::new(&truth, lengths, &of.load).map_err(&at)?;
-        let found = problem.direct(Start::Pose(&near.pose)).map_err(&at)?.equilibrium;
+        let [unloaded, loaded] = rests(&truth, lengths, &near.pose, &of.load).map_err(&at)?;
+        let found = loaded.equilibrium;
         let read_by = |(i, length): (usize, &f64)| {
             (1.0 + of.error(SensorError::DrumScale, i)) * length + of.error(SensorError::LengthOffset, i)
         };
@@ -127,13 +129,12 @@ pub fn simulate(of: &Simulated) -> Result<Vec<Row>, CalibrationError> {
             }
         }
         if of.noise.displacement.is_some() {
-            let rest = DirectProblem::new(&truth, lengths, &Load::none()).map_err(&at)?;
-            let rest = rest.direct(Start::Pose(&pose)).map_err(&at)?.equilibrium;
-            let moved = seen(pose.position) - seen(rest.pose.position);
+            let moved = seen(pose.position) - seen(unloaded.equilibrium.pose.position);
             for axis in Axis::ALL {
                 read(Quantity::Displacement(axis), moved[axis.index()], of.noise.displacement, draw());
             }
         }
+        let problem = DirectProblem::new(&truth, lengths, &of.load).map_err(&at)?;
         let forces = problem.force_derivatives(&found).map_err(&at)?.forces;
         let tensions: Vec<f64> = match of.tension_at {
             CableEnd::Anchor => found.tensions(),
@@ -165,4 +166,16 @@ pub fn simulate(of: &Simulated) -> Result<Vec<Row>, CalibrationError> {
         rows.push(row);
     }
     Ok(rows)
+}
+
+/// The equilibrium without the load, near a pose, and what it becomes while the load is raised.
+fn rests(
+    robot: &Robot,
+    lengths: &[f64],
+    near: &Pose,
+    load: &Load,
+) -> Result<[DirectSolution; 2], StaticsError> {
+    let unloaded = DirectProblem::new(robot, lengths, &Load::none())?.direct(Start::Pose(near))?;
+    let loaded = follow_load(robot, lengths, (&Load::none(), &unloaded), load)?;
+    Ok([unloaded, loaded])
 }

@@ -160,41 +160,23 @@ fn lines(bytes: &[u8]) -> Result<(Vec<String>, Lines), CalibrationError> {
     Ok((names, cells))
 }
 
-/// The rows as CSV, as [`read_measurements`] reads them.
+/// The rows as CSV, as [`read_measurements`] reads them; without standard deviations and covariances.
 pub fn write_measurements(rows: &[Row]) -> (Vec<String>, Vec<Vec<String>>) {
-    let mut header: Vec<String> = Vec::new();
-    let mut quantities: Vec<Quantity> = Vec::new();
-    for reading in rows.iter().flat_map(|row| &row.readings) {
-        if !quantities.contains(&reading.quantity) && !matches!(reading.quantity, Quantity::Rotation(_)) {
-            quantities.push(reading.quantity);
-        }
-    }
-    let rotated = rows.iter().any(|row| row.rotation.is_some());
     let cables = rows.iter().filter_map(|row| row.lengths.as_ref()).map(Vec::len).max().unwrap_or(0);
-    let loaded = rows.iter().any(|row| row.load.payload != 0.0);
-    header.extend((0..cables).map(|i| Quantity::Length(i).to_string()));
-    header.extend(quantities.iter().map(ToString::to_string));
-    if rotated {
-        header.extend(["qw", "qx", "qy", "qz"].map(str::to_owned));
+    let mut columns: Vec<Column> = (0..cables).map(|i| Column::Reading(Quantity::Length(i))).collect();
+    for reading in rows.iter().flat_map(|row| &row.readings) {
+        let column = Column::Reading(reading.quantity);
+        if !columns.contains(&column) && !matches!(reading.quantity, Quantity::Rotation(_)) {
+            columns.push(column);
+        }
     }
-    if loaded {
-        header.push("payload_kg".to_owned());
+    if rows.iter().any(|row| row.rotation.is_some()) {
+        columns.extend((0..4).map(Column::Quaternion));
     }
-    let cell = |value: Option<f64>| value.map(|value| value.to_string()).unwrap_or_default();
+    columns.extend(Column::OF_LOADS.into_iter().filter(|column| rows.iter().any(|row| column.is_in(row))));
     let line = |row: &Row| {
-        let mut cells: Vec<String> =
-            (0..cables).map(|i| cell(row.lengths.as_ref().map(|lengths| lengths[i]))).collect();
-        cells.extend(quantities.iter().map(|quantity| cell(row.value(*quantity))));
-        if rotated {
-            let quaternion = row.rotation.map(|rotation| {
-                cdpr_robot::Pose { position: cdpr_robot::Vector3::zeros(), rotation }.quaternion()
-            });
-            cells.extend((0..4).map(|k| cell(quaternion.map(|q| q[k]))));
-        }
-        if loaded {
-            cells.push(row.load.payload.to_string());
-        }
-        cells
+        let cell = |column: &Column| column.value(row).map(|value| value.to_string()).unwrap_or_default();
+        columns.iter().map(cell).collect()
     };
-    (header, rows.iter().map(line).collect())
+    (columns.iter().map(Column::name).collect(), rows.iter().map(line).collect())
 }

@@ -5,6 +5,7 @@
 mod common;
 mod frame;
 mod identify;
+mod loads;
 mod minimum;
 mod recovery;
 mod reference;

@@ -2,12 +2,16 @@
 
 use crate::campaign::Row;
 use crate::error::CalibrationError;
+use crate::fit::search::Found;
 use crate::fitted::{Difference, FitSettings};
 use crate::model::compare::Compared;
 use crate::model::{Model, Shared, State};
 use crate::unknowns::SensorError;
 use cdpr_robot::{Pose, Robot, UnitQuaternion, Vector3};
 use rayon::prelude::*;
+
+/// A sum of squares this many of its standard deviations above its mean is not of noise.
+const UNLIKELY: f64 = 5.0;
 
 /// Residuals of all rows, and their poses.
 pub(super) type Seen = (Vec<Difference>, Vec<Pose>);
@@ -90,6 +94,17 @@ impl Problem<'_> {
     pub(super) fn cost(&self, compared: &[Compared], shared: &Shared) -> f64 {
         compared.iter().map(|of| self.row_cost(of)).sum::<f64>()
             + self.priors(shared).iter().map(|(_, r, _)| r * r).sum::<f64>()
+    }
+
+    /// Whether a sum of squares is greater than noise makes it.
+    pub(super) fn is_unlikely(&self, found: &Found) -> bool {
+        let cables = self.model.robot.cables.len();
+        let surplus = |row: &Row| match row.lengths {
+            Some(_) => row.readings.len(),
+            None => row.readings.len().saturating_sub(cables),
+        };
+        let degrees = self.rows.iter().map(surplus).sum::<usize>() as f64;
+        found.leads_to() > degrees + UNLIKELY * (2.0 * degrees).sqrt()
     }
 
     pub(super) fn translation(&self, state: &State) -> Vector3<f64> {

@@ -10,7 +10,7 @@ use crate::model::compare::Compared;
 use crate::model::{RowState, Shared, State};
 use crate::solve::Eliminated;
 use cdpr_robot::Robot;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, Dyn};
 use rayon::prelude::*;
 
 /// A row's own unknowns are at their best where a step would gain less than this share of its cost.
@@ -21,6 +21,12 @@ const BAD: f64 = 4.0;
 
 /// Share of a row's cost below which another equilibrium is taken.
 const WORTHWHILE: f64 = 0.9;
+
+/// Share of what a step of a row would gain, by its linearisation, that it has to gain.
+const GAINED: f64 = 1e-2;
+
+/// Weight of a tension that is kept, over the greatest derivative of a residual.
+const KEPT: f64 = 1e6;
 
 /// Steps of the unknowns of a row at most.
 const MOST_OWN_STEPS: usize = 20;
@@ -135,6 +141,7 @@ impl Problem<'_> {
             return (state, compared);
         }
         let unknowns = DVector::zeros(at.shared.x.len());
+        let first = at.shared.x.len();
         for _ in 0..MOST_OWN_STEPS {
             let cost = self.row_cost(&compared);
             let (mut slopes, mut residuals) = (compared.per_own.clone(), compared.residuals.clone());
@@ -144,8 +151,11 @@ impl Problem<'_> {
                 slopes.row_mut(r).iter_mut().for_each(|slope| *slope *= weight);
             }
             let count = residuals.len();
-            let all = Eliminated::new(DMatrix::from_column_slice(count, 1, residuals.as_slice()), &slopes);
-            if all.gain() <= OWN_GAIN * (1.0 + cost) {
+            let residuals = DMatrix::from_column_slice(count, 1, residuals.as_slice());
+            let per_own = compared.motion.columns(first, slopes.ncols()).into_owned();
+            let all = eliminated(residuals, &slopes, &per_own, &compared.between);
+            let gain = all.gain();
+            if gain <= OWN_GAIN * (1.0 + cost) {
                 break;
             }
             let step = all.own(&DVector::zeros(0));
@@ -154,11 +164,40 @@ impl Problem<'_> {
                 Way::ALL.iter().flat_map(|way| SHARES.map(|share| (*way, share))).find_map(|(way, share)| {
                     let own = step.iter().map(|of| share * of).collect();
                     let moved = self.moved(at, &state, &RowStep { unknowns: &unknowns, own, motion }, way)?;
-                    (self.row_cost(&moved.1) < cost).then_some(moved)
+                    (self.row_cost(&moved.1) < cost - GAINED * share * gain).then_some(moved)
                 });
             let Some(tried) = tried else { break };
             (state, compared) = tried;
         }
         (state, compared)
     }
+}
+
+/// A row without its own unknowns, where cables between taut and slack that would have less tension keep what
+/// they have. The tensions depend by `motion` on the unknowns of `row` (its columns without the last), then on
+/// those of `own`.
+pub(super) fn eliminated(
+    row: DMatrix<f64>,
+    own: &DMatrix<f64>,
+    motion: &DMatrix<f64>,
+    between: &[usize],
+) -> Eliminated {
+    let count = row.ncols() - 1;
+    if between.is_empty() {
+        return Eliminated::new(row, own);
+    }
+    let tension = |i: &usize| motion.row(6 + i);
+    let alone = Eliminated::new(row.column(count).into_owned().reshape_generic(Dyn(row.nrows()), Dyn(1)), own);
+    let step = DVector::from_vec(alone.own(&DVector::zeros(0)));
+    let loses = |i: &&usize| tension(i).columns(count, own.ncols()).transpose().dot(&step) < 0.0;
+    let kept: Vec<usize> = between.iter().filter(loses).copied().collect();
+    let (rows, unknowns, weight) = (row.nrows(), own.ncols(), KEPT * own.amax());
+    let mut row = row.resize_vertically(rows + kept.len(), 0.0);
+    let mut own = own.clone().resize_vertically(rows + kept.len(), 0.0);
+    for (k, i) in kept.iter().enumerate() {
+        let slopes = tension(i) * (weight / tension(i).amax());
+        row.view_mut((rows + k, 0), (1, count)).copy_from(&slopes.columns(0, count));
+        own.row_mut(rows + k).copy_from(&slopes.columns(count, unknowns));
+    }
+    Eliminated::new(row, &own)
 }

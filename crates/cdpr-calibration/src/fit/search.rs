@@ -7,7 +7,7 @@
 
 use crate::error::CalibrationError;
 use crate::fit::problem::Problem;
-use crate::fit::rows::{Look, RowAt, RowStep, Way};
+use crate::fit::rows::{Look, RowAt, RowStep, Way, eliminated};
 use crate::model::compare::Compared;
 use crate::model::{RowState, Shared, State};
 use crate::solve::{Decomposed, Eliminated, reduce, triangle};
@@ -179,7 +179,8 @@ impl Problem<'_> {
     fn linearized(&self, shared: &Shared, compared: Vec<Compared>) -> Linearized {
         let cost = self.cost(&compared, shared);
         let count = self.model.unknowns.all.len();
-        let eliminated = |mut of: Compared| {
+        let row_of = |mut of: Compared| {
+            let own = of.per_own.ncols();
             let mut row = DMatrix::zeros(of.std.len(), count + 1);
             for r in 0..of.std.len() {
                 let weight = self.settings.loss.weight(of.residuals[r]).sqrt();
@@ -189,9 +190,13 @@ impl Problem<'_> {
                 row[(r, count)] = weight * of.residuals[r];
                 of.per_own.row_mut(r).iter_mut().for_each(|slope| *slope *= weight);
             }
-            (Eliminated::new(row, &of.per_own), of.motion)
+            let mut scaled = of.motion.clone();
+            for (j, unknown) in self.model.unknowns.all.iter().enumerate().filter(|_| own > 0) {
+                scaled.column_mut(j).iter_mut().for_each(|slope| *slope *= unknown.scale);
+            }
+            (eliminated(row, &of.per_own, &scaled, &of.between), of.motion)
         };
-        let (rows, motions): (Vec<_>, Vec<_>) = compared.into_par_iter().map(eliminated).unzip();
+        let (rows, motions): (Vec<_>, Vec<_>) = compared.into_par_iter().map(row_of).unzip();
         Linearized { data: reduce(&rows, count + 1), rows, motions, cost }
     }
 

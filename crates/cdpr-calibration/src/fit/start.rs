@@ -145,31 +145,34 @@ impl Problem<'_> {
         Some(state)
     }
 
-    /// A start at the unknowns that suit lengths with errors: they show which cables are taut in truth, where
-    /// with the exact lengths of a wrong robot others are.
-    fn softened(&self) -> Option<State> {
-        let std = SOFT * size(self.model.robot);
-        let soften = |row: &Row| {
-            let mut row = row.clone();
-            let count = row.lengths.as_ref().map_or(0, Vec::len);
-            row.length_std.resize(count, 0.0);
-            row.length_std.iter_mut().filter(|of| **of == 0.0).for_each(|of| *of = std);
-            row
-        };
-        let rows: Vec<Row> = self.rows.iter().map(soften).collect();
-        let soft = Problem {
-            model: Model::new(self.model.robot, self.model.unknowns, &rows),
-            rows: &rows,
-            settings: self.settings,
-        };
-        let start = soft.with_best_rows(soft.begin().ok()?.0).ok()?;
-        let found = soft.search(start, SEEN, self.settings.max_steps).ok()?;
-        self.at(found.state.shared.x)
+    /// A start at the unknowns that suit lengths with greater errors, then smaller ones: they show which cables
+    /// are taut in truth, where with the lengths of a wrong robot others are.
+    pub(super) fn softened(&self) -> Option<State> {
+        let mut start = None;
+        for share in SOFT {
+            let std = share * size(self.model.robot);
+            let soften = |row: &Row| {
+                let mut row = row.clone();
+                row.length_std.resize(row.lengths.as_ref().map_or(0, Vec::len), 0.0);
+                row.length_std.iter_mut().for_each(|of| *of = of.max(std));
+                row
+            };
+            let rows: Vec<Row> = self.rows.iter().map(soften).collect();
+            let soft = Problem {
+                model: Model::new(self.model.robot, self.model.unknowns, &rows),
+                rows: &rows,
+                settings: self.settings,
+            };
+            let from = start.map_or_else(|| Some(soft.begin().ok()?.0), |x| soft.at(x))?;
+            let from = soft.with_best_rows(from).ok()?;
+            start = Some(soft.search(from, SEEN, self.settings.max_steps).ok()?.state.shared.x);
+        }
+        self.at(start?)
     }
 }
 
 /// How far from the minimum that was found others begin at most, in standard deviations.
 const FARTHEST: f64 = 30.0;
 
-/// Errors of lengths that are exact, for a start, over the robot's size.
-const SOFT: f64 = 1e-3;
+/// Errors of lengths for a start, over the robot's size.
+const SOFT: [f64; 4] = [1e-3, 3e-4, 1e-4, 3e-5];

@@ -23,6 +23,9 @@ pub(crate) struct Compared {
     /// Derivatives of the pose (dp, dφ) and of the tensions by the unknowns of all rows, then by those of the
     /// row; empty where it has none.
     pub(crate) motion: DMatrix<f64>,
+    /// Cables between taut and slack, to which slack would suit their measured lengths less: where less
+    /// tension would, too, such a row is at its best with the cable as it is.
+    pub(crate) between: Vec<usize>,
 }
 
 impl Model<'_> {
@@ -57,6 +60,7 @@ impl Model<'_> {
             per_unknown: DMatrix::zeros(count, self.unknowns.all.len()),
             per_own: DMatrix::zeros(count, own),
             motion: DMatrix::zeros(0, 0),
+            between: state.between_taut_and_slack(),
         };
         if own > 0 {
             compared.motion = self.motion(row, x, &lengths, &slopes);

@@ -19,8 +19,20 @@ use nalgebra::DVector;
 /// A cable with this many times its own weight as tension is moved by its tension.
 const TAUT: f64 = 5.0;
 
-/// Share of a tension that a step leaves at least.
+/// Share of a tension that a step leaves at least, while it is above [`SMALL`] of the greatest.
 const LEAST_LEFT: f64 = 0.1;
+
+/// Share of the greatest tension below which a cable may lose all of its own in one step.
+const SMALL: f64 = 1e-2;
+
+/// Tension of a cable between taut and slack, over the greatest: far above rounding, and without effect.
+const HARDLY_TAUT: f64 = 1e-7;
+
+/// The tension of a cable between taut and slack [N]. A cable without weight has a kink there, at which a row
+/// may be at its best: its derivatives are those of the taut cable.
+pub(super) fn hardly_taut(tensions: &[f64]) -> f64 {
+    HARDLY_TAUT * tensions.iter().copied().fold(0.0, f64::max)
+}
 
 impl Model<'_> {
     /// The state of a row where the search begins: at the lengths that were read or, where the robot does not
@@ -208,7 +220,7 @@ impl Model<'_> {
     }
 
     /// Follows a row to other unknowns by a predicted change of its pose (dp, dφ) and of its tensions; cables
-    /// that are not taut get the lengths that these errors give. `None` where there is no length to follow.
+    /// that are not taut get the lengths that these errors give, but no more than hardly any tension. `None` where there is no length to follow.
     pub(crate) fn follow_tensions(
         &self,
         row: &Row,
@@ -227,12 +239,19 @@ impl Model<'_> {
         }
         let motion = |k: usize| Vector3::new(change[k], change[k + 1], change[k + 2]);
         let pose = from.loaded.pose.moved(motion(0), motion(3));
-        let moved: Vec<f64> = (0..tensions.len())
-            .map(|i| (tensions[i] + change[6 + i]).max(LEAST_LEFT * tensions[i]).max(f64::MIN_POSITIVE))
-            .collect();
+        let least = hardly_taut(&tensions);
+        let floor = |tension: f64| {
+            if tension * HARDLY_TAUT > SMALL * least { LEAST_LEFT * tension } else { least }
+        };
+        let moved: Vec<f64> =
+            (0..tensions.len()).map(|i| (tensions[i] + change[6 + i]).max(floor(tensions[i]))).collect();
         let mut held = lengths_for_tensions(robot, &pose, &moved).ok()?;
         let state = RowState { errors: errors.to_vec(), ..from.clone() };
-        for (i, length) in self.lengths(&state, x).into_iter().enumerate().filter(|(i, _)| !is_taut(*i)) {
+        // A cable without weight does not become taut by more than that.
+        let is_slack = |i: usize, length: f64| weight(i) > least || length > held.lengths[i];
+        let slack: Vec<(usize, f64)> = self.lengths(&state, x).into_iter().enumerate().collect();
+        let slack = slack.into_iter().filter(|(i, length)| !is_taut(*i) && is_slack(*i, *length));
+        for (i, length) in slack.collect::<Vec<_>>() {
             held.lengths[i] = length;
             held.equilibrium.cable_forces[i] = from.loaded.cable_forces[i];
         }

@@ -1,8 +1,8 @@
 //! The columns of a table of measurements by their names.
 
-use crate::campaign::Quantity;
+use crate::campaign::{Quantity, Row};
 use crate::error::CalibrationError;
-use cdpr_robot::{Axis, CableEnd, Robot};
+use cdpr_robot::{Axis, CableEnd, Pose, Robot, Vector3};
 use cdpr_study::{Dimension, Unit};
 
 /// What a column holds.
@@ -18,6 +18,58 @@ pub(super) enum Column {
     /// Component of the load: force, then moment.
     Wrench(usize),
 }
+
+impl Column {
+    /// The columns of the known load.
+    pub(super) const OF_LOADS: [Self; 8] = [
+        Self::Payload,
+        Self::Mass,
+        Self::Wrench(0),
+        Self::Wrench(1),
+        Self::Wrench(2),
+        Self::Wrench(3),
+        Self::Wrench(4),
+        Self::Wrench(5),
+    ];
+
+    /// Its name, in SI units.
+    pub(super) fn name(&self) -> String {
+        match self {
+            Self::Reading(quantity) => quantity.to_string(),
+            Self::Covariance(one, other) => format!("cov_{one}_{other}"),
+            Self::Quaternion(k) => QUATERNION[*k].to_owned(),
+            Self::Payload => "payload_kg".to_owned(),
+            Self::Mass => "mass_kg".to_owned(),
+            Self::Wrench(k) => ["fx_n", "fy_n", "fz_n", "mx_nm", "my_nm", "mz_nm"][*k].to_owned(),
+        }
+    }
+
+    /// Its number in a row, in SI units; `None` where the row has none.
+    pub(super) fn value(&self, row: &Row) -> Option<f64> {
+        match *self {
+            Self::Reading(Quantity::Length(i)) => row.lengths.as_ref()?.get(i).copied(),
+            Self::Reading(quantity) => row.value(quantity),
+            Self::Covariance(one, other) => {
+                row.covariances.iter().find(|of| (of.0, of.1) == (one, other)).map(|of| of.2)
+            }
+            Self::Quaternion(k) => {
+                Some(Pose { position: Vector3::zeros(), rotation: row.rotation? }.quaternion()[k])
+            }
+            Self::Payload => Some(row.load.payload),
+            Self::Mass => row.mass,
+            Self::Wrench(k @ 0..3) => Some(row.load.wrench.force[k]),
+            Self::Wrench(k) => Some(row.load.wrench.moment[k - 3]),
+        }
+    }
+
+    /// Whether a row has more than the zero that a missing column means.
+    pub(super) fn is_in(&self, row: &Row) -> bool {
+        self.value(row).is_some_and(|value| value != 0.0)
+    }
+}
+
+/// Names of the components (w, x, y, z).
+const QUATERNION: [&str; 4] = ["qw", "qx", "qy", "qz"];
 
 /// A column with the factor to SI units.
 #[derive(Clone, Debug)]
@@ -113,7 +165,7 @@ pub(super) fn covariance_of(name: &str) -> Option<(Quantity, Quantity, f64)> {
 
 /// A column by its name without `std_`.
 fn column(name: &str) -> Option<(Column, f64)> {
-    if let Some(k) = ["qw", "qx", "qy", "qz"].iter().position(|own| *own == name) {
+    if let Some(k) = QUATERNION.iter().position(|own| *own == name) {
         return Some((Column::Quaternion(k), 1.0));
     }
     let (base, unit) = name.rsplit_once('_')?;
