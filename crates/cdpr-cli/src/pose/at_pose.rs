@@ -82,7 +82,7 @@ pub(crate) trait Row: Serialize + Send {
     fn remark(&self) -> String {
         let lists = self.out_of_limits().into_iter();
         let beyond = lists.filter(|list| !list.is_empty()).map(OutOfLimits::cell);
-        beyond.chain(self.warning().map(str::to_owned)).collect::<Vec<_>>().join("; ")
+        beyond.chain(self.warning().map(|warning| warning.replace('\n', " "))).collect::<Vec<_>>().join("; ")
     }
 }
 
