@@ -4,7 +4,7 @@ use cdpr_assess::{
     Further, TiltDirections, Way, Workspace, WorkspaceSummary, WrenchSet, capacity_at, clearance_under,
     compute_workspace, tilt_at, workspace_boundary,
 };
-use cdpr_robot::{Coordinate, Matrix3, Parameter, Pose, Robot, Rotation3, Vector3};
+use cdpr_robot::{Coordinate, Matrix3, Parameter, Pose, Robot, Rotation3, Vector3, Wrench};
 use cdpr_statics::{
     DirectProblem, Load, StaticsError, deflection, deflection_free, derivatives, held_at, inverse,
 };
@@ -485,5 +485,30 @@ fn uncertainties_are_of_a_parameter_or_its_group_positive_and_finite() {
     ] {
         let message = of(name, std).unwrap_err().to_string();
         assert!(message.starts_with(start), "{message}");
+    }
+}
+
+#[test]
+fn a_payload_that_is_missing_at_a_position_that_is_held_has_its_reason() {
+    let robot = caroca();
+    // No tensions balance so great a force sideways.
+    let axis = |at| GridAxis { min: at, max: at, points: 1 };
+    let set = WrenchSet::of(vec![Wrench { force: Vector3::new(1e5, 0.0, 0.0), moment: Vector3::zeros() }]);
+    let workspace = Workspace {
+        robot: &robot,
+        grid: Grid::new([axis(0.0), axis(0.0), axis(1.75)]).unwrap(),
+        rotation: Rotation3::identity(),
+        load: Load::none(),
+        tolerances: None,
+        free: &[],
+        further: Further { capacity: Some(&set), distances: false, tilt: None },
+    };
+    let poses = compute_workspace(&workspace, &|| (), &|| false).unwrap();
+    for row in &WorkspaceSummary::new(&workspace, &poses).rows {
+        assert_eq!((row.status, row.payload_anew_kg, row.payload_kept_kg), ("held", None, None));
+        let anew = row.payload_anew_blocked_by.as_ref().unwrap();
+        let kept = row.payload_kept_blocked_by.as_ref().unwrap();
+        println!("{anew}\n{kept}");
+        assert!(anew.contains("no tensions between") && !kept.is_empty());
     }
 }

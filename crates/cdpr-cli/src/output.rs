@@ -4,7 +4,7 @@ use crate::error::ProgramError;
 use crate::questions;
 use cdpr_report::ReportError;
 use cdpr_robot::shown_lines;
-use comfy_table::{Table, presets};
+use comfy_table::{ContentArrangement, Table, presets};
 use indicatif::{ProgressBar, ProgressState, ProgressStyle, WeakProgressBar};
 use std::fmt;
 use std::io::{self, ErrorKind, IsTerminal, Write};
@@ -123,6 +123,13 @@ pub(crate) fn refused(error: &clap::Error) -> ExitCode {
 pub(crate) fn table(header: &[&str]) -> Table {
     let mut table = Table::new();
     table.load_style(presets::UTF8_FULL_CONDENSED).set_header(header);
+    table
+}
+
+/// An empty table whose long cells are broken, so that a line has at most 80 columns.
+pub(crate) fn narrow_table(header: &[&str]) -> Table {
+    let mut table = table(header);
+    table.set_content_arrangement(ContentArrangement::Dynamic).set_width(80);
     table
 }
 

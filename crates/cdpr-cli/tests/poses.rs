@@ -120,7 +120,9 @@ fn a_table_has_the_numbers_of_the_lines_of_json_to_the_last_bit() {
             let numbers = |row: usize, names: &[String]| -> Vec<f64> {
                 names.iter().map(|name| cell(row, name).parse().unwrap()).collect()
             };
-            assert_eq!((cell(0, "status"), cell(0, "reason")), ("held", ""));
+            // Of frequencies near those of the cables the table warns as the line of JSON does.
+            let warning = json[0]["warning"].as_str().unwrap_or_default().replace('\n', " ");
+            assert_eq!((cell(0, "status"), cell(0, "reason")), ("held", warning.as_str()));
             assert_eq!((cell(1, "status"), cell(1, "z_m")), ("infeasible_tension", "60.0"));
             assert_eq!(cell(1, "reason"), json[1]["error"]["message"]);
             let pose = ["x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"].map(str::to_owned);
@@ -350,4 +352,21 @@ fn along_a_path_lengths_are_continuous_and_jumps_have_a_column() {
     assert!(cells.iter().enumerate().all(|(k, cell)| cell == if k == 21 { "" } else { "false" }));
     let alone = cdpr(&["inverse", &robot, "--pose", "0,0,10", "--path"]);
     assert_eq!(alone.status.code(), Some(2));
+}
+
+#[test]
+fn tables_of_frequencies_warn_where_cables_vibrate_as_slowly_as_the_platform() {
+    let folder = TempDir::new().unwrap();
+    let path = folder.path().join("poses.csv");
+    std::fs::write(&path, "x_m,y_m,z_m\n0,0,2\n").unwrap();
+    for command in ["modes", "derivatives"] {
+        let output = cdpr(&[command, "cogiro", "--payload", "10", "--poses", path.to_str().unwrap()]);
+        let printed = text(output.stdout);
+        let mut table = csv::Reader::from_reader(printed.as_bytes());
+        let headers = table.headers().unwrap().clone();
+        let row = table.records().next().unwrap().unwrap();
+        let cell = |name: &str| &row[headers.iter().position(|header| header == name).unwrap()];
+        assert!(cell("lowest_cable_frequency_hz").parse::<f64>().unwrap() > 1.0, "{printed}");
+        assert!(cell("reason").contains("itself vibrates"), "{command}: {}", cell("reason"));
+    }
 }

@@ -73,10 +73,16 @@ pub(crate) trait Row: Serialize + Send {
         lists.fold(Ending::Well, |ending, list| ending.and(OutOfLimits::ending(list)))
     }
 
+    /// What is doubtful about its numbers, if anything is.
+    fn warning(&self) -> Option<&str> {
+        None
+    }
+
     /// What is to be said of it in a table.
     fn remark(&self) -> String {
         let lists = self.out_of_limits().into_iter();
-        lists.filter(|list| !list.is_empty()).map(OutOfLimits::cell).collect::<Vec<_>>().join("; ")
+        let beyond = lists.filter(|list| !list.is_empty()).map(OutOfLimits::cell);
+        beyond.chain(self.warning().map(|warning| warning.replace('\n', " "))).collect::<Vec<_>>().join("; ")
     }
 }
 

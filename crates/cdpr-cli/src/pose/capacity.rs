@@ -3,7 +3,7 @@
 use crate::answer::{OutOfLimits, decimal, vector};
 use crate::arguments::FreeArguments;
 use crate::error::ProgramError;
-use crate::output::{Ending, table};
+use crate::output::{Ending, narrow_table, table};
 use crate::pose::at_pose::{Failure, RobotAtPose, Row};
 use crate::questions;
 use crate::wrenches::WrenchArguments;
@@ -261,7 +261,7 @@ impl Answer {
 
     fn print(&self, heading: &str) {
         println!("{heading}");
-        let mut rows = table(&["", "value", "blocked by"]);
+        let mut rows = narrow_table(&["", "value", "blocked by"]);
         for (name, shown) in self.all() {
             let value = match shown.value {
                 Some(value) => decimal(value, 3),

@@ -294,7 +294,11 @@ impl Row for Slopes {
             let slope = |output| format!("{output}/{parameter}");
             outputs.iter().map(slope).collect::<Vec<_>>()
         };
-        parameters.iter().flat_map(slopes).chain(["one_sided".to_owned()]).collect()
+        parameters
+            .iter()
+            .flat_map(slopes)
+            .chain(["one_sided", "lowest_cable_frequency_hz"].map(str::to_owned))
+            .collect()
     }
 
     fn cells(&self) -> Vec<String> {
@@ -309,11 +313,16 @@ impl Row for Slopes {
         };
         let slopes = (0..self.parameters.len()).flat_map(of);
         let one_sided: Vec<_> = self.one_sided.iter().map(|both| both.parameter.as_str()).collect();
-        slopes.chain([one_sided.join(" ")]).collect()
+        let lowest = self.lowest_cable_frequency_hz.map(|frequency| format!("{frequency:?}"));
+        slopes.chain([one_sided.join(" "), lowest.unwrap_or_default()]).collect()
     }
 
     fn out_of_limits(&self) -> Vec<&[OutOfLimits]> {
         vec![&self.out_of_limits]
+    }
+
+    fn warning(&self) -> Option<&str> {
+        self.warning.as_deref()
     }
 }
 

@@ -95,6 +95,10 @@ impl Row for Answer {
     fn out_of_limits(&self) -> Vec<&[OutOfLimits]> {
         vec![&self.out_of_limits]
     }
+
+    fn warning(&self) -> Option<&str> {
+        self.warning.as_deref()
+    }
 }
 
 impl Answer {
