@@ -5,22 +5,52 @@
 
 use crate::error::ProgramError;
 use cdpr_assess::{HELD, WorkspaceSummary};
-use cdpr_robot::{Doubt, Pose, Robot, Vector3, Wrench, plausible};
+use cdpr_robot::{Doubt, Pose, Robot, Vector3, Wrench, place_of, plausible};
 use cdpr_statics::Load;
-use cdpr_study::{Access, ErrorModel, StoredStudy, Study};
+use cdpr_study::{Access, ErrorModel, InputKind, StoredStudy, Study, read_text};
+use serde::Serialize;
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 
+/// A question.
+#[derive(Serialize)]
+struct Asked {
+    #[serde(flatten)]
+    doubt: Doubt,
+    /// The file, with line and column of the field where they are known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    place: Option<String>,
+}
+
 /// What was asked so far.
-static ASKED: Mutex<Vec<Doubt>> = Mutex::new(Vec::new());
+static ASKED: Mutex<Vec<Asked>> = Mutex::new(Vec::new());
 
 /// Asks what was not asked before.
 pub(crate) fn ask(doubts: impl IntoIterator<Item = Doubt>) {
+    ask_at(doubts, |_| None);
+}
+
+/// Asks about what a file says.
+fn ask_in(path: &Path, doubts: impl IntoIterator<Item = Doubt>) {
+    // The robot of a library has no file.
+    let text = read_text(path, InputKind::Study).ok();
+    ask_at(doubts, |field| {
+        let text = text.as_deref()?;
+        let place = place_of(text, field).filter(|place| *place != place_of(text, "").unwrap_or_default());
+        let place =
+            place.map_or_else(String::new, |(line, column)| format!(", line {line}, column {column}"));
+        Some(format!("{}{place}", path.display()))
+    });
+}
+
+fn ask_at(doubts: impl IntoIterator<Item = Doubt>, place: impl Fn(&str) -> Option<String>) {
     let mut asked = ASKED.lock().unwrap_or_else(PoisonError::into_inner);
     for doubt in doubts {
-        if !asked.contains(&doubt) {
+        if !asked.iter().any(|before| before.doubt == doubt) {
             eprintln!("question: {doubt}");
-            asked.push(doubt);
+            let place = place(&doubt.quantity);
+            place.iter().for_each(|place| eprintln!("    in {place}"));
+            asked.push(Asked { doubt, place });
         }
     }
 }
@@ -41,14 +71,15 @@ pub(crate) fn added_to(object: String) -> serde_json::Result<String> {
 /// The robot of a file.
 pub(crate) fn open_robot(path: &Path) -> Result<Robot, ProgramError> {
     let robot = cdpr_study::open_robot(path)?;
-    ask(plausible::robot(&robot));
+    ask_in(path, plausible::robot(&robot));
     Ok(robot)
 }
 
 /// The study of a file.
 pub(crate) fn open_study(path: &Path) -> Result<Study, ProgramError> {
     let study = Study::open(path)?;
-    ask(plausible::robot(&study.robot).into_iter().chain(study.doubts()));
+    ask_in(&path.with_file_name(&study.file.robot), plausible::robot(&study.robot));
+    ask_in(path, study.doubts());
     Ok(study)
 }
 

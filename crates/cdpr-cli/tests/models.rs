@@ -162,7 +162,10 @@ fn values_in_another_unit_get_a_question_instead_of_an_answer() {
     let soft = cdpr(&["inverse", path.to_str().unwrap(), "--pose", "0,0,2"]);
     let question = text(soft.stderr);
     assert!(question.contains("cable.youngs_modulus is 100: expected a modulus in Pa"), "{question}");
-    assert!(question.contains("1.000e11 Pa, if 100 is in GPa"), "{question}");
+    assert!(
+        question.contains("soft rubber has 1e6: 100 GPa is 1e11, 100 MPa is 1e8 (line 13, column 97)"),
+        "{question}"
+    );
 
     let robot = data_path("robots/caroca.json");
     let held = inverse(&caroca(), &Pose::at(0.3, 0.2, 1.4), &Load::none(), None).unwrap();

@@ -140,7 +140,7 @@ fn the_standard_deviations_of_a_path_are_those_of_the_derivatives() {
         }
         // Drawn again over itself, but over nothing else.
         assert!(std::fs::read_to_string(&figure).unwrap().contains("along a path of 7 poses"));
-        rows_of(&arguments);
+        assert_eq!(rows_of(&arguments).lines().count(), 1 + poses.len());
         std::fs::write(&figure, "<svg>mine</svg>").unwrap();
         assert_eq!(cdpr(&arguments).status.code(), Some(1));
         assert_eq!(std::fs::read_to_string(&figure).unwrap(), "<svg>mine</svg>");

@@ -267,6 +267,9 @@ fn a_robot_that_is_in_doubt_is_questioned_by_every_command_and_in_its_json() {
         let asked = answer["questions"].as_array().unwrap();
         assert!(asked.len() == 1 && asked[0]["quantity"] == "cable.diameter", "{command}: {asked:?}");
         assert_eq!(asked[0]["meant"], "0.004 m, if 4 is in mm");
+        let place = asked[0]["place"].as_str().unwrap();
+        assert!(place.starts_with(robot) && place.contains("robot.json, line "), "{place}");
+        assert!(text(output.stderr).contains(&format!("    in {place}\n")));
     }
 }
 

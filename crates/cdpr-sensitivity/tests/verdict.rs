@@ -98,9 +98,10 @@ fn row_numbers_constant_columns_and_diverged_runs_are_questions() {
 
 #[test]
 fn an_input_of_two_levels_has_their_contrast_and_a_constant_one_nothing() {
-    // 24 of 60 rows have the switch on; u is the same in both parts.
+    // 24 of 60 rows have the switch on; the mean of u is the same in both parts, and no row is there twice.
     let switch: Vec<f64> = (0..60).map(|row| f64::from(row % 5 < 2)).collect();
-    let u: Vec<f64> = (0..60).map(|row| f64::from(row / 5) / 12.0).collect();
+    let apart = [-0.01, 0.01, -0.02, 0.0, 0.02];
+    let u: Vec<f64> = (0..60).map(|row| f64::from(row / 5) / 12.0 + apart[row as usize % 5]).collect();
     let outputs = switch.iter().zip(&u).map(|(on, u)| 5.0 * on + u).collect();
     let data = table(vec![switch, u, vec![2.5; 60]], outputs);
     let found = Analyser::new(1).analyse(&data).unwrap();
