@@ -385,26 +385,3 @@ fn a_catenary_beyond_ten_percent_of_strain_is_refused() {
     let said = text(refused.stderr);
     assert!(said.contains("strains the cable by") && said.contains("beyond the 10 %"), "{said}");
 }
-
-#[test]
-fn the_inverse_model_says_whether_the_platform_stays_with_its_lengths() {
-    let stable = answer(&["inverse", "caroca", "--pose", "0,0,1.75"]);
-    let robot = caroca();
-    let found = inverse(&robot, &Pose::at(0.0, 0.0, 1.75), &Load::none(), None).unwrap();
-    let problem = DirectProblem::new(&robot, &found.lengths, &Load::none()).unwrap();
-    let least = problem.stability(&found.equilibrium).unwrap().least_stiffness();
-    assert_eq!(stable["stable"], true);
-    assert!(close(number(&stable["least_stiffness"]), least, 1e-12));
-    assert!(printed(&["inverse", "caroca", "--pose", "0,0,1.75"]).contains("stable with these lengths"));
-
-    // A centre of mass far above cables that hang.
-    let folder = TempDir::new().unwrap();
-    let path = folder.path().join("top-heavy.json");
-    let mut robot: Value = serde_json::from_str(&data_text("robots/cogiro.json")).unwrap();
-    robot["platform"]["center_of_mass"][2] = 4e4.into();
-    std::fs::write(&path, robot.to_string()).unwrap();
-    let given = ["inverse", path.to_str().unwrap(), "--pose", "0,0,2", "--format", "json"];
-    let unstable: Value = serde_json::from_slice(&cdpr(&given).stdout).unwrap();
-    assert_eq!(unstable["stable"], false);
-    assert!(number(&unstable["least_stiffness"]) < 0.0);
-}

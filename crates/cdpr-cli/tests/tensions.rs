@@ -327,3 +327,29 @@ fn all_parts_of_a_study_name_a_nominal_robot_that_bears_too_much() {
     let table = std::fs::read_to_string(bench.path("out/many.csv")).unwrap();
     assert!(table.contains("with the payload: cable 3: its tension of"), "{table}");
 }
+
+#[test]
+fn the_inverse_model_says_whether_the_platform_stays_with_its_lengths() {
+    let of = |command: &str| -> Value {
+        let given = [command, "caroca", "--pose", "0,0,1.75", "--format", "json"];
+        serde_json::from_str(&answered(cdpr(&given))).unwrap()
+    };
+    let (stable, stiffness) = (of("inverse"), of("stiffness"));
+    assert_eq!(stable["stable"], true);
+    let [found, exact] = [stable, stiffness].map(|of| of["least_stiffness"].as_f64().unwrap());
+    assert!((found / exact - 1.0).abs() < 1e-9, "{found} {exact}");
+    let printed = answered(cdpr(&["inverse", "caroca", "--pose", "0,0,1.75"]));
+    assert!(printed.contains("stable with these lengths"));
+
+    // A centre of mass far above cables that hang.
+    let folder = TempDir::new().unwrap();
+    let path = folder.path().join("top-heavy.json");
+    let mut robot: Value =
+        serde_json::from_str(&std::fs::read_to_string(data("robots/cogiro.json")).unwrap()).unwrap();
+    robot["platform"]["center_of_mass"][2] = 4e4.into();
+    std::fs::write(&path, robot.to_string()).unwrap();
+    let given = ["inverse", path.to_str().unwrap(), "--pose", "0,0,2", "--format", "json"];
+    let unstable: Value = serde_json::from_slice(&cdpr(&given).stdout).unwrap();
+    assert_eq!(unstable["stable"], false);
+    assert!(unstable["least_stiffness"].as_f64().unwrap() < 0.0);
+}

@@ -133,8 +133,8 @@ pub fn check_lengths(robot: &Robot, lengths: &[f64]) -> Result<(), StaticsError>
     Ok(())
 }
 
-/// The largest payload [kg], force [N] and moment [N m], positive or negative: cables of no material bear more,
-/// and next to it rounding hides all other forces.
+/// The largest payload [kg], force [N] and moment [N m], positive or negative: cables of no material bear
+/// more, and next to it rounding hides all other forces.
 const LARGEST_LOAD: f64 = 1e12;
 
 impl Load {

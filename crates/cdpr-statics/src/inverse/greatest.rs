@@ -113,7 +113,7 @@ pub fn tension_margin(robot: &Robot, pose: &Pose, load: &Load) -> Result<Greates
     let own = Question::of_whole_pose(robot, pose, load, None)?;
     let limits = own.limits.clone();
     let largest = limits.iter().map(|limits| limits.max).fold(own.external.norm(), f64::max);
-    // Wider than any margin: what is left are the least tensions that the cables' weight demands, and strains.
+    // Wider than any margin: strains and the least tensions that the cables' weight demands are left.
     let wide = |limits: &TensionLimits| TensionLimits { min: 1e-9 * limits.min, max: 1.5 * WIDEST * largest };
     let question = Question { limits: limits.iter().map(wide).collect(), ..own.clone() };
     let bounded = Bounded::within_strains(question)?;

@@ -57,8 +57,8 @@ pub(super) fn strain_limit(
     Ok((greatest < max).then_some(greatest))
 }
 
-/// The tension at the platform [N] where it is `max` at the exit point, and how far the platform's end is below
-/// the leave point [m].
+/// The tension at the platform [N] where it is `max` at the exit point, and how far the platform's end is
+/// below the leave point [m].
 fn below_exit(
     robot: &Robot,
     pose: &Pose,

@@ -9,9 +9,9 @@
 //!
 //! where |F|_1 includes by how much tensions pass limits that z draws closer. A greater M would allow only
 //! tiny steps along a balance that is curved. For the same reason a long step is followed by one back to the
-//! balance, a second-order correction. Where a step gains nothing, `newton` solves the conditions of a maximum
-//! with the limits that the program rests on. What is accepted as the maximum has been proved so to first
-//! order: no step within the limits gains anything.
+//! balance, a second-order correction. Where a step gains nothing, `newton` solves the conditions of a
+//! maximum with the limits that the program rests on. What is accepted as the maximum is one to first order:
+//! no step within the limits gains anything.
 
 use crate::error::StaticsError;
 use crate::inverse::feasible::{BALANCED, search, straight};

@@ -1,7 +1,7 @@
 //! Newton's method for the conditions of a maximum of (I7) whose active limits are known.
 //!
-//! With c the equations, those of the balance and of the active limits that z draws closer, and the Lagrangian
-//! `L = z + λ·c`, a maximum has `∂L/∂(σ, z) = 0` and `c = 0`. Each step solves
+//! With c the equations, those of the balance and of the active limits that z draws closer, and the
+//! Lagrangian `L = z + λ·c`, a maximum has `∂L/∂(σ, z) = 0` and `c = 0`. Each step solves
 //!
 //! ```text
 //! [ H  Aᵀ ] [ x ]   [ -∂z/∂(σ, z) ]
