@@ -206,7 +206,11 @@ fn every_output_has_measures_by_derivatives_and_a_nominal_position_has_none() {
             let session = Session::in_memory();
             let tally = cdpr_study::observe(&sampling, &session).unwrap();
             let summary = analyse(&sampling, &tally, &session).unwrap();
-            assert_eq!((summary.output, summary.notes.len()), (study.file.output, 0), "{:?}", summary.notes);
+            // Frequencies, and nothing else, may be near those of the cables.
+            let is_of_cables =
+                |note: &&String| output == "frequency" && note.contains(" itself vibrates at ");
+            let others = summary.notes.iter().filter(|note| !is_of_cables(note)).count();
+            assert_eq!((summary.output, others), (study.file.output, 0), "{:?}", summary.notes);
             assert_eq!(summary.signed_effects.len(), sampling.design.inputs().len());
             let sensitivity = summary.sensitivity.unwrap();
             assert_eq!(left_out(&sensitivity), without, "{:?}", sensitivity.notes);

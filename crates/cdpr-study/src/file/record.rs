@@ -1,6 +1,6 @@
 //! Load-elongation records as files: CSV with the columns `force_n`, `elongation_mm` and `phase` (`loading`
-//! or `unloading`), or with semicolons or tabs between the cells and decimal commas. Lines that begin with `#` are
-//! comments.
+//! or `unloading`), or with semicolons or tabs between the cells and decimal commas. Lines that begin with `#`
+//! are comments.
 
 use crate::error::StudyError;
 use crate::fs::input::{other_kind, read_text};
