@@ -77,7 +77,7 @@ impl Problem<'_> {
     /// have the wrong cables slack.
     fn best_of_starts(&self, start: State) -> Result<(Found, [usize; 2]), CalibrationError> {
         let (best, starts) = self.agreed(start)?;
-        if self.settings.starts == 1 || !self.is_unlikely(&best) {
+        if self.settings.starts == 1 || !self.is_unlikely(best.leads_to()) {
             return Ok((best, starts));
         }
         let begun = self.softened(&SOFT).and_then(|start| self.with_best_rows(start).ok());
