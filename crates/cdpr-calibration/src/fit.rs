@@ -16,6 +16,7 @@ use crate::campaign::{Row, STD_EXPECTED, is_std};
 use crate::error::CalibrationError;
 use crate::fit::problem::Problem;
 use crate::fit::search::{Found, NEAR, SEEN};
+use crate::fit::start::SOFT;
 use crate::fitted::{Difference, Fit, FitSettings};
 use crate::model::{Model, Shared, State};
 use crate::plausible::{check_columns, check_signs};
@@ -72,14 +73,17 @@ pub fn fit(
 
 impl Problem<'_> {
     /// The least minimum that the starts lead to, with how many were made and how many of them led there. Where
-    /// its chi-square is unlikely, others are made from where lengths with greater errors lead: starts that agree
-    /// may all have the wrong cables slack.
+    /// its chi-square is unlikely, lengths with greater errors may lead to a lower one: starts that agree may all
+    /// have the wrong cables slack.
     fn best_of_starts(&self, start: State) -> Result<(Found, [usize; 2]), CalibrationError> {
         let (best, starts) = self.agreed(start)?;
-        if self.settings.starts == 1 || !self.is_unlikely(&best) {
+        if self.settings.starts == 1 || !self.is_unlikely(best.leads_to()) {
             return Ok((best, starts));
         }
-        let other = self.softened().and_then(|start| self.agreed(start).ok());
+        let begun = self.softened(&SOFT).and_then(|start| self.with_best_rows(start).ok());
+        let seen = begun.and_then(|start| self.search(start, SEEN, self.settings.max_steps).ok());
+        let lower = seen.filter(|seen| seen.leads_to() < best.leads_to());
+        let other = lower.and_then(|seen| self.agreed(seen.state).ok());
         Ok(other.filter(|(other, _)| other.leads_to() < best.leads_to()).unwrap_or((best, starts)))
     }
 

@@ -58,14 +58,6 @@ impl RowState {
         &self.errors
     }
 
-    /// Cables with hardly any tension whose lengths were read as shorter yet.
-    pub(crate) fn between_taut_and_slack(&self) -> Vec<usize> {
-        let tensions = self.loaded.tensions();
-        let least = 2.0 * row::hardly_taut(&tensions);
-        let is = |i: &usize| self.errors[*i] <= 0.0 && tensions[*i] > 0.0 && tensions[*i] <= least;
-        (0..self.errors.len()).filter(is).collect()
-    }
-
     /// The pose under the load.
     pub(crate) fn pose(&self) -> &Pose {
         &self.loaded.pose

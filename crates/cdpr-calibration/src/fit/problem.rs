@@ -2,7 +2,6 @@
 
 use crate::campaign::Row;
 use crate::error::CalibrationError;
-use crate::fit::search::Found;
 use crate::fitted::{Difference, FitSettings};
 use crate::model::compare::Compared;
 use crate::model::{Model, Shared, State};
@@ -97,14 +96,14 @@ impl Problem<'_> {
     }
 
     /// Whether a sum of squares is greater than noise makes it.
-    pub(super) fn is_unlikely(&self, found: &Found) -> bool {
+    pub(super) fn is_unlikely(&self, sum: f64) -> bool {
         let cables = self.model.robot.cables.len();
         let surplus = |row: &Row| match row.lengths {
             Some(_) => row.readings.len(),
             None => row.readings.len().saturating_sub(cables),
         };
         let degrees = self.rows.iter().map(surplus).sum::<usize>() as f64;
-        found.leads_to() > degrees + UNLIKELY * (2.0 * degrees).sqrt()
+        sum > degrees + UNLIKELY * (2.0 * degrees).sqrt()
     }
 
     pub(super) fn translation(&self, state: &State) -> Vector3<f64> {

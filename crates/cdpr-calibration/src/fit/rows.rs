@@ -10,7 +10,7 @@ use crate::model::compare::Compared;
 use crate::model::{RowState, Shared, State};
 use crate::solve::Eliminated;
 use cdpr_robot::Robot;
-use nalgebra::{DMatrix, DVector, Dyn};
+use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 /// A row's own unknowns are at their best where a step would gain less than this share of its cost.
@@ -187,7 +187,7 @@ pub(super) fn eliminated(
         return Eliminated::new(row, own);
     }
     let tension = |i: &usize| motion.row(6 + i);
-    let alone = Eliminated::new(row.column(count).into_owned().reshape_generic(Dyn(row.nrows()), Dyn(1)), own);
+    let alone = Eliminated::new(row.columns(count, 1).into_owned(), own);
     let step = DVector::from_vec(alone.own(&DVector::zeros(0)));
     let loses = |i: &&usize| tension(i).columns(count, own.ncols()).transpose().dot(&step) < 0.0;
     let kept: Vec<usize> = between.iter().filter(loses).copied().collect();

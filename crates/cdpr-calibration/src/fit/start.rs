@@ -113,7 +113,7 @@ impl Problem<'_> {
     pub(super) fn start(&self, number: usize, found: &[f64], told: &Decomposed) -> Option<State> {
         let is_exact = |row: &Row| row.lengths.is_some() && row.length_std.iter().all(|std| *std == 0.0);
         if number == 1 && self.rows.iter().any(is_exact) {
-            return self.softened();
+            return self.softened(&SOFT[..1]);
         }
         let mut random = ChaCha8Rng::seed_from_u64(self.settings.seed);
         random.set_stream(number as u64);
@@ -147,9 +147,9 @@ impl Problem<'_> {
 
     /// A start at the unknowns that suit lengths with greater errors, then smaller ones: they show which cables
     /// are taut in truth, where with the lengths of a wrong robot others are.
-    pub(super) fn softened(&self) -> Option<State> {
+    pub(super) fn softened(&self, shares: &[f64]) -> Option<State> {
         let mut start = None;
-        for share in SOFT {
+        for share in shares {
             let std = share * size(self.model.robot);
             let soften = |row: &Row| {
                 let mut row = row.clone();
@@ -165,7 +165,7 @@ impl Problem<'_> {
             };
             let from = start.map_or_else(|| Some(soft.begin().ok()?.0), |x| soft.at(x))?;
             let from = soft.with_best_rows(from).ok()?;
-            start = Some(soft.search(from, SEEN, self.settings.max_steps).ok()?.state.shared.x);
+            start = Some(soft.search(from, SEEN, FEW).ok()?.state.shared.x);
         }
         self.at(start?)
     }
@@ -174,5 +174,8 @@ impl Problem<'_> {
 /// How far from the minimum that was found others begin at most, in standard deviations.
 const FARTHEST: f64 = 30.0;
 
+/// Steps that show where lengths with greater errors lead, at most.
+const FEW: usize = 30;
+
 /// Errors of lengths for a start, over the robot's size.
-const SOFT: [f64; 4] = [1e-3, 3e-4, 1e-4, 3e-5];
+pub(super) const SOFT: [f64; 4] = [1e-3, 3e-4, 1e-4, 3e-5];

@@ -30,8 +30,18 @@ const HARDLY_TAUT: f64 = 1e-7;
 
 /// The tension of a cable between taut and slack [N]. A cable without weight has a kink there, at which a row
 /// may be at its best: its derivatives are those of the taut cable.
-pub(super) fn hardly_taut(tensions: &[f64]) -> f64 {
+fn hardly_taut(tensions: &[f64]) -> f64 {
     HARDLY_TAUT * tensions.iter().copied().fold(0.0, f64::max)
+}
+
+impl RowState {
+    /// Cables with hardly any tension whose lengths were read as shorter yet.
+    pub(crate) fn between_taut_and_slack(&self) -> Vec<usize> {
+        let tensions = self.loaded.tensions();
+        let least = 2.0 * hardly_taut(&tensions);
+        let is = |i: &usize| self.errors[*i] <= 0.0 && tensions[*i] > 0.0 && tensions[*i] <= least;
+        (0..self.errors.len()).filter(is).collect()
+    }
 }
 
 impl Model<'_> {
