@@ -169,7 +169,7 @@ fn a_cable_that_carries_many_times_its_weight_is_not_slack_however_long_it_is() 
         exits.map(|[x, y]| format!("{{\"exit_point\": [{x}, {y}, 25], \"anchor_point\": [0, 0, 0]}}"));
     let robot = Robot::from_json(&format!(
         "{{\"format\": \"cdpr-robot/1\", \"name\": \"camera\", \"gravity\": 9.81, \
-          \"platform\": {{\"mass\": 40, \"point\": true}}, \
+          \"platform\": {{\"mass\": 40, \"center_of_mass\": [0, 0, 0], \"point\": true}}, \
           \"cable\": {{\"diameter\": 0.012, \"linear_density\": 0.078, \"youngs_modulus\": 38e9}}, \
           \"tension_limits\": {{\"min\": 10, \"max\": 20000}}, \"cables\": [{}]}}",
         cables.join(", ")
