@@ -301,7 +301,8 @@ mod tests {
                 Parameter::LinearDensity => 0.001,
                 Parameter::YoungsModulus => 1e9,
                 Parameter::Tilt(..) => 0.0,
-                _ => 0.001,
+                // Rows that turn the platform far are left to the scalar models.
+                _ => 0.0003,
             });
             let half: Vec<f64> = half.collect();
             let deviations: Vec<f64> = (0..half.len() * 100)
@@ -310,7 +311,8 @@ mod tests {
             let scalar = Batch { observer, deviations: &deviations }.with_simd(Scalar);
             let widest = dispatch(Batch { observer, deviations: &deviations });
             assert_eq!(scalar, widest);
-            assert!(scalar.iter().filter(|found| found.is_ok()).count() > 90);
+            let failed: Vec<_> = scalar.iter().filter_map(|found| found.as_ref().err()).collect();
+            assert!(failed.len() < 10, "{failed:?}");
         }
     }
 }
