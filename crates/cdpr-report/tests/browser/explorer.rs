@@ -79,7 +79,7 @@ fn the_explorer_answers_as_the_program_and_is_quiet() {
         page.events.clear();
         page.surround(1400, "light");
         page.show(&file);
-        page.wait_for("document.querySelector('#explorer .numbers')?.textContent.includes('mm')");
+        page.wait_for("document.querySelector('#explorer .numbers')?.textContent.match(/mm|µm/) != null");
         println!("{name}: numbers after {:.0} ms", page.evaluate("performance.now()").as_f64().unwrap());
         let mut live = Live::new(&robot.to_string()).unwrap();
         let native = |live: &mut Live, ask: &Value| -> Value {
