@@ -765,7 +765,8 @@ class Modes:
     @property
     def cable_frequencies_hz(self) -> _Floats:
         """The lowest frequency of each cable between ends at rest [Hz], (n,); NaN for one without mass. The
-        motions take cables without mass: they hold where this is at least twice as high."""
+        motions take cables without mass: they hold where this is at least twice as high.
+        """
     @property
     def reasons(self) -> _Words:
         """Why there is no answer, None where there is one; None for one pose."""

@@ -7,9 +7,9 @@
 >>> found.inputs
 ['a', 'b', 'c']
 >>> found.certain
-['b', 'a']
+['a', 'b']
 >>> print(found.verdict)
-certain to matter: b, a
+certain to matter: a, b
 """
 
 from __future__ import annotations
@@ -148,7 +148,8 @@ def _numbers(X: ArrayLike) -> tuple[NDArray[Any], list[list[str]]]:
         x = x[:, None] if x.ndim == 1 else x
         return x, [[] for _ in range(x.shape[-1])]
     given = given[:, None] if given.ndim == 1 else given
-    x, labels = numpy.full(given.shape, numpy.nan), []
+    x = numpy.full(given.shape, numpy.nan)
+    labels: list[list[str]] = []
     for k in range(given.shape[-1]):
         try:
             x[:, k] = given[:, k].astype(float)
