@@ -1,6 +1,6 @@
 //! Which inputs matter: the union of all tests, under conditions that are checked.
 //!
-//! All tests of all inputs ([`evidence`](crate::given::evidence)) are corrected together: the m p-values in
+//! All tests of all inputs ([`evidence`]) are corrected together: the m p-values in
 //! ascending order,
 //!
 //! ```text
