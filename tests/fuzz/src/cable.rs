@@ -1,7 +1,8 @@
 //! What must hold for a cable, whatever the numbers.
 
 use cdpr_cable::{
-    Cable, CableError, Catenary, ElasticLaw, Entry, Guide, PiecewiseLaw, Segment, Solution, Vector2,
+    Cable, CableError, Catenary, ElasticLaw, Entry, FromLeavePoint, Guide, MAX_STRAIN, PiecewiseLaw, Segment,
+    Solution, Vector2,
 };
 
 /// `w, EA, L, x, z`: an equilibrium with an honest residual, or a typed error.
@@ -127,9 +128,9 @@ pub fn catenary([weight_per_length, axial_stiffness, unstrained_length, fx, fz, 
     finite("complementary_energy", &[catenary.complementary_energy()]);
     finite("potential_energy", &[catenary.potential_energy()]);
     finite("sag", &[catenary.sag()]);
-    finite("point", catenary.point(s).as_slice());
-    finite("tension", &[catenary.tension(s)]);
-    finite("lowest_arc_length", &[catenary.lowest_arc_length()]);
+    finite("point", catenary.point(FromLeavePoint(s)).as_slice());
+    finite("tension", &[catenary.tension(FromLeavePoint(s))]);
+    finite("lowest_arc_length", &[catenary.lowest_arc_length().0]);
     finite("lowest_point", catenary.lowest_point().as_slice());
     for point in catenary.profile(5) {
         finite("profile", point.as_slice());
@@ -177,6 +178,9 @@ fn typed(error: &CableError, inputs: &[f64]) {
         CableError::TensionTooSmall { tension, least } => {
             assert!(tension.is_finite() && least.is_finite(), "{error}");
             assert!(least >= tension, "{least:e} is refused for being more than {tension:e}");
+        }
+        CableError::Overstrained { tension, strain } => {
+            assert!(*tension > 0.0 && *strain > MAX_STRAIN, "{error}");
         }
         CableError::NotConverged { residual, .. } => panic!("not converged: {residual:e}"),
     }
