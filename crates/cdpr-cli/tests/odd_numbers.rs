@@ -5,7 +5,7 @@ use crate::common::{cdpr, text};
 use serde_json::Value;
 use std::time::{Duration, Instant};
 
-/// Numbers that overflow when multiplied, vanish when divided by, or are none.
+/// Numbers that overflow in a product or a quotient, and texts that are not finite numbers.
 const ODD: [&str; 19] = [
     "0",
     "-0",

@@ -16,8 +16,8 @@ fn away(robot: &Robot, size: f64, from: &DirectSolution, to: &DirectSolution) ->
     motion.norm() / size
 }
 
-/// The equilibrium under a load by small shares of it, none of which moves the platform far, or the share
-/// beyond which there is none close by.
+/// The equilibrium under a load that grows in small shares, each of which moves the platform little, or the
+/// share at which this ends.
 fn crept(
     robot: &Robot,
     lengths: &[f64],

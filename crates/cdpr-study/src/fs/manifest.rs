@@ -138,8 +138,8 @@ impl Manifest {
     }
 }
 
-/// Checks that no table of a folder was changed since its run, also one that is not read again. A table that
-/// was removed is none.
+/// Checks that no table of a folder was changed since its run, also one that is not read again. A removed
+/// table does not count as changed.
 ///
 /// # Errors
 /// [`StudyError::Changed`]; [`StudyError::Read`], [`StudyError::NotRegular`].

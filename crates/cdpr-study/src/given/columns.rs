@@ -134,7 +134,7 @@ impl GivenTable {
 
     /// The inputs, if none is named: the columns `d_..` of a table of a study, otherwise all that are no
     /// output. Words are inputs if most of them occur several times where an output has a value, whichever
-    /// output: a status, a name or a date is none.
+    /// output: a status, a name or a date is not an input.
     pub(super) fn usual_inputs(&self, outputs: &[usize]) -> Vec<usize> {
         let deviations = self.deviations();
         let varies_with = |column: &GivenColumn, output: usize| {

@@ -22,9 +22,9 @@ const NEAR: [f64; 2] = [0.2 * REACH[0], 0.2 * REACH[1]];
 /// Roots of straight cables that are followed, the nearest first.
 const MOST_ROOTS: usize = 24;
 
-/// An unstable solution that is turned by more than this from the given pose [rad] is no answer: turned over, a
-/// platform is in balance nearly everywhere. Nor is one whose pitch is beyond a right angle: its roll and yaw are
-/// not the given ones.
+/// An unstable solution that is turned by more than this from the given pose [rad] is refused: turned over, a
+/// platform is in balance nearly everywhere. A solution whose pitch is beyond a right angle is refused, too:
+/// its roll and yaw are not the given ones.
 const TURNED_OVER: f64 = std::f64::consts::FRAC_PI_2;
 
 /// Roots of the balance as they are found.
