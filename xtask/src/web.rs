@@ -24,6 +24,7 @@ const MODULES: [(&str, &str, &str); 2] =
 
 /// What the products are made of, in the workspace.
 const SOURCES: [&str; 10] = [
+    "crates/cdpr-number/src",
     "crates/cdpr-cable/src",
     "crates/cdpr-robot/src",
     "crates/cdpr-tension/src",

@@ -6,17 +6,12 @@
 //! of
 //! [`crate::Catenary`] answer the same questions, for cables of any elastic law.
 
-mod dual;
-mod field;
 mod lane_guide;
 mod lane_law;
 mod plane;
 mod response;
 mod series;
-mod tangent;
 
-pub use dual::Dual;
-pub use field::{Field, Lanewise, Real};
 pub use lane_guide::{LaneEndSlopes, LaneGuide, LaneWay, LeavePoint};
 pub use lane_law::{
     LaneSegment, lane_law_end, lane_law_energy, lane_law_response, lane_law_strain, lane_law_stretch,
@@ -25,4 +20,3 @@ pub use plane::{closure_of_limp, in_plane_stiffness, stiffness_in_space};
 pub(crate) use response::Terms;
 pub use response::{LaneEnd, Response, lane_end, lane_response, response};
 pub use series::{FOLDED, TAUT};
-pub use tangent::Tangent;

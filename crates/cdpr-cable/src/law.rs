@@ -12,7 +12,8 @@
 //! per length is `∫ ε dT = c_k + (α_k - 1) T + T²/2EA_k`.
 
 use crate::error::{CableError, check};
-use crate::kernel::{Field, LaneSegment};
+use crate::kernel::LaneSegment;
+use cdpr_number::Number;
 
 /// Strain as a function of the tension.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -137,7 +138,7 @@ impl PiecewiseLaw {
     }
 
     /// Coefficients of the segment at a tension, for a cable of axial flexibility 1/EA [1/N].
-    pub(crate) fn segment_terms<T: Field>(&self, tension: f64, axial_flexibility: T) -> SegmentTerms<T> {
+    pub(crate) fn segment_terms<T: Number>(&self, tension: f64, axial_flexibility: T) -> SegmentTerms<T> {
         let Piece { segment: Segment { tension: t, ratio }, scaled_strain, scaled_energy } =
             *self.at(tension);
         SegmentTerms {

@@ -1,7 +1,9 @@
 //! Every derivative of the catenary against dual numbers: the same equations over a number with derivative.
 
-use cdpr_cable::kernel::{Dual, Field, response};
+use approx::assert_relative_eq;
+use cdpr_cable::kernel::{lane_end, response};
 use cdpr_cable::{Cable, Catenary, Vector2, least_tension, length_for_tension};
+use cdpr_number::{Dual, Number};
 use proptest::prelude::*;
 
 /// Derivative of the end position with respect to one of (w, EA, L, fx, fz).
@@ -26,6 +28,25 @@ fn any_catenary() -> impl Strategy<Value = Catenary<'static>> {
             force: Vector2::new(weight * 10f64.powf(fx), weight * fz.sinh()),
         }
     })
+}
+
+#[test]
+fn dual_numbers_of_dual_numbers_are_mixed_derivatives_of_a_cable() {
+    // d²z/dw dfx of a sagging cable, against differences of exact first derivatives.
+    let (w, flexibility, length, [fx, fz]) = (1.3, 1e-6, 40.0, [25.0, 31.0]);
+    let per_weight = |fx: f64| {
+        let [f, l, x, z] = [flexibility, length, fx, fz].map(Dual::<f64, 1>::constant);
+        lane_end(Dual::input(w, 0), f, l, [x, z]).end[1].slopes[0]
+    };
+    let [f, l, z] = [flexibility, length, fz].map(Dual::<f64, 1>::constant).map(Dual::<_, 1>::constant);
+    let along = Dual::input(Dual::constant(fx), 0);
+    let weight = Dual::constant(Dual::input(w, 0));
+    let end = lane_end(weight, f, l, [along, z]).end[1];
+    assert_relative_eq!(end.value.slopes[0], per_weight(fx), max_relative = 1e-15);
+    let step = 1e-3;
+    let at = |h: f64| (per_weight(fx + h) - per_weight(fx - h)) / (2.0 * h);
+    let difference = (4.0 * at(step) - at(2.0 * step)) / 3.0;
+    assert_relative_eq!(end.slopes[0].slopes[0], difference, max_relative = 1e-9);
 }
 
 proptest! {

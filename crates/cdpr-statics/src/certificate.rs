@@ -25,16 +25,13 @@
 //! With any matrix M, such as the inverse factor of the middle of H, `|M H Mᵀ - I| <= η < 1` over the box
 //! makes H positive definite, its eigenvalues no less than `(1 - η)/λ_max(MᵀM)`.
 
-mod interval;
-
 use crate::direct::DirectSolution;
 use crate::equations::{FactoredJacobian, NEAR_VERTICAL, State, closure_row, jacobian, residual, skew};
 use crate::error::StaticsError;
 use crate::problem::DirectProblem;
 use crate::state::Equilibrium;
-use cdpr_cable::kernel::Real;
+use cdpr_number::{Interval, Real};
 use cdpr_robot::{Matrix3, Vector3};
-use interval::Interval;
 use nalgebra::{DMatrix, DVector, Matrix6, UnitQuaternion, Vector2};
 
 /// Proof that the `6 + 2n` equations have exactly one solution in a box around the computed one, with bounds

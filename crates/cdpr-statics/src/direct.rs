@@ -9,8 +9,8 @@ mod solution;
 mod stability;
 mod trust_region;
 
-pub(crate) use continuation::follow_from;
 pub use continuation::{Loss, LossKind, Path, PathStep, Setting, follow_load};
+pub(crate) use continuation::{follow_change, follow_from};
 pub use multistart::{Equilibria, Found, Starts};
 pub(crate) use near::{KEPT, MAX_CORRECTION, SAME_POSE};
 #[cfg(test)]

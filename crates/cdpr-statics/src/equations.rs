@@ -10,7 +10,6 @@ mod partials;
 mod rounding;
 mod shape;
 mod spanned;
-pub(crate) mod vector;
 
 pub(crate) use assembled::{FactoredJacobian, NEAR_VERTICAL, State, closure_row, jacobian, residual, skew};
 pub(crate) use balance::Balance;

@@ -231,8 +231,10 @@ pub enum StaticsError {
 /// Where a followed equilibrium ends.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BranchEnd {
-    /// Share of the load at which it ends, 0 to 1.
+    /// Share of the change at which it ends, 0 to 1.
     pub share: f64,
+    /// Whether the load alone changes, and not the lengths.
+    pub of_load: bool,
     /// The last pose.
     pub pose: Pose,
     /// The pose downhill, or the reason why it was not found.
@@ -255,7 +257,8 @@ impl BranchEnd {
 
 impl std::fmt::Display for BranchEnd {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "at {:.2} % of the load the platform {}", 100.0 * self.share, self.fall())
+        let change = if self.of_load { "load" } else { "change of lengths and load" };
+        write!(f, "at {:.2} % of the {change} the platform {}", 100.0 * self.share, self.fall())
     }
 }
 

@@ -2,11 +2,10 @@
 //! each lane, or a cable of one robot.
 
 mod adjoint;
-mod algebra;
 mod branch;
 mod cable;
 mod chain;
-mod eigen;
+mod freedoms;
 mod held;
 mod level;
 mod load;
@@ -14,7 +13,6 @@ mod newton;
 mod observer;
 mod poses;
 mod reason;
-mod simd;
 mod skew;
 mod tracker;
 

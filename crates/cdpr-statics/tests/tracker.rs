@@ -1,7 +1,7 @@
 //! One solve after the other: the answers of the direct model, without allocation.
 
-use crate::common::{caroca, ring};
-use cdpr_robot::{Pose, Robot, Vector3};
+use crate::common::{caroca, ring, suspended};
+use cdpr_robot::{Pose, Robot, Rotation3, Vector3, Wrench};
 use cdpr_statics::{Load, Start, StaticsError, Tracker, direct, inverse};
 use std::hint::black_box;
 
@@ -85,7 +85,7 @@ fn slack_cables_and_moments_are_those_of_the_direct_model() {
     let wanted = inverse(&robot, &Pose::at(0.4, -0.3, 1.75), &Load::none(), None).unwrap();
     let mut tracker = Tracker::new(&robot, &wanted.lengths, &Load::none(), &wanted.equilibrium).unwrap();
     let mut slack = wanted.lengths.clone();
-    slack[1] += 0.3;
+    slack[1] += 0.05;
     let mut moment = Load::payload(20.0);
     moment.wrench.moment = Vector3::new(5.0, -3.0, 2.0);
     for (lengths, load) in
@@ -117,4 +117,33 @@ fn what_is_no_input_leaves_the_equilibrium_at_hand() {
     assert!(matches!(tracker.update(&short, &Load::none()), Err(StaticsError::Overstrained { .. })));
     assert_eq!(tracker.equilibrium(), &before);
     assert!(tracker.update(&wanted.lengths, &Load::none()).is_ok());
+}
+
+#[test]
+fn a_platform_that_falls_is_an_error_and_not_a_step() {
+    let robot = suspended();
+    let [roll, pitch, yaw] = [3.0, -4.0, 6.0].map(f64::to_radians);
+    let rotation = Rotation3::from_euler_angles(roll, pitch, yaw);
+    let pose = Pose { position: Vector3::new(0.6, -0.4, 1.6), rotation };
+    let under = |s: f64| Load {
+        payload: 2.0 * s,
+        wrench: Wrench { force: Vector3::zeros(), moment: s * Vector3::new(400.0, -300.0, 100.0) },
+    };
+    let wanted = inverse(&robot, &pose, &Load::none(), None).unwrap();
+    let mut tracker = Tracker::new(&robot, &wanted.lengths, &Load::none(), &wanted.equilibrium).unwrap();
+    for s in [0.3, 0.6, 0.9] {
+        tracker.update(&wanted.lengths, &under(s)).unwrap();
+    }
+    let before = tracker.equilibrium().clone();
+    for s in [0.93, 1.0, 1.5] {
+        match tracker.update(&wanted.lengths, &under(s)) {
+            Err(StaticsError::BranchEnds(end)) => {
+                assert!((0.9 + end.share * (s - 0.9) - 0.9225).abs() < 0.0025, "{end}");
+                assert!(end.falls_to.is_ok(), "{end}");
+            }
+            other => panic!("at {s}: {other:?}"),
+        }
+        assert_eq!(tracker.equilibrium(), &before);
+    }
+    tracker.update(&wanted.lengths, &under(0.92)).unwrap();
 }

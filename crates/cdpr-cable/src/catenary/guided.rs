@@ -53,8 +53,9 @@
 use crate::cable::{Cable, Numbers};
 use crate::catenary::Catenary;
 use crate::guide::{Entry, Guide};
-use crate::kernel::{Real, Response};
+use crate::kernel::Response;
 use crate::law::ElasticLaw;
+use cdpr_number::Real;
 use nalgebra::{Vector2, Vector3};
 use std::f64::consts::PI;
 

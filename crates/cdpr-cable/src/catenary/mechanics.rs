@@ -8,8 +8,9 @@ use crate::catenary::Catenary;
 use crate::catenary::compliance::Compliance;
 use crate::catenary::guided::{self, OnGuide};
 use crate::catenary::pieces;
-use crate::kernel::{Real, Response, Terms, response};
+use crate::kernel::{Response, Terms, response};
 use crate::law::ElasticLaw;
+use cdpr_number::Real;
 use nalgebra::{Matrix2, Matrix3, Vector2};
 
 impl Cable<'_> {

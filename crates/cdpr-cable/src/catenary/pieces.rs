@@ -27,8 +27,9 @@
 
 use crate::cable::Cable;
 use crate::catenary::Catenary;
-use crate::kernel::{Real, Response, Terms};
+use crate::kernel::{Response, Terms};
 use crate::law::{PiecewiseLaw, SegmentTerms};
+use cdpr_number::Real;
 use nalgebra::Vector2;
 
 /// A piece of a cable whose tension stays within one segment.

@@ -8,7 +8,7 @@ use crate::cable::{Cable, Numbers};
 use crate::catenary::Catenary;
 use crate::catenary::guided::Guided;
 use crate::guide::{Entry, Guide};
-use crate::kernel::{Dual, Real};
+use cdpr_number::{Dual, Real};
 use nalgebra::{Matrix3, Matrix3xX, Vector2, Vector3};
 
 /// A cable in equilibrium over a pulley with any axis: its unstrained length and the force at A in space.
@@ -256,7 +256,7 @@ impl<'a> SpatialCable<'a> {
 impl Numbers<f64> {
     /// The numbers as dual ones, with weight, 1/EA, lead, radius and the three components of the axis as the
     /// inputs from number `FIRST` on.
-    pub(crate) fn with_inputs<const N: usize, const FIRST: usize>(&self) -> Numbers<Dual<N>> {
+    pub(crate) fn with_inputs<const N: usize, const FIRST: usize>(&self) -> Numbers<Dual<f64, N>> {
         let input = |value: f64, k: usize| Dual::input(value, FIRST + k);
         Numbers {
             weight_per_length: input(self.weight_per_length, 0),

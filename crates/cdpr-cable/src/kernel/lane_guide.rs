@@ -20,9 +20,9 @@
 //! dA/dκ = -ρ e_z + r/(1 + ε) dA/dL  in the plane,      r (1 + cos ψ)/sin ψ = B_x/τ_x  across it  (C31)
 //! ```
 
-use super::field::Lanewise;
 use super::response::Response;
 use super::series::elevation;
+use cdpr_number::Lanewise;
 use std::f64::consts::FRAC_PI_2;
 
 /// A pulley with a vertical axis, and a lead before it.
@@ -209,10 +209,11 @@ mod tests {
     use crate::catenary::spatial::SpatialCable;
     use crate::guide::{Entry, Guide};
     use crate::kernel::{
-        LaneSegment, Tangent, lane_end, lane_law_end, lane_law_response, lane_law_stretch, lane_response,
+        LaneSegment, lane_end, lane_law_end, lane_law_response, lane_law_stretch, lane_response,
     };
     use crate::law::{ElasticLaw, PiecewiseLaw, Segment};
     use approx::assert_relative_eq;
+    use cdpr_number::Dual;
     use nalgebra::{Vector2, Vector3};
     use proptest::prelude::*;
 
@@ -307,17 +308,17 @@ mod tests {
         let Catenary { cable, force, .. } = *catenary;
         let (w, flexibility, free) =
             (cable.weight_per_length, 1.0 / cable.axial_stiffness, catenary.free_length());
-        let force = <[f64; 2]>::from(force).map(Tangent::constant);
+        let force = <[f64; 2]>::from(force).map(Dual::<_, 1>::constant);
         let end = |w, flexibility| {
-            let free = Tangent::constant(free);
+            let free = Dual::constant(free);
             let end = match segments {
                 [] => lane_end(w, flexibility, free, force),
                 law => lane_law_end(law, w, flexibility, free, force),
             };
-            end.end.map(|component| component.slope)
+            end.end.map(|component| component.slopes[0])
         };
-        let heavier = end(Tangent::input(w), Tangent::constant(flexibility));
-        let softer = end(Tangent::constant(w), Tangent::input(flexibility));
+        let heavier = end(Dual::input(w, 0), Dual::constant(flexibility));
+        let softer = end(Dual::constant(w), Dual::input(flexibility, 0));
         let found = guide.end_slopes(way, [flexibility, free], [heavier, softer]);
         let close = |found: [f64; 2], expected: Vector2<f64>, scale: f64| {
             assert_relative_eq!(Vector2::from(found), expected, epsilon = 1e-10 * scale);

@@ -6,8 +6,8 @@
 //! `V = ±sqrt(T_k² - fx²)`. Cables that cross more than one kink, or dip below the segments of their ends,
 //! have a slackness of 2 here.
 
-use super::field::Lanewise;
 use super::response::{LaneEnd, Response, Terms};
+use cdpr_number::Lanewise;
 
 /// A segment of an elastic law with 1 + ε = 1 + (offset + flexibility T)/EA, from a tension up.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,9 +1,9 @@
 //! One cable between its points in its vertical plane: its stiffness, and its closure where it has no shape.
 
-use super::field::{Field, Real};
 use super::response::Response;
+use cdpr_number::{Number, Real};
 
-impl<T: Field> Response<T> {
+impl<T: Number> Response<T> {
     /// In-plane stiffness `K = d(fx, fz)/d(x, z)`, its elements xx, xz = zx and zz [N/m].
     #[inline(always)]
     pub fn in_plane_stiffness(&self) -> [T; 3] {
@@ -15,7 +15,7 @@ impl<T: Field> Response<T> {
 ///
 /// The determinant is an argument because equation (C8) gives it without cancellation.
 #[inline(always)]
-pub fn in_plane_stiffness<T: Field>([xx, xz, zz]: [T; 3], determinant: T) -> [T; 3] {
+pub fn in_plane_stiffness<T: Number>([xx, xz, zz]: [T; 3], determinant: T) -> [T; 3] {
     let inverse = determinant.recip();
     [zz * inverse, -xz * inverse, xx * inverse]
 }
@@ -25,7 +25,7 @@ pub fn in_plane_stiffness<T: Field>([xx, xz, zz]: [T; 3], determinant: T) -> [T;
 /// The cable has the elements xx, xz = zx and zz of its in-plane stiffness, the stiffness `lateral` across
 /// its plane, and the horizontal unit vector `azimuth` from B towards A.
 #[inline(always)]
-pub fn stiffness_in_space<T: Field>(in_plane: [T; 3], lateral: T, azimuth: [T; 2]) -> [[T; 3]; 3] {
+pub fn stiffness_in_space<T: Number>(in_plane: [T; 3], lateral: T, azimuth: [T; 2]) -> [[T; 3]; 3] {
     let ([h, hz, z], [c, s]) = (in_plane, azimuth);
     let (hc, hs, across) = (h * c, h * s, lateral * s);
     let (xy, xz, yz) = (hc * s - across * c, hz * c, hz * s);

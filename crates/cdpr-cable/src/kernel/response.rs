@@ -75,8 +75,8 @@
 //! (`fx -> 0`). A taut cable, `q² <= 0.02`, does not need the choice: there
 //! `-fz V0 <= (w L/2)² = q² s²/4`, a fiftieth of `T T0`.
 
-use super::field::{Field, Lanewise, Real};
 use super::series::{SERIES_LIMIT, TAUT, psi_by_halves, psi_of_slack, psi_of_taut};
+use cdpr_number::{Lanewise, Number, Real};
 use nalgebra::Vector2;
 
 /// End position of a cable for a force at its end, with its derivatives, over any kind of number.
@@ -147,7 +147,7 @@ pub fn lane_end<T: Lanewise>(w: T, axial_flexibility: T, length: T, [fx, fz]: [T
 
 /// An inextensible part times α.
 #[inline(always)]
-fn stretched<T: Field>(part: T, alpha: Option<T>) -> T {
+fn stretched<T: Number>(part: T, alpha: Option<T>) -> T {
     match alpha {
         None => part,
         Some(alpha) => part * alpha,
@@ -230,7 +230,7 @@ impl Response<f64> {
     }
 }
 
-impl<T: Field> Terms<T> {
+impl<T: Number> Terms<T> {
     #[inline(always)]
     pub(super) fn with_square(w: T, axial_flexibility: T, length: T, fx: T, fz: T, fx2: T) -> Self {
         let weight = w * length;

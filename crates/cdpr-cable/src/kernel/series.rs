@@ -1,6 +1,6 @@
 //! The series of ψ(q²) = (atanh(q)/q - 1)/q², which is the part of a cable's sag in its end position.
 
-use super::field::{Field, Lanewise};
+use cdpr_number::{Lanewise, Number};
 
 /// A cable with q² up to this is taut: ten terms of the series are enough.
 pub const TAUT: f64 = 0.02;
@@ -26,7 +26,7 @@ const SERIES: [f64; 17] = {
 };
 
 /// ψ(q²) for q² up to [`SERIES_LIMIT`]: the first terms of 1/3 + q²/5 + q⁴/7 + ...
-pub(super) fn psi_of_slack<T: Field>(q2: T) -> T {
+pub(super) fn psi_of_slack<T: Number>(q2: T) -> T {
     let [first @ .., before, last] = &SERIES;
     first.iter().rev().fold(q2 * *last + *before, |sum, term| sum * q2 + *term)
 }
@@ -35,7 +35,7 @@ pub(super) fn psi_of_slack<T: Field>(q2: T) -> T {
 ///
 /// Even and odd terms are summed apart, so that neither sum waits for the other.
 #[inline(always)]
-pub(super) fn psi_of_taut<T: Field>(q2: T) -> T {
+pub(super) fn psi_of_taut<T: Number>(q2: T) -> T {
     let c = &SERIES;
     let q4 = q2 * q2;
     let even = (((q4 * c[8] + c[6]) * q4 + c[4]) * q4 + c[2]) * q4 + c[0];
@@ -83,7 +83,7 @@ pub(super) fn psi_by_halves<T: Lanewise>(q2: T, cosine: T) -> T {
 /// atan q = q (1 - q² ψ(-q²))                                                            (C29)
 /// ```
 #[inline(always)]
-pub(super) fn elevation<T: Field>([x, z]: [T; 2]) -> T {
+pub(super) fn elevation<T: Number>([x, z]: [T; 2]) -> T {
     let half = z / (x + 1.0);
     let quarter = half / ((half * half + 1.0).sqrt() + 1.0);
     let eighth = quarter / ((quarter * quarter + 1.0).sqrt() + 1.0);

@@ -29,9 +29,10 @@ use crate::catenary::Catenary;
 use crate::catenary::guided::OnGuide;
 use crate::error::{CableError, SMALLEST, check};
 use crate::guide::Straight;
-use crate::kernel::{Dual, Field, Real, Response};
+use crate::kernel::Response;
 use crate::solve::end_force::{check_end, straightened};
 use crate::solve::length_for_tension::length_for_tension_near;
+use cdpr_number::{Dual, Number, Real};
 use nalgebra::Vector2;
 
 /// A cable between held ends, with the derivatives of its force with respect to the chord force σ.
@@ -168,7 +169,7 @@ impl<'a> HeldCable<'a> {
     pub fn force_curvature(&self) -> Vector2<f64> {
         let cable = self.in_plane();
         let along = |value, slope| Dual { value, slopes: [slope] };
-        let cable = InPlane::<Dual<1>> {
+        let cable = InPlane::<Dual<f64, 1>> {
             end: cable.end.map(Dual::of),
             numbers: Numbers {
                 length: along(cable.numbers.length, self.length_slope),
@@ -220,7 +221,7 @@ impl<'a> HeldCable<'a> {
     ///
     /// The inputs are x, z, w, 1/EA and, with a guide, its lead and radius.
     fn slopes_by<const N: usize>(&self, values: [f64; N]) -> (Vector2<f64>, [Vector2<f64>; N]) {
-        let mut inputs: [Dual<N>; N] = std::array::from_fn(|k| Dual::input(values[k], k));
+        let mut inputs: [Dual<f64, N>; N] = std::array::from_fn(|k| Dual::input(values[k], k));
         let plain = self.in_plane();
         let mut numbers = plain.numbers.map(Dual::of);
         (numbers.weight_per_length, numbers.axial_flexibility) = (inputs[2], inputs[3]);
@@ -237,13 +238,13 @@ impl<'a> HeldCable<'a> {
             (cable.fz.slopes[k], cable.numbers.length.slopes[k]) = (fz, length);
         }
         // The same with the tension held, by a change of the chord force.
-        let tension = |cable: &InPlane<Dual<N>>| {
+        let tension = |cable: &InPlane<Dual<f64, N>>| {
             let fx = cable.fx();
             (fx * fx + cable.fz * cable.fz).sqrt()
         };
         let slopes = tension(&cable).slopes;
         let per_sigma = slopes[N - 1];
-        let along = |number: &mut Dual<N>| {
+        let along = |number: &mut Dual<f64, N>| {
             let own = number.slopes[N - 1] / per_sigma;
             for (slope, tension) in number.slopes[..N - 1].iter_mut().zip(slopes) {
                 *slope -= tension * own;

@@ -15,9 +15,9 @@ use crate::cable::{Cable, Numbers};
 use crate::catenary::spatial::{HeldSlopes, SpatialCable, guide, horizontal, response};
 use crate::error::{CableError, SMALLEST, check, check_length};
 use crate::guide::Straight;
-use crate::kernel::{Dual, Field, Real};
 use crate::solve::end_force::end_force;
 use crate::solve::held::{ByChordForce, HeldCable, least_tension_from};
+use cdpr_number::{Dual, Number, Real};
 use nalgebra::{Matrix3, Vector2, Vector3};
 
 /// The cable of unstrained length `length` [m] over its pulley to A at `end` [m] from D, which has the force
@@ -294,7 +294,7 @@ impl<'a> HeldSpatialCable<'a> {
         let force = [0, 1, 2].map(|k| along(self.cable.force[k], self.force_slope[k]));
         let plain = self.cable.numbers();
         let length = along(plain.length, self.length_slope);
-        let per_length = self.force_per_length(&Numbers { length, ..plain.map(Dual::<1>::of) }, &force);
+        let per_length = self.force_per_length(&Numbers { length, ..plain.map(Dual::<f64, 1>::of) }, &force);
         let (_, [c, s]) = horizontal(&force);
         let fx = c * per_length[0] + s * per_length[1];
         let share = 1.0 / per_horizontal(self.end);
@@ -314,7 +314,7 @@ impl<'a> HeldSpatialCable<'a> {
         let inverse = now.flexibility.try_inverse().unwrap_or_else(Matrix3::zeros);
         let per_length = -inverse * now.end_per_length;
         let mut numbers = plain.with_inputs::<INPUTS, 3>();
-        let mut force = <[f64; 3]>::from(self.cable.force).map(Dual::<INPUTS>::of);
+        let mut force = <[f64; 3]>::from(self.cable.force).map(Dual::<f64, INPUTS>::of);
         // What the inputs open at constant force and length, closed by force and length at constant tension.
         let end = response(&self.cable.cable, &numbers, &force).end;
         for k in 0..INPUTS {

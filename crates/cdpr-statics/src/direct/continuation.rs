@@ -107,7 +107,16 @@ pub fn follow_load(
     if load == to {
         return Ok(from.clone());
     }
-    let problem = DirectProblem::new(robot, lengths, to)?;
+    follow_change(robot, ((lengths, load), from), (lengths, to))
+}
+
+/// The same while lengths and load change in proportion.
+pub(crate) fn follow_change(
+    robot: &Robot,
+    (begin, from): ((&[f64], &Load), &DirectSolution),
+    end: (&[f64], &Load),
+) -> Result<DirectSolution, StaticsError> {
+    let problem = DirectProblem::new(robot, end.0, end.1)?;
     let start = (&from.equilibrium, &from.stability);
     let found = newton(&problem, from.equilibrium.clone()).filter(|found| found.stability.is_stable());
     if let Some(found) = found
@@ -116,7 +125,7 @@ pub fn follow_load(
     {
         return solution(&problem, found, DirectMethod::Newton);
     }
-    let [begin, end] = [load, to].map(|load| Setting { lengths: lengths.to_vec(), load: *load });
+    let [begin, end] = [begin, end].map(|(lengths, load)| Setting { lengths: lengths.to_vec(), load: *load });
     let Path { mut steps, lost } = follow_from(robot, &begin, &end, from.clone())?;
     let iterations = steps[1..].iter().map(|step| step.solution.report.iterations).sum();
     match (steps.pop(), lost) {
@@ -124,14 +133,14 @@ pub fn follow_load(
             solution.report = Report { method: DirectMethod::Continuation, iterations, ..solution.report };
             Ok(solution)
         }
-        (_, Some(lost)) => Err(lost.into_error(iterations)),
+        (_, Some(lost)) => Err(lost.into_error(iterations, begin.lengths == end.lengths)),
         (None, None) => Ok(from.clone()),
     }
 }
 
 impl Loss {
-    /// As the reason why there is no equilibrium at the end of the change, after so many iterations.
-    fn into_error(self, iterations: usize) -> StaticsError {
+    /// The reason why there is no equilibrium at the end of the change, which is one of the load alone or not.
+    fn into_error(self, iterations: usize, of_load: bool) -> StaticsError {
         let Self { share, kind, before, after } = self;
         let pose = before.equilibrium.pose;
         match (kind, after) {
@@ -142,6 +151,7 @@ impl Loss {
             }
             (_, after) => StaticsError::BranchEnds(Box::new(BranchEnd {
                 share,
+                of_load,
                 pose,
                 falls_to: after.map(|after| after.equilibrium.pose),
             })),

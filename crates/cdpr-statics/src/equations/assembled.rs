@@ -20,10 +20,11 @@
 
 use crate::equations::balance::add_stiffness;
 use crate::equations::spanned::SpannedCable;
-use crate::equations::vector::cross;
 use crate::problem::DirectProblem;
 use crate::state::Equilibrium;
-use cdpr_cable::kernel::{Real, Response};
+use cdpr_cable::kernel::Response;
+use cdpr_number::Real;
+use cdpr_number::vector::cross;
 use cdpr_robot::{Matrix3, Vector3, Vector6};
 use faer::linalg::solvers::{PartialPivLu, Solve};
 use nalgebra::{
@@ -32,12 +33,12 @@ use nalgebra::{
 use num_traits::{One, Zero};
 
 /// Numbers that the equations can be evaluated with: doubles, intervals.
-pub(crate) trait Number:
+pub(crate) trait Element:
     Real + Scalar + Zero + One + ClosedAddAssign + ClosedSubAssign + ClosedMulAssign
 {
 }
 
-impl<T: Real + Scalar + Zero + One + ClosedAddAssign + ClosedSubAssign + ClosedMulAssign> Number for T {}
+impl<T: Real + Scalar + Zero + One + ClosedAddAssign + ClosedSubAssign + ClosedMulAssign> Element for T {}
 
 /// The unknowns: pose and cable forces.
 pub(crate) struct State<T> {
@@ -56,7 +57,7 @@ impl From<&Equilibrium> for State<f64> {
     }
 }
 
-impl<T: Number> State<T> {
+impl<T: Element> State<T> {
     /// Cable i at this state.
     pub(crate) fn cable<'a>(&self, problem: &DirectProblem<'a>, i: usize) -> SpannedCable<'a, T> {
         let arm = self.rotation * problem.robot.cables[i].anchor_point.map(T::of);
@@ -65,7 +66,7 @@ impl<T: Number> State<T> {
 }
 
 /// Cross-product matrix [v].
-pub(crate) fn skew<T: Number>(v: &Vector3<T>) -> Matrix3<T> {
+pub(crate) fn skew<T: Element>(v: &Vector3<T>) -> Matrix3<T> {
     let o = T::zero();
     Matrix3::new(o, -v.z, v.y, v.z, o, -v.x, -v.y, v.x, o)
 }
@@ -75,7 +76,7 @@ pub(crate) fn skew<T: Number>(v: &Vector3<T>) -> Matrix3<T> {
 pub(crate) const NEAR_VERTICAL: f64 = 1e-9;
 
 /// Weight of platform and payload [N], and the lever of its centre of mass [m].
-fn weight<T: Number>(problem: &DirectProblem, state: &State<T>) -> (Vector3<T>, Vector3<T>) {
+fn weight<T: Element>(problem: &DirectProblem, state: &State<T>) -> (Vector3<T>, Vector3<T>) {
     let platform = &problem.robot.platform;
     let mass = T::of(platform.mass) + T::of(problem.load.payload);
     let weight = problem.robot.gravity.vector().map(T::of) * mass;
@@ -88,7 +89,7 @@ pub(crate) fn closure_row(i: usize) -> usize {
 }
 
 /// Left-hand sides of all equations.
-pub(crate) fn residual<T: Number>(problem: &DirectProblem, state: &State<T>) -> DVector<T> {
+pub(crate) fn residual<T: Element>(problem: &DirectProblem, state: &State<T>) -> DVector<T> {
     let mut residual = DVector::from_element(6 + 2 * problem.cables(), T::zero());
     let (weight, center) = weight(problem, state);
     let load = &problem.load.wrench;
@@ -107,7 +108,7 @@ pub(crate) fn residual<T: Number>(problem: &DirectProblem, state: &State<T>) -> 
 }
 
 /// Derivatives of [`residual`] with respect to (dp, dφ, fx_1, fz_1, ..., fx_n, fz_n).
-pub(crate) fn jacobian<T: Number>(problem: &DirectProblem, state: &State<T>) -> DMatrix<T> {
+pub(crate) fn jacobian<T: Element>(problem: &DirectProblem, state: &State<T>) -> DMatrix<T> {
     let size = 6 + 2 * problem.cables();
     let mut jacobian = DMatrix::from_element(size, size, T::zero());
     let (weight, center) = weight(problem, state);

@@ -14,9 +14,9 @@
 //! H_rp = sum [s_i] K3_i              H_rr = -sum( [s_i] K3_i [s_i] + [F_i][s_i] ) - [F_w][R c]      (S5)
 //! ```
 
-use crate::equations::vector::{cross, wrench};
 use crate::problem::DirectProblem;
-use cdpr_cable::kernel::Field;
+use cdpr_number::Number;
+use cdpr_number::vector::{cross, wrench};
 use cdpr_robot::{Matrix3, Pose, Vector6};
 use nalgebra::{ClosedAddAssign, Matrix6, Scalar};
 
@@ -64,7 +64,7 @@ pub(crate) fn symmetric_part(matrix: &Matrix6<f64>) -> Matrix6<f64> {
 
 /// Adds a cable with the stiffness K3 and the force F on the platform at the arm s, equation (S5).
 #[inline(always)]
-pub(crate) fn add_stiffness<T: Field + Scalar + ClosedAddAssign>(
+pub(crate) fn add_stiffness<T: Number + Scalar + ClosedAddAssign>(
     hessian: &mut Matrix6<T>,
     s: &[T; 3],
     force: &[T; 3],

@@ -24,7 +24,9 @@
 //!
 //! with the flexibility C of `cdpr_cable` and the lateral stiffness k_l.
 
-use cdpr_cable::kernel::{Field, Real, Response, stiffness_in_space};
+use cdpr_number::{Number, Real};
+
+use cdpr_cable::kernel::{Response, stiffness_in_space};
 
 /// The vertical plane of a cable.
 #[derive(Clone, Copy, Debug)]
@@ -33,7 +35,7 @@ pub(crate) struct CablePlane<T> {
     pub(crate) azimuth: [T; 2],
 }
 
-impl<T: Field> CablePlane<T> {
+impl<T: Number> CablePlane<T> {
     /// A vector (along e_h, along e_z) of the plane in the base frame.
     #[inline(always)]
     pub(crate) fn lift(&self, [x, z]: [T; 2]) -> [T; 3] {
@@ -61,7 +63,7 @@ pub(crate) struct Span<T> {
     pub(crate) end: [T; 2],
 }
 
-impl<T: Field> Span<T> {
+impl<T: Number> Span<T> {
     /// The span of r_i, which must not be vertical: numbers that cannot choose have no azimuth then.
     #[inline(always)]
     pub(crate) fn oblique([x, y, z]: [T; 3]) -> Self {
@@ -95,7 +97,7 @@ impl<T: Real> Span<T> {
 
 /// r_i, Eq. (1), of the exit point b and the arm s of the anchor point.
 #[inline(always)]
-pub(crate) fn between<T: Field>(p: &[T; 3], s: &[T; 3], b: &[T; 3]) -> [T; 3] {
+pub(crate) fn between<T: Number>(p: &[T; 3], s: &[T; 3], b: &[T; 3]) -> [T; 3] {
     // Eq. (1)
     [p[0] + s[0] - b[0], p[1] + s[1] - b[1], p[2] + s[2] - b[2]]
 }
@@ -112,7 +114,7 @@ pub(crate) struct LinearizedCable<T> {
     pub(crate) lateral_stiffness: T,
 }
 
-impl<T: Field> LinearizedCable<T> {
+impl<T: Number> LinearizedCable<T> {
     /// Linearises about `force`, to which the cable answers with `response`.
     #[inline(always)]
     pub(crate) fn new(span: &Span<T>, force: [T; 2], response: &Response<T>) -> Self {

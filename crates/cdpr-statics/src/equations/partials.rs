@@ -38,11 +38,11 @@
 //! ```
 
 use crate::equations::spanned::{SpannedCable, end, to_base};
-use crate::equations::vector;
 use crate::error::StaticsError;
 use crate::problem::DirectProblem;
 use crate::state::Load;
 use cdpr_cable::{Catenary, HeldSlopes};
+use cdpr_number::vector;
 use cdpr_robot::{Matrix3, Matrix6xX, Parameter, Pose, Robot, TiltAxis, Vector2, Vector3, Vector6};
 use nalgebra::{DMatrix, Matrix6};
 use std::ops::Range;

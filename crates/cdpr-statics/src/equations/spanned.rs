@@ -6,14 +6,15 @@
 //! meets its anchor point across the plane, for the force and length that it has.
 
 use crate::equations::cable::{CablePlane, LinearizedCable, Span, between};
-use crate::equations::vector::{dot, wrench};
 use crate::problem::DirectProblem;
 use crate::state::Equilibrium;
-use cdpr_cable::kernel::{Real, Response, closure_of_limp, response};
+use cdpr_cable::kernel::{Response, closure_of_limp, response};
 use cdpr_cable::{
     CableError, Catenary, ElasticLaw, Guide, HeldCable, HeldSlopes, HeldSpatialCable, SpatialCable,
     SpatialResponse, SpatialSlopes, end_force, end_force_near, spatial_end_force,
 };
+use cdpr_number::Real;
+use cdpr_number::vector::{dot, wrench};
 use cdpr_robot::{Matrix3, Pose, Robot, Vector2, Vector3};
 
 /// A cable with a force that need not fit its two points.

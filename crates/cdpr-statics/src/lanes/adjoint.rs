@@ -24,21 +24,20 @@ mod answer;
 mod cable;
 
 use crate::equations::LinearizedCable;
-use crate::equations::vector::{cross, dot, wrench};
 use crate::lanes::adjoint::answer::Answer;
 pub(crate) use crate::lanes::adjoint::cable::GuideSlopes;
 use crate::lanes::adjoint::cable::{CableSlopes, TensionSlopes, torque};
-use crate::lanes::algebra::{
-    Lanes2, Lanes3, Lanes6, SymmetricFactors, halves, hold, hold_matrix, replace, six, three,
-};
 use crate::lanes::cable::LaneCable;
 use crate::lanes::chain::Keep;
 use crate::lanes::chain::shared::Shared;
+use crate::lanes::freedoms::{hold, hold_matrix};
 use crate::lanes::load::PlatformLoad;
 use crate::lanes::newton::{LinearizedPlatform, Robots};
-use crate::lanes::simd::{Lanes, Mask, Simd, WithSimd};
 use crate::lanes::skew::{Skew, SkewCable};
-use cdpr_cable::kernel::Field;
+use cdpr_number::Number;
+use cdpr_number::dense::{Lanes2, Lanes3, Lanes6, SymmetricFactors, halves, replace, six, three};
+use cdpr_number::lanes::{Lanes, Mask, Simd, WithSimd};
+use cdpr_number::vector::{cross, dot, wrench};
 use cdpr_robot::CableEnd;
 
 /// Two tensions that differ by a smaller share may be the same.

@@ -2,12 +2,28 @@
 //! `direct/near.rs` in lanes. What they leave open is followed by the scalar models.
 
 use crate::direct::{KEPT, MAX_CORRECTION, SAME_POSE};
-use crate::equations::vector::dot;
-use crate::lanes::algebra::{SymmetricFactors, halves};
 use crate::lanes::load::PlatformLoad;
 use crate::lanes::newton::{LinearizedPlatform, Robots, Scale, Steps};
-use crate::lanes::simd::{Mask, Simd};
-use cdpr_cable::kernel::Field;
+use cdpr_number::Number;
+use cdpr_number::dense::{SymmetricFactors, halves};
+use cdpr_number::lanes::{Lanes, Mask, Simd};
+use cdpr_number::vector::dot;
+
+impl<S: Simd> Steps<S> {
+    /// Lengths of the prediction and of its correction [m].
+    #[inline(always)]
+    fn lengths(&self) -> [Lanes<S>; 2] {
+        let (p, r) = halves(&self.others);
+        [self.first.sqrt(), (dot(&p, &p) + dot(&r, &r)).sqrt()]
+    }
+
+    /// The lanes in which a search ended near what its first step predicted.
+    #[inline(always)]
+    pub(crate) fn end_near_prediction(&self, scale: &Scale) -> Mask<S> {
+        let [first, corrected] = self.lengths();
+        corrected.less_or_equal(first * MAX_CORRECTION + SAME_POSE * scale.size)
+    }
+}
 
 impl<S: Simd> Robots<'_, S> {
     /// The lanes of `found` in which the search with the load ended near its prediction, or where every
@@ -21,10 +37,7 @@ impl<S: Simd> Robots<'_, S> {
         scale: &Scale,
         found: Mask<S>,
     ) -> Mask<S> {
-        let Steps { first, ref others } = platform.steps;
-        let (p, r) = halves(others);
-        let (corrected, first) = ((dot(&p, &p) + dot(&r, &r)).sqrt(), first.sqrt());
-        let near = corrected.less_or_equal(first * MAX_CORRECTION + SAME_POSE * scale.size);
+        let near = platform.steps.end_near_prediction(scale);
         let open = found & !near;
         if !open.any() {
             return found;
@@ -35,6 +48,7 @@ impl<S: Simd> Robots<'_, S> {
                 *element -= *unloaded * KEPT;
             }
         }
+        let [first, corrected] = platform.steps.lengths();
         let kept = corrected.less_or_equal(first) & SymmetricFactors::new(stiffness).positive;
         found & (near | kept)
     }

@@ -10,14 +10,15 @@
 //! with (C21) to (C23) of `cdpr_cable`; what is left out is of second order.
 
 use crate::equations::{LinearizedCable, Span, between};
-use crate::lanes::algebra::{Lanes2, Lanes3, replace};
-use crate::lanes::simd::{Lanes, Mask, Simd, WithSimd};
 use crate::state::Equilibrium;
 use cdpr_cable::kernel::{
-    Field, LaneEnd, LaneGuide, LaneSegment, LaneWay, LeavePoint, Response, lane_end, lane_law_end,
-    lane_law_energy, lane_law_response, lane_law_strain, lane_law_stretch, lane_response,
+    LaneEnd, LaneGuide, LaneSegment, LaneWay, LeavePoint, Response, lane_end, lane_law_end, lane_law_energy,
+    lane_law_response, lane_law_strain, lane_law_stretch, lane_response,
 };
 use cdpr_cable::{Catenary, MAX_STRAIN};
+use cdpr_number::Number;
+use cdpr_number::dense::{Lanes2, Lanes3, replace};
+use cdpr_number::lanes::{Lanes, Mask, Simd, WithSimd};
 use cdpr_robot::{Robot, Vector2};
 
 /// A cable of every robot, or several cables of one.

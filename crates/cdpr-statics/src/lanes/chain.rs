@@ -35,21 +35,23 @@ pub(crate) mod minimum;
 mod program;
 pub(crate) mod shared;
 
-use crate::equations::vector::{dot, wrench};
 use crate::equations::{LinearizedCable, Span};
 use crate::inverse::NEARLY_ROUNDING;
-use crate::lanes::algebra::{Lanes2, Lanes3, Lanes6, halves, hold, replace, six, three};
 use crate::lanes::cable::LaneCable;
 use crate::lanes::chain::free::{FreeMotion, rest};
 use crate::lanes::chain::limits::{demand, limits_at, may_be_slack};
 use crate::lanes::chain::minimum::is_least;
 use crate::lanes::chain::program::{Row, newton, within_limits};
 use crate::lanes::chain::shared::{LAST_DISTRIBUTION, LAST_REMAINDER, LAST_SHARE, MAX_DISTRIBUTIONS, Shared};
+use crate::lanes::freedoms::hold;
 use crate::lanes::held::HeldCable;
 use crate::lanes::load::PlatformLoad;
 use crate::lanes::newton::{LaneResidual, LinearizedPlatform, Robots};
-use crate::lanes::simd::{Lanes, Mask, Simd, WithSimd};
-use cdpr_cable::kernel::{FOLDED, Field};
+use cdpr_cable::kernel::FOLDED;
+use cdpr_number::Number;
+use cdpr_number::dense::{Lanes2, Lanes3, Lanes6, halves, replace, six, three};
+use cdpr_number::lanes::{Lanes, Mask, Simd, WithSimd};
+use cdpr_number::vector::{dot, wrench};
 
 /// Robots at their wanted pose.
 pub(crate) struct ChainStart<'a, S: Simd> {

@@ -1,10 +1,11 @@
 //! A cable at its held ends, one in each lane.
 
 use crate::equations::Span;
-use crate::lanes::algebra::{Lanes2, replace};
 use crate::lanes::cable::{Guided, LaneCable};
-use crate::lanes::simd::{Lanes, Mask, Simd, WithSimd};
-use cdpr_cable::kernel::{Field, Lanewise, LeavePoint, Response, TAUT};
+use cdpr_cable::kernel::{LeavePoint, Response, TAUT};
+use cdpr_number::dense::{Lanes2, replace};
+use cdpr_number::lanes::{Lanes, Mask, Simd, WithSimd};
+use cdpr_number::{Lanewise, Number};
 
 /// Part of a tension by which it has to exceed the least one of the span, as its slope and curvature tell.
 /// The scalar models hold cables at 0.001, which the estimate meets within a few percent.

@@ -4,10 +4,10 @@
 //! the border: their points, pose and load into the level frame of their lane, and the answer back. The
 //! rotation is that of [`cdpr_robot::Gravity::level`].
 
-use crate::equations::vector::dot;
-use crate::lanes::algebra::{Lanes3, Lanes6, halves, three};
-use crate::lanes::simd::{Lanes, Mask, Simd};
-use cdpr_cable::kernel::Field;
+use cdpr_number::Number;
+use cdpr_number::dense::{Lanes3, Lanes6, halves, three};
+use cdpr_number::lanes::{Lanes, Mask, Simd};
+use cdpr_number::vector::dot;
 
 /// Rotation to the level frame of each lane, by its rows.
 pub(crate) struct LevelFrame<S: Simd> {

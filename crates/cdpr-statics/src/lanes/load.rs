@@ -1,7 +1,7 @@
 //! What acts on the platforms in the lanes.
 
-use crate::lanes::algebra::{Lanes3, Lanes6, three};
-use crate::lanes::simd::{Lanes, Simd};
+use cdpr_number::dense::{Lanes3, Lanes6, three};
+use cdpr_number::lanes::{Lanes, Simd};
 use cdpr_robot::{Vector3, Wrench};
 
 /// A weight at the centre of mass of a platform, and a force and a moment at P.

@@ -4,17 +4,17 @@
 //! Each lane holds a robot, or a cable of one robot. A lane stops by its own steps alone: the other lanes of
 //! a batch change none of its digits.
 
-use crate::equations::vector::{cross, dot};
 use crate::equations::{CablePlane, LinearizedCable};
-use crate::lanes::algebra::{
-    Lanes3, Lanes6, Lanes6x6, SymmetricFactors, add, halves, hold, hold_matrix, replace, six, three,
-};
 use crate::lanes::cable::{FreeLength, LaneCable};
+use crate::lanes::freedoms::{hold, hold_matrix};
 use crate::lanes::load::PlatformLoad;
-use crate::lanes::simd::{Lanes, MAX_LANES, Mask, Simd};
 use crate::lanes::skew::Skew;
 use crate::state::Residual;
-use cdpr_cable::kernel::{FOLDED, Field, LaneEnd};
+use cdpr_cable::kernel::{FOLDED, LaneEnd};
+use cdpr_number::Number;
+use cdpr_number::dense::{Lanes3, Lanes6, Lanes6x6, SymmetricFactors, add, halves, replace, six, three};
+use cdpr_number::lanes::{Lanes, MAX_LANES, Mask, Simd};
+use cdpr_number::vector::{cross, dot};
 use cdpr_robot::Freedoms;
 use smallvec::{SmallVec, smallvec};
 use std::array::from_fn;

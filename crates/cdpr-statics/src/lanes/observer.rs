@@ -16,14 +16,14 @@ mod slopes;
 
 use crate::error::StaticsError;
 use crate::inverse::{Branch, FreeBranch, HeldPose, InverseSolution};
-use crate::lanes::algebra::three;
 use crate::lanes::chain::{Outcome, observe};
 use crate::lanes::level::LevelFrame;
 use crate::lanes::observer::rows::{Nominal, Rows};
 use crate::lanes::reason::ScalarReason;
-use crate::lanes::simd::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
 use crate::loading::{Deflection, deflection, deflection_beside, deflection_near};
 use crate::state::{Load, Residual};
+use cdpr_number::dense::three;
+use cdpr_number::lanes::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
 use cdpr_robot::{Coordinate, ParameterLayout, Pose, Robot, Vector3, Vector6};
 pub use motions::ObservationMotion;
 pub use slopes::ObservationSlopes;
@@ -246,7 +246,7 @@ fn read<S: Simd>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lanes::simd::Scalar;
+    use cdpr_number::lanes::Scalar;
     use cdpr_robot::{Parameter, Pulley};
 
     #[test]

@@ -13,21 +13,22 @@ mod placed;
 mod slopes;
 
 use crate::equations::Span;
-use crate::equations::vector::{dot, wrench};
 use crate::error::StaticsError;
 use crate::inverse::{InTurn, InverseSolution};
-use crate::lanes::algebra::{Lanes2, Lanes6, hold, six};
 use crate::lanes::cable::Shape;
 use crate::lanes::chain::minimum::is_least;
 use crate::lanes::chain::shared::Shared;
 use crate::lanes::chain::{Distributed, Keep, SAGGING, distribute, wind};
+use crate::lanes::freedoms::hold;
 use crate::lanes::held::HeldCable;
 use crate::lanes::load::PlatformLoad;
 use crate::lanes::newton::{LinearizedPlatform, Robots};
 use crate::lanes::poses::placed::{PlacedRobot, each};
-use crate::lanes::simd::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load, Residual};
+use cdpr_number::dense::{Lanes2, Lanes6, six};
+use cdpr_number::lanes::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
+use cdpr_number::vector::{dot, wrench};
 use cdpr_robot::{Pose, Robot, Vector2, Vector3, Vector6};
 use cdpr_tension::Bound;
 pub use loaded::{LoadedPose, PoseSlopes, loaded_poses, loaded_poses_slopes};
@@ -415,7 +416,7 @@ impl<S: Simd> InLanes<'_, S> {
 mod tests {
     use super::*;
     use crate::inverse::inverse;
-    use crate::lanes::simd::Scalar;
+    use cdpr_number::lanes::Scalar;
 
     #[test]
     fn the_vector_unit_changes_no_bit_of_a_pose() {

@@ -18,9 +18,10 @@
 //! These iterations converge by the ratio of both parts, which is 1e-8 to 1e-6 for guides of most robots.
 
 use crate::equations::CablePlane;
-use crate::equations::vector::{cross, dot};
-use crate::lanes::algebra::{Lanes3, Lanes6, SymmetricFactors, add, halves, hold, replace, six, three};
-use crate::lanes::simd::{Lanes, Mask, Simd, WithSimd};
+use crate::lanes::freedoms::hold;
+use cdpr_number::dense::{Lanes3, Lanes6, SymmetricFactors, add, halves, replace, six, three};
+use cdpr_number::lanes::{Lanes, Mask, Simd, WithSimd};
+use cdpr_number::vector::{cross, dot};
 use cdpr_robot::Freedoms;
 
 /// A change of the solution below this part of it ends (L18).

@@ -1,14 +1,14 @@
 //! Direct solves one after the other, each from the equilibrium before, as in a control loop or a simulation.
 
-use crate::direct::{Start, direct};
+use crate::direct::{DirectSolution, Start, direct, follow_change};
 use crate::error::StaticsError;
 use crate::lanes::cable::LaneCable;
 use crate::lanes::load::PlatformLoad;
 use crate::lanes::newton::{Layout, LinearizedPlatform, Robots, Scale};
 use crate::lanes::reason::ScalarReason;
-use crate::lanes::simd::{Lanes, MAX_LANES, Simd, WithSimd, dispatch};
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load, Residual, rounding_of_closure};
+use cdpr_number::lanes::{Lanes, MAX_LANES, Simd, WithSimd, dispatch};
 use cdpr_robot::{Matrix3, Robot, Vector3, Wrench, orthonormalized};
 use smallvec::SmallVec;
 
@@ -30,6 +30,9 @@ use smallvec::SmallVec;
 /// ```
 pub struct Tracker<'a> {
     robot: &'a Robot,
+    /// Lengths [m] and load of the equilibrium.
+    lengths: Vec<f64>,
+    load: Load,
     equilibrium: Equilibrium,
     residual: Residual,
     /// Whether the robot is one for the lanes.
@@ -54,7 +57,7 @@ impl<'a> Tracker<'a> {
         let farthest = robot.cables.iter().map(|cable| cable.exit_point.norm()).fold(0.0, f64::max);
         let in_lanes = robot.has_plain_cables() && ScalarReason::of_all(robot, &[]).is_none();
         let (equilibrium, residual) = (solution.equilibrium, solution.report.residual);
-        Ok(Self { robot, equilibrium, residual, in_lanes, farthest })
+        Ok(Self { robot, lengths: lengths.to_vec(), load: *load, equilibrium, residual, in_lanes, farthest })
     }
 
     /// The current equilibrium.
@@ -67,22 +70,39 @@ impl<'a> Tracker<'a> {
         self.residual
     }
 
-    /// Goes to the equilibrium for other lengths [m] and another load, near the current one.
+    /// Goes to the equilibrium for other lengths [m] and another load that the current one becomes while both
+    /// change in proportion.
     ///
-    /// Nothing is allocated where Newton's method finds a stable equilibrium without folded cables (up to 32
-    /// of them with AVX-512, 16 with AVX2). Otherwise [`direct`] searches.
+    /// Nothing is allocated where Newton's method ends near its prediction, at a stable equilibrium without
+    /// folded cables (up to 32 of them with AVX-512, 16 with AVX2). Otherwise the change is made in steps, and
+    /// where these strain a cable too much on the way or do not end, [`direct`] searches near the current
+    /// equilibrium.
     ///
     /// # Errors
-    /// Those of [`direct`]; the equilibrium is then the one before.
+    /// [`StaticsError::BranchEnds`] where the platform falls on the way, and those of [`direct`]; the
+    /// equilibrium is then the one before.
     pub fn update(&mut self, lengths: &[f64], load: &Load) -> Result<&Equilibrium, StaticsError> {
         let problem = DirectProblem::new(self.robot, lengths, load)?;
         let found = self.in_lanes && dispatch(Update { tracker: self, problem: &problem });
         if !found {
-            let solution = direct(self.robot, lengths, load, Start::Near(&self.equilibrium))?;
+            let solution = self.followed(lengths, load)?;
             self.residual = solution.report.residual;
             self.equilibrium = solution.equilibrium;
         }
+        self.lengths.copy_from_slice(lengths);
+        self.load = *load;
         Ok(&self.equilibrium)
+    }
+
+    fn followed(&self, lengths: &[f64], load: &Load) -> Result<DirectSolution, StaticsError> {
+        let start = Start::Near(&self.equilibrium);
+        let now = direct(self.robot, &self.lengths, &self.load, start)?;
+        match follow_change(self.robot, ((&self.lengths, &self.load), &now), (lengths, load)) {
+            Err(StaticsError::Overstrained { .. } | StaticsError::DirectNotConverged { .. }) => {
+                direct(self.robot, lengths, load, start)
+            }
+            followed => followed,
+        }
     }
 }
 
@@ -168,7 +188,7 @@ impl WithSimd for Update<'_, '_> {
         let mut linearized = LinearizedPlatform::new(zero, robots.cables.len());
         robots.linearise(&load, &mut linearized, everywhere);
         let (found, left) = robots.settle(&load, &mut linearized, &scale, everywhere);
-        if !found.any() {
+        if !found.any() || !linearized.steps.end_near_prediction(&scale).any() {
             return false;
         }
         pose.position = to_base(back(&robots.position));

@@ -22,14 +22,15 @@
 //! K = K_s + k_a (e_z e_hᵀ - e_h e_zᵀ),      k_a = a/det C                                         (L17)
 //! ```
 
-use crate::equations::vector::dot;
-use crate::lanes::algebra::Lanes3;
 use crate::lanes::cable::{Guided, LaneCable};
-use crate::lanes::simd::{Lanes, Simd, WithSimd};
 use cdpr_cable::kernel::{
-    LaneEndSlopes, LaneGuide, LaneSegment, Lanewise, Response, Tangent, lane_end, lane_law_end,
-    lane_law_response, lane_law_stretch, lane_response,
+    LaneEndSlopes, LaneGuide, LaneSegment, Response, lane_end, lane_law_end, lane_law_response,
+    lane_law_stretch, lane_response,
 };
+use cdpr_number::dense::Lanes3;
+use cdpr_number::lanes::{Lanes, Simd, WithSimd};
+use cdpr_number::vector::dot;
+use cdpr_number::{Dual, Lanewise};
 
 /// A cable that is given its force and its length.
 pub(super) struct Answer<T> {
@@ -76,25 +77,16 @@ impl<T: Lanewise> WithSimd for Question<'_, T> {
             [] => lane_response(w, flexibility, length, force),
             law => lane_law_response(law, w, flexibility, length, force),
         };
-        let (constant, force) = (
-            [Tangent::constant(w), Tangent::constant(flexibility)],
-            [Tangent::constant(force[0]), Tangent::constant(force[1])],
-        );
-        let length = Tangent::constant(length);
-        let [heavier, softer] = match law {
-            [] => [
-                lane_end(Tangent::input(w), constant[1], length, force).end,
-                lane_end(constant[0], Tangent::input(flexibility), length, force).end,
-            ],
-            law => [
-                lane_law_end(law, Tangent::input(w), constant[1], length, force).end,
-                lane_law_end(law, constant[0], Tangent::input(flexibility), length, force).end,
-            ],
+        let (w, flexibility) = (Dual::<_, 2>::input(w, 0), Dual::input(flexibility, 1));
+        let (length, force) = (Dual::constant(length), [Dual::constant(force[0]), Dual::constant(force[1])]);
+        let [x, z] = match law {
+            [] => lane_end(w, flexibility, length, force).end,
+            law => lane_law_end(law, w, flexibility, length, force).end,
         };
         Answer {
             response,
-            per_weight: [heavier[0].slope, heavier[1].slope],
-            per_flexibility: [softer[0].slope, softer[1].slope],
+            per_weight: [x.slopes[0], z.slopes[0]],
+            per_flexibility: [x.slopes[1], z.slopes[1]],
             guide: None,
         }
     }
@@ -120,7 +112,7 @@ impl<S: Simd> Answer<Lanes<S>> {
     }
 }
 
-impl<S: Simd> Answer<Tangent<Lanes<S>>> {
+impl<S: Simd> Answer<Dual<Lanes<S>, 1>> {
     /// The answer of a cable between held ends with its derivatives by the tension.
     #[inline(always)]
     pub(super) fn along_tension(cable: &LaneCable<'_, S>) -> Self {
@@ -133,10 +125,10 @@ impl<S: Simd> Answer<Tangent<Lanes<S>>> {
             }
             Some(guided) => first_over_guide(guided, cable),
         };
-        let along = |value, slope| Tangent { value, slope };
+        let along = |value, slope| Dual { value, slopes: [slope] };
         let numbers = [
-            Tangent::constant(cable.weight_per_length),
-            Tangent::constant(cable.axial_flexibility),
+            Dual::constant(cable.weight_per_length),
+            Dual::constant(cable.axial_flexibility),
             along(cable.length, longer),
         ];
         let force = [along(cable.force[0], x), along(cable.force[1], z)];
@@ -146,9 +138,9 @@ impl<S: Simd> Answer<Tangent<Lanes<S>>> {
             Some(guided) => {
                 let LaneGuide { lead, radius, signed_radius } = guided.guide;
                 let guide = LaneGuide {
-                    lead: Tangent::constant(lead),
-                    radius: Tangent::constant(radius),
-                    signed_radius: Tangent::constant(signed_radius),
+                    lead: Dual::constant(lead),
+                    radius: Dual::constant(radius),
+                    signed_radius: Dual::constant(signed_radius),
                 };
                 over_guide(guide, question, cable.length)
             }

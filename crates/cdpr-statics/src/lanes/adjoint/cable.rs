@@ -4,15 +4,15 @@
 //! They follow from how its force and its length answer, (L8) and (L9). Second derivatives of the force by
 //! its tension are those of (L9) along `(f_t, L_t)`, found by tangents.
 
-use crate::equations::vector::{cross, dot};
 use crate::equations::{CablePlane, LinearizedCable, Span};
 use crate::lanes::adjoint::answer::{Answer, GuideAnswer, Held};
-use crate::lanes::algebra::{Lanes2, Lanes3, three};
 use crate::lanes::cable::LaneCable;
 use crate::lanes::chain::limits::at_platform;
 use crate::lanes::chain::shared::Choice;
-use crate::lanes::simd::{Lanes, Simd};
-use cdpr_cable::kernel::{Field, Tangent};
+use cdpr_number::dense::{Lanes2, Lanes3, three};
+use cdpr_number::lanes::{Lanes, Simd};
+use cdpr_number::vector::{cross, dot};
+use cdpr_number::{Dual, Number};
 use cdpr_robot::CableEnd;
 
 /// Derivatives of an output by what one cable is, at one equilibrium.
@@ -157,8 +157,8 @@ fn in_space<S: Simd>(plane: &CablePlane<Lanes<S>>, along: Lanes2<S>, across: Lan
 /// A cable between held ends with the derivatives of (L9) by its tension.
 pub(super) struct TensionSlopes<S: Simd> {
     plane: CablePlane<Lanes<S>>,
-    answer: Answer<Tangent<Lanes<S>>>,
-    held: Held<Tangent<Lanes<S>>>,
+    answer: Answer<Dual<Lanes<S>, 1>>,
+    held: Held<Dual<Lanes<S>, 1>>,
     /// f_t, in space.
     pub(super) force_per_tension: Lanes3<S>,
     /// df_t/dt, in space [1/N].
@@ -174,7 +174,7 @@ impl<S: Simd> TensionSlopes<S> {
         Self {
             plane: span.plane,
             force_per_tension: span.plane.lift([x.value, z.value]),
-            curvature: span.plane.lift([x.slope, z.slope]),
+            curvature: span.plane.lift([x.slopes[0], z.slopes[0]]),
             answer,
             held,
         }
@@ -188,22 +188,22 @@ impl<S: Simd> TensionSlopes<S> {
         // Values of the one and slopes of the other.
         let (once, twice) = (plane.project(*force), plane.project(*twisted));
         let normal = &held.normal;
-        let once = normal[0] * Tangent::constant(once[0]) + normal[1] * Tangent::constant(once[1]);
+        let once = normal[0] * Dual::constant(once[0]) + normal[1] * Dual::constant(once[1]);
         let twice =
-            normal[0] * Tangent::constant(twice[0] * share) + normal[1] * Tangent::constant(twice[1] * share);
-        let of = |by: [Tangent<Lanes<S>>; 2]| {
+            normal[0] * Dual::constant(twice[0] * share) + normal[1] * Dual::constant(twice[1] * share);
+        let of = |by: [Dual<Lanes<S>, 1>; 2]| {
             let turn = held.turn_per_end[0] * by[0] + held.turn_per_end[1] * by[1];
-            (once * turn).value + (twice * turn).slope
+            (once * turn).value + (twice * turn).slopes[0]
         };
-        let (one, zero) = (Tangent::constant(share.all(1.0)), Tangent::constant(share.all(0.0)));
+        let (one, zero) = (Dual::constant(share.all(1.0)), Dual::constant(share.all(0.0)));
         let lateral = answer.response.lateral_flexibility.recip();
         let [beside, beside_twice] = [sideways(plane, force), sideways(plane, twisted) * share];
-        let across = beside * lateral.value + beside_twice * lateral.slope;
+        let across = beside * lateral.value + beside_twice * lateral.slopes[0];
         let guide = match &answer.guide {
             None => None,
             Some(guide) => {
                 let swung = lateral * guide.end.across_per_axis;
-                let across = beside * swung.value + beside_twice * swung.slope;
+                let across = beside * swung.value + beside_twice * swung.slopes[0];
                 Some(GuideSlopes {
                     lead: -of(guide.end.per_lead),
                     radius: -of(guide.end.per_radius),

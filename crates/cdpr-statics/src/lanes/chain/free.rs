@@ -21,17 +21,19 @@
 //! A rotation by 2 atan(dq/2) is one by dq but for the third order, and needs no sine.
 
 use crate::equations::Span;
-use crate::equations::vector::{cross, dot};
 use crate::inverse::{BESIDE, NEARLY_ROUNDING};
-use crate::lanes::algebra::{Lanes3, Lanes6, add, hold, six, solve_columns, three};
 use crate::lanes::chain::limits::limits_at;
 use crate::lanes::chain::shared::{LAST_DISTRIBUTION, MAX_DISTRIBUTIONS, Shared};
+use crate::lanes::freedoms::hold;
 use crate::lanes::held::HeldCable;
 use crate::lanes::load::PlatformLoad;
 use crate::lanes::newton::{LinearizedPlatform, Robots, rotate};
-use crate::lanes::simd::{Lanes, Mask, Simd, WithSimd};
 use cdpr_cable::MAX_STRAIN;
-use cdpr_cable::kernel::{FOLDED, Field};
+use cdpr_cable::kernel::FOLDED;
+use cdpr_number::Number;
+use cdpr_number::dense::{Lanes3, Lanes6, add, six, solve_columns, three};
+use cdpr_number::lanes::{Lanes, Mask, Simd, WithSimd};
+use cdpr_number::vector::{cross, dot};
 
 /// Motions of a platform in space.
 const MOTIONS: usize = 6;

@@ -9,11 +9,11 @@
 //! tension rises again. Newton's method for its slope over the logarithm of that force finds it.
 
 use crate::equations::{ABOVE_LEAST, Span};
-use crate::lanes::algebra::{Lanes2, replace};
 use crate::lanes::cable::LaneCable;
 use crate::lanes::held::HeldCable;
-use crate::lanes::simd::{Lanes, Mask, Simd, WithSimd};
-use cdpr_cable::kernel::Field;
+use cdpr_number::Number;
+use cdpr_number::dense::{Lanes2, replace};
+use cdpr_number::lanes::{Lanes, Mask, Simd, WithSimd};
 use cdpr_robot::{CableEnd, TensionLimits};
 
 /// A change below this, relative to the sum of tensions, the longest cable and the cable's own horizontal

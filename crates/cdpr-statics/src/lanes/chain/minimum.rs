@@ -12,11 +12,11 @@
 //! pulley with that from the point where the one before would leave it.
 
 use crate::equations::Span;
-use crate::equations::vector::{dot, wrench};
-use crate::lanes::algebra::{Lanes2, Lanes6};
 use crate::lanes::cable::LaneCable;
-use crate::lanes::simd::{Lanes, Mask, Simd};
-use cdpr_cable::kernel::Field;
+use cdpr_number::Number;
+use cdpr_number::dense::{Lanes2, Lanes6};
+use cdpr_number::lanes::{Lanes, Mask, Simd};
+use cdpr_number::vector::{dot, wrench};
 
 /// u, u coth u and (sinh u/u)².
 const CATENARIES: [[f64; 3]; 27] = [

@@ -2,13 +2,13 @@
 
 use super::{Batch, Observation, Observer, read};
 use crate::error::StaticsError;
-use crate::lanes::algebra::Lanes3;
 use crate::lanes::chain::{Keep, observe};
 use crate::lanes::level::LevelFrame;
 use crate::lanes::newton::Robots;
 use crate::lanes::observer::rows::Rows;
 use crate::lanes::reason::ScalarReason;
-use crate::lanes::simd::{Lanes, MAX_LANES, Simd, WithSimd, dispatch};
+use cdpr_number::dense::Lanes3;
+use cdpr_number::lanes::{Lanes, MAX_LANES, Simd, WithSimd, dispatch};
 use cdpr_robot::{Matrix3, Pose, Vector3, orthonormalized};
 use smallvec::SmallVec;
 

@@ -2,19 +2,21 @@
 
 use crate::equations::Ends;
 use crate::inverse::HeldPose;
-use crate::lanes::algebra::{Frame, hold, rotated, six, three};
 use crate::lanes::cable::{Guided, LaneCable, Shape};
 use crate::lanes::chain::ChainStart;
 use crate::lanes::chain::free::FreeMotion;
 use crate::lanes::chain::shared::{Choice, Shared, laws};
+use crate::lanes::freedoms::hold;
 use crate::lanes::level::LevelFrame;
 use crate::lanes::load::PlatformLoad;
 use crate::lanes::newton::{Layout, Robots, Scale};
 use crate::lanes::reason::ScalarReason;
-use crate::lanes::simd::{Lanes, MAX_LANES, Mask, Simd};
 use crate::problem::DirectProblem;
 use crate::state::{Load, rounding_of_closure};
-use cdpr_cable::kernel::{Field, LaneGuide, LaneSegment};
+use cdpr_cable::kernel::{LaneGuide, LaneSegment};
+use cdpr_number::Number;
+use cdpr_number::dense::{Frame, rotated, six, three};
+use cdpr_number::lanes::{Lanes, MAX_LANES, Mask, Simd};
 use cdpr_robot::{
     Axis, Coordinate, Parameter, ParameterLayout, Pose, Pulley, Robot, RobotCable, TiltAxis, Vector3, Vector6,
 };

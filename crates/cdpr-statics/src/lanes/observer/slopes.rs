@@ -2,17 +2,17 @@
 
 use super::{Batch, Observation, Observer, Wanted, read};
 use crate::derivatives::{Derivatives, derivatives, derivatives_free, derivatives_near};
-use crate::equations::vector::dot;
 use crate::error::StaticsError;
 use crate::lanes::adjoint::{Adjoint, GuideSlopes, Record, adjoint};
-use crate::lanes::algebra::three;
 use crate::lanes::chain::observe;
 use crate::lanes::level::LevelFrame;
 use crate::lanes::newton::Robots;
 use crate::lanes::observer::rows::Rows;
 use crate::lanes::reason::ScalarReason;
-use crate::lanes::simd::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
-use cdpr_cable::kernel::Field;
+use cdpr_number::Number;
+use cdpr_number::dense::three;
+use cdpr_number::lanes::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
+use cdpr_number::vector::dot;
 use cdpr_robot::{Axis, Parameter, Robot, RobotCable, TiltAxis};
 
 /// The deflection of one perturbed robot, with the derivatives of its length.

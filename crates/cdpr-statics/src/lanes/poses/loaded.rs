@@ -10,20 +10,21 @@ use crate::derivatives::derivatives_from;
 use crate::error::StaticsError;
 use crate::inverse::InverseSolution;
 use crate::lanes::adjoint::adjoint;
-use crate::lanes::algebra::{Lanes3, Lanes6x6, SymmetricFactors, hold, hold_matrix, six, three};
 use crate::lanes::chain::Keep;
-use crate::lanes::eigen::least_eigenvalue;
+use crate::lanes::freedoms::{hold, hold_matrix};
 use crate::lanes::load::PlatformLoad;
 use crate::lanes::newton::{LaneResidual, LinearizedPlatform, Robots};
 use crate::lanes::poses::placed::{PlacedRobot, each};
 use crate::lanes::poses::slopes::{Nominal, SlopesOfLanes};
 use crate::lanes::reason::ScalarReason;
-use crate::lanes::simd::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
 use crate::loading::{CableFrequency, Deflection, deflection_from};
 use crate::problem::DirectProblem;
 use crate::state::{Load, Residual};
-use cdpr_cable::kernel::Field;
 use cdpr_cable::{Catenary, is_slack};
+use cdpr_number::Number;
+use cdpr_number::dense::{Lanes3, Lanes6x6, SymmetricFactors, six, three};
+use cdpr_number::eigen::least_eigenvalue;
+use cdpr_number::lanes::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
 use cdpr_robot::{Freedoms, Matrix3, ParameterLayout, Pose, Robot, Vector3};
 use smallvec::SmallVec;
 use std::f64::consts::TAU;
@@ -442,7 +443,7 @@ fn free_length(robot: &Robot, i: usize, wanted: &InverseSolution) -> f64 {
 mod tests {
     use super::*;
     use crate::inverse::inverse;
-    use crate::lanes::simd::Scalar;
+    use cdpr_number::lanes::Scalar;
 
     #[test]
     fn neither_vector_unit_nor_neighbours_change_a_bit_of_a_pose() {

@@ -1,13 +1,14 @@
 //! One robot at several poses, one in each lane, in its level frame.
 
-use crate::lanes::algebra::{Frame, rotated, three};
 use crate::lanes::cable::{Guided, LaneCable, Shape};
 use crate::lanes::chain::shared::{Choice, Shared, laws};
 use crate::lanes::newton::{Layout, Robots, Scale};
 use crate::lanes::reason::ScalarReason;
-use crate::lanes::simd::{Lanes, MAX_LANES, Simd};
 use crate::state::{Load, rounding_of_closure};
-use cdpr_cable::kernel::{Field, LaneGuide, LaneSegment};
+use cdpr_cable::kernel::{LaneGuide, LaneSegment};
+use cdpr_number::Number;
+use cdpr_number::dense::{Frame, rotated, three};
+use cdpr_number::lanes::{Lanes, MAX_LANES, Simd};
 use cdpr_robot::{Matrix3, Pose, Robot, Vector3, Vector6, Wrench};
 use smallvec::SmallVec;
 

@@ -2,15 +2,15 @@
 
 use crate::inverse::InverseSolution;
 use crate::lanes::adjoint::{Adjoint, Record};
-use crate::lanes::algebra::{six, three};
 use crate::lanes::chain::Keep;
 use crate::lanes::chain::shared::Shared;
 use crate::lanes::level::LevelFrame;
 use crate::lanes::newton::Robots;
 use crate::lanes::observer::rows::Rows;
 use crate::lanes::poses::placed::{PlacedRobot, each};
-use crate::lanes::simd::{Lanes, MAX_LANES, Simd};
 use crate::state::Load;
+use cdpr_number::dense::{six, three};
+use cdpr_number::lanes::{Lanes, MAX_LANES, Simd};
 use cdpr_robot::{Axis, Parameter, ParameterLayout, Robot, Vector6};
 use cdpr_tension::Bound;
 use smallvec::SmallVec;

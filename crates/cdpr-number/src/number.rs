@@ -1,4 +1,4 @@
-//! The operations that the equations of a cable ask of a kind of number.
+//! The operations that equations ask of a kind of number.
 //!
 //! The equations are written once over these traits, for doubles, intervals, dual numbers and the lanes of a
 //! vector unit.
@@ -6,7 +6,7 @@
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// Numbers for formulas without branches: they have sums, products, quotients and square roots.
-pub trait Field:
+pub trait Number:
     Copy
     + Add<Output = Self>
     + Sub<Output = Self>
@@ -16,6 +16,9 @@ pub trait Field:
     + Add<f64, Output = Self>
     + Mul<f64, Output = Self>
 {
+    /// The constant `value`, of the kind of this number and on its vector unit.
+    fn constant(self, value: f64) -> Self;
+
     /// 1/x.
     fn recip(self) -> Self;
 
@@ -24,7 +27,7 @@ pub trait Field:
 }
 
 /// Numbers for several cables at a time, whose formulas cannot branch: a comparison has an answer for each.
-pub trait Lanewise: Field {
+pub trait Lanewise: Number {
     /// An answer for each cable.
     type Mask: Copy;
 
@@ -39,7 +42,7 @@ pub trait Lanewise: Field {
 }
 
 /// Numbers for formulas with branches: a double, an interval of doubles, a double with its derivative.
-pub trait Real: Field {
+pub trait Real: Number {
     /// The exact number `value`.
     fn of(value: f64) -> Self;
 
@@ -61,11 +64,18 @@ pub trait Real: Field {
     fn within(self, error: f64) -> Self;
 }
 
-impl Field for f64 {
+impl Number for f64 {
+    #[inline(always)]
+    fn constant(self, value: f64) -> Self {
+        value
+    }
+
+    #[inline(always)]
     fn recip(self) -> Self {
         1.0 / self
     }
 
+    #[inline(always)]
     fn sqrt(self) -> Self {
         Self::sqrt(self)
     }
@@ -74,40 +84,49 @@ impl Field for f64 {
 impl Lanewise for f64 {
     type Mask = bool;
 
+    #[inline(always)]
     fn at_most(self, bound: f64) -> bool {
         self <= bound
     }
 
+    #[inline(always)]
     fn all(mask: bool) -> bool {
         mask
     }
 
+    #[inline(always)]
     fn select(mask: bool, chosen: Self, otherwise: Self) -> Self {
         if mask { chosen } else { otherwise }
     }
 }
 
 impl Real for f64 {
+    #[inline(always)]
     fn of(value: f64) -> Self {
         value
     }
 
+    #[inline(always)]
     fn value(self) -> f64 {
         self
     }
 
+    #[inline(always)]
     fn upper(self) -> f64 {
         self
     }
 
+    #[inline(always)]
     fn ln(self) -> Self {
         Self::ln(self)
     }
 
+    #[inline(always)]
     fn atan2(self, x: Self) -> Self {
         Self::atan2(self, x)
     }
 
+    #[inline(always)]
     fn within(self, _error: f64) -> Self {
         self
     }

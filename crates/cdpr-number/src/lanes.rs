@@ -5,48 +5,46 @@
 //! comparisons are used, which IEEE 754 defines to the bit, and nothing is fused: a problem has the same
 //! answer in any lane of any unit. Lanes cannot branch; a [`Mask`] selects between them.
 
-use cdpr_cable::kernel::{Field, Lanewise};
+use crate::number::{Lanewise, Number};
 use pulp::Arch;
-#[cfg(test)]
-pub(crate) use pulp::Scalar;
-pub(crate) use pulp::{Simd, WithSimd};
+pub use pulp::{Scalar, Simd, WithSimd};
 use std::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, Neg, Not, Sub, SubAssign};
 
 /// Largest number of lanes of any vector unit.
-pub(crate) const MAX_LANES: usize = 8;
+pub const MAX_LANES: usize = 8;
 
 /// Runs `task` on the widest vector unit there is.
-pub(crate) fn dispatch<T: WithSimd>(task: T) -> T::Output {
+pub fn dispatch<T: WithSimd>(task: T) -> T::Output {
     Arch::new().dispatch(task)
 }
 
 /// One number in each lane.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Lanes<S: Simd> {
+pub struct Lanes<S: Simd> {
     simd: S,
     values: S::f64s,
 }
 
 /// One choice in each lane.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Mask<S: Simd> {
+pub struct Mask<S: Simd> {
     simd: S,
     values: S::m64s,
 }
 
 impl<S: Simd> Lanes<S> {
     /// Number of lanes.
-    pub(crate) const COUNT: usize = S::F64_LANES;
+    pub const COUNT: usize = S::F64_LANES;
 
     /// The same number in all lanes.
     #[inline(always)]
-    pub(crate) fn splat(simd: S, value: f64) -> Self {
+    pub fn splat(simd: S, value: f64) -> Self {
         Self { simd, values: simd.splat_f64s(value) }
     }
 
     /// A value for each lane.
     #[inline(always)]
-    pub(crate) fn from_fn(simd: S, value: impl Fn(usize) -> f64) -> Self {
+    pub fn from_fn(simd: S, value: impl Fn(usize) -> f64) -> Self {
         let mut values = [0.0; MAX_LANES];
         for (lane, number) in values[..Self::COUNT].iter_mut().enumerate() {
             *number = value(lane);
@@ -56,7 +54,7 @@ impl<S: Simd> Lanes<S> {
 
     /// The first values of an array, one for each lane.
     #[inline(always)]
-    pub(crate) fn from_array(simd: S, values: &[f64; MAX_LANES]) -> Self {
+    pub fn from_array(simd: S, values: &[f64; MAX_LANES]) -> Self {
         // A whole vector: pulp loads a part of one by a function call.
         let (vectors, _) = S::as_simd_f64s(&values[..Self::COUNT]);
         Self { simd, values: vectors[0] }
@@ -64,19 +62,19 @@ impl<S: Simd> Lanes<S> {
 
     /// The same number in all lanes, on the unit of this one.
     #[inline(always)]
-    pub(crate) fn all(self, value: f64) -> Self {
+    pub fn all(self, value: f64) -> Self {
         Self::splat(self.simd, value)
     }
 
     /// Carries out `task` with this vector unit in a function of its own.
     #[inline(always)]
-    pub(crate) fn apart<T: WithSimd>(self, task: T) -> T::Output {
+    pub fn apart<T: WithSimd>(self, task: T) -> T::Output {
         self.simd.vectorize(task)
     }
 
     /// The value of each lane; zeros beyond the last one.
     #[inline(always)]
-    pub(crate) fn to_array(self) -> [f64; MAX_LANES] {
+    pub fn to_array(self) -> [f64; MAX_LANES] {
         let mut values = [0.0; MAX_LANES];
         let (vectors, _) = S::as_mut_simd_f64s(&mut values[..Self::COUNT]);
         vectors[0] = self.values;
@@ -85,30 +83,31 @@ impl<S: Simd> Lanes<S> {
 
     /// The value of the first lane.
     #[inline(always)]
-    pub(crate) fn first(self) -> f64 {
+    pub fn first(self) -> f64 {
         self.to_array()[0]
     }
 
+    /// Absolute values.
     #[inline(always)]
-    pub(crate) fn abs(self) -> Self {
+    pub fn abs(self) -> Self {
         Self { values: self.simd.abs_f64s(self.values), ..self }
     }
 
     /// The larger one; `other` where one of them is NaN.
     #[inline(always)]
-    pub(crate) fn max(self, other: Self) -> Self {
+    pub fn max(self, other: Self) -> Self {
         other.less_or_equal(self).select(self, other)
     }
 
     /// Takes over another number in the lanes that are `going`.
     #[inline(always)]
-    pub(crate) fn replace(&mut self, other: Self, going: Mask<S>) {
+    pub fn replace(&mut self, other: Self, going: Mask<S>) {
         *self = going.select(other, *self);
     }
 
     /// False where one of them is NaN.
     #[inline(always)]
-    pub(crate) fn less_or_equal(self, other: Self) -> Mask<S> {
+    pub fn less_or_equal(self, other: Self) -> Mask<S> {
         Mask { simd: self.simd, values: self.simd.less_than_or_equal_f64s(self.values, other.values) }
     }
 }
@@ -116,18 +115,20 @@ impl<S: Simd> Lanes<S> {
 impl<S: Simd> Mask<S> {
     /// One of two numbers in each lane.
     #[inline(always)]
-    pub(crate) fn select(self, chosen: Lanes<S>, otherwise: Lanes<S>) -> Lanes<S> {
+    pub fn select(self, chosen: Lanes<S>, otherwise: Lanes<S>) -> Lanes<S> {
         Lanes { simd: self.simd, values: self.simd.select_f64s(self.values, chosen.values, otherwise.values) }
     }
 
+    /// The choice of each lane; false beyond the last one.
     #[inline(always)]
-    pub(crate) fn to_array(self) -> [bool; MAX_LANES] {
+    pub fn to_array(self) -> [bool; MAX_LANES] {
         let one = Lanes::splat(self.simd, 1.0);
         self.select(one, one.all(0.0)).to_array().map(|value| value == 1.0)
     }
 
+    /// Whether it is true in any lane.
     #[inline(always)]
-    pub(crate) fn any(self) -> bool {
+    pub fn any(self) -> bool {
         self.simd.first_true_m64s(self.values) < Lanes::<S>::COUNT
     }
 }
@@ -238,7 +239,12 @@ impl<S: Simd> Lanewise for Lanes<S> {
     }
 }
 
-impl<S: Simd> Field for Lanes<S> {
+impl<S: Simd> Number for Lanes<S> {
+    #[inline(always)]
+    fn constant(self, value: f64) -> Self {
+        Self::splat(self.simd, value)
+    }
+
     #[inline(always)]
     fn recip(self) -> Self {
         self.all(1.0) / self

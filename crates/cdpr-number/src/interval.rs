@@ -6,21 +6,24 @@
 //! gives the whole line, with which no proof succeeds. Moore, Kearfott, Cloud, *Introduction to Interval
 //! Analysis* (2009), chapter 2.
 
-use cdpr_cable::kernel::{Field, Real};
+use crate::number::{Number, Real};
 use num_traits::{One, Zero};
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
 /// All numbers from `low` to `high`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Interval {
-    pub(crate) low: f64,
-    pub(crate) high: f64,
+pub struct Interval {
+    /// The least of them.
+    pub low: f64,
+    /// The greatest.
+    pub high: f64,
 }
 
 impl Interval {
     const LINE: Self = Self { low: f64::NEG_INFINITY, high: f64::INFINITY };
 
     /// Encloses `low..=high`, both known to half a unit in the last place.
+    #[inline]
     fn outward(low: f64, high: f64) -> Self {
         if low.is_nan() || high.is_nan() {
             return Self::LINE;
@@ -29,17 +32,20 @@ impl Interval {
     }
 
     /// The numbers within `radius` of `middle`.
-    pub(crate) fn around(middle: f64, radius: f64) -> Self {
+    #[inline]
+    pub fn around(middle: f64, radius: f64) -> Self {
         Self::outward(middle - radius, middle + radius)
     }
 
     /// How far the interval reaches from `middle`, rounded up.
-    pub(crate) fn radius_about(self, middle: f64) -> f64 {
+    #[inline]
+    pub fn radius_about(self, middle: f64) -> f64 {
         (self.high - middle).max(middle - self.low).next_up().max(0.0)
     }
 
     /// The largest absolute value.
-    pub(crate) fn magnitude(self) -> f64 {
+    #[inline]
+    pub fn magnitude(self) -> f64 {
         self.low.abs().max(self.high.abs())
     }
 }
@@ -47,6 +53,7 @@ impl Interval {
 impl Add for Interval {
     type Output = Self;
 
+    #[inline]
     fn add(self, other: Self) -> Self {
         Self::outward(self.low + other.low, self.high + other.high)
     }
@@ -55,6 +62,7 @@ impl Add for Interval {
 impl Sub for Interval {
     type Output = Self;
 
+    #[inline]
     fn sub(self, other: Self) -> Self {
         Self::outward(self.low - other.high, self.high - other.low)
     }
@@ -63,6 +71,7 @@ impl Sub for Interval {
 impl Neg for Interval {
     type Output = Self;
 
+    #[inline]
     fn neg(self) -> Self {
         Self { low: -self.high, high: -self.low }
     }
@@ -71,6 +80,7 @@ impl Neg for Interval {
 impl Mul for Interval {
     type Output = Self;
 
+    #[inline]
     fn mul(self, other: Self) -> Self {
         if self.is_zero() || other.is_zero() {
             return Self::zero();
@@ -87,6 +97,7 @@ impl Mul for Interval {
 impl Div for Interval {
     type Output = Self;
 
+    #[inline]
     fn div(self, other: Self) -> Self {
         // Not even zero divided by zero is zero.
         let inverse = other.recip();
@@ -97,6 +108,7 @@ impl Div for Interval {
 impl Add<f64> for Interval {
     type Output = Self;
 
+    #[inline]
     fn add(self, other: f64) -> Self {
         self + Self::of(other)
     }
@@ -105,46 +117,59 @@ impl Add<f64> for Interval {
 impl Mul<f64> for Interval {
     type Output = Self;
 
+    #[inline]
     fn mul(self, other: f64) -> Self {
         self * Self::of(other)
     }
 }
 
 impl AddAssign for Interval {
+    #[inline]
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
     }
 }
 
 impl SubAssign for Interval {
+    #[inline]
     fn sub_assign(&mut self, other: Self) {
         *self = *self - other;
     }
 }
 
 impl MulAssign for Interval {
+    #[inline]
     fn mul_assign(&mut self, other: Self) {
         *self = *self * other;
     }
 }
 
 impl Zero for Interval {
+    #[inline]
     fn zero() -> Self {
         Self { low: 0.0, high: 0.0 }
     }
 
+    #[inline]
     fn is_zero(&self) -> bool {
         self.low == 0.0 && self.high == 0.0
     }
 }
 
 impl One for Interval {
+    #[inline]
     fn one() -> Self {
         Self { low: 1.0, high: 1.0 }
     }
 }
 
-impl Field for Interval {
+impl Number for Interval {
+    #[inline]
+    fn constant(self, value: f64) -> Self {
+        Self::of(value)
+    }
+
+    #[inline]
     fn recip(self) -> Self {
         if self.low <= 0.0 && self.high >= 0.0 {
             return Self::LINE;
@@ -152,24 +177,29 @@ impl Field for Interval {
         Self::outward(1.0 / self.high, 1.0 / self.low)
     }
 
+    #[inline]
     fn sqrt(self) -> Self {
         if self.low < 0.0 { Self::LINE } else { Self::outward(self.low.sqrt(), self.high.sqrt()) }
     }
 }
 
 impl Real for Interval {
+    #[inline]
     fn of(value: f64) -> Self {
         if value.is_nan() { Self::LINE } else { Self { low: value, high: value } }
     }
 
+    #[inline]
     fn value(self) -> f64 {
         0.5 * (self.low + self.high)
     }
 
+    #[inline]
     fn upper(self) -> f64 {
         self.high
     }
 
+    #[inline]
     fn ln(self) -> Self {
         if self.low <= 0.0 {
             return Self::LINE;
@@ -180,6 +210,7 @@ impl Real for Interval {
         Self::outward(wide.low, wide.high)
     }
 
+    #[inline]
     fn atan2(self, x: Self) -> Self {
         if self.low <= 0.0 {
             return Self::LINE;
@@ -192,6 +223,7 @@ impl Real for Interval {
         Self::outward(low * (1.0 - 4.0 * f64::EPSILON), high * (1.0 + 4.0 * f64::EPSILON))
     }
 
+    #[inline]
     fn within(self, error: f64) -> Self {
         self + Self::around(0.0, error)
     }

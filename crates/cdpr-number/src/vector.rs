@@ -2,17 +2,17 @@
 //!
 //! Arrays, because the lanes of a vector unit are no scalars of nalgebra.
 
-use cdpr_cable::kernel::Field;
+use crate::number::Number;
 
 /// a x b.
 #[inline(always)]
-pub(crate) fn cross<T: Field>(a: &[T; 3], b: &[T; 3]) -> [T; 3] {
+pub fn cross<T: Number>(a: &[T; 3], b: &[T; 3]) -> [T; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 /// a·b.
 #[inline(always)]
-pub(crate) fn dot<T: Field, const N: usize>(a: &[T; N], b: &[T; N]) -> T {
+pub fn dot<T: Number, const N: usize>(a: &[T; N], b: &[T; N]) -> T {
     let mut sum = a[0] * b[0];
     for k in 1..N {
         sum = sum + a[k] * b[k];
@@ -22,7 +22,7 @@ pub(crate) fn dot<T: Field, const N: usize>(a: &[T; N], b: &[T; N]) -> T {
 
 /// Wrench [F; s x F] about P of a force F at the arm s.
 #[inline(always)]
-pub(crate) fn wrench<T: Field>(arm: &[T; 3], force: &[T; 3]) -> [T; 6] {
+pub fn wrench<T: Number>(arm: &[T; 3], force: &[T; 3]) -> [T; 6] {
     let ([x, y, z], [mx, my, mz]) = (*force, cross(arm, force));
     [x, y, z, mx, my, mz]
 }

@@ -11,9 +11,9 @@
 //! with the sign of θ. The small eigenvalues of a positive definite matrix are as exact as the large ones
 //! where its elements are (J. Demmel, K. Veselić, *Jacobi's method is more accurate than QR*, 1992).
 
-use crate::lanes::algebra::Lanes6x6;
-use crate::lanes::simd::{Lanes, Simd};
-use cdpr_cable::kernel::Field;
+use crate::dense::Lanes6x6;
+use crate::lanes::{Lanes, Simd};
+use crate::number::Number;
 
 /// Sweeps over all elements. They converge quadratically; five or six are usual.
 const MAX_SWEEPS: usize = 12;
@@ -27,7 +27,7 @@ const NEGLIGIBLE: f64 = 1e-24;
 // Indices as in the formula.
 #[allow(clippy::needless_range_loop)]
 #[inline(always)]
-pub(crate) fn least_eigenvalue<S: Simd>(matrix: Lanes6x6<S>) -> Lanes<S> {
+pub fn least_eigenvalue<S: Simd>(matrix: Lanes6x6<S>) -> Lanes<S> {
     let mut a = matrix;
     let zero = a[0][0].all(0.0);
     for _ in 0..MAX_SWEEPS {
@@ -79,8 +79,8 @@ pub(crate) fn least_eigenvalue<S: Simd>(matrix: Lanes6x6<S>) -> Lanes<S> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lanes::algebra::SymmetricFactors;
-    use crate::lanes::simd::{MAX_LANES, Scalar, WithSimd, dispatch};
+    use crate::dense::SymmetricFactors;
+    use crate::lanes::{MAX_LANES, Scalar, WithSimd, dispatch};
     use nalgebra::Matrix6;
 
     /// Pairs of matrices K and M, one in each lane: the least eigenvalue of K, and that of K v = λ M v.

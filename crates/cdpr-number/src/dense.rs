@@ -1,37 +1,41 @@
 //! Vectors and systems of six equations in lanes.
 
-use crate::equations::vector::{dot, wrench};
-use crate::lanes::simd::{Lanes, Mask, Simd};
-use cdpr_cable::kernel::Field;
-use cdpr_robot::Freedoms;
+use crate::lanes::{Lanes, Mask, Simd};
+use crate::number::Number;
+use crate::vector::{dot, wrench};
 
 /// A vector in a cable's vertical plane: along e_h, along e_z.
-pub(crate) type Lanes2<S> = [Lanes<S>; 2];
+pub type Lanes2<S> = [Lanes<S>; 2];
 
 /// A point or a vector in the base frame.
-pub(crate) type Lanes3<S> = [Lanes<S>; 3];
+pub type Lanes3<S> = [Lanes<S>; 3];
 
 /// Force and moment about P, or translation and rotation.
-pub(crate) type Lanes6<S> = [Lanes<S>; 6];
+pub type Lanes6<S> = [Lanes<S>; 6];
 
 /// Six rows of six.
-pub(crate) type Lanes6x6<S> = [[Lanes<S>; 6]; 6];
+pub type Lanes6x6<S> = [[Lanes<S>; 6]; 6];
 
 /// Three components of one formula. Closures may be compiled apart from their caller, without the vector
 /// unit.
+#[macro_export]
 macro_rules! three {
     (|$k:ident| $component:expr) => {
-        $crate::lanes::algebra::components!(|$k| $component; 0, 1, 2)
+        $crate::components!(|$k| $component; 0, 1, 2)
     };
 }
 
 /// Six components of one formula.
+#[macro_export]
 macro_rules! six {
     (|$k:ident| $component:expr) => {
-        $crate::lanes::algebra::components!(|$k| $component; 0, 1, 2, 3, 4, 5)
+        $crate::components!(|$k| $component; 0, 1, 2, 3, 4, 5)
     };
 }
 
+/// The components of `three` and `six`.
+#[doc(hidden)]
+#[macro_export]
 macro_rules! components {
     (|$k:ident| $component:expr; $($index:literal),+) => {
         [$({
@@ -43,13 +47,13 @@ macro_rules! components {
 
 /// Factors Uᵀ D U of a symmetric matrix, U with ones on its diagonal.
 #[derive(Clone, Copy)]
-pub(crate) struct SymmetricFactors<S: Simd> {
+pub struct SymmetricFactors<S: Simd> {
     /// U above the diagonal; the other elements are not used.
     upper: Lanes6x6<S>,
     /// 1/D.
     pivots_inv: [Lanes<S>; 6],
     /// Whether the matrix is positive definite.
-    pub(crate) positive: Mask<S>,
+    pub positive: Mask<S>,
 }
 
 impl<S: Simd> SymmetricFactors<S> {
@@ -57,7 +61,7 @@ impl<S: Simd> SymmetricFactors<S> {
     // Indices as in the formula.
     #[allow(clippy::needless_range_loop)]
     #[inline(always)]
-    pub(crate) fn new(matrix: Lanes6x6<S>) -> Self {
+    pub fn new(matrix: Lanes6x6<S>) -> Self {
         let mut upper = matrix;
         let mut pivots_inv = [upper[0][0]; 6];
         let tiny = upper[0][0].all(f64::MIN_POSITIVE);
@@ -81,7 +85,7 @@ impl<S: Simd> SymmetricFactors<S> {
     /// The lanes in which every pivot is more than `share` of its element of `diagonal`, that of the matrix
     /// itself: others lost as many digits, or are singular.
     #[inline(always)]
-    pub(crate) fn is_regular(&self, diagonal: &Lanes6<S>, share: f64) -> Mask<S> {
+    pub fn is_regular(&self, diagonal: &Lanes6<S>, share: f64) -> Mask<S> {
         let most = diagonal[0].all(share.recip());
         let mut regular = most.less_or_equal(most);
         for (element, pivot_inv) in diagonal.iter().zip(&self.pivots_inv) {
@@ -94,7 +98,7 @@ impl<S: Simd> SymmetricFactors<S> {
     // Indices as in the formula.
     #[allow(clippy::needless_range_loop)]
     #[inline(always)]
-    pub(crate) fn product(&self) -> Lanes6x6<S> {
+    pub fn product(&self) -> Lanes6x6<S> {
         let zero = self.pivots_inv[0].all(0.0);
         let mut matrix = [[zero; 6]; 6];
         for k in 0..6 {
@@ -114,7 +118,7 @@ impl<S: Simd> SymmetricFactors<S> {
 
     /// Takes over another one in the lanes that are `going`.
     #[inline(always)]
-    pub(crate) fn replace(&mut self, other: &Self, going: Mask<S>) {
+    pub fn replace(&mut self, other: &Self, going: Mask<S>) {
         for row in 0..6 {
             for column in row + 1..6 {
                 self.upper[row][column].replace(other.upper[row][column], going);
@@ -124,8 +128,9 @@ impl<S: Simd> SymmetricFactors<S> {
         self.positive = (going & other.positive) | (!going & self.positive);
     }
 
+    /// The solution for a right side.
     #[inline(always)]
-    pub(crate) fn solve(&self, right: &Lanes6<S>) -> Lanes6<S> {
+    pub fn solve(&self, right: &Lanes6<S>) -> Lanes6<S> {
         let mut x = self.forwards(right);
         for row in (0..6).rev() {
             x[row] = x[row] * self.pivots_inv[row];
@@ -153,7 +158,7 @@ impl<S: Simd> SymmetricFactors<S> {
     // Indices as in the formula.
     #[allow(clippy::needless_range_loop)]
     #[inline(always)]
-    pub(crate) fn reduced(&self, matrix: &Lanes6x6<S>) -> Lanes6x6<S> {
+    pub fn reduced(&self, matrix: &Lanes6x6<S>) -> Lanes6x6<S> {
         let roots = six!(|k| self.pivots_inv[k].sqrt());
         let mut rows = *matrix;
         for row in 1..6 {
@@ -180,7 +185,7 @@ impl<S: Simd> SymmetricFactors<S> {
 // Indices as in the formula.
 #[allow(clippy::needless_range_loop)]
 #[inline(always)]
-pub(crate) fn solve_columns<S: Simd>(columns: &Lanes6x6<S>, right: &Lanes6<S>) -> Lanes6<S> {
+pub fn solve_columns<S: Simd>(columns: &Lanes6x6<S>, right: &Lanes6<S>) -> Lanes6<S> {
     let (mut columns, mut right) = (*columns, *right);
     let mut upper = columns;
     let mut x = right;
@@ -208,54 +213,25 @@ pub(crate) fn solve_columns<S: Simd>(columns: &Lanes6x6<S>, right: &Lanes6<S>) -
 }
 
 /// The columns of a frame.
-pub(crate) type Frame<S> = [Lanes3<S>; 3];
+pub type Frame<S> = [Lanes3<S>; 3];
 
 /// R v.
 #[inline(always)]
-pub(crate) fn rotated<S: Simd>(frame: &Frame<S>, v: &Lanes3<S>) -> Lanes3<S> {
+pub fn rotated<S: Simd>(frame: &Frame<S>, v: &Lanes3<S>) -> Lanes3<S> {
     three!(|k| v[0] * frame[0][k] + v[1] * frame[1][k] + v[2] * frame[2][k])
 }
 
-pub(crate) use {components, six, three};
+pub use crate::{six, three};
 
+/// Force and moment of a wrench, or translation and rotation of a twist.
 #[inline(always)]
-pub(crate) fn halves<S: Simd>(wrench: &Lanes6<S>) -> (Lanes3<S>, Lanes3<S>) {
+pub fn halves<S: Simd>(wrench: &Lanes6<S>) -> (Lanes3<S>, Lanes3<S>) {
     (three!(|k| wrench[k]), three!(|k| wrench[3 + k]))
-}
-
-/// A wrench or a twist without its components along the motions that are held.
-#[inline(always)]
-pub(crate) fn hold<S: Simd>(freedoms: Freedoms, v: Lanes6<S>) -> Lanes6<S> {
-    if freedoms.are_all() {
-        return v;
-    }
-    six!(|k| if freedoms.contains(k) { v[k] } else { v[k].all(0.0) })
-}
-
-/// The same of the upper triangle of a matrix, with `diagonal` for those motions.
-#[inline(always)]
-pub(crate) fn hold_matrix<S: Simd>(freedoms: Freedoms, matrix: &mut Lanes6x6<S>, diagonal: Lanes<S>) {
-    if freedoms.are_all() {
-        return;
-    }
-    for (row, elements) in matrix.iter_mut().enumerate() {
-        match freedoms.contains(row) {
-            true => *elements = hold(freedoms, *elements),
-            false => {
-                *elements = [diagonal.all(0.0); 6];
-                elements[row] = diagonal;
-            }
-        }
-    }
 }
 
 /// Takes over other components in the lanes that are `going`.
 #[inline(always)]
-pub(crate) fn replace<S: Simd, const N: usize>(
-    own: &mut [Lanes<S>; N],
-    other: &[Lanes<S>; N],
-    going: Mask<S>,
-) {
+pub fn replace<S: Simd, const N: usize>(own: &mut [Lanes<S>; N], other: &[Lanes<S>; N], going: Mask<S>) {
     for k in 0..N {
         own[k].replace(other[k], going);
     }
@@ -263,7 +239,7 @@ pub(crate) fn replace<S: Simd, const N: usize>(
 
 /// Adds [F; s x F].
 #[inline(always)]
-pub(crate) fn add<S: Simd>(sum: &mut Lanes6<S>, arm: &Lanes3<S>, force: &Lanes3<S>) {
+pub fn add<S: Simd>(sum: &mut Lanes6<S>, arm: &Lanes3<S>, force: &Lanes3<S>) {
     let wrench = wrench(arm, force);
     for k in 0..6 {
         sum[k] += wrench[k];
