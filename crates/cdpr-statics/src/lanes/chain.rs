@@ -174,7 +174,8 @@ fn chain<'a, S: Simd>(
     let Distributed { converged, sound, demanded } = match free.is_empty() {
         true => {
             let keep = keep.as_mut().map(|keep| &mut **keep as _);
-            distribute(robots, &weight, multipliers, set_points, &spans, shared, keep)
+            let (external, spans, offsets) = (&weight, &*spans, &mut **set_points);
+            zero.apart(Distribute { robots, external, multipliers, offsets, spans, shared, keep })
         }
         false => {
             let (converged, sound) = rest(robots, free, set_points, &mut spans, shared);
@@ -182,7 +183,14 @@ fn chain<'a, S: Simd>(
         }
     };
     let mut platform = LinearizedPlatform::new(zero, spans.len());
-    let held = wind(robots, &mut platform, set_points, &spans, (&demanded, shared));
+    let held = zero.apart(Wind {
+        robots,
+        platform: &mut platform,
+        set_points,
+        spans: &spans,
+        demanded: &demanded,
+        shared,
+    });
     if let Some(keep) = &mut keep {
         keep.state(robots);
     }
@@ -210,17 +218,30 @@ fn chain<'a, S: Simd>(
 }
 
 /// The tensions nearest to their reference at the wanted pose under the wrench `external`, equations (L2) and
-/// (L3); `offsets` are added to them and become set-points, towards which cables make a first step.
+/// (L3); `offsets` are added to them and become set-points, towards which cables make a first step. All callers
+/// share one function for each vector unit.
+pub(crate) struct Distribute<'b, 'a, S: Simd> {
+    pub(crate) robots: &'b mut Robots<'a, S>,
+    pub(crate) external: &'b Lanes6<S>,
+    pub(crate) multipliers: &'b mut Lanes6<S>,
+    pub(crate) offsets: &'b mut [Lanes<S>],
+    pub(crate) spans: &'b [Span<Lanes<S>>],
+    pub(crate) shared: &'b Shared,
+    pub(crate) keep: Keeper<'b, 'a, S>,
+}
+
+impl<S: Simd> WithSimd for Distribute<'_, '_, S> {
+    type Output = Distributed<S>;
+
+    #[inline(always)]
+    fn with_simd<Same: Simd>(self, _: Same) -> Distributed<S> {
+        distribute(self)
+    }
+}
+
 #[inline(always)]
-pub(crate) fn distribute<'a, S: Simd>(
-    robots: &mut Robots<'a, S>,
-    external: &Lanes6<S>,
-    multipliers: &mut Lanes6<S>,
-    offsets: &mut [Lanes<S>],
-    spans: &[Span<Lanes<S>>],
-    shared: &Shared,
-    mut keep: Keeper<'_, 'a, S>,
-) -> Distributed<S> {
+fn distribute<S: Simd>(task: Distribute<'_, '_, S>) -> Distributed<S> {
+    let Distribute { robots, external, multipliers, offsets, spans, shared, mut keep } = task;
     let (zero, freedoms) = (robots.weight.all(0.0), robots.freedoms);
     let compared = [shared.tension, shared.scale.size];
     let last_change = zero.all(LAST_DISTRIBUTION);
@@ -410,15 +431,28 @@ pub(crate) struct Distributed<S: Simd> {
 }
 
 /// Lengths that give the tensions `set_points` at the wanted pose, and the cables linearised there. Returns
-/// the lanes where all were found.
+/// the lanes where all were found. All callers share one function for each vector unit.
+pub(crate) struct Wind<'b, 'a, S: Simd> {
+    pub(crate) robots: &'b mut Robots<'a, S>,
+    pub(crate) platform: &'b mut LinearizedPlatform<S>,
+    pub(crate) set_points: &'b [Lanes<S>],
+    pub(crate) spans: &'b [Span<Lanes<S>>],
+    pub(crate) demanded: &'b [Mask<S>],
+    pub(crate) shared: &'b Shared,
+}
+
+impl<S: Simd> WithSimd for Wind<'_, '_, S> {
+    type Output = Mask<S>;
+
+    #[inline(always)]
+    fn with_simd<Same: Simd>(self, _: Same) -> Mask<S> {
+        wind(self)
+    }
+}
+
 #[inline(always)]
-pub(crate) fn wind<S: Simd>(
-    robots: &mut Robots<'_, S>,
-    platform: &mut LinearizedPlatform<S>,
-    set_points: &[Lanes<S>],
-    spans: &[Span<Lanes<S>>],
-    (demanded, shared): (&[Mask<S>], &Shared),
-) -> Mask<S> {
+fn wind<S: Simd>(task: Wind<'_, '_, S>) -> Mask<S> {
+    let Wind { robots, platform, set_points, spans, demanded, shared } = task;
     let zero = robots.weight.all(0.0);
     let compared = [shared.tension, shared.scale.size];
     let mut all = zero.less_or_equal(zero);

@@ -13,7 +13,7 @@ use crate::state::Residual;
 use cdpr_cable::kernel::{FOLDED, LaneEnd};
 use cdpr_number::Number;
 use cdpr_number::dense::{Lanes3, Lanes6, Lanes6x6, SymmetricFactors, add, halves, replace, six, three};
-use cdpr_number::lanes::{Lanes, MAX_LANES, Mask, Simd};
+use cdpr_number::lanes::{Lanes, MAX_LANES, Mask, Simd, WithSimd};
 use cdpr_number::vector::{cross, dot};
 use cdpr_robot::Freedoms;
 use smallvec::{SmallVec, smallvec};
@@ -398,9 +398,20 @@ impl<S: Simd> Robots<'_, S> {
     /// Newton's method on the direct model from a linearisation, in the lanes `alive`.
     ///
     /// Returns the lanes that found a stable equilibrium, and its residual. The linearisation is then one at
-    /// this equilibrium, with a stiffness from nearby.
+    /// this equilibrium, with a stiffness from nearby. All callers share one function for each vector unit.
     #[inline(always)]
     pub(crate) fn settle(
+        &mut self,
+        load: &PlatformLoad<S>,
+        platform: &mut LinearizedPlatform<S>,
+        scale: &Scale,
+        alive: Mask<S>,
+    ) -> (Mask<S>, LaneResidual<S>) {
+        self.weight.apart(Settle { robots: self, load, platform, scale, alive })
+    }
+
+    #[inline(always)]
+    fn settle_here(
         &mut self,
         load: &PlatformLoad<S>,
         platform: &mut LinearizedPlatform<S>,
@@ -501,6 +512,24 @@ impl<S: Simd> Robots<'_, S> {
         let position = three!(|k| self.position[k] + translation[k]);
         replace(&mut self.position, &position, going);
         [steady, held]
+    }
+}
+
+/// The arguments of [`Robots::settle`].
+struct Settle<'b, 'a, S: Simd> {
+    robots: &'b mut Robots<'a, S>,
+    load: &'b PlatformLoad<S>,
+    platform: &'b mut LinearizedPlatform<S>,
+    scale: &'b Scale,
+    alive: Mask<S>,
+}
+
+impl<S: Simd> WithSimd for Settle<'_, '_, S> {
+    type Output = (Mask<S>, LaneResidual<S>);
+
+    #[inline(always)]
+    fn with_simd<Same: Simd>(self, _: Same) -> Self::Output {
+        self.robots.settle_here(self.load, self.platform, self.scale, self.alive)
     }
 }
 

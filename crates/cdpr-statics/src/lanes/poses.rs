@@ -18,7 +18,7 @@ use crate::inverse::{InTurn, InverseSolution};
 use crate::lanes::cable::Shape;
 use crate::lanes::chain::minimum::is_least;
 use crate::lanes::chain::shared::Shared;
-use crate::lanes::chain::{Distributed, Keep, SAGGING, distribute, wind};
+use crate::lanes::chain::{Distribute, Distributed, Keep, SAGGING, Wind};
 use crate::lanes::freedoms::hold;
 use crate::lanes::held::HeldCable;
 use crate::lanes::load::PlatformLoad;
@@ -271,17 +271,24 @@ impl<S: Simd> InLanes<'_, S> {
         let mut multipliers = six!(|k| self.each(&|asked| asked.near.multipliers[k]));
         let mut set_points = vec![zero; spans.len()];
         let mut limits = Limits(SmallVec::new());
-        let Distributed { converged, sound, demanded } = distribute(
-            &mut robots,
-            &external,
-            &mut multipliers,
-            &mut set_points,
-            &spans,
+        let Distributed { converged, sound, demanded } = zero.apart(Distribute {
+            robots: &mut robots,
+            external: &external,
+            multipliers: &mut multipliers,
+            offsets: &mut set_points,
+            spans: &spans,
             shared,
-            Some(&mut limits),
-        );
+            keep: Some(&mut limits),
+        });
         let mut platform = LinearizedPlatform::new(zero, spans.len());
-        let held = wind(&mut robots, &mut platform, &set_points, &spans, (&demanded, shared));
+        let held = zero.apart(Wind {
+            robots: &mut robots,
+            platform: &mut platform,
+            set_points: &set_points,
+            spans: &spans,
+            demanded: &demanded,
+            shared,
+        });
         let Limits(limits) = limits;
         let found = converged & sound & held;
         let found = found & self.is_least(&robots, &spans, &multipliers, &limits);
