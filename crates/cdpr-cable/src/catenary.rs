@@ -19,6 +19,10 @@ use nalgebra::Vector2;
 /// span or more. A cable without weight is slack where it carries nothing.
 pub const SLACK_BELOW_OWN_WEIGHTS: f64 = 1.0;
 
+/// No cable without a guide whose tension rises with its chord force is longer than this many chords: the one
+/// of least tension over a level span has 1.2584.
+pub const LONGEST_TAUT: f64 = 1.3;
+
 /// Whether a cable with this weight beyond its exit point [N] is slack with these tensions at its ends [N].
 pub fn is_slack(weight: f64, [one, other]: [f64; 2]) -> bool {
     one.min(other) <= SLACK_BELOW_OWN_WEIGHTS * weight

@@ -44,7 +44,7 @@ pub use cable::Cable;
 pub use catenary::compliance::Compliance;
 pub use catenary::shape::FromLeavePoint;
 pub use catenary::spatial::{HeldSlopes, SpatialCable, SpatialResponse, SpatialSlopes};
-pub use catenary::{Catenary, SLACK_BELOW_OWN_WEIGHTS, is_slack};
+pub use catenary::{Catenary, LONGEST_TAUT, SLACK_BELOW_OWN_WEIGHTS, is_slack};
 pub use error::{CableError, MAX_STRAIN};
 pub use guide::{Entry, Guide};
 pub use law::{ElasticLaw, PiecewiseLaw, Segment};

@@ -5,6 +5,7 @@
 mod dual;
 mod guided;
 mod held;
+mod longest_taut;
 mod piecewise;
 mod properties;
 mod reference;

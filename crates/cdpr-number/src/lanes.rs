@@ -9,13 +9,72 @@ use crate::number::{Lanewise, Number};
 use pulp::Arch;
 pub use pulp::{Scalar, Simd, WithSimd};
 use std::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, Neg, Not, Sub, SubAssign};
+use std::sync::atomic::{AtomicU8, Ordering::Relaxed};
+use std::sync::{Mutex, PoisonError};
 
 /// Largest number of lanes of any vector unit.
 pub const MAX_LANES: usize = 8;
 
-/// Runs `task` on the widest vector unit there is.
+/// A vector unit of the processor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Unit {
+    /// None: one lane.
+    Scalar,
+    /// AVX2: four lanes.
+    Avx2,
+    /// The widest one there is.
+    Widest,
+}
+
+/// The unit of [`dispatch`].
+static UNIT: AtomicU8 = AtomicU8::new(Unit::Widest as u8);
+
+/// Held by who chooses the unit.
+static CHOICE: Mutex<()> = Mutex::new(());
+
+impl Unit {
+    /// The units of this processor, the narrowest first.
+    pub fn all() -> Vec<Self> {
+        let units = [Self::Scalar, Self::Avx2, Self::Widest];
+        units.into_iter().filter(|unit| *unit != Self::Avx2 || avx2().is_some()).collect()
+    }
+
+    /// Carries out `task` with this unit on all threads, for tests and measurements: no result depends on the
+    /// unit. Calls wait for each other.
+    pub fn run<R>(self, task: impl FnOnce() -> R) -> R {
+        struct Reset;
+        impl Drop for Reset {
+            fn drop(&mut self) {
+                UNIT.store(Unit::Widest as u8, Relaxed);
+            }
+        }
+        let _choice = CHOICE.lock().unwrap_or_else(PoisonError::into_inner);
+        let _reset = Reset;
+        UNIT.store(self as u8, Relaxed);
+        task()
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+fn avx2() -> Option<pulp::x86::V3> {
+    pulp::x86::V3::try_new()
+}
+
+#[cfg(not(target_arch = "x86_64"))]
+fn avx2() -> Option<Scalar> {
+    None
+}
+
+/// Runs `task` on the widest vector unit there is, or that of [`Unit::run`].
 pub fn dispatch<T: WithSimd>(task: T) -> T::Output {
-    Arch::new().dispatch(task)
+    let unit = UNIT.load(Relaxed);
+    if unit == Unit::Widest as u8 {
+        return Arch::new().dispatch(task);
+    }
+    match avx2() {
+        Some(avx2) if unit == Unit::Avx2 as u8 => Simd::vectorize(avx2, task),
+        _ => Simd::vectorize(Scalar, task),
+    }
 }
 
 /// One number in each lane.

@@ -7,14 +7,13 @@ mod newton;
 mod search;
 mod solution;
 mod stability;
+mod subproblem;
 mod trust_region;
 
 pub use continuation::{Loss, LossKind, Path, PathStep, Setting, follow_load};
 pub(crate) use continuation::{follow_change, follow_from};
 pub use multistart::{Equilibria, Found, Starts};
 pub(crate) use near::{KEPT, MAX_CORRECTION, SAME_POSE};
-#[cfg(test)]
-pub(crate) use newton::newton_step;
 pub use search::{Start, direct, rough_pose};
 pub use solution::{DirectMethod, DirectSolution, Report};
 pub use stability::{Mode, Stability};

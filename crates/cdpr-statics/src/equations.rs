@@ -14,7 +14,7 @@ mod spanned;
 pub(crate) use assembled::{FactoredJacobian, NEAR_VERTICAL, State, closure_row, jacobian, residual, skew};
 pub(crate) use balance::Balance;
 pub(crate) use cable::{CablePlane, LinearizedCable, Span, between};
-pub(crate) use held::{ABOVE_LEAST, Bounds, Ends, Held, LONGEST_TAUT};
+pub(crate) use held::{ABOVE_LEAST, Bounds, Ends, Held};
 pub use linearization::Linearization;
 pub(crate) use motions::{Motions, Pins, cables_at, is_definite, per_length};
 pub use partials::Inputs;

@@ -4,6 +4,7 @@
 
 mod any_lanes;
 mod any_robot;
+mod assembled;
 mod branch;
 mod common;
 mod derivative_invariants;
@@ -32,6 +33,8 @@ mod reference;
 mod search;
 mod softest;
 mod strain;
+mod subproblem;
 mod tangent;
 mod tensions;
 mod tracker;
+mod vector_units;

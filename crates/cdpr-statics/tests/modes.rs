@@ -4,8 +4,8 @@ use crate::common::{caroca, cogiro};
 use crate::equilibria::{number, vector};
 use crate::pulleys::{led, robot};
 use crate::reference::rotation;
-use cdpr_robot::{Matrix3, Platform, Pose, Robot, Vector3, Wrench};
-use cdpr_statics::{DirectProblem, Load, Start, modes_at};
+use cdpr_robot::{Matrix3, Platform, Pose, Robot, Vector3, Vector6, Wrench};
+use cdpr_statics::{DirectProblem, Load, Start, modes_at, stiffness_at};
 use nalgebra::Matrix6;
 use serde_json::Value;
 
@@ -96,4 +96,26 @@ fn a_heavier_platform_moves_more_slowly_and_a_payload_is_mass_at_its_centre() {
 fn a_robot_without_inertia_and_an_unstable_equilibrium_have_no_frequencies() {
     let error = modes_at(&caroca(), &Pose::at(0.0, 0.0, 1.75), &Load::none(), &[]).unwrap_err().to_string();
     assert!(error.contains("platform.inertia is missing"), "{error}");
+}
+
+#[test]
+fn the_modes_of_a_stability_make_up_the_stiffness() {
+    for (robot, pose) in [(caroca(), Pose::at(0.3, -0.2, 1.75)), (cogiro(), Pose::at(2.0, 1.0, 1.5))] {
+        let found = stiffness_at(&robot, &pose, &Load::none(), &[]).unwrap();
+        let length = found.stability.characteristic_length();
+        let modes = found.stability.modes();
+        let sum: Matrix6<f64> = modes
+            .iter()
+            .map(|mode| {
+                let [t, r] = [mode.translation, length * length * mode.rotation];
+                let covector = Vector6::new(t.x, t.y, t.z, r.x, r.y, r.z);
+                mode.stiffness * covector * covector.transpose()
+            })
+            .sum();
+        let size = found.symmetric_part.norm();
+        assert!((sum - found.symmetric_part).norm() < 1e-10 * size);
+        for (mode, value) in modes.iter().zip(found.stability.eigenvalues()) {
+            assert!((mode.stiffness - value).abs() < 1e-12 * size);
+        }
+    }
 }

@@ -367,3 +367,28 @@ fn rows_of_another_width_are_refused_and_none_is_observed() {
     }
     assert_eq!(observer.observe_all(&[]), []);
 }
+
+#[test]
+fn each_reason_for_the_scalar_models_has_a_name_of_its_own() {
+    use ScalarReason::*;
+    let reasons = [
+        OneByOne,
+        Output,
+        FreeCoordinates,
+        FewCables,
+        Pulleys,
+        NominalRobot,
+        InvalidRobot,
+        Tensions,
+        Folded,
+        Lengths,
+        Unloaded,
+        Loaded,
+        Derivatives,
+    ];
+    for (place, reason) in reasons.into_iter().enumerate() {
+        assert_eq!(ScalarReason::named(reason.name()), Some(reason));
+        assert_eq!(reason as usize, place, "the list has all of them");
+    }
+    assert_eq!(ScalarReason::named(""), None);
+}

@@ -227,8 +227,11 @@ fn tighten(problem: &DirectProblem, state: &mut Equilibrium) -> Option<()> {
     Some(())
 }
 
-/// One step (dp, dφ) from a state, for comparison with the assembled equations.
-#[cfg(test)]
-pub(crate) fn newton_step(problem: &DirectProblem, state: &Equilibrium) -> Option<Vector6<f64>> {
-    Linearised::new(problem, state).step()
+impl DirectProblem<'_> {
+    /// The first step (dp, dφ) [m, rad] of Newton's method with the cables eliminated, for comparison with that
+    /// of the assembled equations; `None` where the stiffness is singular.
+    #[doc(hidden)]
+    pub fn newton_step(&self, from: &Equilibrium) -> Option<Vector6<f64>> {
+        Linearised::new(self, from).step()
+    }
 }

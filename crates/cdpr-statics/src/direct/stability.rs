@@ -164,35 +164,3 @@ impl Stability {
         self.characteristic_length
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_modes_make_up_the_stiffness() {
-        let half = Matrix6::from_fn(|i, j| ((3 * i + 5 * j) as f64).sin() + if i == j { 4.0 } else { 0.0 });
-        let hessian = half * half.transpose();
-        let length = 0.5;
-        let scale = per_length(length);
-        let stability = Stability {
-            hessian: hessian.component_mul(&(scale * scale.transpose())),
-            some: None,
-            characteristic_length: length,
-            stable: true,
-        };
-        let modes = stability.modes();
-        let sum: Matrix6<f64> = modes
-            .iter()
-            .map(|mode| {
-                let [t, r] = [mode.translation, 0.5 * 0.5 * mode.rotation];
-                let covector = Vector6::new(t.x, t.y, t.z, r.x, r.y, r.z);
-                mode.stiffness * covector * covector.transpose()
-            })
-            .sum();
-        assert!((sum - hessian).norm() < 1e-12 * hessian.norm());
-        for (mode, value) in modes.iter().zip(stability.eigenvalues()) {
-            assert!((mode.stiffness - value).abs() < 1e-12 * hessian.norm());
-        }
-    }
-}

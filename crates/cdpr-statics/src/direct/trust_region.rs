@@ -22,12 +22,13 @@
 //! one.
 
 use crate::direct::newton::{Converged, newton, pinned_newton};
+use crate::direct::subproblem::subproblem;
 use crate::equations::{Balance, SpannedCable, cables_at};
 use crate::error::StaticsError;
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Residual};
 use cdpr_robot::{Pose, Vector2, Vector6};
-use nalgebra::{Matrix6, SymmetricEigen};
+use nalgebra::Matrix6;
 
 const MAX_ITERATIONS: usize = 3000;
 
@@ -196,75 +197,4 @@ fn not_converged(problem: &DirectProblem, last: &Point, iterations: usize) -> St
         return StaticsError::Indifferent { pose };
     }
     StaticsError::DirectNotConverged { iterations, pose, residual }
-}
-
-/// The step that minimises `g·x + ½ xᵀHx` over `|x| <= radius`, and the decrease that it predicts.
-fn subproblem(gradient: &Vector6<f64>, hessian: &Matrix6<f64>, radius: f64) -> (Vector6<f64>, f64) {
-    let eigen = SymmetricEigen::new(*hessian);
-    let (values, vectors) = (eigen.eigenvalues, eigen.eigenvectors);
-    let g = vectors.transpose() * gradient;
-    let at = |shift: f64| g.zip_map(&values, |g, value| -g / (value + shift));
-    let least = values.min();
-    let largest = values.amax();
-    if largest == 0.0 {
-        // Nothing resists yet, as where all cables are slack: straight downhill to the edge.
-        let step = -gradient * (radius / gradient.norm());
-        return (step, -gradient.dot(&step));
-    }
-    let floor = (-least).max(0.0) + 1e-12 * largest;
-    let mut x = at(if least > 1e-12 * largest { 0.0 } else { floor });
-    if x.norm() > radius {
-        // 1/|x(shift)| is almost linear in the shift: Newton's method for |x| = radius, kept between two
-        // bounds.
-        let (mut low, mut high) =
-            (if least > 1e-12 * largest { 0.0 } else { floor }, floor + g.norm() / radius);
-        let mut shift = low;
-        for _ in 0..50 {
-            x = at(shift);
-            let length = x.norm();
-            if (length - radius).abs() <= 1e-3 * radius {
-                break;
-            }
-            if length > radius {
-                low = shift;
-            } else {
-                high = shift;
-            }
-            let slope = x.zip_map(&values, |x, value| x * x / (value + shift)).sum();
-            let newton = shift + length * length / slope * (length - radius) / radius;
-            shift = if low < newton && newton < high { newton } else { 0.5 * (low + high) };
-        }
-    } else if least < -1e-12 * largest {
-        // Negative curvature and no slope along it: go to the edge of the region in that direction.
-        let direction = values.imin();
-        let rest = x.norm_squared() - x[direction] * x[direction];
-        x[direction] = (radius * radius - rest).max(0.0).sqrt().copysign(-g[direction]);
-    }
-    let predicted = -(g.dot(&x) + 0.5 * x.component_mul(&values).dot(&x));
-    (vectors * x, predicted)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_subproblem_is_newtons_step_inside_and_steepest_at_the_edge() {
-        let hessian = Matrix6::from_diagonal(&Vector6::new(1.0, 2.0, 3.0, 4.0, 5.0, 6.0));
-        let gradient = Vector6::new(1.0, -2.0, 3.0, -4.0, 5.0, -6.0);
-        let (inside, gain) = subproblem(&gradient, &hessian, 10.0);
-        assert!((inside - Vector6::new(-1.0, 1.0, -1.0, 1.0, -1.0, 1.0)).norm() < 1e-12);
-        assert!((gain - 10.5).abs() < 1e-12);
-        let (edge, _) = subproblem(&gradient, &hessian, 1e-3);
-        assert!((edge.norm() - 1e-3).abs() <= 1e-6);
-        assert!((edge.normalize() + gradient.normalize()).norm() < 1e-2);
-    }
-
-    #[test]
-    fn negative_curvature_leads_to_the_edge_even_without_slope() {
-        let hessian = Matrix6::from_diagonal(&Vector6::new(-1.0, 2.0, 3.0, 4.0, 5.0, 6.0));
-        let (step, gain) = subproblem(&Vector6::zeros(), &hessian, 0.5);
-        assert!((step.norm() - 0.5).abs() < 1e-9 && (step.x.abs() - 0.5).abs() < 1e-9);
-        assert!((gain - 0.125).abs() < 1e-9);
-    }
 }

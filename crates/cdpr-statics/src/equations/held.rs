@@ -2,7 +2,9 @@
 
 use crate::equations::cable::Span;
 use crate::equations::spanned::{end, to_base};
-use cdpr_cable::{Cable, CableError, Catenary, HeldCable, HeldSpatialCable, length_for_tension};
+use cdpr_cable::{
+    Cable, CableError, Catenary, HeldCable, HeldSpatialCable, LONGEST_TAUT, length_for_tension,
+};
 use cdpr_robot::{Matrix3, Pose, Robot, Vector2, Vector3};
 
 /// Factor on the least tension that a span demands: at the least tension itself a cable's length does not
@@ -11,10 +13,6 @@ pub(crate) const ABOVE_LEAST: f64 = 1.001;
 
 /// No span demands a tension above this, relative to the weight of a cable as long as the chord.
 pub(crate) const ABOVE_ANY_LEAST: f64 = 1.3;
-
-/// No cable without a guide whose tension rises with its chord force is longer than this many chords: the one
-/// of least tension over a level span has 1.2584.
-pub(crate) const LONGEST_TAUT: f64 = 1.3;
 
 /// Bounds of the force of a cable without a guide on the platform, `σ along + V sag` with V from zero to the
 /// cable's weight: with W that weight and x its centre of gravity as a share of the horizontal distance from
@@ -218,34 +216,5 @@ impl<'a> Held<'a> {
             Self::Spatial(held) => (&held.cable.cable, held.end.norm()),
         };
         0.5 * cable.weight_per_length * chord / self.chord_force()
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::LONGEST_TAUT;
-
-    /// Tension at A over half the weight of a chord's length, of an inextensible catenary over a span of the
-    /// slope `z` and length one, and its length.
-    fn catenary(slope: f64, u: f64) -> [f64; 2] {
-        let h = (1.0 + slope * slope).sqrt().recip();
-        let z = slope * h;
-        let length = (z * z + (h * u.sinh() / u).powi(2)).sqrt();
-        let force = [h / u, z / u.tanh() + length];
-        [force[0].hypot(force[1]), length]
-    }
-
-    #[test]
-    fn a_cable_whose_tension_rises_as_it_is_pulled_is_shorter_than_the_bound() {
-        let mut longest: f64 = 0.0;
-        for k in -400..=400 {
-            let slope = (f64::from(k) * 0.02).sinh();
-            // The least tension lies where it stops to fall with u.
-            let us = (1..4000).map(|j| 0.002 * f64::from(j));
-            let taut = us.take_while(|u| catenary(slope, u + 1e-3)[0] <= catenary(slope, *u)[0]);
-            let at_least = taut.last().map_or(0.0, |u| catenary(slope, u)[1]);
-            longest = longest.max(at_least);
-        }
-        assert!((1.257..LONGEST_TAUT).contains(&longest), "{longest}");
     }
 }

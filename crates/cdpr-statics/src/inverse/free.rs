@@ -22,11 +22,11 @@ mod straight;
 
 use super::question::Question;
 use super::{HeldPose, inverse};
-use crate::equations::LONGEST_TAUT;
 use crate::error::StaticsError;
 use crate::out_of_limits::out_of_limits;
 use crate::problem::DirectProblem;
 use crate::state::Load;
+use cdpr_cable::LONGEST_TAUT;
 use cdpr_robot::{Coordinate, Pose, Robot};
 pub(crate) use nearby::FreeBranch;
 pub use nearby::rest_near;

@@ -4,9 +4,9 @@
 //! difference in height adds to it, (C26) of `cdpr_cable`: it depends on the pose and not on the sag. With a
 //! pulley the height is that above the leave point, which moves a little with the tension.
 
-use crate::equations::{Ends, LONGEST_TAUT};
+use crate::equations::Ends;
 use crate::error::StaticsError;
-use cdpr_cable::MAX_STRAIN;
+use cdpr_cable::{LONGEST_TAUT, MAX_STRAIN};
 use cdpr_robot::{CableEnd, Pose, Robot, TensionLimits};
 
 /// The limits of every cable's tension at the platform, which stands at `pose`.

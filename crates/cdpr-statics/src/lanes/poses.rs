@@ -418,27 +418,3 @@ impl<S: Simd> InLanes<'_, S> {
         answers
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::inverse::inverse;
-    use cdpr_number::lanes::Scalar;
-
-    #[test]
-    fn the_vector_unit_changes_no_bit_of_a_pose() {
-        let robot = Robot::from_json(include_str!("../../../../data/robots/cogiro.json")).unwrap();
-        let load = Load::payload(50.0);
-        let setting = Setting::of(&robot, &load).unwrap();
-        let nearby = Pose::at(1.0, 0.5, 1.5);
-        let near = setting.near(&nearby, &inverse(&robot, &nearby, &load, None).unwrap());
-        let poses: Vec<_> = (0..21).map(|k| Pose::at(0.9 + 0.03 * f64::from(k), 0.4, 1.6)).collect();
-        let asked: Vec<_> = poses.iter().map(|pose| Asked { pose, near: &near }).collect();
-        let of = |batch: Vec<Option<(InverseSolution, Near)>>| -> Vec<_> {
-            batch.into_iter().map(|found| found.map(|(solution, _)| solution)).collect()
-        };
-        let scalar = of(Batch { setting: &setting, asked: &asked }.with_simd(Scalar));
-        assert_eq!(scalar, of(dispatch(Batch { setting: &setting, asked: &asked })));
-        assert!(scalar.iter().filter(|found| found.is_some()).count() > 15);
-    }
-}

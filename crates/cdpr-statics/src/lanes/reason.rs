@@ -106,16 +106,3 @@ impl ScalarReason {
         reasons.into_iter().find(|(holds, _)| *holds).map(|(_, reason)| reason)
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::ScalarReason;
-
-    #[test]
-    fn each_reason_has_a_name_of_its_own() {
-        for (reason, name) in ScalarReason::NAMES {
-            assert_eq!((reason.name(), ScalarReason::named(name)), (name, Some(reason)));
-        }
-        assert_eq!(ScalarReason::NAMES[12].0 as usize, 12, "the last reason is the last of the list");
-    }
-}

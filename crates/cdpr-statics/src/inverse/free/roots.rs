@@ -4,12 +4,12 @@ use super::search::{Outcome, Point, SAME, Search, Unknowns};
 use super::solution::{FreeSolution, FreeSolutions};
 use super::sound::{Loops, longest};
 use super::straight::{STRAIGHT_STARTS, StraightRoot};
-use crate::equations::LONGEST_TAUT;
 use crate::error::StaticsError;
 use crate::inverse::HeldPose;
 use crate::inverse::question::Question;
 use crate::out_of_limits::out_of_limits;
 use crate::rest_fault::RestFault;
+use cdpr_cable::LONGEST_TAUT;
 
 /// Starts of the search among cables that sag.
 const STARTS: usize = 32;

@@ -438,38 +438,3 @@ fn free_length(robot: &Robot, i: usize, wanted: &InverseSolution) -> f64 {
     let (unstrained_length, force) = (wanted.lengths[i], wanted.equilibrium.cable_forces[i]);
     Catenary { cable: robot.cable(i), unstrained_length, force }.free().unstrained_length
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::inverse::inverse;
-    use cdpr_number::lanes::Scalar;
-
-    #[test]
-    fn neither_vector_unit_nor_neighbours_change_a_bit_of_a_pose() {
-        let mut robot = Robot::from_json(include_str!("../../../../../data/robots/cogiro.json")).unwrap();
-        robot.cables[3].lead = 2.0;
-        let load = Load::payload(50.0);
-        let pose = |k| Pose::at(0.4 * f64::from(k) - 4.0, 0.4, 1.6);
-        let wanted: Vec<_> =
-            (0..21).map(|k| inverse(&robot, &pose(k), &Load::none(), None).unwrap()).collect();
-        let wanted: Vec<_> = wanted.iter().collect();
-        let placed = PlacedRobot::of(&robot).unwrap();
-        let nominal = Nominal::new(&placed, &load);
-        for slopes in [None, Some(&nominal)] {
-            let batch = |wanted| Batch { placed: &placed, wanted, load: &load, slopes };
-            let scalar = batch(&wanted[..]).with_simd(Scalar);
-            assert_eq!(scalar, dispatch(batch(&wanted[..])));
-            assert_eq!(scalar[3..], dispatch(batch(&wanted[3..])));
-            assert!(scalar.iter().filter(|found| found.is_ok()).count() > 15);
-        }
-    }
-
-    #[test]
-    fn no_load_moves_nothing() {
-        let robot = Robot::from_json(include_str!("../../../../../data/robots/caroca.json")).unwrap();
-        let wanted = inverse(&robot, &Pose::at(0.0, 0.0, 1.75), &Load::none(), None).unwrap();
-        let none = loaded_poses(&robot, &[&wanted], &Load::none()).remove(0).unwrap();
-        assert_eq!((none.scalar, none.displacement), (None, Vector3::zeros()));
-    }
-}
