@@ -1,6 +1,7 @@
 //! Inspection of a robot file for likely mistakes: units that look wrong, limits without sense, coinciding
 //! points, poses without feasible tensions. The robot is valid all the same.
 
+mod equilibrium;
 mod ground;
 mod pose;
 mod pulley;
@@ -8,6 +9,7 @@ mod swapped;
 mod symmetry;
 
 use cdpr_robot::{Doubt, Robot, RobotCable, Vector3, plausible};
+pub use equilibrium::doubtful_rest;
 use serde::Serialize;
 use std::fmt;
 
