@@ -62,7 +62,7 @@ pub fn inspect(robot: &Robot) -> Vec<Finding> {
     let doubtful = doubtful || grounded;
     let (cables, freedoms) = (robot.cables.len(), robot.freedoms().count());
     match pose::held(robot) {
-        Some((pose, solution)) => findings.at_pose(&pose, &solution),
+        Some((pose, solution)) => findings.at_pose(&pose, &solution, doubtful),
         None if cables < freedoms => findings.add(
             Severity::Note,
             "cables",

@@ -216,9 +216,11 @@ fn collect_poses(
     let design = protocol.design()?;
     let (mut poses, mut refused) = (Vec::new(), Vec::new());
     let mut drawn = 0;
+    // With free coordinates each takes a thousand times as long.
+    let most = if protocol.free.is_empty() { 4096 } else { 128 };
     while poses.len() < protocol.poses {
-        let last = design.points().min(drawn + (2 * (protocol.poses - poses.len())).clamp(64, 4096));
-        if drawn == last {
+        let last = design.points().min(drawn + (2 * (protocol.poses - poses.len())).clamp(64, most));
+        if drawn == last || protocol.holds_too_few(poses.len(), drawn) {
             let infeasible =
                 refused.iter().filter(|r: &&RefusedPose| matches!(r.refusal, Refusal::Infeasible(_))).count();
             return Err(AssessError::TooFewPoses {
@@ -261,6 +263,8 @@ fn draw(
     let [x, y, z, angle, directions @ ..] = row;
     let [axis, away, about] = [0, 2, 4].map(|k| on_unit_sphere(directions[k], directions[k + 1]));
     let place = protocol.region.place([x, y, z]);
+    // Few cables do not hold a platform at any rotation: it is drawn level, and turns as it rests.
+    let angle = if protocol.free.is_empty() { angle } else { 0.0 };
     let pose = moved(robot, &Pose::at(place.x, place.y, place.z), Vector3::zeros(), angle * axis);
     let refuse = |refusal| Box::new(RefusedPose { draw: index, pose, refusal });
     let held =
