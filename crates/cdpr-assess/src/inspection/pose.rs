@@ -29,7 +29,7 @@ impl Findings<'_> {
             self.add(
                 Severity::Note,
                 "cable.linear_density",
-                format!("cables of {weight:.1} N {at}"),
+                format!("such that the cables weigh {weight:.1} N {at}"),
                 &format!("{:.0} % of the platform's weight: they sag much", 100.0 * share),
                 "nothing, if they are so heavy; else linear_density in kg/m",
             );

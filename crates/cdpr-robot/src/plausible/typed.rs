@@ -14,6 +14,8 @@ use nalgebra::{Rotation3, Vector3};
 const FAR: f64 = 10.0;
 /// Length of a cable over the size of the frame, beyond which it is in another unit.
 const LONG: f64 = 20.0;
+/// The scalar of a rotation by 20 degrees. A file that names its columns is believed beyond it.
+const NEARLY_LEVEL: f64 = 0.985;
 /// A whole turn [degrees].
 const TURN: f64 = 360.0;
 /// Depth below the ground that is an error of surveying [m].
@@ -94,12 +96,13 @@ pub fn angles(quantity: &str, angles: [f64; 3]) -> Option<Doubt> {
     Some(Doubt::new(quantity, format!("{typed} degrees"), why, meant))
 }
 
-/// Why a quaternion that a file states as (w, x, y, z) is probably (x, y, z, w), if it looks so.
+/// Why a quaternion that a file states as (w, x, y, z) is probably (x, y, z, w): then it is nearly level.
 pub fn quaternion(quantity: &str, rotation: &Rotation3<f64>) -> Option<Doubt> {
-    let pose = Pose { position: Vector3::zeros(), rotation: *rotation };
-    let error @ QuaternionError::Order { .. } = rotation_in_order(pose.quaternion()).err()? else {
+    let given = Pose { position: Vector3::zeros(), rotation: *rotation }.quaternion();
+    let error @ QuaternionError::Order { .. } = rotation_in_order(given).err()? else { return None };
+    if given[3].abs() < NEARLY_LEVEL {
         return None;
-    };
+    }
     let why = format!("it {}", error.fault());
     Some(Doubt::new(quantity, error.value(), why, error.expected()))
 }

@@ -79,7 +79,7 @@ fn shifted(
     let is_rounding = nominal.abs() <= ROUNDING * frame_size(robot).max(reach(robot));
     (mean != 0.0 && !is_rounding && is_value(away.abs())).then(|| {
         let left = if away.abs() <= ROUNDING * nominal.abs() { 0.0 } else { away };
-        let why = format!("the value of the robot file is {}, and deviations count from it", text(nominal));
+        let why = format!("deviations count from {}, the value of the robot file", text(nominal));
         Doubt::new(format!("mean of {of}"), text(mean), why, format!("mean {}", text(left)))
     })
 }

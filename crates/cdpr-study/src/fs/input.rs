@@ -63,7 +63,7 @@ pub(crate) fn text_of(path: &Path, bytes: Vec<u8>) -> Result<String, StudyError>
     if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) || is_wide(&bytes) {
         return Err(unreadable("its encoding is UTF-16 instead of UTF-8; save it as UTF-8"));
     }
-    let text = String::from_utf8(bytes).map_err(|_| unreadable("it is not UTF-8; save it as UTF-8"))?;
+    let text = String::from_utf8(bytes).map_err(|_| unreadable("it is not UTF-8"))?;
     Ok(text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text))
 }
 
