@@ -92,7 +92,8 @@ pub enum StaticsError {
         /// Number of coordinates that were named.
         named: usize,
     },
-    /// No lengths and free coordinates within the limits were found with which the platform rests at the others.
+    /// No lengths and free coordinates within the limits were found with which the platform rests at the
+    /// others.
     #[error("no rest with these coordinates was found from {starts} starts: {nearest}")]
     NoRest {
         /// Starts that were tried.
@@ -100,13 +101,13 @@ pub enum StaticsError {
         /// What the nearest attempt lacks.
         nearest: RestFault,
     },
-    /// Infinitely many lengths or tensions hold the platform, because one equation of its balance follows from the
-    /// others.
+    /// Infinitely many lengths or tensions hold the platform, because one equation of its balance follows
+    /// from the others.
     #[error(
-        "at position ({x}, {y}, {z}) m the rest is not unique: cable {} may have {l0} m and {t0} N, or {l1} m and \
-         {t1} N, or what lies between; one equation of the balance follows from the others, and these \
-         coordinates leave it open how the cables share the load or where they hold it; name other coordinates \
-         as free",
+        "at position ({x}, {y}, {z}) m the rest is not unique: cable {} may have {l0} m and {t0} N, or \
+         {l1} m and {t1} N, or what lies between; one equation of the balance follows from the others, and these \
+         coordinates leave it open how the cables share the load or where they hold it; name other \
+         coordinates as free",
         cable + 1,
         x = short(position[0]), y = short(position[1]), z = short(position[2]),
         l0 = decimal(lengths[0], 5), l1 = decimal(lengths[1], 5),

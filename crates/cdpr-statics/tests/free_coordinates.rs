@@ -365,8 +365,9 @@ fn a_rest_with_free_coordinates_is_followed_to_many_times_its_load() {
 #[test]
 fn a_rest_with_infinitely_many_tensions_next_to_it_is_refused() {
     let robot = Robot::from_json(include_str!("../../../data/robots/four-cables.json")).unwrap();
-    // Seen from above, its anchor points are a tenth of its exit points: while the platform is not turned, the
-    // chords make no moment about the vertical through P, wherever it is, so that five equations are left.
+    // Seen from above, its anchor points are a tenth of its exit points: while the platform is not turned,
+    // the chords make no moment about the vertical through P, wherever it is, so that five equations are
+    // left.
     let free = [Coordinate::X, Coordinate::Y];
     for wanted in [Pose::at(0.0, 0.0, 2.0), Pose::at(0.17, -0.09, 2.0), Pose::at(0.3, 0.0, 1.0)] {
         for error in [

@@ -1,5 +1,5 @@
-//! Questions about where a platform was found to rest with given lengths: below the floor, turned over, on some
-//! of its cables alone. Lengths of another robot, or in another order, lead there.
+//! Questions about where a platform was found to rest with given lengths: below the floor, turned over, on
+//! some of its cables alone. Lengths of another robot, or in another order, lead there.
 
 use cdpr_robot::{Doubt, Pose, Robot, Rotation3, Vector3, frame, short};
 use cdpr_statics::{DirectSolution, Limit, Load, out_of_limits};
@@ -21,8 +21,8 @@ const FEW_CABLES: usize = 4;
 const REMEDY: &str =
     "lengths of this robot, in m and in the order of its cables; a start near the pose that they hold";
 
-/// A place where a platform hardly was to rest, found for these lengths [m] under a load from a start with this
-/// rotation; `of` is its name, such as `the equilibrium`.
+/// A place where a platform hardly was to rest, found for these lengths [m] under a load from a start with
+/// this rotation; `of` is its name, such as `the equilibrium`.
 pub fn doubtful_rest(
     robot: &Robot,
     of: &str,

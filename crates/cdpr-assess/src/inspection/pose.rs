@@ -14,8 +14,8 @@ const CONDITION: f64 = 100.0;
 pub(super) const TOUCHING: f64 = 1e-9;
 
 impl Findings<'_> {
-    /// Findings at a pose with feasible tensions. Where values are in doubt, they are the reason for an equilibrium
-    /// that is unstable.
+    /// Findings at a pose with feasible tensions. Where values are in doubt, they are the reason for an
+    /// equilibrium that is unstable.
     pub(super) fn at_pose(&mut self, pose: &Pose, solution: &InverseSolution, are_doubtful: bool) {
         let robot = self.robot;
         let [x, y, z] = pose.position.into();

@@ -13,8 +13,8 @@ pub struct PoseRegion {
     pub low: [f64; 3],
     /// Greatest coordinates of P [m].
     pub high: [f64; 3],
-    /// Greatest angle of the rotation [rad]. Axis and angle are uniformly distributed. With free coordinates poses
-    /// are drawn level.
+    /// Greatest angle of the rotation [rad]. Axis and angle are uniformly distributed. With free coordinates
+    /// poses are drawn level.
     pub max_angle: f64,
 }
 

@@ -142,8 +142,8 @@ pub fn reference(robot: &Robot) -> Option<Doubt> {
     ))
 }
 
-/// A platform heavier than what all cables hold: its mass, or the limits where they are far below what such cables
-/// carry.
+/// A platform heavier than what all cables hold: its mass, or the limits where they are far below what such
+/// cables carry.
 fn weight(robot: &Robot) -> Option<Doubt> {
     let mass = robot.platform.mass;
     let (weight, most) = (mass * robot.gravity.magnitude(), capacity(robot));

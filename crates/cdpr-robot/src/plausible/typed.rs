@@ -92,7 +92,7 @@ pub fn angles(quantity: &str, angles: [f64; 3]) -> Option<Doubt> {
     let within = four_digits((angle + 0.5 * TURN).rem_euclid(TURN) - 0.5 * TURN);
     let typed = angles.map(four_digits).join(", ");
     let why = format!("{} degrees are more than a turn", four_digits(angle));
-    let meant = format!("angles in degrees; {} degrees are the same rotation", within);
+    let meant = format!("angles in degrees; {within} degrees are the same rotation");
     Some(Doubt::new(quantity, format!("{typed} degrees"), why, meant))
 }
 

@@ -50,8 +50,8 @@ fn scale(robot: &Robot, parameter: Parameter) -> Option<Scale> {
     (scale.most > 0.0).then_some(scale)
 }
 
-/// A deviation of a parameter with this mean and standard deviation that is too large or too small, or whose mean
-/// is the parameter's own value; `of` is its name.
+/// A deviation of a parameter with this mean and standard deviation that is too large or too small, or whose
+/// mean is the parameter's own value; `of` is its name.
 pub fn deviation(robot: &Robot, parameter: Parameter, of: &str, [mean, std]: [f64; 2]) -> Option<Doubt> {
     let nominal = parameter.nominal(robot);
     (shifted(robot, parameter, of, mean, |away| away < SAME * nominal.abs()))
@@ -63,8 +63,8 @@ pub fn farthest(robot: &Robot, parameter: Parameter, of: &str, deviation: f64) -
     size(robot, parameter, of, [deviation, 0.0])
 }
 
-/// A mean that is the value of the parameter, as far as `is_value` says of the difference of both, and not the
-/// deviation from it.
+/// A mean that is the value of the parameter, as far as `is_value` says of the difference of both, and not
+/// the deviation from it.
 fn shifted(
     robot: &Robot,
     parameter: Parameter,

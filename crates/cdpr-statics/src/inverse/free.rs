@@ -8,11 +8,11 @@
 //! ```
 //!
 //! (I6) may have several solutions, and not all are wanted. Straight cables without weight are solved first,
-//! from many starts (`straight`), and each of their roots is followed to the cables as they are (`search`), in
-//! steps of their weight where they sag much. The search then goes on from cables that sag. Only *sound* solutions
-//! are taken: all tensions within their limits, no cable a loop or below the ground (`sound`). A solution with
-//! infinitely many others next to it is refused (`unique`). Each solution is
-//! an equilibrium for its lengths, and the stiffness with these lengths fixed says whether it is stable.
+//! from many starts (`straight`), and each of their roots is followed to the cables as they are (`search`),
+//! in steps of their weight where they sag much. The search then goes on from cables that sag. Only *sound*
+//! solutions are taken: all tensions within their limits, no cable a loop or below the ground (`sound`). A
+//! solution with infinitely many others next to it is refused (`unique`). Each solution is an equilibrium for
+//! its lengths, and the stiffness with these lengths fixed says whether it is stable.
 
 mod nearby;
 mod roots;
@@ -145,8 +145,8 @@ impl Search<'_> {
         Ok(found)
     }
 
-    /// A solution, if it is sound, taut, stable and so close to the given coordinates that no other needs to be
-    /// looked for.
+    /// A solution, if it is sound, taut, stable and so close to the given coordinates that no other needs to
+    /// be looked for.
     fn accepted(&self, point: Point, iterations: usize) -> Result<Option<FreeSolution>, StaticsError> {
         let Question { robot, pose, load, .. } = self.question;
         if self.distance(pose, &point.held.equilibrium.pose) > BESIDE

@@ -304,8 +304,8 @@ fn source(tolerances: &Tolerances) -> String {
     if tolerances.share < 1.0 {
         let smaller = 1.0 / tolerances.share;
         text += &format!(
-            " Those of points and set-points are {smaller} times smaller than usual: with larger ones the few \
-             cables do not hold all of the coordinates that are given."
+            " Those of points and set-points are {smaller} times smaller than usual: with larger ones the \
+             few cables do not hold all of the coordinates that are given."
         );
     }
     serde_json::Value::from(text).to_string()

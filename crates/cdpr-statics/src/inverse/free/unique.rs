@@ -24,8 +24,8 @@ const STEP: f64 = 0.05;
 /// Share of the step that is left where solutions go on along it.
 const LEFT: f64 = 0.5;
 
-/// Change of a tension relative to the greatest, or of a length relative to the longest span, beyond which it is
-/// another solution and no rounding.
+/// Change of a tension relative to the greatest, or of a length relative to the longest span, beyond which it
+/// is another solution and no rounding.
 const CHANGED: f64 = 1e-7;
 
 impl Search<'_> {

@@ -1,8 +1,9 @@
 //! Tolerances of a template: the usual ones, or smaller ones where the robot would not be held with them.
 //!
-//! With as many cables as free motions or more, a robot is held with any small errors. With fewer, the coordinates
-//! that are given may nearly follow from each other, as the yaw of a platform whose anchor points are laid out
-//! as its exit points are: errors of millimetres are then more than the tensions can make up for.
+//! With as many cables as free motions or more, a robot is held with any small errors. With fewer, the
+//! coordinates that are given may nearly follow from each other, as the yaw of a platform whose anchor points
+//! are laid out as its exit points are: errors of millimetres are then more than the tensions can make up
+//! for.
 
 use cdpr_robot::{Coordinate, Parameter, Pose, Robot};
 use cdpr_statics::{Load, deflection_free};
