@@ -114,25 +114,21 @@ pub fn template(
         [] => Some(Tolerances::usual(robot, *tension)),
         free => Tolerances::held(robot, *tension, pose, &load, free),
     };
-    let found = match position {
-        Some(position) => vec![held(&position).map_err(|error| {
+    let given = match position {
+        Some(position) => Some(held(&position).map_err(|error| {
             let expected = format!("a position that the robot holds with {payload} kg: {error}");
             StudyError::setting("position", format!("{position:?}"), expected)
-        })?],
-        None => {
-            let all = candidates(robot, !free.is_empty()).into_iter();
-            all.filter_map(|position| held(&position).ok())
-                .take(if free.is_empty() { 1 } else { FEW })
-                .collect()
-        }
+        })?),
+        None => None,
     };
-    let best = found.iter().find_map(|one| Some((one, tolerances(one)?)));
-    let first = || found.first().map(|one| (one, Tolerances::least(robot, one.1)));
-    let Some(((pose, _), tolerances)) = best.or_else(first) else {
+    let others = candidates(robot, !free.is_empty()).into_iter().filter_map(|place| held(&place).ok());
+    let tried = given.into_iter().chain(others.take(if position.is_none() { FEW } else { 0 }));
+    let Some(((pose, _), tolerances)) = with_tolerances(robot, tried, tolerances) else {
         let expected =
             "x,y,z [m], because the robot holds none of the positions tried between its exit points";
         return Err(StudyError::setting("position", "missing", expected));
     };
+    let pose = &pose;
     let Size { observations, replicates, has_sensitivity, axis } = Size::of(robot);
     let sensitivity = if has_sensitivity {
         format!(
@@ -216,6 +212,22 @@ pub fn write_template(
     let from_here = robot.strip_prefix(whole(folder)?).unwrap_or(&robot);
     let text = text(&from_here.display().to_string())?;
     write_new(path.to_owned(), text.as_bytes()).map(|_| ())
+}
+
+/// The first pose with its mean tension [N] that has tolerances, or the first one with the least.
+fn with_tolerances(
+    robot: &Robot,
+    poses: impl Iterator<Item = (Pose, f64)>,
+    tolerances: impl Fn(&(Pose, f64)) -> Option<Tolerances>,
+) -> Option<((Pose, f64), Tolerances)> {
+    let mut first = None;
+    for one in poses {
+        match tolerances(&one) {
+            Some(found) => return Some((one, found)),
+            None => first = first.or(Some(one)),
+        }
+    }
+    first.map(|one| (one, Tolerances::least(robot, one.1)))
 }
 
 /// Positions of a robot of few cables at which smaller tolerances are tried.

@@ -12,7 +12,7 @@ use cdpr_statics::{Load, deflection_free};
 const SHARES: [f64; 5] = [1.0, 0.5, 0.2, 0.1, 0.05];
 
 /// Robots at corners of the tolerances that must be held: each parameter deviates by all of its tolerance.
-const CORNERS: u64 = 16;
+const CORNERS: u64 = 8;
 
 /// Half widths of uniform laws by groups of parameters, in SI units.
 pub(super) struct Tolerances {
