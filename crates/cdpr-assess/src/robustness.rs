@@ -21,6 +21,7 @@ use cdpr_sensitivity::{RandomDesign, SampleDesign};
 use cdpr_statics::{
     DirectMethod, DirectProblem, DirectSolution, Load, Residual, Start, StaticsError, direct, held_at,
 };
+use cdpr_study::StudyError;
 use rayon::prelude::*;
 use std::f64::consts::PI;
 use std::time::Instant;
@@ -240,7 +241,17 @@ fn collect_poses(
                     poses.push(pose);
                     tick();
                 }
-                Err(pose) => refused.push(*pose),
+                Err(pose) => {
+                    // That is no matter of the pose.
+                    if let Refusal::Infeasible(error) = &pose.refusal
+                        && let Some(expected) = expected_free(error)
+                    {
+                        let names: Vec<_> = protocol.free.iter().map(ToString::to_string).collect();
+                        let value = format!("[{}]", names.join(", "));
+                        return Err(StudyError::setting("free", value, expected).into());
+                    }
+                    refused.push(*pose);
+                }
             }
             if poses.len() == protocol.poses {
                 break;
@@ -248,6 +259,19 @@ fn collect_poses(
         }
     }
     Ok((poses, drawn, refused))
+}
+
+/// What is expected of the free coordinates, if an error is about them.
+fn expected_free(error: &StaticsError) -> Option<String> {
+    match error {
+        StaticsError::FreeCoordinates { cables, freedoms, .. } => {
+            let missing = freedoms.saturating_sub(*cables);
+            let names = "x, y, z, roll, pitch, yaw";
+            Some(format!("{missing} of {names}, for {cables} cables and {freedoms} free motions"))
+        }
+        StaticsError::Invalid { field, expected, .. } if field == "free" => Some(expected.clone()),
+        _ => None,
+    }
 }
 
 fn draw(

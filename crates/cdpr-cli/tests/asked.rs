@@ -65,7 +65,10 @@ fn a_refused_run_leaves_no_folder() {
         "free is x: expected coordinates",
     );
     refused(&["workspace", "four-cables", "--plane", "z=2", "--free", "roll"], "free is [roll]");
-    refused(&["robustness", "--robot", "four-cables", "--poses", "1"], "poses is 1: expected at most");
+    refused(
+        &["robustness", "--robot", "four-cables", "--poses", "1"],
+        "free is []: expected 2 of x, y, z, roll, pitch, yaw",
+    );
     // A folder that was there stays.
     std::fs::create_dir(folder.path().join("mine")).unwrap();
     let out = ["workspace", "four-cables", "--plane", "z=2", "--free", "roll", "--out", "mine"];
