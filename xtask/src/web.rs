@@ -23,7 +23,7 @@ const MODULES: [(&str, &str, &str); 2] =
     [("cdpr_web", "+simd128", ""), ("cdpr_web_scalar", "-simd128", "scalar")];
 
 /// What the products are made of, in the workspace.
-const SOURCES: [&str; 10] = [
+const SOURCES: [&str; 11] = [
     "crates/cdpr-number/src",
     "crates/cdpr-cable/src",
     "crates/cdpr-robot/src",

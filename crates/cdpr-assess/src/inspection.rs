@@ -1,6 +1,7 @@
 //! Inspection of a robot file for likely mistakes: units that look wrong, limits without sense, coinciding
 //! points, poses without feasible tensions. The robot is valid all the same.
 
+mod equilibrium;
 mod ground;
 mod pose;
 mod pulley;
@@ -8,6 +9,7 @@ mod swapped;
 mod symmetry;
 
 use cdpr_robot::{Doubt, Robot, RobotCable, Vector3, plausible};
+pub use equilibrium::doubtful_rest;
 use serde::Serialize;
 use std::fmt;
 
@@ -60,7 +62,7 @@ pub fn inspect(robot: &Robot) -> Vec<Finding> {
     let doubtful = doubtful || grounded;
     let (cables, freedoms) = (robot.cables.len(), robot.freedoms().count());
     match pose::held(robot) {
-        Some((pose, solution)) => findings.at_pose(&pose, &solution),
+        Some((pose, solution)) => findings.at_pose(&pose, &solution, doubtful),
         None if cables < freedoms => findings.add(
             Severity::Note,
             "cables",

@@ -28,7 +28,7 @@ pub use boundary::Boundary;
 pub use capacity::{Block, Capacity, Figure, WrenchSet, capacity_at};
 pub use clearance::{CableDistance, Clearance, PlatformDistance, clearance_at, clearance_under};
 pub use error::AssessError;
-pub use inspection::{Finding, Severity, inspect};
+pub use inspection::{Finding, Severity, doubtful_rest, inspect};
 pub use path::{Bands, Path, PathPose};
 pub use robustness::{
     Answer, Assignment, Draws, FOUND_ANGLE, Outcome, PoseRegion, Protocol, ProtocolSummary, Published,

@@ -21,6 +21,7 @@ use cdpr_sensitivity::{RandomDesign, SampleDesign};
 use cdpr_statics::{
     DirectMethod, DirectProblem, DirectSolution, Load, Residual, Start, StaticsError, direct, held_at,
 };
+use cdpr_study::StudyError;
 use rayon::prelude::*;
 use std::f64::consts::PI;
 use std::time::Instant;
@@ -216,9 +217,11 @@ fn collect_poses(
     let design = protocol.design()?;
     let (mut poses, mut refused) = (Vec::new(), Vec::new());
     let mut drawn = 0;
+    // With free coordinates each takes a thousand times as long.
+    let most = if protocol.free.is_empty() { 4096 } else { 128 };
     while poses.len() < protocol.poses {
-        let last = design.points().min(drawn + (2 * (protocol.poses - poses.len())).clamp(64, 4096));
-        if drawn == last {
+        let last = design.points().min(drawn + (2 * (protocol.poses - poses.len())).clamp(64, most));
+        if drawn == last || protocol.holds_too_few(poses.len(), drawn) {
             let infeasible =
                 refused.iter().filter(|r: &&RefusedPose| matches!(r.refusal, Refusal::Infeasible(_))).count();
             return Err(AssessError::TooFewPoses {
@@ -238,7 +241,17 @@ fn collect_poses(
                     poses.push(pose);
                     tick();
                 }
-                Err(pose) => refused.push(*pose),
+                Err(pose) => {
+                    // That is no matter of the pose.
+                    if let Refusal::Infeasible(error) = &pose.refusal
+                        && let Some(expected) = expected_free(error)
+                    {
+                        let names: Vec<_> = protocol.free.iter().map(ToString::to_string).collect();
+                        let value = format!("[{}]", names.join(", "));
+                        return Err(StudyError::setting("free", value, expected).into());
+                    }
+                    refused.push(*pose);
+                }
             }
             if poses.len() == protocol.poses {
                 break;
@@ -246,6 +259,19 @@ fn collect_poses(
         }
     }
     Ok((poses, drawn, refused))
+}
+
+/// What is expected of the free coordinates, if an error is about them.
+fn expected_free(error: &StaticsError) -> Option<String> {
+    match error {
+        StaticsError::FreeCoordinates { cables, freedoms, .. } => {
+            let missing = freedoms.saturating_sub(*cables);
+            let names = "x, y, z, roll, pitch, yaw";
+            Some(format!("{missing} of {names}, for {cables} cables and {freedoms} free motions"))
+        }
+        StaticsError::Invalid { field, expected, .. } if field == "free" => Some(expected.clone()),
+        _ => None,
+    }
 }
 
 fn draw(
@@ -261,6 +287,8 @@ fn draw(
     let [x, y, z, angle, directions @ ..] = row;
     let [axis, away, about] = [0, 2, 4].map(|k| on_unit_sphere(directions[k], directions[k + 1]));
     let place = protocol.region.place([x, y, z]);
+    // Few cables do not hold a platform at any rotation: it is drawn level, and turns as it rests.
+    let angle = if protocol.free.is_empty() { angle } else { 0.0 };
     let pose = moved(robot, &Pose::at(place.x, place.y, place.z), Vector3::zeros(), angle * axis);
     let refuse = |refusal| Box::new(RefusedPose { draw: index, pose, refusal });
     let held =

@@ -353,7 +353,7 @@ pub fn workspace_boundary(
 
 /// Checks the settings.
 fn check(workspace: &Workspace) -> Result<(), StudyError> {
-    let Workspace { robot, load, tolerances, free, further, .. } = *workspace;
+    let Workspace { robot, grid, load, tolerances, free, further, .. } = *workspace;
     if !(load.payload.is_finite() && load.payload >= 0.0) {
         return Err(StudyError::setting("payload", load.payload, "a finite mass, zero or more [kg]"));
     }
@@ -378,6 +378,9 @@ fn check(workspace: &Workspace) -> Result<(), StudyError> {
             "{missing} of x, y, z, roll, pitch, yaw, for {cables} cables and {freedoms} free motions"
         );
         return Err(StudyError::setting("free", format!("[{}]", names.join(", ")), expected));
+    }
+    if let Some((one, expected)) = grid.of_free(free) {
+        return Err(StudyError::setting("free", one, expected));
     }
     if let Some(model) = tolerances {
         model.check(robot)?;

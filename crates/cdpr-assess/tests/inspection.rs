@@ -1,7 +1,8 @@
 //! Inspection of robots: what is odd in a file, and what is only worth knowing.
 
-use cdpr_assess::{Severity, inspect};
-use cdpr_robot::{Gravity, Pulley, Robot, Vector3};
+use cdpr_assess::{Severity, doubtful_rest, inspect};
+use cdpr_robot::{Gravity, Pose, Pulley, Robot, Vector3};
+use cdpr_statics::{Load, Start, direct, inverse, rough_pose};
 
 fn about_gravity(gravity: impl Into<Gravity>) -> Vec<(Severity, String)> {
     let mut robot = Robot::from_json(include_str!("../../../data/robots/caroca.json")).unwrap();
@@ -53,4 +54,62 @@ fn wheels_that_cables_hardly_touch_or_come_back_over_and_wheels_in_one_place_are
     let sideways = |exit: Vector3<f64>| 0.2 * exit.norm() * Vector3::new(-exit.y, exit.x, 0.0).normalize();
     let back = about_pulleys(&|exit| sideways(exit) - towards(exit));
     assert!(warned(&back) >= 4 && back.contains(&note), "{back:?}");
+}
+
+/// A robot of the library.
+fn named(name: &str) -> Robot {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/robots");
+    Robot::from_json(&std::fs::read_to_string(format!("{folder}/{name}.json")).unwrap()).unwrap()
+}
+
+/// Value and reason of the question about where a robot rests with these lengths.
+fn asked_of_rest(robot: &Robot, lengths: &[f64], load: &Load) -> Option<String> {
+    let start = rough_pose(robot, lengths);
+    let found = direct(robot, lengths, load, Start::Pose(&start)).unwrap();
+    let doubt = doubtful_rest(robot, "the equilibrium", (lengths, load), &found, &start.rotation)?;
+    Some(format!("{} {}", doubt.value, doubt.why))
+}
+
+#[test]
+fn lengths_of_another_robot_are_questioned_where_the_platform_rests_and_its_own_are_not() {
+    let wound = |name: &str, pose: Pose| {
+        let robot = named(name);
+        let lengths = inverse(&robot, &pose, &Load::none(), None).unwrap().lengths;
+        for load in [Load::none(), Load::payload(0.2 * robot.platform.mass)] {
+            assert_eq!(asked_of_rest(&robot, &lengths, &load), None, "{name}");
+        }
+        lengths
+    };
+    let cogiro = wound("cogiro", Pose::at(0.0, 0.0, 2.7));
+    let caroca = wound("caroca", Pose::at(0.0, 0.0, 1.75));
+    let lucia = wound("expo2015-lucia", Pose::at(-0.5, 0.0, 3.0));
+    let handling = wound("copacabana-handling", Pose::at(-0.1, 0.3, 1.1));
+    for (robot, lengths, expected) in [
+        ("caroca", &cogiro, "below the floor of the base frame, z = 0"),
+        ("copacabana-handling", &caroca, "below the lowest exit point"),
+        ("ipanema-2", &lucia, "below the floor"),
+        ("copacabana-inspection", &handling, "with 4 of 8 cables slack"),
+        ("cable-robot-simulator", &cogiro, "with 8 of 8 cables slack or below"),
+    ] {
+        let asked = asked_of_rest(&named(robot), lengths, &Load::none()).unwrap();
+        assert!(asked.contains(expected), "{robot}: {asked}");
+    }
+}
+
+#[test]
+fn a_platform_below_the_ground_or_turned_over_is_questioned() {
+    let mut robot = named("caroca");
+    let wanted = Pose::at(0.0, 0.0, 0.6);
+    let lengths = inverse(&robot, &wanted, &Load::none(), None).unwrap().lengths;
+    assert_eq!(asked_of_rest(&robot, &lengths, &Load::none()), None);
+    robot.ground_z = Some(0.5);
+    let asked = asked_of_rest(&robot, &lengths, &Load::none()).unwrap();
+    assert!(asked.contains("below the ground, ground_z = 0.5 m"), "{asked}");
+    robot.ground_z = None;
+    // From a start that is turned over itself.
+    let found = direct(&robot, &lengths, &Load::none(), Start::Pose(&wanted)).unwrap();
+    let start = cdpr_robot::Rotation3::from_euler_angles(3.0, 0.0, 0.0);
+    let given = (&lengths[..], &Load::none());
+    let asked = doubtful_rest(&robot, "it", given, &found, &start).unwrap();
+    assert!(asked.value.starts_with("turned over by 172 degrees"), "{asked}");
 }

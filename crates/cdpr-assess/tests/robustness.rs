@@ -168,3 +168,16 @@ fn robots_of_other_sizes_and_with_few_cables_are_tested_in_their_own_room() {
         assert!(result.solves.iter().all(|solve| inside(&solve.wanted.position)), "{name}");
     }
 }
+
+#[test]
+fn few_cables_hold_a_share_of_poses_that_are_drawn_level_and_a_test_ends_early_where_they_do_not() {
+    let robot = Robot::from_json(library::named(library::ROBOTS, "four-cables").unwrap().text).unwrap();
+    let free = vec![Coordinate::Roll, Coordinate::Pitch];
+    let protocol = Protocol { free, ..Protocol::thirty_poses(3).in_region(PoseRegion::of(&robot)) };
+    let result = run_robustness(&robot, &protocol, &|| ()).unwrap();
+    assert!(result.drawn <= 150, "{}", result.drawn);
+    // Level, with its position free, the tensions of this robot are not determined.
+    let free = vec![Coordinate::X, Coordinate::Y];
+    let error = run_robustness(&robot, &Protocol { free, poses: 10_000, ..protocol }, &|| ()).unwrap_err();
+    assert!(matches!(error, AssessError::TooFewPoses { found: 0, drawn, .. } if drawn <= 300), "{error}");
+}

@@ -236,6 +236,34 @@ fn a_platform_with_an_inertia_has_its_lowest_frequency_under_the_load() {
 }
 
 #[test]
+fn a_map_over_a_coordinate_that_is_free_is_refused() {
+    let robot = Robot::from_json(include_str!("../../../data/robots/four-cables.json")).unwrap();
+    fn map<'a>(robot: &'a Robot, free: &'a [Coordinate]) -> Workspace<'a> {
+        let grid = Grid::over_frame(robot, cdpr_robot::Axis::Z, 2.0, [3, 3]).unwrap();
+        let rotation = Rotation3::identity();
+        Workspace {
+            robot,
+            grid,
+            rotation,
+            load: Load::none(),
+            tolerances: None,
+            free,
+            further: Further::default(),
+        }
+    }
+    for free in [[Coordinate::X, Coordinate::Y], [Coordinate::Roll, Coordinate::Y]] {
+        let name = free.into_iter().find(|one| !one.is_angle()).unwrap();
+        for error in [
+            compute_workspace(&map(&robot, &free), &|| (), &|| false).unwrap_err(),
+            workspace_boundary(&map(&robot, &free), Way::Kept, &|| false).unwrap_err(),
+        ] {
+            let error = error.to_string();
+            assert!(error.starts_with(&format!("free is {name}: expected coordinates")), "{error}");
+        }
+    }
+}
+
+#[test]
 fn a_robot_with_four_cables_has_a_workspace_of_its_held_coordinates() {
     let robot = Robot::from_json(include_str!("../../../data/robots/four-cables.json")).unwrap();
     let model = ErrorModel::normal(&robot, &vec![1e-3; Parameter::of(&robot).len()]);

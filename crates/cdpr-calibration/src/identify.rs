@@ -71,12 +71,15 @@ impl Measurement {
         let pose = match (noise.position, noise.rotation) {
             (Some(position), Some(rotation)) => Some(Self::Pose { position, rotation }),
             (None, None) => None,
-            (Some(one), None) | (None, Some(one)) => {
-                return Err(CalibrationError::invalid("noise", one, "position and rotation together"));
-            }
+            (Some(_), None) => return Err(Self::alone("position")),
+            (None, Some(_)) => return Err(Self::alone("rotation")),
         };
         let others = [noise.tension.map(Self::Tensions), noise.length.map(Self::Lengths)];
         Ok(pose.into_iter().chain(others.into_iter().flatten()).collect())
+    }
+
+    fn alone(name: &str) -> CalibrationError {
+        CalibrationError::invalid("noise", format!("of {name} alone"), "position and rotation together")
     }
 }
 

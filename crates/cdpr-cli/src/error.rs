@@ -101,9 +101,17 @@ impl ProgramError {
         |source| Self::InFile { path: path.to_owned(), source: Box::new(source.into()) }
     }
 
-    /// 2 for wrong arguments, 1 for everything else.
+    /// 2 for wrong arguments, 3 for a platform that falls before the whole load is on it, which is an answer;
+    /// 1 for everything else.
     pub(crate) fn exit_code(&self) -> u8 {
         match self {
+            Self::Statics(StaticsError::BranchEnds(_)) => 3,
+            Self::Calibration(CalibrationError::Row { source, .. })
+                if matches!(**source, StaticsError::BranchEnds(_)) =>
+            {
+                3
+            }
+            Self::InFile { source, .. } => source.exit_code(),
             Self::Usage(_) => 2,
             Self::Study(error) if error.is_argument() => 2,
             Self::Exchange(ExchangeError::Lacking(_)) => 2,

@@ -2,7 +2,8 @@
 
 use crate::error::ProgramError;
 use crate::poses::pose_of;
-use cdpr_robot::{Pose, Vector3, counted, rotation_by_angles, rotation_of, short};
+use crate::questions;
+use cdpr_robot::{Pose, Vector3, counted, plausible, rotation_by_angles, rotation_of, short};
 use cdpr_study::{Column, Dimension, InputKind, StudyError, Table, TableError, read_table};
 use std::path::Path;
 
@@ -38,11 +39,19 @@ pub(crate) fn pose_file(path: &Path) -> Result<Vec<Pose>, ProgramError> {
             return Err(of(format!("column {name} has no unit: expected {name}_deg or {name}_rad")));
         }
         match (found.all(&QUATERNION), angles.iter().all(Option::is_none)) {
-            (Some(quaternion), true) => rows(table, &[place, quaternion].concat(), |row| {
-                let rotation = rotation_of([row[3], row[4], row[5], row[6]]);
-                let rotation = rotation.map_err(|error| Box::new(error) as Reason)?;
-                Ok(Pose { position: Vector3::new(row[0], row[1], row[2]), rotation })
-            }),
+            (Some(quaternion), true) => {
+                let poses = rows(table, &[place, quaternion].concat(), |row| {
+                    let rotation = rotation_of([row[3], row[4], row[5], row[6]]);
+                    let rotation = rotation.map_err(|error| Box::new(error) as Reason)?;
+                    Ok(Pose { position: Vector3::new(row[0], row[1], row[2]), rotation })
+                })?;
+                // The names of the columns state the order; the numbers may have another one.
+                let doubt = |(line, pose): (&usize, &Pose)| {
+                    plausible::quaternion(&format!("line {line}: qw,qx,qy,qz"), &pose.rotation)
+                };
+                questions::ask(table.lines.iter().zip(&poses).find_map(doubt));
+                Ok(poses)
+            }
             (None, _) if !QUATERNION.iter().any(|name| found.get(name).is_some()) => {
                 let columns = place.into_iter().chain(angles.iter().flatten().copied()).collect::<Vec<_>>();
                 rows(table, &columns, |row| by_angles(row, &angles))

@@ -4,7 +4,8 @@
 
 use crate::arguments::{components, numbers};
 use crate::error::{POSE, PoseError, ProgramError};
-use cdpr_robot::{Pose, Rotation3, Vector3, rotation_by_angles, rotation_in_order, rounded};
+use crate::questions;
+use cdpr_robot::{Pose, Rotation3, Vector3, plausible, rotation_by_angles, rotation_in_order, rounded};
 
 /// `x,y,z` [m], followed by the quaternion `qw,qx,qy,qz` where the platform is rotated.
 pub(crate) fn pose(text: &str) -> Result<Pose, PoseError> {
@@ -37,9 +38,11 @@ pub(crate) struct Angles {
 }
 
 impl Angles {
-    /// The rotation, if the angles are given.
+    /// The rotation, if the angles are given. Angles of more than a turn are questioned.
     pub(crate) fn rotation(&self) -> Option<Rotation3<f64>> {
-        self.rpy.map(rotation_by_angles)
+        let angles = self.rpy?;
+        questions::ask(plausible::angles("--rpy", angles));
+        Some(rotation_by_angles(angles))
     }
 
     /// The pose, rotated by the angles if they are given.

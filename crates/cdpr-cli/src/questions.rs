@@ -4,9 +4,9 @@
 //! Robots and studies are opened here and nowhere else, so that no command forgets to ask.
 
 use crate::error::ProgramError;
-use cdpr_assess::{HELD, WorkspaceSummary};
+use cdpr_assess::{HELD, WorkspaceSummary, doubtful_rest};
 use cdpr_robot::{Doubt, Pose, Robot, Vector3, Wrench, place_of, plausible};
-use cdpr_statics::Load;
+use cdpr_statics::{DirectSolution, Load};
 use cdpr_study::{Access, ErrorModel, InputKind, StoredStudy, Study, read_text};
 use serde::Serialize;
 use std::path::Path;
@@ -145,6 +145,17 @@ pub(crate) fn about_markers(robot: &Robot, markers: impl IntoIterator<Item = Vec
 pub(crate) fn about_map(summary: &WorkspaceSummary) {
     let held = summary.rows.iter().any(|row| row.status == HELD || row.anew_status == Some(HELD));
     ask((!held).then(|| plausible::nothing_held(summary.rows.len())));
+}
+
+/// Asks about where a platform was found to rest with given lengths [m], from a start and under a load.
+pub(crate) fn about_rest(
+    robot: &Robot,
+    name: &str,
+    given: (&[f64], &Load),
+    found: &DirectSolution,
+    start: &Pose,
+) {
+    ask(doubtful_rest(robot, name, given, found, &start.rotation));
 }
 
 /// Asks about unstrained lengths.

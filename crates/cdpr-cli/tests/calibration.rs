@@ -69,7 +69,7 @@ fn bad_input_is_named_with_what_would_be_right() {
         (vec![grid, NOISE[0], NOISE[1], "--uncertainty", "a"], "`a`: expected name=number"),
         (
             vec![grid, NOISE[0], "position=1e-4", UNCERTAINTY[0], UNCERTAINTY[1]],
-            "--noise is 0.0001: expected position and rotation together",
+            "--noise is of position alone: expected position and rotation together",
         ),
         (
             vec![grid, NOISE[0], "force=1", UNCERTAINTY[0], UNCERTAINTY[1]],

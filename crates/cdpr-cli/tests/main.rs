@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 
 mod analyse;
+mod asked;
 mod bad_input;
 mod book;
 mod calibrate;

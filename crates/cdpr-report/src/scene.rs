@@ -96,6 +96,7 @@ impl Scene {
                 path: study.path.clone(),
                 field: name.to_owned(),
                 value: text::point(pose.position.as_slice()),
+                meant: None,
                 source: Box::new(error),
             })?);
             Ok(())

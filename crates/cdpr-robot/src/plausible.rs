@@ -18,5 +18,5 @@ pub use cable::{linear_density, span};
 pub use doubt::{Doubt, Doubts, frame, more_than_half_failed, nothing_held};
 pub use file::{reference, robot};
 pub use layout::FRAME;
-pub use typed::{in_ground, lengths, load, mass, modulus, on_platform, position, wrench};
-pub use uncertain::{deviation, noise};
+pub use typed::{angles, in_ground, lengths, load, mass, modulus, on_platform, position, quaternion, wrench};
+pub use uncertain::{deviation, farthest, noise};

@@ -3,7 +3,7 @@
 use crate::rest_fault::RestFault;
 use crate::state::Residual;
 use cdpr_cable::CableError;
-use cdpr_robot::{Pose, RobotError, counted, short, shortened};
+use cdpr_robot::{Pose, RobotError, counted, decimal, short, shortened};
 use cdpr_tension::{Bound, TensionError};
 
 /// Why a model has no answer.
@@ -92,13 +92,36 @@ pub enum StaticsError {
         /// Number of coordinates that were named.
         named: usize,
     },
-    /// No lengths and free coordinates within the limits were found with which the platform rests at the others.
+    /// No lengths and free coordinates within the limits were found with which the platform rests at the
+    /// others.
     #[error("no rest with these coordinates was found from {starts} starts: {nearest}")]
     NoRest {
         /// Starts that were tried.
         starts: usize,
         /// What the nearest attempt lacks.
         nearest: RestFault,
+    },
+    /// Infinitely many lengths or tensions hold the platform, because one equation of its balance follows
+    /// from the others.
+    #[error(
+        "at position ({x}, {y}, {z}) m the rest is not unique: cable {} may have {l0} m and {t0} N, or \
+         {l1} m and {t1} N, or what lies between; one equation of the balance follows from the others, and these \
+         coordinates leave it open how the cables share the load or where they hold it; name other \
+         coordinates as free",
+        cable + 1,
+        x = short(position[0]), y = short(position[1]), z = short(position[2]),
+        l0 = decimal(lengths[0], 5), l1 = decimal(lengths[1], 5),
+        t0 = decimal(tensions[0], 3), t1 = decimal(tensions[1], 3)
+    )]
+    NotUnique {
+        /// Position of the platform in one of the solutions [m].
+        position: [f64; 3],
+        /// Index of the cable, from 0, that differs most between two of them.
+        cable: usize,
+        /// Its unstrained lengths there [m].
+        lengths: [f64; 2],
+        /// Its tensions there, at the platform [N].
+        tensions: [f64; 2],
     },
     /// A cable's weight leaves no tension at the platform between the least one there and the greatest one at
     /// the exit point.
@@ -304,6 +327,7 @@ impl StaticsError {
             Self::Invalid { .. } => "invalid_input",
             Self::NoRest { nearest: RestFault::TurnedOver { is_stable: false, .. }, .. } => "unstable",
             Self::NoTensions { .. } | Self::ExitLimit { .. } | Self::NoRest { .. } => "infeasible_tension",
+            Self::NotUnique { .. } => "not_unique",
             Self::FreeCoordinates { .. } => "free_coordinates",
             Self::InverseNotConverged { .. } => "inverse_not_converged",
             Self::Indifferent { .. } => "indifferent",

@@ -361,3 +361,41 @@ fn a_rest_with_free_coordinates_is_followed_to_many_times_its_load() {
         }
     }
 }
+
+#[test]
+fn a_rest_with_infinitely_many_tensions_next_to_it_is_refused() {
+    let robot = Robot::from_json(include_str!("../../../data/robots/four-cables.json")).unwrap();
+    // Seen from above, its anchor points are a tenth of its exit points: while the platform is not turned,
+    // the chords make no moment about the vertical through P, wherever it is, so that five equations are
+    // left.
+    let free = [Coordinate::X, Coordinate::Y];
+    for wanted in [Pose::at(0.0, 0.0, 2.0), Pose::at(0.17, -0.09, 2.0), Pose::at(0.3, 0.0, 1.0)] {
+        for error in [
+            inverse_free(&robot, &wanted, &Load::none(), &free).unwrap_err(),
+            held_at(&robot, &wanted, &Load::none(), &free).unwrap_err(),
+        ] {
+            let StaticsError::NotUnique { tensions: [one, other], .. } = error else { panic!("{error}") };
+            assert!((one / other - 1.0).abs() > 0.02, "{one} {other}");
+            assert_eq!(error.kind(), "not_unique");
+        }
+    }
+    // With the roll or the yaw free the sixth equation determines something.
+    let free = [Coordinate::Roll, Coordinate::Pitch];
+    let found = inverse_free(&robot, &Pose::at(0.5, 0.3, 2.0), &Load::none(), &free).unwrap();
+    assert!(found.first.stability.is_stable());
+}
+
+#[test]
+fn a_platform_on_one_cable_hangs_at_every_height() {
+    let wanted = Pose::at(1.0, 2.0, 1.5);
+    let platform = Platform { mass: 40.0, ..cogiro().platform };
+    let robot = suspended(&[[[1.0, 2.0, 5.0], [0.0, 0.0, 0.3]]], &string(), platform);
+    use Coordinate::{Pitch, Roll, X, Y, Yaw, Z};
+    // At a height that is given its turn about the vertical is neutral, and its length is one.
+    let found = inverse_free(&robot, &wanted, &Load::none(), &[X, Y, Roll, Pitch, Yaw]).unwrap();
+    assert_eq!(found.first.stability.neutral().len(), 1);
+    // With the yaw given and the height free, every length is right.
+    let error = inverse_free(&robot, &wanted, &Load::none(), &[X, Y, Z, Roll, Pitch]).unwrap_err();
+    let StaticsError::NotUnique { lengths: [one, other], .. } = error else { panic!("{error}") };
+    assert!((one - other).abs() > 0.01, "{one} {other}");
+}

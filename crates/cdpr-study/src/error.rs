@@ -144,8 +144,9 @@ pub enum StudyError {
     },
     /// The nominal robot cannot hold the study's pose or bear its load.
     #[error(
-        "{path}: {field} is {}: expected a pose that the nominal robot can hold: {source}",
-        shortened(value)
+        "{path}: {field} is {}: expected a pose that the nominal robot can hold{}: {source}",
+        shortened(value),
+        meant.as_ref().map_or_else(String::new, |meant| format!(" (meant? {meant})"))
     )]
     Nominal {
         /// The file.
@@ -154,6 +155,8 @@ pub enum StudyError {
         field: String,
         /// The position [m].
         value: String,
+        /// What was probably meant, where the position is far from the robot.
+        meant: Option<String>,
         /// The reason.
         source: Box<StaticsError>,
     },

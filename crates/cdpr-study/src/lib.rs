@@ -93,7 +93,7 @@ pub use kind::InputKind;
 pub use model::cable_law::{elastic_laws, open_law};
 pub use model::error_model::{ErrorModel, Term, uncertainties};
 pub use model::errors::open_errors;
-pub use model::grid::Grid;
+pub use model::grid::{Grid, free_along};
 pub use model::hash::robot_hash;
 pub use model::observed::{Failure, Measured, MeasuredQuantity, Observed, ScalarCount};
 pub use model::observer::OutputObserver;

@@ -128,3 +128,13 @@ fn a_cable_says_where_it_leaves_its_pulley() {
         }
     }
 }
+
+#[test]
+fn a_slice_over_a_coordinate_that_is_free_is_refused() {
+    let (_, text) = robots().into_iter().find(|(name, _)| *name == "four-cables").unwrap();
+    let slice = json!({"slice": {"normal": "z", "at": 2, "quaternion": [1, 0, 0, 0], "u": [0.2, 0.4, 2],
+        "v": [0.2, 0.4, 2], "rows": [0, 2], "free": ["x", "roll"]}});
+    let error = ask(&mut Live::new(&text).unwrap(), &slice)["error"].clone();
+    assert_eq!(error["kind"], json!("invalid_input"));
+    assert!(error["reason"].as_str().unwrap().starts_with("free is x: expected coordinates"), "{error}");
+}

@@ -14,8 +14,9 @@ const CONDITION: f64 = 100.0;
 pub(super) const TOUCHING: f64 = 1e-9;
 
 impl Findings<'_> {
-    /// Findings at a pose with feasible tensions.
-    pub(super) fn at_pose(&mut self, pose: &Pose, solution: &InverseSolution) {
+    /// Findings at a pose with feasible tensions. Where values are in doubt, they are the reason for an
+    /// equilibrium that is unstable.
+    pub(super) fn at_pose(&mut self, pose: &Pose, solution: &InverseSolution, are_doubtful: bool) {
         let robot = self.robot;
         let [x, y, z] = pose.position.into();
         let at = format!("at ({x:.3}, {y:.3}, {z:.3}) m");
@@ -28,7 +29,7 @@ impl Findings<'_> {
             self.add(
                 Severity::Note,
                 "cable.linear_density",
-                format!("cables of {weight:.1} N {at}"),
+                format!("such that the cables weigh {weight:.1} N {at}"),
                 &format!("{:.0} % of the platform's weight: they sag much", 100.0 * share),
                 "nothing, if they are so heavy; else linear_density in kg/m",
             );
@@ -59,13 +60,13 @@ impl Findings<'_> {
         }
         let held = DirectProblem::new(robot, &solution.lengths, &Load::none())
             .and_then(|problem| problem.direct_any(Start::Near(&solution.equilibrium)));
-        if held.is_ok_and(|held| !held.stability.is_stable()) {
+        if !are_doubtful && held.is_ok_and(|held| !held.stability.is_stable()) {
             self.add(
                 Severity::Warning,
                 "platform.center_of_mass",
                 format!("unstable {at}"),
                 "the platform is held there but would turn over",
-                "check the centre of mass and the heights of the anchor points",
+                "check the centre of mass and the heights of the anchor and exit points",
             );
         }
         self.pulleys(solution, &at);

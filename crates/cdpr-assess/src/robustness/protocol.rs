@@ -13,7 +13,8 @@ pub struct PoseRegion {
     pub low: [f64; 3],
     /// Greatest coordinates of P [m].
     pub high: [f64; 3],
-    /// Greatest angle of the rotation [rad]. Axis and angle are uniformly distributed.
+    /// Greatest angle of the rotation [rad]. Axis and angle are uniformly distributed. With free coordinates
+    /// poses are drawn level.
     pub max_angle: f64,
 }
 
@@ -76,8 +77,12 @@ pub struct Protocol {
 }
 
 const MOST_POSES: usize = 10_000_000;
-/// Draws made for each pose wanted before the test is given up.
+/// Draws made for each pose wanted before the test is given up, and at least.
 const DRAWS_PER_POSE: usize = 100;
+const DRAWS: usize = 1000;
+/// The same with free coordinates, where each refusal is a search from many starts.
+const FREE_DRAWS_PER_POSE: usize = 10;
+const FREE_DRAWS: usize = 200;
 
 impl Protocol {
     /// The test of Mahnke and Caverly for the forward kinematics of CoGiRo with sagging cables: E = 35 GPa,
@@ -211,7 +216,19 @@ impl Protocol {
     }
 
     fn most_draws(&self) -> usize {
-        self.poses.saturating_mul(DRAWS_PER_POSE).max(1000)
+        let (each, least) = self.draws();
+        self.poses.saturating_mul(each).max(least)
+    }
+
+    /// Draws for each pose wanted, and at least.
+    fn draws(&self) -> (usize, usize) {
+        if self.free.is_empty() { (DRAWS_PER_POSE, DRAWS) } else { (FREE_DRAWS_PER_POSE, FREE_DRAWS) }
+    }
+
+    /// Whether so few of the drawn poses are held that the others will not be either.
+    pub(super) fn holds_too_few(&self, held: usize, drawn: usize) -> bool {
+        let (each, least) = self.draws();
+        drawn >= least && held.saturating_mul(each) < drawn
     }
 }
 

@@ -80,7 +80,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     match cases {
         Cases::One(case) => {
             case.question(&robot);
-            let answer = patiently("solving", || solve(&robot, &case, settings.certify));
+            let answer = patiently("solving", || solve(&robot, &case, "the equilibrium", settings.certify));
             let answer = match &settings.from {
                 Some(path) => answer.map_err(ProgramError::in_file(path))?,
                 None => answer?,
@@ -91,12 +91,13 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
         Cases::List(cases) => {
             cases.iter().for_each(|case| case.question(&robot));
             let progress = progress(cases.len(), "cases");
-            let answer = |case| {
-                let answer = solve(&robot, case, settings.certify).into();
+            let answer = |(i, case): (usize, &Case)| {
+                let name = format!("the equilibrium of case {}", i + 1);
+                let answer = solve(&robot, case, &name, settings.certify).into();
                 progress.inc(1);
                 answer
             };
-            let answers: Vec<Entry> = cases.iter().map(answer).collect();
+            let answers: Vec<Entry> = cases.iter().enumerate().map(answer).collect();
             progress.finish_and_clear();
             settings.format.print(&answers, |answers| {
                 for (i, (entry, case)) in answers.iter().zip(&cases).enumerate() {
@@ -194,7 +195,8 @@ enum Entry {
     Failed { error: Failure },
 }
 
-fn solve(robot: &Robot, case: &Case, prove: bool) -> Result<Answer, StaticsError> {
+/// Solves a case and asks about the answer, which is called `name`.
+fn solve(robot: &Robot, case: &Case, name: &str, prove: bool) -> Result<Answer, StaticsError> {
     let mut robot = robot.clone();
     if let Some(mass) = case.mass {
         robot.platform.mass = mass;
@@ -219,6 +221,7 @@ fn solve(robot: &Robot, case: &Case, prove: bool) -> Result<Answer, StaticsError
     check_lengths(&robot, &case.lengths)?;
     let problem = DirectProblem::new(&robot, &case.lengths, &load)?;
     let solution = problem.direct(Start::Pose(&start))?;
+    questions::about_rest(&robot, name, (&case.lengths, &load), &solution, &start);
     let certificate = (prove || case.certify).then(|| problem.certify(&solution).into());
     Ok(Answer { found: Found::new(&robot, &case.lengths, &solution), certificate })
 }

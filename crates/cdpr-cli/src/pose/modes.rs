@@ -42,6 +42,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
         let problem = DirectProblem::new(&robot, lengths, &load)?;
         let start = start.unwrap_or_else(|| rough_pose(&robot, lengths));
         let found = problem.direct(Start::Pose(&start))?;
+        questions::about_rest(&robot, "the equilibrium", (lengths, &load), &found, &start);
         PoseModes::new(&problem, found.equilibrium)
     };
     let found = solve()?;

@@ -115,15 +115,19 @@ fn print_settings(protocol: &ProtocolSummary) {
         protocol.found_angle_deg
     );
     let draws = &protocol.draws;
+    // Rests of few cables are refused as unstable, too, before the direct model looks at them.
+    const UNSTABLE: &str = "unstable";
     let kinds = |counts: &std::collections::BTreeMap<String, usize>| {
-        counts.iter().map(|(kind, count)| format!(", {count} {kind}")).collect::<String>()
+        let others = counts.iter().filter(|(kind, _)| kind.as_str() != UNSTABLE);
+        others.map(|(kind, count)| format!(", {count} {kind}")).collect::<String>()
     };
+    let unstable = draws.unstable + draws.infeasible.get(UNSTABLE).copied().unwrap_or(0);
     println!(
         "{} poses of {} drawn{}; {} unstable{}",
         protocol.poses,
         draws.drawn,
         kinds(&draws.infeasible),
-        draws.unstable,
+        unstable,
         kinds(&draws.unanswered)
     );
 }

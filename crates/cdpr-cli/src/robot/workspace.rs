@@ -220,8 +220,10 @@ fn print(summary: &WorkspaceSummary) {
         println!("with the tensions distributed anew:");
     }
     counts(&summary.anew_status);
-    if !summary.left_out.is_empty() {
-        println!("left out, with the lengths kept:");
+    // Without a load these are the counts above, unless they say more.
+    let says_more = summary.left_out.keys().any(|why| !summary.status.contains_key(why.as_str()));
+    if says_more || summary.is_loaded() && !summary.left_out.is_empty() {
+        println!("left out{}:", if summary.is_loaded() { ", with the lengths kept" } else { "" });
         for (why, count) in &summary.left_out {
             println!("{count:8} {why}");
         }
@@ -254,7 +256,9 @@ fn print(summary: &WorkspaceSummary) {
             ]);
         }
     }
-    println!("{rows}");
+    if rows.row_count() > 0 {
+        println!("{rows}");
+    }
     if let Some(BoundarySummary { way, measure, error, unit, parts, evaluations }) = &summary.boundary {
         let (name, parts) = match *unit {
             "m2" => ("area", format!("{parts} polygons in boundary.csv")),

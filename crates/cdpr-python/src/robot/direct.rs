@@ -2,7 +2,8 @@
 
 use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each, question};
 use crate::robot::Robot;
-use cdpr_robot::plausible;
+use cdpr_assess::doubtful_rest;
+use cdpr_robot::{Rotation3, plausible};
 use cdpr_statics::{
     Limit, OutOfLimits, Start, StaticsError, check_lengths, direct, out_of_limits, rough_pose,
 };
@@ -128,6 +129,15 @@ impl Robot {
             Ok(Found::new(robot, lengths, solution))
         };
         let outcomes = each(py, cases.count, one)?;
+        let rotation =
+            |case| start.as_ref().map_or(Ok(Rotation3::identity()), |all| Ok(all.pose(case)?.rotation));
+        let doubt = |(case, outcome): (usize, &Result<Found, StaticsError>)| {
+            let (found, load) = (outcome.as_ref().ok()?, loads.load(case).ok()?);
+            let rotation: Result<_, StaticsError> = rotation(case);
+            let given = (lengths.row(case), &load);
+            doubtful_rest(robot, "the equilibrium", given, &found.solution, &rotation.ok()?)
+        };
+        question(outcomes.iter().enumerate().find_map(doubt))?;
         let found = Columns::new(py, cases, &outcomes)?;
         DirectSolution::new(&found, robot.cables.len())
     }

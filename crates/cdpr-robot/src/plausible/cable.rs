@@ -15,6 +15,8 @@ const NO_MATERIAL: Range<f64> = 3000.0..7000.0;
 const STEEL: f64 = 7850.0;
 /// Breaking force over section, from weak to the strongest fibre [Pa].
 const STRENGTH: Range<f64> = 2e7..1e10;
+/// Strength of steel wire [Pa].
+const STEEL_WIRE: f64 = 1e9;
 /// Metallic section over that of the full circle.
 const FILL: Range<f64> = 0.3..1.001;
 /// A section this near to the full circle was computed from the diameter.
@@ -26,6 +28,16 @@ const DIAMETER: Range<f64> = 2e-5..0.15;
 const LINEAR_DENSITY: Range<f64> = 1e-6..50.0;
 /// Stiffness EA over weight per length, from rubber to carbon fibre [m].
 const SPECIFIC: Range<f64> = 5e3..1e8;
+
+/// Whether a tension [N] is next to nothing for a cable: some thousandths of what breaks it.
+pub(super) fn is_idle(properties: &CableProperties, tension: f64) -> bool {
+    tension < 2e-3 * properties.breaking_force.unwrap_or(STEEL_WIRE * properties.section)
+}
+
+/// Whether a cable bears a tension [N].
+pub(super) fn is_borne(properties: &CableProperties, tension: f64) -> bool {
+    tension <= 1.01 * properties.breaking_force.unwrap_or(STRENGTH.end * properties.section)
+}
 
 /// Doubts about a Young's modulus [Pa].
 pub(super) fn modulus(quantity: &str, value: f64) -> Option<Doubt> {

@@ -142,16 +142,35 @@ pub fn reference(robot: &Robot) -> Option<Doubt> {
     ))
 }
 
+/// A platform heavier than what all cables hold: its mass, or the limits where they are far below what such
+/// cables carry.
 fn weight(robot: &Robot) -> Option<Doubt> {
     let mass = robot.platform.mass;
-    let (gravity, most) = (robot.gravity.magnitude(), capacity(robot));
-    (mass * gravity > most).then(|| {
-        let meant = in_other_unit(mass, "kg", &[("g", 1e-3)], |mass| mass * gravity < most);
-        Doubt::new(
-            "platform.mass",
-            format!("{} kg, {:.1} N", four_digits(mass), mass * gravity),
-            format!("all cables at tension_limits.max, drawn straight up, hold {most:.1} N"),
-            meant.unwrap_or_else(|| "a smaller mass or a greater limit".to_owned()),
-        )
-    })
+    let (weight, most) = (mass * robot.gravity.magnitude(), capacity(robot));
+    if weight <= most {
+        return None;
+    }
+    let limits = robot.cables.iter().enumerate().map(|(i, cable)| (robot.limits(i).max, &cable.properties));
+    let are_low = limits.clone().all(|(max, properties)| cable::is_idle(properties, max));
+    let are_kilonewtons = limits.clone().all(|(max, properties)| cable::is_borne(properties, 1e3 * max));
+    let greatest = limits.map(|(max, _)| max).fold(0.0, f64::max);
+    if are_low && are_kilonewtons && 1e3 * most > weight {
+        let meant = in_other_unit(greatest, "N", &[("kN", 1e3)], |_| true);
+        return Some(Doubt::new(
+            "tension_limits.max",
+            format!("{} N", four_digits(greatest)),
+            format!(
+                "all cables at it, drawn straight up, hold {most:.1} N, less than the platform's weight, \
+                 {weight:.1} N; such cables carry far more"
+            ),
+            meant.unwrap_or_else(|| "tensions in N".to_owned()),
+        ));
+    }
+    let meant = in_other_unit(mass, "kg", &[("g", 1e-3)], |mass| mass * robot.gravity.magnitude() < most);
+    Some(Doubt::new(
+        "platform.mass",
+        format!("{} kg, {weight:.1} N", four_digits(mass)),
+        format!("all cables at tension_limits.max, drawn straight up, hold {most:.1} N"),
+        meant.unwrap_or_else(|| "a smaller mass or a greater limit".to_owned()),
+    ))
 }

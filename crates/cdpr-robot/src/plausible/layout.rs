@@ -6,8 +6,8 @@ use std::ops::Range;
 
 /// Sizes of robots, from the desk to the stadium [m].
 pub const FRAME: Range<f64> = 0.05..1000.0;
-/// Heights that differ by less than this share of their size are the same, but for surveying.
-const SAME_HEIGHT: f64 = 0.02;
+/// Heights that differ by less than this share of their size are the same, but for surveying and mountings.
+const SAME_HEIGHT: f64 = 0.1;
 
 /// The size of the frame, and of the platform compared with it.
 pub(super) fn sizes(robot: &Robot) -> Doubts {
@@ -54,7 +54,7 @@ pub(super) fn mirrored(robot: &Robot) -> Option<Doubt> {
     Some(Doubt::new(
         format!("cables[{i}].exit_point"),
         format!("{:?} m", point.as_slice()),
-        "the only exit point on the other side of z = 0, and as far from it as others",
+        "the only exit point on the other side of z = 0, and about as far from it as others",
         format!("z = {}", -point.z),
     ))
 }

@@ -5,14 +5,19 @@ use super::doubt::{
 };
 use super::{cable, file};
 use crate::pose::Pose;
+use crate::pose::quaternion::{QuaternionError, rotation_in_order};
 use crate::robot::Robot;
 use crate::wrench::Wrench;
-use nalgebra::Vector3;
+use nalgebra::{Rotation3, Vector3};
 
 /// Distance of a position from the frame over the frame's size, beyond which it is in another unit.
 const FAR: f64 = 10.0;
 /// Length of a cable over the size of the frame, beyond which it is in another unit.
 const LONG: f64 = 20.0;
+/// The scalar of a rotation by 20 degrees. A file that names its columns is believed beyond it.
+const NEARLY_LEVEL: f64 = 0.985;
+/// A whole turn [degrees].
+const TURN: f64 = 360.0;
 /// Depth below the ground that is an error of surveying [m].
 const SURVEYED: f64 = 1e-3;
 /// What cables may stretch: beyond it two of them do not reach each other's exit points.
@@ -79,6 +84,27 @@ pub fn in_ground(robot: &Robot, quantity: &str, pose: &Pose) -> Option<Doubt> {
             format!("z of {} m or more", four_digits(pose.position.z + ground - lowest)),
         )
     })
+}
+
+/// Angles of more than a turn [degrees].
+pub fn angles(quantity: &str, angles: [f64; 3]) -> Option<Doubt> {
+    let angle = angles.into_iter().find(|angle| angle.abs() > TURN)?;
+    let within = four_digits((angle + 0.5 * TURN).rem_euclid(TURN) - 0.5 * TURN);
+    let typed = angles.map(four_digits).join(", ");
+    let why = format!("{} degrees are more than a turn", four_digits(angle));
+    let meant = format!("angles in degrees; {within} degrees are the same rotation");
+    Some(Doubt::new(quantity, format!("{typed} degrees"), why, meant))
+}
+
+/// Why a quaternion that a file states as (w, x, y, z) is probably (x, y, z, w): then it is nearly level.
+pub fn quaternion(quantity: &str, rotation: &Rotation3<f64>) -> Option<Doubt> {
+    let given = Pose { position: Vector3::zeros(), rotation: *rotation }.quaternion();
+    let error @ QuaternionError::Order { .. } = rotation_in_order(given).err()? else { return None };
+    if given[3].abs() < NEARLY_LEVEL {
+        return None;
+    }
+    let why = format!("it {}", error.fault());
+    Some(Doubt::new(quantity, error.value(), why, error.expected()))
 }
 
 /// A point of the platform far away from its anchor points.

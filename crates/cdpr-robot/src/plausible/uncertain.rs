@@ -8,6 +8,10 @@ use crate::robot::Robot;
 const DISTANCE: f64 = 0.01;
 /// Noise of an angle [rad].
 const ANGLE: f64 = 0.1;
+/// A mean this near to the value itself, relative to it, is the value.
+const SAME: f64 = 1e-3;
+/// Differences of equal numbers, relative to them.
+const ROUNDING: f64 = 1e-9;
 /// Least standard deviation of a modulus over the modulus.
 const LEAST_MODULUS: f64 = 1e-6;
 
@@ -46,21 +50,52 @@ fn scale(robot: &Robot, parameter: Parameter) -> Option<Scale> {
     (scale.most > 0.0).then_some(scale)
 }
 
-/// A deviation of a parameter with this mean and standard deviation that is too large or too small; `of` is
-/// its name.
+/// A deviation of a parameter with this mean and standard deviation that is too large or too small, or whose
+/// mean is the parameter's own value; `of` is its name.
 pub fn deviation(robot: &Robot, parameter: Parameter, of: &str, [mean, std]: [f64; 2]) -> Option<Doubt> {
+    let nominal = parameter.nominal(robot);
+    (shifted(robot, parameter, of, mean, |away| away < SAME * nominal.abs()))
+        .or_else(|| size(robot, parameter, of, [mean, std]))
+}
+
+/// The greatest deviation of a parameter on an axis that is too large; `of` is its name.
+pub fn farthest(robot: &Robot, parameter: Parameter, of: &str, deviation: f64) -> Option<Doubt> {
+    size(robot, parameter, of, [deviation, 0.0])
+}
+
+/// A mean that is the value of the parameter, as far as `is_value` says of the difference of both, and not
+/// the deviation from it.
+fn shifted(
+    robot: &Robot,
+    parameter: Parameter,
+    of: &str,
+    mean: f64,
+    is_value: impl Fn(f64) -> bool,
+) -> Option<Doubt> {
+    let (nominal, unit) = (parameter.nominal(robot), parameter.unit());
+    let text = |value: f64| format!("{} {unit}", four_digits(value));
+    let away = mean - nominal;
+    // What is left of a difference of equal numbers is rounding; so are coordinates such as 1e-17.
+    let is_rounding = nominal.abs() <= ROUNDING * frame_size(robot).max(reach(robot));
+    (mean != 0.0 && !is_rounding && is_value(away.abs())).then(|| {
+        let left = if away.abs() <= ROUNDING * nominal.abs() { 0.0 } else { away };
+        let why = format!("deviations count from {}, the value of the robot file", text(nominal));
+        Doubt::new(format!("mean of {of}"), text(mean), why, format!("mean {}", text(left)))
+    })
+}
+
+/// A mean or a standard deviation that is too large or too small.
+fn size(robot: &Robot, parameter: Parameter, of: &str, [mean, std]: [f64; 2]) -> Option<Doubt> {
     let (scale, unit) = (scale(robot, parameter)?, parameter.unit());
     let nominal = parameter.nominal(robot);
     let text = |value: f64| format!("{} {unit}", four_digits(value));
     if mean.abs() > scale.most {
-        let why = format!("deviations count from {}; above {}", text(nominal), scale.of);
-        let is_value = (mean - nominal).abs() < 0.5 * nominal.abs();
-        let meant = if is_value {
-            format!("mean {}, as the value of the robot file is the middle", text(mean - nominal))
-        } else {
-            in_other(mean, &parameter, &scale)
-        };
-        return Some(Doubt::new(format!("mean of {of}"), text(mean), why, meant));
+        let of_value = shifted(robot, parameter, of, mean, |away| away < 0.5 * nominal.abs());
+        return of_value.or_else(|| {
+            let why = format!("deviations count from {}; above {}", text(nominal), scale.of);
+            let meant = in_other(mean, &parameter, &scale);
+            Some(Doubt::new(format!("mean of {of}"), text(mean), why, meant))
+        });
     }
     if std > scale.most {
         let why = format!("above {}", scale.of);

@@ -8,10 +8,11 @@
 //! ```
 //!
 //! (I6) may have several solutions, and not all are wanted. Straight cables without weight are solved first,
-//! from many starts (`straight`), and each of their roots is followed to the cables as they are (`search`), in
-//! steps of their weight where they sag much. The search then goes on from cables that sag. Only *sound* solutions
-//! are taken: all tensions within their limits, no cable a loop or below the ground (`sound`). Each solution is
-//! an equilibrium for its lengths, and the stiffness with these lengths fixed says whether it is stable.
+//! from many starts (`straight`), and each of their roots is followed to the cables as they are (`search`),
+//! in steps of their weight where they sag much. The search then goes on from cables that sag. Only *sound*
+//! solutions are taken: all tensions within their limits, no cable a loop or below the ground (`sound`). A
+//! solution with infinitely many others next to it is refused (`unique`). Each solution is an equilibrium for
+//! its lengths, and the stiffness with these lengths fixed says whether it is stable.
 
 mod nearby;
 mod roots;
@@ -19,6 +20,7 @@ mod search;
 mod solution;
 mod sound;
 mod straight;
+mod unique;
 
 use super::question::Question;
 use super::{HeldPose, inverse};
@@ -59,6 +61,7 @@ use sound::{Loops, longest};
 /// # Errors
 /// - [`StaticsError::FreeCoordinates`] where `free` has not m - n names.
 /// - [`StaticsError::NoRest`] where no such solution was found; it says what the nearest one lacks.
+/// - [`StaticsError::NotUnique`] where infinitely many lengths or tensions hold the platform.
 /// - [`StaticsError::Invalid`] for a coordinate that is named twice or held, and a pose or load that is not
 ///   finite.
 pub fn inverse_free(
@@ -131,14 +134,19 @@ impl Search<'_> {
     fn beside(&self) -> Result<Option<FreeSolution>, StaticsError> {
         let changes = vec![0.0; self.free.len()];
         let chord_forces = self.straight_forces(&changes);
-        let Outcome::Found(point, _, iterations) = self.descend(Unknowns { changes, chord_forces }) else {
+        let Outcome::Found(point, unknowns, iterations) = self.descend(Unknowns { changes, chord_forces })
+        else {
             return Ok(None);
         };
-        self.accepted(point, iterations)
+        let found = self.accepted(point, iterations)?;
+        if found.is_some() {
+            self.check_unique(&unknowns)?;
+        }
+        Ok(found)
     }
 
-    /// A solution, if it is sound, taut, stable and so close to the given coordinates that no other needs to be
-    /// looked for.
+    /// A solution, if it is sound, taut, stable and so close to the given coordinates that no other needs to
+    /// be looked for.
     fn accepted(&self, point: Point, iterations: usize) -> Result<Option<FreeSolution>, StaticsError> {
         let Question { robot, pose, load, .. } = self.question;
         if self.distance(pose, &point.held.equilibrium.pose) > BESIDE

@@ -1,5 +1,7 @@
 //! The first study of a user's own robot: a file that runs as it is, and whose numbers the user replaces.
 
+mod tolerances;
+
 use crate::error::StudyError;
 use crate::fs::atomic::write_new;
 use crate::fs::files::named_file;
@@ -7,6 +9,7 @@ use cdpr_robot::library::ROBOTS;
 use cdpr_robot::{Coordinate, Parameter, Pose, Robot, Vector3, rounded};
 use cdpr_statics::{Load, deflection_free};
 use std::path::Path;
+use tolerances::{Tolerances, two_digits};
 
 /// What the fields of a study file mean, for people; the format itself has no comments.
 pub const TEMPLATE_NOTES: &str = "\
@@ -105,24 +108,27 @@ pub fn template(
     let free = free_coordinates(robot, free)?;
     let payload = payload.unwrap_or_else(|| two_digits(0.1 * robot.platform.mass));
     let held = |position: &[f64; 3]| rest(robot, *position, payload, &free);
-    let (pose, tension) = match position {
-        Some(position) => match held(&position) {
-            Ok(found) => found,
-            Err(error) => {
-                let expected = format!("a position that the robot holds with {payload} kg: {error}");
-                return Err(StudyError::setting("position", format!("{position:?}"), expected));
-            }
-        },
-        None => candidates(robot, !free.is_empty())
-            .into_iter()
-            .find_map(|position| held(&position).ok())
-            .ok_or_else(|| {
-                let expected =
-                    "x,y,z [m], because the robot holds none of the positions tried between its exit points";
-                StudyError::setting("position", "missing", expected)
-            })?,
+    let load = Load::payload(payload);
+    // Any robot with enough cables is held with small errors.
+    let tolerances = |(pose, tension): &(Pose, f64)| match &free[..] {
+        [] => Some(Tolerances::usual(robot, *tension)),
+        free => Tolerances::held(robot, *tension, pose, &load, free),
     };
-    let pose = described(&pose, !free.is_empty());
+    let given = match position {
+        Some(position) => Some(held(&position).map_err(|error| {
+            let expected = format!("a position that the robot holds with {payload} kg: {error}");
+            StudyError::setting("position", format!("{position:?}"), expected)
+        })?),
+        None => None,
+    };
+    let others = candidates(robot, !free.is_empty()).into_iter().filter_map(|place| held(&place).ok());
+    let tried = given.into_iter().chain(others.take(if position.is_none() { FEW } else { 0 }));
+    let Some(((pose, _), tolerances)) = with_tolerances(robot, tried, tolerances) else {
+        let expected =
+            "x,y,z [m], because the robot holds none of the positions tried between its exit points";
+        return Err(StudyError::setting("position", "missing", expected));
+    };
+    let pose = &pose;
     let Size { observations, replicates, has_sensitivity, axis } = Size::of(robot);
     let sensitivity = if has_sensitivity {
         format!(
@@ -136,24 +142,8 @@ pub fn template(
     } else {
         String::new()
     };
-    let cable = &robot.cables[0].properties;
-    let [mass, density] = [robot.platform.mass, cable.linear_density].map(|value| two_digits(0.05 * value));
-    let modulus = two_digits(0.1 * cable.youngs_modulus);
-    let uniform =
-        |half: f64| format!(r#"{{ "law": {{ "uniform": {{ "min": -{half:?}, "max": {half:?} }} }} }}"#);
-    // Cables without weight have none that could vary.
-    let density = if density > 0.0 {
-        format!("\n      \"linear_density\": {},", uniform(density))
-    } else {
-        String::new()
-    };
-    let parameters = Parameter::of(robot);
-    let has = |group: &str| parameters.iter().any(|parameter| parameter.group() == group);
-    let further: String = [("r", 0.0005), ("lead", 0.05), ("tilt", 0.01), ("gravity", 0.05)]
-        .into_iter()
-        .filter(|(group, _)| has(group))
-        .map(|(group, half)| format!(",\n      \"{group}\": {}", uniform(half)))
-        .collect();
+    let source = source(&tolerances);
+    let pose = described(pose, !free.is_empty());
     let names: Vec<_> = free.iter().map(|name| format!("\"{name}\"")).collect();
     let free =
         if free.is_empty() { String::new() } else { format!("\n      \"free\": [{}],", names.join(", ")) };
@@ -164,7 +154,7 @@ pub fn template(
         r#"{{
   "format": "cdpr-study/1",
   "name": {name},
-  "source": "Template of cdpr study new: every tolerance is an assumption, to be replaced by what is known.",
+  "source": {source},
   "robot": {robot_path},
   "payload": {payload:?},
   "seed": 1,
@@ -173,12 +163,7 @@ pub fn template(
   "bootstrap_resamples": 200,
   "error_models": {{
     "tolerances": {{
-      "mass": {mass},{density}
-      "youngs_modulus": {modulus},
-      "a": {anchors},
-      "b": {exits},
-      "cog": {center},
-      "dt": {offsets}{further}
+{entries}
     }}
   }},
   "samplings": {{
@@ -199,14 +184,9 @@ pub fn template(
   }}
 }}
 "#,
-        mass = uniform(mass),
-        modulus = uniform(modulus),
-        anchors = uniform(0.002),
-        exits = uniform(0.005),
-        center = uniform(0.01),
-        offsets = uniform(two_digits(0.01 * tension)),
-        widest_e = modulus,
-        widest_m = mass,
+        entries = tolerances.entries(),
+        widest_e = tolerances.half("youngs_modulus"),
+        widest_m = tolerances.half("mass"),
     ))
 }
 
@@ -234,6 +214,25 @@ pub fn write_template(
     write_new(path.to_owned(), text.as_bytes()).map(|_| ())
 }
 
+/// The first pose with its mean tension [N] that has tolerances, or the first one with the least.
+fn with_tolerances(
+    robot: &Robot,
+    poses: impl Iterator<Item = (Pose, f64)>,
+    tolerances: impl Fn(&(Pose, f64)) -> Option<Tolerances>,
+) -> Option<((Pose, f64), Tolerances)> {
+    let mut first = None;
+    for one in poses {
+        match tolerances(&one) {
+            Some(found) => return Some((one, found)),
+            None => first = first.or(Some(one)),
+        }
+    }
+    first.map(|one| (one, Tolerances::least(robot, one.1)))
+}
+
+/// Positions of a robot of few cables at which smaller tolerances are tried.
+const FEW: usize = 3;
+
 /// Positions above each other in the middle of the exit points, between the lowest and the highest of these;
 /// below them where all exit points have the same height. The intervals are halved, and their ends are left
 /// out. A platform of few cables is put beside the middle, where a symmetrical robot holds it in many ways.
@@ -245,15 +244,18 @@ fn candidates(robot: &Robot, is_few: bool) -> Vec<[f64; 3]> {
         (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max))
     };
     let ((x_min, x_max), (mut low, high)) = (extent(0), extent(2));
-    let beside = if is_few { 0.1 * (x_max - x_min) } else { 0.0 };
-    let [x, y] = [middle.x + beside, middle.y + 0.6 * beside];
+    let aside: &[f64] = if is_few { &[0.05, 0.1] } else { &[0.0] };
     if high - low < 0.2 * (x_max - x_min) {
         low = high - 0.5 * (x_max - x_min);
     }
     let shares = [0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.1, 0.9];
     // To a centimetre: what users see, they change.
     let centimetres = |value: f64| rounded(value, 2);
-    shares.map(|share| [x, y, low + share * (high - low)].map(centimetres)).into()
+    let at = |aside: f64, share: f64| {
+        let aside = aside * (x_max - x_min);
+        [middle.x + aside, middle.y + 0.6 * aside, low + share * (high - low)].map(centimetres)
+    };
+    aside.iter().flat_map(|aside| shares.map(|share| at(*aside, share))).collect()
 }
 
 /// The coordinates that are found: those that are named, else the angles first.
@@ -306,9 +308,19 @@ fn rest(
     Ok((pose, mean))
 }
 
-/// To two digits.
-fn two_digits(value: f64) -> f64 {
-    format!("{value:.1e}").parse().unwrap_or(value)
+/// Where the numbers of a template come from, as a JSON string.
+fn source(tolerances: &Tolerances) -> String {
+    let mut text =
+        "Template of cdpr study new: every tolerance is an assumption, to be replaced by what is known."
+            .to_owned();
+    if tolerances.share < 1.0 {
+        let smaller = 1.0 / tolerances.share;
+        text += &format!(
+            " Those of points and set-points are {smaller} times smaller than usual: with larger ones the \
+             few cables do not hold all of the coordinates that are given."
+        );
+    }
+    serde_json::Value::from(text).to_string()
 }
 
 #[cfg(test)]

@@ -47,14 +47,21 @@ pub fn check_table(path: &Path, bytes: &[u8], kind: InputKind) -> Result<(), Stu
     }
 }
 
+/// Whether every other byte of the beginning is zero, as that of letters in UTF-16.
+fn is_wide(bytes: &[u8]) -> bool {
+    let pairs = bytes.chunks_exact(2).take(8);
+    let all = |place: usize| pairs.clone().all(|pair| pair[place] == 0 && pair[1 - place] != 0);
+    bytes.len() > 1 && (all(0) || all(1))
+}
+
 /// The text that the bytes of a file are, as [`read_text`] has it.
 pub(crate) fn text_of(path: &Path, bytes: Vec<u8>) -> Result<String, StudyError> {
     let unreadable = |reason: &str| StudyError::Read {
         path: path.to_owned(),
         source: io::Error::new(ErrorKind::InvalidData, reason),
     };
-    if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
-        return Err(unreadable("its encoding is UTF-16 instead of UTF-8"));
+    if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) || is_wide(&bytes) {
+        return Err(unreadable("its encoding is UTF-16 instead of UTF-8; save it as UTF-8"));
     }
     let text = String::from_utf8(bytes).map_err(|_| unreadable("it is not UTF-8"))?;
     Ok(text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text))
@@ -146,6 +153,12 @@ mod tests {
         assert_eq!(read_text(file.path(), InputKind::Robot).unwrap(), "{}");
         let error = read_text(written(b"\xff\xfe{\0}\0").path(), InputKind::Robot).unwrap_err();
         assert!(error.to_string().contains("UTF-16 instead of UTF-8"), "{error}");
+        // Without a mark, letters have every other byte zero.
+        for wide in [u16::to_le_bytes, u16::to_be_bytes] {
+            let bytes: Vec<u8> = "{\"format\": 1}".encode_utf16().flat_map(wide).collect();
+            let error = read_text(written(&bytes).path(), InputKind::Robot).unwrap_err();
+            assert!(error.to_string().contains("UTF-16 instead of UTF-8; save it as UTF-8"), "{error}");
+        }
     }
 
     #[test]

@@ -42,6 +42,23 @@ pub struct ResultsFolder {
     path: PathBuf,
     lock: Lock,
     state: Arc<Mutex<State>>,
+    /// Whether the folder was made for this run, which has it alone.
+    made: bool,
+}
+
+impl Drop for ResultsFolder {
+    /// Removes a folder that was made for a run that was refused before it wrote anything.
+    fn drop(&mut self) {
+        let is_unused = {
+            let state = self.state();
+            state.alone && !state.listed && state.written.is_empty()
+        };
+        if self.made && is_unused {
+            // What cannot be removed stays: the run has another error to report.
+            let _ = disk::remove(&self.path.join(LOCK_NAME));
+            let _ = disk::remove_folder(&self.path);
+        }
+    }
 }
 
 /// The file of a lock. It is unlocked when it is dropped, even if a process that was started meanwhile has
@@ -150,6 +167,7 @@ impl ResultsFolder {
     ) -> Result<Self, StudyError> {
         // Before anything is made in what may be a user's own folder.
         known(path, of, &writes)?;
+        let made = access == Access::Alone && path.symlink_metadata().is_err();
         check_folder(path)?;
         let lock_path = path.join(LOCK_NAME);
         is_plain_file(&lock_path)?;
@@ -161,7 +179,7 @@ impl ResultsFolder {
         let listed = manifest.is_some();
         let manifest = manifest.unwrap_or_else(|| Manifest::new(of));
         let state = State { manifest, alone, listed, overwrites: false, written: BTreeMap::new() };
-        Ok(Self { path: path.to_owned(), lock, state: Arc::new(Mutex::new(state)) })
+        Ok(Self { path: path.to_owned(), lock, state: Arc::new(Mutex::new(state)), made })
     }
 
     /// Shares the folder from now on with other processes that make blocks of the same study.

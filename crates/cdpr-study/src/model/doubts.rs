@@ -1,7 +1,7 @@
 //! Doubts about the numbers of a study: its deviations, its payload, its poses.
 
 use crate::file::grid::GridSpec;
-use crate::file::study_file::{AxisSpec, PosesSpec};
+use crate::file::study_file::{AxisSpec, PoseSpec, PosesSpec};
 use crate::model::error_model::{ErrorModel, Term};
 use crate::model::study::Study;
 use cdpr_robot::{Doubt, Doubts, Parameter, Pose, Robot, Vector3, Wrench, plausible};
@@ -76,9 +76,15 @@ impl Study {
                 None => spec.pose.iter().map(|pose| pose.position).collect(),
             };
             doubts.extend(first_far(robot, &format!("a position of {name}"), &positions));
+            let listed = match &spec.poses {
+                Some(PosesSpec::List(poses)) => &poses[..],
+                _ => spec.pose.as_slice(),
+            };
+            doubts.extend(first_turned(&format!("rpy_deg of {name}"), listed));
         }
         for (name, spec) in &file.surfaces {
             doubts.extend(first_far(robot, &format!("the position of {name}"), &[spec.pose.position]));
+            doubts.extend(first_turned(&format!("rpy_deg of {name}"), std::slice::from_ref(&spec.pose)));
             doubts.extend([&spec.x, &spec.y].into_iter().filter_map(|axis| self.axis_doubt(name, axis)));
         }
         doubts
@@ -87,7 +93,7 @@ impl Study {
     fn axis_doubt(&self, surface: &str, axis: &AxisSpec) -> Option<Doubt> {
         let parameter = Parameter::from_str(&axis.parameter).ok()?;
         let farthest = if axis.min.abs() > axis.max.abs() { axis.min } else { axis.max };
-        let doubt = plausible::deviation(&self.robot, parameter, &axis.parameter, [farthest, 0.0])?;
+        let doubt = plausible::farthest(&self.robot, parameter, &axis.parameter, farthest)?;
         Some(Doubt { quantity: format!("{} in {surface}", axis.parameter), ..doubt })
     }
 }
@@ -96,6 +102,11 @@ impl Study {
 fn ends(grid: &GridSpec) -> Vec<[f64; 3]> {
     let axes = [&grid.x, &grid.y, &grid.z];
     vec![axes.map(|axis| axis.min), axes.map(|axis| axis.max)]
+}
+
+/// The first of some poses whose angles are more than a turn.
+fn first_turned(name: &str, poses: &[PoseSpec]) -> Option<Doubt> {
+    poses.iter().find_map(|pose| plausible::angles(name, pose.rpy_deg?))
 }
 
 fn first_far(robot: &Robot, name: &str, positions: &[[f64; 3]]) -> Option<Doubt> {

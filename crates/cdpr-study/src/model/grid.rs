@@ -2,7 +2,7 @@
 
 use crate::error::StudyError;
 use crate::file::grid::{GridAxis, GridSpec};
-use cdpr_robot::{Axis, Pose, Robot, frame};
+use cdpr_robot::{Axis, Coordinate, Pose, Robot, frame};
 use serde::{Deserialize, Serialize};
 
 /// Level positions on a grid of the base frame, x slowest and z fastest.
@@ -101,6 +101,11 @@ impl Grid {
         across.next().filter(|_| across.next().is_none())
     }
 
+    /// The first free coordinate along which the positions differ, and what is expected: see [`free_along`].
+    pub fn of_free(&self, free: &[Coordinate]) -> Option<(Coordinate, String)> {
+        free_along(free, |axis| self.axis(axis).points > 1)
+    }
+
     /// Number of positions.
     pub fn count(&self) -> usize {
         self.x.points * self.y.points * self.z.points
@@ -125,6 +130,14 @@ impl Grid {
     pub fn poses(&self) -> Vec<Pose> {
         (0..self.count()).map(|number| self.pose(number)).collect()
     }
+}
+
+/// The first free coordinate along which a map has positions, and what is expected: the same rest would be
+/// found from all of them.
+pub fn free_along(free: &[Coordinate], has_positions: impl Fn(Axis) -> bool) -> Option<(Coordinate, String)> {
+    let is_mapped = |one: &&Coordinate| !one.is_angle() && has_positions(Axis::ALL[one.component()]);
+    let one = free.iter().find(is_mapped)?;
+    Some((*one, format!("coordinates that are not those of the positions: {one} is given at each of them")))
 }
 
 #[cfg(test)]
@@ -181,5 +194,16 @@ mod tests {
         sunk.cables.iter_mut().for_each(|cable| cable.exit_point.z -= 3.5);
         let message = Grid::over_frame(&sunk, Axis::X, 0.0, [5, 3]).unwrap_err().to_string();
         assert!(message.starts_with("plane is x=0: expected a plane that the exit points span"), "{message}");
+    }
+
+    #[test]
+    fn a_map_has_no_positions_along_a_free_coordinate() {
+        use Coordinate::{Pitch, Roll, X, Z};
+        let grid = Grid::new([axis(-0.3, 0.1, 3), axis(0.0, 1.0, 2), axis(2.0, 2.0, 1)]).unwrap();
+        assert_eq!(grid.of_free(&[Roll, Pitch]), None);
+        assert_eq!(grid.of_free(&[Z, Pitch]), None);
+        let (one, expected) = grid.of_free(&[Roll, X]).unwrap();
+        assert_eq!(one, X);
+        assert!(expected.ends_with("x is given at each of them"), "{expected}");
     }
 }

@@ -78,10 +78,14 @@ impl Study {
                 Ok(PoseSet::List(list))
             }
             (None, Some(PosesSpec::Grid(grid))) => {
-                Grid::of(grid).map(PoseSet::Grid).map_err(|(axis, value, expected)| {
+                let grid = Grid::of(grid).map_err(|(axis, value, expected)| {
                     let axis = axis.map(|axis| format!(".{axis}")).unwrap_or_default();
                     self.invalid(&format!("{field}.poses.grid{axis}"), value, &expected)
-                })
+                })?;
+                match grid.of_free(&spec.free) {
+                    Some((one, expected)) => Err(self.invalid(&format!("{field}.free"), one, &expected)),
+                    None => Ok(PoseSet::Grid(grid)),
+                }
             }
             (pose, _) => {
                 let found = if pose.is_some() { "`pose` and `poses`" } else { "missing" };

@@ -7,7 +7,7 @@ use crate::model::observer::{Observing, OutputObserver};
 use crate::model::operating_point::{Moduli, resolved};
 use crate::model::pose_set::Located;
 use crate::model::study::{NominalPose, Sampling, Study, Surface, SurfaceAxis, keys};
-use cdpr_robot::{Coordinate, Parameter, Pose};
+use cdpr_robot::{Coordinate, Parameter, Pose, plausible};
 use cdpr_sensitivity::{Input, SobolDesign};
 use cdpr_statics::{Deflection, Load, StaticsError};
 use indexmap::IndexMap;
@@ -235,6 +235,7 @@ impl Study {
             path: self.path.clone(),
             field: field.to_owned(),
             value: format!("{:?}", pose.position.as_slice()),
+            meant: plausible::position(&self.robot, field, &pose.position).map(|doubt| doubt.meant),
             source: Box::new(source),
         }
     }

@@ -165,6 +165,7 @@ const FAILURES = {
   unstable: "No stable equilibrium here",
   equilibrium_lost: "The platform does not stay here",
   indifferent: "No single equilibrium here",
+  not_unique: "No single equilibrium here",
   inverse_not_converged: "Tensions were found, but not the best ones",
   step_limit: "Not computed to its end",
 };

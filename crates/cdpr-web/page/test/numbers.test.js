@@ -186,6 +186,7 @@ test("a failure after an equilibrium was found does not say that there is none",
   for (const kind of [
     "unstable",
     "indifferent",
+    "not_unique",
     "inverse_not_converged",
     "equilibrium_lost",
     "invalid_input",

@@ -4,6 +4,7 @@ use crate::answers::failure::Failure;
 use crate::question::Slice;
 use cdpr_robot::{Pose, Robot, Vector3};
 use cdpr_statics::{Deflection, deflection_free, out_of_limits};
+use cdpr_study::free_along;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -41,6 +42,9 @@ pub(crate) fn slice(robot: &Robot, given: &Slice) -> Result<Cells, Failure> {
         return Err(Failure::invalid("quaternion", value, "one that is not zero"));
     };
     let [across, along_u, along_v] = given.normal.axes();
+    if let Some((one, expected)) = free_along(&given.free, |axis| axis as usize != across) {
+        return Err(Failure::invalid("free", one, &expected));
+    }
     let mut cells = Cells::default();
     for row in first..end {
         for column in 0..given.u.2 {

@@ -49,6 +49,7 @@ struct Lacking {
 /// A solution with what is wrong about it.
 struct Root {
     solution: FreeSolution,
+    unknowns: Unknowns,
     fault: Option<RestFault>,
 }
 
@@ -97,10 +98,8 @@ impl<'s, 'a> Roots<'s, 'a> {
 
     fn add(&mut self, outcome: Outcome) -> Result<(), StaticsError> {
         let Question { robot, load, .. } = self.search.question;
-        let (point, is_turned_about, iterations) = match outcome {
-            Outcome::Found(point, unknowns, iterations) => {
-                (point, self.search.is_turned_about(&unknowns.changes), iterations)
-            }
+        let (point, unknowns, iterations) = match outcome {
+            Outcome::Found(point, unknowns, iterations) => (point, unknowns, iterations),
             Outcome::Stuck(point) => {
                 self.lacks(false, point.residual.norm() / point.forces, self.search.left(&point));
                 return Ok(());
@@ -124,6 +123,7 @@ impl<'s, 'a> Roots<'s, 'a> {
         if self.found.iter().any(same) {
             return Ok(());
         }
+        let is_turned_about = self.search.is_turned_about(&unknowns.changes);
         let angle = self.search.question.pose.rotation.angle_to(&solution.equilibrium.pose.rotation);
         let is_stable = solution.stability.is_stable();
         let is_turned_over = is_turned_about || (angle > TURNED_OVER && !is_stable);
@@ -133,7 +133,7 @@ impl<'s, 'a> Roots<'s, 'a> {
         }
         let is_no_answer = matches!(fault, Some(RestFault::Loop { .. } | RestFault::BelowGround { .. }));
         if !is_no_answer && !is_turned_about {
-            self.found.push(Root { solution, fault });
+            self.found.push(Root { solution, unknowns, fault });
         }
         Ok(())
     }
@@ -152,7 +152,7 @@ impl<'s, 'a> Roots<'s, 'a> {
 
     fn chosen(mut self, straight: &[StraightRoot]) -> Result<FreeSolutions, StaticsError> {
         let Question { robot, pose, .. } = self.search.question;
-        let order = |Root { solution, fault }: &Root| {
+        let order = |Root { solution, fault, .. }: &Root| {
             let FreeSolution { stability, lengths, equilibrium, .. } = solution;
             let is_taut =
                 longest(robot, lengths, equilibrium).is_none_or(|(_, chords)| chords <= LONGEST_TAUT);
@@ -169,7 +169,10 @@ impl<'s, 'a> Roots<'s, 'a> {
             nearest.is_stable && is_near
         });
         match found.next() {
-            Some(Root { solution: first, fault: None, .. }) if first.stability.is_stable() || !is_named => {
+            Some(Root { solution: first, fault: None, unknowns })
+                if first.stability.is_stable() || !is_named =>
+            {
+                self.search.check_unique(&unknowns)?;
                 let others = found.map(|root| root.solution).collect();
                 Ok(FreeSolutions { first, others })
             }

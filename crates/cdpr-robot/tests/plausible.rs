@@ -1,0 +1,63 @@
+//! Questions about the values of a robot file and about deviations: the field that is wrong is named.
+
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+use cdpr_robot::{Doubt, Parameter, Robot, plausible};
+
+fn named(name: &str) -> Robot {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/robots");
+    Robot::from_json(&std::fs::read_to_string(format!("{folder}/{name}.json")).unwrap()).unwrap()
+}
+
+fn only(doubts: Vec<Doubt>) -> Doubt {
+    let [doubt] = &doubts[..] else { panic!("{doubts:?}") };
+    doubt.clone()
+}
+
+#[test]
+fn limits_in_kilonewtons_are_questioned_and_the_mass_is_not() {
+    for name in ["caroca", "cogiro", "expo2015-lucia", "four-cables"] {
+        let mut robot = named(name);
+        robot.tension_limits.max *= 1e-3;
+        robot.tension_limits.min = 1e-3;
+        robot.tension_reference = None;
+        let doubt = only(plausible::robot(&robot));
+        assert_eq!(doubt.quantity, "tension_limits.max", "{name}: {doubt}");
+        assert!(doubt.meant.ends_with("is in kN"), "{name}: {doubt}");
+        // The mass in grams is the mass.
+        let mut heavy = named(name);
+        heavy.platform.mass *= 1e3;
+        heavy.platform.inertia = None;
+        let doubts = plausible::robot(&heavy);
+        assert_eq!(doubts[0].quantity, "platform.mass", "{name}: {doubts:?}");
+    }
+}
+
+#[test]
+fn an_exit_point_with_a_lost_sign_is_questioned_where_heights_differ_a_little() {
+    for z in [-3.5, -3.4, -3.3] {
+        let mut robot = named("caroca");
+        robot.cables[2].exit_point.z = z;
+        let doubt = only(plausible::robot(&robot));
+        assert_eq!((doubt.quantity.as_str(), doubt.meant), ("cables[2].exit_point", format!("z = {}", -z)));
+    }
+}
+
+#[test]
+fn a_mean_that_is_the_value_itself_is_questioned_however_large_deviations_may_be() {
+    let mut robot = named("four-cables");
+    let x: Parameter = "cog.x".parse().unwrap();
+    let asked = |robot: &Robot, mean: f64| plausible::deviation(robot, x, "cog.x", [mean, 1e-3]);
+    // Half of the reach of the platform is 0.27 m, its centre of mass 0.02 m from P.
+    let doubt = asked(&robot, 0.02).unwrap();
+    assert_eq!((doubt.quantity.as_str(), doubt.meant.as_str()), ("mean of cog.x", "mean 0 m"));
+    assert_eq!(asked(&robot, 0.005), None);
+    assert_eq!(asked(&robot, 0.0), None);
+    // A difference of equal numbers is no mean.
+    let doubt = asked(&robot, 0.1 * 0.2).unwrap();
+    assert_eq!(doubt.meant, "mean 0 m");
+    // An axis may go as far as the value, and a value may be rounding itself.
+    assert_eq!(plausible::farthest(&robot, x, "cog.x", 0.02), None);
+    robot.platform.center_of_mass.x = 6.9e-18;
+    assert_eq!(asked(&robot, 6.9e-18), None);
+}
