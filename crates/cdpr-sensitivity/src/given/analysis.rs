@@ -139,24 +139,27 @@ impl Analyser {
         let all = data.observed(2)?;
         let work = Work::new(*self, data, &all);
         let mut notes = Notes(Vec::new());
+        let fitted = work.fitted();
+        if fitted.len() < work.outputs.len() {
+            notes.0.push(format!("fits are of {} rows drawn at random", fitted.len()));
+        }
         if work.drawn.outputs.len() < work.observed.outputs.len() {
             notes.0.push(format!(
-                "fits, PAWN, delta and expansion are of {} rows drawn at random, dependences of {}",
+                "PAWN, delta and expansion are of {} rows drawn at random, dependences of {}",
                 work.drawn.outputs.len(),
                 self.dependence_rows.min(work.observed.outputs.len())
             ));
         }
         let sample = Sample::new(data.outputs())?;
-        let fits = fit_all(
-            &Sample::of_values(&work.drawn.outputs)?,
-            Bootstrap { resamples: FIT_RESAMPLES, seed: work.seed(1) },
-        );
+        let fits =
+            fit_all(&Sample::of_values(&fitted)?, Bootstrap { resamples: FIT_RESAMPLES, seed: work.seed(1) });
         let fits = notes.unless("fitted laws", fits).unwrap_or_default();
         let expansion = work.expansion(&mut notes);
         let (linear, inputs, dependence) = work.inputs(data, expansion.as_ref(), &mut notes);
         let limit = self.limit.map(|limit| {
             let (rows, level) = (work.rows(), self.level);
-            AtLimit { limit, observed: &work.observed, kinds: &work.kinds, rows, level }.found(&mut notes.0)
+            let (outputs, observed) = (&work.outputs[..], &work.observed);
+            AtLimit { limit, outputs, observed, kinds: &work.kinds, rows, level }.found(&mut notes.0)
         });
         let limit = limit.transpose()?;
         let verdict = work.verdict(data, &all, dependence.as_deref());
