@@ -12,7 +12,7 @@
 //! | which share does it cause, and take part in, by a polynomial model? | [`expansion`] |
 //! | which way does it act? | [`halves`]; words: [`levels`] |
 //! | which inputs are certain to matter? | [`verdict`], by the tests of [`evidence`] under [`conditions`] |
-//! | which inputs depend on each other? | `dependence`, `joint`; of a design by a `sequence` |
+//! | which inputs depend on each other? | `verdict::dependence`, `verdict::joint`; of a design by a `verdict::sequence` |
 //! | how much does an input move the distribution of a vector? | `bures` |
 //! | all of these and regression beside each other | [`analysis`] |
 
@@ -22,16 +22,13 @@ pub mod bures;
 pub mod conditions;
 pub mod data;
 pub mod delta;
-mod dependence;
 pub mod evidence;
 pub mod expansion;
 pub mod halves;
 pub mod hsic;
-mod joint;
 pub mod levels;
 pub mod limit;
 mod measures;
 pub mod pawn;
 pub mod rank;
-mod sequence;
 pub mod verdict;

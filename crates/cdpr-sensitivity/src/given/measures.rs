@@ -15,7 +15,7 @@ use crate::given::levels;
 use crate::given::limit::LEAST_FAILING;
 use crate::given::pawn;
 use crate::given::rank;
-use crate::given::sequence::coordinates;
+use crate::given::verdict::sequence::coordinates;
 use crate::given::verdict::{Doubt, Table, Verdict};
 use crate::measure::regression::{self, Of, ranks, standardised};
 use crate::sample::interval::Estimate;

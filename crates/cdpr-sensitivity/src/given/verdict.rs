@@ -14,14 +14,18 @@
 //! The tests hold for rows that are independent of each other, and what they find is the effect of an input
 //! where inputs are independent. An input is therefore *certain* to matter only if
 //!
-//! - no other input depends on it ([`dependence`](super::dependence)), so that an input that is found for what
+//! - no other input depends on it ([`dependence`](dependence)), so that an input that is found for what
 //!   another causes is not certain;
 //! - it and the output have no order together ([`conditions`](crate::given::conditions)).
 //!
 //! Otherwise it is *related* to the output, with the reasons. Rows that repeat count once.
 //!
-//! Rows of a [`sequence`](super::sequence) are not independent of each other: trend and location alone are tested,
+//! Rows of a [`sequence`](sequence) are not independent of each other: trend and location alone are tested,
 //! and a coordinate that is found no more clearly than its pattern with another one is related.
+
+mod dependence;
+mod joint;
+pub(super) mod sequence;
 
 use std::collections::HashSet;
 
@@ -30,9 +34,9 @@ use serde::{Deserialize, Serialize};
 use crate::design::observation::Observed;
 use crate::given::conditions::{Concern, Condition, in_order};
 use crate::given::data::Kind;
-use crate::given::dependence::{FALSE_FINDINGS, Inputs};
 use crate::given::evidence::{self, MOST_OF_PAIRS, Measure, Test, Tested, Tests};
 use crate::given::hsic::{self, Dependence, Rows};
+use crate::given::verdict::dependence::{FALSE_FINDINGS, Inputs};
 use crate::sample::random::derived_seed;
 
 /// An input that matters.

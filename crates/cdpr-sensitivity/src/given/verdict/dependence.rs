@@ -1,4 +1,4 @@
-//! Which inputs depend on each other, by the tests that find an effect ([`evidence`](super::evidence)).
+//! Which inputs depend on each other, by the tests that find an effect ([`evidence`](crate::given::evidence)).
 //!
 //! An input that is found may have no effect of its own if another one, found or not, depends on it: for y = a -
 //! b, an input that follows a - b is found first. Each found input is therefore tested against all others, at
@@ -24,12 +24,12 @@
 
 use crate::given::data::Kind;
 use crate::given::evidence::{MOST_OF_PAIRS, Scores, Space, Test, Tested, bonferroni};
-use crate::given::joint::{Joint, joint};
 use crate::given::rank::order;
+use crate::given::verdict::joint::{Joint, joint};
 use crate::parallel::*;
 
 /// Probability of one or more false findings in a table.
-pub(super) const FALSE_FINDINGS: f64 = 0.05;
+pub(crate) const FALSE_FINDINGS: f64 = 0.05;
 
 /// Probability that independent inputs are said to depend on each other.
 const FALSE_PAIRS: f64 = 0.01;
