@@ -39,6 +39,14 @@ impl Analyser {
     /// Largest number of rows of the dependences.
     pub const MOST_DEPENDENCE_ROWS: usize = hsic::MOST_ROWS;
 
+    /// Checks a number of inputs before their values are put together.
+    ///
+    /// # Errors
+    /// [`SensitivityError::OutOfRange`] for none, and for more than [`MOST_INPUTS`].
+    pub fn check_inputs(count: usize) -> Result<(), SensitivityError> {
+        check_range("inputs", count as u64, 1, MOST_INPUTS as u64)
+    }
+
     /// Intervals of 95 %, dependences of 2000 rows, no limit.
     #[must_use]
     pub fn new(seed: u64) -> Self {
@@ -135,7 +143,7 @@ impl Analyser {
         check_level(self.level)?;
         let most = self.dependence_rows as u64;
         check_range("dependence_rows", most, hsic::MIN_ROWS as u64, hsic::MOST_ROWS as u64)?;
-        check_range("inputs", data.names().len() as u64, 1, MOST_INPUTS as u64)?;
+        Self::check_inputs(data.names().len())?;
         let all = data.observed(2)?;
         let work = Work::new(*self, data, &all);
         let mut notes = Notes(Vec::new());
@@ -193,7 +201,7 @@ impl Analyser {
     pub fn verdict(&self, data: &GivenData) -> Result<Verdict, SensitivityError> {
         let most = self.dependence_rows as u64;
         check_range("dependence_rows", most, hsic::MIN_ROWS as u64, hsic::MOST_ROWS as u64)?;
-        check_range("inputs", data.names().len() as u64, 1, MOST_INPUTS as u64)?;
+        Self::check_inputs(data.names().len())?;
         let all = data.observed(2)?;
         Ok(Work::new(*self, data, &all).verdict(data, &all, None))
     }

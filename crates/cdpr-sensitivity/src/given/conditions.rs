@@ -45,6 +45,8 @@ pub enum Concern {
     RowNumber,
     /// Few values are far beyond all others.
     Diverged,
+    /// One value, far from all others, is there several times: it may stand for a missing one.
+    Sentinel,
     /// There are too few rows for any verdict.
     FewRows,
 }
@@ -65,8 +67,8 @@ impl Condition {
     /// Whether the table may not be what its user means: something to look at before its numbers are used.
     #[must_use]
     pub fn is_question(&self) -> bool {
-        use Concern::{Constant, Diverged, RepeatedRows, RowNumber};
-        matches!(self.concern, RepeatedRows | Constant | RowNumber | Diverged)
+        use Concern::{Constant, Diverged, RepeatedRows, RowNumber, Sentinel};
+        matches!(self.concern, RepeatedRows | Constant | RowNumber | Diverged | Sentinel)
     }
 }
 
@@ -271,6 +273,15 @@ pub(crate) fn of_column(name: Option<&str>, column: &[f64], kind: Kind) -> Optio
             format!("{called} numbers the rows: is it an input at all?"),
         ));
     }
+    if let Some((value, count, [low, high])) = sentinel(column) {
+        let shown = if value.abs() < 1e9 { value.to_string() } else { format!("{value:e}") };
+        let text = format!(
+            "{count} of {} values of {called} are {shown}, all others from {low:.3e} to {high:.3e}: does it stand \
+             for a missing value?",
+            column.len()
+        );
+        return Some(condition(Concern::Sentinel, text));
+    }
     let (count, least, next) = diverged(column)?;
     let values = if count == 1 { "1 value".to_owned() } else { format!("{count} values") };
     let text = format!(
@@ -281,6 +292,31 @@ pub(crate) fn of_column(name: Option<&str>, column: &[f64], kind: Kind) -> Optio
         if count == 1 { "" } else { "s" },
     );
     Some(condition(Concern::Diverged, text))
+}
+
+/// A value that several rows have, at most 30 % of them, far below or above all others: the value, the number of
+/// rows, the least and the largest of the others. Columns of few levels have none.
+fn sentinel(column: &[f64]) -> Option<(f64, usize, [f64; 2])> {
+    /// How many times farther from the others than these are from each other.
+    const FARTHER: f64 = 2.0;
+    const FEW: usize = 10;
+    let mut sorted = column.to_vec();
+    sorted.sort_unstable_by(f64::total_cmp);
+    let n = sorted.len();
+    let at = |value: f64| {
+        let first = sorted.partition_point(|other| *other < value);
+        (first, sorted.partition_point(|other| *other <= value) - first)
+    };
+    let far = |value: f64| {
+        let (first, count) = at(value);
+        let others = if first == 0 { &sorted[count..] } else { &sorted[..first] };
+        let (low, high) = (*others.first()?, *others.last()?);
+        let gap = if first == 0 { low - value } else { value - high };
+        let levels = others.chunk_by(|one, other| one == other).take(FEW).count();
+        let is_few = (2..=3 * n / 10).contains(&count) && levels == FEW;
+        (is_few && gap > FARTHER * (high - low)).then_some((value, count, [low, high]))
+    };
+    far(sorted[0]).or_else(|| far(sorted[n - 1]))
 }
 
 /// Number of values that are far beyond all others, the least of their distances from the median, and the

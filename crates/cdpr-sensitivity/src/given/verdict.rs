@@ -135,9 +135,9 @@ impl Table<'_> {
             if !companions.patterns.is_empty() {
                 let together = |inputs: &Vec<usize>| {
                     let names: Vec<&str> = inputs.iter().map(|&input| self.names[input]).collect();
-                    format!("`{}`", names.join("` and `"))
+                    format!("`{}`", names.join("` with `"))
                 };
-                let names = listed(&companions.patterns, together);
+                let names = listed(&companions.patterns, 3, together);
                 reasons.push(format!(
                     "found no more clearly than the pattern that the sequence has with {names}"
                 ));
@@ -178,7 +178,7 @@ impl Table<'_> {
     /// Names of inputs, of many the first ones.
     fn named(&self, inputs: &[usize]) -> String {
         let name = |&input: &usize| format!("`{}`", self.names[input]);
-        listed(inputs, name)
+        listed(inputs, 8, name)
     }
 
     /// What is not tested.
@@ -211,7 +211,7 @@ impl Table<'_> {
         let text = format!(
             "inputs depend on each other ({}): first-order indices, shares and tests count for each what they \
              cause together, and what they cause against each other may not be found",
-            listed(&pairs, pair)
+            listed(&pairs, 8, pair)
         );
         let mut inputs: Vec<usize> = pairs.into_iter().flatten().collect();
         inputs.sort_unstable();
@@ -232,11 +232,10 @@ impl Table<'_> {
     }
 }
 
-/// A list in words, of many the first ones.
-fn listed<T>(all: &[T], word: impl Fn(&T) -> String) -> String {
-    const MOST: usize = 8;
-    let words: Vec<String> = all.iter().take(MOST).map(word).collect();
-    match all.len().saturating_sub(MOST) {
+/// A list in words, of at most so many.
+fn listed<T>(all: &[T], most: usize, word: impl Fn(&T) -> String) -> String {
+    let words: Vec<String> = all.iter().take(most).map(word).collect();
+    match all.len().saturating_sub(most) {
         0 => words.join(", "),
         more => format!("{} and {more} more", words.join(", ")),
     }
