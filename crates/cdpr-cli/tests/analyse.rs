@@ -184,7 +184,7 @@ fn a_folder_of_results_has_the_deviations_as_inputs_and_the_last_column_as_outpu
 
 #[test]
 fn inputs_that_are_certain_in_the_own_table_of_a_study_have_a_share_and_the_cause_is_among_them() {
-    // The modulus has more than 99 % of the deflection of CAROCA and CoGiRo, and 76 % of that of IPAnema 1 along z.
+    // The modulus has more than 99 % of the deflection of CAROCA and CoGiRo, and 76 % of that of IPAnema 1.
     for (robot, rows) in
         [("caroca", "200"), ("caroca", "500"), ("caroca", "2000"), ("cogiro", "500"), ("ipanema-1", "500")]
     {
@@ -204,7 +204,7 @@ fn inputs_that_are_certain_in_the_own_table_of_a_study_have_a_share_and_the_caus
             let found = verdict[list].as_array().unwrap().iter();
             found.map(|of| of["input"].as_str().unwrap().to_owned()).collect()
         };
-        // All other inputs of CAROCA and CoGiRo have less than 0.5 %, those of IPAnema but cog.x and cog.y 2 %.
+        // All other inputs of CAROCA and CoGiRo have less than 0.5 %, those of IPAnema but two about 2 %.
         let certain = names("certain");
         assert_eq!(certain[0], "d_youngs_modulus", "{robot}, {rows} rows: {verdict}");
         assert!(certain.len() == 1 || robot == "ipanema-1", "{robot}, {rows} rows: {certain:?}");

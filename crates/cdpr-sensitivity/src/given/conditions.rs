@@ -276,8 +276,8 @@ pub(crate) fn of_column(name: Option<&str>, column: &[f64], kind: Kind) -> Optio
     if let Some((value, count, [low, high])) = sentinel(column) {
         let shown = if value.abs() < 1e9 { value.to_string() } else { format!("{value:e}") };
         let text = format!(
-            "{count} of {} values of {called} are {shown}, all others from {low:.3e} to {high:.3e}: does it stand \
-             for a missing value?",
+            "{count} of {} values of {called} are {shown}, all others from {low:.3e} to {high:.3e}: does it \
+             stand for a missing value?",
             column.len()
         );
         return Some(condition(Concern::Sentinel, text));
@@ -294,8 +294,8 @@ pub(crate) fn of_column(name: Option<&str>, column: &[f64], kind: Kind) -> Optio
     Some(condition(Concern::Diverged, text))
 }
 
-/// A value that several rows have, at most 30 % of them, far below or above all others: the value, the number of
-/// rows, the least and the largest of the others. Columns of few levels have none.
+/// A value that several rows have, at most 30 % of them, far below or above all others: the value, the number
+/// of rows, the least and the largest of the others. Columns of few levels have none.
 fn sentinel(column: &[f64]) -> Option<(f64, usize, [f64; 2])> {
     /// How many times farther from the others than these are from each other.
     const FARTHER: f64 = 2.0;

@@ -108,7 +108,7 @@ pub(crate) struct Table<'a> {
 }
 
 impl Table<'_> {
-    /// The verdict of all tests; doubts and conditions of columns and of repeated rows are those of the caller.
+    /// The verdict of all tests; doubts and conditions of columns and of repeated rows are the caller's.
     pub(crate) fn verdict(&self) -> Verdict {
         let seed = |part| derived_seed(self.rows.seed, part);
         let mut verdict = Verdict { rows: self.units.outputs.len(), ..Verdict::default() };
@@ -187,8 +187,8 @@ impl Table<'_> {
         if count > 0 {
             let all = count == self.names.len();
             let text = format!(
-                "the rows are those of a sequence of low discrepancy, as in studies and designs of Sobol': {} \
-                 independent by construction; what acts with another input only is not found",
+                "the rows are those of a sequence of low discrepancy, as in studies and designs of Sobol': \
+                 {} independent by construction; what acts with another input only is not found",
                 if all { "the inputs are".to_owned() } else { format!("{count} inputs are") }
             );
             let names = (0..self.names.len()).filter(|&input| self.coordinate[input] && !all);
@@ -209,8 +209,8 @@ impl Table<'_> {
         }
         let pair = |&[one, other]: &[usize; 2]| format!("`{}` and `{}`", self.names[one], self.names[other]);
         let text = format!(
-            "inputs depend on each other ({}): first-order indices, shares and tests count for each what they \
-             cause together, and what they cause against each other may not be found",
+            "inputs depend on each other ({}): first-order indices, shares and tests count for each what \
+             they cause together, and what they cause against each other may not be found",
             listed(&pairs, 8, pair)
         );
         let mut inputs: Vec<usize> = pairs.into_iter().flatten().collect();
@@ -226,8 +226,8 @@ impl Table<'_> {
         if inputs.is_empty() {
             return;
         }
-        let text = "rows next to each other are alike in the output and in inputs: p-values and intervals are \
-                    too small for these";
+        let text = "rows next to each other are alike in the output and in inputs: p-values and intervals \
+                    are too small for these";
         verdict.conditions.push(Condition { concern: Concern::RowsInOrder, inputs, text: text.to_owned() });
     }
 }

@@ -1,7 +1,7 @@
-//! Which inputs depend on each other, by the tests that find an effect ([`evidence`](crate::given::evidence)).
+//! Which inputs depend on each other, by the tests that find an effect, [`evidence`](crate::given::evidence).
 //!
-//! An input that is found may have no effect of its own if another one, found or not, depends on it: for y = a -
-//! b, an input that follows a - b is found first. Each found input is therefore tested against all others, at
+//! An input that is found may have no effect of its own if another one, found or not, depends on it: for
+//! y = a - b, an input that follows a - b is found first. Each found input is therefore tested against all others, at
 //! [`FALSE_FINDINGS`] over their number: at least as sensitive as the verdict, which corrects for more tests.
 //!
 //! Several others together may explain it where none does alone ([`joint`](super::joint)), at 1 %.
@@ -16,8 +16,8 @@
 //! R² (J1) of v in the input > 10 |m|² / |v|² R² of m in the input                     (F2)
 //! ```
 //!
-//! Patterns of three coordinates are as strong as those of two: the products of two others that are found in the
-//! output are such m, too.
+//! Patterns of three coordinates are as strong as those of two: the products of two others that are found in
+//! the output are such m, too.
 //!
 //! Coordinates that are no pattern but copies have a rank correlation above 0.5; those of sequences are below
 //! 0.25 from 200 rows on.
@@ -221,8 +221,8 @@ fn of_ranks(one: &Tested, other: &Tested) -> Option<f64> {
     Some(Space::Line(one).p_value(other))
 }
 
-/// p of the tests of an input as if another one were the output: its ranks and their distances from the middle,
-/// or for levels whether a row has each of them.
+/// p of the tests of an input as if another one were the output: its ranks and their distances from the
+/// middle, or for levels whether a row has each of them.
 fn one_way(input: &Tested, output: &Tested) -> Vec<f64> {
     match (&output.steps, output.kind) {
         (Space::Steps(groups, sizes), Kind::Levels) => {

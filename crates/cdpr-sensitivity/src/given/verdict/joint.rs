@@ -31,7 +31,7 @@ const MOST: usize = 200;
 /// What is added to the diagonal of C, so that copies have an inverse.
 const RIDGE: f64 = 1e-9;
 
-/// How the others explain each input of ordered values; none for words, and for more inputs than can be tested.
+/// How the others explain each input of ordered values; none for words, nor for more inputs than are tested.
 pub(crate) fn joint(scores: &[Option<&Scores>], rows: usize) -> Vec<Option<Joint>> {
     let places: Vec<usize> = (0..scores.len()).filter(|&input| scores[input].is_some()).collect();
     let all: Vec<&Scores> = scores.iter().flatten().copied().collect();

@@ -32,7 +32,7 @@ pub(crate) fn coordinates(rows: &[&[f64]], drawn: &[Vec<f64>], kinds: &[Kind], s
     if count > 1 { found } else { vec![false; kinds.len()] }
 }
 
-/// Whether eight rows in turn have a value in each eighth, in half of all eights from one of the first rows on.
+/// Whether eight rows in turn have a value in each eighth, in half of all eights from a first row on.
 fn fills(column: &[f64]) -> bool {
     let n = column.len() as f64;
     let eighth = |rank: f64| ((rank - 0.5) / n * BLOCK as f64) as usize;
