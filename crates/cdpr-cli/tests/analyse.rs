@@ -227,7 +227,7 @@ fn counts_of_one_are_in_the_singular_and_columns_of_words_and_numbers_are_questi
     {
         assert!(printed.contains(words), "{words}: {printed}");
     }
-    let mixed = |row: usize| if row % 3 == 0 { format!("{row}.5") } else { format!("word {row}") };
+    let mixed = |row: usize| if row.is_multiple_of(3) { format!("{row}.5") } else { format!("word {row}") };
     let rows: String = (0..40).map(|row| format!("{},{},{}\n", wave(row), mixed(row), wave(row))).collect();
     std::fs::write(folder.path().join("t.csv"), format!("x,load,y\n{rows}")).unwrap();
     let output = cdpr_in(folder.path(), &["analyse", "t.csv"]);
