@@ -2,7 +2,7 @@
 //!
 //! The test of verdicts and `cargo xtask statistics verdicts` take the same.
 
-use cdpr_sensitivity::GivenData;
+use cdpr_sensitivity::{GivenData, Input, Law, SobolDesign};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -134,6 +134,36 @@ fn copied(source: &mut Source, rows: usize, correlation: f64) -> Known {
     columns[1] = columns[0].iter().zip(&columns[1]).map(|(x, own)| correlation * x + rest * own).collect();
     let y = outputs(&columns, |x| x[0] + 0.5 * x[2] + 0.3 * source.normal());
     known(columns, y, &[0, 2], false)
+}
+
+/// Rows of Sobol' sequence from a point on, with coordinates in random order.
+fn of_sequence(
+    source: &mut Source,
+    [inputs, rows]: [usize; 2],
+    causes: &[usize],
+    model: fn(&[f64], &mut Source) -> f64,
+) -> Known {
+    let laws =
+        (0..62).map(|i| Input::continuous(format!("u{i}"), Law::Uniform { min: 0.0, max: 1.0 })).collect();
+    let design = SobolDesign::new(laws, 1, rows).unwrap();
+    let mut all = GivenData::of_design(&design, &vec![None; rows]).unwrap().columns().to_vec();
+    for place in (1..all.len()).rev() {
+        let other = source.below(place + 1);
+        all.swap(place, other);
+    }
+    all.truncate(inputs);
+    let y = outputs(&all, |x| model(x, source));
+    known(all, y, causes, true)
+}
+
+/// The difference of two causes of this correlation.
+fn difference(source: &mut Source, rows: usize, correlation: f64) -> Known {
+    let rest = (1.0 - correlation * correlation).sqrt();
+    let mut columns = source.lists(5, rows, Source::normal);
+    columns[1] = columns[0].iter().zip(&columns[1]).map(|(x, own)| correlation * x + rest * own).collect();
+    columns[2] = outputs(&columns, |x| x[0] - x[1] + 0.3 * x[2]);
+    let y = outputs(&columns, |x| x[0] - x[1] + 0.5 * source.normal());
+    known(columns, y, &[], false).but(0).but(1)
 }
 
 /// All rows of a table so many times.
@@ -295,6 +325,49 @@ pub(crate) const KINDS: &[Kind] = &[
         let mut columns = s.lists(4, 200, Source::uniform);
         columns[0].iter_mut().for_each(|x| *x = (*x - 0.5).max(0.0));
         let y = outputs(&columns, |x| 4.0 * x[0] + 0.3 * s.normal());
+        known(columns, y, &[0], true)
+    }),
+    ("a difference of causes that correlate, and its copy, 200 rows", |s| difference(s, 200, 0.9)),
+    ("a difference of causes that correlate, and its copy, 500 rows", |s| difference(s, 500, 0.97)),
+    ("a companion of causes that are not found", |s| {
+        let mut columns = s.lists(8, 300, Source::normal);
+        columns[7] = outputs(&columns, |x| x[..6].iter().sum::<f64>() + 0.3 * x[7]);
+        let y = outputs(&columns, |x| x[..6].iter().sum::<f64>() + 2.0 * s.normal());
+        (0..6).fold(known(columns, y, &[], false), Known::but)
+    }),
+    ("a sequence, nothing", |s| of_sequence(s, [62, 500], &[], |_, s| s.normal())),
+    ("a sequence, one cause", |s| of_sequence(s, [62, 500], &[0], |x, _| 1.0 / (1.0 + x[0]))),
+    ("a sequence, one cause, 200 rows", |s| of_sequence(s, [62, 200], &[0], |x, _| x[0].exp())),
+    ("a sequence, one cause, 1500 rows", |s| of_sequence(s, [40, 1500], &[0], |x, _| x[0].exp())),
+    ("a sequence, a spread", |s| of_sequence(s, [30, 500], &[0], |x, _| (x[0] - 0.5).abs())),
+    ("a sequence, three causes", |s| {
+        of_sequence(s, [62, 500], &[0, 1, 2], |x, s| x[0] + x[1] + x[2] + 0.3 * s.normal())
+    }),
+    ("a sequence, causes that act together", |s| {
+        of_sequence(s, [62, 500], &[0], |x, _| x[0] + 0.7 * (2.0 * x[1] - 1.0) * (2.0 * x[2] - 1.0))
+            .but(1)
+            .but(2)
+    }),
+    ("a sequence, rows in another order", |s| {
+        let Known { data, .. } = of_sequence(s, [62, 500], &[0], |x, _| x[0].powi(2));
+        let mut columns = data.columns().to_vec();
+        s.shuffled(&mut columns);
+        let y = columns[0].iter().map(|x| x.powi(2)).collect();
+        known(columns, y, &[0], true)
+    }),
+    ("a sequence with a copy of the cause", |s| {
+        let Known { data, .. } = of_sequence(s, [20, 500], &[0], |x, _| x[0]);
+        let mut columns = data.columns().to_vec();
+        columns[1] = columns[0].iter().zip(&columns[1]).map(|(x, own)| 0.95 * x + 0.05 * own).collect();
+        columns[2] = columns[0].iter().zip(&columns[2]).map(|(x, own)| x + own).collect();
+        let y = outputs(&columns, |x| x[0] + 0.1 * s.normal());
+        known(columns, y, &[0], false)
+    }),
+    ("a sequence and another output", |s| {
+        let Known { data, .. } = of_sequence(s, [40, 500], &[0], |x, _| x[0]);
+        let mut columns = data.columns().to_vec();
+        columns[39] = columns[1].iter().map(|x| x + 0.1 * s.normal()).collect();
+        let y = outputs(&columns, |x| x[0] + 0.1 * s.normal());
         known(columns, y, &[0], true)
     }),
     ("shares of a mixture", |s| {

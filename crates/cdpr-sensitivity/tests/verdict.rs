@@ -2,8 +2,8 @@
 
 use crate::known_tables::{KINDS, Source};
 use cdpr_sensitivity::{
-    Analyser, Concern, GivenData, Limit, Rows, SensitivityError, Verdict, delta, dependence, given_expansion,
-    halves, pawn, rank_indices,
+    Analyser, Concern, GivenData, Input, Law, Limit, Rows, SensitivityError, SobolDesign, Verdict, delta,
+    dependence, given_expansion, halves, observe, pawn, rank_indices,
 };
 use rayon::prelude::*;
 
@@ -94,6 +94,96 @@ fn row_numbers_constant_columns_and_diverged_runs_are_questions() {
     }
     assert_eq!(found.certain.iter().map(|of| of.input.as_str()).collect::<Vec<_>>(), ["x1"]);
     assert_eq!(found.doubtful[0].input, "x2");
+}
+
+#[test]
+fn a_value_far_from_all_others_in_many_rows_is_questioned_and_a_level_is_not() {
+    let mut source = Source::new(4);
+    let [x, y] = [source.uniforms(100), source.uniforms(100)];
+    let with = |value: f64, every: usize, column: &[f64]| -> Vec<f64> {
+        column.iter().enumerate().map(|(row, x)| if row % every == 0 { value } else { *x }).collect()
+    };
+    let questioned = |x: Vec<f64>, y: Vec<f64>| {
+        let found = Analyser::new(1).verdict(&table(vec![x], y)).unwrap();
+        let of = found.conditions.iter().find(|of| of.concern == Concern::Sentinel).cloned();
+        of.map(|of| (of.is_question(), of.inputs.len(), of.text))
+    };
+    for (value, every) in [(-999.0, 7), (9999.0, 4), (1e30, 15), (-999.0, 50)] {
+        let (is_question, inputs, text) = questioned(with(value, every, &x), y.clone()).unwrap();
+        assert!(is_question && inputs == 1, "{text}");
+        assert!(questioned(x.clone(), with(value, every, &y)).is_some_and(|of| of.1 == 0), "{value}");
+    }
+    let (.., text) = questioned(with(-999.0, 7, &x), y.clone()).unwrap();
+    assert!(text.starts_with("15 of 100 values of input `x1` are -999, all others from "), "{text}");
+    // Levels, a value next to the others, and one of half of the rows.
+    let levels: Vec<f64> =
+        (0..100).map(|row| if row % 5 == 0 { 100.0 } else { f64::from(row % 3) }).collect();
+    for x in [levels, with(2.0, 7, &x), with(-999.0, 2, &x), x.clone()] {
+        assert_eq!(questioned(x, y.clone()), None);
+    }
+}
+
+#[test]
+fn inputs_that_depend_on_each_other_are_named_where_none_is_found() {
+    let mut source = Source::new(11);
+    let columns = [0, 1, 2].map(|_| source.uniforms(60)).to_vec();
+    let b: Vec<f64> = columns[0].iter().zip(&columns[1]).map(|(a, own)| a + 0.3 * own).collect();
+    // The noise is ten times the difference.
+    let noise = source.uniforms(60);
+    let y = (0..60).map(|row| columns[0][row] - b[row] + 3.0 * noise[row]).collect();
+    let found = Analyser::new(1).verdict(&table(vec![columns[0].clone(), b, columns[2].clone()], y)).unwrap();
+    assert!(found.certain.is_empty() && found.related.is_empty(), "{found:?}");
+    let condition = found.conditions.iter().find(|of| of.concern == Concern::DependentInputs).unwrap();
+    assert_eq!(condition.inputs, ["x1", "x2"]);
+    assert!(condition.text.contains("(`x1` and `x2`)"), "{}", condition.text);
+}
+
+#[test]
+fn repeated_settings_count_once_in_every_measure_and_each_row_in_the_failures_of_a_limit() {
+    let mut source = Source::new(8);
+    let settings: Vec<Vec<f64>> = (0..3).map(|_| source.uniforms(60)).collect();
+    let columns: Vec<Vec<f64>> =
+        settings.iter().map(|column| column.iter().flat_map(|&x| [x; 5]).collect()).collect();
+    let noise = source.uniforms(300);
+    let y: Vec<f64> = columns[0].iter().zip(&noise).map(|(x, noise)| x + 0.05 * noise).collect();
+    let limit = Some(Limit::Below(0.5));
+    let found = Analyser { limit, ..Analyser::new(1) }.analyse(&table(columns, y.clone())).unwrap();
+    // Neighbours of five equal settings gave each input a share of almost 1.
+    for inert in &found.inputs[1..] {
+        assert!(inert.first.unwrap().low < 0.0 && inert.pawn.unwrap().median < 0.5, "{inert:?}");
+        assert!(
+            inert.delta.unwrap().at_least < 0.05 && inert.dependence.unwrap().p_value > 0.01,
+            "{inert:?}"
+        );
+    }
+    assert!(found.inputs[0].first.unwrap().low > 0.8, "{:?}", found.inputs[0]);
+    assert_eq!((found.verdict.rows, found.limit.unwrap().rows), (60, 300));
+    assert_eq!(found.limit.unwrap().count, y.iter().filter(|y| **y >= 0.5).count());
+    let repeated = found.verdict.conditions.iter().find(|of| of.concern == Concern::RepeatedRows).unwrap();
+    assert!(repeated.text.contains("verdict and measures take the mean output of each"), "{}", repeated.text);
+}
+
+#[test]
+fn a_sequence_of_more_rows_than_tests_take_is_still_one_and_that_is_no_question() {
+    let law = Law::Uniform { min: -1.0, max: 1.0 };
+    let inputs = (1..=16).map(|i| Input::continuous(format!("x{i}"), law)).collect();
+    let design = SobolDesign::new(inputs, 1, 12_000).unwrap();
+    let outputs = observe(&design, |x| Some((x[2] + 0.3 * x[5]).exp())).unwrap();
+    let found = Analyser::new(1).verdict(&GivenData::of_design(&design, &outputs).unwrap()).unwrap();
+    assert_eq!(found.certain.iter().map(|of| of.input.as_str()).collect::<Vec<_>>(), ["x3", "x6"]);
+    assert!(concerns(&found, Concern::Sequence) && !found.has_questions(), "{found:?}");
+    // Without the rows that failed, eights are no longer in turn.
+    let failed: Vec<Option<f64>> =
+        outputs.iter().enumerate().map(|(row, y)| y.filter(|_| row % 9 > 0)).take(400).collect();
+    let rows: Vec<Vec<f64>> = GivenData::of_design(&design, &outputs)
+        .unwrap()
+        .columns()
+        .iter()
+        .map(|x| x[..400].to_vec())
+        .collect();
+    let names = (1..=16).map(|i| format!("x{i}")).collect();
+    let found = Analyser::new(1).verdict(&GivenData::new(names, rows, failed).unwrap()).unwrap();
+    assert!(concerns(&found, Concern::Sequence) && found.certain[0].input == "x3", "{found:?}");
 }
 
 #[test]

@@ -23,15 +23,20 @@ pub fn analysis_report(table: &GivenTable, found: &TableAnalysis) -> String {
         header {
             h1 { (title) }
             p {
-                (found.rows) " rows, " (found.inputs.len()) " inputs, " (found.outputs.len()) " outputs"
-                @if found.left_out > 0 { "; " (found.left_out) " rows are left out: an input has no value" }
+                (counted(found.rows, "row")) ", " (counted(found.inputs.len(), "input")) ", "
+                (counted(found.outputs.len(), "output"))
+                @if found.left_out > 0 {
+                    "; " (counted(found.left_out, "row")) @if found.left_out == 1 { " is" } @else { " are" }
+                    " left out: an input has no value"
+                }
                 "."
                 @if !found.unused.is_empty() { " Not analysed: " (found.unused.join(", ")) "." }
             }
             @for question in &found.questions { p.note { "Question: " (question) "." } }
             @if found.bad_cells > 0 {
                 p.note {
-                    (found.bad_cells) " cells hold no number"
+                    (counted(found.bad_cells, "cell")) @if found.bad_cells == 1 { " has" } @else { " have" }
+                    " no number"
                     @for bad in &found.first_bad_cells {
                         "; row " (bad.row) ", " code { (bad.column) }
                     }
@@ -95,6 +100,11 @@ fn summary(name: &str, analysis: &Analysis) -> Markup {
     }
 }
 
+/// `1 row`, `2 rows`.
+fn counted(count: usize, word: &str) -> String {
+    format!("{count} {word}{}", if count == 1 { "" } else { "s" })
+}
+
 /// The verdict, what was found of its conditions, and the levels of words.
 fn verdict(analysis: &Analysis) -> Markup {
     let verdict = &analysis.verdict;
@@ -102,8 +112,8 @@ fn verdict(analysis: &Analysis) -> Markup {
     html! {
         @for sentence in &verdict.sentences { p { (sentence) "." } }
         p {
-            (verdict.tests) " tests of all inputs and measures, corrected together: one or more false certainties \
-             in 5 % of all tables at most."
+            (counted(verdict.tests, "test")) " of all inputs and measures, corrected together: one or more false \
+             certainties in 5 % of all tables at most."
         }
         @for condition in &verdict.conditions {
             p.note { @if condition.is_question() { "Question: " } (condition.text) "." }
@@ -217,7 +227,8 @@ fn at_limit(analysis: &Analysis) -> Markup {
     let rows: Vec<Vec<Markup>> = inputs.iter().filter_map(row).collect();
     html! {
         p {
-            (failures.count) " values fail the limit (" (text::fields(&failures.limit)) "): "
+            (counted(failures.count, "value")) @if failures.count == 1 { " fails" } @else { " fail" }
+            " the limit (" (text::fields(&failures.limit)) "): "
             (text::digits(100.0 * failures.share.value, 3)) " %, with 95 % confidence between "
             (text::digits(100.0 * failures.share.low, 3)) " % and "
             (text::digits(100.0 * failures.share.high, 3)) " % for independent rows."

@@ -39,6 +39,14 @@ impl Analyser {
     /// Largest number of rows of the dependences.
     pub const MOST_DEPENDENCE_ROWS: usize = hsic::MOST_ROWS;
 
+    /// Checks a number of inputs before their values are put together.
+    ///
+    /// # Errors
+    /// [`SensitivityError::OutOfRange`] for none, and for more than [`MOST_INPUTS`].
+    pub fn check_inputs(count: usize) -> Result<(), SensitivityError> {
+        check_range("inputs", count as u64, 1, MOST_INPUTS as u64)
+    }
+
     /// Intervals of 95 %, dependences of 2000 rows, no limit.
     #[must_use]
     pub fn new(seed: u64) -> Self {
@@ -135,28 +143,31 @@ impl Analyser {
         check_level(self.level)?;
         let most = self.dependence_rows as u64;
         check_range("dependence_rows", most, hsic::MIN_ROWS as u64, hsic::MOST_ROWS as u64)?;
-        check_range("inputs", data.names().len() as u64, 1, MOST_INPUTS as u64)?;
+        Self::check_inputs(data.names().len())?;
         let all = data.observed(2)?;
         let work = Work::new(*self, data, &all);
         let mut notes = Notes(Vec::new());
+        let fitted = work.fitted();
+        if fitted.len() < work.outputs.len() {
+            notes.0.push(format!("fits are of {} rows drawn at random", fitted.len()));
+        }
         if work.drawn.outputs.len() < work.observed.outputs.len() {
             notes.0.push(format!(
-                "fits, PAWN, delta and expansion are of {} rows drawn at random, dependences of {}",
+                "PAWN, delta and expansion are of {} rows drawn at random, dependences of {}",
                 work.drawn.outputs.len(),
                 self.dependence_rows.min(work.observed.outputs.len())
             ));
         }
         let sample = Sample::new(data.outputs())?;
-        let fits = fit_all(
-            &Sample::of_values(&work.drawn.outputs)?,
-            Bootstrap { resamples: FIT_RESAMPLES, seed: work.seed(1) },
-        );
+        let fits =
+            fit_all(&Sample::of_values(&fitted)?, Bootstrap { resamples: FIT_RESAMPLES, seed: work.seed(1) });
         let fits = notes.unless("fitted laws", fits).unwrap_or_default();
         let expansion = work.expansion(&mut notes);
         let (linear, inputs, dependence) = work.inputs(data, expansion.as_ref(), &mut notes);
         let limit = self.limit.map(|limit| {
             let (rows, level) = (work.rows(), self.level);
-            AtLimit { limit, observed: &work.observed, kinds: &work.kinds, rows, level }.found(&mut notes.0)
+            let (outputs, observed) = (&work.outputs[..], &work.observed);
+            AtLimit { limit, outputs, observed, kinds: &work.kinds, rows, level }.found(&mut notes.0)
         });
         let limit = limit.transpose()?;
         let verdict = work.verdict(data, &all, dependence.as_deref());
@@ -190,7 +201,7 @@ impl Analyser {
     pub fn verdict(&self, data: &GivenData) -> Result<Verdict, SensitivityError> {
         let most = self.dependence_rows as u64;
         check_range("dependence_rows", most, hsic::MIN_ROWS as u64, hsic::MOST_ROWS as u64)?;
-        check_range("inputs", data.names().len() as u64, 1, MOST_INPUTS as u64)?;
+        Self::check_inputs(data.names().len())?;
         let all = data.observed(2)?;
         Ok(Work::new(*self, data, &all).verdict(data, &all, None))
     }

@@ -37,12 +37,16 @@ pub enum Concern {
     RowsInOrder,
     /// Inputs depend on each other.
     DependentInputs,
+    /// Inputs are those of a sequence of low discrepancy.
+    Sequence,
     /// An input has one value only.
     Constant,
     /// An input numbers the rows.
     RowNumber,
     /// Few values are far beyond all others.
     Diverged,
+    /// One value, far from all others, is there several times: it may stand for a missing one.
+    Sentinel,
     /// There are too few rows for any verdict.
     FewRows,
 }
@@ -63,8 +67,8 @@ impl Condition {
     /// Whether the table may not be what its user means: something to look at before its numbers are used.
     #[must_use]
     pub fn is_question(&self) -> bool {
-        use Concern::{Constant, Diverged, RepeatedRows, RowNumber};
-        matches!(self.concern, RepeatedRows | Constant | RowNumber | Diverged)
+        use Concern::{Constant, Diverged, RepeatedRows, RowNumber, Sentinel};
+        matches!(self.concern, RepeatedRows | Constant | RowNumber | Diverged | Sentinel)
     }
 }
 
@@ -124,7 +128,7 @@ pub(crate) fn distinct(observed: &Observed, seed: u64) -> Option<Observed> {
 /// One row for all of equal inputs, with their mean output, if these repeat more often than by chance.
 pub(crate) fn clusters(observed: &Observed, seed: u64) -> Option<Observed> {
     let columns: Vec<&[f64]> = observed.columns.iter().map(Vec::as_slice).collect();
-    let (units, count) = repeated(&columns, seed)?;
+    let (units, count) = if columns.is_empty() { None } else { repeated(&columns, seed) }?;
     let mut sums = vec![(0.0, 0.0); count];
     let mut first = vec![usize::MAX; count];
     for (row, (&unit, output)) in units.iter().zip(&observed.outputs).enumerate() {
@@ -141,10 +145,11 @@ pub(crate) fn clusters(observed: &Observed, seed: u64) -> Option<Observed> {
 /// Level of the test of an order.
 const ORDERED: f64 = 0.01;
 
-/// Whether each input and the output have an order together, which an accident can make alike.
-pub(crate) fn in_order(observed: &Observed, kinds: &[Kind], seed: u64) -> Vec<bool> {
-    let harmless = || is_sequence(&observed.columns, kinds) || is_balanced(observed, seed);
-    if !has_order(&observed.outputs) || harmless() {
+/// Whether each input and the output have an order together, which an accident can make alike; that of the
+/// coordinates of a sequence makes tests stricter.
+pub(crate) fn in_order(observed: &Observed, kinds: &[Kind], coordinate: &[bool], seed: u64) -> Vec<bool> {
+    let has_none = || coordinate.iter().all(|is| *is) || !has_order(&observed.outputs);
+    if has_none() || is_balanced(observed, seed) {
         return vec![false; kinds.len()];
     }
     let of_input = |(column, kind): (&Vec<f64>, &Kind)| match kind {
@@ -156,7 +161,8 @@ pub(crate) fn in_order(observed: &Observed, kinds: &[Kind], seed: u64) -> Vec<bo
             (0..count).any(|level| of_level(level) * (count as f64) < ORDERED)
         }
     };
-    observed.columns.iter().zip(kinds).map(of_input).collect()
+    let all = observed.columns.iter().zip(kinds).zip(coordinate);
+    all.map(|(column, coordinate)| !coordinate && of_input(column)).collect()
 }
 
 fn has_order(values: &[f64]) -> bool {
@@ -174,24 +180,6 @@ fn order_p(values: &[f64]) -> f64 {
     let sum: f64 = (1..=lags).map(|lag| r(lag).powi(2) / (n - lag) as f64).sum();
     let statistic = n as f64 * (n as f64 + 2.0) * sum;
     ChiSquared::new(lags as f64).map_or(1.0, |law| law.sf(statistic))
-}
-
-/// Whether eight rows in turn have a value in each eighth of every input, as those of a sequence of low
-/// discrepancy do (random rows in 0.2 % of all cases).
-fn is_sequence(columns: &[Vec<f64>], kinds: &[Kind]) -> bool {
-    const BLOCK: usize = 8;
-    let fills = |column: &Vec<f64>| {
-        let n = column.len() as f64;
-        let eighth = |rank: f64| ((rank - 0.5) / n * BLOCK as f64) as usize;
-        let eighths: Vec<usize> = ranks(column).into_iter().map(eighth).collect();
-        (0..BLOCK).any(|start| {
-            let full = |block: &[usize]| (0..BLOCK).all(|eighth| block.contains(&eighth));
-            let blocks = eighths.get(start..).unwrap_or_default().chunks_exact(BLOCK);
-            let (all, filled) = (blocks.len(), blocks.filter(|block| full(block)).count());
-            all >= 2 && 2 * filled >= all
-        })
-    };
-    kinds.iter().all(|kind| *kind == Kind::Numbers) && columns.iter().all(fills)
 }
 
 /// Whether the inputs are the factors of a design, each pair of levels as often as by their own numbers, and
@@ -285,6 +273,15 @@ pub(crate) fn of_column(name: Option<&str>, column: &[f64], kind: Kind) -> Optio
             format!("{called} numbers the rows: is it an input at all?"),
         ));
     }
+    if let Some((value, count, [low, high])) = sentinel(column) {
+        let shown = if value.abs() < 1e9 { value.to_string() } else { format!("{value:e}") };
+        let text = format!(
+            "{count} of {} values of {called} are {shown}, all others from {low:.3e} to {high:.3e}: does it \
+             stand for a missing value?",
+            column.len()
+        );
+        return Some(condition(Concern::Sentinel, text));
+    }
     let (count, least, next) = diverged(column)?;
     let values = if count == 1 { "1 value".to_owned() } else { format!("{count} values") };
     let text = format!(
@@ -295,6 +292,31 @@ pub(crate) fn of_column(name: Option<&str>, column: &[f64], kind: Kind) -> Optio
         if count == 1 { "" } else { "s" },
     );
     Some(condition(Concern::Diverged, text))
+}
+
+/// A value that several rows have, at most 30 % of them, far below or above all others: the value, the number
+/// of rows, the least and the largest of the others. Columns of few levels have none.
+fn sentinel(column: &[f64]) -> Option<(f64, usize, [f64; 2])> {
+    /// How many times farther from the others than these are from each other.
+    const FARTHER: f64 = 2.0;
+    const FEW: usize = 10;
+    let mut sorted = column.to_vec();
+    sorted.sort_unstable_by(f64::total_cmp);
+    let n = sorted.len();
+    let at = |value: f64| {
+        let first = sorted.partition_point(|other| *other < value);
+        (first, sorted.partition_point(|other| *other <= value) - first)
+    };
+    let far = |value: f64| {
+        let (first, count) = at(value);
+        let others = if first == 0 { &sorted[count..] } else { &sorted[..first] };
+        let (low, high) = (*others.first()?, *others.last()?);
+        let gap = if first == 0 { low - value } else { value - high };
+        let levels = others.chunk_by(|one, other| one == other).take(FEW).count();
+        let is_few = (2..=3 * n / 10).contains(&count) && levels == FEW;
+        (is_few && gap > FARTHER * (high - low)).then_some((value, count, [low, high]))
+    };
+    far(sorted[0]).or_else(|| far(sorted[n - 1]))
 }
 
 /// Number of values that are far beyond all others, the least of their distances from the median, and the

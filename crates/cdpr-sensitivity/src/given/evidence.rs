@@ -115,8 +115,17 @@ impl Scores {
     }
 
     /// Scores of the product with others, row by row.
-    fn times(&self, other: &Self) -> Option<Self> {
+    pub(crate) fn times(&self, other: &Self) -> Option<Self> {
         Self::new(self.0.iter().zip(&other.0).map(|(one, other)| one * other).collect())
+    }
+
+    pub(crate) fn values(&self) -> &[f64] {
+        &self.0
+    }
+
+    /// Correlation with others.
+    pub(crate) fn product(&self, other: &Self) -> f64 {
+        self.0.iter().zip(&other.0).map(|(one, other)| one * other).sum()
     }
 
     fn invariants(&self) -> Invariants {
@@ -156,9 +165,9 @@ impl Space {
     }
 
     /// R² (J1).
-    fn share(&self, scores: &Scores) -> f64 {
+    pub(crate) fn share(&self, scores: &Scores) -> f64 {
         match self {
-            Self::Line(u) => u.0.iter().zip(&scores.0).map(|(u, v)| u * v).sum::<f64>().powi(2),
+            Self::Line(u) => u.product(scores).powi(2),
             Self::Steps(groups, sizes) => {
                 let mut sums = vec![0.0; sizes.len()];
                 groups.iter().zip(&scores.0).for_each(|(&group, v)| sums[group] += v);
@@ -224,10 +233,12 @@ fn of_neighbours(values: &[f64], scores: &Scores, seed: u64) -> f64 {
 /// An input as tests take it.
 pub(crate) struct Tested<'a> {
     pub(crate) values: &'a [f64],
-    kind: Kind,
+    pub(crate) kind: Kind,
     pub(crate) steps: Space,
     /// Of its ranks, where these have a meaning.
-    scores: Option<Scores>,
+    pub(crate) scores: Option<Scores>,
+    /// Of their distances from the middle, if it has numbers.
+    pub(crate) spread: Option<Scores>,
 }
 
 impl<'a> Tested<'a> {
@@ -235,48 +246,39 @@ impl<'a> Tested<'a> {
         let steps = Space::steps(values, kind, seed);
         let two = matches!(&steps, Space::Steps(_, sizes) if sizes.len() == 2);
         let scores = if kind == Kind::Numbers || two { Scores::of_ranks(values) } else { None };
-        Self { values, kind, steps, scores }
+        let spread = if kind == Kind::Numbers { Scores::of_spread(values) } else { None };
+        Self { values, kind, steps, scores, spread }
     }
 
-    /// What another input is tested against, as if this one were an output: ranks and their distances from the
-    /// middle, or for levels whether a row has each of them.
-    fn as_output(&self) -> Vec<Scores> {
-        match (&self.steps, self.kind) {
-            (Space::Steps(groups, sizes), Kind::Levels) => {
-                let has = |level| groups.iter().map(|&group| f64::from(group == level)).collect();
-                (0..sizes.len()).filter_map(|level| Scores::new(has(level))).collect()
-            }
-            _ => [Scores::of_ranks(self.values), Scores::of_spread(self.values)]
-                .into_iter()
-                .flatten()
-                .collect(),
+    /// The functions that a measure takes of it.
+    pub(crate) fn space(&self, measure: Measure) -> Space {
+        match (&self.scores, measure) {
+            (Some(scores), Measure::Trend) => Space::Line(scores.clone()),
+            _ => self.steps.clone(),
         }
-    }
-
-    /// p of the independence of two inputs: the least of all tests, times their number.
-    pub(crate) fn depends_on(&self, other: &Self) -> f64 {
-        let one_way = |one: &Self, other: &Self| -> Vec<f64> {
-            other.as_output().iter().map(|scores| one.steps.p_value(scores)).collect()
-        };
-        let mut all = [one_way(self, other), one_way(other, self)].concat();
-        if let Some((one, other)) = self.scores.as_ref().zip(other.scores.as_ref()) {
-            all.push(Space::Line(one.clone()).p_value(other));
-        }
-        bonferroni(&all)
     }
 }
 
 /// The least p times the number of tests.
-fn bonferroni(all: &[f64]) -> f64 {
+pub(crate) fn bonferroni(all: &[f64]) -> f64 {
     all.iter().fold(1.0 / all.len().max(1) as f64, |least, p| p.min(least)) * all.len().max(1) as f64
 }
 
+/// What rows allow to test.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Tests {
+    /// Everything.
+    All,
+    /// Trends and means of ranks by parts: rows of a sequence make patterns of all else.
+    Means,
+}
+
 /// All tests of each input but HSIC.
-pub(crate) fn tests(inputs: &[Tested], outputs: &[f64], seed: u64) -> Vec<Vec<Test>> {
+pub(crate) fn tests(inputs: &[Tested], outputs: &[f64], which: Tests, seed: u64) -> Vec<Vec<Test>> {
     let (Some(scores), spread) = (Scores::of_ranks(outputs), Scores::of_spread(outputs)) else {
         return vec![vec![]; inputs.len()];
     };
-    let pairs = (2..=MOST_OF_PAIRS).contains(&inputs.len());
+    let pairs = which == Tests::All && (2..=MOST_OF_PAIRS).contains(&inputs.len());
     let products: Vec<Option<Scores>> =
         inputs.par_iter().map(|of| of.scores.as_ref().filter(|_| pairs)?.times(&scores)).collect();
     let of_input = |(number, input): (usize, &Tested)| {
@@ -286,7 +288,7 @@ pub(crate) fn tests(inputs: &[Tested], outputs: &[f64], seed: u64) -> Vec<Vec<Te
             add(Measure::Trend, Space::Line(ranks.clone()).p_value(&scores));
         }
         add(Measure::Location, input.steps.p_value(&scores));
-        if let Some(spread) = &spread {
+        if let Some(spread) = spread.as_ref().filter(|_| which == Tests::All) {
             add(Measure::Spread, input.steps.p_value(spread));
         }
         let others = products.iter().enumerate().filter(|(other, _)| *other != number);
@@ -297,7 +299,7 @@ pub(crate) fn tests(inputs: &[Tested], outputs: &[f64], seed: u64) -> Vec<Vec<Te
         }
         let parts = matches!(&input.steps, Space::Steps(groups, sizes)
             if input.kind == Kind::Numbers && sizes.len() > 2 && groups.len() >= ROWS_OF_NEIGHBOURS);
-        if parts {
+        if parts && which == Tests::All {
             add(Measure::Neighbours, of_neighbours(input.values, &scores, seed));
         }
         tests

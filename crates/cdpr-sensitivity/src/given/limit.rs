@@ -70,6 +70,9 @@ pub(crate) const LEAST_FAILING: usize = 5;
 /// A table and its limit.
 pub(crate) struct AtLimit<'a> {
     pub(crate) limit: Limit,
+    /// Outputs of all rows that count.
+    pub(crate) outputs: &'a [f64],
+    /// One row for each set of inputs.
     pub(crate) observed: &'a Observed,
     pub(crate) kinds: &'a [Kind],
     pub(crate) rows: Rows,
@@ -84,14 +87,19 @@ impl AtLimit<'_> {
         notes: &mut Vec<String>,
     ) -> Result<(LimitFailures, Vec<InputAtLimit>), SensitivityError> {
         let (observed, columns) = (self.observed, &self.observed.columns);
-        let n = observed.outputs.len();
-        let fails: Vec<bool> = observed.outputs.iter().map(|&output| !self.limit.holds(output)).collect();
-        let count = fails.iter().filter(|fails| **fails).count();
-        let share = Estimate::of_share(count, n, self.level)?;
-        let failures = LimitFailures { limit: self.limit, rows: n, count, share };
+        let fail = |outputs: &[f64]| -> Vec<bool> {
+            outputs.iter().map(|&output| !self.limit.holds(output)).collect()
+        };
+        let number = |fails: &[bool]| fails.iter().filter(|fails| **fails).count();
+        let (rows, count) = (self.outputs.len(), number(&fail(self.outputs)));
+        let share = Estimate::of_share(count, rows, self.level)?;
+        let failures = LimitFailures { limit: self.limit, rows, count, share };
+        let fails = fail(&observed.outputs);
+        let (n, count) = (fails.len(), number(&fails));
         if count.min(n - count) < LEAST_FAILING {
+            let fail = if count == 1 { "fails" } else { "fail" };
             notes.push(format!(
-                "causes at the limit: {count} of {n} rows fail, {LEAST_FAILING} are needed on either side"
+                "causes at the limit: {count} of {n} rows {fail}, {LEAST_FAILING} are needed on either side"
             ));
             return Ok((failures, vec![]));
         }

@@ -15,6 +15,7 @@ use crate::given::levels;
 use crate::given::limit::LEAST_FAILING;
 use crate::given::pawn;
 use crate::given::rank;
+use crate::given::verdict::sequence::coordinates;
 use crate::given::verdict::{Doubt, Table, Verdict};
 use crate::measure::regression::{self, Of, ranks, standardised};
 use crate::sample::interval::Estimate;
@@ -28,9 +29,14 @@ pub(crate) struct Work<'a> {
     pub(crate) varying: Vec<usize>,
     names: Vec<&'a str>,
     pub(crate) kinds: Vec<Kind>,
+    /// Outputs of the rows that repeat none before them in inputs and output.
+    pub(crate) outputs: Vec<f64>,
+    /// One row for each set of inputs: those rows, or the means of those with equal inputs.
     pub(crate) observed: Observed,
     /// At most [`MOST_ROWS`] of them.
     pub(crate) drawn: Observed,
+    /// Which of the inputs that vary are coordinates of a sequence.
+    coordinate: Vec<bool>,
 }
 
 impl<'a> Work<'a> {
@@ -41,15 +47,28 @@ impl<'a> Work<'a> {
         let varies = |input: &usize| check_varies(&of.columns[*input]).is_ok();
         let varying: Vec<usize> = (0..of.columns.len()).filter(varies).collect();
         let columns = varying.iter().map(|&input| of.columns[input].clone()).collect();
-        let observed = Observed { columns, outputs: of.outputs.clone(), failed: of.failed };
+        let rows = Observed { columns, outputs: of.outputs.clone(), failed: of.failed };
+        let units = conditions::clusters(&rows, seed(7)).filter(|of| check_varies(&of.outputs).is_ok());
+        let observed = units.unwrap_or_else(|| rows.clone());
+        let drawn = thinned(&observed, seed(0));
+        let kinds: Vec<Kind> = varying.iter().map(|&input| data.kind(input)).collect();
+        let in_turn: Vec<&[f64]> = varying.iter().map(|&input| &data.columns()[input][..]).collect();
         Self {
             analyser,
+            coordinate: coordinates(&in_turn, &drawn.columns, &kinds, seed(8)),
             names: varying.iter().map(|&input| data.names()[input].as_str()).collect(),
-            kinds: varying.iter().map(|&input| data.kind(input)).collect(),
+            kinds,
             varying,
-            drawn: thinned(&observed, seed(0)),
+            outputs: rows.outputs,
+            drawn,
             observed,
         }
+    }
+
+    /// The outputs that laws are fitted to: at most [`MOST_ROWS`].
+    pub(crate) fn fitted(&self) -> Vec<f64> {
+        let all = Observed { columns: vec![], outputs: self.outputs.clone(), failed: 0 };
+        thinned(&all, self.seed(0)).outputs
     }
 
     pub(crate) fn seed(&self, part: u64) -> u64 {
@@ -199,16 +218,17 @@ impl<'a> Work<'a> {
         all: &Observed,
         dependence: Option<&[Dependence]>,
     ) -> Verdict {
-        let (names, kinds, observed) = (&self.names[..], &self.kinds[..], &self.observed);
-        let mut verdict = Table { names, kinds, observed, dependence, rows: self.rows(), thinned }.verdict();
-        if observed.outputs.len() < all.outputs.len() {
-            let text = format!(
-                "{} of {} rows repeat others in all inputs and in the output: they count once",
-                all.outputs.len() - observed.outputs.len(),
-                all.outputs.len()
-            );
-            verdict.note(Concern::RepeatedRows, text);
-        }
+        let table = Table {
+            names: &self.names,
+            kinds: &self.kinds,
+            units: &self.observed,
+            drawn: &self.drawn,
+            coordinate: &self.coordinate,
+            dependence,
+            rows: self.rows(),
+        };
+        let mut verdict = table.verdict();
+        self.note_repeated(&mut verdict, all.outputs.len());
         for (input, column) in all.columns.iter().enumerate() {
             let (name, kind) = (&data.names()[input], data.kind(input));
             let condition = conditions::of_column(Some(name), column, kind);
@@ -220,11 +240,35 @@ impl<'a> Work<'a> {
             }
             verdict
                 .conditions
-                .extend(condition.filter(|of| names.len() > 1 || of.concern != Concern::RowNumber));
+                .extend(condition.filter(|of| self.names.len() > 1 || of.concern != Concern::RowNumber));
         }
         let of_output = conditions::of_column(None, &all.outputs, Kind::Numbers);
         verdict.conditions.extend(of_output.filter(Condition::is_question));
         verdict.concluded()
+    }
+
+    /// Rows that count once, and settings of which the mean output counts.
+    fn note_repeated(&self, verdict: &mut Verdict, all: usize) {
+        let (distinct, units) = (self.outputs.len(), self.observed.outputs.len());
+        if distinct < all {
+            let repeated = all - distinct;
+            let (repeat, count) = if repeated == 1 {
+                ("repeats another", "it counts")
+            } else {
+                ("repeat others", "they count")
+            };
+            verdict.note(
+                Concern::RepeatedRows,
+                format!("{repeated} of {all} rows {repeat} in all inputs and in the output: {count} once"),
+            );
+        }
+        if units < distinct {
+            let text = format!(
+                "{distinct} rows have {units} different sets of inputs: verdict and measures take the mean \
+                 output of each; the law and the failures of a limit are those of all rows"
+            );
+            verdict.note(Concern::RepeatedRows, text);
+        }
     }
 }
 

@@ -94,12 +94,22 @@ pub(crate) fn order(values: &[f64], seed: u64, input: usize) -> Vec<usize> {
     order
 }
 
+/// Largest z (K7) of independent rows.
+pub(crate) const LARGEST_Z: f64 = 5.0;
+
 /// Checks that neighbours in one input are no farther apart in another than those of independent rows (K7).
 pub(crate) fn check_rows(columns: &[Vec<f64>], seed: u64) -> Result<(), SensitivityError> {
-    /// Neighbours that are looked at, other inputs that are, and largest z.
+    match farthest(columns, seed).iter().enumerate().find(|(_, (z, _))| *z > LARGEST_Z) {
+        Some((input, &(z, other))) => Err(SensitivityError::DependentRows { input, other, z }),
+        None => Ok(()),
+    }
+}
+
+/// The largest z (K7) of each input, 0 or more, and the other input that has it.
+pub(crate) fn farthest(columns: &[Vec<f64>], seed: u64) -> Vec<(f64, usize)> {
+    /// Neighbours that are looked at, and other inputs that are.
     const MOST: usize = 2048;
     const OTHERS: usize = 64;
-    const LARGEST: f64 = 5.0;
     let orders: Vec<Vec<usize>> =
         columns.par_iter().enumerate().map(|(input, column)| order(column, seed, input)).collect();
     let of_order = |order: &Vec<usize>| {
@@ -111,7 +121,7 @@ pub(crate) fn check_rows(columns: &[Vec<f64>], seed: u64) -> Result<(), Sensitiv
         ranks
     };
     let ranks: Vec<Vec<f64>> = orders.par_iter().map(of_order).collect();
-    let farthest = |(i, order): (usize, &Vec<usize>)| {
+    let of_input = |(i, order): (usize, &Vec<usize>)| {
         let step = order.len() / MOST + 1;
         let z = |j: usize| {
             let product = |(one, other): (&f64, &f64)| (one - 0.5) * (other - 0.5);
@@ -126,11 +136,7 @@ pub(crate) fn check_rows(columns: &[Vec<f64>], seed: u64) -> Result<(), Sensitiv
         let others = (i + 1..i + columns.len()).map(|j| j % columns.len()).take(OTHERS);
         others.map(|j| (z(j), j)).fold((0.0, i), |most, of| if of.0 > most.0 { of } else { most })
     };
-    let found: Vec<(f64, usize)> = orders.par_iter().enumerate().map(farthest).collect();
-    match found.iter().enumerate().find(|(_, (z, _))| *z > LARGEST) {
-        Some((input, &(z, other))) => Err(SensitivityError::DependentRows { input, other, z }),
-        None => Ok(()),
-    }
+    orders.par_iter().enumerate().map(of_input).collect()
 }
 
 /// The index (K2) and its interval, from the outputs in the order of an input.

@@ -14,24 +14,30 @@
 //! The tests hold for rows that are independent of each other, and what they find is the effect of an input
 //! where inputs are independent. An input is therefore *certain* to matter only if
 //!
-//! - no other input that is found depends on it: the same tests between the two, at 5 % over the number of the
-//!   others, find nothing. Each is at least as sensitive as those of the verdict, so that an input that is
-//!   found for what another causes is not certain;
+//! - no other input depends on it ([`dependence`](dependence)), so that an input that is found for what
+//!   another causes is not certain;
 //! - it and the output have no order together ([`conditions`](crate::given::conditions)).
 //!
 //! Otherwise it is *related* to the output, with the reasons. Rows that repeat count once.
+//!
+//! Rows of a [`sequence`](sequence) are not independent of each other: trend and location alone are tested,
+//! and a coordinate that is found no more clearly than its pattern with another one is related.
+
+mod dependence;
+mod joint;
+pub(super) mod sequence;
+
+use std::collections::HashSet;
 
 use serde::{Deserialize, Serialize};
 
 use crate::design::observation::Observed;
-use crate::given::conditions::{Concern, Condition, clusters, in_order};
+use crate::given::conditions::{Concern, Condition, in_order};
 use crate::given::data::Kind;
-use crate::given::evidence::{self, MOST_OF_PAIRS, Measure, Test, Tested};
+use crate::given::evidence::{self, MOST_OF_PAIRS, Measure, Test, Tested, Tests};
 use crate::given::hsic::{self, Dependence, Rows};
+use crate::given::verdict::dependence::{FALSE_FINDINGS, Inputs};
 use crate::sample::random::derived_seed;
-
-/// Probability of one or more false findings in a table.
-pub const FALSE_FINDINGS: f64 = 0.05;
 
 /// An input that matters.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -90,112 +96,154 @@ impl Verdict {
 pub(crate) struct Table<'a> {
     pub(crate) names: &'a [&'a str],
     pub(crate) kinds: &'a [Kind],
-    /// Rows that repeat none before them; no input is constant.
-    pub(crate) observed: &'a Observed,
+    /// One row for each set of inputs; no input is constant.
+    pub(crate) units: &'a Observed,
+    /// At most as many of them as tests take.
+    pub(crate) drawn: &'a Observed,
+    /// Which inputs are coordinates of a sequence.
+    pub(crate) coordinate: &'a [bool],
     /// HSIC of these, where it is known.
     pub(crate) dependence: Option<&'a [Dependence]>,
     pub(crate) rows: Rows,
-    /// Largest number of rows of tests, and the function that draws them.
-    pub(crate) thinned: fn(&Observed, u64) -> Observed,
 }
 
 impl Table<'_> {
-    /// The verdict of all tests; doubts and conditions of columns are those of the caller.
+    /// The verdict of all tests; doubts and conditions of columns and of repeated rows are the caller's.
     pub(crate) fn verdict(&self) -> Verdict {
         let seed = |part| derived_seed(self.rows.seed, part);
-        let mut verdict = Verdict::default();
-        let clusters = clusters(self.observed, seed(0));
-        let units = clusters.as_ref().unwrap_or(self.observed);
-        verdict.rows = units.outputs.len();
-        if clusters.is_some() {
-            verdict.note(
-                Concern::RepeatedRows,
-                format!(
-                    "{} rows have {} different sets of inputs: the verdict takes the mean output of each",
-                    self.observed.outputs.len(),
-                    verdict.rows
-                ),
-            );
-        }
+        let mut verdict = Verdict { rows: self.units.outputs.len(), ..Verdict::default() };
         if verdict.rows < evidence::MIN_ROWS {
-            verdict.note(
-                Concern::FewRows,
-                format!("{} different rows: {} are needed for a verdict", verdict.rows, evidence::MIN_ROWS),
-            );
+            let (rows, least) = (counted(verdict.rows, "different row"), evidence::MIN_ROWS);
+            verdict.note(Concern::FewRows, format!("{rows}: {least} are needed for a verdict"));
             return verdict;
         }
-        let in_order = in_order(units, self.kinds, seed(1));
-        let drawn = (self.thinned)(units, seed(1));
-        let tested: Vec<Tested> = (drawn.columns.iter().zip(self.kinds).enumerate())
+        let in_order = in_order(self.units, self.kinds, self.coordinate, seed(1));
+        let tested: Vec<Tested> = (self.drawn.columns.iter().zip(self.kinds).enumerate())
             .map(|(input, (column, &kind))| Tested::new(column, kind, seed(2 + input as u64)))
             .collect();
-        let mut tests = evidence::tests(&tested, &drawn.outputs, seed(1));
-        let again = || hsic::of_output(&units.columns, self.kinds, &units.outputs, self.rows).ok();
-        let dependence = match self.dependence {
-            Some(known) if clusters.is_none() => Some(known.to_vec()),
-            _ => again(),
-        };
+        let tests = self.tests(&tested);
+        verdict.tests = tests.iter().map(Vec::len).sum();
+        self.note_tests(&mut verdict);
+        let inputs = Inputs::new(&tested, self.coordinate, &self.drawn.outputs);
+        let found = corrected(&tests);
+        let mut pairs = inputs.pairs();
+        for ((input, tests), companions) in found.iter().zip(inputs.companions(&found)) {
+            let mut reasons = Vec::new();
+            if !companions.inputs.is_empty() {
+                reasons.push(format!("depends on {}", self.named(&companions.inputs)));
+            }
+            if !companions.patterns.is_empty() {
+                let together = |inputs: &Vec<usize>| {
+                    let names: Vec<&str> = inputs.iter().map(|&input| self.names[input]).collect();
+                    format!("`{}`", names.join("` with `"))
+                };
+                let names = listed(&companions.patterns, 3, together);
+                reasons.push(format!(
+                    "found no more clearly than the pattern that the sequence has with {names}"
+                ));
+            }
+            if in_order[*input] {
+                reasons.push("rows next to each other are alike in it and in the output".to_owned());
+            }
+            pairs.extend(companions.inputs.iter().map(|other| [*input.min(other), *input.max(other)]));
+            let name = self.names[*input].to_owned();
+            let Test { measure, p_value } = tests[0];
+            let list = if reasons.is_empty() { &mut verdict.certain } else { &mut verdict.related };
+            list.push(Finding { input: name, measure, p_value, reasons });
+        }
+        self.note_dependence(&mut verdict, pairs);
+        self.note_order(&mut verdict, &in_order);
+        verdict
+    }
+
+    /// All tests of each input.
+    fn tests(&self, tested: &[Tested]) -> Vec<Vec<Test>> {
+        let which = if self.coordinate.contains(&true) { Tests::Means } else { Tests::All };
+        let seed = derived_seed(self.rows.seed, 1);
+        let mut tests = evidence::tests(tested, &self.drawn.outputs, which, seed);
+        if which == Tests::Means {
+            return tests;
+        }
+        let units = self.units;
+        let computed = || hsic::of_output(&units.columns, self.kinds, &units.outputs, self.rows).ok();
+        let dependence = self.dependence.map(<[Dependence]>::to_vec).or_else(computed);
         for (tests, found) in tests.iter_mut().zip(dependence.iter().flatten()) {
             // The gamma law is too light in its far tail: p counts twice.
             let p_value = (2.0 * found.p_value).min(1.0);
             tests.push(Test { measure: Measure::Dependence, p_value });
         }
-        verdict.tests = tests.iter().map(Vec::len).sum();
-        if self.names.len() > MOST_OF_PAIRS {
+        tests
+    }
+
+    /// Names of inputs, of many the first ones.
+    fn named(&self, inputs: &[usize]) -> String {
+        let name = |&input: &usize| format!("`{}`", self.names[input]);
+        listed(inputs, 8, name)
+    }
+
+    /// What is not tested.
+    fn note_tests(&self, verdict: &mut Verdict) {
+        let count = self.coordinate.iter().filter(|is| **is).count();
+        if count > 0 {
+            let all = count == self.names.len();
+            let text = format!(
+                "the rows are those of a sequence of low discrepancy, as in studies and designs of Sobol': \
+                 {} independent by construction; what acts with another input only is not found",
+                if all { "the inputs are".to_owned() } else { format!("{count} inputs are") }
+            );
+            let names = (0..self.names.len()).filter(|&input| self.coordinate[input] && !all);
+            let inputs = names.map(|input| self.names[input].to_owned()).collect();
+            verdict.conditions.push(Condition { concern: Concern::Sequence, inputs, text });
+        } else if self.names.len() > MOST_OF_PAIRS {
             let text =
                 format!("more than {MOST_OF_PAIRS} inputs: what acts with another one only is not found");
             verdict.note(Concern::DependentInputs, text);
         }
-        let found = corrected(&tests);
-        let others = found.len().saturating_sub(1).max(1) as f64;
-        for &(input, measure, p_value) in &found {
-            let mut reasons = Vec::new();
-            let depends = |&&(other, ..): &&(usize, Measure, f64)| {
-                other != input && tested[input].depends_on(&tested[other]) * others < FALSE_FINDINGS
-            };
-            let depends: Vec<String> =
-                found.iter().filter(depends).map(|(other, ..)| format!("`{}`", self.names[*other])).collect();
-            if !depends.is_empty() {
-                reasons.push(format!("depends on {}", depends.join(", ")));
-            }
-            if in_order[input] {
-                reasons.push("rows next to each other are alike in it and in the output".to_owned());
-            }
-            let input = self.names[input].to_owned();
-            let list = if reasons.is_empty() { &mut verdict.certain } else { &mut verdict.related };
-            list.push(Finding { input, measure, p_value, reasons });
-        }
-        self.note_dependence(&mut verdict, &in_order);
-        verdict
     }
 
-    fn note_dependence(&self, verdict: &mut Verdict, in_order: &[bool]) {
-        let of = |marked: &dyn Fn(&Finding) -> bool| -> Vec<String> {
-            verdict.related.iter().filter(|finding| marked(finding)).map(|of| of.input.clone()).collect()
-        };
-        let depending = of(&|finding| finding.reasons.iter().any(|reason| reason.starts_with("depends")));
-        if !depending.is_empty() {
-            verdict.conditions.push(Condition {
-                concern: Concern::DependentInputs,
-                text:
-                    "inputs depend on each other: first-order indices, shares and tests count for each what \
-                       they cause together"
-                        .to_owned(),
-                inputs: depending,
-            });
+    fn note_dependence(&self, verdict: &mut Verdict, mut pairs: Vec<[usize; 2]>) {
+        let mut seen = HashSet::new();
+        pairs.retain(|pair| seen.insert(*pair));
+        if pairs.is_empty() {
+            return;
         }
-        let ordered = || (0..self.names.len()).filter(|&input| in_order[input]);
-        if ordered().next().is_some() {
-            verdict.conditions.push(Condition {
-                concern: Concern::RowsInOrder,
-                inputs: ordered().map(|input| self.names[input].to_owned()).collect(),
-                text:
-                    "rows next to each other are alike in the output and in inputs: p-values and intervals \
-                       are too small for these"
-                        .to_owned(),
-            });
-        }
+        let pair = |&[one, other]: &[usize; 2]| format!("`{}` and `{}`", self.names[one], self.names[other]);
+        let text = format!(
+            "inputs depend on each other ({}): first-order indices, shares and tests count for each what \
+             they cause together, and what they cause against each other may not be found",
+            listed(&pairs, 8, pair)
+        );
+        let mut inputs: Vec<usize> = pairs.into_iter().flatten().collect();
+        inputs.sort_unstable();
+        inputs.dedup();
+        let inputs = inputs.into_iter().map(|input| self.names[input].to_owned()).collect();
+        verdict.conditions.push(Condition { concern: Concern::DependentInputs, inputs, text });
     }
+
+    fn note_order(&self, verdict: &mut Verdict, in_order: &[bool]) {
+        let ordered = (0..self.names.len()).filter(|&input| in_order[input]);
+        let inputs: Vec<String> = ordered.map(|input| self.names[input].to_owned()).collect();
+        if inputs.is_empty() {
+            return;
+        }
+        let text = "rows next to each other are alike in the output and in inputs: p-values and intervals \
+                    are too small for these";
+        verdict.conditions.push(Condition { concern: Concern::RowsInOrder, inputs, text: text.to_owned() });
+    }
+}
+
+/// A list in words, of at most so many.
+fn listed<T>(all: &[T], most: usize, word: impl Fn(&T) -> String) -> String {
+    let words: Vec<String> = all.iter().take(most).map(word).collect();
+    match all.len().saturating_sub(most) {
+        0 => words.join(", "),
+        more => format!("{} and {more} more", words.join(", ")),
+    }
+}
+
+/// `1 row`, `2 rows`.
+pub(crate) fn counted(count: usize, word: &str) -> String {
+    format!("{count} {word}{}", if count == 1 { "" } else { "s" })
 }
 
 impl Verdict {
@@ -210,7 +258,8 @@ impl Verdict {
         };
         let few = self.conditions.iter().any(|condition| condition.concern == Concern::FewRows);
         self.sentences = if few {
-            vec![format!("no verdict: {} different rows are too few", self.rows)]
+            let are = if self.rows == 1 { "is" } else { "are" };
+            vec![format!("no verdict: {} {are} too few", counted(self.rows, "different row"))]
         } else {
             let certain = if self.certain.is_empty() { "none".to_owned() } else { names(&self.certain) };
             vec![format!("certain to matter: {certain}")]
@@ -226,23 +275,25 @@ impl Verdict {
     }
 }
 
-/// The inputs of which a corrected p (H1) is below [`FALSE_FINDINGS`], with the measure of the least one, the
+/// The inputs of which a corrected p (H1) is below [`FALSE_FINDINGS`], with all tests of which it is, the
 /// smallest p first.
-fn corrected(tests: &[Vec<Test>]) -> Vec<(usize, Measure, f64)> {
+fn corrected(tests: &[Vec<Test>]) -> Vec<(usize, Vec<Test>)> {
     let of_input = |(input, tests): (usize, &Vec<Test>)| -> Vec<(usize, Test)> {
         tests.iter().map(|test| (input, *test)).collect()
     };
     let mut all: Vec<(usize, Test)> = tests.iter().enumerate().flat_map(of_input).collect();
     all.sort_by(|(_, one), (_, other)| one.p_value.total_cmp(&other.p_value));
     let (count, mut most) = (all.len(), 0.0_f64);
-    let mut found: Vec<(usize, Measure, f64)> = Vec::new();
+    let mut found: Vec<(usize, Vec<Test>)> = Vec::new();
     for (place, (input, test)) in all.into_iter().enumerate() {
         most = most.max((count - place) as f64 * test.p_value);
         if most >= FALSE_FINDINGS {
             break;
         }
-        if !found.iter().any(|(known, ..)| *known == input) {
-            found.push((input, test.measure, most));
+        let test = Test { p_value: most, ..test };
+        match found.iter_mut().find(|(known, _)| *known == input) {
+            Some((_, tests)) => tests.push(test),
+            None => found.push((input, vec![test])),
         }
     }
     found

@@ -7,6 +7,7 @@ use cdpr_sensitivity::{
 };
 use indexmap::IndexMap;
 use serde::Serialize;
+use std::collections::HashSet;
 
 /// What is asked of a table.
 #[derive(Clone, Debug)]
@@ -98,21 +99,36 @@ impl Chosen {
             true => table.usual_inputs(&[&outputs[..], &components].concat()),
             false => table.named("input", &request.inputs)?,
         };
-        let name = |&column: &usize| &table.columns[column].name;
+        let name = |&column: &usize| table.columns[column].name.as_str();
         if let Some(both) = inputs.iter().find(|column| depends(column)) {
             return Err(table.invalid("input", name(both), "a column that is no output"));
         }
+        let source = Analyser::check_inputs(inputs.len().max(1));
+        source.map_err(|source| table.statistics(outputs.first().map_or("inputs", name), source))?;
         let Some(&output) = outputs.first().filter(|_| !inputs.is_empty()) else {
             return Err(table.invalid("columns of numbers", &table.columns.len().to_string(), "2 or more"));
         };
         let like =
             if guessed && request.inputs.is_empty() { table.like_outputs(&inputs, output) } else { vec![] };
-        let question = format!(
-            "{} look like outputs and are taken for inputs of {}: name the outputs, or the inputs",
-            like.join(", "),
-            name(&output)
-        );
-        let questions = if like.is_empty() { vec![] } else { vec![question] };
+        let mut questions = vec![];
+        if !like.is_empty() {
+            let one = like.len() == 1;
+            questions.push(format!(
+                "{} {} and {} of {}: name the outputs, or the inputs",
+                like.join(", "),
+                if one { "looks like an output" } else { "look like outputs" },
+                if one { "is taken for an input" } else { "are taken for inputs" },
+                name(&output)
+            ));
+        }
+        let of_words = |(name, has): &(String, String)| {
+            format!(
+                "column {name} is taken for words and not analysed: {has}; expected numbers, or words, alone"
+            )
+        };
+        let is_used = |name: &String| inputs.iter().any(|&of| table.columns[of].name == *name);
+        let unused = table.mixed.iter().filter(|(name, _)| !is_used(name) && request.inputs.is_empty());
+        questions.extend(unused.map(of_words));
         Ok(Self { inputs, outputs, components, questions })
     }
 }
@@ -138,11 +154,7 @@ pub fn analyse_table(table: &GivenTable, request: &TableRequest) -> Result<Table
     let names: Vec<String> = inputs.iter().map(name).collect();
     let of_output = |&output: &usize| {
         let column = name(&output);
-        let statistics = |source: SensitivityError| StudyError::Statistics {
-            path: table.path.clone(),
-            field: column.clone(),
-            source,
-        };
+        let statistics = |source: SensitivityError| table.statistics(&column, source);
         let found = complete.iter().map(|&row| Some(values(output)[row]).filter(|value| !value.is_nan()));
         let mut data = GivenData::new(names.clone(), columns.clone(), found.collect()).map_err(statistics)?;
         for (place, &input) in inputs.iter().enumerate().filter(|(_, of)| table.columns[**of].is_words()) {
@@ -152,8 +164,9 @@ pub fn analyse_table(table: &GivenTable, request: &TableRequest) -> Result<Table
         let analysis = Analyser { limit, ..request.analyser }.analyse(&data).map_err(statistics)?;
         Ok((column.clone(), analysis))
     };
-    let used =
-        |column: &String| inputs.iter().chain(outputs).chain(components).any(|used| name(used) == *column);
+    let chosen_names: HashSet<&str> =
+        inputs.iter().chain(outputs).chain(components).map(|&of| table.columns[of].name.as_str()).collect();
+    let used = |column: &String| chosen_names.contains(column.as_str());
     let bad: Vec<&BadCell> = table.bad.iter().filter(|cell| used(&cell.column)).collect();
     let all = table.columns.iter().map(|column| &column.name).chain(&table.empty);
     Ok(TableAnalysis {
@@ -188,9 +201,8 @@ fn of_vector(
     let vectors: Vec<_> = rows.iter().map(of_row).collect();
     let numbers = || chosen.inputs.iter().zip(columns).filter(|(of, _)| !table.columns[**of].is_words());
     let columns: Vec<Vec<f64>> = numbers().map(|(_, values)| values.clone()).collect();
-    let found = wasserstein_bures(&columns, &vectors, level, seed).map_err(|source| {
-        StudyError::Statistics { path: table.path.clone(), field: names.join(", "), source }
-    })?;
+    let found = wasserstein_bures(&columns, &vectors, level, seed);
+    let found = found.map_err(|source| table.statistics(&names.join(", "), source))?;
     let bures = numbers().map(|(&of, _)| table.columns[of].name.clone()).zip(found).collect();
     Ok(Some(VectorAnalysis { columns: names, bures }))
 }

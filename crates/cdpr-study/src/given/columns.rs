@@ -2,7 +2,9 @@
 
 use crate::error::StudyError;
 use crate::table::{Blank, Cells, Table, TableError};
+use cdpr_sensitivity::SensitivityError;
 use serde::Serialize;
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 /// A cell that holds no finite number where one is needed.
@@ -57,6 +59,8 @@ pub struct GivenTable {
     pub bad: Vec<BadCell>,
     /// Columns with a cell that cannot be read, and what is wrong with it.
     pub(super) unread: Vec<(String, TableError)>,
+    /// Columns of words with numbers among them, and what they have.
+    pub(super) mixed: Vec<(String, String)>,
 }
 
 /// Columns that number the rows.
@@ -69,9 +73,20 @@ impl GivenTable {
     /// Makes a table of what a file has.
     pub(super) fn of(path: &Path, table: Table) -> Self {
         let rows = table.rows();
-        let mut given =
-            Self { path: path.to_owned(), rows, columns: vec![], empty: vec![], bad: vec![], unread: vec![] };
+        let mut given = Self {
+            path: path.to_owned(),
+            rows,
+            columns: vec![],
+            empty: vec![],
+            bad: vec![],
+            unread: vec![],
+            mixed: vec![],
+        };
         for column in table.columns {
+            if let Some([number, word]) = column.number_and_word().filter(|_| column.cells().is_ok()) {
+                let at = |row: usize| format!("line {} has `{}`", table.lines[row], column.text(row));
+                given.mixed.push((column.name.clone(), format!("{} and {}", at(word), at(number))));
+            }
             match column.cells() {
                 Err(error) => given.unread.push((column.name, error)),
                 Ok(Cells::Numbers(values)) if column.blanks.len() < rows => {
@@ -122,13 +137,8 @@ impl GivenTable {
                 return Err(self.invalid(field, name, &expected));
             }
         }
-        let mut seen = Vec::new();
-        found.retain(|column| {
-            !seen.contains(column) && {
-                seen.push(*column);
-                true
-            }
-        });
+        let mut seen = HashSet::new();
+        found.retain(|column| seen.insert(*column));
         Ok(found)
     }
 
@@ -215,6 +225,11 @@ impl GivenTable {
             Some(more) if more > 0 => format!("{} and {more} more", names[..MOST].join(", ")),
             _ => names.join(", "),
         }
+    }
+
+    /// The error of statistics of a column.
+    pub(super) fn statistics(&self, field: &str, source: SensitivityError) -> StudyError {
+        StudyError::Statistics { path: self.path.clone(), field: field.to_owned(), source }
     }
 
     pub(super) fn invalid(&self, field: &str, value: &str, expected: &str) -> StudyError {

@@ -67,13 +67,32 @@ fn number(text: &str) -> Option<f64> {
     number.ok().filter(|number| number.is_finite())
 }
 
-/// The number and the unit of a cell such as `3.2 mm`.
+/// The number and the unit of a cell such as `3.2 mm`, `5 %`, `$0.5` or `2 bar`.
 pub(super) fn with_unit(text: &str) -> Option<(&str, &str)> {
+    let text = text.trim();
+    let is_number = |value: &str| matches!(reading(value), Reading::Number { .. } | Reading::Unclear);
+    if let Some(sign) = text.chars().next().filter(|sign| CURRENCIES.contains(sign)) {
+        let (sign, value) = text.split_at(sign.len_utf8());
+        return is_number(value).then(|| (value.trim(), sign));
+    }
     let is_of_number = |c: char| c.is_ascii_digit() || "+-.,\u{2212}".contains(c);
-    let (value, unit) = text.trim().split_at(text.trim().find(|c| !is_of_number(c))?);
-    let is_number = matches!(reading(value), Reading::Number { .. } | Reading::Unclear);
-    (is_number && Unit::of(unit).is_some()).then(|| (value, unit.trim()))
+    let (value, behind) = text.split_at(text.find(|c| !is_of_number(c))?);
+    let unit = behind.trim();
+    let is_sign = unit.chars().all(|c| SIGNS.contains(&c) || CURRENCIES.contains(&c));
+    let is_word = behind.starts_with(char::is_whitespace) && OTHER_UNITS.contains(&&*unit.to_lowercase());
+    (is_number(value) && (Unit::of(unit).is_some() || is_sign || is_word)).then_some((value, unit))
 }
+
+const CURRENCIES: [char; 4] = ['$', '\u{20ac}', '\u{a3}', '\u{a5}'];
+
+/// Signs behind numbers.
+const SIGNS: [char; 3] = ['%', '\u{2030}', '\u{b0}'];
+
+/// Units of quantities that robots do not have, in small letters: they make no word of a number.
+const OTHER_UNITS: [&str; 30] = [
+    "pa", "kpa", "mpa", "gpa", "bar", "psi", "hz", "khz", "rpm", "v", "mv", "a", "ma", "w", "kw", "j", "kj",
+    "k", "\u{b0}c", "c", "m/s", "mm/s", "n/m", "n/mm", "kg/m", "in", "ft", "lb", "min", "h",
+];
 
 /// Whether a number looks as one with marks of thousands: `1,234`, and not `0,234`, `1234,567` or `1,23`.
 fn is_of_thousands(text: &str, mark: char) -> bool {

@@ -58,7 +58,15 @@ impl Column {
             let cell = texts[row].clone();
             let expected = match with_unit(&cell) {
                 Some((value, unit)) => {
-                    format!("{value}, and the unit in the name of the column: {name} [{unit}]")
+                    let right = format!("{value}, and the unit in the name of the column: {name} [{unit}]");
+                    let is_other = |text: &String| with_unit(text).is_some_and(|(_, other)| other != unit);
+                    match texts.iter().position(is_other) {
+                        Some(other) => {
+                            let (line, cell) = (lines[other], &texts[other]);
+                            format!("{right}; line {line} has another unit, `{cell}`: all cells in one unit")
+                        }
+                        None => right,
+                    }
                 }
                 None => expected(&readings[row], &cell, own),
             };
@@ -104,6 +112,14 @@ impl Column {
                 None => values.get(row).map(ToString::to_string).unwrap_or_default(),
             },
         }
+    }
+
+    /// Rows of the first number and of the first word, of a column of texts that has both.
+    pub fn number_and_word(&self) -> Option<[usize; 2]> {
+        let Cells::Text(texts) = &self.cells else { return None };
+        let is_number = |text: &String| matches!(reading(text), Reading::Number { .. });
+        let is_word = |text: &String| reading(text) == Reading::Word;
+        Some([texts.iter().position(is_number)?, texts.iter().position(is_word)?])
     }
 
     /// Whether a list of quantities may have it beside them: texts, the time, the number of a row.

@@ -205,10 +205,35 @@ fn a_unit_behind_each_number_belongs_into_the_name_of_the_column() {
     let error = table.columns[1].cells().unwrap_err().to_string();
     assert_eq!(
         error,
-        "line 2, column load: `3.2 mm`: expected 3.2, and the unit in the name of the column: load [mm]"
+        "line 2, column load: `3.2 mm`: expected 3.2, and the unit in the name of the column: load [mm]; line 4 \
+         has another unit, `2 kN`: all cells in one unit"
     );
     assert!(matches!(table.columns[2].cells(), Ok(Cells::Text(_))), "a name of a cable");
     let one = Table::read(b"x,y\n1,2\n2,3\n3,4 N\n").unwrap();
     let error = one.columns[1].cells().unwrap_err().to_string();
     assert!(error.starts_with("line 4, column y: `4 N`: expected 4, and the unit in"), "{error}");
+}
+
+#[test]
+fn signs_and_other_units_behind_and_before_numbers_belong_into_the_name_of_the_column() {
+    let error = |cells: [&str; 3]| {
+        let text = format!("x;load\n1;{}\n2;{}\n3;{}\n", cells[0], cells[1], cells[2]);
+        let table = Table::read(text.as_bytes()).unwrap();
+        table.columns[1].cells().err().map(|error| error.to_string())
+    };
+    let into_name = |cell: &str, value: &str, unit: &str| {
+        let place = format!("line 2, column load: `{cell}`");
+        Some(format!("{place}: expected {value}, and the unit in the name of the column: load [{unit}]"))
+    };
+    assert_eq!(error(["$0.5", "$0.7", "$1"]), into_name("$0.5", "0.5", "$"));
+    assert_eq!(error(["5 %", "7%", "8 %"]), into_name("5 %", "5", "%"));
+    assert_eq!(error(["2 bar", "3 bar", ""]), into_name("2 bar", "2", "bar"));
+    let mixed = error(["5 mm", "0.5 cm", "6 mm"]).unwrap();
+    assert!(
+        mixed.ends_with("load [mm]; line 3 has another unit, `0.5 cm`: all cells in one unit"),
+        "{mixed}"
+    );
+    for labels in [["2a", "2b", "3a"], ["1 left", "1 right", "2 left"], ["4 mm steel", "6 mm", "steel"]] {
+        assert_eq!(error(labels), None, "{labels:?} are labels");
+    }
 }

@@ -17,7 +17,8 @@ pub(in crate::study) fn print(found: &TableAnalysis) {
         counted(found.outputs.len(), "output")
     );
     if found.left_out > 0 {
-        println!("{} rows are left out: an input has no value", found.left_out);
+        let are = if found.left_out == 1 { "is" } else { "are" };
+        println!("{} {are} left out: an input has no value", counted(found.left_out, "row"));
     }
     if !found.unused.is_empty() {
         println!("not analysed: {}", found.unused.join(", "));
@@ -31,7 +32,7 @@ pub(in crate::study) fn print(found: &TableAnalysis) {
     }
     let more = found.bad_cells - found.first_bad_cells.len();
     if more > 0 {
-        println!("no number: {more} more cells");
+        println!("no number: {} more", counted(more, "cell"));
     }
     for (name, analysis) in &found.outputs {
         println!();
@@ -65,8 +66,8 @@ fn print_summary(name: &str, analysis: &Analysis) {
     let of = &analysis.summary;
     let [low, median, high] = analysis.quantiles.map(number);
     println!(
-        "{name}: {} values, {} failed; mean {}, deviation {}; 5 % {low}, median {median}, 95 % {high}; {} to {}",
-        of.count,
+        "{name}: {}, {} failed; mean {}, deviation {}; 5 % {low}, median {median}, 95 % {high}; {} to {}",
+        counted(of.count, "value"),
         of.failed,
         number(of.mean),
         number(of.std),
@@ -79,12 +80,14 @@ fn print_summary(name: &str, analysis: &Analysis) {
     let percent = |share: f64| format!("{:.1} %", 100.0 * share);
     let linear = analysis.r_squared.zip(analysis.rank_r_squared);
     if let Some((values, ranks)) = linear {
-        println!("R\u{b2} of a linear model: {}, of ranks {}", percent(values), percent(ranks));
+        // Rounding may be below zero.
+        let [values, ranks] = [values, ranks].map(|share| percent(share.max(0.0)));
+        println!("R\u{b2} of a linear model: {values}, of ranks {ranks}");
     }
     if let Some(expansion) = &analysis.expansion {
         println!(
-            "polynomial model: {} terms up to degree {}, error {} of the variance",
-            expansion.terms.len(),
+            "polynomial model: {} up to degree {}, error {} of the variance",
+            counted(expansion.terms.len(), "term"),
             expansion.degree,
             percent(expansion.leave_one_out)
         );
@@ -142,7 +145,9 @@ fn print_inputs(analysis: &Analysis) {
     }
     println!("{rows}");
     if leading.len() > MOST {
-        println!("{} more inputs are in --json and --out", leading.len() - MOST);
+        let more = leading.len() - MOST;
+        let are = if more == 1 { "is" } else { "are" };
+        println!("{more} more {} {are} in --json and --out", if more == 1 { "input" } else { "inputs" });
     }
     println!("in brackets: as large without an effect in one table of twenty");
     for input in leading.iter().take(MOST).filter(|input| !input.levels.is_empty()) {
@@ -173,9 +178,10 @@ fn print_limit(analysis: &Analysis) {
         OutputLimit::AtLeast(value) => (">=", value),
     };
     println!(
-        "limit {sign} {value}: {} of {} values fail, {:.2} % ({:.2} % to {:.2} %)",
+        "limit {sign} {value}: {} of {} {}, {:.2} % ({:.2} % to {:.2} %)",
         failures.count,
-        failures.rows,
+        counted(failures.rows, "value"),
+        if failures.count == 1 { "fails" } else { "fail" },
         100.0 * failures.share.value,
         100.0 * failures.share.low,
         100.0 * failures.share.high

@@ -1,0 +1,46 @@
+//! Which inputs are coordinates of a sequence of low discrepancy, such as that of Sobol'.
+//!
+//! Such inputs are independent of each other by construction, but their rows are not: the points of two
+//! coordinates make a pattern. A test that takes rows as random finds the pattern, most clearly in pairs of
+//! inputs, in neighbours and in distances from the middle.
+//!
+//! - **In their order.** Eight rows in turn have a value in each eighth of a coordinate. Random rows do so in
+//!   0.2 % of all cases, and a coordinate that is mixed with another one by a correlation of 0.1 in a quarter
+//!   of them. Half of all eights are asked for. Ranks count, whatever the laws are.
+//! - **In another order.** Neighbours in one coordinate lie far apart in others, z (K7) of
+//!   [`rank`](crate::given::rank).
+
+use crate::given::data::Kind;
+use crate::given::rank::{LARGEST_Z, farthest};
+use crate::measure::regression::ranks;
+use crate::parallel::*;
+
+/// Rows that fill the parts of a coordinate.
+const BLOCK: usize = 8;
+
+/// Whether each input is a coordinate; one alone is none. `rows` are all in their order, `drawn` are those of
+/// tests.
+pub(crate) fn coordinates(rows: &[&[f64]], drawn: &[Vec<f64>], kinds: &[Kind], seed: u64) -> Vec<bool> {
+    let mut found: Vec<bool> = rows.par_iter().map(|column| fills(column)).collect();
+    for (input, (z, other)) in farthest(drawn, seed).into_iter().enumerate() {
+        if z > LARGEST_Z {
+            (found[input], found[other]) = (true, true);
+        }
+    }
+    found.iter_mut().zip(kinds).for_each(|(is, kind)| *is &= *kind == Kind::Numbers);
+    let count = found.iter().filter(|is| **is).count();
+    if count > 1 { found } else { vec![false; kinds.len()] }
+}
+
+/// Whether eight rows in turn have a value in each eighth, in half of all eights from a first row on.
+fn fills(column: &[f64]) -> bool {
+    let n = column.len() as f64;
+    let eighth = |rank: f64| ((rank - 0.5) / n * BLOCK as f64) as usize;
+    let eighths: Vec<usize> = ranks(column).into_iter().map(eighth).collect();
+    (0..BLOCK).any(|start| {
+        let full = |block: &[usize]| (0..BLOCK).all(|eighth| block.contains(&eighth));
+        let blocks = eighths.get(start..).unwrap_or_default().chunks_exact(BLOCK);
+        let (all, filled) = (blocks.len(), blocks.filter(|block| full(block)).count());
+        filled >= 2 && 2 * filled >= all
+    })
+}
