@@ -4,16 +4,16 @@
 //! product of the shares of the two parts,
 //!
 //! ```text
-//! δ = max_M Σ_mb sign(p_mb - q_mb) (p'_mb - q'_mb) / 2,   M = 32, 64, … 512 parts of each     (X1)
-//! HSIC = [tr K L + Σ K Σ L / ((n-1) (n-2)) - 2 Σ K L / (n-2)] / (n (n-3))                   (X2)
+//! δ = max_M Σ_mb sign(p_mb - q_mb) (p'_mb - q'_mb) / 2,   M = 32, 64, … 512 parts of each    (Ta1)
+//! HSIC = [tr K L + Σ K Σ L / ((n-1) (n-2)) - 2 Σ K L / (n-2)] / (n (n-3))                    (Ta2)
 //! ```
 //!
-//! - (X1) takes the sign from one half of the rows and the size from the other, and the same exchanged: the
+//! - (Ta1) takes the sign from one half of the rows and the size from the other, and the same exchanged: the
 //!   sum of absolute values would be above 0 for an input without an effect, this is not. A sum over parts is
 //!   at most δ, and too small where few rows tell the sign; the largest is the nearest. What is missing is
 //!   below 0.003, most where a density has a jump.
-//! - (X2) with K and L without their diagonals has no bias: L. Song et al., *Feature selection via dependence
-//!   maximization*, J. Mach. Learn. Res. 13 (2012). It is the mean over groups of 256 rows.
+//! - (Ta2) with K and L without their diagonals has no bias: L. Song et al., *Feature selection via
+//!   dependence maximization*, J. Mach. Learn. Res. 13 (2012). It is the mean over groups of 256 rows.
 //! - PAWN is that of the ten parts of `given::pawn`.
 
 use cdpr_sensitivity::{RandomDesign, SampleDesign, SensitivityError, SobolDesign, observe};
@@ -114,7 +114,7 @@ impl Cells {
         }
     }
 
-    /// δ (X1).
+    /// δ (Ta1).
     fn delta(&self) -> f64 {
         let mut halves = self.halves.clone();
         let (mut count, mut most) = (PARTS, 0.0_f64);
@@ -184,7 +184,7 @@ impl<'a> Kernels<'a> {
         Self { values, exponent: -0.5 / variance }
     }
 
-    /// HSIC (X2).
+    /// HSIC (Ta2).
     fn dependence(&self, other: &Self) -> f64 {
         let groups = self.values.chunks_exact(GROUP).zip(other.values.chunks_exact(GROUP));
         let count = groups.len() as f64;

@@ -3,8 +3,8 @@
 //! With Φ the standard normal distribution function, C the correlation matrix and L its Cholesky factor,
 //!
 //! ```text
-//! C = L Lᵀ                                                                (K1)
-//! z = L Φ⁻¹(u),   v = Φ(z),   x_j = F_j⁻¹(v_j)                            (K2)
+//! C = L Lᵀ                                                               (Co1)
+//! z = L Φ⁻¹(u),   v = Φ(z),   x_j = F_j⁻¹(v_j)                           (Co2)
 //! ```
 //!
 //! R. L. Iman, W. J. Conover, *A distribution-free approach to inducing rank correlation among input
@@ -42,7 +42,7 @@ use crate::design::{IndependentSample, JointSample, Layout, SampleDesign};
 use crate::error::{SensitivityError, check_length};
 use crate::law::normal::{standard_normal_cdf, standard_normal_quantile};
 
-/// Points of a design of independent inputs, correlated by Eq. (K2).
+/// Points of a design of independent inputs, correlated by Eq. (Co2).
 #[derive(Debug, Clone)]
 pub struct Correlated<D> {
     design: D,
@@ -100,7 +100,7 @@ impl<D: IndependentSample> SampleDesign for Correlated<D> {
 
 impl<D: IndependentSample> JointSample for Correlated<D> {}
 
-/// Cholesky factor of a correlation matrix, Eq. (K1).
+/// Cholesky factor of a correlation matrix, Eq. (Co1).
 pub(crate) fn cholesky(matrix: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, SensitivityError> {
     /// A squared pivot up to this value is rounding.
     const SINGULAR: f64 = 1e-12;

@@ -3,15 +3,15 @@
 //! With `p_j` the j-th prime and `d_0`, `d_1`, .. the digits of the index i in this base,
 //!
 //! ```text
-//! u_ij = Σ_k d_k p_j^-(k+1)                                               (Q1)
-//! u_ij = Σ_k ((a_jk d_k + c_jk) mod p_j) p_j^-(k+1)                       (Q2)
+//! u_ij = Σ_k d_k p_j^-(k+1)                                              (Ht1)
+//! u_ij = Σ_k ((a_jk d_k + c_jk) mod p_j) p_j^-(k+1)                      (Ht2)
 //! ```
 //!
-//! (Q1): J. H. Halton, *On the efficiency of certain quasi-random sequences of points in evaluating
+//! (Ht1): J. H. Halton, *On the efficiency of certain quasi-random sequences of points in evaluating
 //! multi-dimensional integrals*, Numer. Math. 2 (1960). Its points in two large neighbouring bases are
 //! correlated until the index has passed the product of the bases.
 //!
-//! (Q2) scrambles each digit by random `a_jk` in 1 .. p - 1 and `c_jk` in 0 .. p - 1, which removes that
+//! (Ht2) scrambles each digit by random `a_jk` in 1 .. p - 1 and `c_jk` in 0 .. p - 1, which removes that
 //! correlation and makes each point uniform. It is the diagonal form of the random linear scrambling of J.
 //! Matoušek, *On the L2-discrepancy for anchored boxes*, J. Complexity 14 (1998). Both use as many digits as
 //! a double holds.
@@ -42,7 +42,7 @@ struct Axis {
 }
 
 impl Halton {
-    /// Makes a design of the points `first_index` to `first_index + points - 1` of (Q1). Point 0 is all
+    /// Makes a design of the points `first_index` to `first_index + points - 1` of (Ht1). Point 0 is all
     /// zeros.
     ///
     /// # Errors
@@ -56,7 +56,7 @@ impl Halton {
         Self::over(inputs, first_index, points, None)
     }
 
-    /// Makes a design of the first points of the scrambled sequence (Q2).
+    /// Makes a design of the first points of the scrambled sequence (Ht2).
     ///
     /// # Errors
     /// As [`Halton::new`], but point 0 is allowed: scrambled, it is not zero.

@@ -4,13 +4,13 @@
 //! within the support,
 //!
 //! ```text
-//! nearest:     x = c + h round((F⁻¹(u) - c) / h),   clamped to k_min .. k_max          (I1)
-//! equal mass:  x = c + h (k_min + floor(u n)),      n = k_max - k_min + 1 levels      (I2)
+//! nearest:     x = c + h round((F⁻¹(u) - c) / h),   clamped to k_min .. k_max         (In1)
+//! equal mass:  x = c + h (k_min + floor(u n)),      n = k_max - k_min + 1 levels      (In2)
 //! ```
 //!
-//! (I1) is the "discretisation step" of Tables 3 and 4 of the paper (Baklouti, Caro, Courteille, 2017). Where
-//! the step divides the range, the two end levels of a uniform law have half the weight of the others. (I2)
-//! gives each level of a uniform law the same weight.
+//! (In1) is the "discretisation step" of Tables 3 and 4 of the paper (Baklouti, Caro, Courteille, 2017).
+//! Where the step divides the range, the two end levels of a uniform law have half the weight of the others.
+//! (In2) gives each level of a uniform law the same weight.
 
 use serde::{Deserialize, Serialize};
 
@@ -26,12 +26,12 @@ use crate::law::{Law, Support};
 #[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Steps {
-    /// Rounding to the nearest level, Eq. (I1).
+    /// Rounding to the nearest level, Eq. (In1).
     Nearest {
         /// Distance between two levels, positive, in the unit of the input.
         step: f64,
     },
-    /// Levels of equal mass, Eq. (I2), for a uniform law only.
+    /// Levels of equal mass, Eq. (In2), for a uniform law only.
     EqualMass {
         /// Distance between two levels, positive, in the unit of the input.
         step: f64,
@@ -172,7 +172,7 @@ struct Levels {
 }
 
 impl Prepared {
-    /// Value at the probability `u`, Eq. (I1) or (I2).
+    /// Value at the probability `u`, Eq. (In1) or (In2).
     pub(crate) fn value(&self, u: f64) -> f64 {
         let Some(Levels { steps, middle, min, max, lowest, highest }) = self.levels else {
             return self.law.quantile(u);

@@ -1,7 +1,7 @@
 //! Latin hypercube sampling: each input has one value in each of N cells of equal probability.
 //!
 //! ```text
-//! u_ij = (π_j(i) + r_ij) / N,   i = 0 .. N - 1                            (H1)
+//! u_ij = (π_j(i) + r_ij) / N,   i = 0 .. N - 1                           (Lh1)
 //! ```
 //!
 //! Each input has a random permutation `π_j` of 0 .. N - 1, and r is uniform on (0, 1), or 1/2 in the centred
@@ -18,7 +18,7 @@ use crate::design::{IndependentSample, JointSample, Layout, SampleDesign, check_
 use crate::error::SensitivityError;
 use crate::sample::random::{stream, uniform};
 
-/// Latin hypercube, Eq. (H1).
+/// Latin hypercube, Eq. (Lh1).
 #[derive(Debug, Clone)]
 pub struct LatinHypercube {
     layout: Layout,

@@ -4,8 +4,8 @@
 //! holds
 //!
 //! ```text
-//! a,   ab_1 .. ab_k,   [ba_1 .. ba_k,]   b                                (B1)
-//! ab_i = a with the i-th coordinate of b,   ba_i = b with the i-th coordinate of a      (B2)
+//! a,   ab_1 .. ab_k,   [ba_1 .. ba_k,]   b                                             (Sa1)
+//! ab_i = a with the i-th coordinate of b,   ba_i = b with the i-th coordinate of a     (Sa2)
 //! ```
 //!
 //! A. Saltelli, P. Annoni, I. Azzini, F. Campolongo, M. Ratto, S. Tarantola, *Variance based sensitivity
@@ -46,7 +46,7 @@ pub enum Order {
     Second,
 }
 
-/// Blocks of points (B1). N = 2^m blocks from index 0 keep the balance of the sequence.
+/// Blocks of points (Sa1). N = 2^m blocks from index 0 keep the balance of the sequence.
 #[derive(Debug, Clone)]
 pub struct SaltelliDesign {
     layout: Layout,
@@ -197,7 +197,7 @@ impl SaltelliDesign {
         &self.pairs[size * block..][..size]
     }
 
-    /// Writes row `within` of the block of (a, b), Eq. (B1).
+    /// Writes row `within` of the block of (a, b), Eq. (Sa1).
     fn write(&self, pair: &[f64], within: usize, row: &mut [f64]) {
         let (a, b) = pair.split_at(row.len());
         let groups = self.groups.len();

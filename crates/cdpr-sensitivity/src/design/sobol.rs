@@ -3,14 +3,14 @@
 //! With `V_j,k` the direction numbers of dimension j and g the Gray code of the index i,
 //!
 //! ```text
-//! g = i ⊕ (i >> 1)                                                        (S1)
-//! x_j = ⊕_k g_k V_j,k / 2^32                                              (S2)
+//! g = i ⊕ (i >> 1)                                                       (So1)
+//! x_j = ⊕_k g_k V_j,k / 2^32                                             (So2)
 //! m_k = 2 a_1 m_(k-1) ⊕ .. ⊕ 2^(s-1) a_(s-1) m_(k-s+1) ⊕ 2^s m_(k-s) ⊕ m_(k-s)
-//! V_k = 2^(32-k) m_k                                                      (S3)
+//! V_k = 2^(32-k) m_k                                                     (So3)
 //! ```
 //!
-//! (S1), (S2): I. A. Antonov, V. M. Saleev, *An economic method of computing LP-tau sequences* (1979). (S3)
-//! and the initial `m_k`: S. Joe, F. Y. Kuo, *Constructing Sobol sequences with better two-dimensional
+//! (So1), (So2): I. A. Antonov, V. M. Saleev, *An economic method of computing LP-tau sequences* (1979).
+//! (So3) and the initial `m_k`: S. Joe, F. Y. Kuo, *Constructing Sobol sequences with better two-dimensional
 //! projections*, SIAM J. Sci. Comput. 30 (2008), table `new-joe-kuo-6`. Its licence stands beside it in
 //! `data/`.
 //!
@@ -18,7 +18,7 @@
 //! binary digit is flipped by a coin that depends on all digits before it:
 //!
 //! ```text
-//! y_k = x_k ⊕ coin(seed, j, x_1 .. x_(k-1)),   k = 1 .. 32                 (S4)
+//! y_k = x_k ⊕ coin(seed, j, x_1 .. x_(k-1)),   k = 1 .. 32                (So4)
 //! ```
 //!
 //! The coins come from a permutation of integers in which a bit depends on lower bits alone, applied to the
@@ -27,7 +27,7 @@
 //! dimension j, and N. Vegdahl's constants (*Building a better LK hash*, 2021),
 //!
 //! ```text
-//! n ⊕= 3d20adea n,  n += c,  n *= c/2^16 | 1,  n ⊕= 05526c56 n,  n ⊕= 53a22864 n  (modulo 2^32)  (S5)
+//! n ⊕= 3d20adea n,  n += c,  n *= c/2^16 | 1,  n ⊕= 05526c56 n,  n ⊕= 53a22864 n  (modulo 2^32)   (So5)
 //! ```
 //!
 //! A net stays a net of the same quality, and each point is uniform. The coins are not independent of each
@@ -48,7 +48,7 @@ const TABLE: &str = include_str!("../../data/new-joe-kuo-6.2048");
 pub struct Sobol {
     dimensions: usize,
     /// `V_j,k` of all dimensions for k = 1, then for k = 2, and so on. In a scrambled sequence their bits are
-    /// in reverse order, the most significant digit last, as Eq. (S5) takes them.
+    /// in reverse order, the most significant digit last, as Eq. (So5) takes them.
     directions: Vec<u32>,
     scrambling: Option<Scrambling>,
 }
@@ -80,7 +80,7 @@ impl Sobol {
         Ok(Self { dimensions, directions, scrambling: None })
     }
 
-    /// Makes the sequence under a nested scrambling, Eq. (S4), with a key of its own in each dimension.
+    /// Makes the sequence under a nested scrambling, Eq. (So4), with a key of its own in each dimension.
     ///
     /// Each point is uniform on (0, 1). The values 0 and 1 do not occur.
     ///
@@ -155,10 +155,10 @@ impl Sobol {
         Ok(())
     }
 
-    /// Digits of all coordinates of a point, Eq. (S2), as integers; reversed where they are to be scrambled.
+    /// Digits of all coordinates of a point, Eq. (So2), as integers; reversed where they are to be scrambled.
     fn digits(&self, index: u32) -> Vec<u32> {
         let mut digits = vec![0; self.dimensions];
-        let mut gray = index ^ (index >> 1); // Eq. (S1)
+        let mut gray = index ^ (index >> 1); // Eq. (So1)
         while gray != 0 {
             self.flip(gray.trailing_zeros() as usize, &mut digits);
             gray &= gray - 1;
@@ -278,7 +278,7 @@ impl SampleDesign for SobolDesign {
 impl JointSample for SobolDesign {}
 impl IndependentSample for SobolDesign {}
 
-/// Direction numbers, Eq. (S3), from a line `a m_1 .. m_s` of the table.
+/// Direction numbers, Eq. (So3), from a line `a m_1 .. m_s` of the table.
 fn directions_of_line(line: &str) -> [u32; BITS] {
     let mut numbers = line.split_ascii_whitespace().filter_map(|number| number.parse::<u32>().ok());
     let inner = numbers.next().unwrap_or_default();
@@ -301,7 +301,7 @@ fn directions_of_line(line: &str) -> [u32; BITS] {
     v
 }
 
-/// Scrambles digits in reverse order, Eq. (S5).
+/// Scrambles digits in reverse order, Eq. (So5).
 #[inline]
 fn scramble(mut n: u32, key: u32) -> u32 {
     n ^= n.wrapping_mul(0x3d20_adea);

@@ -24,7 +24,7 @@
 //! - A root of an estimate is too small in the mean. A jackknife over 20 groups of rows takes this bias of
 //!   the order 1/n away and gives the interval: B. Efron, C. Stein, *The jackknife estimate of variance*,
 //!   Ann. Stat. 9 (1981). It is of Student's form, for independent rows. Those of a sequence are refused
-//!   ([`rank`](crate::given::rank), Eq. (K7)): the correction would be wrong for them.
+//!   ([`rank`](crate::given::rank), Eq. (Ra7)): the correction would be wrong for them.
 //!
 //! Correlated inputs count each for what they tell of the output. No unit.
 

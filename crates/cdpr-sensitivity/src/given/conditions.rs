@@ -6,7 +6,7 @@
 //! - **Rows in an order.** With the correlations `r_k` of the ranks of a column k rows apart,
 //!
 //! ```text
-//! Q = n (n + 2) Σ r_k² / (n - k),   k = 1 .. min(10, n / 5),   χ² without an order      (O1)
+//! Q = n (n + 2) Σ r_k² / (n - k),   k = 1 .. min(10, n / 5),   χ² without an order     (Cd1)
 //! ```
 //!
 //!   G. M. Ljung, G. E. P. Box, *On a measure of lack of fit in time series models*, Biometrika 65 (1978).
@@ -169,7 +169,7 @@ fn has_order(values: &[f64]) -> bool {
     order_p(values) < ORDERED
 }
 
-/// p of (O1).
+/// p of (Cd1).
 fn order_p(values: &[f64]) -> f64 {
     let n = values.len();
     let lags = 10.min(n / 5);

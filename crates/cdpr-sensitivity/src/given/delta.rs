@@ -4,26 +4,26 @@
 //! two if they were independent,
 //!
 //! ```text
-//! δ = E ∫ |f(y) - f(y | x)| dy / 2 = max_A P(A) - Q(A)                                (B1)
-//! A_w = {(x, y): density of P > density of Q}, by Gaussian sums of widths w           (B2)
-//! estimate = max_w mean_k D_k(A_w),   A_w of all rows but those of fold k             (B3)
-//! D_k(A) = n_k / (n_k - 1) · (P_k(A) - Q_k(A))                                        (B4)
-//! at least = (D_2(A_1) + D_1(A_2)) / 2 - t (s_2 + s_1) / 2,   A_1, A_2 of the halves    (B5)
-//! s_k² = variance of 1_A(x_i, y_i) - Q_k(A | x_i) - Q_k(A | y_i), over n_k             (B6)
+//! δ = E ∫ |f(y) - f(y | x)| dy / 2 = max_A P(A) - Q(A)                                 (De1)
+//! A_w = {(x, y): density of P > density of Q}, by Gaussian sums of widths w            (De2)
+//! estimate = max_w mean_k D_k(A_w),   A_w of all rows but those of fold k              (De3)
+//! D_k(A) = n_k / (n_k - 1) · (P_k(A) - Q_k(A))                                         (De4)
+//! at least = (D_2(A_1) + D_1(A_2)) / 2 - t (s_2 + s_1) / 2,   A_1, A_2 of the halves   (De5)
+//! s_k² = variance of 1_A(x_i, y_i) - Q_k(A | x_i) - Q_k(A | y_i), over n_k             (De6)
 //! ```
 //!
-//! - (B1): E. Borgonovo, *A new uncertainty importance measure*, Reliab. Eng. Syst. Saf. 92 (2007). It lies
+//! - (De1): E. Borgonovo, *A new uncertainty importance measure*, Reliab. Eng. Syst. Saf. 92 (2007). It lies
 //!   between 0 (independent) and 1, has no unit, and stays the same where x or y is replaced by a monotonic
 //!   function of it: it is computed from ranks. The second form is Scheffé's theorem (1947): δ is the
 //!   distance in total variation of P and Q, and the set where P is denser is the best.
-//! - (B4), with `P_k` the shares of the rows of fold k and `Q_k` the products of the shares of their values
+//! - (De4), with `P_k` the shares of the rows of fold k and `Q_k` the products of the shares of their values
 //!   of x and y, has the mean P(A) - Q(A) for any set that other rows have given. It is at most δ, and
 //!   misses δ by the square of what the borders of A are off.
-//! - (B3): a few widths for x and as many for y, and five folds. The best of them is too large for an input
+//! - (De3): a few widths for x and as many for y, and five folds. The best of them is too large for an input
 //!   without an effect (the level that 95 of 100 such inputs stay below is the largest of 19 estimates from
 //!   outputs that are dealt to the rows at random) and too small for a strong one.
-//! - (B5): the widths of `A_1` are chosen by folds within the first half, and it is measured by the second.
-//!   Nothing that it is measured by has a part in its choice, so that the bound holds for any law. (B6) is
+//! - (De5): the widths of `A_1` are chosen by folds within the first half, and it is measured by the second.
+//!   Nothing that it is measured by has a part in its choice, so that the bound holds for any law. (De6) is
 //!   the variance of a U statistic to the first order: W. Hoeffding (1948). The two deviations add up: without
 //!   an effect, what the two halves happen to have in common raises both differences. t is Student's factor.
 //! - There is no such upper bound: beside any law there are others with a larger δ, in waves of x too short
@@ -45,9 +45,9 @@ use crate::sample::summary::Spread;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct Delta {
-    /// Estimate (B3). With few rows it is too small for a strong input, and too large for a weak one.
+    /// Estimate (De3). With few rows it is too small for a strong input, and too large for a weak one.
     pub delta: f64,
-    /// Lower bound of δ (B5). The share of tables whose bound is above δ is half of 1 - level at most.
+    /// Lower bound of δ (De5). The share of tables whose bound is above δ is half of 1 - level at most.
     pub at_least: f64,
     /// Estimate that an input without an effect stays below in 95 of 100 tables.
     pub noise: f64,
@@ -115,7 +115,7 @@ pub(crate) fn of_columns(
     columns.par_iter().zip(&sizes).map(of_input).collect()
 }
 
-/// Lower bound (B5), at least 0.
+/// Lower bound (De5), at least 0.
 fn at_least(
     smoothers: &[Smoother],
     column: &[usize],
@@ -164,7 +164,7 @@ fn folds(column: &[usize], outputs: &[usize], rows: &[usize]) -> [Table; FOLDS] 
     })
 }
 
-/// The estimate (B3) and its widths.
+/// The estimate (De3) and its widths.
 fn best(smoothers: &[Smoother], folds: &[Table; FOLDS]) -> (f64, [usize; 2]) {
     let all = folds.iter().fold(Table::none(), |sum, fold| sum.with(fold, 1.0));
     let mut sums = [[0.0; WIDTHS.len()]; WIDTHS.len()];
@@ -224,7 +224,7 @@ impl Table {
         sums
     }
 
-    /// What each cell adds to D (B4).
+    /// What each cell adds to D (De4).
     fn excess(&self) -> Vec<f64> {
         let (n, inputs, outputs) = (self.rows, self.inputs(), self.outputs());
         let cell = |(cell, count): (usize, &f64)| {
@@ -233,14 +233,14 @@ impl Table {
         self.counts.iter().enumerate().map(cell).collect()
     }
 
-    /// The set (B2) of these widths.
+    /// The set (De2) of these widths.
     fn set(&self, smoothers: &[Smoother], [x, y]: [usize; 2]) -> Vec<bool> {
         let mut of_widths = Vec::new();
         self.each_set([&smoothers[x..=x], &smoothers[y..=y]], |_, set| of_widths = set.to_vec());
         of_widths
     }
 
-    /// Calls with the numbers of the widths of x and y, and with the cells of the set (B2).
+    /// Calls with the numbers of the widths of x and y, and with the cells of the set (De2).
     fn each_set(&self, [of_x, of_y]: [&[Smoother]; 2], mut call: impl FnMut([usize; 2], &[bool])) {
         /// A density is larger from this factor on: rounding makes none.
         const LARGER: f64 = 1.0 + 1e-9;

@@ -3,17 +3,17 @@
 //! With the scores v of the output (mean 0, norm 1) and the projection A on the functions of an input,
 //!
 //! ```text
-//! R² = vᵀ A v = Σ_g (Σ_(i in g) v_i)² / n_g   for groups g of rows,   (u · v)²   for scores u         (J1)
-//! p = P(B >= R²),   B a beta variable of the mean and variance of R² over all permutations of v       (J2)
-//! p >= Π n_g! / n!                                                                                    (J3)
-//! Q = Σ (v_(j+1) - v_(j))² in the order of the input,   p = P(N <= Q)                                  (J4)
+//! R² = vᵀ A v = Σ_g (Σ_(i in g) v_i)² / n_g   for groups g of rows,   (u · v)²   for scores u         (Ev1)
+//! p = P(B >= R²),   B a beta variable of the mean and variance of R² over all permutations of v       (Ev2)
+//! p >= Π n_g! / n!                                                                                    (Ev3)
+//! Q = Σ (v_(j+1) - v_(j))² in the order of the input,   p = P(N <= Q)                                 (Ev4)
 //! ```
 //!
-//! - (J1), (J2): the moments are (D3) and (D5) of [`hsic`](crate::given::hsic), exact for any scores and any
-//!   ties, where F or χ² assume normal ones. (J3) is the share of the permutations that are as far apart as
-//!   any can be: no permutation test has a smaller p.
-//! - (J4) is the index by ranks ([`rank`](crate::given::rank)) of the ranks of the output (R. Bartels 1982; S.
-//!   Chatterjee 2021), with a normal law of the exact moments over all permutations.
+//! - (Ev1), (Ev2): the moments are (Hs3) and (Hs5) of [`hsic`](crate::given::hsic), exact for any scores and
+//!   any ties, where F or χ² assume normal ones. (Ev3) is the share of the permutations that are as far apart
+//!   as any can be: no permutation test has a smaller p.
+//! - (Ev4) is the index by ranks ([`rank`](crate::given::rank)) of the ranks of the output (R. Bartels 1982;
+//!   S. Chatterjee 2021), with a normal law of the exact moments over all permutations.
 //!
 //! | measure | scores of the output | functions of the input |
 //! |---|---|---|
@@ -21,7 +21,7 @@
 //! | location | ranks | steps: ten parts, or its levels (Kruskal and Wallis) |
 //! | spread | distances of the ranks from the middle | the same steps |
 //! | together | ranks times those of another input | the same steps; least p times the number of others |
-//! | neighbours | ranks | any (J4) |
+//! | neighbours | ranks | any (Ev4) |
 //! | dependence | values | any (HSIC) |
 //!
 //! An output of ranks is as little moved by long tails as by a diverged run. *Together* finds an input that
@@ -164,7 +164,7 @@ impl Space {
         Self::Steps(group, sizes)
     }
 
-    /// R² (J1).
+    /// R² (Ev1).
     pub(crate) fn share(&self, scores: &Scores) -> f64 {
         match self {
             Self::Line(u) => u.product(scores).powi(2),
@@ -187,7 +187,7 @@ impl Space {
         }
     }
 
-    /// ln of (J3).
+    /// ln of (Ev3).
     fn log_least(&self, n: f64) -> f64 {
         let ln_factorial = |count: f64| ln_gamma(count + 1.0);
         let equal = match self {
@@ -203,7 +203,7 @@ impl Space {
         equal - ln_factorial(n)
     }
 
-    /// p (J2).
+    /// p (Ev2).
     pub(crate) fn p_value(&self, scores: &Scores) -> f64 {
         let n = scores.0.len() as f64;
         let share = self.share(scores).clamp(0.0, 1.0);
@@ -218,7 +218,7 @@ impl Space {
     }
 }
 
-/// p (J4) of scores in the order of an input.
+/// p (Ev4) of scores in the order of an input.
 fn of_neighbours(values: &[f64], scores: &Scores, seed: u64) -> f64 {
     let sorted: Vec<f64> = order(values, seed, 1).into_iter().map(|row| scores.0[row]).collect();
     let found: f64 = sorted.windows(2).map(|pair| (pair[1] - pair[0]).powi(2)).sum();

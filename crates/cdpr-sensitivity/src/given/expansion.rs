@@ -4,15 +4,15 @@
 //! each input by itself:
 //!
 //! ```text
-//! Σ_j ψ_m(x_j) ψ_n(x_j) / n = 1 if m = n, 0 otherwise                                 (V1)
+//! Σ_j ψ_m(x_j) ψ_n(x_j) / n = 1 if m = n, 0 otherwise                                (Ge1)
 //! ```
 //!
 //! or those of the ranks (Legendre's, but for equal values), which suit values with long tails; the
 //! leave-one-out error decides, unless both models are exact to rounding. An input of m levels has m - 1
-//! polynomials: a table of a design has those of its levels, exactly orthonormal where it is balanced. (V1): S.
-//! Oladyshkin, W. Nowak, *Data-driven uncertainty quantification using the arbitrary polynomial chaos
+//! polynomials: a table of a design has those of its levels, exactly orthonormal where it is balanced. (Ge1):
+//! S. Oladyshkin, W. Nowak, *Data-driven uncertainty quantification using the arbitrary polynomial chaos
 //! expansion*, Reliab. Eng. Syst. Saf. 106 (2012). Terms, degree and indices are found as in
-//! [`crate::measure::expansion`], Eq. (X1) to (X4) there. The inputs must be independent of each other.
+//! [`crate::measure::expansion`], Eq. (Ex1) to (Ex4) there. The inputs must be independent of each other.
 
 use serde::{Deserialize, Serialize};
 

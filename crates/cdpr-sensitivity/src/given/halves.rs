@@ -1,10 +1,10 @@
 //! Which way each input acts: the outputs of its upper half of values against those of its lower half.
 //!
-//! As in [`crate::measure::effect`], Eq. (U1) and (U2) there, with the median of the values in place of the
+//! As in [`crate::measure::effect`], Eq. (Ef1) and (Ef2) there, with the median of the values in place of the
 //! middle of a law that is not known:
 //!
 //! ```text
-//! effect = M₊ - M₋,   t = |M₊ - M₋| / √(V / n₋ + V / n₊)                              (E1)
+//! effect = M₊ - M₋,   t = |M₊ - M₋| / √(V / n₋ + V / n₊)                             (Ha1)
 //! ```
 //!
 //! The effect has the unit of the output. For independent random rows t is that of Student, with the variance
@@ -21,7 +21,7 @@ use crate::error::SensitivityError;
 use crate::given::data::GivenData;
 use crate::sample::summary::Spread;
 
-/// Effect (E1) of one input.
+/// Effect (Ha1) of one input.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct Half {

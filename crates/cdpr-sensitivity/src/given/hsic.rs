@@ -4,28 +4,28 @@
 //! deviation of the values, and C = I - 1 1ᵀ / n,
 //!
 //! ```text
-//! HSIC(x, y) = tr(A B) / n²,   A = C K C,   B = C L C                                 (D1)
-//! R² = HSIC(x, y) / √(HSIC(x, x) HSIC(y, y))                                          (D2)
-//! m = tr A tr B / (n - 1),   v = Var tr(A P B Pᵀ) over all permutations P             (D3)
-//! p = P(Γ >= tr(A B)),   Γ a gamma variable of the mean m and the variance v          (D4)
+//! HSIC(x, y) = tr(A B) / n²,   A = C K C,   B = C L C                                (Hs1)
+//! R² = HSIC(x, y) / √(HSIC(x, x) HSIC(y, y))                                         (Hs2)
+//! m = tr A tr B / (n - 1),   v = Var tr(A P B Pᵀ) over all permutations P            (Hs3)
+//! p = P(Γ >= tr(A B)),   Γ a gamma variable of the mean m and the variance v         (Hs4)
 //! ```
 //!
-//! - (D1) is 0 for infinitely many rows if and only if input and output are independent, whatever the form
+//! - (Hs1) is 0 for infinitely many rows if and only if input and output are independent, whatever the form
 //!   of the dependence: A. Gretton, O. Bousquet, A. Smola, B. Schölkopf, *Measuring statistical dependence
 //!   with Hilbert-Schmidt norms* (2005).
-//! - (D2), from 0 to 1 without a unit: S. Da Veiga, *Global sensitivity analysis with dependence measures*,
+//! - (Hs2), from 0 to 1 without a unit: S. Da Veiga, *Global sensitivity analysis with dependence measures*,
 //!   J. Stat. Comput. Simul. 85 (2015). It is biased upwards by about m / tr of the two: judge by p.
-//! - (D3) are the exact moments of the statistic if the outputs are dealt to the rows at random: F.
+//! - (Hs3) are the exact moments of the statistic if the outputs are dealt to the rows at random: F.
 //!   Kazi-Aoual, S. Hitier, R. Sabatier, J.-D. Lebreton, *Refined approximations to permutation tests for
 //!   multivariate inference*, Comput. Stat. Data Anal. 20 (1995). With
 //!   T = tr A, T2 = tr A², S2 = Σ A_ii² (and the same of B, with a star),
 //!
 //! ```text
-//! v = 2 ((n-1) T2 - T²) ((n-1) T2* - T*²) / ((n-1)² (n+1) (n-2))                      (D5)
+//! v = 2 ((n-1) T2 - T²) ((n-1) T2* - T*²) / ((n-1)² (n+1) (n-2))                     (Hs5)
 //!   + Q Q* / ((n+1) n (n-1) (n-2) (n-3)),   Q = n (n+1) S2 - (n-1) (T² + 2 T2)
 //! ```
 //!
-//! - (D4): A. Gretton et al., *A kernel statistical test of independence* (2008). It holds at usual levels;
+//! - (Hs4): A. Gretton et al., *A kernel statistical test of independence* (2008). It holds at usual levels;
 //!   p below 1e-4 is an indication of its size only.
 //! - An input of words has the kernel K = 1 for two rows of the same word, 0 otherwise.
 //! - An event has the kernel L = 1 for two rows in which it happens or in neither, 0 otherwise. The rows in
@@ -49,9 +49,9 @@ use crate::sample::summary::{Spread, check_varies};
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct Dependence {
-    /// R² (D2), from 0 to 1. A constant input has 0.
+    /// R² (Hs2), from 0 to 1. A constant input has 0.
     pub r_squared: f64,
-    /// p (D4): probability of a statistic of this size without any dependence.
+    /// p (Hs4): probability of a statistic of this size without any dependence.
     pub p_value: f64,
 }
 
@@ -199,7 +199,7 @@ struct Centred {
     invariants: Invariants,
 }
 
-/// T, T2 and S2 of (D5).
+/// T, T2 and S2 of (Hs5).
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Invariants {
     pub(crate) trace: f64,
@@ -265,7 +265,7 @@ fn of_input(input: &Kernel, output: &Centred) -> Dependence {
     }
 }
 
-/// Mean (D3) and variance (D5) over all permutations.
+/// Mean (Hs3) and variance (Hs5) over all permutations.
 pub(crate) fn moments(a: Invariants, b: Invariants, n: f64) -> (f64, f64) {
     let spread = |m: Invariants| (n - 1.0) * m.square - m.trace * m.trace;
     let q = |m: Invariants| n * (n + 1.0) * m.diagonal - (n - 1.0) * (m.trace * m.trace + 2.0 * m.square);
@@ -275,7 +275,7 @@ pub(crate) fn moments(a: Invariants, b: Invariants, n: f64) -> (f64, f64) {
     (mean, variance)
 }
 
-/// (D4).
+/// (Hs4).
 fn p_value(statistic: f64, (mean, variance): (f64, f64)) -> f64 {
     match Gamma::new(mean * mean / variance, mean / variance) {
         Ok(gamma) => gamma.sf(statistic),
@@ -312,7 +312,7 @@ mod tests {
         assert!((found.0 / mean - 1.0).abs() < 1e-10, "{found:?} {mean}");
         assert!((found.1 / variance - 1.0).abs() < 1e-10, "{found:?} {variance}");
 
-        // The sums over pairs give the same statistic: R² of (D1), (D2) by the matrices.
+        // The sums over pairs give the same statistic: R² of (Hs1), (Hs2) by the matrices.
         let identity: Vec<usize> = (0..n).collect();
         let scale = (a.invariants.square * b.invariants.square).sqrt();
         let by_pairs = of_input(&kernel(&x), &b);

@@ -3,14 +3,14 @@
 //! With m levels of `n_l` rows, their means `y_l`, and the variance V of all n outputs (n - 1),
 //!
 //! ```text
-//! S = 1 - θ,   θ = Σ (y_i - y_l(i))² / ((n - m) V)                                    (L1)
-//! u_i = (y_i - y_l(i))² n / (n - m) - θ (y_i - ȳ)²                                    (L2)
-//! Var θ = Σ u_i² / (n (n - m) V²) + 2 (m - 1) θ² / n²                                 (L3)
+//! S = 1 - θ,   θ = Σ (y_i - y_l(i))² / ((n - m) V)                                   (Le1)
+//! u_i = (y_i - y_l(i))² n / (n - m) - θ (y_i - ȳ)²                                   (Le2)
+//! Var θ = Σ u_i² / (n (n - m) V²) + 2 (m - 1) θ² / n²                                (Le3)
 //! ```
 //!
-//! (L1) is the correlation ratio, corrected for chance: 0 in the mean without an effect (T. L. Kelley, *An
-//! unbiased correlation ratio measure*, Proc. Natl. Acad. Sci. 21, 1935). (L3) is its variance to the first
-//! order and, without an effect, that of a quotient of χ². The interval is that of (K6) of
+//! (Le1) is the correlation ratio, corrected for chance: 0 in the mean without an effect (T. L. Kelley, *An
+//! unbiased correlation ratio measure*, Proc. Natl. Acad. Sci. 21, 1935). (Le3) is its variance to the first
+//! order and, without an effect, that of a quotient of χ². The interval is that of (Ra6) of
 //! [`rank`](crate::given::rank) with n - m degrees of freedom.
 
 use serde::{Deserialize, Serialize};
@@ -69,7 +69,7 @@ pub(crate) fn has_levels(column: &[f64], words: bool) -> bool {
     (words || count <= MOST) && column.len() >= count + LEAST_FREEDOMS
 }
 
-/// Share (L1) with its interval, of an input that [`has_levels`].
+/// Share (Le1) with its interval, of an input that [`has_levels`].
 pub(crate) fn share(column: &[f64], outputs: &[f64], level: f64) -> Result<Estimate, SensitivityError> {
     let (codes, m) = codes(column);
     let means = means(&codes, outputs);

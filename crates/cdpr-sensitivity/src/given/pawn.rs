@@ -4,7 +4,7 @@
 //! all outputs and `F_m` that of part m,
 //!
 //! ```text
-//! KS_m = max_y |F(y) - F_m(y)|,   PAWN_i = median of KS_m,   largest_i = max KS_m      (N1)
+//! KS_m = max_y |F(y) - F_m(y)|,   PAWN_i = median of KS_m,   largest_i = max KS_m     (Pa1)
 //! ```
 //!
 //! F. Pianosi, T. Wagener, *Distribution-based sensitivity analysis from a generic input-output sample*,
@@ -25,9 +25,9 @@ use crate::sample::random::stream;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct Pawn {
-    /// Median of the distances (N1).
+    /// Median of the distances (Pa1).
     pub median: f64,
-    /// Largest distance (N1).
+    /// Largest distance (Pa1).
     pub largest: f64,
     /// Median that an input without an effect stays below in 95 of 100 tables.
     pub noise: f64,
@@ -102,7 +102,7 @@ impl Outputs {
         }
     }
 
-    /// KS (N1) of some rows.
+    /// KS (Pa1) of some rows.
     fn distance(&self, rows: &[usize]) -> f64 {
         let mut places: Vec<(f64, f64)> = rows.iter().map(|&row| (self.at[row], self.below[row])).collect();
         places.sort_unstable_by(|one, other| one.0.total_cmp(&other.0));

@@ -4,29 +4,29 @@
 //!
 //! ```text
 //! S_i = 1 - θ,   θ = (Σ d_j + (d_1 + d_(n-1)) / 2) / (n V),   d_j = (y_(j+1) - y_(j))² / 2
-//! V = Σ (y - ȳ)² / (n - 1)                                                            (K2)
-//! u_j = d_j - θ ((y_(j) - ȳ)² + (y_(j+1) - ȳ)²) / 2                                    (K3)
-//! s² = γ_0 + 2 (γ_1 - (γ_2 + γ_3 + γ_4) / 3),   s² >= γ_0 / 4                          (K4)
-//! Var θ = max(s² / (V² (n - 8)), θ² / n)                                               (K5)
-//! 1 - θ exp(h / θ) <= S <= 1 - θ + h,   h = t_(n/8, (1 + level) / 2) √(Var θ)             (K6)
+//! V = Σ (y - ȳ)² / (n - 1)                                                               (Ra2)
+//! u_j = d_j - θ ((y_(j) - ȳ)² + (y_(j+1) - ȳ)²) / 2                                      (Ra3)
+//! s² = γ_0 + 2 (γ_1 - (γ_2 + γ_3 + γ_4) / 3),   s² >= γ_0 / 4                            (Ra4)
+//! Var θ = max(s² / (V² (n - 8)), θ² / n)                                                 (Ra5)
+//! 1 - θ exp(h / θ) <= S <= 1 - θ + h,   h = t_(n/8, (1 + level) / 2) √(Var θ)            (Ra6)
 //! ```
 //!
-//! - (K2): two rows that are neighbours in x have nearly the same conditional mean, so that their difference
+//! - (Ra2): two rows that are neighbours in x have nearly the same conditional mean, so that their difference
 //!   shows what the other inputs cause. It is the estimator of F. Gamboa, P. Gremaud, T. Klein, A. Lagnoux,
 //!   *Global sensitivity analysis: a novel generation of mighty estimators based on rank statistics*,
 //!   Bernoulli 28 (2022), up to the two ends: they join the last row to the first, whereas here the outer
 //!   differences count one and a half times, so that every row counts once. The bias is of the order 1 / n²
 //!   for smooth models; the sum is that of J. von Neumann (1941), and θ is 1 in the mean without any
 //!   dependence.
-//! - (K4) leads to its variance to the first order. `γ_k` is the covariance of u at k places apart:
+//! - (Ra4) leads to its variance to the first order. `γ_k` is the covariance of u at k places apart:
 //!   neighbours share an output, and from two places apart on only the part is left that x itself causes. The
 //!   bootstrap fails for statistics of ranks: Z. Lin, F. Han, *On the failure of the bootstrap for
 //!   Chatterjee's rank correlation*, Biometrika 111 (2024).
-//! - (K5): with σ²(x) the variance of y given x, n V² Var θ is the variance of
+//! - (Ra5): with σ²(x) the variance of y given x, n V² Var θ is the variance of
 //!   `(y - E (y | x))² - θ (y - ȳ)²` plus `E σ⁴(x) >= (E σ²(x))² = θ² V²` (Jensen's inequality).
 //!   No estimate is below that; without an effect it is the variance itself. The 8 and Student's factor of
 //!   n / 8 allow for few rows.
-//! - (K6): θ is a quotient of variances, whose law is skewed towards large values; its logarithm is less so
+//! - (Ra6): θ is a quotient of variances, whose law is skewed towards large values; its logarithm is less so
 //!   and gives the lower end. The upper end is of the first order, as a logarithm never holds S = 1.
 //!
 //! `cargo xtask statistics given` counts how often the intervals hold the index.
@@ -36,7 +36,7 @@
 //! correlation and m neighbours in input i,
 //!
 //! ```text
-//! z_ij = (mean((u_j' - u_j)²) - (1 - r_ij²) / 6) / √(1 / (20 m))                       (K7)
+//! z_ij = (mean((u_j' - u_j)²) - (1 - r_ij²) / 6) / √(1 / (20 m))                      (Ra7)
 //! ```
 //!
 //! of each input i and the 64 next ones j is at most 3.4 for 62 inputs of random rows and of Latin hypercubes,
@@ -59,11 +59,11 @@ use crate::sample::summary::Spread;
 /// Least number of rows.
 pub const MIN_ROWS: usize = 30;
 
-/// First-order index (K2) of each input with its interval at a confidence `level` in (0, 1).
+/// First-order index (Ra2) of each input with its interval at a confidence `level` in (0, 1).
 ///
 /// # Errors
 /// - [`SensitivityError::OutOfRange`] for fewer than [`MIN_ROWS`] outputs;
-/// - [`SensitivityError::DependentRows`] for rows of a sequence (K7);
+/// - [`SensitivityError::DependentRows`] for rows of a sequence (Ra7);
 /// - [`SensitivityError::ConstantSample`] if all outputs are equal;
 /// - [`SensitivityError::InvalidParameter`] for a level outside (0, 1).
 pub fn rank_indices(data: &GivenData, level: f64, seed: u64) -> Result<Vec<Estimate>, SensitivityError> {
@@ -94,10 +94,10 @@ pub(crate) fn order(values: &[f64], seed: u64, input: usize) -> Vec<usize> {
     order
 }
 
-/// Largest z (K7) of independent rows.
+/// Largest z (Ra7) of independent rows.
 pub(crate) const LARGEST_Z: f64 = 5.0;
 
-/// Checks that neighbours in one input are no farther apart in another than those of independent rows (K7).
+/// Checks that neighbours in one input are no farther apart in another than those of independent rows (Ra7).
 pub(crate) fn check_rows(columns: &[Vec<f64>], seed: u64) -> Result<(), SensitivityError> {
     match farthest(columns, seed).iter().enumerate().find(|(_, (z, _))| *z > LARGEST_Z) {
         Some((input, &(z, other))) => Err(SensitivityError::DependentRows { input, other, z }),
@@ -105,7 +105,7 @@ pub(crate) fn check_rows(columns: &[Vec<f64>], seed: u64) -> Result<(), Sensitiv
     }
 }
 
-/// The largest z (K7) of each input, 0 or more, and the other input that has it.
+/// The largest z (Ra7) of each input, 0 or more, and the other input that has it.
 pub(crate) fn farthest(columns: &[Vec<f64>], seed: u64) -> Vec<(f64, usize)> {
     /// Neighbours that are looked at, and other inputs that are.
     const MOST: usize = 2048;
@@ -139,7 +139,7 @@ pub(crate) fn farthest(columns: &[Vec<f64>], seed: u64) -> Vec<(f64, usize)> {
     orders.par_iter().enumerate().map(of_input).collect()
 }
 
-/// The index (K2) and its interval, from the outputs in the order of an input.
+/// The index (Ra2) and its interval, from the outputs in the order of an input.
 fn of_sorted(y: &[f64], level: f64) -> Result<Estimate, SensitivityError> {
     let spread = Spread::of(y);
     let (n, variance) = (y.len(), spread.variance());

@@ -4,7 +4,7 @@
 //! ascending order,
 //!
 //! ```text
-//! p*_k = max over j <= k of (m - j + 1) p_j                                           (H1)
+//! p*_k = max over j <= k of (m - j + 1) p_j                                          (Ve1)
 //! ```
 //!
 //! and an input matters where one of its p* is below 5 %. Whatever the tests have in common, the probability of
@@ -47,7 +47,7 @@ pub struct Finding {
     pub input: String,
     /// The measure that finds it first.
     pub measure: Measure,
-    /// p (H1) of this measure, corrected for all inputs and measures. Below 1e-4 it is an indication of its
+    /// p (Ve1) of this measure, corrected for all inputs and measures. Below 1e-4 it is an indication of its
     /// size.
     pub p_value: f64,
     /// Why it need not be a cause.
@@ -275,7 +275,7 @@ impl Verdict {
     }
 }
 
-/// The inputs of which a corrected p (H1) is below [`FALSE_FINDINGS`], with all tests of which it is, the
+/// The inputs of which a corrected p (Ve1) is below [`FALSE_FINDINGS`], with all tests of which it is, the
 /// smallest p first.
 fn corrected(tests: &[Vec<Test>]) -> Vec<(usize, Vec<Test>)> {
     let of_input = |(input, tests): (usize, &Vec<Test>)| -> Vec<(usize, Test)> {

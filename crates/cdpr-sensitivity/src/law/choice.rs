@@ -3,19 +3,19 @@
 //! A family of a location a and a scale b has the likelihood of what does not depend on either,
 //!
 //! ```text
-//! m = ∫∫ L(a, b) da db / b                                                            (H1)
-//! regular laws:  m ≈ L 2π b / (n √c)                                                  (H2)
-//! uniform law:   m = L r / (n (n - 1)),   L = r^-n,   r = max - min                   (H3)
-//! P(family | x) = m / Σ m                                                             (H4)
+//! m = ∫∫ L(a, b) da db / b                                                           (Ch1)
+//! regular laws:  m ≈ L 2π b / (n √c)                                                 (Ch2)
+//! uniform law:   m = L r / (n (n - 1)),   L = r^-n,   r = max - min                  (Ch3)
+//! P(family | x) = m / Σ m                                                            (Ch4)
 //! ```
 //!
 //! with L and b at the largest likelihood and c the determinant of Fisher's information of (a / b, ln b) of
 //! one value. A ratio of two m is the most powerful invariant test of one family against the other: E. L.
-//! Lehmann, J. P. Romano, *Testing statistical hypotheses*, 3rd ed. (2005), section 6.3. (H2) is Laplace's
-//! approximation, (H3) is exact. The ends of a uniform law follow the sample more closely than parameters of
-//! regular laws do, which AIC and BIC disregard: (H3) has n² where (H2) has n.
+//! Lehmann, J. P. Romano, *Testing statistical hypotheses*, 3rd ed. (2005), section 6.3. (Ch2) is Laplace's
+//! approximation, (Ch3) is exact. The ends of a uniform law follow the sample more closely than parameters of
+//! regular laws do, which AIC and BIC disregard: (Ch3) has n² where (Ch2) has n.
 //!
-//! The integrals (H1) of two values are 1 / (2 |x1 - x2|) for all families: none is preferred before a third
+//! The integrals (Ch1) of two values are 1 / (2 |x1 - x2|) for all families: none is preferred before a third
 //! value. Lognormal and Weibull laws have a location and a scale in ln x, and their integral of two values is
 //! 1 / (2 x1 x2 |ln x1 - ln x2|). Each m is therefore divided by this, with standard deviations for the
 //! distances and the geometric mean for the values: J. O. Berger, L. R. Pericchi, J. A. Varshavsky, *Bayes
@@ -28,7 +28,7 @@ use std::f64::consts::PI;
 use crate::law::Law;
 use crate::law::likelihood::moments;
 
-/// Logarithm of m, Eq. (H1) to (H3), over the integral of two values.
+/// Logarithm of m, Eq. (Ch1) to (Ch3), over the integral of two values.
 ///
 /// The law is that of the largest likelihood for the sample, which is in ascending order.
 pub(crate) fn log_weight(law: &Law, log_likelihood: f64, sorted: &[f64]) -> f64 {

@@ -1,16 +1,16 @@
 //! Laws fitted to a sample by maximum likelihood, and how well they fit.
 //!
 //! ```text
-//! AIC = 2 k - 2 ln L,   BIC = k ln n - 2 ln L,   k = 2 parameters                     (F1)
-//! D = max_i max(i / n - F(x_(i)), F(x_(i)) - (i - 1) / n)                             (F2)
-//! p = (1 + #{D* ≥ D}) / (R + 1)                                                       (F3)
+//! AIC = 2 k - 2 ln L,   BIC = k ln n - 2 ln L,   k = 2 parameters                    (Fi1)
+//! D = max_i max(i / n - F(x_(i)), F(x_(i)) - (i - 1) / n)                            (Fi2)
+//! p = (1 + #{D* ≥ D}) / (R + 1)                                                      (Fi3)
 //! ```
 //!
-//! - (F1): H. Akaike, *A new look at the statistical model identification* (1974); G. Schwarz, *Estimating
+//! - (Fi1): H. Akaike, *A new look at the statistical model identification* (1974); G. Schwarz, *Estimating
 //!   the dimension of a model* (1978).
-//! - (F2) is the distance of Kolmogorov and Smirnov. Its usual p-value does not hold once the parameters are
+//! - (Fi2) is the distance of Kolmogorov and Smirnov. Its usual p-value does not hold once the parameters are
 //!   fitted to the same sample: H. W. Lilliefors, *On the Kolmogorov-Smirnov test for normality* (1967).
-//! - (F3) therefore draws R samples from the fitted law, fits each of them again and compares the distances.
+//! - (Fi3) therefore draws R samples from the fitted law, fits each of them again and compares the distances.
 //!   This is the parametric bootstrap: A. C. Davison, D. V. Hinkley, *Bootstrap methods and their
 //!   application* (1997), Eq. 4.11.
 //!
@@ -61,13 +61,13 @@ pub struct Fit {
     pub law: Law,
     /// Natural logarithm of the likelihood.
     pub log_likelihood: f64,
-    /// Akaike's criterion AIC (F1). Smaller is better.
+    /// Akaike's criterion AIC (Fi1). Smaller is better.
     pub aic: f64,
-    /// Schwarz's criterion BIC (F1). Smaller is better.
+    /// Schwarz's criterion BIC (Fi1). Smaller is better.
     pub bic: f64,
-    /// Kolmogorov-Smirnov distance D (F2).
+    /// Kolmogorov-Smirnov distance D (Fi2).
     pub ks_distance: f64,
-    /// Probability (F3) of a distance of D or more if the sample was drawn from this family: at least
+    /// Probability (Fi3) of a distance of D or more if the sample was drawn from this family: at least
     /// 1 / (resamples + 1).
     pub p_value: f64,
     /// Samples of the bootstrap behind the p-value.
@@ -122,13 +122,13 @@ pub fn fit_all(sample: &Sample, bootstrap: Bootstrap) -> Result<Vec<Fit>, Sensit
     Ok(fits)
 }
 
-/// Kolmogorov-Smirnov distance (F2) of a law and a sample.
+/// Kolmogorov-Smirnov distance (Fi2) of a law and a sample.
 #[must_use]
 pub fn ks_distance(law: &Law, sample: &Sample) -> f64 {
     distance(law, sample.sorted())
 }
 
-/// Writes the probabilities of all fits to one sample, Eq. (H4) of [`crate::law::choice`].
+/// Writes the probabilities of all fits to one sample, Eq. (Ch4) of [`crate::law::choice`].
 fn weigh(fits: &mut [Fit], sorted: &[f64]) {
     let weight = |fit: &Fit| log_weight(&fit.law, fit.log_likelihood, sorted);
     let weights: Vec<f64> = fits.iter().map(weight).collect();
@@ -139,7 +139,7 @@ fn weigh(fits: &mut [Fit], sorted: &[f64]) {
     }
 }
 
-/// Estimates the law and computes its criteria (F1), its distance (F2) and its p-value (F3) from the
+/// Estimates the law and computes its criteria (Fi1), its distance (Fi2) and its p-value (Fi3) from the
 /// distances of the bootstrap.
 fn assess(
     sample: &Sample,
@@ -237,7 +237,7 @@ fn sorted_uniform(n: usize, seed: u64, number: u64) -> Vec<f64> {
     sums
 }
 
-/// Distance (F2), exactly, by bisection of the sample.
+/// Distance (Fi2), exactly, by bisection of the sample.
 ///
 /// F and i / n ascend, so that their values at the ends of a part bound the distance within it. Most parts
 /// need no further evaluation.

@@ -4,13 +4,13 @@
 //! be the logarithm of the standard density. Then
 //!
 //! ```text
-//! ln L = n ln a - Σ h(t)                                                  (E1)
-//! ∂ ln L / ∂a = n / a - Σ z h'(t),    ∂ ln L / ∂b = Σ h'(t)               (E2)
-//! logistic:  h' = tanh(t / 2),        h'' = (1 - h'²) / 2                 (E3)
-//! Gumbel:    h' = 1 - exp(-t),        h'' = exp(-t)                       (E4)
+//! ln L = n ln a - Σ h(t)                                                 (Li1)
+//! ∂ ln L / ∂a = n / a - Σ z h'(t),    ∂ ln L / ∂b = Σ h'(t)              (Li2)
+//! logistic:  h' = tanh(t / 2),        h'' = (1 - h'²) / 2                (Li3)
+//! Gumbel:    h' = 1 - exp(-t),        h'' = exp(-t)                      (Li4)
 //! ```
 //!
-//! Where h is convex, (E1) is concave in (a, b). It has one maximum, and Newton's method finds it (J.
+//! Where h is convex, (Li1) is concave in (a, b). It has one maximum, and Newton's method finds it (J.
 //! Burridge, *A note on maximum likelihood estimation for regression models using grouped data*, 1981; J. W.
 //! Pratt, *Concavity of the log likelihood*, 1981). The estimates of uniform, normal and Laplace laws have
 //! closed forms. The logarithm of a lognormal variable is normal, and the negative logarithm of a Weibull
@@ -84,7 +84,7 @@ const ITERATIONS: usize = 200;
 /// Relative length of the last Newton step. Convergence is quadratic: the error after it is about its square.
 const TOLERANCE: f64 = 1e-7;
 
-/// Location and scale at the maximum of (E1) by Newton's method.
+/// Location and scale at the maximum of (Li1) by Newton's method.
 ///
 /// `moments_match` are the (a, b) of the law of mean 0 and deviation 1, from which the iteration starts. A
 /// step is halved while it makes a negative, or while the slope at its end is below -0.9 times that at its
@@ -98,7 +98,7 @@ fn concave(
     let (mean, std) = moments(sorted);
     let z: Vec<f64> = sorted.iter().map(|x| (x - mean) / std).collect();
     let n = z.len() as f64;
-    // Gradient (E2) and negative Hessian of (E1) in one pass.
+    // Gradient (Li2) and negative Hessian of (Li1) in one pass.
     let derivatives = |a: f64, b: f64| {
         let (mut za, mut zb, mut haa, mut hab, mut hbb) = (0.0, 0.0, 0.0, 0.0, 0.0);
         for &z in &z {

@@ -4,9 +4,9 @@
 //! interval in standard units,
 //!
 //! ```text
-//! mass = Φ(high) - Φ(low),   F⁻¹(u) = Φ⁻¹(Φ(low) + u mass)                 (N1)
-//! E z = (φ(low) - φ(high)) / mass                                         (N2)
-//! Var z = 1 + (low φ(low) - high φ(high)) / mass - (E z)²                 (N3)
+//! mass = Φ(high) - Φ(low),   F⁻¹(u) = Φ⁻¹(Φ(low) + u mass)                (No1)
+//! E z = (φ(low) - φ(high)) / mass                                         (No2)
+//! Var z = 1 + (low φ(low) - high φ(high)) / mass - (E z)²                 (No3)
 //! ```
 //!
 //! N. L. Johnson, S. Kotz, N. Balakrishnan, *Continuous univariate distributions*, vol. 1 (1994), section
@@ -51,7 +51,7 @@ impl Truncated {
         if self.sign > 0.0 { p } else { 1.0 - p }
     }
 
-    /// Mean (N2) in standard units.
+    /// Mean (No2) in standard units.
     fn standard_mean(&self) -> f64 {
         (ln_normal_pdf(self.low).exp() - ln_normal_pdf(self.high).exp()) / self.mass
     }
@@ -60,7 +60,7 @@ impl Truncated {
         self.mean + self.sign * self.std * self.standard_mean()
     }
 
-    /// Standard deviation from (N3).
+    /// Standard deviation from (No3).
     pub(crate) fn std(&self) -> f64 {
         let ends = self.low * ln_normal_pdf(self.low).exp() - self.high * ln_normal_pdf(self.high).exp();
         self.std * (1.0 + ends / self.mass - self.standard_mean().powi(2)).max(0.0).sqrt()

@@ -5,14 +5,14 @@
 //! leaves the variance V satisfies Lagrange's conditions:
 //!
 //! ```text
-//! min  sum c_j / s_j    subject to    sum v_j s_j² = V,    s_j <= 1                    (A1)
-//! s_j = min(1, (μ c_j / v_j)^(1/3))                                                    (A2)
-//! μ^(2/3) = (V - sum_kept v_j) / sum_tightened c_j^(2/3) v_j^(1/3)                      (A3)
+//! min  sum c_j / s_j    subject to    sum v_j s_j² = V,    s_j <= 1                    (Al1)
+//! s_j = min(1, (μ c_j / v_j)^(1/3))                                                    (Al2)
+//! μ^(2/3) = (V - sum_kept v_j) / sum_tightened c_j^(2/3) v_j^(1/3)                     (Al3)
 //! ```
 //!
 //! M. F. Spotts, *Allocation of tolerances to minimize cost of assembly*, J. Eng. Ind. 95 (1973); K. W.
 //! Chase, W. H. Greenwood, *Design issues in mechanical tolerance analysis*, Manufacturing Review 1 (1988).
-//! The order of `v_j / c_j` decides which tolerances are kept. (A3) is exact after at most one iteration per
+//! The order of `v_j / c_j` decides which tolerances are kept. (Al3) is exact after at most one iteration per
 //! input.
 
 use crate::error::{SensitivityError, check_length, require};
@@ -68,7 +68,7 @@ pub fn allocate(variances: &[f64], costs: &[f64], target: f64) -> Result<Vec<f64
 mod tests {
     use super::*;
 
-    /// Cost (A1), and the variance that is left.
+    /// Cost (Al1), and the variance that is left.
     fn judge(factors: &[f64], variances: &[f64], costs: &[f64]) -> (f64, f64) {
         let cost = factors.iter().zip(costs).map(|(s, c)| c / s).sum();
         (cost, factors.iter().zip(variances).map(|(s, v)| v * s * s).sum())

@@ -4,21 +4,21 @@
 //! and ψ the orthonormal polynomials of an input whose eigenfunctions have no closed form,
 //!
 //! ```text
-//! uniform:  e_n = √2 cos(n π u),   λ_n = (n π / (max - min))²,   u = (x - min) / (max - min)      (J1)
+//! uniform:  e_n = √2 cos(n π u),   λ_n = (n π / (max - min))²,   u = (x - min) / (max - min)        (Br1)
 //! normal:   e_n = He_n(ξ) / √n!,   λ_n = n / std²,   ξ = (x - mean) / std
-//! c_n = E f e_n = E (∂f/∂x_i e_n') / λ_n,   c_ij = E f e_1(x_i) e_1(x_j)                           (J2)
-//! Σ_n c_n² <= S_i V,   Σ_n c_n² + Σ_j c_ij² <= T_i V                                                (J3)
-//! T_i V <= ν_i / λ_1 - Σ_n c_n² (λ_n / λ_1 - 1),   ν_i = E (∂f/∂x_i)²                               (J4)
-//! T_i <= 1 - Σ_(j ≠ i) S_j                                                                           (J5)
+//! c_n = E f e_n = E (∂f/∂x_i e_n') / λ_n,   c_ij = E f e_1(x_i) e_1(x_j)                            (Br2)
+//! Σ_n c_n² <= S_i V,   Σ_n c_n² + Σ_j c_ij² <= T_i V                                                (Br3)
+//! T_i V <= ν_i / λ_1 - Σ_n c_n² (λ_n / λ_1 - 1),   ν_i = E (∂f/∂x_i)²                               (Br4)
+//! T_i <= 1 - Σ_(j ≠ i) S_j                                                                          (Br5)
 //! others:   c_n = E f ψ_n,   T_i V <= C_i ν_i (see `dgsm`)
 //! ```
 //!
-//! - (J2), (J3): O. Roustant, F. Gamboa, B. Iooss, *Parseval inequalities and lower bounds for variance-based
-//!   sensitivity indices*, Electron. J. Stat. 14 (2020). Each c² is a share of the variance that input i
-//!   causes, and different ones do not overlap.
-//! - (J4): the part of f that depends on `x_i` is a sum over the `e_n`, the derivative has the same sum with
-//!   weights `λ_n`. What (J3) knows to be at n > 1 has used more of ν than its share. For one input without
-//!   any known part this is the bound of `dgsm`. (J5): the closed index of all other inputs is at least the
+//! - (Br2), (Br3): O. Roustant, F. Gamboa, B. Iooss, *Parseval inequalities and lower bounds for
+//!   variance-based sensitivity indices*, Electron. J. Stat. 14 (2020). Each c² is a share of the variance
+//!   that input i causes, and different ones do not overlap.
+//! - (Br4): the part of f that depends on `x_i` is a sum over the `e_n`, the derivative has the same sum with
+//!   weights `λ_n`. What (Br3) knows to be at n > 1 has used more of ν than its share. For one input without
+//!   any known part this is the bound of `dgsm`. (Br5): the closed index of all other inputs is at least the
 //!   sum of their first-order indices.
 //! - Derivatives of models that are nearly linear vary little. Their mean is therefore separated, E (b e_n')
 //!   = b E e_n' being known, and in the variance likewise the square of the linear part.
@@ -28,9 +28,9 @@
 //!   whose law is skewed: they have the interval of a positive estimate ([`crate::sample::interval`], Eq.
 //!   (CI6)).
 //! - Each upper bound has an interval of its own, and the lower upper end decides. The least of two estimates
-//!   would be too small: (J5) is a difference that scatters by the error of V, however small `T_i` is.
+//!   would be too small: (Br5) is a difference that scatters by the error of V, however small `T_i` is.
 //! - Where few rows decide ν, most samples miss those that would decide it, and their interval is too short:
-//!   (J4) counts only where [`DerivativeMeasure::reliable`] is true. (J5), which has no derivative with
+//!   (Br4) counts only where [`DerivativeMeasure::reliable`] is true. (Br5), which has no derivative with
 //!   respect to `x_i`, bounds the others.
 //!
 //! The steps of an input are disregarded, as in [`crate::measure::dgsm`]. No unit.
@@ -58,11 +58,11 @@ use crate::sample::summary::{Spread, check_varies};
 pub struct Bracket {
     /// Name of the input.
     pub input: String,
-    /// Lower bound (J3) of its first-order index.
+    /// Lower bound (Br3) of its first-order index.
     pub first_lower: Estimate,
-    /// Lower bound (J3) of its total index.
+    /// Lower bound (Br3) of its total index.
     pub total_lower: Estimate,
-    /// Upper bound (J4) or (J5) of its total index, which is one of its first-order index, too: that of the
+    /// Upper bound (Br4) or (Br5) of its total index, which is one of its first-order index, too: that of the
     /// lower upper end.
     pub total_upper: Estimate,
 }
@@ -145,12 +145,12 @@ pub fn brackets<D: IndependentSample>(
 
 /// Bounds of one input as shares of the variance.
 struct Bounds {
-    /// (J3) of S and of T.
+    /// (Br3) of S and of T.
     first: f64,
     total: f64,
-    /// (J4) of T, infinite for a law without a constant.
+    /// (Br4) of T, infinite for a law without a constant.
     by_slopes: f64,
-    /// (J5).
+    /// (Br5).
     by_others: f64,
 }
 
@@ -292,7 +292,7 @@ impl Table {
         if reduced.variance() < plain.variance() && by_parts > 0.0 { by_parts } else { spread.variance() }
     }
 
-    /// Lower bound (J3) of S V and upper bound (J4) of T V, if there is one.
+    /// Lower bound (Br3) of S V and upper bound (Br4) of T V, if there is one.
     fn alone(&self, i: usize, rows: &[usize], rest: &[f64], slope: f64) -> (f64, Option<f64>) {
         let Column { slopes, basis, std, .. } = &self.columns[i];
         let nu = mean(rows.iter().map(|&row| slopes[row] * slopes[row]));

@@ -4,8 +4,8 @@
 //! of the output,
 //!
 //! ```text
-//! ν_i = E (∂f/∂x_i)²                                                      (G1)
-//! T_i ≤ C_i ν_i / V                                                       (G2)
+//! ν_i = E (∂f/∂x_i)²                                                     (Dg1)
+//! T_i ≤ C_i ν_i / V                                                      (Dg2)
 //! ```
 //!
 //! ν is a mean of squares. The bound has the interval of a positive estimate
@@ -42,9 +42,9 @@ pub struct Slopes {
 pub struct DerivativeMeasure {
     /// Name of the input.
     pub input: String,
-    /// ν (G1) with Student's interval, in the square of the unit of the output per that of the input.
+    /// ν (Dg1) with Student's interval, in the square of the unit of the output per that of the input.
     pub mean_square: Estimate,
-    /// Bound (G2) on the total index with its interval, `None` for a law without a constant.
+    /// Bound (Dg2) on the total index with its interval, `None` for a law without a constant.
     pub total_bound: Option<Estimate>,
     /// Whether ν rests on [`DerivativeMeasure::RELIABLE_ROWS`] rows of equal weight. Otherwise the intervals
     /// are an indication: the next square may be larger than all before.
@@ -53,7 +53,7 @@ pub struct DerivativeMeasure {
 
 impl DerivativeMeasure {
     /// Least number of rows of equal weight on which ν rests where its intervals hold: (Σ g²)² / Σ g⁴, as
-    /// (O3) of [`crate::measure::morris`].
+    /// (Mo3) of [`crate::measure::morris`].
     pub const RELIABLE_ROWS: f64 = 20.0;
 
     pub(crate) fn is_reliable(squares: &[f64]) -> bool {

@@ -4,12 +4,12 @@
 //! and n₋ those of the outputs whose input lies below it,
 //!
 //! ```text
-//! effect = M₊ - M₋                                                        (U1)
-//! t = |M₋ - M₊| / √(V_g² / n₋ + V_g² / n₊)                                (U2)
-//! interval = ē ± t_(R-1, (1 + level) / 2) s_e / √R                         (U3)
+//! effect = M₊ - M₋                                                        (Ef1)
+//! t = |M₋ - M₊| / √(V_g² / n₋ + V_g² / n₊)                                (Ef2)
+//! interval = ē ± t_(R-1, (1 + level) / 2) s_e / √R                        (Ef3)
 //! ```
 //!
-//! (U2) is the "t-Student" index of the paper (Baklouti, Caro, Courteille, 2017, section 5.2). Its "general
+//! (Ef2) is the "t-Student" index of the paper (Baklouti, Caro, Courteille, 2017, section 5.2). Its "general
 //! variance" `V_g²` is taken as the variance (n - 1) of **all** observed outputs. Student's own test uses the
 //! pooled variance within the two halves instead. With N outputs, none of them on a middle, `t_pooled²` = t²
 //! (N - 2) / (N - 1 - t²). The two are nearly equal while t² is small compared with N.
@@ -17,7 +17,7 @@
 //! **t on a Sobol' design does not show significance.** Student's test assumes independent observations, but
 //! the points of the sequence are balanced. Inputs without any effect have a mean t of √(2/π) = 0.80 on
 //! random points. On 2000 Sobol' points it is 0.14 in the linear model of 62 inputs of `tests/effect.rs`. The
-//! interval (U3) over independent randomisations holds on both. Each replicate gives one effect e, and the R
+//! interval (Ef3) over independent randomisations holds on both. Each replicate gives one effect e, and the R
 //! effects are independent of each other (A. B. Owen, *Monte Carlo theory, methods and examples*, 2013,
 //! section 17).
 //!
@@ -55,9 +55,9 @@ pub struct Effect {
     pub mean_above: f64,
     /// Mean M₋, in the unit of the output.
     pub mean_below: f64,
-    /// Signed effect (U1), in the unit of the output.
+    /// Signed effect (Ef1), in the unit of the output.
     pub effect: f64,
-    /// Index t (U2). It is 0 for a constant output.
+    /// Index t (Ef2). It is 0 for a constant output.
     pub student: f64,
 }
 
@@ -71,7 +71,7 @@ pub struct Effects {
     pub effects: Vec<Effect>,
 }
 
-/// Signed effect of one input over independent replicates of a design, Eq. (U3).
+/// Signed effect of one input over independent replicates of a design, Eq. (Ef3).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct EffectInterval {
@@ -121,7 +121,8 @@ pub fn student_effects<D: IndependentSample>(
     sums.effects(design.inputs())
 }
 
-/// Interval (U3) of the effect of each input at a confidence `level` in (0, 1), from at least two replicates.
+/// Interval (Ef3) of the effect of each input at a confidence `level` in (0, 1), from at least two
+/// replicates.
 ///
 /// # Errors
 /// Those of [`intervals_of_effects`] and [`student_effects`].
@@ -138,7 +139,7 @@ pub fn effect_intervals<D: IndependentSample>(
     intervals_of_effects(&designs, &effects, level)
 }
 
-/// Interval (U3) of the effect of each input, from the effects that are known for each replicate.
+/// Interval (Ef3) of the effect of each input, from the effects that are known for each replicate.
 ///
 /// # Errors
 /// - [`SensitivityError::InvalidParameter`] for a level outside (0, 1);
@@ -287,7 +288,7 @@ impl EffectSums {
         &self.outputs
     }
 
-    /// Effects, Eq. (U1) and (U2). `inputs` are those for which the sums were made.
+    /// Effects, Eq. (Ef1) and (Ef2). `inputs` are those for which the sums were made.
     ///
     /// # Errors
     /// [`SensitivityError::OutOfRange`] for fewer than two values, [`SensitivityError::EmptyHalf`] if one

@@ -4,10 +4,10 @@
 //! With products Ψ of the orthonormal polynomials of the inputs ([`crate::measure::expansion::basis`]),
 //!
 //! ```text
-//! y = c_0 + Σ_α c_α Ψ_α(x),   V = Σ c_α²                                  (X1)
-//! S_u = Σ c_α² / V over the α of the inputs u exactly                     (X2)
-//! closed_u = Σ c_α² / V over the α of no input beyond u                   (X3)
-//! T_u = Σ c_α² / V over the α of some input of u                          (X4)
+//! y = c_0 + Σ_α c_α Ψ_α(x),   V = Σ c_α²                                 (Ex1)
+//! S_u = Σ c_α² / V over the α of the inputs u exactly                    (Ex2)
+//! closed_u = Σ c_α² / V over the α of no input beyond u                  (Ex3)
+//! T_u = Σ c_α² / V over the α of some input of u                         (Ex4)
 //! ```
 //!
 //! B. Sudret, *Global sensitivity analysis using polynomial chaos expansions*, Reliab. Eng. Syst. Saf. 93
@@ -44,7 +44,7 @@ pub struct Term {
     pub coefficient: f64,
 }
 
-/// Sparse expansion (X1).
+/// Sparse expansion (Ex1).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct Expansion {
@@ -73,10 +73,10 @@ pub struct Expansion {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct Shares {
-    /// Share of the variance that the inputs cause without others, Eq. (X3). For one input it is its
+    /// Share of the variance that the inputs cause without others, Eq. (Ex3). For one input it is its
     /// first-order index.
     pub closed: f64,
-    /// Share of the variance in which the inputs take part, Eq. (X4).
+    /// Share of the variance in which the inputs take part, Eq. (Ex4).
     pub total: f64,
 }
 
@@ -86,7 +86,7 @@ pub struct Shares {
 pub struct PairShare {
     /// Indices of the inputs, the smaller one first.
     pub inputs: [usize; 2],
-    /// Share of the variance that the two cause together, beyond what each causes alone, Eq. (X2).
+    /// Share of the variance that the two cause together, beyond what each causes alone, Eq. (Ex2).
     pub share: f64,
 }
 
@@ -234,7 +234,7 @@ pub(crate) fn search(
     Ok(best)
 }
 
-/// Shares (X3), (X4) of a group of inputs in the variance of terms.
+/// Shares (Ex3), (Ex4) of a group of inputs in the variance of terms.
 pub(crate) fn shares(terms: &[Term], group: &[usize]) -> Shares {
     let variance: f64 = terms.iter().map(|term| term.coefficient * term.coefficient).sum();
     let (mut closed, mut total) = (0.0, 0.0);
@@ -257,7 +257,7 @@ impl Expansion {
     /// Largest degree of an expansion.
     pub const MAX_DEGREE: usize = Truncation::MAX_DEGREE;
 
-    /// Variance V of the expansion, Eq. (X1), in the square of the unit of the output.
+    /// Variance V of the expansion, Eq. (Ex1), in the square of the unit of the output.
     #[must_use]
     pub fn variance(&self) -> f64 {
         self.terms.iter().map(|term| term.coefficient * term.coefficient).sum()
@@ -269,7 +269,7 @@ impl Expansion {
         (0..self.inputs.len()).map(|input| shares(&self.terms, &[input])).collect()
     }
 
-    /// Index (X2) of each pair of inputs that occurs in a term, in ascending order of the inputs.
+    /// Index (Ex2) of each pair of inputs that occurs in a term, in ascending order of the inputs.
     #[must_use]
     pub fn pairs(&self) -> Vec<PairShare> {
         let variance = self.variance();
@@ -295,7 +295,7 @@ impl Expansion {
         Ok(shares(&self.terms, &names.iter().map(index).collect::<Result<Vec<_>, _>>()?))
     }
 
-    /// Predicts the output by the expansion (X1) at a row of values of the inputs.
+    /// Predicts the output by the expansion (Ex1) at a row of values of the inputs.
     ///
     /// # Errors
     /// [`SensitivityError::LengthMismatch`] unless the row has one element per input.

@@ -1,6 +1,6 @@
 //! Polynomial chaos expansion fitted to values and derivatives together.
 //!
-//! The expansion ([`crate::measure::expansion`], Eq. (X1)) is the least-squares solution of all equations
+//! The expansion ([`crate::measure::expansion`], Eq. (Ex1)) is the least-squares solution of all equations
 //!
 //! ```text
 //! y(x) = Σ c_α Ψ_α(x),   √τ_i(x_i) ∂y/∂x_i = √τ_i(x_i) Σ c_α ∂Ψ_α/∂x_i        (GE1)

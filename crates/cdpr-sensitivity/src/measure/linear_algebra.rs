@@ -3,8 +3,8 @@
 //! column; results agree up to rounding. Eigenvectors need the feature.
 //!
 //! ```text
-//! X = Q R,   b = R⁻¹ Qᵀ y,   (Xᵀ X)⁻¹ = R⁻¹ R⁻ᵀ                            (W1)
-//! A = W Λ Wᵀ,   λ_1 >= λ_2 >= ..                                           (W2)
+//! X = Q R,   b = R⁻¹ Qᵀ y,   (Xᵀ X)⁻¹ = R⁻¹ R⁻ᵀ                           (La1)
+//! A = W Λ Wᵀ,   λ_1 >= λ_2 >= ..                                          (La2)
 //! ```
 //!
 //! G. H. Golub, C. F. Van Loan, *Matrix computations*, 4th ed. (2013), sections 5.3 and 8.3.
@@ -26,7 +26,7 @@ pub(crate) struct LeastSquares {
     pub(crate) residual_squares: f64,
 }
 
-/// Solves the least-squares problem (W1).
+/// Solves the least-squares problem (La1).
 ///
 /// # Errors
 /// The index of the first column that depends on those before it: its length is at least 1e10 times its
@@ -66,9 +66,9 @@ mod by_faer {
         })
     }
 
-    /// Eigenvalues (W2) of a symmetric matrix of finite entries in descending order, and the unit eigenvector
-    /// of each. The first component of a vector that is not zero is positive. Entries above the diagonal do
-    /// not count.
+    /// Eigenvalues (La2) of a symmetric matrix of finite entries in descending order, and the unit
+    /// eigenvector of each. The first component of a vector that is not zero is positive. Entries above the
+    /// diagonal do not count.
     ///
     /// # Errors
     /// The number of rows, if the iteration does not converge.

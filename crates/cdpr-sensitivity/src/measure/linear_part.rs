@@ -1,4 +1,4 @@
-//! The linear part of the outputs of blocks, Eq. (V6) of [`crate::measure::sobol_indices`].
+//! The linear part of the outputs of blocks, Eq. (Si6) of [`crate::measure::sobol_indices`].
 
 use crate::design::SampleDesign;
 use crate::design::input::Input;

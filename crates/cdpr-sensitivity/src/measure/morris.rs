@@ -4,9 +4,9 @@
 //! by the probability that lies between the two values of the input:
 //!
 //! ```text
-//! e_i = (y(x') - y(x)) / (F_i(x'_i) - F_i(x_i))                           (O1)
-//! μ_i = mean(e_i),   μ*_i = mean(|e_i|),   σ_i² = Σ (e_i - μ_i)² / (n - 1)              (O2)
-//! n_eff = (Σ |e_i|)² / Σ e_i²                                             (O3)
+//! e_i = (y(x') - y(x)) / (F_i(x'_i) - F_i(x_i))                                        (Mo1)
+//! μ_i = mean(e_i),   μ*_i = mean(|e_i|),   σ_i² = Σ (e_i - μ_i)² / (n - 1)             (Mo2)
+//! n_eff = (Σ |e_i|)² / Σ e_i²                                                          (Mo3)
 //! ```
 //!
 //! In a design with groups an effect is that of a group, whose change is divided by the root mean square of
@@ -16,13 +16,13 @@
 //! μ* ranks the inputs. A large σ shows curvature or interactions. In a linear model of uniform inputs, e = b
 //! (max - min). If steps round the two values of an input to the same level, there is no elementary effect.
 //!
-//! (O3) is the number of effects on which μ* rests: n if all have the same size, 1 if all but one are
+//! (Mo3) is the number of effects on which μ* rests: n if all have the same size, 1 if all but one are
 //! zero. An interval that rests on few effects is too short: those that are rare and large may be
 //! missing. `cargo xtask statistics reliability` measures how often it holds.
 //!
-//! (O1): M. D. Morris, *Factorial sampling plans for preliminary computational experiments*, Technometrics 33
-//! (1991). μ*: F. Campolongo, J. Cariboni, A. Saltelli, *An effective screening design for sensitivity
-//! analysis of large models* (2007). (O3): L. Kish, *Survey sampling* (1965).
+//! (Mo1): M. D. Morris, *Factorial sampling plans for preliminary computational experiments*, Technometrics
+//! 33 (1991). μ*: F. Campolongo, J. Cariboni, A. Saltelli, *An effective screening design for sensitivity
+//! analysis of large models* (2007). (Mo3): L. Kish, *Survey sampling* (1965).
 
 use serde::{Deserialize, Serialize};
 
@@ -45,28 +45,28 @@ pub struct MorrisEffect {
     pub effects: usize,
     /// Number of elementary effects lost to failed observations.
     pub failed: usize,
-    /// Mean μ (O2). It says nothing of a group of several inputs.
+    /// Mean μ (Mo2). It says nothing of a group of several inputs.
     pub mean: f64,
-    /// Mean μ* of the absolute values (O2) with its interval over the blocks, which allows for their
+    /// Mean μ* of the absolute values (Mo2) with its interval over the blocks, which allows for their
     /// skewness: where most effects are small, the law of their absolute values has a long tail.
     pub mean_absolute: Estimate,
     /// Whether that interval has its level: from [`MorrisEffect::RELIABLE_EFFECTS`] effects on, if μ* rests
-    /// on at least [`MorrisEffect::RELIABLE_EFFECTIVE`] of them (O3). Otherwise it is an indication: the next
-    /// effect may be larger than all before. If all n effects are zero, the interval is reliable, but up to
-    /// 3 / n of all effects may still differ from zero.
+    /// on at least [`MorrisEffect::RELIABLE_EFFECTIVE`] of them (Mo3). Otherwise it is an indication: the
+    /// next effect may be larger than all before. If all n effects are zero, the interval is reliable, but up
+    /// to 3 / n of all effects may still differ from zero.
     pub reliable: bool,
-    /// Standard deviation σ (O2).
+    /// Standard deviation σ (Mo2).
     pub std: f64,
 }
 
 impl MorrisEffect {
     /// Least number of elementary effects of a reliable interval.
     pub const RELIABLE_EFFECTS: usize = 24;
-    /// Least number of effects on which the mean of a reliable interval rests, Eq. (O3).
+    /// Least number of effects on which the mean of a reliable interval rests, Eq. (Mo3).
     pub const RELIABLE_EFFECTIVE: f64 = 5.0;
 }
 
-/// Estimates the moments (O2) of the elementary effects (O1) of all inputs.
+/// Estimates the moments (Mo2) of the elementary effects (Mo1) of all inputs.
 ///
 /// `outputs` has one output per row of the design, `None` for a failed observation. The interval of μ* has
 /// the confidence `level` in (0, 1).

@@ -4,12 +4,12 @@
 //! ρ is the density:
 //!
 //! ```text
-//! uniform:                    C = (max - min)² / π²                       (P1)
-//! normal:                     C = std²                                    (P2)
-//! logistic, Gumbel, Laplace:  C = 4 scale²                                (P3)
+//! uniform:                    C = (max - min)² / π²                      (Pc1)
+//! normal:                     C = std²                                   (Pc2)
+//! logistic, Gumbel, Laplace:  C = 4 scale²                               (Pc3)
 //! ```
 //!
-//! For (P3) the substitution g = h / √ρ gives Schrödinger's equation, whose potentials (of Pöschl and
+//! For (Pc3) the substitution g = h / √ρ gives Schrödinger's equation, whose potentials (of Pöschl and
 //! Teller, of Morse, a well of no width) have no bound state but that of the constant; all other λ are at
 //! least 1 / (4 scale²).
 //!
@@ -19,7 +19,7 @@
 //! and their lengths h,
 //!
 //! ```text
-//! λ ρ(c_i) h_i g_i = ρ(e_(i+1)) (g_i - g_(i+1)) / (c_(i+1) - c_i)         (P4)
+//! λ ρ(c_i) h_i g_i = ρ(e_(i+1)) (g_i - g_(i+1)) / (c_(i+1) - c_i)        (Pc4)
 //!                  + ρ(e_i) (g_i - g_(i-1)) / (c_i - c_(i-1))
 //! ```
 //!
@@ -49,7 +49,7 @@ pub fn poincare_constant(law: &Law) -> Option<f64> {
     }
 }
 
-/// Constant by the elements (P4). Its relative error is about 1e-6.
+/// Constant by the elements (Pc4). Its relative error is about 1e-6.
 fn by_elements(law: &Law) -> f64 {
     const ELEMENTS: usize = 8000;
     let (min, max) = range(law);

@@ -3,16 +3,16 @@
 //! With the values (or ranks) of inputs and output standardised to mean 0 and deviation 1,
 //!
 //! ```text
-//! y = Σ β_i x_i + r,   least Σ r²                                         (R1)
-//! R² = 1 - Σ r² / Σ y²                                                    (R2)
-//! p_i = β_i / √(β_i² + Σ r² g_ii),   g = (Xᵀ X)⁻¹                          (R3)
+//! y = Σ β_i x_i + r,   least Σ r²                                         (Re1)
+//! R² = 1 - Σ r² / Σ y²                                                    (Re2)
+//! p_i = β_i / √(β_i² + Σ r² g_ii),   g = (Xᵀ X)⁻¹                         (Re3)
 //! ```
 //!
-//! - β (R1) is the standardised regression coefficient (SRC; SRRC for ranks). For independent inputs the
+//! - β (Re1) is the standardised regression coefficient (SRC; SRRC for ranks). For independent inputs the
 //!   squares β² add up to R², apart from the correlations within the sample, and are the shares of the
 //!   variance of a linear model: A. Saltelli, K. Chan, E. M. Scott, *Sensitivity analysis* (2000), section
 //!   6.6.2.
-//! - p (R3) is the correlation of an input and the output after the other inputs are removed from both (PCC;
+//! - p (Re3) is the correlation of an input and the output after the other inputs are removed from both (PCC;
 //!   PRCC for ranks). It follows from the t value of β.
 //! - Ranks serve monotonic models: R. L. Iman, W. J. Conover, *The use of the rank transform in regression*,
 //!   Technometrics 21 (1979). Equal values share their mean rank.
@@ -34,11 +34,11 @@ use crate::sample::summary::Spread;
 pub struct Coefficient {
     /// Name of the input.
     pub input: String,
-    /// Standardised coefficient β (R1).
+    /// Standardised coefficient β (Re1).
     pub standardised: f64,
     /// Square β² of the coefficient.
     pub share: f64,
-    /// Partial correlation p (R3). It is 0 for an input without influence in an exactly linear model.
+    /// Partial correlation p (Re3). It is 0 for an input without influence in an exactly linear model.
     pub partial: f64,
 }
 
@@ -50,7 +50,7 @@ pub struct Regression {
     pub observed: usize,
     /// Number of failed observations.
     pub failed: usize,
-    /// R² (R2): share of the variance that the linear model explains.
+    /// R² (Re2): share of the variance that the linear model explains.
     pub r_squared: f64,
     /// Coefficients, one per input in the order of the design.
     pub inputs: Vec<Coefficient>,

@@ -4,17 +4,17 @@
 //! blocks,
 //!
 //! ```text
-//! V = mean((a² + b²) / 2) - mean((a + b) / 2)²                            (V1)
-//! S_i = mean(b (ab_i - a)) / V                                            (V2)
-//! T_i = mean((a - ab_i)²) / (2 V)                                         (V3)
-//! S_ij = mean(ba_i ab_j - a b) / V - S_i - S_j,   i < j                   (V4)
+//! V = mean((a² + b²) / 2) - mean((a + b) / 2)²                           (Si1)
+//! S_i = mean(b (ab_i - a)) / V                                           (Si2)
+//! T_i = mean((a - ab_i)²) / (2 V)                                        (Si3)
+//! S_ij = mean(ba_i ab_j - a b) / V - S_i - S_j,   i < j                  (Si4)
 //! ```
 //!
-//! - (V2): A. Saltelli et al., *Variance based sensitivity analysis of model output*, Comput. Phys. Commun.
+//! - (Si2): A. Saltelli et al., *Variance based sensitivity analysis of model output*, Comput. Phys. Commun.
 //!   181 (2010).
-//! - (V3): M. J. W. Jansen, *Analysis of variance designs for model output*, Comput. Phys. Commun. 117
+//! - (Si3): M. J. W. Jansen, *Analysis of variance designs for model output*, Comput. Phys. Commun. 117
 //!   (1999).
-//! - (V4): A. Saltelli, *Making best use of model evaluations to compute sensitivity indices*, Comput. Phys.
+//! - (Si4): A. Saltelli, *Making best use of model evaluations to compute sensitivity indices*, Comput. Phys.
 //!   Commun. 145 (2002).
 //!
 //! Those of a plain sequence agree with the estimators of SALib up to rounding.
@@ -24,12 +24,12 @@
 //! laws,
 //!
 //! ```text
-//! β_i = Σ (ab_i - a) (x_i(b) - x_i(a)) / Σ (x_i(b) - x_i(a))²,   r = f - Σ β_i x_i     (V6)
-//! S_i V = β_i² σ_i² + S_i(r) V(r),   T_i V = β_i² σ_i² + T_i(r) V(r),   V = Σ β_i² σ_i² + V(r)    (V7)
+//! β_i = Σ (ab_i - a) (x_i(b) - x_i(a)) / Σ (x_i(b) - x_i(a))²,   r = f - Σ β_i x_i               (Si6)
+//! S_i V = β_i² σ_i² + S_i(r) V(r),   T_i V = β_i² σ_i² + T_i(r) V(r),   V = Σ β_i² σ_i² + V(r)   (Si7)
 //! ```
 //!
-//! where (V1) to (V4) are applied to r. The covariance of `x_i` and r is 0 for the slopes of all points.
-//! Without (V6) the errors of the means of linear terms are most of the error of a smooth function. The
+//! where (Si1) to (Si4) are applied to r. The covariance of `x_i` and r is 0 for the slopes of all points.
+//! Without (Si6) the errors of the means of linear terms are most of the error of a smooth function. The
 //! estimate and each replicate have slopes of their own, so that the differences between replicates show the
 //! error of the slopes, too.
 //!
@@ -47,7 +47,7 @@
 //! interval has the half width
 //!
 //! ```text
-//! max(t_(R-1) √(s*² + (S - S')² / R), 1 / M)                              (V5)
+//! max(t_(R-1) √(s*² + (S - S')² / R), 1 / M)                             (Si5)
 //! ```
 //!
 //! A scrambled sequence converges at least as 1 / √n, so that one of M blocks is no worse than the mean of R
@@ -88,9 +88,9 @@ pub struct SobolIndex {
     /// Number of blocks behind both indices: those in which a, b and `ab_i` were observed, and of a scrambled
     /// design twice those of its smaller half.
     pub blocks: usize,
-    /// First-order index (V2): share of the variance that the input causes alone.
+    /// First-order index (Si2): share of the variance that the input causes alone.
     pub first: Estimate,
-    /// Total index (V3): share of the variance in which the input takes part.
+    /// Total index (Si3): share of the variance in which the input takes part.
     pub total: Estimate,
 }
 
@@ -100,7 +100,7 @@ pub struct SobolIndex {
 pub struct PairIndex {
     /// Names of the inputs.
     pub inputs: [String; 2],
-    /// Index (V4): share of the variance that the two cause together, beyond what each causes alone.
+    /// Index (Si4): share of the variance that the two cause together, beyond what each causes alone.
     pub second: Estimate,
 }
 
@@ -114,7 +114,7 @@ pub struct SobolIndices {
     pub failed_blocks: usize,
     /// Number of failed observations.
     pub failed: usize,
-    /// Variance V (V1), in the square of the unit of the output; of several components the sum.
+    /// Variance V (Si1), in the square of the unit of the output; of several components the sum.
     pub variance: f64,
     /// Confidence level of the intervals.
     pub level: f64,
@@ -297,7 +297,7 @@ fn pairs(k: usize) -> impl Iterator<Item = (usize, usize)> {
     (0..k).flat_map(move |i| (i + 1..k).map(move |j| (i, j)))
 }
 
-/// Counts and sums of the terms that (V1) to (V4) average.
+/// Counts and sums of the terms that (Si1) to (Si4) average.
 #[derive(Default)]
 struct Sums {
     components: usize,

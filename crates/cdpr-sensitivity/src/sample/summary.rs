@@ -1,15 +1,15 @@
 //! Summary of a sample: moments, quantiles, histogram.
 //!
 //! ```text
-//! mean = Σ x / n,   std² = (Σ (x - mean)² - (Σ (x - mean))² / n) / (n - 1)            (M1)
-//! quantile(p) = x_(j) + (h - j) (x_(j+1) - x_(j)),   h = 1 + (n - 1) p,  j = floor h   (M2)
-//! bins = ceil((max - min) / (2 IQR n^(-1/3)))                                         (M3)
+//! mean = Σ x / n,   std² = (Σ (x - mean)² - (Σ (x - mean))² / n) / (n - 1)             (Su1)
+//! quantile(p) = x_(j) + (h - j) (x_(j+1) - x_(j)),   h = 1 + (n - 1) p,  j = floor h   (Su2)
+//! bins = ceil((max - min) / (2 IQR n^(-1/3)))                                          (Su3)
 //! ```
 //!
-//! - (M1) is the corrected two-pass algorithm: T. F. Chan, G. H. Golub, R. J. LeVeque, *Algorithms for
+//! - (Su1) is the corrected two-pass algorithm: T. F. Chan, G. H. Golub, R. J. LeVeque, *Algorithms for
 //!   computing the sample variance* (1983).
-//! - (M2) is type 7 of R. J. Hyndman, Y. Fan, *Sample quantiles in statistical packages* (1996).
-//! - (M3): D. Freedman, P. Diaconis, *On the histogram as a density estimator* (1981).
+//! - (Su2) is type 7 of R. J. Hyndman, Y. Fan, *Sample quantiles in statistical packages* (1996).
+//! - (Su3): D. Freedman, P. Diaconis, *On the histogram as a density estimator* (1981).
 //!
 //! All sums run over the sorted values, so that the order of the observations does not change even the last
 //! digit.
@@ -46,12 +46,12 @@ pub struct Summary {
 /// Moments and extremes of outputs that arrive one by one and are not stored.
 ///
 /// ```text
-/// mean' = mean + (x - mean)/n,   M2' = M2 + (x - mean)(x - mean'),   std² = M2/(n - 1)      (M4)
-/// mean = mean_a + δ n_b/n,   M2 = M2_a + M2_b + δ² n_a n_b/n,   δ = mean_b - mean_a           (M5)
+/// mean' = mean + (x - mean)/n,   M2' = M2 + (x - mean)(x - mean'),   std² = M2/(n - 1)       (Su4)
+/// mean = mean_a + δ n_b/n,   M2 = M2_a + M2_b + δ² n_a n_b/n,   δ = mean_b - mean_a          (Su5)
 /// ```
 ///
-/// (M4): B. P. Welford, *Note on a method for calculating corrected sums of squares and products* (1962).
-/// (M5): Chan et al. (1983).
+/// (Su4): B. P. Welford, *Note on a method for calculating corrected sums of squares and products* (1962).
+/// (Su5): Chan et al. (1983).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Moments {
     count: usize,
@@ -113,7 +113,7 @@ impl Moments {
 /// Rule for the number of bins of a histogram.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Bins {
-    /// Eq. (M3), limited to the number of values. There is one bin if the interquartile range is zero.
+    /// Eq. (Su3), limited to the number of values. There is one bin if the interquartile range is zero.
     FreedmanDiaconis,
     /// This number of bins.
     Count(usize),
@@ -175,7 +175,7 @@ impl Sample {
         }
     }
 
-    /// Quantile, Eq. (M2).
+    /// Quantile, Eq. (Su2).
     ///
     /// # Errors
     /// [`SensitivityError::InvalidParameter`] for a `p` outside [0, 1].
@@ -223,7 +223,7 @@ pub(crate) fn check_varies(values: &[f64]) -> Result<(), SensitivityError> {
     Ok(())
 }
 
-/// Mean of values and their spread about it, Eq. (M1).
+/// Mean of values and their spread about it, Eq. (Su1).
 pub(crate) struct Spread {
     n: f64,
     pub(crate) mean: f64,

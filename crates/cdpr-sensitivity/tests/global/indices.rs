@@ -96,7 +96,7 @@ fn the_linear_part_is_exact_and_what_it_leaves_has_the_error_of_the_rest() {
     assert!(found.pairs.iter().all(|pair| pair.second.value.abs() < 1e-12));
     assert_abs_diff_eq!(found.variance, 38.0 / 12.0, epsilon = 1e-12);
 
-    // Bratley's function is mostly linear, Ishigami's is not. One sequence of 256 blocks without (V6), as
+    // Bratley's function is mostly linear, Ishigami's is not. One sequence of 256 blocks without (Si6), as
     // SALib has it, errs by 0.02 and 0.06; the estimate is from half of the blocks.
     for (function, most) in [(functions::bratley(), 0.035), (functions::ishigami(), 0.09)] {
         let (mut squares, mut sum) = (0.0, 0.0);

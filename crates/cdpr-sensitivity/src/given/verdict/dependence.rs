@@ -12,8 +12,8 @@
 //! an effect is the input's own unless m may be what finds it: it is if one of these holds,
 //!
 //! ```text
-//! p* (H1) < p* of the other one / 1000,   p* < p of m in the input / 1000             (F1)
-//! R² (J1) of v in the input > 10 |m|² / |v|² R² of m in the input                     (F2)
+//! p* (Ve1) < p* of the other one / 1000,   p* < p of m in the input / 1000           (Dp1)
+//! R² (Ev1) of v in the input > 10 |m|² / |v|² R² of m in the input                   (Dp2)
 //! ```
 //!
 //! Patterns of three coordinates are as strong as those of two: the products of two others that are found in
@@ -34,10 +34,10 @@ pub(crate) const FALSE_FINDINGS: f64 = 0.05;
 /// Probability that independent inputs are said to depend on each other.
 const FALSE_PAIRS: f64 = 0.01;
 
-/// How many times more clearly a coordinate must be found (F1).
+/// How many times more clearly a coordinate must be found (Dp1).
 const CLEARER: f64 = 1e3;
 
-/// How many times a share must be that of a pattern (F2): several patterns may add up.
+/// How many times a share must be that of a pattern (Dp2): several patterns may add up.
 const GREATER: f64 = 10.0;
 
 /// Parts of a coordinate that says something of the output: rows of each, and their largest number.
@@ -158,7 +158,7 @@ impl<'a> Inputs<'a> {
         bonferroni(&all)
     }
 
-    /// Other coordinates, and pairs of them, of which the pattern may be what a test finds (F1), (F2).
+    /// Other coordinates, and pairs of them, of which the pattern may be what a test finds (Dp1), (Dp2).
     fn patterns(&self, input: usize, test: &Test, in_output: &[Option<f64>]) -> Vec<Vec<usize>> {
         let space = self.tested[input].space(test.measure);
         let is_own = |p: f64| test.p_value * CLEARER < p;

@@ -4,12 +4,12 @@
 //! others explains, and the correlation of two inputs that the others do not explain, are
 //!
 //! ```text
-//! R_i² = 1 - 1 / P_ii,   r_ij = -P_ij / √(P_ii P_jj),   P = C⁻¹                        (M1)
-//! p_i = P(B >= R_i²),   B ~ Beta((k - 1) / 2, (n - k) / 2)                            (M2)
+//! R_i² = 1 - 1 / P_ii,   r_ij = -P_ij / √(P_ii P_jj),   P = C⁻¹                       (Jo1)
+//! p_i = P(B >= R_i²),   B ~ Beta((k - 1) / 2, (n - k) / 2)                            (Jo2)
 //! ```
 //!
-//! (M2) is that of normal values (R. A. Fisher 1928); ranks are bounded, and so nearer to it than most. It is
-//! asked for where there are at least two rows for each input.
+//! (Jo2) is that of normal values (R. A. Fisher 1928); ranks are bounded, and so nearer to it than most. It
+//! is asked for where there are at least two rows for each input.
 
 use statrs::function::beta::beta_reg;
 
@@ -18,7 +18,7 @@ use crate::parallel::*;
 
 /// An input that several others explain together.
 pub(crate) struct Joint {
-    /// p (M2).
+    /// p (Jo2).
     pub(crate) p_value: f64,
     /// Those that explain it most, of at most [`NAMED`].
     pub(crate) others: Vec<usize>,

@@ -7,7 +7,7 @@
 //! - **In their order.** Eight rows in turn have a value in each eighth of a coordinate. Random rows do so in
 //!   0.2 % of all cases, and a coordinate that is mixed with another one by a correlation of 0.1 in a quarter
 //!   of them. Half of all eights are asked for. Ranks count, whatever the laws are.
-//! - **In another order.** Neighbours in one coordinate lie far apart in others, z (K7) of
+//! - **In another order.** Neighbours in one coordinate lie far apart in others, z (Ra7) of
 //!   [`rank`](crate::given::rank).
 
 use crate::given::data::Kind;

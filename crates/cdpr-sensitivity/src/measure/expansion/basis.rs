@@ -1,20 +1,20 @@
 //! Orthonormal polynomials of a law, by their recurrence.
 //!
 //! ```text
-//! b_(n+1) ψ_(n+1) = (ξ - a_n) ψ_n - b_n ψ_(n-1),   ψ_0 = 1,   ξ = (x - centre) / scale      (Y1)
-//! uniform:  a_n = 0,   b_n = n / √(4 n² - 1)          (Legendre)                            (Y2)
-//! normal:   a_n = 0,   b_n = √n                       (Hermite)                             (Y3)
+//! b_(n+1) ψ_(n+1) = (ξ - a_n) ψ_n - b_n ψ_(n-1),   ψ_0 = 1,   ξ = (x - centre) / scale      (Ba1)
+//! uniform:  a_n = 0,   b_n = n / √(4 n² - 1)          (Legendre)                            (Ba2)
+//! normal:   a_n = 0,   b_n = √n                       (Hermite)                             (Ba3)
 //! beta:     a_n, b_n of Jacobi (`jacobi`)
-//! others:   a_n = E ξ ψ_n²,   b_(n+1) = √(E ((ξ - a_n) ψ_n - b_n ψ_(n-1))²)                  (Y4)
+//! others:   a_n = E ξ ψ_n²,   b_(n+1) = √(E ((ξ - a_n) ψ_n - b_n ψ_(n-1))²)                 (Ba4)
 //! ```
 //!
 //! A function of the logarithm of a lognormal input, or one with asymptotes, has no good polynomials in its
 //! value. Legendre's polynomials of ξ = 2 F(x) - 1, the isoprobabilistic transform, are therefore the other
 //! choice.
 //!
-//! - (Y2), (Y3): D. Xiu, G. E. Karniadakis, *The Wiener-Askey polynomial chaos for stochastic differential
+//! - (Ba2), (Ba3): D. Xiu, G. E. Karniadakis, *The Wiener-Askey polynomial chaos for stochastic differential
 //!   equations*, SIAM J. Sci. Comput. 24 (2002).
-//! - (Y4) is Stieltjes's procedure: W. Gautschi, *Orthogonal polynomials: computation and approximation*
+//! - (Ba4) is Stieltjes's procedure: W. Gautschi, *Orthogonal polynomials: computation and approximation*
 //!   (2004), section 2.2.3. The means are sums over the levels of a stepped input, or Gauss-Legendre sums
 //!   between quantiles of a continuous one (`quadrature`).
 
@@ -23,7 +23,7 @@ use serde::{Deserialize, Serialize};
 use crate::design::input::Input;
 use crate::law::{Law, Support};
 
-/// Orthonormal polynomials (Y1) of the law of an input.
+/// Orthonormal polynomials (Ba1) of the law of an input.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct Polynomials {
@@ -34,9 +34,9 @@ pub struct Polynomials {
     pub centre: f64,
     /// Change over which ξ changes by 1.
     pub scale: f64,
-    /// `a_0` .. of (Y1).
+    /// `a_0` .. of (Ba1).
     pub a: Vec<f64>,
-    /// `b_1` .. of (Y1), as many. An input of m levels has m - 1 of them.
+    /// `b_1` .. of (Ba1), as many. An input of m levels has m - 1 of them.
     pub b: Vec<f64>,
 }
 
@@ -138,7 +138,7 @@ fn jacobi(p: f64, q: f64, n: f64) -> (f64, f64) {
     (a, squared.sqrt())
 }
 
-/// Stieltjes's procedure (Y4) for a law of these values and weights.
+/// Stieltjes's procedure (Ba4) for a law of these values and weights.
 fn stieltjes(nodes: &[(f64, f64)], degree: usize) -> Polynomials {
     /// A smaller norm than this share of the scale is rounding: the law has no more values.
     const NONE: f64 = 1e-10;

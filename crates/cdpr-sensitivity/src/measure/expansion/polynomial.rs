@@ -1,10 +1,10 @@
 //! Products of polynomials from which an expansion chooses.
 //!
 //! ```text
-//! Ψ_α(x) = Π_i ψ_α_i(x_i),   (Σ α_i^q)^(1/q) ≤ p                          (K1)
+//! Ψ_α(x) = Π_i ψ_α_i(x_i),   (Σ α_i^q)^(1/q) ≤ p                         (Po1)
 //! ```
 //!
-//! (K1) is the hyperbolic truncation of G. Blatman, B. Sudret, *Adaptive sparse polynomial chaos expansion
+//! (Po1) is the hyperbolic truncation of G. Blatman, B. Sudret, *Adaptive sparse polynomial chaos expansion
 //! based on least angle regression*, J. Comput. Phys. 230 (2011). A smaller q gives fewer interactions.
 
 use serde::{Deserialize, Serialize};
@@ -21,7 +21,7 @@ pub struct Power {
     pub degree: usize,
 }
 
-/// Set of products from which an expansion chooses, Eq. (K1).
+/// Set of products from which an expansion chooses, Eq. (Po1).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]

@@ -5,23 +5,23 @@
 //! factored, X = Q R, so that each step costs one pass over the candidates:
 //!
 //! ```text
-//! j = argmax |x_j · r| / |x_j|                                            (Z1)
-//! r ← r - (q · r) q,   q = x_j less its projections on Q, normalised      (Z2)
-//! H_i = Q_i Q_iᵀ,   e_i = (1 - H_i)⁻¹ r_i                                  (Z3)
-//! ε = mean(e_i²) / Var y · N / (N - P) · (1 + tr (Xᵀ X)⁻¹)                 (Z4)
-//! |x_j · r| / |x_j| ≤ √(2 ln p) |r| / √(N - P)                             (Z5)
+//! j = argmax |x_j · r| / |x_j|                                            (Pu1)
+//! r ← r - (q · r) q,   q = x_j less its projections on Q, normalised      (Pu2)
+//! H_i = Q_i Q_iᵀ,   e_i = (1 - H_i)⁻¹ r_i                                 (Pu3)
+//! ε = mean(e_i²) / Var y · N / (N - P) · (1 + tr (Xᵀ X)⁻¹)                (Pu4)
+//! |x_j · r| / |x_j| ≤ √(2 ln p) |r| / √(N - P)                            (Pu5)
 //! ```
 //!
-//! - (Z1), (Z2): Y. C. Pati, R. Rezaiifar, P. S. Krishnaprasad, *Orthogonal matching pursuit* (1993).
-//! - (Z3): residuals of a fit without observation i, which follow from one fit of all by the rows `Q_i` and
+//! - (Pu1), (Pu2): Y. C. Pati, R. Rezaiifar, P. S. Krishnaprasad, *Orthogonal matching pursuit* (1993).
+//! - (Pu3): residuals of a fit without observation i, which follow from one fit of all by the rows `Q_i` and
 //!   `r_i` of the observation. All of its rows are left out together: its derivatives would tell its value.
-//! - (Z4) is the leave-one-out error of the values with P terms and N rows, times the correction of O.
+//! - (Pu4) is the leave-one-out error of the values with P terms and N rows, times the correction of O.
 //!   Chapelle, V. Vapnik, Y. Bengio, *Model selection for small sample regression* (2002). G. Blatman and B.
 //!   Sudret (2011) choose the terms of chaos expansions in this way.
-//! - (Z5) ends the path: T. T. Cai, L. Wang, *Orthogonal matching pursuit for sparse signal recovery with
+//! - (Pu5) ends the path: T. T. Cai, L. Wang, *Orthogonal matching pursuit for sparse signal recovery with
 //!   noise*, IEEE Trans. Inf. Theory 57 (2011).
 //!
-//! (Z4) does not account for the choice among candidates. The best of p candidates fits even noise, and many
+//! (Pu4) does not account for the choice among candidates. The best of p candidates fits even noise, and many
 //! such terms make ε too small by a third. The path therefore ends where the best of the p candidates
 //! correlates no better than the best of p candidates would with noise.
 
@@ -33,7 +33,7 @@ pub(crate) struct Pursuit {
     pub(crate) constant: f64,
     /// Indices of the candidates and their coefficients.
     pub(crate) terms: Vec<(usize, f64)>,
-    /// Error ε (Z4).
+    /// Error ε (Pu4).
     pub(crate) error: f64,
 }
 
@@ -103,7 +103,7 @@ fn is_exhausted(best: usize, terms: usize, kinds: usize) -> bool {
     kinds > 1 && terms > best + 20 + best / 2
 }
 
-/// Next candidate (Z1) and its correlation, or `None` if no candidate is left.
+/// Next candidate (Pu1) and its correlation, or `None` if no candidate is left.
 fn closest(columns: &[Column], norms: &[f64], open: &[bool], path: &Path) -> Option<(usize, f64)> {
     let n = path.observations;
     let product = |(kind, part): &(usize, Vec<f64>)| dot(part, &path.residual[kind * n..(kind + 1) * n]);
@@ -157,7 +157,7 @@ impl Path {
         path
     }
 
-    /// Adds a column, Eq. (Z2), unless it depends linearly on the others.
+    /// Adds a column, Eq. (Pu2), unless it depends linearly on the others.
     fn push(&mut self, column: &Column) -> bool {
         /// Least distance of a column from the space of the others, over its length.
         const DEPENDENT: f64 = 1e-8;
@@ -203,7 +203,7 @@ impl Path {
         (dot(&self.residual, &self.residual) / (self.residual.len() - self.q.len()) as f64).sqrt()
     }
 
-    /// Error ε (Z4). It is infinite if one value has a leverage of 1.
+    /// Error ε (Pu4). It is infinite if one value has a leverage of 1.
     fn corrected_error(&self, squares: f64) -> f64 {
         let size = self.residual.len() as f64;
         let left_out = |i: usize| self.left_out(i).map_or(f64::INFINITY, |error| error * error);
@@ -212,8 +212,8 @@ impl Path {
         errors.iter().sum::<f64>() / squares * size / (size - self.q.len() as f64) * (1.0 + trace)
     }
 
-    /// Residual `e_i` (Z3) of the value of an observation, by the Cholesky factor of 1 - H, whose last row is
-    /// that of the value. `None` if the observation alone decides a coefficient.
+    /// Residual `e_i` (Pu3) of the value of an observation, by the Cholesky factor of 1 - H, whose last row
+    /// is that of the value. `None` if the observation alone decides a coefficient.
     fn left_out(&self, i: usize) -> Option<f64> {
         /// A smaller pivot is rounding.
         const NONE: f64 = 1e-12;
