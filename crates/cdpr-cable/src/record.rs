@@ -12,8 +12,8 @@
 //! error, and so are both elongations. With `ΔF = F_q - F_p` and `Δx = x_q - x_p`
 //!
 //! ```text
-//! standard:  (δE/E)² = 2 (δF/ΔF)² + 2 (δx/Δx)² + (δL/L_c)² + (δS/S)²    independent errors (C16)
-//! greatest:   δE/E   = 2 δF/ΔF + 2 δx/Δx + δL/L_c + δS/S                errors that add up (C17)
+//! standard:  (δE/E)² = 2 (δF/ΔF)² + 2 (δx/Δx)² + (δL/L_c)² + (δS/S)²    independent errors (C32)
+//! greatest:   δE/E   = 2 δF/ΔF + 2 δx/Δx + δL/L_c + δS/S                errors that add up (C33)
 //! ```
 //!
 //! The energy dissipated by the loop is the area `∮ F dx` between its branches. A straight line closes a loop

@@ -4,7 +4,7 @@
 //! The orthogonal factor of `B = Q [S; 0]` leaves rows without η (the Schur complement, without squares):
 //!
 //! ```text
-//! Qᵀ [A ρ] = [A_1 ρ_1; A_2 ρ_2],     S η = -(ρ_1 + A_1 δ)                                       (L1)
+//! Qᵀ [A ρ] = [A_1 ρ_1; A_2 ρ_2],     S η = -(ρ_1 + A_1 δ)                                       (K5)
 //! ```
 //!
 //! and the triangular factor of all `[A_2 ρ_2]` is all that the unknowns of all rows depend on.
@@ -12,7 +12,7 @@
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-/// A row whose own unknowns are eliminated, equation (L1).
+/// A row whose own unknowns are eliminated, equation (K5).
 pub(crate) struct Eliminated {
     /// [A_2 ρ_2].
     pub(crate) rest: DMatrix<f64>,

@@ -48,7 +48,7 @@ pub(super) fn psi_of_taut<T: Number>(q2: T) -> T {
 /// With `q' = q/(1 + sqrt(1 - q²))` is `atanh(q) = 2 atanh(q')`, and
 ///
 /// ```text
-/// q'² = q²/(1 + c)²,    ψ(q²) = (1 + 2 ψ(q'²)/(1 + c)) / (1 + c)²,    c'² = 2 c/(1 + c)     (C27)
+/// q'² = q²/(1 + c)²,    ψ(q²) = (1 + 2 ψ(q'²)/(1 + c)) / (1 + c)²,    c'² = 2 c/(1 + c)     (C34)
 /// ```
 ///
 /// in which nothing cancels. Each cable is halved until it is [`TAUT`], by its own q² alone.
@@ -80,7 +80,7 @@ pub(super) fn psi_by_halves<T: Lanewise>(q2: T, cosine: T) -> T {
 ///
 /// ```text
 /// tan(α/2) = z/(1 + x),      tan(α/2) = tan α/(1 + sqrt(1 + tan² α))
-/// atan q = q (1 - q² ψ(-q²))                                                            (C29)
+/// atan q = q (1 - q² ψ(-q²))                                                            (C35)
 /// ```
 #[inline(always)]
 pub(super) fn elevation<T: Number>([x, z]: [T; 2]) -> T {

@@ -28,9 +28,9 @@ pub struct Specimen {
 pub struct SecantModulus {
     /// Modulus E_{p-q} [Pa].
     pub modulus: f64,
-    /// Uncertainty from independent errors [Pa], (C16).
+    /// Uncertainty from independent errors [Pa], (C32).
     pub standard: f64,
-    /// Uncertainty where all errors add up [Pa], (C17).
+    /// Uncertainty where all errors add up [Pa], (C33).
     pub greatest: f64,
 }
 

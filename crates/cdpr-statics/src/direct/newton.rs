@@ -1,10 +1,7 @@
 //! Newton's method on the `6 + 2n` equations, with the cables eliminated.
 //!
-//! Linearised at forces f_i that need not yet fit the pose, cable i gives
-//!
-//! ```text
-//! df_i = K_i (c_i + d(h_i, z_i)),   c_i = (h_i, z_i) - (x, z)(f_i, L_i),   K_i = C_i⁻¹            (S2)
-//! ```
+//! Linearised at forces f_i that need not yet fit the pose, cable i gives `df_i = K_i (c_i + d(h_i, z_i))`,
+//! (S2) of `equations/cable.rs`.
 //!
 //! Put into the balance of the platform this leaves six equations for (dp, dφ), whose matrix is the stiffness
 //! (S5) of the platform with every f_i replaced by its prediction `f_i + K_i c_i`. An iteration evaluates

@@ -15,7 +15,7 @@
 //! An optimum is the least of all if the tension of each cable makes its part of the Lagrangian least,
 //!
 //! ```text
-//! φ_i(t) = (t - r_i)²/2 + λ·w_i(t)   within the limits                                              (I6)
+//! φ_i(t) = (t - r_i)²/2 + λ·w_i(t)   within the limits                                             (I11)
 //! ```
 //!
 //! (H. Everett, *Generalized Lagrange multiplier method*, Operations Research 11, 1963). It is tried on a
@@ -48,8 +48,8 @@ const CLEAR_GAIN: f64 = 1e-3;
 /// A residual of straight cables above this, relative to wrench and tensions, makes a balance doubtful.
 const CLEAR_RESIDUE: f64 = 1e-3;
 
-/// Slackness q from which (I6) is tried, at a sag of about a thirtieth of the chord, and from which all
-/// starts are unless (I6) proves that no other optimum is better, at a tenth.
+/// Slackness q from which (I11) is tried, at a sag of about a thirtieth of the chord, and from which all
+/// starts are unless (I11) proves that no other optimum is better, at a tenth.
 const SOME: f64 = 0.14;
 const MUCH: f64 = 0.4;
 
@@ -236,8 +236,8 @@ impl<'a> Point<'a> {
         self.strands.iter().any(|strand| strand.held.slackness() > slackness)
     }
 
-    /// Moves an optimum to better ones as long as (I6) leads to them. Returns whether (I6) proves the last one
-    /// to be the least of all.
+    /// Moves an optimum to better ones as long as (I11) leads to them. Returns whether (I11) proves the last
+    /// one to be the least of all.
     fn lessened(&mut self, question: &Question<'a>, iterations: &mut usize) -> Result<bool, StaticsError> {
         const MOST: usize = 4;
         /// A smaller gain may be rounding of the same optimum, where cables on their bounds leave few others.
@@ -259,7 +259,7 @@ impl<'a> Point<'a> {
         Ok(false)
     }
 
-    /// The tensions of an optimum [N], with that cable's changed whose part (I6) of the Lagrangian gains
+    /// The tensions of an optimum [N], with that cable's changed whose part (I11) of the Lagrangian gains
     /// most; `None` where none gains anything.
     fn better_start(&mut self) -> Result<Option<Vec<f64>>, CableError> {
         /// A gain below this share of a cable's part is rounding.

@@ -204,7 +204,7 @@ impl<'a> Strand<'a> {
         Ok(least)
     }
 
-    /// Its part (I6) of the Lagrangian: here, and where it is least on a grid of chord forces within the
+    /// Its part (I11) of the Lagrangian: here, and where it is least on a grid of chord forces within the
     /// limits, with the tension there [N].
     ///
     /// # Errors

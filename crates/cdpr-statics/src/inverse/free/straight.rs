@@ -3,7 +3,7 @@
 //! With u_i the unit pulls along the chords, (I6) becomes
 //!
 //! ```text
-//! sum [u_i; s_i x u_i] t_i + w_ex = 0             n tensions t_i of either sign, m - n coordinates q     (I9)
+//! sum [u_i; s_i x u_i] t_i + w_ex = 0            n tensions t_i of either sign, m - n coordinates q     (I9)
 //! ```
 //!
 //! Its slopes are exact and cheap: with the velocity v_i of anchor i for a change of q, `du_i = -(v_i - u_i

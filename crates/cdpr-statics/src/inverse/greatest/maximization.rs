@@ -4,7 +4,7 @@
 //! region about them. With the multipliers y of the balance in that program, steps are judged by
 //!
 //! ```text
-//! m(σ, z) = z - M |F(σ, z)|_1,      M = 2 max |y|,      F = sum w_i + w_ex + z w_z                 (I9)
+//! m(σ, z) = z - M |F(σ, z)|_1,      M = 2 max |y|,      F = sum w_i + w_ex + z w_z                (I12)
 //! ```
 //!
 //! where |F|_1 includes by how much tensions pass limits that z draws closer. A greater M would allow only
@@ -65,7 +65,7 @@ const LEAST_REGION: f64 = 1e-9;
 const LEAST_COST: f64 = 1e2;
 const GREATEST_COST: f64 = 1e6;
 
-/// Share of its last value that M of (I9) keeps at least.
+/// Share of its last value that M of (I12) keeps at least.
 const KEPT_PENALTY: f64 = 0.3;
 
 /// Steps that hardly bring the balance nearer while even the linearised cables do not balance.
@@ -92,7 +92,7 @@ struct Trust {
     region: f64,
     /// Of a unit of the residual in a program.
     cost: f64,
-    /// M of (I9).
+    /// M of (I12).
     penalty: f64,
 }
 
@@ -227,7 +227,7 @@ impl Maximization {
         at.moved(&program.solve().values, at.z)
     }
 
-    /// m of (I9) [N].
+    /// m of (I12) [N].
     fn merit(&self, at: &Iterate, penalty: f64) -> f64 {
         at.z - penalty * self.open(at)
     }
