@@ -1,6 +1,8 @@
-//! Crates depend on each other, and modules import from each other, as docs/ARCHITECTURE.md says.
+//! Crates depend on each other, and modules import from each other, as docs/ARCHITECTURE.md says. Each label is
+//! that of one equation.
 
 mod floors;
+mod labels;
 mod modules;
 
 use cargo_metadata::{DependencyKind, MetadataCommand, Package};
@@ -157,4 +159,38 @@ fn the_lower_layers_do_no_input_or_output() {
             }
         }
     }
+}
+
+/// The sources and examples of all crates.
+fn texts() -> BTreeMap<PathBuf, String> {
+    let crates = Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates");
+    rust_files(&crates)
+        .into_iter()
+        .map(|path| (path.strip_prefix(&crates).unwrap().to_owned(), path))
+        .filter(|(name, _)| name.iter().any(|part| part == "src" || part == "examples"))
+        .map(|(name, path)| (name, std::fs::read_to_string(path).unwrap()))
+        .collect()
+}
+
+#[test]
+fn equation_labels_are_unique() {
+    let texts = texts();
+    let mut files: BTreeMap<&str, Vec<&PathBuf>> = BTreeMap::new();
+    for (file, text) in &texts {
+        for label in labels::defined(text) {
+            files.entry(label).or_default().push(file);
+        }
+    }
+    files.retain(|_, files| files.len() > 1);
+    assert!(files.is_empty(), "defined twice: {files:?}");
+}
+
+#[test]
+fn cited_labels_exist() {
+    let texts = texts();
+    let defined: BTreeSet<&str> = texts.values().flat_map(|text| labels::defined(text)).collect();
+    assert!(defined.contains("C1"));
+    let cited = texts.iter().flat_map(|(file, text)| labels::cited(text).map(move |label| (label, file)));
+    let unknown: BTreeSet<_> = cited.filter(|(label, _)| !defined.contains(label)).collect();
+    assert!(unknown.is_empty(), "defined nowhere: {unknown:?}");
 }
