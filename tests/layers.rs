@@ -1,5 +1,5 @@
-//! Crates depend on each other, and modules import from each other, as docs/ARCHITECTURE.md says. Each label is
-//! that of one equation.
+//! Crates depend on each other, and modules import from each other, as docs/ARCHITECTURE.md says. Each label
+//! is that of one equation.
 
 mod floors;
 mod labels;
