@@ -212,7 +212,7 @@ impl Findings<'_> {
                         Severity::Note,
                         format!("cables[{j}].{name}"),
                         format!("{:?} m", point.as_slice()),
-                        &format!("the same place as cables[{i}].{name}"),
+                        &format!("the same place as that of cable {}", i + 1),
                         "nothing, if two cables meet there; else the point as measured",
                     );
                 }

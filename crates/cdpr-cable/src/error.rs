@@ -30,9 +30,9 @@ pub enum CableError {
     },
     /// The cable is strained beyond [`crate::MAX_STRAIN`].
     #[error(
-        "a tension of {tension} N strains the cable by {:.1} %, beyond the {:.0} % up to which the models \
-         hold: it is too short or too soft for this",
-        100.0 * strain, 100.0 * MAX_STRAIN
+        "a tension of {} N strains the cable by {:.1} %, beyond the {:.0} % up to which the models hold: it is \
+         too short or too soft for this",
+        short(*tension), 100.0 * strain, 100.0 * MAX_STRAIN
     )]
     Overstrained {
         /// The greater of its end tensions [N].

@@ -7,7 +7,9 @@ use crate::questions;
 use cdpr_assess::PoseRegion;
 use cdpr_robot::{Coordinate, Parameter, Robot, TensionReference, Wrench, counted, plausible, shown};
 use cdpr_statics::Load;
-use cdpr_study::{ErrorModel, Grid, GridAxis, IfExists, Study, Unit, open_robot_in_any_unit, write_text};
+use cdpr_study::{
+    ErrorModel, Grid, GridAxis, IfExists, Study, Unit, check_replaceable, open_robot_in_any_unit, write_text,
+};
 use serde::Serialize;
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
@@ -48,7 +50,13 @@ impl Overwrite {
 
     /// Writes a text to a file of the user's choice.
     pub(crate) fn write(&self, path: &Path, text: &str) -> Result<(), ProgramError> {
-        Ok(write_text(path, text, self.if_exists())?)
+        self.write_all(&[(path, text)])
+    }
+
+    /// Writes texts to files of the user's choice: all of them, or none where one must not be replaced.
+    pub(crate) fn write_all(&self, files: &[(&Path, &str)]) -> Result<(), ProgramError> {
+        files.iter().try_for_each(|(path, text)| check_replaceable(path, text, self.if_exists()))?;
+        Ok(files.iter().try_for_each(|(path, text)| write_text(path, text, self.if_exists()))?)
     }
 }
 

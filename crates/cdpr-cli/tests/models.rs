@@ -254,7 +254,7 @@ fn the_stiffness_predicts_the_displacement_under_a_small_force() {
 fn a_check_ends_with_its_own_code_where_it_warns() {
     let notes = printed(&["check", &data_path("robots/caroca.json")]);
     assert!(notes.contains(
-        "note: cables[2].exit_point is [-3.5, 2.0, 3.5] m: the same place as cables[0].exit_point"
+        "note: cable 3, cables[2].exit_point is [-3.5, 2.0, 3.5] m: the same place as that of cable 1"
     ));
     assert!(notes.ends_with("CAROCA: 8 cables, 0 warnings, 5 notes\n"), "{notes}");
     assert_eq!(answer(&["check", &data_path("robots/cogiro.json")]), json!([]));
@@ -340,6 +340,16 @@ fn every_answer_with_a_frequency_says_how_slowly_the_cables_themselves_vibrate()
     let (shown, warned): (Value, _) = (serde_json::from_slice(&path.stdout).unwrap(), text(path.stderr));
     assert!(close(number(&shown["lowest_cable_frequency_hz"]), lowest, 1e-9), "{shown}");
     assert!(warned.contains("cables without mass"), "{warned}");
+    let map = [
+        "workspace",
+        &file,
+        "--box=0:1:2,0:1:2,2:2:1",
+        "--out",
+        folder.path().to_str().unwrap(),
+        "--overwrite",
+    ];
+    let warned = text(cdpr(&map).stderr);
+    assert!(warned.contains("cables without mass"), "{warned}");
 }
 
 #[test]
@@ -375,6 +385,24 @@ fn a_platform_that_falls_on_the_way_to_its_load_is_an_answer_with_exit_code_3() 
     assert!(said.contains(&falls), "{said}");
     let [from, to] = ["falls_from", "falls_to"].map(|name| numbers(&error[name]));
     assert!(from.len() == 7 && (from[0] - to[0]).hypot(from[2] - to[2]) > 0.1, "{error}");
+}
+
+#[test]
+fn paths_and_capacities_end_with_the_branch() {
+    let robot = data_path("reference/robots/suspended.json");
+    let folder = tempfile::tempdir().unwrap();
+    let poses = folder.path().join("poses.csv");
+    std::fs::write(&poses, "x,y,z,roll_deg,pitch_deg,yaw_deg\n0.6,-0.4,1.6,3,-4,6\n").unwrap();
+    let load = ["--payload", "2", "--moment", "400,-300,100"];
+    let path = cdpr(&[&["path", &robot, "--poses", poses.to_str().unwrap()], &load[..]].concat());
+    assert_eq!(path.status.code(), Some(3));
+    assert!(text(path.stdout).contains("branch_ends"));
+    let at = ["--pose", "0.6,-0.4,1.6", "--rpy", "3", "-4", "6", "--format", "json"];
+    let capacity = cdpr(&[&["capacity", &robot][..], &at, &load].concat());
+    assert_eq!(capacity.status.code(), Some(3));
+    let found: Value = serde_json::from_str(&text(capacity.stdout)).unwrap();
+    assert_eq!(found["payload"]["kept"]["error"]["kind"], "branch_ends", "{found}");
+    assert!(found["payload"]["kept"]["value"].is_null(), "{found}");
 }
 
 #[test]

@@ -296,6 +296,10 @@ fn numbers_in_messages_can_be_read() {
         ),
         (vec!["direct", &robot, "--lengths", "1e308,4,4,4,4,4,4,4"], "e308"),
         (vec!["inverse", &robot, "--pose", "0,0,4.123456789123456"], "4.12346"),
+        (
+            vec!["catenary", "--weight", "1", "--stiffness", "1000", "--length", "3", "--end", "4,-1"],
+            "a tension of 374.738 N",
+        ),
     ] {
         contains(&refused(here, &arguments), &[words]);
     }

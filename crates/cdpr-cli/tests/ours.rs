@@ -20,6 +20,16 @@ fn done(output: Output) {
 fn writers() -> Vec<(Vec<String>, &'static str, &'static str)> {
     let (caroca, record) = (data_path("robots/caroca.json"), data_path("cables/caroca-4mm-record.csv"));
     let source = data_path("reference/exchange/caroca.yaml");
+    let study = data_path("studies/caroca.json");
+    let simulate = format!(
+        "calibration simulate {caroca} --model {study} --error-model table_3 --poses poses.csv --noise \
+         position=1e-4,rotation=1e-4,length=1e-4 --seed 1"
+    );
+    let plan = format!(
+        "calibration plan {caroca} --poses poses.csv --noise position=1e-4,rotation=1e-4 --count 1 \
+         --uncertainty a=0.001"
+    );
+    let load_cycle = format!("hysteresis {caroca} --pose 0,0,1.75 --payload 50 --record {record} --length 1");
     let modulus = "--breaking-force 10290 --section 1.2566370614e-5 --length 1 --range 5-10";
     [
         (
@@ -33,6 +43,10 @@ fn writers() -> Vec<(Vec<String>, &'static str, &'static str)> {
         (format!("modulus {record} {modulus} --figure FILE"), "svg", "<svg"),
         (format!("path {caroca} --poses poses.csv --payload 50 --figure FILE"), "svg", " along a path of "),
         (format!("explore {caroca} --out FILE"), "html", "content=\"cdpr explorer "),
+        (format!("{simulate} --out FILE"), "csv", "pose,cable"),
+        (format!("{simulate} --out other.csv --truth FILE"), "json", "cdpr-robot/1"),
+        (format!("{plan} --out FILE"), "csv", "x_m,y_m,z_m"),
+        (format!("{load_cycle} --figure FILE"), "svg", "<svg"),
     ]
     .map(|(command, ending, mark)| (command.split(' ').map(str::to_owned).collect(), ending, mark))
     .into()

@@ -272,7 +272,7 @@ fn bad_robots_are_refused_with_file_field_value_and_remedy() {
         |r, _| r["cables"].as_array_mut().unwrap().truncate(0),
         &[file, "cables is an empty list", "at least one cable"],
     );
-    refused(|r, _| r["cables"][3] = r["cables"][1].clone(), &[file, "cables[3] is coincident", "cables[1]"]);
+    refused(|r, _| r["cables"][3] = r["cables"][1].clone(), &[file, "cables[3] is coincident", "cable 2"]);
     refused(
         |r, _| r["cable"]["section"] = json!(-1e-5),
         &[file, "cable.section is -0.00001", "positive section [m²]"],

@@ -21,27 +21,53 @@ pub type Lanes6x6<S> = [[Lanes<S>; 6]; 6];
 #[macro_export]
 macro_rules! three {
     (|$k:ident| $component:expr) => {
-        $crate::components!(|$k| $component; 0, 1, 2)
+        [
+            {
+                let $k: usize = 0;
+                $component
+            },
+            {
+                let $k: usize = 1;
+                $component
+            },
+            {
+                let $k: usize = 2;
+                $component
+            },
+        ]
     };
 }
 
-/// Six components of one formula.
+/// Six components of one formula, as `three`.
 #[macro_export]
 macro_rules! six {
     (|$k:ident| $component:expr) => {
-        $crate::components!(|$k| $component; 0, 1, 2, 3, 4, 5)
-    };
-}
-
-/// The components of `three` and `six`.
-#[doc(hidden)]
-#[macro_export]
-macro_rules! components {
-    (|$k:ident| $component:expr; $($index:literal),+) => {
-        [$({
-            let $k: usize = $index;
-            $component
-        }),+]
+        [
+            {
+                let $k: usize = 0;
+                $component
+            },
+            {
+                let $k: usize = 1;
+                $component
+            },
+            {
+                let $k: usize = 2;
+                $component
+            },
+            {
+                let $k: usize = 3;
+                $component
+            },
+            {
+                let $k: usize = 4;
+                $component
+            },
+            {
+                let $k: usize = 5;
+                $component
+            },
+        ]
     };
 }
 
@@ -220,8 +246,6 @@ pub type Frame<S> = [Lanes3<S>; 3];
 pub fn rotated<S: Simd>(frame: &Frame<S>, v: &Lanes3<S>) -> Lanes3<S> {
     three!(|k| v[0] * frame[0][k] + v[1] * frame[1][k] + v[2] * frame[2][k])
 }
-
-pub use crate::{six, three};
 
 /// Force and moment of a wrench, or translation and rotation of a twist.
 #[inline(always)]

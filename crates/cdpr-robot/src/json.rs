@@ -134,7 +134,7 @@ fn list_around(text: &str, line: usize, column: usize) -> Option<&str> {
 }
 
 /// The path of a field with the number of its cable: fields count from 0, names such as `a1.x` from 1.
-pub(crate) fn numbered(field: &str) -> String {
+pub fn numbered(field: &str) -> String {
     let index = field.strip_prefix("cables[").and_then(|rest| rest.split_once(']')?.0.parse::<usize>().ok());
     index.map_or_else(|| field.to_owned(), |index| format!("cable {}, {field}", index + 1))
 }

@@ -47,7 +47,7 @@ pub use format::library;
 pub use format::{FORMAT, json_schema};
 pub use freedoms::{Coordinate, Freedoms, Plane};
 pub use gravity::Gravity;
-pub use json::{JsonError, from_json, place_of};
+pub use json::{JsonError, from_json, numbered, place_of};
 pub use law::LawSegment;
 pub use limits::{CableEnd, NamedReference, OwnLimits, TensionLimits, TensionReference};
 pub use nalgebra::{Matrix3, Matrix6xX, Rotation3, UnitQuaternion, Vector2, Vector3, Vector6};

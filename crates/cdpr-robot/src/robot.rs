@@ -431,7 +431,7 @@ impl Robot {
                     return Err(RobotError::invalid(
                         format!("cables[{j}]"),
                         "coincident with another cable",
-                        format!("exit or anchor point different from those of cables[{i}]"),
+                        format!("exit or anchor point different from those of cable {}", i + 1),
                     ));
                 }
             }

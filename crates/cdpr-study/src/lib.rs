@@ -83,7 +83,7 @@ pub use fs::finite::is_not_finite;
 pub use fs::input::{check_table, other_kind, read_bytes, read_table, read_text};
 pub use fs::manifest::{ResultsOf, read_result};
 pub use fs::owned::{Access, ResultsFolder};
-pub use fs::single::{IfExists, write_text};
+pub use fs::single::{IfExists, check_replaceable, write_text};
 pub use given::{
     BadCell, GivenColumn, GivenTable, TableAnalysis, TableRequest, VectorAnalysis, analyse_table,
     begin_analysis, open_table, write_analysis,

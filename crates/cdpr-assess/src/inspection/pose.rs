@@ -99,7 +99,7 @@ impl Findings<'_> {
         self.add(
             Severity::Warning,
             format!("cables[{j}]"),
-            format!("{:.1} mm from cables[{i}]{others} {at}", 1e3 * distance.max(0.0)),
+            format!("{:.1} mm from cable {}{others} {at}", 1e3 * distance.max(0.0), i + 1),
             if distance <= TOUCHING {
                 "these cables touch, as they hang"
             } else {
@@ -144,4 +144,27 @@ pub(super) fn held(robot: &Robot) -> Option<(Pose, InverseSolution)> {
         let pose = Pose::at(0.5 * (x_low + x_high), 0.5 * (y_low + y_high), z);
         inverse(robot, &pose, &Load::none(), None).ok().map(|solution| (pose, solution))
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use cdpr_robot::library;
+
+    #[test]
+    fn no_pose_that_is_suggested_is_below_the_ground() {
+        let mut held_above = 0;
+        for file in library::ROBOTS {
+            let mut robot = Robot::from_json(file.text).unwrap();
+            let [_, _, [lowest, _]] = frame(&robot);
+            for ground in [0.0, lowest - 0.5] {
+                robot.ground_z = Some(ground).filter(|ground| *ground < lowest);
+                let (Some(ground), Some((pose, _))) = (robot.ground_z, held(&robot)) else { continue };
+                let anchors = robot.cables.iter().map(|cable| pose.position.z + cable.anchor_point.z);
+                assert!(anchors.fold(pose.position.z, f64::min) >= ground, "{} {pose:?}", robot.name);
+                held_above += 1;
+            }
+        }
+        assert!(held_above > 15, "{held_above}");
+    }
 }

@@ -50,7 +50,7 @@ impl Findings<'_> {
                     Severity::Note,
                     format!("cables[{i}].pulley"),
                     format!("at {:?} m", cable.exit_point.as_slice()),
-                    &format!("within the wheel of cables[{other}]"),
+                    &format!("within the wheel of cable {}", other + 1),
                     "nothing, if exit points are rounded; else the points where the cables enter",
                 );
             }

@@ -31,7 +31,7 @@ impl Findings<'_> {
         if found.is_empty() {
             return;
         }
-        let pairs: Vec<_> = found.iter().take(MOST_PAIRS).map(|(_, i, j)| format!("{i} and {j}")).collect();
+        let pairs: Vec<_> = found.iter().take(MOST_PAIRS).map(|(_, i, j)| numbers(*i, *j)).collect();
         self.add(
             Severity::Warning,
             "cables[*].anchor_point",
@@ -44,7 +44,7 @@ impl Findings<'_> {
     /// Which two anchor points are to be exchanged, if the layout is symmetric then.
     fn asymmetric(&mut self) {
         let found = symmetry::broken(self.robot);
-        let pairs: Vec<_> = found.iter().take(MOST_PAIRS).map(|(i, j)| format!("{i} and {j}")).collect();
+        let pairs: Vec<_> = found.iter().take(MOST_PAIRS).map(|(i, j)| numbers(*i, *j)).collect();
         if pairs.is_empty() {
             return;
         }
@@ -76,4 +76,9 @@ fn effort(robot: &Robot) -> Option<f64> {
     };
     let free = (0..robot.cables.len()).all(|j| (0..j).all(|i| !touch(i, j)));
     free.then(|| solution.tensions.iter().sum())
+}
+
+/// Two cables by their numbers, from 1.
+fn numbers(i: usize, j: usize) -> String {
+    format!("{} and {}", i + 1, j + 1)
 }

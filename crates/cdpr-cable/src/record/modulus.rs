@@ -1,6 +1,7 @@
 //! Secant and tangent moduli of a record.
 
 use crate::error::MAX_STRAIN;
+use crate::number::short;
 use crate::record::load_cycle::Record;
 use crate::record::sample::{Phase, RecordError, Sample};
 
@@ -164,7 +165,7 @@ impl Sample {
         }
         let expected =
             "a modulus from 1e9 to 1e12 Pa: forces in N, elongations in mm, length in m, section in m²";
-        Err(self.invalid("modulus", format!("{modulus:e} Pa {of}"), expected))
+        Err(self.invalid("modulus", format!("{} Pa {of}", short(modulus)), expected))
     }
 }
 

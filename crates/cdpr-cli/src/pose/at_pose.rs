@@ -106,6 +106,13 @@ struct Fall {
     falls_to: Option<[f64; 7]>,
 }
 
+impl Failure {
+    /// Whether the platform falls.
+    pub(crate) fn is_fall(&self) -> bool {
+        self.fall.is_some()
+    }
+}
+
 impl From<StaticsError> for Failure {
     fn from(error: StaticsError) -> Self {
         let (kind, message) = (error.kind(), error.to_string());

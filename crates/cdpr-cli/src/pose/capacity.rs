@@ -231,6 +231,13 @@ impl Row for Answer {
     fn out_of_limits(&self) -> Vec<&[OutOfLimits]> {
         Vec::new()
     }
+
+    /// A platform that falls under the load itself is something wrong.
+    fn ending(&self) -> Ending {
+        let falls =
+            |shown: &Shown| shown.value.is_none() && shown.error.as_ref().is_some_and(Failure::is_fall);
+        if self.all().iter().any(|(_, shown)| falls(shown)) { Ending::SomethingWrong } else { Ending::Well }
+    }
 }
 
 impl Answer {

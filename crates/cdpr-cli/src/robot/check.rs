@@ -4,7 +4,7 @@ use crate::arguments::{Format, Preference};
 use crate::error::ProgramError;
 use crate::output::{Ending, patiently};
 use cdpr_assess::{Finding, Severity, inspect};
-use cdpr_robot::{counted, shown};
+use cdpr_robot::{counted, numbered, shown};
 use std::path::PathBuf;
 
 /// The robot file.
@@ -25,7 +25,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     let warnings = findings.iter().filter(|finding| finding.severity == Severity::Warning).count();
     settings.format.print(&findings, |findings| {
         for Finding { severity, field, value, why, remedy } in findings {
-            println!("{severity}: {field} is {value}: {why}");
+            println!("{severity}: {} is {value}: {why}", numbered(field));
             println!("    remedy: {remedy}");
         }
         println!(

@@ -1,5 +1,6 @@
 //! A doubt, and the sizes of a robot with which numbers are compared.
 
+use crate::json::numbered;
 use crate::robot::Robot;
 use serde::Serialize;
 use std::fmt;
@@ -35,7 +36,7 @@ impl Doubt {
 impl fmt::Display for Doubt {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { quantity, value, why, meant } = self;
-        write!(f, "{quantity} is {value}: {why}\n    meant? {meant}")
+        write!(f, "{} is {value}: {why}\n    meant? {meant}", numbered(quantity))
     }
 }
 

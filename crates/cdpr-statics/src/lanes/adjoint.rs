@@ -35,9 +35,10 @@ use crate::lanes::load::PlatformLoad;
 use crate::lanes::newton::{LinearizedPlatform, Robots};
 use crate::lanes::skew::{Skew, SkewCable};
 use cdpr_number::Number;
-use cdpr_number::dense::{Lanes2, Lanes3, Lanes6, SymmetricFactors, halves, replace, six, three};
+use cdpr_number::dense::{Lanes2, Lanes3, Lanes6, SymmetricFactors, halves, replace};
 use cdpr_number::lanes::{Lanes, Mask, Simd, WithSimd};
 use cdpr_number::vector::{cross, dot, wrench};
+use cdpr_number::{six, three};
 use cdpr_robot::CableEnd;
 
 /// Two tensions that differ by a smaller share may be the same.

@@ -49,9 +49,10 @@ use crate::lanes::load::PlatformLoad;
 use crate::lanes::newton::{LaneResidual, LinearizedPlatform, Robots};
 use cdpr_cable::kernel::FOLDED;
 use cdpr_number::Number;
-use cdpr_number::dense::{Lanes2, Lanes3, Lanes6, halves, replace, six, three};
+use cdpr_number::dense::{Lanes2, Lanes3, Lanes6, halves, replace};
 use cdpr_number::lanes::{Lanes, Mask, Simd, WithSimd};
 use cdpr_number::vector::{dot, wrench};
+use cdpr_number::{six, three};
 
 /// Robots at their wanted pose.
 pub(crate) struct ChainStart<'a, S: Simd> {

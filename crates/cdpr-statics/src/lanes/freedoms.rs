@@ -1,7 +1,8 @@
 //! Wrenches, twists and stiffness of platforms some motions of which are held.
 
-use cdpr_number::dense::{Lanes6, Lanes6x6, six};
+use cdpr_number::dense::{Lanes6, Lanes6x6};
 use cdpr_number::lanes::{Lanes, Simd};
+use cdpr_number::six;
 use cdpr_robot::Freedoms;
 
 /// A wrench or a twist without its components along the motions that are held.

@@ -5,8 +5,9 @@
 //! rotation is that of [`cdpr_robot::Gravity::level`].
 
 use cdpr_number::Number;
-use cdpr_number::dense::{Lanes3, Lanes6, halves, three};
+use cdpr_number::dense::{Lanes3, Lanes6, halves};
 use cdpr_number::lanes::{Lanes, Mask, Simd};
+use cdpr_number::three;
 use cdpr_number::vector::dot;
 
 /// Rotation to the level frame of each lane, by its rows.

@@ -1,7 +1,8 @@
 //! What acts on the platforms in the lanes.
 
-use cdpr_number::dense::{Lanes3, Lanes6, three};
+use cdpr_number::dense::{Lanes3, Lanes6};
 use cdpr_number::lanes::{Lanes, Simd};
+use cdpr_number::three;
 use cdpr_robot::{Vector3, Wrench};
 
 /// A weight at the centre of mass of a platform, and a force and a moment at P.

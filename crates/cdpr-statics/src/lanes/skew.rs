@@ -19,9 +19,10 @@
 
 use crate::equations::CablePlane;
 use crate::lanes::freedoms::hold;
-use cdpr_number::dense::{Lanes3, Lanes6, SymmetricFactors, add, halves, replace, six, three};
+use cdpr_number::dense::{Lanes3, Lanes6, SymmetricFactors, add, halves, replace};
 use cdpr_number::lanes::{Lanes, Mask, Simd, WithSimd};
 use cdpr_number::vector::{cross, dot};
+use cdpr_number::{six, three};
 use cdpr_robot::Freedoms;
 
 /// A change of the solution below this part of it ends (L18).

@@ -117,36 +117,68 @@ impl WithSimd for Update<'_, '_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> bool {
-        let Self { tracker: Tracker { robot, equilibrium, residual, farthest, .. }, problem } = self;
-        let pose = &mut equilibrium.pose;
-        let n = problem.cables();
-        let (count, zero) = (Lanes::<S>::COUNT, Lanes::splat(simd, 0.0));
+        let Self { tracker, problem } = self;
+        let zero = Lanes::splat(simd, 0.0);
+        let everywhere = zero.less_or_equal(zero);
+        let mut robots = tracker.in_lanes(simd, problem.lengths);
+        let mut linearized = LinearizedPlatform::new(zero, robots.cables.len());
+        let load = tracker.load_in_lanes(&robots, &problem.load);
+        let size = problem.size();
+        let rounding = rounding_of_closure(size, tracker.equilibrium.pose.position.norm() + tracker.farthest);
+        let scale = Scale { size, characteristic_length: problem.characteristic_length(), rounding };
+        robots.linearise(&load, &mut linearized, everywhere);
+        let (found, left) = robots.settle(&load, &mut linearized, &scale, everywhere);
+        if !found.any() {
+            return false;
+        }
+        if !linearized.steps.end_near_prediction(&scale).any() {
+            let before = tracker.in_lanes(simd, &tracker.lengths);
+            let mut platform = LinearizedPlatform::new(zero, before.cables.len());
+            before.linearise(&tracker.load_in_lanes(&before, &tracker.load), &mut platform, everywhere);
+            if !robots.on_branch(&load, &linearized, &platform.factored, &scale, everywhere).any() {
+                return false;
+            }
+        }
+        tracker.take(&robots);
+        tracker.residual = left.norms()[0];
+        true
+    }
+}
+
+impl Tracker<'_> {
+    /// Coordinates in the level frame, which the lanes hold.
+    #[inline(always)]
+    fn to_level(&self, v: Vector3<f64>) -> Vector3<f64> {
+        self.robot.gravity.level().map_or(v, |level| level * v)
+    }
+
+    /// The robot with these lengths [m] where it is, its cables in lanes.
+    #[inline(always)]
+    fn in_lanes<S: Simd>(&self, simd: S, lengths: &[f64]) -> Robots<'static, S> {
+        let Self { robot, equilibrium: Equilibrium { pose, cable_forces }, .. } = self;
+        let (n, count, zero) = (lengths.len(), Lanes::<S>::COUNT, Lanes::splat(simd, 0.0));
         let in_last = n - (n - 1) / count * count;
         let last = Lanes::from_fn(simd, |lane| lane as f64).less_or_equal(zero.all(in_last as f64 - 0.5));
-        // The lanes hold the level frame.
-        let level = robot.gravity.level();
-        let to_level = |v: Vector3<f64>| level.map_or(v, |level| level * v);
-        let to_base = |v: Vector3<f64>| level.map_or(v, |level| level.tr_mul(&v));
         let mut robots = Robots {
             layout: Layout::Cables(last),
             freedoms: robot.freedoms(),
             cables: SmallVec::new(),
-            position: vector(simd, &to_level(pose.position)),
-            center: vector(simd, &to_level(pose.rotation * robot.platform.center_of_mass)),
+            position: vector(simd, &self.to_level(pose.position)),
+            center: vector(simd, &self.to_level(pose.rotation * robot.platform.center_of_mass)),
             frame: SmallVec::new(),
             weight: zero.all(robot.platform.mass * robot.gravity.magnitude()),
         };
         for k in 0..3 {
-            robots.frame.push(vector(simd, &to_level(pose.rotation.matrix().column(k).into())));
+            robots.frame.push(vector(simd, &self.to_level(pose.rotation.matrix().column(k).into())));
         }
         for first in (0..n).step_by(count) {
             let mut values = [[0.0; MAX_LANES]; 11];
             for lane in 0..count {
                 // Lanes beyond the last cable repeat it and do not count.
                 let i = (first + lane).min(n - 1);
-                let (cable, force) = (problem.cable(i), equilibrium.cable_forces[i]);
-                let exit = to_level(robot.cables[i].exit_point);
-                let arm = to_level(robot.anchor_arm(pose, i));
+                let (cable, force) = (robot.cable(i), cable_forces[i]);
+                let exit = self.to_level(robot.cables[i].exit_point);
+                let arm = self.to_level(robot.anchor_arm(pose, i));
                 let (weight, flexibility) = (cable.weight_per_length, 1.0 / cable.axial_stiffness);
                 let cable = [
                     weight,
@@ -157,7 +189,7 @@ impl WithSimd for Update<'_, '_> {
                     arm.x,
                     arm.y,
                     arm.z,
-                    problem.lengths[i],
+                    lengths[i],
                     force.x,
                     force.y,
                 ];
@@ -177,20 +209,23 @@ impl WithSimd for Update<'_, '_> {
                 guided: None,
             });
         }
-        let weight = robots.weight + problem.load.payload * robot.gravity.magnitude();
-        let Wrench { force, moment } = problem.load.wrench;
-        let wrench = Wrench { force: to_level(force), moment: to_level(moment) };
-        let load = PlatformLoad::new(weight, &wrench);
-        let size = problem.size();
-        let rounding = rounding_of_closure(size, pose.position.norm() + *farthest);
-        let scale = Scale { size, characteristic_length: problem.characteristic_length(), rounding };
-        let everywhere = zero.less_or_equal(zero);
-        let mut linearized = LinearizedPlatform::new(zero, robots.cables.len());
-        robots.linearise(&load, &mut linearized, everywhere);
-        let (found, left) = robots.settle(&load, &mut linearized, &scale, everywhere);
-        if !found.any() || !linearized.steps.end_near_prediction(&scale).any() {
-            return false;
-        }
+        robots
+    }
+
+    /// Weight and load on the platform.
+    #[inline(always)]
+    fn load_in_lanes<S: Simd>(&self, robots: &Robots<'_, S>, load: &Load) -> PlatformLoad<S> {
+        let Wrench { force, moment } = load.wrench;
+        let wrench = Wrench { force: self.to_level(force), moment: self.to_level(moment) };
+        PlatformLoad::new(robots.weight + load.payload * self.robot.gravity.magnitude(), &wrench)
+    }
+
+    /// Takes pose and forces from the lanes.
+    #[inline(always)]
+    fn take<S: Simd>(&mut self, robots: &Robots<'_, S>) {
+        let level = self.robot.gravity.level();
+        let to_base = |v: Vector3<f64>| level.map_or(v, |level| level.tr_mul(&v));
+        let pose = &mut self.equilibrium.pose;
         pose.position = to_base(back(&robots.position));
         let columns = [
             to_base(back(&robots.frame[0])),
@@ -198,14 +233,13 @@ impl WithSimd for Update<'_, '_> {
             to_base(back(&robots.frame[2])),
         ];
         pose.rotation = orthonormalized(&Matrix3::from_columns(&columns));
-        for (forces, cable) in equilibrium.cable_forces.chunks_mut(count).zip(&robots.cables) {
+        let forces = self.equilibrium.cable_forces.chunks_mut(Lanes::<S>::COUNT);
+        for (forces, cable) in forces.zip(&robots.cables) {
             let [x, z] = [cable.force[0].to_array(), cable.force[1].to_array()];
             for (lane, force) in forces.iter_mut().enumerate() {
                 (force.x, force.y) = (x[lane], z[lane]);
             }
         }
-        *residual = left.norms()[0];
-        true
     }
 }
 

@@ -25,6 +25,21 @@ impl IfExists {
     }
 }
 
+/// Refuses a file that [`write_text`] would not replace, before anything is written.
+///
+/// # Errors
+/// [`StudyError::FileExists`] for a file with another content, [`StudyError::Read`].
+pub fn check_replaceable(path: &Path, text: &str, if_exists: IfExists) -> Result<(), StudyError> {
+    let found = std::fs::metadata(path).ok().filter(std::fs::Metadata::is_file);
+    match found {
+        Some(found) if if_exists == IfExists::Refuse => {
+            let same = found.len() == text.len() as u64 && has_content(path, text)?;
+            if same { Ok(()) } else { Err(StudyError::FileExists { path: path.to_owned() }) }
+        }
+        _ => Ok(()),
+    }
+}
+
 /// Writes a text to a file of the user's choice. A file that exists is replaced only if that was requested;
 /// one that has this content already is left as it is. A pipe or terminal is written to as it is.
 ///
@@ -37,9 +52,7 @@ pub fn write_text(path: &Path, text: &str, if_exists: IfExists) -> Result<(), St
             if found.len() == text.len() as u64 && has_content(path, text)? {
                 return Ok(());
             }
-            if if_exists == IfExists::Refuse {
-                return Err(StudyError::FileExists { path: path.to_owned() });
-            }
+            check_replaceable(path, text, if_exists)?;
             // Through a link, to the file itself.
             write_atomic(path.canonicalize().map_err(write)?, text.as_bytes()).map(|_| ())
         }

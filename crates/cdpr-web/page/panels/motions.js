@@ -47,9 +47,11 @@ export function motionsPanel(app) {
   }
 }
 
-function noteOf({ modes, reduced, mechanics }) {
+/** What is said of the motions, most important first. */
+export function noteOf({ modes, reduced, mechanics }) {
   const sentences = ["With the load, on these lengths. The size of a motion is exaggerated."];
   if (mechanics.failure) sentences.unshift("These are of the last state that was found.");
+  if (modes?.warning) sentences.unshift(`Note: ${modes.warning.replace(/\s+/g, " ")}.`);
   if (modes?.reason) sentences.unshift(`No natural frequencies: ${modes.reason}.`);
   if (modes?.neutral > 0) sentences.push(`Nothing resists ${modes.neutral} of the motions.`);
   if (reduced) {

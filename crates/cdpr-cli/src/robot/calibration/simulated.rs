@@ -99,11 +99,11 @@ pub(super) fn simulated(settings: &SimulateSettings) -> Result<(), ProgramError>
     let (header, lines) = write_measurements(&rows);
     let mut text = header.join(",") + "\n";
     lines.iter().for_each(|line| text += &(line.join(",") + "\n"));
-    settings.overwrite.write(&settings.out, &text)?;
-    if let Some(path) = &settings.truth {
-        let truth = robot.perturbed(&deviations).map_err(cdpr_calibration::CalibrationError::from)?.robot;
-        settings.overwrite.write(path, &(truth.to_json() + "\n"))?;
-    }
+    let truth = robot.perturbed(&deviations).map_err(cdpr_calibration::CalibrationError::from)?.robot;
+    let truth = truth.to_json() + "\n";
+    let truth = settings.truth.iter().map(|path| (path.as_path(), truth.as_str()));
+    let files: Vec<_> = truth.chain([(settings.out.as_path(), text.as_str())]).collect();
+    settings.overwrite.write_all(&files)?;
     let [rows, poses] = [counted(rows.len(), "row"), counted(poses.len(), "pose")];
     println!("{}: {rows} at {poses}", settings.out.display());
     Ok(())

@@ -31,9 +31,10 @@ use crate::lanes::newton::{LinearizedPlatform, Robots, rotate};
 use cdpr_cable::MAX_STRAIN;
 use cdpr_cable::kernel::FOLDED;
 use cdpr_number::Number;
-use cdpr_number::dense::{Lanes3, Lanes6, add, six, solve_columns, three};
+use cdpr_number::dense::{Lanes3, Lanes6, add, solve_columns};
 use cdpr_number::lanes::{Lanes, Mask, Simd, WithSimd};
 use cdpr_number::vector::{cross, dot};
+use cdpr_number::{six, three};
 
 /// Motions of a platform in space.
 const MOTIONS: usize = 6;

@@ -16,8 +16,9 @@
 //! R. T. Rockafellar, *Monotone operators and the proximal point algorithm* (1976); J. S. Pang, L. Qi, *A
 //! globally convergent Newton method for convex SC1 minimization problems* (1995).
 
-use cdpr_number::dense::{Lanes2, Lanes6, SymmetricFactors, six};
+use cdpr_number::dense::{Lanes2, Lanes6, SymmetricFactors};
 use cdpr_number::lanes::{Lanes, Mask, Simd};
+use cdpr_number::six;
 use cdpr_number::vector::dot;
 
 /// A cable in the program.

@@ -15,8 +15,9 @@ use crate::problem::DirectProblem;
 use crate::state::{Load, rounding_of_closure};
 use cdpr_cable::kernel::{LaneGuide, LaneSegment};
 use cdpr_number::Number;
-use cdpr_number::dense::{Frame, rotated, six, three};
+use cdpr_number::dense::{Frame, rotated};
 use cdpr_number::lanes::{Lanes, MAX_LANES, Mask, Simd};
+use cdpr_number::{six, three};
 use cdpr_robot::{
     Axis, Coordinate, Parameter, ParameterLayout, Pose, Pulley, Robot, RobotCable, TiltAxis, Vector3, Vector6,
 };

@@ -10,8 +10,8 @@ use crate::lanes::newton::Robots;
 use crate::lanes::observer::rows::Rows;
 use crate::lanes::reason::ScalarReason;
 use cdpr_number::Number;
-use cdpr_number::dense::three;
 use cdpr_number::lanes::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
+use cdpr_number::three;
 use cdpr_number::vector::dot;
 use cdpr_robot::{Axis, Parameter, Robot, RobotCable, TiltAxis};
 

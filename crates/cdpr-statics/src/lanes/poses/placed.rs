@@ -7,8 +7,9 @@ use crate::lanes::reason::ScalarReason;
 use crate::state::{Load, rounding_of_closure};
 use cdpr_cable::kernel::{LaneGuide, LaneSegment};
 use cdpr_number::Number;
-use cdpr_number::dense::{Frame, rotated, three};
+use cdpr_number::dense::{Frame, rotated};
 use cdpr_number::lanes::{Lanes, MAX_LANES, Simd};
+use cdpr_number::three;
 use cdpr_robot::{Matrix3, Pose, Robot, Vector3, Vector6, Wrench};
 use smallvec::SmallVec;
 
