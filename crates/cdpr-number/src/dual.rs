@@ -44,8 +44,8 @@ impl<T: Number, const N: usize> Dual<T, N> {
     #[inline(always)]
     fn combined(self, other: Self, value: T, [a, b]: [T; 2]) -> Self {
         let mut slopes = self.slopes;
-        for k in 0..N {
-            slopes[k] = a * slopes[k] + b * other.slopes[k];
+        for (own, other) in slopes.iter_mut().zip(other.slopes) {
+            *own = a * *own + b * other;
         }
         Self { value, slopes }
     }
@@ -56,8 +56,8 @@ impl<T: Number, const N: usize> Add for Dual<T, N> {
     #[inline(always)]
     fn add(self, other: Self) -> Self {
         let mut slopes = self.slopes;
-        for k in 0..N {
-            slopes[k] = slopes[k] + other.slopes[k];
+        for (own, other) in slopes.iter_mut().zip(other.slopes) {
+            *own = *own + other;
         }
         Self { value: self.value + other.value, slopes }
     }
@@ -68,8 +68,8 @@ impl<T: Number, const N: usize> Sub for Dual<T, N> {
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
         let mut slopes = self.slopes;
-        for k in 0..N {
-            slopes[k] = slopes[k] - other.slopes[k];
+        for (own, other) in slopes.iter_mut().zip(other.slopes) {
+            *own = *own - other;
         }
         Self { value: self.value - other.value, slopes }
     }
@@ -159,8 +159,8 @@ impl<T: Lanewise, const N: usize> Lanewise for Dual<T, N> {
     #[inline(always)]
     fn select(mask: T::Mask, chosen: Self, otherwise: Self) -> Self {
         let mut slopes = chosen.slopes;
-        for k in 0..N {
-            slopes[k] = T::select(mask, chosen.slopes[k], otherwise.slopes[k]);
+        for (own, otherwise) in slopes.iter_mut().zip(otherwise.slopes) {
+            *own = T::select(mask, *own, otherwise);
         }
         Self { value: T::select(mask, chosen.value, otherwise.value), slopes }
     }

@@ -1,10 +1,10 @@
 //! The subproblem of the trust region, whose file this compiles by itself.
 
 #[path = "../src/direct/subproblem.rs"]
-mod subproblem;
+mod source;
 
 use nalgebra::{Matrix6, Vector6};
-use subproblem::subproblem;
+use source::subproblem;
 
 #[test]
 fn the_subproblem_is_newtons_step_inside_and_steepest_at_the_edge() {
