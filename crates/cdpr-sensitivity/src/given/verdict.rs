@@ -14,14 +14,14 @@
 //! The tests hold for rows that are independent of each other, and what they find is the effect of an input
 //! where inputs are independent. An input is therefore *certain* to matter only if
 //!
-//! - no other input depends on it ([`dependence`](dependence)), so that an input that is found for what
+//! - no other input depends on it (`verdict/dependence.rs`), so that an input that is found for what
 //!   another causes is not certain;
 //! - it and the output have no order together ([`conditions`](crate::given::conditions)).
 //!
 //! Otherwise it is *related* to the output, with the reasons. Rows that repeat count once.
 //!
-//! Rows of a [`sequence`](sequence) are not independent of each other: trend and location alone are tested,
-//! and a coordinate that is found no more clearly than its pattern with another one is related.
+//! Rows of a sequence (`verdict/sequence.rs`) are not independent of each other: trend and location alone are
+//! tested, and a coordinate that is found no more clearly than its pattern with another one is related.
 
 mod dependence;
 mod joint;
