@@ -72,7 +72,7 @@ fn items_within_paragraphs(text: &str) -> Vec<usize> {
 }
 
 #[test]
-fn no_line_of_a_paragraph_reads_as_an_item_of_a_list() {
+fn no_line_of_a_paragraph_reads_as_an_item_of_a_list_and_no_place_is_left_to_fill() {
     assert_eq!(
         items_within_paragraphs("V(s) = fz - w (L\n- s), and\n\n- an item\n- and one\n\nText 1\n+ 2"),
         [2, 8]
@@ -81,7 +81,9 @@ fn no_line_of_a_paragraph_reads_as_an_item_of_a_list() {
     pages(&root(), &mut all);
     assert!(all.len() > 20);
     for page in all {
-        let wrong = items_within_paragraphs(&std::fs::read_to_string(&page).unwrap());
+        let text = std::fs::read_to_string(&page).unwrap();
+        assert!(!text.contains("@@"), "{}: a place that was to be filled", page.display());
+        let wrong = items_within_paragraphs(&text);
         assert!(wrong.is_empty(), "{}: lines {wrong:?} begin as items", page.display());
     }
 }
