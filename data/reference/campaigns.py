@@ -217,7 +217,11 @@ def by_scipy(folder, case, seed):
     """Chi-square by SciPy, None where it found no minimum."""
     robot, stds, rows, _, _, poses = simulated(folder, case, seed)
     campaign = Campaign(robot, stds, rows, case[6], started(robot, rows, case[6], poses))
-    chi_square, _, is_minimum = campaign.fit()
+    try:
+        chi_square, _, is_minimum = campaign.fit()
+    except ValueError:
+        # A step has led to numbers that are not finite.
+        return None
     return round(float(chi_square), 5) if is_minimum else None
 
 
