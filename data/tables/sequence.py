@@ -1,9 +1,10 @@
-"""Why first-order indices by ranks refuse rows of a sequence: their errors, and how such rows are told.
+"""Why first-order indices by ranks refuse rows of a sequence: their errors, and how such rows are recognised.
 
 pip install numpy scipy; python data/tables/sequence.py
 
-Prints for the sum of x_i / i of k inputs the largest mean error over 20 tables of the index by ranks (Eq. (Ra2) of
-crates/cdpr-sensitivity/src/given/rank.rs), and the largest z (Ra7) of a table, its least and greatest over the tables.
+Prints for the sum of x_i / i of k inputs the largest mean error over 20 tables of the index by ranks (Eq. (Ra2)
+of crates/cdpr-sensitivity/src/given/rank.rs), and the largest z (Ra7) of a table, its least and greatest over the
+tables.
 """
 
 import warnings

@@ -105,8 +105,8 @@ pub enum StaticsError {
     /// from the others.
     #[error(
         "at position ({x}, {y}, {z}) m the rest is not unique: cable {} may have {l0} m and {t0} N, or \
-         {l1} m and {t1} N, or what lies between; one equation of the balance follows from the others, and these \
-         coordinates leave it open how the cables share the load or where they hold it; name other \
+         {l1} m and {t1} N, or what lies between; one equation of the balance follows from the others, and \
+         these coordinates leave it open how the cables share the load or where they hold it; name other \
          coordinates as free",
         cable + 1,
         x = short(position[0]), y = short(position[1]), z = short(position[2]),

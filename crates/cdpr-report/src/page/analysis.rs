@@ -112,8 +112,8 @@ fn verdict(analysis: &Analysis) -> Markup {
     html! {
         @for sentence in &verdict.sentences { p { (sentence) "." } }
         p {
-            (counted(verdict.tests, "test")) " of all inputs and measures, corrected together: one or more false \
-             certainties in 5 % of all tables at most."
+            (counted(verdict.tests, "test")) " of all inputs and measures, corrected together: one or more \
+             false certainties in 5 % of all tables at most."
         }
         @for condition in &verdict.conditions {
             p.note { @if condition.is_question() { "Question: " } (condition.text) "." }

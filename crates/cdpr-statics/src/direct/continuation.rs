@@ -139,7 +139,7 @@ pub(crate) fn follow_change(
 }
 
 impl Loss {
-    /// The reason why there is no equilibrium at the end of the change, which is one of the load alone or not.
+    /// The reason why there is no equilibrium at the end of a change, `of_load` alone or not.
     fn into_error(self, iterations: usize, of_load: bool) -> StaticsError {
         let Self { share, kind, before, after } = self;
         let pose = before.equilibrium.pose;

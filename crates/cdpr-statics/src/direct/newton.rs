@@ -225,8 +225,8 @@ fn tighten(problem: &DirectProblem, state: &mut Equilibrium) -> Option<()> {
 }
 
 impl DirectProblem<'_> {
-    /// The first step (dp, dφ) [m, rad] of Newton's method with the cables eliminated, for comparison with that
-    /// of the assembled equations; `None` where the stiffness is singular.
+    /// The first step (dp, dφ) [m, rad] of Newton's method with the cables eliminated, for comparison with
+    /// that of the assembled equations; `None` where the stiffness is singular.
     #[doc(hidden)]
     pub fn newton_step(&self, from: &Equilibrium) -> Option<Vector6<f64>> {
         Linearised::new(self, from).step()

@@ -174,8 +174,8 @@ impl FactoredJacobian {
 }
 
 impl DirectProblem<'_> {
-    /// Left-hand sides of the 6 + 2n equations of an equilibrium, in the order of forces [N], moments [N m] and
-    /// the closure of each cable in its plane [m]: zero at an equilibrium.
+    /// Left-hand sides of the 6 + 2n equations of an equilibrium, in the order of forces [N], moments [N m]
+    /// and the closure of each cable in its plane [m]: zero at an equilibrium.
     ///
     /// # Errors
     /// [`StaticsError::Invalid`] unless `at` is finite and has one force for each cable.

@@ -219,8 +219,8 @@ fn chain<'a, S: Simd>(
 }
 
 /// The tensions nearest to their reference at the wanted pose under the wrench `external`, equations (L2) and
-/// (L3); `offsets` are added to them and become set-points, towards which cables make a first step. All callers
-/// share one function for each vector unit.
+/// (L3); `offsets` are added to them and become set-points, towards which cables make a first step.
+/// All callers share one function for each vector unit.
 pub(crate) struct Distribute<'b, 'a, S: Simd> {
     pub(crate) robots: &'b mut Robots<'a, S>,
     pub(crate) external: &'b Lanes6<S>,

@@ -74,8 +74,8 @@ impl<'a> Tracker<'a> {
     /// change in proportion.
     ///
     /// Nothing is allocated where Newton's method ends near its prediction, at a stable equilibrium without
-    /// folded cables (up to 32 of them with AVX-512, 16 with AVX2). Otherwise the change is made in steps, and
-    /// where these strain a cable too much on the way or do not end, [`direct`] searches near the current
+    /// folded cables (up to 32 of them with AVX-512, 16 with AVX2). Otherwise the change is made in steps,
+    /// and where these strain a cable too much on the way or do not end, [`direct`] searches near the current
     /// equilibrium.
     ///
     /// # Errors
