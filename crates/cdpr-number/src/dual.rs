@@ -1,5 +1,8 @@
 //! Numbers with their derivatives with respect to N inputs, over any kind of number.
 
+// Indices: iterators of two arrays at a time take the compiler minutes in lanes.
+#![allow(clippy::needless_range_loop)]
+
 use crate::number::{Lanewise, Number, Real};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -44,8 +47,8 @@ impl<T: Number, const N: usize> Dual<T, N> {
     #[inline(always)]
     fn combined(self, other: Self, value: T, [a, b]: [T; 2]) -> Self {
         let mut slopes = self.slopes;
-        for (own, other) in slopes.iter_mut().zip(other.slopes) {
-            *own = a * *own + b * other;
+        for k in 0..N {
+            slopes[k] = a * slopes[k] + b * other.slopes[k];
         }
         Self { value, slopes }
     }
@@ -56,8 +59,8 @@ impl<T: Number, const N: usize> Add for Dual<T, N> {
     #[inline(always)]
     fn add(self, other: Self) -> Self {
         let mut slopes = self.slopes;
-        for (own, other) in slopes.iter_mut().zip(other.slopes) {
-            *own = *own + other;
+        for k in 0..N {
+            slopes[k] = slopes[k] + other.slopes[k];
         }
         Self { value: self.value + other.value, slopes }
     }
@@ -68,8 +71,8 @@ impl<T: Number, const N: usize> Sub for Dual<T, N> {
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
         let mut slopes = self.slopes;
-        for (own, other) in slopes.iter_mut().zip(other.slopes) {
-            *own = *own - other;
+        for k in 0..N {
+            slopes[k] = slopes[k] - other.slopes[k];
         }
         Self { value: self.value - other.value, slopes }
     }
@@ -159,8 +162,8 @@ impl<T: Lanewise, const N: usize> Lanewise for Dual<T, N> {
     #[inline(always)]
     fn select(mask: T::Mask, chosen: Self, otherwise: Self) -> Self {
         let mut slopes = chosen.slopes;
-        for (own, otherwise) in slopes.iter_mut().zip(otherwise.slopes) {
-            *own = T::select(mask, *own, otherwise);
+        for k in 0..N {
+            slopes[k] = T::select(mask, slopes[k], otherwise.slopes[k]);
         }
         Self { value: T::select(mask, chosen.value, otherwise.value), slopes }
     }
