@@ -72,7 +72,7 @@ fn asked_of_rest(robot: &Robot, lengths: &[f64], load: &Load) -> Option<String> 
 
 #[test]
 fn lengths_of_another_robot_are_questioned_where_the_platform_rests_and_its_own_are_not() {
-    let wound = |name: &str, pose: Pose| {
+    let held = |name: &str, pose: Pose| {
         let robot = named(name);
         let lengths = inverse(&robot, &pose, &Load::none(), None).unwrap().lengths;
         for load in [Load::none(), Load::payload(0.2 * robot.platform.mass)] {
@@ -80,10 +80,10 @@ fn lengths_of_another_robot_are_questioned_where_the_platform_rests_and_its_own_
         }
         lengths
     };
-    let cogiro = wound("cogiro", Pose::at(0.0, 0.0, 2.7));
-    let caroca = wound("caroca", Pose::at(0.0, 0.0, 1.75));
-    let lucia = wound("expo2015-lucia", Pose::at(-0.5, 0.0, 3.0));
-    let handling = wound("copacabana-handling", Pose::at(-0.1, 0.3, 1.1));
+    let cogiro = held("cogiro", Pose::at(0.0, 0.0, 2.7));
+    let caroca = held("caroca", Pose::at(0.0, 0.0, 1.75));
+    let lucia = held("expo2015-lucia", Pose::at(-0.5, 0.0, 3.0));
+    let handling = held("copacabana-handling", Pose::at(-0.1, 0.3, 1.1));
     for (robot, lengths, expected) in [
         ("caroca", &cogiro, "below the floor of the base frame, z = 0"),
         ("copacabana-handling", &caroca, "below the lowest exit point"),

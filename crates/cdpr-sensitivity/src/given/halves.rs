@@ -1,6 +1,6 @@
 //! Which way each input acts: the outputs of its upper half of values against those of its lower half.
 //!
-//! As in [`crate::measure::effect`], Eq. (Ef1) and (Ef2) there, with the median of the values in place of the
+//! As in [`crate::measure::effect`], Eq. (Ef1) and (Ef2) there, with the median of the values instead of the
 //! middle of a law that is not known:
 //!
 //! ```text

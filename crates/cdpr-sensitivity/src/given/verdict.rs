@@ -232,7 +232,7 @@ impl Table<'_> {
     }
 }
 
-/// A list in words, of at most so many.
+/// The first `most` entries in words, and how many more there are.
 fn listed<T>(all: &[T], most: usize, word: impl Fn(&T) -> String) -> String {
     let words: Vec<String> = all.iter().take(most).map(word).collect();
     match all.len().saturating_sub(most) {

@@ -205,8 +205,8 @@ fn a_unit_behind_each_number_belongs_into_the_name_of_the_column() {
     let error = table.columns[1].cells().unwrap_err().to_string();
     assert_eq!(
         error,
-        "line 2, column load: `3.2 mm`: expected 3.2, and the unit in the name of the column: load [mm]; line 4 \
-         has another unit, `2 kN`: all cells in one unit"
+        "line 2, column load: `3.2 mm`: expected 3.2, and the unit in the name of the column: load [mm]; \
+         line 4 has another unit, `2 kN`: all cells in one unit"
     );
     assert!(matches!(table.columns[2].cells(), Ok(Cells::Text(_))), "a name of a cable");
     let one = Table::read(b"x,y\n1,2\n2,3\n3,4 N\n").unwrap();

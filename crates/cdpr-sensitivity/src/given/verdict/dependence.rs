@@ -2,8 +2,8 @@
 //!
 //! An input that is found may have no effect of its own if another one, found or not, depends on it: for
 //! y = a - b, an input that follows a - b is found first. Each found input is therefore tested against all
-//! others, at [`FALSE_FINDINGS`] over their number: at least as sensitive as the verdict, which corrects for more
-//! tests.
+//! others, at [`FALSE_FINDINGS`] over their number: at least as sensitive as the verdict, which corrects for
+//! more tests.
 //!
 //! Several others together may explain it where none does alone ([`joint`](super::joint)), at 1 %.
 //!

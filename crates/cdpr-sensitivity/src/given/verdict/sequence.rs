@@ -18,8 +18,9 @@ use crate::parallel::*;
 /// Rows that fill the parts of a coordinate.
 const BLOCK: usize = 8;
 
-/// Whether each input is a coordinate; one alone is none. `rows` are all in their order, `drawn` are those of
-/// tests.
+/// Which inputs are coordinates of a sequence: two at least, or none.
+///
+/// `rows` has the columns of all rows in their order, `drawn` those of the rows that the tests take.
 pub(crate) fn coordinates(rows: &[&[f64]], drawn: &[Vec<f64>], kinds: &[Kind], seed: u64) -> Vec<bool> {
     let mut found: Vec<bool> = rows.par_iter().map(|column| fills(column)).collect();
     for (input, (z, other)) in farthest(drawn, seed).into_iter().enumerate() {
