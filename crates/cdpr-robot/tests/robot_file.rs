@@ -307,7 +307,7 @@ fn points_that_cannot_hold_a_platform_are_refused() {
     assert_eq!(
         twice,
         "cable 3, cables[2] is coincident with another cable: expected exit or anchor point different from those \
-         of cables[0]"
+         of cable 1"
     );
     let line = refusal(&|robot| {
         for (i, cable) in robot.cables.iter_mut().enumerate() {

@@ -38,7 +38,7 @@ impl Robot {
             return Err(RobotError::invalid(
                 format!("cables[{i}].exit_point"),
                 format!(
-                    "{:?}, {:.0} m from that of cables[0]",
+                    "{:?}, {:.0} m from that of cable 1",
                     cable.exit_point.as_slice(),
                     far(&(i, cable))
                 ),
