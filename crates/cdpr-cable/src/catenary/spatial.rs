@@ -8,6 +8,7 @@ use crate::cable::{Cable, Numbers};
 use crate::catenary::Catenary;
 use crate::catenary::guided::Guided;
 use crate::guide::{Entry, Guide};
+use crate::kernel::GuidedInSpace;
 use cdpr_number::{Dual, Real};
 use nalgebra::{Matrix3, Matrix3xX, Vector2, Vector3};
 
@@ -97,32 +98,23 @@ const ASIDE: f64 = 1e-7;
 /// Horizontal forces below this share of the whole have no direction.
 const VERTICAL: f64 = 1e-20;
 
-/// The response over any kind of number.
-pub(crate) struct InSpace<T> {
-    leave: [T; 3],
-    pub(crate) end: [T; 3],
-    /// Rows of dA/dF.
-    pub(crate) flexibility: [[T; 3]; 3],
-    pub(crate) per_length: [T; 3],
-}
-
 /// The response of the cable to the force `force` [N] at A.
-pub(crate) fn response<T: Real>(cable: &Cable, numbers: &Numbers<T>, force: &[T; 3]) -> InSpace<T> {
+pub(crate) fn response<T: Real>(cable: &Cable, numbers: &Numbers<T>, force: &[T; 3]) -> GuidedInSpace<T> {
     let z = force[2];
     let (fx, [c, s]) = horizontal(force);
     let [kx, ky, kz] = numbers.axis;
     let in_plane = Numbers { axis: [c * kx + s * ky, c * ky - s * kx, kz], ..*numbers };
     let guided = Guided::new(cable, &guide(cable), &in_plane, [fx, z]);
-    let free = cable.free_response(&Numbers { length: guided.way.free, ..*numbers }, [fx, z]);
-    let (end, flexibility, per_length) = guided.in_space(numbers.weight_per_length, &free);
+    let free = cable.free_response(&Numbers { length: guided.free, ..*numbers }, [fx, z]);
+    let GuidedInSpace { leave, end, flexibility, end_per_length } = guided.in_space(fx, &free);
     let turn = |[h, l, z]: [T; 3]| [c * h - s * l, s * h + c * l, z];
     let rows = flexibility.map(turn);
     let columns = [0, 1, 2].map(|j| turn(rows.map(|row| row[j])));
-    InSpace {
-        leave: turn(guided.leave),
+    GuidedInSpace {
+        leave: turn(leave),
         end: turn(end),
         flexibility: [0, 1, 2].map(|i| columns.map(|column| column[i])),
-        per_length: turn(per_length),
+        end_per_length: turn(end_per_length),
     }
 }
 
@@ -170,12 +162,13 @@ impl<'a> SpatialCable<'a> {
     /// Position of A, flexibility and dA/dL.
     pub fn response(&self) -> SpatialResponse {
         let force = self.force.into();
-        let InSpace { leave, end, flexibility, per_length } = response(&self.cable, &self.numbers(), &force);
+        let GuidedInSpace { leave, end, flexibility, end_per_length } =
+            response(&self.cable, &self.numbers(), &force);
         SpatialResponse {
             leave: leave.into(),
             end: end.into(),
             flexibility: Matrix3::from_fn(|i, j| flexibility[i][j]),
-            end_per_length: per_length.into(),
+            end_per_length: end_per_length.into(),
         }
     }
 
