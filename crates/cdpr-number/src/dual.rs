@@ -182,9 +182,4 @@ impl<T: Real, const N: usize> Real for Dual<T, N> {
     fn value(self) -> f64 {
         self.value.value()
     }
-
-    fn atan2(self, x: Self) -> Self {
-        let inverse = (self.value * self.value + x.value * x.value).recip();
-        self.combined(x, self.value.atan2(x.value), [x.value * inverse, -(self.value * inverse)])
-    }
 }

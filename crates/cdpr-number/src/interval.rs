@@ -1,6 +1,5 @@
 //! Intervals that enclose: every operation is rounded outwards by one unit in the last place, which covers
-//! the half unit that IEEE 754 allows `+ - * /` and `sqrt`. Angles are widened by four units; the C libraries
-//! document at most one or two.
+//! the half unit that IEEE 754 allows `+ - * /` and `sqrt`.
 //!
 //! An operation without an answer (a division by an interval around zero, the root of a negative number)
 //! gives the whole line, with which no proof succeeds. Moore, Kearfott, Cloud, *Introduction to Interval
@@ -217,19 +216,6 @@ impl Real for Interval {
     fn value(self) -> f64 {
         0.5 * (self.low + self.high)
     }
-
-    #[inline]
-    fn atan2(self, x: Self) -> Self {
-        if self.low <= 0.0 {
-            return Self::LINE;
-        }
-        // Above the x axis the angle is monotonic in each of the two: its bounds are at corners.
-        let corners = [x.low, x.high].map(|x| [self.low.atan2(x), self.high.atan2(x)]);
-        let [low, high] = [f64::min, f64::max].map(|pick| corners.into_iter().flatten().reduce(pick));
-        let (Some(low), Some(high)) = (low, high) else { return Self::LINE };
-        // The C libraries document at most one or two units.
-        Self::outward(low * (1.0 - 4.0 * f64::EPSILON), high * (1.0 + 4.0 * f64::EPSILON))
-    }
 }
 
 #[cfg(test)]
@@ -295,7 +281,6 @@ mod tests {
             prop_assert!(encloses(x * y, u * v));
             prop_assert!(encloses(x / y, u / v) || v == 0.0);
             prop_assert!(encloses((x * x).sqrt(), u.abs()) || (x * x).low < 0.0);
-            prop_assert!(v <= 0.0 || encloses(y.atan2(x), v.atan2(u)));
             prop_assert!(encloses(x.within(0.5), u + 0.5 * s));
         }
     }

@@ -59,9 +59,6 @@ pub trait Real: Lanewise<Mask = bool> {
 
     /// A double nearby, which decides between two equivalent formulas.
     fn value(self) -> f64;
-
-    /// Angle of the vector (x, self) from the x axis [rad], for a number that is not negative.
-    fn atan2(self, x: Self) -> Self;
 }
 
 impl Number for f64 {
@@ -109,10 +106,5 @@ impl Real for f64 {
     #[inline(always)]
     fn value(self) -> f64 {
         self
-    }
-
-    #[inline(always)]
-    fn atan2(self, x: Self) -> Self {
-        Self::atan2(self, x)
     }
 }
