@@ -115,7 +115,7 @@ fn code(file: &Path) -> String {
 fn each_numerical_library_is_named_by_one_module_of_a_crate() {
     let crates = Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates");
     for (library, modules) in [
-        ("clarabel", &["cdpr-tension/src/quadratic_program.rs"][..]),
+        ("clarabel", &["cdpr-tension/src/program.rs"][..]),
         (
             "faer",
             &[
