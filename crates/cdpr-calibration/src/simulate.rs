@@ -44,7 +44,7 @@ pub fn drawn(model: &ErrorModel, seed: u64) -> Vec<f64> {
     random.set_stream(u64::MAX);
     let draw = |input: &cdpr_sensitivity::Input| input.law.quantile(random.random_range(1e-9..1.0 - 1e-9));
     let inputs: Vec<f64> = model.inputs.iter().map(draw).collect();
-    model.deviations(&inputs)
+    model.deviations(&inputs).values().to_vec()
 }
 
 /// Errors of sensors drawn from normal laws about zero with these standard deviations.

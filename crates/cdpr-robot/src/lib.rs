@@ -23,6 +23,7 @@
 //! The crate does no input or output: it reads and writes text in memory.
 
 mod axis;
+mod deviations;
 mod error;
 mod format;
 mod freedoms;
@@ -41,6 +42,7 @@ mod wrench;
 pub use axis::Axis;
 pub use cdpr_cable::{PiecewiseLaw, Segment};
 pub use cdpr_cable::{counted, short, shortened};
+pub use deviations::Deviations;
 pub use error::RobotError;
 pub use format::cable_file::{CABLE_FORMAT, CatalogueCable, cable_schema};
 pub use format::library;

@@ -19,7 +19,6 @@ use crate::error::RobotError;
 use crate::robot::{Pulley, Robot, RobotCable, VERTICAL};
 use nalgebra::{Rotation3, Unit, Vector3};
 use std::fmt;
-use std::slice::ChunksExact;
 use std::str::FromStr;
 
 /// One uncertain parameter. Cables count from 0 here and from 1 in names (`a1.x`, as in the literature).
@@ -119,32 +118,20 @@ impl ParameterLayout {
         self.first_further() + self.further.len()
     }
 
-    /// The deviations of each robot in a list of them, one row of all parameters after the other.
-    ///
-    /// # Errors
-    /// [`RobotError::DeviationRows`] for numbers that are not whole rows.
-    pub fn rows<'a>(&self, deviations: &'a [f64]) -> Result<ChunksExact<'a, f64>, RobotError> {
-        let (given, parameters) = (deviations.len(), self.count());
-        let whole = given.is_multiple_of(parameters);
-        whole
-            .then(|| deviations.chunks_exact(parameters))
-            .ok_or(RobotError::DeviationRows { given, parameters })
-    }
-
-    /// The same, with `answer` to each row; numbers that are not whole rows are refused once for each row that
-    /// they begin.
-    pub fn each_row<'a, T, E: From<RobotError>, I: IntoIterator<Item = Result<T, E>>>(
-        &self,
-        deviations: &'a [f64],
-        answers: impl FnOnce(ChunksExact<'a, f64>) -> I,
-    ) -> Vec<Result<T, E>> {
-        match self.rows(deviations) {
-            Ok(rows) => answers(rows).into_iter().collect(),
-            Err(error) => {
-                let begun = deviations.len().div_ceil(self.count());
-                (0..begun).map(|_| Err(error.clone().into())).collect()
-            }
-        }
+    /// The parameters, in their order.
+    pub fn parameters(&self) -> Vec<Parameter> {
+        let cables = self.cables;
+        let points = |parameter: fn(usize, Axis) -> Parameter| {
+            (0..cables).flat_map(move |i| Axis::ALL.map(move |axis| parameter(i, axis)))
+        };
+        [Parameter::Mass, Parameter::LinearDensity, Parameter::YoungsModulus]
+            .into_iter()
+            .chain(points(Parameter::AnchorPoint))
+            .chain(points(Parameter::ExitPoint))
+            .chain(Axis::ALL.map(Parameter::CenterOfMass))
+            .chain((0..cables).map(Parameter::TensionOffset))
+            .chain(self.further.iter().copied())
+            .collect()
     }
 
     /// The names of the parameters, as messages list them.
@@ -217,18 +204,7 @@ impl Parameter {
 
     /// All parameters of a robot, in the order of [`ParameterLayout`].
     pub fn of(robot: &Robot) -> Vec<Self> {
-        let ParameterLayout { cables, further } = ParameterLayout::of(robot);
-        let points = |parameter: fn(usize, Axis) -> Self| {
-            (0..cables).flat_map(move |i| Axis::ALL.map(move |axis| parameter(i, axis)))
-        };
-        [Self::Mass, Self::LinearDensity, Self::YoungsModulus]
-            .into_iter()
-            .chain(points(Self::AnchorPoint))
-            .chain(points(Self::ExitPoint))
-            .chain(Axis::ALL.map(Self::CenterOfMass))
-            .chain((0..cables).map(Self::TensionOffset))
-            .chain(further)
-            .collect()
+        ParameterLayout::of(robot).parameters()
     }
 
     /// Name of the group that a study can give one law: `a`, `b`, `cog`, `dt`, `r`, `lead`, `tilt` or
