@@ -8,6 +8,7 @@ use crate::cable::{Cable, Numbers};
 use crate::catenary::Catenary;
 use crate::catenary::guided::Guided;
 use crate::guide::{Entry, Guide};
+use crate::kernel::GuidedInSpace;
 use cdpr_number::{Dual, Real};
 use nalgebra::{Matrix3, Matrix3xX, Vector2, Vector3};
 
@@ -104,36 +105,34 @@ type Input = Dual<f64, INPUTS>;
 /// Horizontal forces below this share of the whole have no direction.
 const VERTICAL: f64 = 1e-20;
 
-/// The response over any kind of number.
-pub(crate) struct InSpace<T> {
-    leave: [T; 3],
-    /// Unstrained length Lf beyond the leave point [m].
-    free: T,
-    pub(crate) end: [T; 3],
-    /// Rows of dA/dF.
-    pub(crate) flexibility: [[T; 3]; 3],
-    pub(crate) per_length: [T; 3],
+/// The response of the cable to the force `force` [N] at A.
+pub(crate) fn response<T: Real>(cable: &Cable, numbers: &Numbers<T>, force: &[T; 3]) -> GuidedInSpace<T> {
+    free_length_and_response(cable, numbers, force).1
 }
 
-/// The response of the cable to the force `force` [N] at A.
-pub(crate) fn response<T: Real>(cable: &Cable, numbers: &Numbers<T>, force: &[T; 3]) -> InSpace<T> {
+/// The unstrained length beyond the leave point [m], and the response to the force `force` [N] at A.
+fn free_length_and_response<T: Real>(
+    cable: &Cable,
+    numbers: &Numbers<T>,
+    force: &[T; 3],
+) -> (T, GuidedInSpace<T>) {
     let z = force[2];
     let (fx, [c, s]) = horizontal(force);
     let [kx, ky, kz] = numbers.axis;
     let in_plane = Numbers { axis: [c * kx + s * ky, c * ky - s * kx, kz], ..*numbers };
     let guided = Guided::new(cable, &guide(cable), &in_plane, [fx, z]);
-    let free = cable.free_response(&Numbers { length: guided.way.free, ..*numbers }, [fx, z]);
-    let (end, flexibility, per_length) = guided.in_space(numbers.weight_per_length, &free);
+    let free = cable.free_response(&Numbers { length: guided.free, ..*numbers }, [fx, z]);
+    let GuidedInSpace { leave, end, flexibility, end_per_length } = guided.in_space(fx, &free);
     let turn = |[h, l, z]: [T; 3]| [c * h - s * l, s * h + c * l, z];
     let rows = flexibility.map(turn);
     let columns = [0, 1, 2].map(|j| turn(rows.map(|row| row[j])));
-    InSpace {
-        leave: turn(guided.leave),
-        free: guided.way.free,
+    let response = GuidedInSpace {
+        leave: turn(leave),
         end: turn(end),
         flexibility: [0, 1, 2].map(|i| columns.map(|column| column[i])),
-        per_length: turn(per_length),
-    }
+        end_per_length: turn(end_per_length),
+    };
+    (guided.free, response)
 }
 
 /// The guide of a cable; the axis of a pulley is one that may be tilted.
@@ -180,13 +179,13 @@ impl<'a> SpatialCable<'a> {
     /// Position of A, flexibility and dA/dL.
     pub fn response(&self) -> SpatialResponse {
         let force = self.force.into();
-        let InSpace { leave, end, flexibility, per_length, .. } =
+        let GuidedInSpace { leave, end, flexibility, end_per_length } =
             response(&self.cable, &self.numbers(), &force);
         SpatialResponse {
             leave: leave.into(),
             end: end.into(),
             flexibility: Matrix3::from_fn(|i, j| flexibility[i][j]),
-            end_per_length: per_length.into(),
+            end_per_length: end_per_length.into(),
         }
     }
 
@@ -201,7 +200,7 @@ impl<'a> SpatialCable<'a> {
     ///
     /// Not a number for a cable that hangs folded in a vertical plane without width.
     pub fn stiffness_slopes(&self, direction: Vector3<f64>) -> HeldSlopes {
-        self.between_held_ends(|found, _, _, stiffness| {
+        self.between_held_ends(|found, _, stiffness| {
             let value = stiffness * direction;
             let entry = |i: usize, j: usize, k: usize| found.flexibility[i][j].slopes[k];
             // (C28)
@@ -215,32 +214,28 @@ impl<'a> SpatialCable<'a> {
     ///
     /// Not a number for a cable that hangs folded in a vertical plane without width.
     pub fn leave_force_slopes(&self) -> HeldSlopes {
-        self.between_held_ends(|found, numbers, force, _| {
-            let leave = [-force[0], -force[1], numbers.weight_per_length * found.free - force[2]];
-            (leave.map(|of| of.value).into(), Matrix3xX::from_fn(INPUTS, |i, k| leave[i].slopes[k]))
+        self.between_held_ends(|_, force, _| {
+            (force.map(|of| of.value).into(), Matrix3xX::from_fn(INPUTS, |i, k| force[i].slopes[k]))
         })
     }
 
-    /// A vector with its derivatives between held ends, from those at constant force and length that `of`
-    /// returns: the inputs are what [`Numbers::with_inputs`] has, the length, and the force.
+    /// A vector with its derivatives between held ends, from those at constant force and length that `of` returns
+    /// of the response, the force at the leave point and the stiffness. The inputs are what
+    /// [`Numbers::with_inputs`] has, the length, and the force.
     fn between_held_ends(
         &self,
-        of: impl Fn(
-            &InSpace<Input>,
-            &Numbers<Input>,
-            &[Input; 3],
-            &Matrix3<f64>,
-        ) -> (Vector3<f64>, Matrix3xX<f64>),
+        of: impl Fn(&GuidedInSpace<Input>, &[Input; 3], &Matrix3<f64>) -> (Vector3<f64>, Matrix3xX<f64>),
     ) -> HeldSlopes {
         let plain = self.numbers();
         let at = |force: Vector3<f64>| {
             let mut numbers = plain.with_inputs::<INPUTS, 0>();
             numbers.length = Dual::input(plain.length, LENGTH);
             let force = [0, 1, 2].map(|k| Dual::input(force[k], FORCE + k));
-            let found = response(&self.cable, &numbers, &force);
+            let (free, found) = free_length_and_response(&self.cable, &numbers, &force);
             let flexibility = Matrix3::from_fn(|i, j| found.flexibility[i][j].value);
             let stiffness = flexibility.try_inverse().unwrap_or_else(|| Matrix3::repeat(f64::NAN));
-            let (value, at_force) = of(&found, &numbers, &force, &stiffness);
+            let leave_force = [-force[0], -force[1], numbers.weight_per_length * free - force[2]];
+            let (value, at_force) = of(&found, &leave_force, &stiffness);
             let per_end = at_force.fixed_columns::<3>(FORCE) * stiffness;
             let slope =
                 |k: usize| at_force.column(k) - per_end * Vector3::from(found.end.map(|end| end.slopes[k]));
