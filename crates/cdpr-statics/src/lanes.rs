@@ -17,7 +17,7 @@ mod reason;
 mod skew;
 mod tracker;
 
-pub use observer::{Observation, ObservationMotion, ObservationSlopes, Observer};
+pub use observer::{Observation, ObservationMotion, ObservationSlopes, Observed, Observer};
 pub use poses::{LoadedPose, PoseSlopes, inverse_all, loaded_poses, loaded_poses_slopes};
 pub use reason::ScalarReason;
 pub use tracker::Tracker;

@@ -75,6 +75,12 @@ impl<'a> SpannedCable<'a, f64> {
         self.based_slopes(&self.in_space(catenary).stiffness_slopes(d))
     }
 
+    /// The force on the cable where it leaves its guide, with its derivatives between held ends, in the base
+    /// frame.
+    pub(crate) fn leave_force_slopes(&self, catenary: &Catenary<'a>) -> HeldSlopes {
+        self.based_slopes(&self.in_space(catenary).leave_force_slopes())
+    }
+
     /// The cable in space, in the level frame, if it runs over a pulley: only there do derivatives leave its
     /// plane.
     fn over_a_pulley(&self, catenary: &Catenary<'a>) -> Option<SpatialCable<'a>> {

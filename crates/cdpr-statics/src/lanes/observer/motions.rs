@@ -1,6 +1,6 @@
 //! Observations with the rotation of the platform under the load.
 
-use super::{Batch, Observation, Observer, read};
+use super::{Batch, Observation, Observed, Observer, read};
 use crate::error::StaticsError;
 use crate::lanes::chain::observe;
 use crate::lanes::level::LevelFrame;
@@ -21,29 +21,19 @@ pub struct ObservationMotion {
     pub rotation: Vector3<f64>,
 }
 
-impl Observer<'_> {
-    /// Deflections of any number of robots, the same as those of [`Observer::observe_all`], with the rotation
-    /// of the platform.
-    pub fn observe_all_motions(&self, deviations: &[f64]) -> Vec<Result<ObservationMotion, StaticsError>> {
-        self.each(
-            deviations,
-            |batch| dispatch(MotionBatch(batch)),
-            |row, why| {
-                let mut found = self.observe_motion(row)?;
-                found.observation.scalar = Some(why);
-                Ok(found)
-            },
-        )
+impl Observed for ObservationMotion {
+    fn in_lanes(batch: Batch) -> Vec<Result<Self, ScalarReason>> {
+        dispatch(MotionBatch(batch))
     }
 
-    /// Deflection and rotation of the robot with `deviations` added to its parameters, by the scalar models.
-    ///
-    /// # Errors
-    /// Those of [`Observer::observe`].
-    pub fn observe_motion(&self, deviations: &[f64]) -> Result<ObservationMotion, StaticsError> {
-        let found = self.deflection(deviations)?;
+    fn by_scalar_models(
+        observer: &Observer,
+        deviations: &[f64],
+        why: ScalarReason,
+    ) -> Result<Self, StaticsError> {
+        let found = observer.deflection(deviations)?;
         let rotation = found.motion().fixed_rows::<3>(3).into();
-        Ok(ObservationMotion { observation: Observation::one_by_one(&found), rotation })
+        Ok(Self { observation: Observation::of(&found, why), rotation })
     }
 }
 
