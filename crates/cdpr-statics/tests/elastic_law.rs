@@ -1,6 +1,6 @@
 //! Robots whose cables have a piecewise linear law, by every model.
 
-use crate::common::{caroca, observed};
+use crate::common::{alone, caroca, observed};
 use cdpr_robot::{Parameter, PiecewiseLaw, Pose, Robot, Segment, UnitQuaternion, Vector3, deviations};
 use cdpr_statics::{
     DirectProblem, Load, Observation, Observer, Setting, Start, StaticsError, Tracker, deflection,
@@ -143,6 +143,27 @@ fn lanes_and_certificates_never_take_such_a_cable_for_a_linear_one() {
     assert!(
         path.lost.is_none() && (end.pose.position - wanted.loaded.equilibrium.pose.position).norm() < 1e-11
     );
+}
+
+#[test]
+fn cables_that_span_many_kinks_are_observed_in_lanes() {
+    // Ten newtons of weight a cable, and a kink every newton.
+    let segment = |k: u32| (400.0 + f64::from(k), 0.7 + 1e-3 * f64::from(k));
+    let segments: Vec<_> = [(0.0, 0.7)].into_iter().chain((1..400).map(segment)).collect();
+    let mut robot = with(&segments);
+    for cable in &mut robot.cables {
+        cable.properties.linear_density *= 2.0;
+    }
+    let (pose, load) = (Pose::at(0.7, -0.4, 1.5), Load::payload(50.0));
+    let observer = Observer::new(&robot, &pose, &load).unwrap();
+    let mut row = [0.0; 62];
+    for k in 0..5 {
+        row[2] = 2e9 * f64::from(k);
+        let [in_lanes, alone] = [observed(&observer, &row).remove(0), alone(&observer, &row)]
+            .map(Result::<Observation, _>::unwrap);
+        assert_eq!(in_lanes.scalar, None);
+        assert!((in_lanes.displacement - alone.displacement).norm() < 1e-12);
+    }
 }
 
 #[test]
