@@ -2,11 +2,8 @@
 //!
 //! In directions along the chords the balance is linear: `cdpr_tension` finds the tensions nearest to the
 //! reference, the greatest payload and the greatest margin there, or a direction along which no tensions
-//! within the limits balance the wrench. Sagging cables need not keep it: [`Point::is_refuted_along`]
-//! says whether they do.
+//! within the limits balance the wrench. Sagging cables need not keep it: `feasible` checks whether they do.
 
-#[cfg(doc)]
-use super::optimum::Point;
 use super::question::Question;
 use cdpr_robot::{Matrix6xX, TensionLimits, Vector3, Vector6};
 use cdpr_tension::{Distribution, Objective, Problem, TensionError, distribute};
@@ -32,6 +29,10 @@ pub(super) enum Goal<'a> {
     Wrench(&'a Vector6<f64>),
     /// The greatest distance from limits.
     Margin(&'a [TensionLimits]),
+    /// The least 1-norm.
+    LeastSum,
+    /// The least infinity-norm.
+    LeastGreatest,
 }
 
 impl Question<'_> {
@@ -51,6 +52,8 @@ impl Question<'_> {
                 Objective::GreatestWrench(&direction)
             }
             Goal::Margin(limits) => Objective::GreatestMargin(limits),
+            Goal::LeastSum => Objective::LeastSum,
+            Goal::LeastGreatest => Objective::LeastGreatest,
         };
         let problem = Problem { wrench_matrix: &wrench_matrix, wrench: &wrench, limits: &self.limits };
         match distribute(&problem, objective) {
