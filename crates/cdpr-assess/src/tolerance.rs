@@ -261,7 +261,7 @@ impl<'a> Model<'a> {
     fn linear(&self) -> Result<(f64, Vec<f64>), StaticsError> {
         let Sampling { robot, errors, observer, .. } = self.sampling;
         let means: Vec<f64> = self.inputs.iter().map(|(_, mean)| *mean).collect();
-        let perturbed = robot.perturbed(&errors.deviations(&means))?;
+        let perturbed = robot.perturbed(errors.deviations(&means).values())?;
         let squares = |rows: &[Vec<f64>]| -> Vec<f64> {
             let gradients = rows.iter().map(|row| errors.gradient(row));
             let add = |sum: Vec<f64>, gradient: Vec<f64>| {
@@ -298,10 +298,7 @@ impl<'a> Model<'a> {
                     let outcomes = self.sampling.observer.displacements(&deviations).into_iter();
                     outcomes.map(|outcome| outcome.ok().map(|dp| dp.norm())).collect()
                 }
-                Limited::Position => deviations
-                    .chunks_exact(self.sampling.errors.parameters())
-                    .map(|row| self.away(row))
-                    .collect(),
+                Limited::Position => deviations.rows().map(|row| self.away(row)).collect(),
             };
             errors.into_iter().map(|error| error.map_or(f64::INFINITY, |metres| 1e3 * metres)).collect()
         };

@@ -246,16 +246,11 @@ pub(crate) struct Preference {
     /// [N], or `mid`, the middle of the limits.
     ///
     /// In place of those in the file; without either the tensions have the least norm.
-    #[arg(long, value_name = "TENSIONS", value_parser = str::parse::<TensionReference>)]
-    #[arg(allow_hyphen_values = true)]
+    #[arg(long, value_name = "TENSIONS", allow_hyphen_values = true)]
     pub(crate) tension_reference: Option<TensionReference>,
-
-    /// Which tensions the inverse model chooses: nearest to --tension-reference, or of least_1_norm, least_2_norm or
-    /// least_infinity_norm.
-    ///
-    /// In place of the choice in the file. Derivatives, paths and studies refuse the 1-norm and the
-    /// infinity-norm, whose tensions jump from pose to pose.
-    #[arg(long, value_name = "NAME", value_parser = str::parse::<TensionDistribution>)]
+    /// Which tensions the inverse model chooses, in place of the choice in the file: nearest to the reference, or of
+    /// least_1_norm, least_2_norm or least_infinity_norm.
+    #[arg(long, value_name = "NAME")]
     pub(crate) distribution: Option<TensionDistribution>,
 }
 

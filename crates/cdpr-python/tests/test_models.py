@@ -289,7 +289,7 @@ def test_bad_input_is_refused_with_field_value_and_what_would_be_right(caroca, c
          "pose has 3 rows: expected one for all cases, or 2"),
         (lambda: caroca.inverse(POSE, payload=-1), "payload is -1: expected a mass, zero or more"),
         (lambda: caroca.observe(POSE, [0.0] * 61, payload=50),
-         "deviations has 61 numbers a row: expected 62"),
+         "61 deviations for a robot with 62 parameters: expected one for each of them"),
         (lambda: caroca.observe([POSE, POSE], [0.0] * 62, payload=50),
          "pose or load has a row for each case"),
         (lambda: cdpr.catenary(1, 1e6, length=4, end=[3, 0], points=1), "points is 1: expected 2 or more"),

@@ -37,21 +37,31 @@ pub enum RobotError {
         /// The names that exist.
         expected: String,
     },
-    /// A perturbation has another length than the parameter vector.
-    #[error("{given} deviations for {parameters} parameters")]
+    /// The deviations of a robot are not one for each of its parameters.
+    #[error("{given} deviations for a robot with {parameters} parameters: expected one for each of them")]
     DeviationCount {
-        /// Deviations given.
+        /// Deviations given for a robot.
         given: usize,
         /// Parameters of the robot.
         parameters: usize,
     },
-    /// Perturbations of several robots, one after the other, have another width than the parameter vector.
-    #[error("{given} deviations: expected whole rows of {parameters}, one number for each parameter")]
+    /// A table of deviations ends within a row.
+    #[error("{given} deviations in all: expected whole rows of {parameters}, one for each parameter")]
     DeviationRows {
         /// Deviations given, of all rows together.
         given: usize,
         /// Parameters of the robot.
         parameters: usize,
+    },
+    /// A table of deviations is one for robots with other parameters.
+    #[error("column {} of the deviations is {given}: expected {expected}, as the robot has it", index + 1)]
+    OtherParameter {
+        /// Index of the first column that differs, from 0.
+        index: usize,
+        /// Parameter that the table has there.
+        given: String,
+        /// Parameter that the robot has there.
+        expected: String,
     },
 }
 

@@ -7,9 +7,9 @@
 mod problems;
 
 use cdpr_robot::{Coordinate, Parameter, Pose, Pulley, Robot, Vector3};
-use cdpr_statics::{Load, Observer};
+use cdpr_statics::{Load, Observation, ObservationSlopes, Observer};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use problems::common::robots;
+use problems::common::{alone, observed, robots};
 use problems::{caroca, counted, ring, settings};
 use std::hint::black_box;
 
@@ -64,21 +64,23 @@ fn observation(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("observation");
     let (robot, load) = (caroca(), Load::payload(50.0));
     let observer = Observer::new(&robot, &Pose::at(0.0, 0.0, 1.75), &load).unwrap();
-    let nominal = observer.observe(&[0.0; 62]).unwrap();
+    let nominal = alone::<Observation>(&observer, &[0.0; 62]).unwrap();
     assert!((1e3 * nominal.rms() - 1.33125).abs() < 1e-4);
 
     let one = deviations(&robot, 1);
     group.throughput(Throughput::Elements(1));
-    group.bench_function("scalar", |b| b.iter(|| counted(|| observer.observe(black_box(&one)))));
+    group.bench_function("scalar", |b| {
+        b.iter(|| counted(|| alone::<Observation>(&observer, black_box(&one))));
+    });
     for batch in [1, 8, 64, 256, 4096] {
         let rows = deviations(&robot, batch);
-        for (found, row) in observer.observe_all(&rows).iter().zip(rows.chunks(62)) {
-            let (found, scalar) = (found.as_ref().unwrap(), observer.observe(row).unwrap());
+        for (found, row) in observed::<Observation>(&observer, &rows).iter().zip(rows.chunks(62)) {
+            let (found, scalar) = (found.as_ref().unwrap(), alone::<Observation>(&observer, row).unwrap());
             assert!((found.displacement - scalar.displacement).norm() < 1e-12);
         }
         group.throughput(Throughput::Elements(batch as u64));
         group.bench_function(BenchmarkId::new("batch", batch), |b| {
-            b.iter(|| counted(|| observer.observe_all(black_box(&rows))));
+            b.iter(|| counted(|| observed::<Observation>(&observer, black_box(&rows))));
         });
     }
 
@@ -88,10 +90,10 @@ fn observation(criterion: &mut Criterion) {
         let robot = ring(cables);
         let observer = Observer::new(&robot, &Pose::at(0.1, 0.2, 1.5), &load).unwrap();
         let rows = deviations(&robot, BATCH);
-        let found = observer.observe_all(&rows);
+        let found = observed::<Observation>(&observer, &rows);
         assert!(found.iter().all(|found| found.as_ref().is_ok_and(|found| found.loaded.force < 1e-8)));
         group.bench_function(BenchmarkId::new("cables", cables), |b| {
-            b.iter(|| counted(|| observer.observe_all(black_box(&rows))));
+            b.iter(|| counted(|| observed::<Observation>(&observer, black_box(&rows))));
         });
     }
     let guided = robots().map(|(robot, pose)| (guided(robot), pose));
@@ -99,25 +101,25 @@ fn observation(criterion: &mut Criterion) {
         let load = Load::payload(0.1 * robot.platform.mass);
         let observer = Observer::new(&robot, &pose, &load).unwrap();
         let rows = shares(&robot, BATCH);
-        assert!(observer.observe_all(&rows).iter().all(Result::is_ok), "{}", robot.name);
+        assert!(observed::<Observation>(&observer, &rows).iter().all(Result::is_ok), "{}", robot.name);
         group.bench_function(BenchmarkId::new("robots", &robot.name), |b| {
-            b.iter(|| counted(|| observer.observe_all(black_box(&rows))));
+            b.iter(|| counted(|| observed::<Observation>(&observer, black_box(&rows))));
         });
-        let found = observer.observe_all_slopes(&rows).into_iter().map(Result::unwrap);
+        let found = observed::<ObservationSlopes>(&observer, &rows).into_iter().map(Result::unwrap);
         let in_lanes = found.filter(|found| found.observation.scalar.is_none()).count();
         assert!(in_lanes > BATCH * 7 / 8, "{}: {in_lanes}", robot.name);
         group.bench_function(BenchmarkId::new("slopes", &robot.name), |b| {
-            b.iter(|| counted(|| observer.observe_all_slopes(black_box(&rows))));
+            b.iter(|| counted(|| observed::<ObservationSlopes>(&observer, black_box(&rows))));
         });
     }
     for (robot, pose, free) in on_four_cables() {
         let load = Load::payload(0.1 * robot.platform.mass);
         let observer = Observer::with_free(&robot, &pose, &load, &free).unwrap();
         let rows: Vec<f64> = shares(&robot, BATCH).iter().map(|deviation| 0.1 * deviation).collect();
-        let found = observer.observe_all(&rows);
+        let found = observed::<Observation>(&observer, &rows);
         assert!(found.iter().all(|found| found.as_ref().unwrap().scalar.is_none()), "{}", robot.name);
         group.bench_function(BenchmarkId::new("free", &robot.name), |b| {
-            b.iter(|| counted(|| observer.observe_all(black_box(&rows))));
+            b.iter(|| counted(|| observed::<Observation>(&observer, black_box(&rows))));
         });
     }
     group.finish();

@@ -20,8 +20,10 @@
 //! cdpr_alone           each direct solve and observation alone; inverse_us and tensions are null
 //! ```
 
-use cdpr_robot::{CableEnd, Parameter, Pose, Robot};
-use cdpr_statics::{InverseSolution, Load, Observer, Start, Tracker, deflection, direct, inverse};
+use cdpr_robot::{CableEnd, Deviations, Parameter, Pose, Robot};
+use cdpr_statics::{
+    InverseSolution, Load, Observation, Observer, Start, Tracker, deflection, direct, inverse,
+};
 use serde_json::{Value, json};
 use std::hint::black_box;
 use std::time::Instant;
@@ -108,8 +110,9 @@ fn case(robot: &Robot, listed: &Value, pose: usize) -> Result<Value, Error> {
     }
 
     let observer = Observer::new(robot, &pose, &load)?;
-    let batch = deviations.concat().repeat(BATCH);
-    let together = || observer.observe_all(black_box(&batch));
+    let layout = observer.layout();
+    let batch = Deviations::new(layout, parameters.len(), deviations.concat().repeat(BATCH))?;
+    let together = || observer.observe::<Observation>(black_box(&batch));
     let batch_us: Vec<f64> = (0..REPEATS / 10).map(|_| microseconds(together)).collect();
     let observed = together().into_iter().take(OBSERVATIONS);
     let observed: Vec<[f64; 3]> =

@@ -1,4 +1,4 @@
-//! Factorisations of assembled matrices, by faer. No other module names it.
+//! Factorizations of assembled matrices, by faer. No other module names it.
 //!
 //! Systems of six equations do without: their size is known to the compiler, and factors of nalgebra take a
 //! fifth of the time.

@@ -11,12 +11,13 @@ mod level;
 mod load;
 mod newton;
 mod observer;
+mod platform;
 mod poses;
 mod reason;
 mod skew;
 mod tracker;
 
-pub use observer::{Observation, ObservationMotion, ObservationSlopes, Observer};
+pub use observer::{Observation, ObservationMotion, ObservationSlopes, Observed, Observer};
 pub use poses::{LoadedPose, PoseSlopes, inverse_all, loaded_poses, loaded_poses_slopes};
 pub use reason::ScalarReason;
 pub use tracker::Tracker;

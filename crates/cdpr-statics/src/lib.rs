@@ -73,8 +73,8 @@ pub use inverse::{
     lengths_for_tensions, limits_at, rest_near, tension_margin,
 };
 pub use lanes::{
-    LoadedPose, Observation, ObservationMotion, ObservationSlopes, Observer, PoseSlopes, ScalarReason,
-    Tracker, inverse_all, loaded_poses, loaded_poses_slopes,
+    LoadedPose, Observation, ObservationMotion, ObservationSlopes, Observed, Observer, PoseSlopes,
+    ScalarReason, Tracker, inverse_all, loaded_poses, loaded_poses_slopes,
 };
 pub use loading::{
     CableFrequency, CycleStep, Deflection, HysteresisLaw, LoadCycle, NaturalMode, PoseDeflections, PoseModes,

@@ -1,11 +1,12 @@
 //! Lanes over random robots, poses, loads and deviations: the answers of the scalar models.
 
+use crate::common::{alone, observed};
 use cdpr_cable::{PiecewiseLaw, Segment};
 use cdpr_robot::{
     CableEnd, CableProperties, OwnLimits, Parameter, Plane, Platform, Pose, Pulley, Robot, RobotCable,
     Rotation3, TensionLimits, TensionReference, Vector3,
 };
-use cdpr_statics::{Load, Observation, Observer, ScalarReason, deflection, inverse};
+use cdpr_statics::{Load, Observation, ObservationSlopes, Observer, ScalarReason, deflection, inverse};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
@@ -204,7 +205,7 @@ fn outcomes(seed: u64) -> Vec<(String, f64, usize)> {
         false => 2,
     };
     let observer = Observer::new(&robot, &pose, &load).unwrap();
-    let found = observer.observe_all(&rows);
+    let found = observed::<Observation>(&observer, &rows);
     let compared = |(row, found): (&[f64], &Result<_, _>)| {
         let found: &Observation = match found {
             Ok(found) => found,
@@ -214,7 +215,7 @@ fn outcomes(seed: u64) -> Vec<(String, f64, usize)> {
             assert_ne!(why, ScalarReason::OneByOne);
             return (format!("scalar: {}", why.name()), 0.0);
         }
-        match observer.observe(row) {
+        match alone::<Observation>(&observer, row) {
             Ok(alone) => {
                 let error = (found.displacement - alone.displacement).norm() / longest;
                 if error > AGREEMENT && anew(&robot, &pose, &load, row, found) / longest <= AGREEMENT {
@@ -274,13 +275,13 @@ fn no_robot_depends_on_those_beside_it() {
     let compared = (0..cases).into_par_iter().map(|seed| {
         let Some(Case { robot, pose, load, rows, .. }) = case(seed) else { return 0 };
         let observer = Observer::new(&robot, &pose, &load).unwrap();
-        let together = observer.observe_all(&rows);
-        let slopes = observer.observe_all_slopes(&rows);
+        let together = observed::<Observation>(&observer, &rows);
+        let slopes = observed::<ObservationSlopes>(&observer, &rows);
         let rows = rows.chunks(Parameter::of(&robot).len());
         for (number, (row, (beside, slopes))) in rows.zip(together.iter().zip(&slopes)).enumerate() {
-            assert_eq!(&observer.observe_all(row)[0], beside, "row {number} of robot {seed}");
+            assert_eq!(&observed::<Observation>(&observer, row)[0], beside, "row {number} of robot {seed}");
             assert_eq!(
-                &observer.observe_all_slopes(row)[0],
+                &observed::<ObservationSlopes>(&observer, row)[0],
                 slopes,
                 "slopes of row {number} of robot {seed}"
             );

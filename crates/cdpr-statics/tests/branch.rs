@@ -1,10 +1,10 @@
 //! Deflections stay on the branch of the unloaded platform, or say where it ends.
 
-use crate::common::{caroca, cogiro, ipanema, stadium, suspended};
+use crate::common::{alone, caroca, cogiro, ipanema, observed, stadium, suspended};
 use cdpr_robot::{ParameterLayout, Platform, Pose, Pulley, Robot, RobotCable, Rotation3, Vector3, Wrench};
 use cdpr_statics::{
-    DirectMethod, DirectProblem, DirectSolution, InverseSolution, Load, Observer, Start, StaticsError,
-    deflection, deflection_from, follow_load, inverse, loaded_poses,
+    DirectMethod, DirectProblem, DirectSolution, InverseSolution, Load, Observation, Observer, Start,
+    StaticsError, deflection, deflection_from, follow_load, inverse, loaded_poses,
 };
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -221,8 +221,8 @@ fn maps_and_observations_end_with_the_branch() {
     let load = Load::wrench(Wrench { force: Vector3::zeros(), moment: Vector3::new(600.0, -400.0, 0.0) });
     let (mut held, mut ended) = (0, 0);
     for (wound, found) in wanted.iter().zip(loaded_poses(&robot, &wanted, &load)) {
-        let alone = deflection_from(&robot, wound.lengths.clone(), &load, &wound.equilibrium);
-        match (&alone, &found) {
+        let scalar = deflection_from(&robot, wound.lengths.clone(), &load, &wound.equilibrium);
+        match (&scalar, &found) {
             (Ok(alone), Ok(found)) => {
                 assert!((alone.displacement() - found.displacement).norm() < 1e-9);
                 held += 1;
@@ -231,13 +231,13 @@ fn maps_and_observations_end_with_the_branch() {
                 assert_eq!((alone, alone.kind()), (found, "branch_ends"));
                 ended += 1;
             }
-            _ => panic!("{alone:?} {found:?}"),
+            _ => panic!("{scalar:?} {found:?}"),
         }
         let observer = Observer::new(&robot, &wound.equilibrium.pose, &load).unwrap();
         let mut deviations = vec![0.0; ParameterLayout::of(&robot).count()];
         deviations[0] = 0.1;
-        let observed = observer.observe_all(&deviations).remove(0);
-        let alone = observer.observe(&deviations);
+        let observed = observed::<Observation>(&observer, &deviations).remove(0);
+        let alone = alone::<Observation>(&observer, &deviations);
         assert_eq!(observed.as_ref().err(), alone.as_ref().err());
         if let (Ok(observed), Ok(alone)) = (observed, alone) {
             assert!((observed.displacement - alone.displacement).norm() < 1e-9);

@@ -1,6 +1,18 @@
 //! Robots of several tests.
 
-use cdpr_robot::{Plane, Pose, Robot, RobotCable, Vector3};
+use cdpr_robot::{Deviations, Plane, Pose, Robot, RobotCable, Vector3};
+use cdpr_statics::{Observed, Observer, StaticsError};
+
+/// Observes rows of deviations, one after the other, in lanes.
+pub(crate) fn observed<T: Observed>(observer: &Observer, rows: &[f64]) -> Vec<Result<T, StaticsError>> {
+    let layout = observer.layout();
+    observer.observe(&Deviations::new(layout, layout.count(), rows).unwrap())
+}
+
+/// Observes one row by the scalar models.
+pub(crate) fn alone<T: Observed>(observer: &Observer, row: &[f64]) -> Result<T, StaticsError> {
+    observer.observe_one_by_one(&Deviations::of_one(observer.layout(), row).unwrap()).remove(0)
+}
 
 pub(crate) fn caroca() -> Robot {
     Robot::from_json(include_str!("../../../data/robots/caroca.json")).unwrap()

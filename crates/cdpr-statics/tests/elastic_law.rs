@@ -1,10 +1,10 @@
 //! Robots whose cables have a piecewise linear law, by every model.
 
-use crate::common::caroca;
+use crate::common::{caroca, observed};
 use cdpr_robot::{Parameter, PiecewiseLaw, Pose, Robot, Segment, UnitQuaternion, Vector3, deviations};
 use cdpr_statics::{
-    DirectProblem, Load, Observer, Setting, Start, StaticsError, Tracker, deflection, derivatives, direct,
-    follow, inverse,
+    DirectProblem, Load, Observation, Observer, Setting, Start, StaticsError, Tracker, deflection,
+    derivatives, direct, follow, inverse,
 };
 
 /// A law from the tension at which each of its segments begins and its stiffness over the cable's.
@@ -126,7 +126,7 @@ fn the_stiffness_is_that_of_small_loads() {
 fn lanes_and_certificates_never_take_such_a_cable_for_a_linear_one() {
     let (robot, pose, load) = (kinked(), Pose::at(0.0, 0.0, 1.75), Load::payload(50.0));
     let wanted = deflection(&robot, &pose, &[0.0; 8], &load).unwrap();
-    let observed = Observer::new(&robot, &pose, &load).unwrap().observe_all(&[0.0; 62]);
+    let observed = observed::<Observation>(&Observer::new(&robot, &pose, &load).unwrap(), &[0.0; 62]);
     let displacement = observed[0].as_ref().unwrap().displacement;
     assert!((displacement - wanted.displacement()).norm() < 1e-12);
     let linear = deflection(&caroca(), &pose, &[0.0; 8], &load).unwrap();

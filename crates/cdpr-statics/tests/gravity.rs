@@ -1,9 +1,11 @@
 //! Gravity in any direction: nothing tells a robot from the same robot turned together with gravity.
 
-use crate::common::{caroca, cogiro};
+use crate::common::{alone, caroca, cogiro, observed};
 use crate::pulleys::{led, tilted, turned};
 use cdpr_robot::{Matrix3, PiecewiseLaw, Pose, Robot, Rotation3, Vector3, Wrench};
-use cdpr_statics::{Load, Observer, PoseModes, Start, Tracker, derivatives, direct, inverse, modes_at};
+use cdpr_statics::{
+    Load, Observation, Observer, PoseModes, Start, Tracker, derivatives, direct, inverse, modes_at,
+};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -148,8 +150,8 @@ fn the_lanes_observe_turned_robots_as_the_level_one() {
                 };
                 let observed = |robot: &Robot, pose: &Pose, load: &Load, row: &[f64]| {
                     let observer = Observer::new(robot, pose, load).unwrap();
-                    let found = observer.observe_all(row).remove(0).unwrap();
-                    let alone = observer.observe(row).unwrap();
+                    let found = observed::<Observation>(&observer, row).remove(0).unwrap();
+                    let alone = alone::<Observation>(&observer, row).unwrap();
                     assert_ne!(found, alone, "left to the scalar models");
                     assert!((found.displacement - alone.displacement).norm() < 1e-12);
                     found

@@ -1,12 +1,12 @@
 //! Observations of robots with fewer cables than free motions in lanes: those of the scalar models.
 
 use crate::any_lanes::{Case, case};
-use crate::common::{caroca, cogiro, fast};
+use crate::common::{alone, caroca, cogiro, fast, observed};
 use crate::free_coordinates::with_few_cables;
 use crate::observer::{compared, rows_by_size};
 use cdpr_cable::{PiecewiseLaw, Segment};
 use cdpr_robot::{Coordinate, Parameter, Pose, Pulley, Robot, Rotation3, TensionLimits, Vector3, library};
-use cdpr_statics::{Load, Observer, ScalarReason, deflection_free, held_at};
+use cdpr_statics::{Load, Observation, ObservationMotion, Observer, ScalarReason, deflection_free, held_at};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
@@ -69,8 +69,13 @@ fn left(Few { robot, pose, free }: &Few) -> usize {
     // Platforms on few cables are soft.
     let (left, failed) = compared(robot, &observer, &rows, 1e-12 * longest(robot, pose));
     println!("{}: {left} of 200 left to the scalar models, {failed} failed there", robot.name);
-    let alone = rows.chunks(Parameter::of(robot).len()).flat_map(|row| observer.observe_all(row));
-    assert!(alone.eq(observer.observe_all(&rows)), "{}: a row depends on those beside it", robot.name);
+    let alone =
+        rows.chunks(Parameter::of(robot).len()).flat_map(|row| observed::<Observation>(&observer, row));
+    assert!(
+        alone.eq(observed::<Observation>(&observer, &rows)),
+        "{}: a row depends on those beside it",
+        robot.name
+    );
     left
 }
 
@@ -120,9 +125,11 @@ fn an_answer_has_the_free_coordinates_of_a_search_from_the_nominal_robots() {
         let wanted = held_at(&robot, &pose, &Load::none(), &free).unwrap().equilibrium.pose;
         assert_eq!(observer.pose(), &wanted);
         let longest = longest(&robot, &pose);
-        let motions = observer.observe_all_motions(&rows);
-        for ((row, found), moved) in
-            rows.chunks(Parameter::of(&robot).len()).zip(observer.observe_all(&rows)).zip(motions)
+        let motions = observed::<ObservationMotion>(&observer, &rows);
+        for ((row, found), moved) in rows
+            .chunks(Parameter::of(&robot).len())
+            .zip(observed::<Observation>(&observer, &rows))
+            .zip(motions)
         {
             let (found, moved) = (found.unwrap(), moved.unwrap());
             let perturbed = robot.perturbed(row).unwrap();
@@ -137,8 +144,8 @@ fn an_answer_has_the_free_coordinates_of_a_search_from_the_nominal_robots() {
         }
         // No answer depends on the others of its batch.
         let width = Parameter::of(&robot).len();
-        let together = observer.observe_all(&rows);
-        let apart = rows.chunks(3 * width).flat_map(|rows| observer.observe_all(rows));
+        let together = observed::<Observation>(&observer, &rows);
+        let apart = rows.chunks(3 * width).flat_map(|rows| observed::<Observation>(&observer, rows));
         assert!(apart.eq(together), "{}", robot.name);
     }
 }
@@ -149,7 +156,7 @@ fn what_lanes_do_not_know_is_left_with_its_reason() {
     let load = Load::payload(9.0);
     let width = Parameter::of(&robot).len();
     let why = |robot: &Robot, free: &[Coordinate], row: &[f64]| {
-        let found = Observer::with_free(robot, &pose, &load, free).unwrap().observe_all(row);
+        let found = observed::<Observation>(&Observer::with_free(robot, &pose, &load, free).unwrap(), row);
         found[0].as_ref().unwrap().scalar
     };
     assert_eq!(why(&robot, &free, &vec![0.0; width]), None);
@@ -180,7 +187,7 @@ fn what_lanes_do_not_know_is_left_with_its_reason() {
     let up = Parameter::of(&robot).iter().position(|one| matches!(one, Parameter::AnchorPoint(..)));
     let mut row = vec![0.0; width];
     row[up.unwrap() + 2] = -0.2;
-    let found = Observer::with_free(&grounded, &pose, &load, &free).unwrap().observe_all(&row);
+    let found = observed::<Observation>(&Observer::with_free(&grounded, &pose, &load, &free).unwrap(), &row);
     assert!(found[0].is_err() || found[0].as_ref().unwrap().scalar == Some(ScalarReason::FreeCoordinates));
     grounded.gravity = Vector3::new(0.0, 0.0, -9.81).into();
     let row = vec![0.0; Parameter::of(&grounded).len()];
@@ -189,7 +196,7 @@ fn what_lanes_do_not_know_is_left_with_its_reason() {
     let [(mut planar, at, free, payload), ..] = with_few_cables();
     planar.gravity = Vector3::new(0.0, 0.0, -9.81).into();
     let observer = Observer::with_free(&planar, &at, &Load::payload(payload), &free).unwrap();
-    let found = observer.observe_all(&vec![0.0; Parameter::of(&planar).len()]);
+    let found = observed::<Observation>(&observer, &vec![0.0; Parameter::of(&planar).len()]);
     assert_eq!(found[0].as_ref().unwrap().scalar, Some(ScalarReason::FewCables));
     // Names are checked.
     let error = Observer::with_free(&robot, &pose, &load, &[Yaw]).unwrap_err();
@@ -229,7 +236,7 @@ fn outcomes(seed: u64) -> Vec<(String, f64)> {
     let rows = rows_by_size(&robot, &pose, 8, 0.1, seed);
     let outcome = |(row, found): (&[f64], &Result<cdpr_statics::Observation, _>)| match found {
         Err(error) => (format!("failed: {}", cdpr_statics::StaticsError::kind(error)), 0.0),
-        Ok(found) => match (found.scalar, observer.observe(row)) {
+        Ok(found) => match (found.scalar, alone::<Observation>(&observer, row)) {
             (Some(why), _) => (format!("scalar: {}", why.name()), 0.0),
             (None, Err(error)) => (format!("LANES ONLY: {}", error.kind()), 0.0),
             (None, Ok(alone)) => {
@@ -241,7 +248,7 @@ fn outcomes(seed: u64) -> Vec<(String, f64)> {
             }
         },
     };
-    let found = observer.observe_all(&rows);
+    let found = observed::<Observation>(&observer, &rows);
     rows.chunks(Parameter::of(&robot).len()).zip(&found).map(outcome).collect()
 }
 

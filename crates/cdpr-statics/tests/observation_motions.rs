@@ -1,9 +1,9 @@
 //! Rotations of observations in lanes: those of the scalar models.
 
 use crate::any_lanes::case;
-use crate::common::robots;
+use crate::common::{alone, observed, robots};
 use cdpr_robot::{Parameter, Pose, Robot, Vector3};
-use cdpr_statics::{Load, Observer};
+use cdpr_statics::{Load, Observation, ObservationMotion, Observer};
 use rayon::prelude::*;
 
 /// Random robots.
@@ -18,7 +18,8 @@ fn compare(robot: &Robot, pose: &Pose, load: &Load, rows: &[f64]) -> (usize, f64
     let (name, parameters) = (&robot.name, Parameter::of(robot).len());
     let longest = (0..robot.cables.len()).map(|i| robot.span(pose, i).norm()).fold(0.0, f64::max);
     let observer = Observer::new(robot, pose, load).unwrap();
-    let (observed, found) = (observer.observe_all(rows), observer.observe_all_motions(rows));
+    let (observed, found) =
+        (observed::<Observation>(&observer, rows), observed::<ObservationMotion>(&observer, rows));
     assert_eq!(found.len(), observed.len());
     let (mut in_lanes, mut largest) = (0, 0.0);
     for ((row, observed), found) in rows.chunks(parameters).zip(observed).zip(found) {
@@ -27,7 +28,7 @@ fn compare(robot: &Robot, pose: &Pose, load: &Load, rows: &[f64]) -> (usize, f64
             format!("{:?}", found.as_ref().map(|of| of.observation)),
             format!("{:?}", observed.as_ref())
         );
-        let (Ok(found), Ok(alone)) = (found, observer.observe_motion(row)) else { continue };
+        let (Ok(found), Ok(alone)) = (found, alone::<ObservationMotion>(&observer, row)) else { continue };
         let distance = (alone.observation.displacement - found.observation.displacement).norm();
         if found.observation.scalar.is_some() || distance > AGREEMENT * longest {
             continue;

@@ -1,10 +1,10 @@
 //! Derivatives of observations in lanes: those of the scalar models.
 
 use crate::any_lanes::{Case, case};
-use crate::common::{caroca, points_and_planar, robots};
+use crate::common::{alone, caroca, observed, points_and_planar, robots};
 use cdpr_cable::{PiecewiseLaw, Segment};
 use cdpr_robot::{CableEnd, Parameter, Pose, Pulley, Robot, Vector3, library};
-use cdpr_statics::{Load, Observer, ScalarReason};
+use cdpr_statics::{Load, Observation, ObservationSlopes, Observer, ScalarReason};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
@@ -29,8 +29,8 @@ fn compare(robot: &Robot, pose: &Pose, load: &Load, rows: &[f64]) -> Vec<(&'stat
         _ => rows.chunks(parameters).map(|row| row[k].abs()).fold(0.0, f64::max),
     };
     let ranges: Vec<f64> = (0..parameters).map(range).collect();
-    let observed = observer.observe_all(rows);
-    let found = observer.observe_all_slopes(rows);
+    let found = observed::<ObservationSlopes>(&observer, rows);
+    let observed = observed::<Observation>(&observer, rows);
     assert_eq!(found.len(), observed.len());
     let outcome = |((row, observed), found): ((&[f64], _), &Result<_, _>)| {
         let (observed, found): (&Result<_, _>, &cdpr_statics::ObservationSlopes) = match found {
@@ -41,7 +41,7 @@ fn compare(robot: &Robot, pose: &Pose, load: &Load, rows: &[f64]) -> Vec<(&'stat
             return (why.name(), 0.0);
         }
         assert_eq!(Some(&found.observation), observed.as_ref().ok(), "{name}");
-        let Ok(alone) = observer.observe_slopes(row) else { return ("lanes only", 0.0) };
+        let Ok(alone) = alone::<ObservationSlopes>(&observer, row) else { return ("lanes only", 0.0) };
         let distance = (alone.observation.displacement - found.observation.displacement).norm();
         if distance > AGREEMENT * longest {
             return ("another minimum", 0.0);
@@ -129,9 +129,9 @@ fn free_cables_that_do_not_span_all_wrenches_have_their_slopes_from_the_scalar_m
     let none = vec![0.0; Parameter::of(&robot).len()];
     for height in [0.5, 1.0, 1.5] {
         let observer = Observer::new(&robot, &Pose::at(0.0, 0.0, height), &Load::payload(2.5)).unwrap();
-        let found = observer.observe_all_slopes(&none).remove(0).unwrap();
+        let found = observed::<ObservationSlopes>(&observer, &none).remove(0).unwrap();
         assert_eq!(found.observation.scalar, Some(ScalarReason::Derivatives));
-        assert_eq!(found.rms, observer.observe_slopes(&none).unwrap().rms);
+        assert_eq!(found.rms, alone::<ObservationSlopes>(&observer, &none).unwrap().rms);
     }
 }
 
@@ -182,7 +182,7 @@ fn slopes_over_pulleys_and_behind_leads_are_differences_of_observations() {
         robot.cables.iter_mut().for_each(|cable| cable.properties.law = None);
         let parameters = Parameter::of(&robot);
         let observer = Observer::new(&robot, &pose, &load).unwrap();
-        let found = observer.observe_all_slopes(&vec![0.0; parameters.len()]).remove(0).unwrap();
+        let found = observed::<ObservationSlopes>(&observer, &vec![0.0; parameters.len()]).remove(0).unwrap();
         assert_eq!(found.observation.scalar, None);
         let largest = rows(&robot, 101);
         let steps: Vec<f64> = (0..parameters.len())
@@ -195,7 +195,7 @@ fn slopes_over_pulleys_and_behind_leads_are_differences_of_observations() {
         let length = |k: usize, times: f64| {
             let mut row = vec![0.0; parameters.len()];
             row[k] = times * steps[k];
-            observer.observe_all(&row)[0].as_ref().unwrap().rms()
+            observed::<Observation>(&observer, &row)[0].as_ref().unwrap().rms()
         };
         // The change of |dp| over one step, to fourth order.
         let change = |k: usize| {

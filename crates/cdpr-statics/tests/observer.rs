@@ -1,8 +1,13 @@
 //! Observer robots in lanes: the answers of the scalar models, whoever else is in the batch.
 
-use crate::common::{caroca, cogiro, ipanema, points_and_planar, robots};
-use cdpr_robot::{CableEnd, Parameter, Pose, Pulley, Robot, RobotError, TensionReference, Vector3, library};
-use cdpr_statics::{Load, Observer, Residual, ScalarReason, StaticsError};
+use crate::common::{alone, caroca, cogiro, ipanema, observed, points_and_planar, robots};
+use cdpr_robot::{
+    CableEnd, Deviations, Parameter, ParameterLayout, Pose, Pulley, Robot, RobotError, TensionReference,
+    Vector3, library,
+};
+use cdpr_statics::{
+    Load, Observation, ObservationMotion, ObservationSlopes, Observer, Residual, ScalarReason, StaticsError,
+};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use std::collections::BTreeMap;
@@ -43,13 +48,13 @@ fn scale(robot: &Robot, pose: &Pose) -> f64 {
 
 /// The same of any observer, whose displacements may differ by `allowed` [m].
 pub(crate) fn compared(robot: &Robot, observer: &Observer, rows: &[f64], allowed: f64) -> (usize, usize) {
-    let together = observer.observe_all(rows);
+    let together = observed::<Observation>(observer, rows);
     let scale = scale(robot, observer.pose());
     // Rounding of heavier robots is larger, too.
     let heavy = (robot.platform.mass / 400.0).max(1.0);
     let (mut left, mut failed) = (0, 0);
     for (row, found) in rows.chunks(Parameter::of(robot).len()).zip(&together) {
-        match (found, observer.observe(row)) {
+        match (found, alone::<Observation>(observer, row)) {
             (Ok(found), Ok(alone)) => {
                 let error = (found.displacement - alone.displacement).norm();
                 assert!(error < allowed, "{error:e} m of {:e} m", alone.displacement.norm());
@@ -91,12 +96,12 @@ fn lanes_prefer_the_same_tensions_and_keep_the_same_limits() {
     for (mut robot, pose, reference) in robots {
         let load = Load::payload(0.2 * robot.platform.mass);
         let rows = rows(&robot, 300, 0.5, 3);
-        let least_norm = Observer::new(&robot, &pose, &load).unwrap().observe_all(&rows);
+        let least_norm = observed::<Observation>(&Observer::new(&robot, &pose, &load).unwrap(), &rows);
         for preferred in [TensionReference::All(reference), TensionReference::MID] {
             robot.tension_reference = Some(preferred);
             assert_eq!(compare(&robot, &pose, &load, &rows), (0, 0), "{}", robot.name);
         }
-        let observed = Observer::new(&robot, &pose, &load).unwrap().observe_all(&rows);
+        let observed = observed::<Observation>(&Observer::new(&robot, &pose, &load).unwrap(), &rows);
         let differ = observed.iter().zip(&least_norm).filter(|(a, b)| {
             (a.as_ref().unwrap().rms() - b.as_ref().unwrap().rms()).abs() > 1e-4 * b.as_ref().unwrap().rms()
         });
@@ -208,7 +213,11 @@ fn robots_of_the_library_stay_in_the_lanes_wherever_they_stand() {
             let observer = Observer::new(&robot, pose, &load).unwrap();
             let (more, fewer) = compared(&robot, &observer, &rows, 1e-12 * longest);
             (left, failed) = (left + more, failed + fewer);
-            for why in observer.observe_all(&rows).into_iter().flatten().filter_map(|found| found.scalar) {
+            for why in observed::<Observation>(&observer, &rows)
+                .into_iter()
+                .flatten()
+                .filter_map(|found| found.scalar)
+            {
                 *reasons.entry(why.name()).or_default() += 1;
             }
         }
@@ -300,7 +309,7 @@ fn pulleys_whose_axes_tilt_are_left_to_the_scalar_models_alone() {
     let tilt = parameters.iter().position(|parameter| matches!(parameter, Parameter::Tilt(..))).unwrap();
     rows[4 * parameters.len() + tilt + 3] = 0.02;
     let observer = Observer::new(&robot, &pose, &load).unwrap();
-    let reasons = observer.observe_all(&rows).into_iter().map(|found| found.unwrap().scalar);
+    let reasons = observed::<Observation>(&observer, &rows).into_iter().map(|found| found.unwrap().scalar);
     let expected = (0..9).map(|row| (row == 4).then_some(ScalarReason::Pulleys));
     assert!(reasons.eq(expected));
     assert_eq!(compare(&robot, &pose, &load, &rows), (1, 0));
@@ -309,7 +318,7 @@ fn pulleys_whose_axes_tilt_are_left_to_the_scalar_models_alone() {
         parameters.iter().position(|parameter| matches!(parameter, Parameter::PulleyRadius(_))).unwrap();
     rows[radius + 2] = -0.1;
     assert!(matches!(
-        &observer.observe_all(&rows)[0],
+        &observed::<Observation>(&observer, &rows)[0],
         Err(StaticsError::Robot(RobotError::Invalid { field, .. })) if field == "cables[2].pulley.radius"
     ));
 }
@@ -320,9 +329,9 @@ fn an_answer_depends_on_its_own_row_alone() {
     let rows = rows(&robot, 50, 2.0, 3);
     let pose = Pose::at(3.2, 1.7, 3.0);
     let observer = Observer::new(&robot, &pose, &Load::payload(50.0)).unwrap();
-    let together = observer.observe_all(&rows);
+    let together = observed::<Observation>(&observer, &rows);
     for size in [1, 3, 8, 11] {
-        let apart = rows.chunks(62 * size).flat_map(|rows| observer.observe_all(rows));
+        let apart = rows.chunks(62 * size).flat_map(|rows| observed::<Observation>(&observer, rows));
         assert!(apart.eq(together.iter().cloned()), "{size} at a time");
     }
 }
@@ -337,7 +346,7 @@ fn a_row_that_is_no_robot_fails_alone_and_says_why() {
     rows[3 * 62 + 60] = f64::INFINITY;
     rows[4 * 62 + 1] = -1.0;
     let observer = Observer::new(&robot, &Pose::at(0.0, 0.0, 1.75), &Load::payload(50.0)).unwrap();
-    let found = observer.observe_all(&rows);
+    let found = observed::<Observation>(&observer, &rows);
     let field = |i: usize| match &found[i] {
         Err(StaticsError::Robot(RobotError::Invalid { field, .. })) => field.as_str(),
         outcome => panic!("{outcome:?}"),
@@ -350,22 +359,41 @@ fn a_row_that_is_no_robot_fails_alone_and_says_why() {
 }
 
 #[test]
-fn rows_of_another_width_are_refused_and_none_is_observed() {
-    let (robot, load) = (caroca(), Load::payload(50.0));
-    let observer = Observer::new(&robot, &Pose::at(0.0, 0.0, 1.75), &load).unwrap();
-    let width = Parameter::of(&robot).len();
-    for (rows, narrow) in [(8, width - 1), (3, width + 1), (1, 1)] {
-        let given = vec![0.0; rows * narrow];
-        let refused = RobotError::DeviationRows { given: given.len(), parameters: width };
-        let refused = Err(StaticsError::Robot(refused));
-        let begun = given.len().div_ceil(width);
-        assert_eq!(observer.observe_all(&given), vec![refused.clone(); begun]);
-        let motions = observer.observe_all_motions(&given).into_iter().map(|found| found.map(|_| ()));
-        let slopes = observer.observe_all_slopes(&given).into_iter().map(|found| found.map(|_| ()));
-        let refused = refused.map(|_| ());
-        assert!(motions.chain(slopes).all(|found| found == refused));
+fn a_table_for_robots_with_other_parameters_is_refused_and_no_row_is_observed() {
+    let robot = caroca();
+    let mut guided = robot.clone();
+    for (i, cable) in guided.cables.iter_mut().enumerate() {
+        cable.pulley = Some(Pulley { radius: 0.045, axis: Vector3::z() });
+        cable.lead = if i < 7 { 3.0 } else { 0.0 };
     }
-    assert_eq!(observer.observe_all(&[]), []);
+    let (pose, load) = (Pose::at(0.0, 0.0, 1.75), Load::payload(50.0));
+    let observer = Observer::new(&guided, &pose, &load).unwrap();
+    let layout = ParameterLayout::of(&robot);
+    // As many numbers as 62 robots with 93 parameters have.
+    let table = Deviations::zeros(&layout, 93);
+    let refused = Err(StaticsError::Robot(RobotError::DeviationCount { given: 62, parameters: 93 }));
+    assert_eq!(observer.observe::<Observation>(&table), vec![refused.clone(); 93]);
+    assert_eq!(observer.observe_one_by_one::<Observation>(&table), vec![refused.clone(); 93]);
+    let motions = observer.observe::<ObservationMotion>(&table).into_iter().map(|found| found.map(|_| ()));
+    let slopes = observer.observe::<ObservationSlopes>(&table).into_iter().map(|found| found.map(|_| ()));
+    assert!(motions.chain(slopes).all(|found| found == refused.clone().map(|_| ())));
+
+    // With one pulley and with three leads, a robot has 65 parameters.
+    let (mut pulley, mut leads) = (robot.clone(), robot);
+    pulley.cables[0].pulley = guided.cables[0].pulley;
+    leads.cables[..3].iter_mut().for_each(|cable| cable.lead = 3.0);
+    let layout = ParameterLayout::of(&leads);
+    let found = Observer::new(&pulley, &pose, &load).unwrap().observe(&Deviations::zeros(&layout, 1));
+    let found: &Result<Observation, _> = &found[0];
+    let message = "column 63 of the deviations is lead1: expected r1, as the robot has it";
+    assert_eq!(found.as_ref().unwrap_err().to_string(), message);
+}
+
+#[test]
+fn a_table_without_rows_has_no_observations() {
+    let robot = caroca();
+    let observer = Observer::new(&robot, &Pose::at(0.0, 0.0, 1.75), &Load::payload(50.0)).unwrap();
+    assert_eq!(observed::<Observation>(&observer, &[]), []);
 }
 
 #[test]

@@ -1,10 +1,10 @@
 //! Strains beyond which no model answers.
 
-use crate::common::{caroca, cogiro};
+use crate::common::{caroca, cogiro, observed};
 use cdpr_cable::MAX_STRAIN;
 use cdpr_robot::{ParameterLayout, Pose, Pulley, Robot, Vector3, Wrench};
 use cdpr_statics::{
-    InversePath, Load, Observer, Start, StaticsError, Tracker, deflection, derivatives, direct,
+    InversePath, Load, Observation, Observer, Start, StaticsError, Tracker, deflection, derivatives, direct,
     greatest_payload, held_at, inverse, inverse_all, inverse_free, is_held, loaded_poses, modes_at,
     stiffness_at, tension_margin,
 };
@@ -51,7 +51,7 @@ fn no_model_answers_beyond_the_strain_that_it_holds_for() {
                 ("derivatives", derivatives(robot, &pose, &[0.0; 8], &load).err()),
                 ("stiffness", stiffness_at(robot, &pose, &none, &[]).err()),
                 ("modes", modes_at(robot, &pose, &none, &[]).err()),
-                ("an observation", observer.observe_all(&deviations).remove(1).err()),
+                ("an observation", observed::<Observation>(&observer, &deviations).remove(1).err()),
             ]);
             assert_eq!(is_held(robot, &pose, &none), Ok(false));
         }

@@ -1,11 +1,11 @@
 //! Results in lanes are those of one lane, to the last bit, whatever the vector unit and the neighbours.
 
-use crate::common::{caroca, cogiro};
+use crate::common::{caroca, cogiro, observed};
 use cdpr_number::lanes::Unit;
 use cdpr_robot::{Coordinate, Parameter, Pose, Pulley, Robot, Vector3};
 use cdpr_statics::{
-    InverseSolution, Load, Observer, StaticsError, Tracker, inverse, inverse_all, loaded_poses,
-    loaded_poses_slopes,
+    InverseSolution, Load, Observation, ObservationMotion, ObservationSlopes, Observer, StaticsError,
+    Tracker, inverse, inverse_all, loaded_poses, loaded_poses_slopes,
 };
 use std::fmt::Debug;
 
@@ -34,11 +34,11 @@ fn over_pulleys(mut robot: Robot, lead: impl Fn(usize) -> f64) -> Robot {
 
 /// Observations, motions and derivatives of all rows, of which at most `most` are left to the scalar models.
 fn observe(observer: &Observer, deviations: &[f64], most: usize) {
-    let found = on_all_units(|| observer.observe_all(deviations));
+    let found = on_all_units(|| observed::<Observation>(observer, deviations));
     let left = found.iter().filter(|found| found.as_ref().map_or(true, |found| found.scalar.is_some()));
     assert!(left.count() <= most);
-    on_all_units(|| observer.observe_all_motions(deviations));
-    on_all_units(|| observer.observe_all_slopes(deviations));
+    on_all_units(|| observed::<ObservationMotion>(observer, deviations));
+    on_all_units(|| observed::<ObservationSlopes>(observer, deviations));
 }
 
 #[test]

@@ -12,7 +12,7 @@ use cdpr_sensitivity::{
     Bootstrap, Expansion, Order, SaltelliDesign, SampleDesign, SensitivityError, Shares, Slopes, SobolDesign,
     Truncation, expansion, gradient_expansion, sobol_indices,
 };
-use cdpr_statics::{ObservationSlopes, Observer};
+use cdpr_statics::{Observation, ObservationSlopes, Observer};
 use cdpr_study::{Sampling, Study, observe_rows, open_robot, template};
 use std::error::Error;
 use std::path::Path;
@@ -86,8 +86,8 @@ impl Case<'_> {
             };
             (0..50).map(one).fold(f64::INFINITY, f64::min)
         };
-        let values = fastest(&|| self.observer.observe_all(&deviations).len());
-        Ok(fastest(&|| self.observer.observe_all_slopes(&deviations).len()) / values)
+        let values = fastest(&|| self.observer.observe::<Observation>(&deviations).len());
+        Ok(fastest(&|| self.observer.observe::<ObservationSlopes>(&deviations).len()) / values)
     }
 
     /// Root mean square errors of all indices, from values, values with gradients, and as many values as these
@@ -115,7 +115,8 @@ impl Case<'_> {
 
     fn values(&self, design: &impl SampleDesign) -> Vec<Option<f64>> {
         observe_rows(design, |rows| {
-            let found = self.observer.observe_all(&self.sampling.errors.deviations(rows)).into_iter();
+            let deviations = self.sampling.errors.deviations(rows);
+            let found = self.observer.observe::<Observation>(&deviations).into_iter();
             found.map(|of| of.ok().map(|of| 1e3 * of.rms())).collect()
         })
     }
@@ -127,7 +128,7 @@ impl Case<'_> {
             gradient: errors.gradient(&of.rms).iter().map(|slope| 1e3 * slope).collect(),
         };
         observe_rows(design, |rows| {
-            let found = self.observer.observe_all_slopes(&errors.deviations(rows)).into_iter();
+            let found = self.observer.observe(&errors.deviations(rows)).into_iter();
             found.map(|of| of.ok().map(in_mm)).collect()
         })
     }

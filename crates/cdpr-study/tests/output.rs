@@ -1,6 +1,6 @@
 //! Studies of other outputs than the deflection.
 
-use cdpr_robot::{Parameter, Pose};
+use cdpr_robot::{Deviations, Parameter, ParameterLayout, Pose};
 use cdpr_sensitivity::SampleDesign;
 use cdpr_statics::{
     DirectProblem, Load, Start, StaticsError, deflection_free, inverse, inverse_free, modes_at, stiffness_at,
@@ -65,7 +65,7 @@ fn observed(sampling: &Sampling) -> Vec<(Vec<f64>, Measured)> {
     observe_into(sampling, &Session::in_memory(), Clone::clone, |part| {
         let inputs = sampling.design.inputs().len();
         for (row, outcome) in part.rows.chunks_exact(inputs).zip(part.outcomes) {
-            found.push((sampling.errors.deviations(row), outcome.unwrap()));
+            found.push((sampling.errors.deviations(row).values().to_vec(), outcome.unwrap()));
         }
         Ok(())
     })
@@ -269,10 +269,10 @@ fn the_hash_of_a_study_depends_on_its_output_and_not_on_naming_the_deflection() 
 fn a_robot_that_fails_has_no_output_and_a_reason() {
     let study = opened(&study("cogiro", [1.0, 0.5, 2.0], "frequency")).unwrap();
     let sampling = study.sampling("point").unwrap();
-    let parameters = Parameter::of(&study.robot);
-    let mut deviations = vec![0.0; 2 * parameters.len()];
-    deviations[parameters.iter().position(|one| *one == Parameter::Mass).unwrap()] = 1e6;
-    let [heavy, nominal] = sampling.observer.observe_all(&deviations).try_into().unwrap();
+    let layout = ParameterLayout::of(&study.robot);
+    let mut deviations = Deviations::zeros(&layout, 2);
+    deviations.rows_mut().next().unwrap()[layout.mass()] = 1e6;
+    let [heavy, nominal] = sampling.observer.observe(&deviations).try_into().unwrap();
     assert!(matches!(heavy, Err(StaticsError::NoTensions { .. })), "{heavy:?}");
     assert_eq!(nominal.unwrap().value(), sampling.nominal_value);
     assert_eq!(study.file.output, Output::Frequency);

@@ -3,8 +3,8 @@
 use crate::convert::{Answer, Cases, Columns, Loads, Numbers, Raised, Rows, answer, run};
 use crate::robot::Robot;
 use crate::robot::inverse::coordinates;
-use cdpr_robot::{Parameter, Vector3};
-use cdpr_statics::{Observer, StaticsError};
+use cdpr_robot::{Deviations, ParameterLayout, Vector3};
+use cdpr_statics::{Observation, Observer, StaticsError};
 use pyo3::prelude::*;
 use rayon::prelude::*;
 use std::sync::atomic::Ordering;
@@ -62,27 +62,23 @@ impl Robot {
                 "pose or load has a row for each case: expected one of each for all robots".to_owned(),
             ));
         }
-        let parameters = Parameter::of(&self.robot).len();
         let rows = Rows::vectors("deviations", &deviations)?;
-        if rows.width() != parameters {
-            let width = rows.width();
-            return Err(Raised::Input(format!(
-                "deviations has {width} numbers a row: expected {parameters}, as `parameters`"
-            )));
-        }
+        let layout = ParameterLayout::of(&self.robot);
+        let deviations = Deviations::new(&layout, rows.width(), rows.all())?;
         let cases = Cases::of(&[&rows])?;
         let (wanted, load) = (pose.pose(0)?, loads.load(0)?);
         let lanes = Observer::with_free(&self.robot, &wanted, &load, &free)?;
         let outcomes = run(py, |stop| {
-            let part = |part: &[f64]| -> Vec<Result<Vector3<f64>, StaticsError>> {
+            let part = |part: Deviations| -> Vec<Result<Vector3<f64>, StaticsError>> {
                 if stop.load(Ordering::Relaxed) {
                     Vec::new()
                 } else {
-                    let observed = lanes.observe_all(part).into_iter();
+                    let observed = lanes.observe::<Observation>(&part).into_iter();
                     observed.map(|robot| robot.map(|robot| robot.displacement)).collect()
                 }
             };
-            rows.all().par_chunks(PART * parameters).flat_map_iter(part).collect::<Vec<_>>()
+            let parts: Vec<_> = deviations.parts(PART).collect();
+            parts.into_par_iter().flat_map_iter(part).collect::<Vec<_>>()
         })?;
         let all = Columns::new(py, cases, &outcomes)?;
         Ok(Observations {

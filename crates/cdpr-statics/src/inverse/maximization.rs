@@ -27,7 +27,7 @@ use crate::inverse::feasible::{BALANCED, search};
 use crate::inverse::held::Strand;
 use crate::inverse::optimum::{ELASTICITY, Optimum, Point};
 use crate::inverse::question::Question;
-use crate::inverse::start::{Goal, Start};
+use crate::inverse::start::{Goal, StraightStart};
 use cdpr_robot::{TensionLimits, Vector6};
 use cdpr_tension::{BoxProblem, BoxUnknown, LinearProgram, LinearSolution};
 
@@ -128,7 +128,7 @@ impl Maximization {
             Aim::Sum => (Goal::LeastSum, -1.0),
             Aim::Greatest(_) => (Goal::LeastGreatest, -1.0),
         };
-        let Start { tensions, value, certificate, .. } = question.straight(&goal);
+        let StraightStart { tensions, value, certificate, .. } = question.straight(&goal);
         let (mut point, found) = self.climb(question, &tensions, sign * value.unwrap_or(0.0))?;
         if let Some(found) = found {
             return Ok(found);

@@ -10,7 +10,7 @@ use cdpr_tension::{Distribution, Objective, Problem, TensionError, distribute};
 use nalgebra::DVector;
 
 /// Where a search begins.
-pub(super) struct Start {
+pub(super) struct StraightStart {
     /// Tensions within the limits [N].
     pub(super) tensions: Vec<f64>,
     /// The objective, of tensions that balance the wrench.
@@ -37,7 +37,7 @@ pub(super) enum Goal<'a> {
 
 impl Question<'_> {
     /// The tensions of straight cables that meet a goal, or those nearest to a balance.
-    pub(super) fn straight(&self, goal: &Goal) -> Start {
+    pub(super) fn straight(&self, goal: &Goal) -> StraightStart {
         let components = self.robot.freedoms().components();
         let wrench_matrix = self.straight_matrix().select_rows(&components);
         let pick = |wrench: &Vector6<f64>| {
@@ -58,19 +58,19 @@ impl Question<'_> {
         let problem = Problem { wrench_matrix: &wrench_matrix, wrench: &wrench, limits: &self.limits };
         match distribute(&problem, objective) {
             Ok(Distribution { tensions, value, .. }) => {
-                Start { tensions, value: Some(value), residue: 0.0, certificate: None }
+                StraightStart { tensions, value: Some(value), residue: 0.0, certificate: None }
             }
             Err(TensionError::Infeasible { tensions, residual, certificate, .. }) => {
                 let mut direction = Vector6::zeros();
                 components.iter().zip(&certificate).for_each(|(k, y)| direction[*k] = *y);
                 let residue = residual / (wrench.norm() + tensions.iter().sum::<f64>());
-                Start { tensions, value: None, residue, certificate: Some(direction) }
+                StraightStart { tensions, value: None, residue, certificate: Some(direction) }
             }
             // A start is no answer: without one from Clarabel the search begins at the reference.
             Err(_) => {
                 let each = self.reference.iter().zip(&self.limits);
                 let tensions = each.map(|(t, limits)| t.max(limits.min).min(limits.max)).collect();
-                Start { tensions, value: None, residue: 0.0, certificate: None }
+                StraightStart { tensions, value: None, residue: 0.0, certificate: None }
             }
         }
     }

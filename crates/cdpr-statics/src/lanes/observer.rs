@@ -16,7 +16,7 @@ mod slopes;
 
 use crate::error::StaticsError;
 use crate::inverse::{Branch, FreeBranch, HeldPose, InverseSolution, require_smooth};
-use crate::lanes::chain::{Outcome, observe};
+use crate::lanes::chain::{Outcome, Stage, observe};
 use crate::lanes::level::LevelFrame;
 use crate::lanes::observer::rows::{Nominal, Rows};
 use crate::lanes::reason::ScalarReason;
@@ -24,7 +24,7 @@ use crate::loading::{Deflection, deflection, deflection_beside, deflection_near}
 use crate::state::{Load, Residual};
 use cdpr_number::lanes::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
 use cdpr_number::three;
-use cdpr_robot::{Coordinate, ParameterLayout, Pose, Robot, Vector3, Vector6};
+use cdpr_robot::{Coordinate, Deviations, ParameterLayout, Pose, Robot, Vector3, Vector6};
 pub use motions::ObservationMotion;
 pub use slopes::ObservationSlopes;
 use std::array::from_fn;
@@ -48,13 +48,42 @@ impl Observation {
         self.displacement.norm()
     }
 
-    fn one_by_one(deflection: &Deflection) -> Self {
+    fn of(deflection: &Deflection, why: ScalarReason) -> Self {
         Self {
             displacement: deflection.displacement(),
             unloaded: deflection.unloaded.report.residual,
             loaded: deflection.loaded.report.residual,
-            scalar: Some(ScalarReason::OneByOne),
+            scalar: Some(why),
         }
+    }
+}
+
+/// What is observed of a robot: [`Observation`], [`ObservationMotion`] or [`ObservationSlopes`].
+pub trait Observed: Sized {
+    /// Observes the rows of a batch in lanes, or says why a row is left to the scalar models.
+    #[doc(hidden)]
+    fn in_lanes(batch: Batch) -> Vec<Result<Self, ScalarReason>>;
+
+    /// Observes one row by the scalar models.
+    #[doc(hidden)]
+    fn by_scalar_models(
+        observer: &Observer,
+        deviations: &[f64],
+        why: ScalarReason,
+    ) -> Result<Self, StaticsError>;
+}
+
+impl Observed for Observation {
+    fn in_lanes(batch: Batch) -> Vec<Result<Self, ScalarReason>> {
+        dispatch(batch)
+    }
+
+    fn by_scalar_models(
+        observer: &Observer,
+        deviations: &[f64],
+        why: ScalarReason,
+    ) -> Result<Self, StaticsError> {
+        Ok(Self::of(&observer.deflection(deviations)?, why))
     }
 }
 
@@ -127,40 +156,37 @@ impl<'a> Observer<'a> {
         &self.pose
     }
 
-    /// Deflection of the robot with `deviations` added to its parameters, in the order of [`Parameter::of`].
-    ///
-    /// # Errors
-    /// [`StaticsError`] says why this robot has no deflection.
-    pub fn observe(&self, deviations: &[f64]) -> Result<Observation, StaticsError> {
-        Ok(Observation::one_by_one(&self.deflection(deviations)?))
+    /// The order of the parameters of the robot.
+    pub fn layout(&self) -> &ParameterLayout {
+        &self.layout
     }
 
-    /// Deflections of any number of robots: `deviations` has a row of all parameters for each, one after the
-    /// other.
+    /// Observes a robot for each row of a table, whose deviations are added to the parameters.
     ///
-    /// An answer depends on its own row alone, to the last digit, and agrees with [`Observer::observe`] to
-    /// rounding, but for one row in 10^4 of random robots: where a robot has several minima of its
-    /// tensions, `observe` takes the one next to the nominal robot's, and this may take another, mostly the
-    /// least of all, as [`deflection`] does (docs/VALIDATION.md). [`Observation::scalar`] says which
-    /// ones were left to the scalar models, and why. Numbers that are not whole rows are a failure of all of
-    /// them, [`RobotError::DeviationRows`].
-    pub fn observe_all(&self, deviations: &[f64]) -> Vec<Result<Observation, StaticsError>> {
-        self.each(deviations, dispatch, |row, why| {
-            Ok(Observation { scalar: Some(why), ..self.observe(row)? })
+    /// An answer depends on its own row alone, to the last digit, and agrees with
+    /// [`Observer::observe_one_by_one`] to rounding, but for one row in 10^4 of random robots: where a robot
+    /// has several minima of its tensions, the scalar models take the one next to the nominal robot's, and
+    /// this may take another, mostly the least of all, as [`deflection`] does (docs/VALIDATION.md).
+    /// [`Observation::scalar`] says which ones were left to the scalar models, and why.
+    ///
+    /// A slope of [`ObservationSlopes`] times the range of its parameter agrees to 1e-11 of the longest
+    /// cable. Robots in which left and right derivatives may differ are left to the scalar models, and so are
+    /// those in which a tension is at its greatest value where the cable leaves a pulley.
+    ///
+    /// Each row of a table for robots with other parameters fails with the error of [`Deviations::check`].
+    pub fn observe<T: Observed>(&self, deviations: &Deviations) -> Vec<Result<T, StaticsError>> {
+        deviations.each(&self.layout, |rows| {
+            let found = T::in_lanes(Batch { observer: self, deviations: deviations.values() });
+            let alone =
+                |(found, row): (Result<T, _>, _)| found.or_else(|why| T::by_scalar_models(self, row, why));
+            found.into_iter().zip(rows).map(alone)
         })
     }
 
-    /// The answers of the lanes, and of `alone` to rows that they leave, for a reason.
-    fn each<'o, T>(
-        &'o self,
-        deviations: &'o [f64],
-        in_lanes: impl FnOnce(Batch<'o>) -> Vec<Result<T, ScalarReason>>,
-        alone: impl Fn(&[f64], ScalarReason) -> Result<T, StaticsError>,
-    ) -> Vec<Result<T, StaticsError>> {
-        self.layout.each_row(deviations, |rows| {
-            let found = in_lanes(Batch { observer: self, deviations });
-            found.into_iter().zip(rows).map(|(found, row)| found.or_else(|why| alone(row, why)))
-        })
+    /// The same by the scalar models, one robot after the other.
+    pub fn observe_one_by_one<T: Observed>(&self, deviations: &Deviations) -> Vec<Result<T, StaticsError>> {
+        let observed = |row| T::by_scalar_models(self, row, ScalarReason::OneByOne);
+        deviations.each(&self.layout, |rows| rows.map(observed))
     }
 
     fn deflection(&self, deviations: &[f64]) -> Result<Deflection, StaticsError> {
@@ -175,7 +201,7 @@ impl<'a> Observer<'a> {
 }
 
 /// Rows of deviations for the lanes.
-struct Batch<'a> {
+pub struct Batch<'a> {
     observer: &'a Observer<'a>,
     deviations: &'a [f64],
 }
@@ -197,45 +223,35 @@ impl WithSimd for Batch<'_> {
             let count = rows.len() / parameters;
             let rows = Rows::new(simd, rows, layout);
             let (mut start, level, valid) = rows.robots(robot, pose, load, nominal);
-            let outcome = observe(&mut start, &nominal.shared, None);
-            let answers = read(&outcome, level.as_ref(), valid, nominal.no_tensions());
+            let (outcome, _) = observe(&mut start, &nominal.shared, false);
+            let answers = read(&outcome, level.as_ref(), valid, nominal);
             found.extend(answers.into_iter().take(count));
         }
         found
     }
 }
 
-/// The observation in each lane, or the first link that failed; robots are `sound`, and their axes `upright`.
+/// The observation in each lane, or why it was left; the parameters of robots are `sound`, and their axes
+/// `upright`.
 #[inline(always)]
 fn read<S: Simd>(
     outcome: &Outcome<S>,
     level: Option<&LevelFrame<S>>,
     [sound, upright]: [Mask<S>; 2],
-    [no_tensions, none_to_take]: [ScalarReason; 2],
+    nominal: &Nominal,
 ) -> [Result<Observation, ScalarReason>; MAX_LANES] {
-    let [converged, unfolded, held, standing, answered] = outcome.passed;
-    let links = [
-        (sound, ScalarReason::InvalidRobot),
-        (upright, ScalarReason::Pulleys),
-        (converged, no_tensions),
-        (unfolded, none_to_take),
-        (held, ScalarReason::Lengths),
-        (standing, ScalarReason::Unloaded),
-        (answered, ScalarReason::Loaded),
-    ];
-    let mut first = outcome.displacement[0].all(links.len() as f64);
-    for (i, (passed, _)) in links.iter().enumerate().rev() {
-        first = passed.select(first, first.all(i as f64));
-    }
-    let first_failed = first.to_array();
+    let mut failures = outcome.failures;
+    failures.add(Stage::Parameters, sound);
+    failures.add(Stage::Axes, upright);
+    let failed = failures.of_lanes();
     let displacement = match level {
         None => outcome.displacement,
         Some(level) => level.to_base(&outcome.displacement),
     };
     let displacement = three!(|k| displacement[k].to_array());
     let (unloaded, loaded) = (outcome.unloaded.norms(), outcome.loaded.norms());
-    from_fn(|lane| match links.get(first_failed[lane] as usize) {
-        Some((_, why)) => Err(*why),
+    from_fn(|lane| match failed[lane] {
+        Some(stage) => Err(nominal.why(stage)),
         None => Ok(Observation {
             displacement: Vector3::from_fn(|k, _| displacement[k][lane]),
             unloaded: unloaded[lane],

@@ -4,7 +4,7 @@ use crate::file::output::Output;
 use crate::model::nominal::too_much;
 use crate::model::observed::count_failed;
 use crate::model::study::{Surface, SurfaceAxis};
-use cdpr_robot::Parameter;
+use cdpr_robot::{Deviations, ParameterLayout};
 use cdpr_statics::StaticsError;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -22,7 +22,7 @@ pub struct SurfaceResult<E = StaticsError> {
     pub values: Vec<Result<f64, E>>,
 }
 
-/// Results of one surface; serialised into `summary.json`.
+/// Results of one surface; serialized into `summary.json`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SurfaceSummary {
     /// Title.
@@ -61,21 +61,18 @@ pub struct SurfaceValues {
 
 /// Runs a surface in parallel; `tick` is called with the number of further points that are done.
 pub fn compute_surface(surface: &Surface, tick: &(dyn Fn(usize) + Sync)) -> SurfaceResult {
-    let parameters = Parameter::of(surface.robot).len();
-    let Surface { x, y, .. } = surface;
-    let columns = y.deviations.len();
-    let values = (0..x.deviations.len() * columns)
-        .into_par_iter()
-        .fold_chunks(columns, Vec::new, |mut rows, k| {
-            let first = rows.len();
-            rows.resize(first + parameters, 0.0);
-            rows[first + x.index] += x.deviations[k / columns];
-            rows[first + y.index] += y.deviations[k % columns];
-            rows
-        })
-        .flat_map_iter(|rows| {
-            tick(columns);
-            let outcomes = surface.observer.observe_all(&rows).into_iter();
+    let (layout, Surface { x, y, .. }) = (ParameterLayout::of(surface.robot), surface);
+    let values = x
+        .deviations
+        .par_iter()
+        .flat_map_iter(|along_x| {
+            let mut deviations = Deviations::zeros(&layout, y.deviations.len());
+            for (row, along_y) in deviations.rows_mut().zip(&y.deviations) {
+                row[x.index] += along_x;
+                row[y.index] += along_y;
+            }
+            tick(deviations.count());
+            let outcomes = surface.observer.observe(&deviations).into_iter();
             outcomes.map(|outcome| outcome.map(|measured| measured.value()))
         })
         .collect();
@@ -95,7 +92,7 @@ impl SurfaceResult {
 }
 
 impl SurfaceSummary {
-    /// Summarises a surface.
+    /// Summarizes a surface.
     pub fn new(surface: &Surface, result: &SurfaceResult) -> Self {
         let succeeded = || result.values.iter().filter_map(|value| value.as_ref().ok().copied());
         let failed = count_failed(

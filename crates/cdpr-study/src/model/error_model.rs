@@ -14,7 +14,7 @@
 
 use crate::error::StudyError;
 use crate::file::study_file::InputSpec;
-use cdpr_robot::{Parameter, Robot};
+use cdpr_robot::{Deviations, Parameter, ParameterLayout, Robot};
 use cdpr_sensitivity::{Input, Law, SensitivityError};
 use indexmap::IndexMap;
 
@@ -28,7 +28,8 @@ pub struct ErrorModel {
     pub entries: Vec<String>,
     /// The parameters to which the inputs are added.
     pub terms: Vec<Term>,
-    /// The parameter vector.
+    /// The order of the parameters, and the parameters.
+    layout: ParameterLayout,
     parameters: Vec<Parameter>,
 }
 
@@ -111,6 +112,7 @@ impl ErrorModel {
             inputs: Vec::new(),
             entries: Vec::new(),
             terms: Vec::new(),
+            layout: ParameterLayout::of(robot),
             parameters: parameters.clone(),
         };
         if let Some((key, _)) = model.iter().find(|(key, spec)| spec.parameters.is_none() && !known(key)) {
@@ -171,6 +173,7 @@ impl ErrorModel {
                 .enumerate()
                 .map(|(input, (parameter, _))| Term { input, parameter, factor: 1.0 })
                 .collect(),
+            layout: ParameterLayout::of(robot),
             parameters,
         }
     }
@@ -214,11 +217,10 @@ impl ErrorModel {
     }
 
     /// Equation (M1): the deviation of each parameter for each of `rows`, vectors one after the other.
-    pub fn deviations(&self, rows: &[f64]) -> Vec<f64> {
-        let inputs = self.inputs.len();
-        let mut deviations = vec![0.0; rows.len() / inputs * self.parameters()];
-        let all = deviations.chunks_exact_mut(self.parameters()).zip(rows.chunks_exact(inputs));
-        for (deviations, row) in all {
+    pub fn deviations(&self, rows: &[f64]) -> Deviations<'_> {
+        let rows = rows.chunks_exact(self.inputs.len());
+        let mut deviations = Deviations::zeros(&self.layout, rows.len());
+        for (deviations, row) in deviations.rows_mut().zip(rows) {
             for Term { input, parameter, factor } in &self.terms {
                 deviations[*parameter] += factor * row[*input];
             }

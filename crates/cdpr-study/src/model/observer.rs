@@ -5,7 +5,7 @@
 use crate::file::output::Output;
 use crate::model::error_model::ErrorModel;
 use crate::model::observed::{Measured, MeasuredQuantity};
-use cdpr_robot::{Coordinate, ParameterLayout, Perturbed, Pose, Robot, Vector3, Vector6};
+use cdpr_robot::{Coordinate, Deviations, Perturbed, Pose, Robot, Vector3, Vector6};
 use cdpr_statics::{
     Deflection, Derivatives, DirectProblem, Load, Matrix3xX, Observation, ObservationMotion,
     ObservationSlopes, Observer, ScalarReason, Start, StaticsError, deflection_free, derivatives_free,
@@ -69,11 +69,10 @@ impl<'a> OutputObserver<'a> {
         slowest.warning(problem.lowest_frequency(&loaded.equilibrium).ok()?)
     }
 
-    /// Observes any number of robots: `deviations` has a row of all parameters for each, one after the other.
-    /// A robot without the output is an error with the reason.
-    pub fn observe_all(&self, deviations: &[f64]) -> Vec<Result<Measured, StaticsError>> {
+    /// Observes a robot for each row of a table. A robot without the output is an error with the reason.
+    pub fn observe(&self, deviations: &Deviations) -> Vec<Result<Measured, StaticsError>> {
         if self.output == Output::Deflection {
-            let outcomes = self.lanes.observe_all(deviations).into_iter();
+            let outcomes = self.lanes.observe::<Observation>(deviations).into_iter();
             return outcomes.map(|found| found.map(Measured::from)).collect();
         }
         let observed = |row: &[f64]| {
@@ -84,11 +83,11 @@ impl<'a> OutputObserver<'a> {
             };
             Ok(Measured { quantity, scalar: Some(ScalarReason::Output) })
         };
-        self.layout().each_row(deviations, |rows| rows.map(observed))
+        deviations.each(self.lanes.layout(), |rows| rows.map(observed))
     }
 
     /// The same with the rotation of the platform, for an output that is a length.
-    pub(crate) fn observe_all_motions(&self, deviations: &[f64]) -> Vec<Result<Measured, StaticsError>> {
+    pub(crate) fn observe_motions(&self, deviations: &Deviations) -> Vec<Result<Measured, StaticsError>> {
         let moved =
             |motion, scalar| Measured { quantity: MeasuredQuantity::Motion(Box::new(motion)), scalar };
         if self.output == Output::Deflection {
@@ -97,7 +96,7 @@ impl<'a> OutputObserver<'a> {
                 let r = found.rotation;
                 moved(Vector6::new(p.x, p.y, p.z, r.x, r.y, r.z), scalar)
             };
-            let outcomes = self.lanes.observe_all_motions(deviations).into_iter();
+            let outcomes = self.lanes.observe(deviations).into_iter();
             return outcomes.map(|found| found.map(in_lanes)).collect();
         }
         let observed = |row: &[f64]| {
@@ -108,22 +107,18 @@ impl<'a> OutputObserver<'a> {
             };
             Ok(moved(motion, Some(ScalarReason::Output)))
         };
-        self.layout().each_row(deviations, |rows| rows.map(observed))
+        deviations.each(self.lanes.layout(), |rows| rows.map(observed))
     }
 
     /// Displacements under the load [m] of any number of robots, whatever the output is.
-    pub fn displacements(&self, deviations: &[f64]) -> Vec<Result<Vector3<f64>, StaticsError>> {
-        let outcomes = self.lanes.observe_all(deviations).into_iter();
+    pub fn displacements(&self, deviations: &Deviations) -> Vec<Result<Vector3<f64>, StaticsError>> {
+        let outcomes = self.lanes.observe::<Observation>(deviations).into_iter();
         outcomes.map(|found| found.map(|found| found.displacement)).collect()
     }
 
     /// By which rotations are measured [m]: of the nominal robot, whatever robot is observed.
     fn characteristic_length(&self) -> f64 {
         self.nominal.loaded.stability.characteristic_length()
-    }
-
-    fn layout(&self) -> ParameterLayout {
-        ParameterLayout::of(self.robot)
     }
 
     fn deflection(&self, perturbed: &Perturbed) -> Result<Deflection, StaticsError> {
@@ -209,22 +204,22 @@ impl<'a> OutputObserver<'a> {
     }
 
     /// The outputs of any number of robots in their unit, and their derivatives with respect to the inputs of
-    /// an error model: `deviations` has a row of all parameters for each. A robot without the output or
-    /// without derivatives is an error with the reason: [`StaticsError::NoDerivative`] where a length is zero
-    /// or two motions are the softest; those of the models.
+    /// an error model. A robot without the output or without derivatives is an error with the reason:
+    /// [`StaticsError::NoDerivative`] where a length is zero or two motions are the softest; those of the
+    /// models.
     pub(crate) fn slopes(
         &self,
-        deviations: &[f64],
+        deviations: &Deviations,
         errors: &ErrorModel,
     ) -> Vec<Result<(f64, Vec<f64>), StaticsError>> {
         if self.output == Output::Deflection && self.free.is_empty() {
             let in_unit = |found: ObservationSlopes| {
                 (1e3 * found.observation.rms(), scaled(1e3, errors.gradient(&found.rms)))
             };
-            let outcomes = self.lanes.observe_all_slopes(deviations).into_iter();
+            let outcomes = self.lanes.observe(deviations).into_iter();
             return outcomes.map(|found| found.map(in_unit)).collect();
         }
-        self.layout().each_row(deviations, |rows| rows.map(|row| self.slopes_one_by_one(row, errors)))
+        deviations.each(self.lanes.layout(), |rows| rows.map(|row| self.slopes_one_by_one(row, errors)))
     }
 
     fn slopes_one_by_one(

@@ -260,8 +260,8 @@ fn observe_part(sampling: &Sampling, design: Task, range: Range<usize>, known: &
     let unknown = &rows[known.len() * sampling.errors.inputs.len()..];
     let (observer, unknown) = (&sampling.observer, sampling.errors.deviations(unknown));
     let observed = match design.recorded {
-        Recorded::Output => observer.observe_all(&unknown),
-        Recorded::Motion => observer.observe_all_motions(&unknown),
+        Recorded::Output => observer.observe(&unknown),
+        Recorded::Motion => observer.observe_motions(&unknown),
     };
     let observed = observed.into_iter().map(|outcome| outcome.map_err(Failure::from));
     let outcomes = known.iter().cloned().chain(observed).collect();

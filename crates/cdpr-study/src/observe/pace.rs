@@ -43,7 +43,7 @@ impl Study {
             let rows =
                 sampling.errors.deviations(&draw(&sampling.design, 0..TIMED.min(sampling.design.points())));
             let clock = Instant::now();
-            let observed = sampling.observer.observe_all(&rows);
+            let observed = sampling.observer.observe(&rows);
             let each = clock.elapsed().as_secs_f64() / observed.len() as f64;
             let reasons: Vec<_> = observed.iter().flatten().filter_map(|found| found.scalar).collect();
             if let (Some(reason), true) = (reasons.first(), 2 * reasons.len() > observed.len()) {

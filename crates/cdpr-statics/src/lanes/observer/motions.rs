@@ -1,10 +1,9 @@
 //! Observations with the rotation of the platform under the load.
 
-use super::{Batch, Observation, Observer, read};
+use super::{Batch, Observation, Observed, Observer, read};
 use crate::error::StaticsError;
-use crate::lanes::chain::{Keep, observe};
+use crate::lanes::chain::observe;
 use crate::lanes::level::LevelFrame;
-use crate::lanes::newton::Robots;
 use crate::lanes::observer::rows::Rows;
 use crate::lanes::reason::ScalarReason;
 use cdpr_number::dense::Lanes3;
@@ -22,29 +21,19 @@ pub struct ObservationMotion {
     pub rotation: Vector3<f64>,
 }
 
-impl Observer<'_> {
-    /// Deflections of any number of robots, the same as those of [`Observer::observe_all`], with the rotation
-    /// of the platform.
-    pub fn observe_all_motions(&self, deviations: &[f64]) -> Vec<Result<ObservationMotion, StaticsError>> {
-        self.each(
-            deviations,
-            |batch| dispatch(MotionBatch(batch)),
-            |row, why| {
-                let mut found = self.observe_motion(row)?;
-                found.observation.scalar = Some(why);
-                Ok(found)
-            },
-        )
+impl Observed for ObservationMotion {
+    fn in_lanes(batch: Batch) -> Vec<Result<Self, ScalarReason>> {
+        dispatch(MotionBatch(batch))
     }
 
-    /// Deflection and rotation of the robot with `deviations` added to its parameters, by the scalar models.
-    ///
-    /// # Errors
-    /// Those of [`Observer::observe`].
-    pub fn observe_motion(&self, deviations: &[f64]) -> Result<ObservationMotion, StaticsError> {
-        let found = self.deflection(deviations)?;
+    fn by_scalar_models(
+        observer: &Observer,
+        deviations: &[f64],
+        why: ScalarReason,
+    ) -> Result<Self, StaticsError> {
+        let found = observer.deflection(deviations)?;
         let rotation = found.motion().fixed_rows::<3>(3).into();
-        Ok(ObservationMotion { observation: Observation::one_by_one(&found), rotation })
+        Ok(Self { observation: Observation::of(&found, why), rotation })
     }
 }
 
@@ -68,13 +57,9 @@ impl WithSimd for MotionBatch<'_> {
             let rows = Rows::new(simd, rows, layout);
             let (mut start, level, valid) = rows.robots(robot, pose, load, nominal);
             start.robots.frame.extend(rows.frame(pose, level.as_ref()));
-            let mut frames = Frames { before: SmallVec::new(), last: SmallVec::new() };
-            let outcome = observe(&mut start, &nominal.shared, Some(&mut frames));
-            let [unloaded, loaded] = [&frames.before, &frames.last].map(|of| in_base(of, level.as_ref()));
-            let answers = read(&outcome, level.as_ref(), valid, nominal.no_tensions())
-                .into_iter()
-                .enumerate()
-                .take(count);
+            let (outcome, _) = observe(&mut start, &nominal.shared, false);
+            let [unloaded, loaded] = outcome.frames.each_ref().map(|of| in_base(of, level.as_ref()));
+            let answers = read(&outcome, level.as_ref(), valid, nominal).into_iter().enumerate().take(count);
             found.extend(answers.map(|(lane, answer)| {
                 let at = |frame: &Columns| {
                     let rotation = Matrix3::from_fn(|row, column| frame[column][row][lane]);
@@ -85,19 +70,6 @@ impl WithSimd for MotionBatch<'_> {
             }));
         }
         found
-    }
-}
-
-/// The platform frames of the last state of a chain and of the one before it, by their columns.
-struct Frames<S: Simd> {
-    before: SmallVec<[Lanes3<S>; 3]>,
-    last: SmallVec<[Lanes3<S>; 3]>,
-}
-
-impl<'a, S: Simd> Keep<'a, S> for Frames<S> {
-    #[inline(always)]
-    fn state(&mut self, robots: &Robots<'a, S>) {
-        self.before = std::mem::replace(&mut self.last, robots.frame.clone());
     }
 }
 

@@ -1,13 +1,13 @@
 //! Observations with the derivatives of |dp| by all parameters.
 
-use super::{Batch, Observation, Observer, Wanted, read};
+use super::{Batch, Observation, Observed, Observer, Wanted, read};
 use crate::derivatives::{Derivatives, derivatives, derivatives_free, derivatives_near};
 use crate::error::StaticsError;
 use crate::lanes::adjoint::{Adjoint, GuideSlopes, Record, adjoint};
 use crate::lanes::chain::observe;
 use crate::lanes::level::LevelFrame;
-use crate::lanes::newton::Robots;
 use crate::lanes::observer::rows::Rows;
+use crate::lanes::platform::Robots;
 use crate::lanes::reason::ScalarReason;
 use cdpr_number::Number;
 use cdpr_number::lanes::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
@@ -20,48 +20,32 @@ use cdpr_robot::{Axis, Parameter, Robot, RobotCable, TiltAxis};
 pub struct ObservationSlopes {
     /// The deflection. [`Observation::scalar`] says why its derivatives were left to the scalar models.
     pub observation: Observation,
-    /// d|dp| by every parameter in the order of [`Parameter::of`] [m per unit], as [`Derivatives::rms`].
+    /// d|dp| by every parameter in the order of [`Parameter::of`] [m per unit], as [`Derivatives::rms`]; left
+    /// derivatives where the scalar models found them.
     pub rms: Vec<f64>,
 }
 
-impl Observer<'_> {
-    /// Deflections of any number of robots, as [`Observer::observe_all`], with the derivatives of |dp| by all
-    /// parameters.
-    ///
-    /// A slope times the range of its parameter agrees with [`Observer::observe_slopes`] to 1e-11 of the
-    /// longest cable (docs/VALIDATION.md). Robots in which left and right derivatives may differ are left to
-    /// the scalar models, and so are those in which a tension is at its greatest value where the cable leaves
-    /// a pulley.
-    pub fn observe_all_slopes(&self, deviations: &[f64]) -> Vec<Result<ObservationSlopes, StaticsError>> {
-        self.each(
-            deviations,
-            |batch| dispatch(SlopesBatch(batch)),
-            |row, why| {
-                let mut found = self.observe_slopes(row)?;
-                found.observation.scalar = Some(why);
-                Ok(found)
-            },
-        )
+impl Observed for ObservationSlopes {
+    fn in_lanes(batch: Batch) -> Vec<Result<Self, ScalarReason>> {
+        dispatch(SlopesBatch(batch))
     }
 
-    /// Deflection of the robot with `deviations` added to its parameters, with the left derivatives of |dp|,
-    /// by the scalar models.
-    ///
-    /// # Errors
-    /// Those of [`Observer::observe`] and [`Derivatives::rms`].
-    pub fn observe_slopes(&self, deviations: &[f64]) -> Result<ObservationSlopes, StaticsError> {
-        let perturbed = self.robot.perturbed(deviations)?;
+    fn by_scalar_models(
+        observer: &Observer,
+        deviations: &[f64],
+        why: ScalarReason,
+    ) -> Result<Self, StaticsError> {
+        let Observer { robot, pose, load, layout, wanted, .. } = observer;
+        let perturbed = robot.perturbed(deviations)?;
         let (robot, offsets) = (&perturbed.robot, &perturbed.tension_offsets);
-        let found = match &self.wanted {
-            Wanted::Pose(Some(branch)) => derivatives_near(branch, robot, &self.pose, offsets, &self.load)?,
-            Wanted::Pose(None) => derivatives(robot, &self.pose, offsets, &self.load)?,
-            Wanted::Rest(branch) => {
-                derivatives_free(robot, &self.pose, offsets, &self.load, branch.coordinates())?
-            }
+        let found = match wanted {
+            Wanted::Pose(Some(branch)) => derivatives_near(branch, robot, pose, offsets, load)?,
+            Wanted::Pose(None) => derivatives(robot, pose, offsets, load)?,
+            Wanted::Rest(branch) => derivatives_free(robot, pose, offsets, load, branch.coordinates())?,
         };
-        let rms = found.rms()?.into_iter().take(self.layout.count()).collect();
+        let rms = found.rms()?.into_iter().take(layout.count()).collect();
         let Derivatives { deflection, .. } = found;
-        Ok(ObservationSlopes { observation: Observation::one_by_one(&deflection), rms })
+        Ok(Self { observation: Observation::of(&deflection, why), rms })
     }
 }
 
@@ -91,15 +75,16 @@ impl WithSimd for SlopesBatch<'_> {
             start.robots.frame.extend(rows.frame(pose, level.as_ref()));
             let payload = start.payload.clone();
             let rolling = rows.rolling(robot, &start.robots);
-            let mut record = Record::new(start.offsets.clone(), start.multipliers);
-            let outcome = observe(&mut start, &nominal.shared, Some(&mut record));
+            let offsets = start.offsets.clone();
+            let (outcome, trace) = observe(&mut start, &nominal.shared, true);
+            let record = Record { offsets, multipliers: start.multipliers, trace };
             let adjoint = adjoint(&record, &outcome.displacement, &payload, &nominal.shared);
             let mut decided = [false; MAX_LANES];
             if let Some(adjoint) = &adjoint {
                 decided = (adjoint.decided & rolling).to_array();
                 rows.write_slopes(robot, adjoint, level.as_ref(), &mut slopes);
             }
-            let answers = read(&outcome, level.as_ref(), valid, nominal.no_tensions());
+            let answers = read(&outcome, level.as_ref(), valid, nominal);
             for (lane, answer) in answers.into_iter().enumerate().take(count) {
                 found.push(match answer {
                     Ok(_) if !decided[lane] => Err(ScalarReason::Derivatives),
