@@ -123,7 +123,7 @@ fn each_numerical_library_is_named_by_one_module_of_a_crate() {
             &[
                 "cdpr-calibration/src/solve.rs",
                 "cdpr-sensitivity/src/measure/linear_algebra.rs",
-                "cdpr-statics/src/equations/assembled.rs",
+                "cdpr-statics/src/dense.rs",
             ],
         ),
         ("mpi", &["cdpr-cli/src/study/ranks.rs"]),

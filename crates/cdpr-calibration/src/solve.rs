@@ -9,6 +9,7 @@
 //!
 //! and the triangular factor of all `[A_2 ρ_2]` is all that the unknowns of all rows depend on.
 
+use faer::linalg::solvers::Qr;
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
@@ -66,7 +67,7 @@ pub(crate) fn reduce(rows: &[Eliminated], columns: usize) -> DMatrix<f64> {
             stacked.rows_mut(at, row.rest.nrows()).copy_from(&row.rest);
             at += row.rest.nrows();
         }
-        stacked.qr().r()
+        triangular_factor(&stacked)
     };
     let triangles: Vec<_> = rows.par_chunks(CHUNK).map(chunk).collect();
     let add = |sum: DMatrix<f64>, part: &DMatrix<f64>| triangle(sum, part);
@@ -78,7 +79,14 @@ pub(crate) fn triangle(above: DMatrix<f64>, below: &DMatrix<f64>) -> DMatrix<f64
     let rows = above.nrows();
     let mut stacked = above.resize_vertically(rows + below.nrows(), 0.0);
     stacked.rows_mut(rows, below.nrows()).copy_from(below);
-    stacked.qr().r()
+    triangular_factor(&stacked)
+}
+
+/// R of `A = Q R`, for a matrix with at least as many rows as columns.
+fn triangular_factor(matrix: &DMatrix<f64>) -> DMatrix<f64> {
+    let qr = Qr::new(faer::Mat::from_fn(matrix.nrows(), matrix.ncols(), |i, j| matrix[(i, j)]).as_ref());
+    let r = qr.thin_R();
+    DMatrix::from_fn(r.nrows(), r.ncols(), |i, j| if i <= j { r[(i, j)] } else { 0.0 })
 }
 
 /// Singular values of a matrix, from the greatest to the least, with its left vectors in columns and its

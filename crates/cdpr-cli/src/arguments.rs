@@ -5,7 +5,9 @@
 use crate::error::ProgramError;
 use crate::questions;
 use cdpr_assess::PoseRegion;
-use cdpr_robot::{Coordinate, Parameter, Robot, TensionReference, Wrench, counted, plausible, shown};
+use cdpr_robot::{
+    Coordinate, Parameter, Robot, TensionDistribution, TensionReference, Wrench, counted, plausible, shown,
+};
 use cdpr_statics::Load;
 use cdpr_study::{
     ErrorModel, Grid, GridAxis, IfExists, Study, Unit, check_replaceable, open_robot_in_any_unit, write_text,
@@ -244,9 +246,12 @@ pub(crate) struct Preference {
     /// [N], or `mid`, the middle of the limits.
     ///
     /// In place of those in the file; without either the tensions have the least norm.
-    #[arg(long, value_name = "TENSIONS", value_parser = str::parse::<TensionReference>)]
-    #[arg(allow_hyphen_values = true)]
+    #[arg(long, value_name = "TENSIONS", allow_hyphen_values = true)]
     pub(crate) tension_reference: Option<TensionReference>,
+    /// Which tensions the inverse model chooses, in place of the choice in the file: nearest to the reference, or of
+    /// least_1_norm, least_2_norm or least_infinity_norm.
+    #[arg(long, value_name = "NAME")]
+    pub(crate) distribution: Option<TensionDistribution>,
 }
 
 impl Preference {
@@ -261,8 +266,8 @@ impl Preference {
     }
 
     fn given_to(&self, mut robot: Robot) -> Result<Robot, ProgramError> {
-        if let Some(reference) = &self.tension_reference {
-            robot.tension_reference = Some(reference.clone());
+        robot.choose(self.distribution, self.tension_reference.clone());
+        if self.tension_reference.is_some() {
             robot.validate().map_err(|error| ProgramError::Usage(format!("--tension-reference: {error}")))?;
             questions::ask(plausible::reference(&robot));
         }
@@ -272,9 +277,9 @@ impl Preference {
     /// The study of a file, with this preference if there is one.
     pub(crate) fn open_study(&self, path: &Path) -> Result<Study, ProgramError> {
         let mut study = questions::open_study(path)?;
-        if let Some(reference) = &self.tension_reference {
+        if self.distribution.is_some() || self.tension_reference.is_some() {
             self.given_to(study.robot.clone())?;
-            study.set_tension_reference(reference.clone())?;
+            study.choose_tensions(self.distribution, self.tension_reference.clone())?;
         }
         Ok(study)
     }

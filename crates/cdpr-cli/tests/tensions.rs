@@ -353,3 +353,46 @@ fn the_inverse_model_says_whether_the_platform_stays_with_its_lengths() {
     assert_eq!(unstable["stable"], false);
     assert!(unstable["least_stiffness"].as_f64().unwrap() < 0.0);
 }
+
+#[test]
+fn an_option_and_the_robot_file_choose_the_same_least_norm() {
+    let at = ["--pose", "0.5,1,2", "--format", "json"];
+    let tensions = |folder: &TempDir, option: &[&str]| {
+        let (code, printed) = ended(folder, &[&["inverse"], &at[..], option].concat());
+        assert_eq!(code, 0, "{option:?}: {printed}");
+        numbers(&json(&printed)["tensions"])
+    };
+    let plain = robot("robots/cogiro.json", |_| ());
+    let least_norm = tensions(&plain, &[]);
+    let sum = |tensions: &[f64]| tensions.iter().sum::<f64>();
+    let greatest = |tensions: &[f64]| tensions.iter().copied().fold(0.0, f64::max);
+    for (name, norm) in [("least_1_norm", &sum as &dyn Fn(&[f64]) -> f64), ("least_infinity_norm", &greatest)]
+    {
+        let by_option = tensions(&plain, &["--distribution", name]);
+        assert!(norm(&by_option) < norm(&least_norm), "{name}");
+        let chosen = robot("robots/cogiro.json", |robot| robot["distribution"] = json!(name));
+        assert_eq!(tensions(&chosen, &[]), by_option);
+        // The options take the place of the file's.
+        assert_eq!(tensions(&chosen, &["--distribution", "least_2_norm"]), least_norm);
+        assert_eq!(tensions(&chosen, &["--tension-reference", "0"]), least_norm);
+    }
+}
+
+#[test]
+fn a_norm_that_jumps_is_refused_where_tensions_have_to_change_smoothly() {
+    let folder = TempDir::new().unwrap();
+    let (robot, study) = (data_path("robots/caroca.json"), data_path("studies/caroca.json"));
+    let expected = "distribution is least_1_norm: expected nearest or least_2_norm";
+    for command in [
+        &["derivatives", &robot, "--pose", "0,0,1.75", "--payload", "5"][..],
+        &["study", "throughput", &study, "--sampling", "mechanical", "--observations", "20"],
+    ] {
+        let output = cdpr_in(folder.path(), &[command, &["--distribution", "least_1_norm"]].concat());
+        let message = text(output.stderr);
+        assert!(!output.status.success() && message.contains(expected), "{command:?}: {message}");
+    }
+    let both = ["--distribution", "least_1_norm", "--tension-reference", "900"];
+    let output = cdpr_in(folder.path(), &[&["inverse", &robot, "--pose", "0,0,1.75"], &both[..]].concat());
+    let message = text(output.stderr);
+    assert!(message.contains("distribution is least_1_norm: expected nearest, as there is"), "{message}");
+}

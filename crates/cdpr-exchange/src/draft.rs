@@ -5,7 +5,7 @@ use crate::document::{Document, Node};
 use crate::error::{ExchangeError, Lacking};
 use cdpr_robot::{
     CableEnd, CableProperties, CatalogueCable, Gravity, Matrix3, OwnLimits, Plane, Platform, Provenance,
-    Pulley, Robot, RobotCable, RobotError, TensionLimits, Vector3,
+    Pulley, Robot, RobotCable, RobotError, TensionDistribution, TensionLimits, Vector3,
 };
 
 /// What a user adds to files of another program, or puts in place of what they say.
@@ -222,6 +222,7 @@ impl Draft {
             max_at: CableEnd::Anchor,
             ground_z: self.ground_z,
             tension_reference: None,
+            distribution: TensionDistribution::default(),
             cables,
         };
         let checked = robot.validate().and_then(|()| robot.check_units()).map_err(ExchangeError::Robot);

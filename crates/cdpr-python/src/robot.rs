@@ -18,7 +18,8 @@ pub(crate) mod workspace;
 
 use crate::convert::{Answer, Numbers, Raised, components, guarded, json_text, question};
 use cdpr_robot::{
-    CableEnd, CableProperties, Parameter, Platform, Provenance, RobotCable, TensionLimits, Vector3, plausible,
+    CableEnd, CableProperties, Parameter, Platform, Provenance, RobotCable, TensionDistribution, TensionLimits,
+    Vector3, plausible,
 };
 use cdpr_study::open_robot;
 use numpy::{PyArray1, PyArray2};
@@ -43,6 +44,9 @@ use std::path::PathBuf;
 ///     limit is the winch's.
 /// tension_reference: tensions that those of the inverse model come as near to as they can: a number for all
 ///     cables [N], one for each, or "mid", the middle of the limits; the least norm if left out.
+/// distribution: which tensions the inverse model chooses: "nearest" to tension_reference, or of "least_1_norm",
+///     "least_2_norm" or "least_infinity_norm". Derivatives, paths and studies refuse the 1-norm and the
+///     infinity-norm, whose tensions jump from pose to pose.
 /// center_of_mass: centre of mass in the platform frame [m]; P if left out.
 /// gravity: acceleration due to gravity [m/s²], a number along -z of the base frame or a vector in it, (3,);
 ///     9.81 if left out.
@@ -70,7 +74,7 @@ impl Robot {
     #[new]
     #[pyo3(signature = (anchor_points, exit_points, *, mass, section, linear_density, youngs_modulus,
         tension_limits, center_of_mass = None, gravity = None, name = "robot".to_owned(), max_at = "anchor",
-        tension_reference = None, point = false, plane = None, ground_z = None))]
+        tension_reference = None, distribution = "nearest", point = false, plane = None, ground_z = None))]
     #[allow(clippy::too_many_arguments)]
     fn new(
         anchor_points: Numbers,
@@ -85,6 +89,7 @@ impl Robot {
         name: String,
         max_at: &str,
         tension_reference: Option<Numbers>,
+        distribution: &str,
         point: bool,
         plane: Option<&str>,
         ground_z: Option<f64>,
@@ -127,6 +132,7 @@ impl Robot {
             tension_limits,
             max_at: arguments::end_of(max_at)?,
             tension_reference: tension_reference.as_ref().map(arguments::reference).transpose()?,
+            distribution: distribution.parse::<TensionDistribution>()?,
             cables,
         };
         robot.validate()?;
@@ -269,8 +275,28 @@ impl Robot {
     #[pyo3(signature = (reference))]
     fn with_tension_reference(&self, reference: Option<Numbers>) -> Answer<Self> {
         let tension_reference = reference.as_ref().map(arguments::reference).transpose()?;
-        let robot = cdpr_robot::Robot { tension_reference, ..self.robot.clone() };
+        let distribution = TensionDistribution::Nearest;
+        let robot = cdpr_robot::Robot { tension_reference, distribution, ..self.robot.clone() };
         robot.validate()?;
+        Ok(Self { robot })
+    }
+
+    /// Which tensions the inverse model chooses: "nearest", "least_1_norm", "least_2_norm" or
+    /// "least_infinity_norm".
+    #[getter]
+    fn distribution(&self) -> &'static str {
+        self.robot.distribution.name()
+    }
+
+    /// Makes a robot whose inverse model chooses tensions in another way. A norm drops the tension reference.
+    ///
+    /// distribution: "nearest", "least_1_norm", "least_2_norm" or "least_infinity_norm".
+    ///
+    /// Raises InputError for another name.
+    #[pyo3(signature = (distribution))]
+    fn with_distribution(&self, distribution: &str) -> Answer<Self> {
+        let mut robot = self.robot.clone();
+        robot.choose(Some(distribution.parse()?), None);
         Ok(Self { robot })
     }
 

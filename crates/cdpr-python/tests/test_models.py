@@ -512,6 +512,26 @@ def test_tensions_come_nearer_to_those_that_are_preferred(caroca):
             caroca.with_tension_reference(wrong)
 
 
+def test_a_distribution_of_tensions_has_the_least_norm_of_its_name(caroca):
+    pose = [0.6, -0.4, 1.4]
+    names = {"least_1_norm": 1, "least_2_norm": 2, "least_infinity_norm": numpy.inf}
+    found = {name: caroca.with_distribution(name).inverse(pose).tensions for name in names}
+    for name, order in names.items():
+        norms = {other: numpy.linalg.norm(t, order) for other, t in found.items()}
+        assert all(norms[name] <= norm * (1 + 1e-9) for norm in norms.values()), norms
+    numpy.testing.assert_allclose(found["least_2_norm"], caroca.inverse(pose).tensions, rtol=1e-9)
+    assert caroca.distribution == "nearest"
+    even = caroca.with_tension_reference(900.0).with_distribution("least_infinity_norm")
+    assert even.distribution == "least_infinity_norm"
+    same(even.tension_reference, [0.0] * 8)
+    assert cdpr.Robot.from_json(even.to_json()) == even
+    # Tensions that are stated are those to come near to.
+    same(even.inverse(pose, reference=[0.0] * 8).tensions, caroca.inverse(pose).tensions)
+    for refused in (lambda: caroca.with_distribution("least"), lambda: even.derivatives(pose, payload=50.0)):
+        with pytest.raises(cdpr.InputError, match="distribution"):
+            refused()
+
+
 def test_limits_of_a_cable_and_at_exit_points_are_kept_and_named(caroca):
     pose = [0.6, -0.4, 1.4]
     found = caroca.inverse(pose)

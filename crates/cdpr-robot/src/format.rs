@@ -8,7 +8,7 @@ use crate::freedoms::Plane;
 use crate::gravity::Gravity;
 use crate::json::from_json;
 use crate::law::LawSegment;
-use crate::limits::{CableEnd, OwnLimits, TensionLimits, TensionReference};
+use crate::limits::{CableEnd, OwnLimits, TensionDistribution, TensionLimits, TensionReference};
 use crate::robot::provenance::{Grade, Provenance};
 use crate::robot::{CableProperties, Platform, Pulley, Robot, RobotCable};
 use cdpr_cable::{CableError, PiecewiseLaw};
@@ -69,6 +69,10 @@ struct RobotFile {
     /// norm.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     tension_reference: Option<TensionReference>,
+    /// Which tensions the inverse model chooses: "nearest" to `tension_reference`, as without this field, or those
+    /// of "least_1_norm", "least_2_norm" or "least_infinity_norm", without `tension_reference`.
+    #[serde(default, skip_serializing_if = "TensionDistribution::is_nearest")]
+    distribution: TensionDistribution,
     /// The cables, one at least. With fewer than the platform has free motions, six in space and three for a
     /// point mass or in a plane, the pose is not free to choose in all coordinates.
     cables: Vec<CableEntry>,
@@ -223,6 +227,7 @@ impl Robot {
                 max_at: self.max_at,
             },
             tension_reference: self.tension_reference.clone(),
+            distribution: self.distribution,
             cables: self
                 .cables
                 .iter()
@@ -306,6 +311,7 @@ impl RobotFile {
             tension_limits: TensionLimits { min: self.tension_limits.min, max: self.tension_limits.max },
             max_at: self.tension_limits.max_at,
             tension_reference: self.tension_reference,
+            distribution: self.distribution,
             cables,
         })
     }

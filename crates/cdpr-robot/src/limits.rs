@@ -54,6 +54,62 @@ impl OwnLimits {
     }
 }
 
+/// Which of the tensions that hold a pose the inverse model chooses.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum TensionDistribution {
+    /// The nearest to the reference tensions, by the sum of squares; without a reference those of least 2-norm.
+    #[default]
+    Nearest,
+    /// The least sum of tensions.
+    #[serde(rename = "least_1_norm")]
+    LeastOneNorm,
+    /// The least sum of squares of the tensions.
+    #[serde(rename = "least_2_norm")]
+    LeastTwoNorm,
+    /// The least greatest tension.
+    LeastInfinityNorm,
+}
+
+impl TensionDistribution {
+    /// Their names, as files and arguments have them.
+    pub const NAMES: [(Self, &str); 4] = [
+        (Self::Nearest, "nearest"),
+        (Self::LeastOneNorm, "least_1_norm"),
+        (Self::LeastTwoNorm, "least_2_norm"),
+        (Self::LeastInfinityNorm, "least_infinity_norm"),
+    ];
+
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        Self::NAMES.iter().find(|(distribution, _)| *distribution == self).map_or("", |(_, name)| name)
+    }
+
+    /// Whether it is the nearest to the reference.
+    pub fn is_nearest(&self) -> bool {
+        *self == Self::Nearest
+    }
+
+    /// Whether tensions change smoothly with the pose where no limit becomes active: the other norms jump from
+    /// corner to corner of what the limits leave.
+    pub fn is_smooth(self) -> bool {
+        matches!(self, Self::Nearest | Self::LeastTwoNorm)
+    }
+}
+
+/// As arguments have it.
+impl FromStr for TensionDistribution {
+    type Err = RobotError;
+
+    fn from_str(text: &str) -> Result<Self, RobotError> {
+        let found = Self::NAMES.iter().find(|(_, name)| *name == text.trim());
+        found.map(|(distribution, _)| *distribution).ok_or_else(|| {
+            let expected = "nearest, least_1_norm, least_2_norm or least_infinity_norm";
+            RobotError::invalid("distribution", format!("{text:?}"), expected)
+        })
+    }
+}
+
 /// The tensions that the inverse model comes as near to as it can [N].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged, expecting = "expected a tension [N], a list with one for each cable, or \"mid\"")]

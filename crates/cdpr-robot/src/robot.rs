@@ -13,7 +13,9 @@ mod validate;
 
 use crate::freedoms::{Coordinate, Freedoms, Plane};
 use crate::gravity::Gravity;
-use crate::limits::{CableEnd, NamedReference, OwnLimits, TensionLimits, TensionReference};
+use crate::limits::{
+    CableEnd, NamedReference, OwnLimits, TensionDistribution, TensionLimits, TensionReference,
+};
 use crate::pose::Pose;
 use crate::robot::provenance::Provenance;
 use crate::wrench::Wrench;
@@ -42,6 +44,8 @@ pub struct Robot {
     pub max_at: CableEnd,
     /// The tensions that the inverse model comes as near to as it can; `None` for the least norm.
     pub tension_reference: Option<TensionReference>,
+    /// Which tensions the inverse model chooses; with a reference the nearest to it.
+    pub distribution: TensionDistribution,
     /// The cables with their points, in the order of their numbers.
     pub cables: Vec<RobotCable>,
 }
@@ -261,6 +265,19 @@ impl Robot {
     #[inline]
     pub fn max_at(&self, i: usize) -> CableEnd {
         self.cables[i].tension_limits.max_at.unwrap_or(self.max_at)
+    }
+
+    /// Replaces the choice of tensions by what is given of it: a reference alone chooses the nearest to it, and a
+    /// norm alone drops the reference.
+    pub fn choose(&mut self, distribution: Option<TensionDistribution>, reference: Option<TensionReference>) {
+        if let Some(distribution) = distribution {
+            self.distribution = distribution;
+            self.tension_reference.take_if(|_| !distribution.is_nearest());
+        }
+        if reference.is_some() {
+            self.tension_reference = reference;
+            self.distribution = distribution.unwrap_or_default();
+        }
     }
 
     /// The tension of every cable that the inverse model comes as near to as it can [N].

@@ -25,8 +25,9 @@
 //! With any matrix M, such as the inverse factor of the middle of H, `|M H Mᵀ - I| <= η < 1` over the box
 //! makes H positive definite, its eigenvalues no less than `(1 - η)/λ_max(MᵀM)`.
 
+use crate::dense::Lu;
 use crate::direct::DirectSolution;
-use crate::equations::{FactoredJacobian, NEAR_VERTICAL, State, closure_row, jacobian, residual, skew};
+use crate::equations::{NEAR_VERTICAL, State, closure_row, jacobian, residual, skew};
 use crate::error::StaticsError;
 use crate::problem::DirectProblem;
 use crate::state::Equilibrium;
@@ -88,7 +89,7 @@ fn prove(problem: &DirectProblem, equilibrium: &Equilibrium) -> Result<Certifica
     let at = |radius: &DVector<f64>| enclose(&state, &rotation, radius);
     let size = 6 + 2 * problem.cables();
 
-    let inverse = FactoredJacobian::new(&jacobian(problem, &state)).inverse();
+    let inverse = Lu::new(&jacobian(problem, &state)).inverse();
     if inverse.iter().any(|y| !y.is_finite()) {
         return Err(failed("the equations are singular here", f64::INFINITY));
     }

@@ -61,7 +61,7 @@ mod winding;
 use crate::equations::ABOVE_LEAST;
 use crate::equations::{CableDerivatives, Inputs, Partials, Pins, Reading, read, solve};
 use crate::error::StaticsError;
-use crate::inverse::{Branch, InverseSolution};
+use crate::inverse::{Branch, InverseSolution, require_smooth};
 use crate::loading::{Deflection, Wound, deflection_from, wind, wind_free, wind_from, wind_near};
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load};
@@ -143,7 +143,8 @@ pub struct VarianceBudget {
 ///
 /// # Errors
 /// Those of [`crate::deflection`]; [`StaticsError::NoDerivative`] where an equilibrium or the tension
-/// distribution is at the border of its existence.
+/// distribution is at the border of its existence; [`StaticsError::Invalid`] for the least 1-norm and
+/// infinity-norm of the tensions, which jump from pose to pose.
 pub fn derivatives(
     robot: &Robot,
     pose: &Pose,
@@ -191,6 +192,7 @@ fn of_wound(
     load: &Load,
     wound: &Wound,
 ) -> Result<Derivatives, StaticsError> {
+    require_smooth(robot)?;
     let deflection = deflection_from(robot, wound.lengths.clone(), load, &wound.held)?;
     let winding = Winding { robot, pose, inputs: Inputs::of(robot), wound };
     let set_points = winding.set_points(tension_offsets)?;

@@ -11,7 +11,7 @@ mod rounding;
 mod shape;
 mod spanned;
 
-pub(crate) use assembled::{FactoredJacobian, NEAR_VERTICAL, State, closure_row, jacobian, residual, skew};
+pub(crate) use assembled::{NEAR_VERTICAL, State, closure_row, jacobian, residual, skew};
 pub(crate) use balance::Balance;
 pub(crate) use cable::{CablePlane, LinearizedCable, Span, between};
 pub(crate) use held::{ABOVE_LEAST, Bounds, Ends, Held};

@@ -15,7 +15,8 @@
 //! t_i - r_i + λ·dw_i/dt_i = 0  on free cables,   >= 0 at min_i,   <= 0 at max_i                     (I2)
 //! ```
 //!
-//! r is zero, or what the robot prefers. The limits of a cable are its own or the robot's; its least tension
+//! r is zero, or what the robot prefers. A robot may choose the least 1-norm or infinity-norm instead, by `norm`.
+//! The limits of a cable are its own or the robot's; its least tension
 //! is at least [`ABOVE_LEAST`] times what its own weight demands over its span, and a greatest tension at its
 //! exit point is converted to the platform by `limits`.
 //!
@@ -30,6 +31,8 @@ mod greatest;
 mod held;
 mod in_turn;
 mod limits;
+mod maximization;
+mod norm;
 mod optimum;
 mod question;
 mod start;
@@ -52,6 +55,8 @@ pub use free::{
 pub use greatest::{Blocking, Greatest, greatest_payload, tension_margin};
 pub(crate) use in_turn::InTurn;
 pub use limits::limits_at;
+use norm::chosen;
+pub(crate) use norm::require_smooth;
 pub(crate) use optimum::NEARLY_ROUNDING;
 use optimum::Optimum;
 use question::Question;
@@ -65,13 +70,14 @@ pub struct InverseSolution {
     pub tensions: Vec<f64>,
     /// The bound each tension rests on, if any.
     pub active: Vec<Option<Bound>>,
-    /// Multipliers λ of the balance in (I2): of its forces [N], of its moments [N/m].
+    /// Multipliers λ of the balance in (I2): of its forces [N], of its moments [N/m]; where a 1-norm or
+    /// infinity-norm is least, its derivatives by the wrench [1, 1/m].
     pub multipliers: Vector6<f64>,
     /// The pose with the cables' forces.
     pub equilibrium: Equilibrium,
-    /// Iterations of Newton's method, of all starts; zero where [`crate::inverse_all`] found it in lanes.
+    /// Iterations of Newton's method, of all starts, or linear programs; zero where [`crate::inverse_all`] found it in lanes.
     pub iterations: usize,
-    /// What is left of (I2) in the worst cable [N].
+    /// What is left of (I2) in the worst cable, or what a norm would gain to first order [N].
     pub stationarity: f64,
     /// Residuals of all equations.
     pub residual: Residual,
@@ -79,8 +85,9 @@ pub struct InverseSolution {
 
 /// The unstrained lengths with which the platform rests at `pose` under its weight and `load`.
 ///
-/// Within their limits the tensions are as near as possible to `reference` [N], one for each cable; `None`
-/// asks for the robot's own reference, which is zero unless it is stated: the least-norm tensions.
+/// Within their limits the tensions are as near as possible to `reference` [N], one for each cable; with `None`
+/// they are those of the robot's distribution: the nearest to its own reference, which is zero unless it is
+/// stated, or those of a least norm.
 ///
 /// # Errors
 /// - [`StaticsError::NoTensions`] where no tensions within the limits were found that hold the pose.
@@ -98,7 +105,7 @@ pub fn inverse(
     reference: Option<&[f64]>,
 ) -> Result<InverseSolution, StaticsError> {
     let question = Question::of_whole_pose(robot, pose, load, reference)?;
-    InverseSolution::new(&question, search(&question)?)
+    InverseSolution::new(&question, chosen(&question)?)
 }
 
 /// Whether tensions within the limits hold the platform at `pose` under its weight and `load`, as far as the
@@ -163,13 +170,17 @@ impl<'a> InversePath<'a> {
     /// answered.
     ///
     /// # Errors
-    /// Those of [`inverse`]. The path then goes on from the last pose that has an answer.
+    /// Those of [`inverse`], and [`StaticsError::Invalid`] for a distribution that jumps from pose to pose. The path
+    /// then goes on from the last pose that has an answer.
     pub fn solve(
         &mut self,
         pose: &Pose,
         load: &Load,
         reference: Option<&[f64]>,
     ) -> Result<PathSolution, StaticsError> {
+        if reference.is_none() {
+            require_smooth(self.robot)?;
+        }
         let question = Question::of_whole_pose(self.robot, pose, load, reference)?;
         let followed = self.last.as_ref().and_then(|last| last.followed(&question));
         let jump = self.last.is_some() && followed.is_none();

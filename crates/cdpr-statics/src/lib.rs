@@ -43,6 +43,7 @@
 //! ```
 
 mod certificate;
+mod dense;
 mod derivatives;
 mod direct;
 mod equations;

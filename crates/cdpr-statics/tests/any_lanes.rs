@@ -94,6 +94,7 @@ pub(crate) fn case(seed: u64) -> Option<Case> {
         plane: None,
         ground_z: None,
         tension_reference,
+        distribution: Default::default(),
         cables,
     };
     hold_motions(&mut robot, &mut ChaCha8Rng::seed_from_u64(seed ^ 0x401d));

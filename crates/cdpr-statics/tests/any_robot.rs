@@ -78,6 +78,7 @@ fn case(seed: u64) -> Case {
         ground_z: None,
         plane: None,
         tension_reference: None,
+        distribution: Default::default(),
         cables,
     };
     let position = Vector3::from_fn(|_, _| rng.random_range(-0.3..0.3) * size);

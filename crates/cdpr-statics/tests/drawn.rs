@@ -65,6 +65,7 @@ pub(crate) fn drawn(seed: u64) -> Option<Drawn> {
         ground_z: None,
         plane: None,
         tension_reference: None,
+        distribution: Default::default(),
         cables,
     };
     robot.validate().ok()?;

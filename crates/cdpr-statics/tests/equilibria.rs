@@ -34,6 +34,7 @@ pub(crate) fn robot(case: &Value) -> Robot {
         ground_z: None,
         plane: None,
         tension_reference: None,
+        distribution: Default::default(),
         cables: exits.iter().zip(anchors).map(cable).collect(),
     }
 }

@@ -101,6 +101,7 @@ pub(crate) fn suspended(points: &[[[f64; 3]; 2]], properties: &CableProperties, 
         ground_z: None,
         plane: None,
         tension_reference: None,
+        distribution: Default::default(),
         cables: points.iter().map(cable).collect(),
     };
     robot.validate().unwrap();

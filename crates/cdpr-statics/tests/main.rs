@@ -23,6 +23,7 @@ mod hysteresis;
 mod inverse;
 mod models;
 mod modes;
+mod norms;
 mod observation_free;
 mod observation_motions;
 mod observation_slopes;

@@ -37,6 +37,7 @@ pub(crate) fn robot(case: &Value) -> Robot {
         ground_z: None,
         plane: None,
         tension_reference: None,
+        distribution: Default::default(),
         cables: cables.collect(),
     }
 }

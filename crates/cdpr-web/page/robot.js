@@ -17,7 +17,10 @@ export function changedRobot(file, changes) {
     cable.linear_density *= changes.density;
     for (const segment of cable.law?.segments ?? []) segment.modulus *= changes.modulus;
   }
-  if (changes.reference !== null) robot.tension_reference = changes.reference;
+  if (changes.reference !== null) {
+    robot.tension_reference = changes.reference;
+    delete robot.distribution;
+  }
   for (const limits of [robot.tension_limits, ...robot.cables.map((entry) => entry.tension_limits)]) {
     if (!limits) continue;
     if (changes.least !== null && limits.min !== undefined) limits.min = changes.least;

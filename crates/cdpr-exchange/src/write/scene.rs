@@ -53,6 +53,9 @@ pub(crate) fn unplaced(robot: &Robot) -> Vec<String> {
     if robot.tension_reference.is_some() {
         notes.push("the preferred tensions (tension_reference) have no place".to_owned());
     }
+    if !robot.distribution.is_nearest() {
+        notes.push("the choice of tensions (distribution) has no place".to_owned());
+    }
     if (0..robot.cables.len()).any(|i| robot.max_at(i) == CableEnd::Exit) {
         notes.push("that the greatest tensions are those at the exit points has no place".to_owned());
     }

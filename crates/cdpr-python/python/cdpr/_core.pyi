@@ -93,6 +93,9 @@ class Robot:
         limit is the winch's.
     tension_reference: tensions that those of the inverse model come as near to as they can: a number for all
         cables [N], one for each, or "mid", the middle of the limits; the least norm if left out.
+    distribution: which tensions the inverse model chooses: "nearest" to tension_reference, or of "least_1_norm",
+        "least_2_norm" or "least_infinity_norm". Derivatives, paths and studies refuse the 1-norm and the
+        infinity-norm, whose tensions jump from pose to pose.
     center_of_mass: centre of mass in the platform frame [m]; P if left out.
     gravity: acceleration due to gravity [m/s²], a number along -z of the base frame or a vector in it, (3,);
         9.81 if left out.
@@ -119,6 +122,7 @@ class Robot:
         name: str = ...,
         max_at: str = "anchor",
         tension_reference: ArrayLike | str | None = None,
+        distribution: str = "nearest",
         point: bool = False,
         plane: str | None = None,
         ground_z: float | None = None,
@@ -193,6 +197,18 @@ class Robot:
             the least norm.
 
         Raises InputError for a negative tension or another number of them than of cables.
+        """
+    @property
+    def distribution(self) -> str:
+        """Which tensions the inverse model chooses: "nearest", "least_1_norm", "least_2_norm" or
+        "least_infinity_norm".
+        """
+    def with_distribution(self, distribution: str) -> Robot:
+        """Makes a robot whose inverse model chooses tensions in another way. A norm drops the tension reference.
+
+        distribution: "nearest", "least_1_norm", "least_2_norm" or "least_infinity_norm".
+
+        Raises InputError for another name.
         """
     @property
     def gravity(self) -> Any:

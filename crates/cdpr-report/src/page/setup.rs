@@ -3,7 +3,9 @@
 use crate::page::elements::{Section, cell, table};
 use crate::parameters;
 use crate::text;
-use cdpr_robot::{CableEnd, NamedReference, Parameter, Robot, TensionLimits, TensionReference};
+use cdpr_robot::{
+    CableEnd, NamedReference, Parameter, Robot, TensionDistribution, TensionLimits, TensionReference,
+};
 use cdpr_study::{GridSpec, IndexMap, InputSpec, PoseSpec, PosesSpec, Results, StudySummary};
 use maud::{Markup, html};
 
@@ -35,6 +37,10 @@ fn settings(results: &Results) -> Markup {
             @if let Some(reference) = &robot.tension_reference {
                 dt { "Tensions preferred" }
                 dd { (tension_reference(reference)) }
+            }
+            @if robot.distribution == TensionDistribution::LeastTwoNorm {
+                dt { "Tensions chosen" }
+                dd { "of least 2-norm" }
             }
             dt { "Load" }
             dd { (text::digits(file.payload, 5)) " kg added at the platform's centre of mass" }

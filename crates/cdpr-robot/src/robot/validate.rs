@@ -39,6 +39,10 @@ impl Robot {
         }
         if let Some(reference) = &self.tension_reference {
             reference.validate(self.cables.len())?;
+            if !self.distribution.is_nearest() {
+                let expected = "nearest, as there is a tension_reference; or no tension_reference";
+                return Err(RobotError::invalid("distribution", self.distribution.name(), expected));
+            }
         }
         self.validate_points()
     }

@@ -12,6 +12,7 @@
 //! set-points; the lengths for these, at the pose of rest, follow from (D7), whose ∂F_i includes the motion
 //! `T dq + dc`.
 
+use crate::dense::Lu;
 use crate::equations::{CableDerivatives, Inputs, Partials, Reading, tensions};
 use crate::error::StaticsError;
 use crate::inverse::HeldPose;
@@ -98,11 +99,11 @@ impl Rest<'_> {
         };
         let matrix = DMatrix::from_fn(rows.len(), rows.len(), entry);
         let right = DMatrix::from_fn(rows.len(), inputs.count(), |i, j| -balance[(rows[i], j)]);
-        let found = matrix.full_piv_lu().solve(&right);
-        let Some(found) = found.filter(|found| found.iter().all(|value| value.is_finite())) else {
+        let found = Lu::new(&matrix).solve(&right);
+        if !found.iter().all(|value| value.is_finite()) {
             let reason = "its equations are singular there";
             return Err(StaticsError::NoDerivative { quantity: "the pose of rest", reason });
-        };
+        }
         let mut motion = free * found.rows(n, rows.len() - n);
         let mut of_wanted = motion.fixed_columns_mut::<6>(start);
         of_wanted += held;

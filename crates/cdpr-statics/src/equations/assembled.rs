@@ -1,4 +1,4 @@
-//! The `6 + 2n` equations of an equilibrium, assembled, with their Jacobian. No other module names faer.
+//! The `6 + 2n` equations of an equilibrium, assembled, with their Jacobian.
 //!
 //! Unknowns: the motion (dp, dφ) of the platform, then (fx, fz) of every cable at A. Equations, in this
 //! order:
@@ -27,7 +27,6 @@ use cdpr_cable::kernel::Response;
 use cdpr_number::Real;
 use cdpr_number::vector::cross;
 use cdpr_robot::{Matrix3, Vector3, Vector6};
-use faer::linalg::solvers::{PartialPivLu, Solve};
 use nalgebra::{
     ClosedAddAssign, ClosedMulAssign, ClosedSubAssign, DMatrix, DVector, Matrix6, Scalar, Vector2,
 };
@@ -145,32 +144,6 @@ pub(crate) fn jacobian<T: Element>(problem: &DirectProblem, state: &State<T>) ->
     }
     jacobian.fixed_view_mut::<6, 6>(0, 0).copy_from(&platform);
     jacobian
-}
-
-/// The assembled Jacobian at an equilibrium, factored once for any number of right-hand sides.
-pub(crate) struct FactoredJacobian {
-    lu: PartialPivLu<f64>,
-    size: usize,
-}
-
-impl FactoredJacobian {
-    pub(crate) fn new(jacobian: &DMatrix<f64>) -> Self {
-        let size = jacobian.nrows();
-        let matrix = faer::Mat::from_fn(size, size, |i, j| jacobian[(i, j)]);
-        Self { lu: matrix.partial_piv_lu(), size }
-    }
-
-    /// `J⁻¹`.
-    pub(crate) fn inverse(&self) -> DMatrix<f64> {
-        self.solve(&DMatrix::identity(self.size, self.size))
-    }
-
-    /// `J⁻¹ right`, column by column.
-    pub(crate) fn solve(&self, right: &DMatrix<f64>) -> DMatrix<f64> {
-        let right = faer::Mat::from_fn(self.size, right.ncols(), |i, j| right[(i, j)]);
-        let solution = self.lu.solve(&right);
-        DMatrix::from_fn(self.size, solution.ncols(), |i, j| solution[(i, j)])
-    }
 }
 
 impl DirectProblem<'_> {

@@ -32,7 +32,7 @@
 
 use super::optimum::{Optimum, Point};
 use super::question::Question;
-use super::start::{Goal, Start};
+use super::start::{Goal, StraightStart};
 use crate::error::{Blocked, StaticsError};
 use cdpr_cable::CableError;
 use cdpr_robot::{Matrix6xX, TensionLimits, Vector6};
@@ -57,7 +57,7 @@ const MUCH: f64 = 0.4;
 /// The optimum: of cables that sag little from the first start that leads to one, else the best of all
 /// starts.
 pub(super) fn search<'a>(question: &Question<'a>) -> Result<Optimum<'a>, StaticsError> {
-    let Start { tensions, residue, certificate, .. } = question.straight(&Goal::Nearest);
+    let StraightStart { tensions, residue, certificate, .. } = question.straight(&Goal::Nearest);
     let first = Point::new(question, &tensions)?;
     if residue > CLEAR_RESIDUE
         && let Some(refusal) = refused(question, &first, certificate.as_ref())

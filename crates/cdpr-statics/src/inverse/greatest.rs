@@ -23,18 +23,15 @@
 //! limits that it rests on give Newton's method its equations (Fletcher and Sainz de la Maza, *Nonlinear
 //! programming and nonsmooth optimization by successive linear programming*, Math. Programming 43, 1989).
 
-mod maximization;
-mod newton;
-
 use super::HeldPose;
 use super::limits::strain_limit;
+use super::maximization::{Aim, Maximization, Maximum};
 use super::question::Question;
 use crate::error::StaticsError;
 use crate::out_of_limits::Limit;
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load, Residual};
-use cdpr_robot::{Pose, Robot, TensionLimits, Vector6, Wrench};
-use maximization::{Maximization, Maximum};
+use cdpr_robot::{Pose, Robot, TensionLimits, Wrench};
 
 /// The greatest value that the limits of tension allow, with the tensions that reach it.
 #[derive(Clone, Debug, PartialEq)]
@@ -93,7 +90,7 @@ pub fn greatest_payload(robot: &Robot, pose: &Pose, wrench: &Wrench) -> Result<G
     direction.fixed_rows_mut::<3>(3).unscale_mut(bounded.question.arm);
     let direction = robot.freedoms().of_vector(&direction);
     let components = robot.freedoms().components();
-    let maximization = Maximization { direction, drawn: None, range: [0.0, heaviest], components };
+    let maximization = Maximization { aim: Aim::Wrench(direction), range: [0.0, heaviest], components };
     let found = maximization.solve(&bounded.question, &bounded.question);
     let found = found.map_err(|refusal| bounded.reason(refusal))?;
     let payload = found.value / gravity;
@@ -119,8 +116,7 @@ pub fn tension_margin(robot: &Robot, pose: &Pose, load: &Load) -> Result<Greates
     let bounded = Bounded::within_strains(question)?;
     let range = [-WIDEST * largest, largest];
     let components = robot.freedoms().components();
-    let drawn = Some(limits.clone());
-    let maximization = Maximization { direction: Vector6::zeros(), drawn, range, components };
+    let maximization = Maximization { aim: Aim::Margin(limits.clone()), range, components };
     let found = maximization.solve(&bounded.question, &own)?;
     let scale = Scale { value: found.value, unit: 1.0 };
     bounded.greatest(load, scale, found, Some(&limits))

@@ -15,6 +15,7 @@
 
 use super::held::{Row, Strand};
 use super::question::Question;
+use crate::dense::Indefinite;
 use crate::equations::Held;
 use crate::error::StaticsError;
 use cdpr_cable::Catenary;
@@ -168,6 +169,11 @@ impl<'a> Point<'a> {
             }
         }
         Some(learned)
+    }
+
+    /// The sum of all tensions [N].
+    pub(super) fn total(&self) -> f64 {
+        self.rows.iter().map(|row| row.tension).sum()
     }
 
     /// Twice the objective of (I1) [N²].
@@ -378,13 +384,11 @@ impl<'a> Point<'a> {
             right[k + row] = -residual[row] - elasticity * self.multipliers[row];
         }
         // The reduced Hessian is positive where the matrix has as many positive eigenvalues as free cables.
-        if free.iter().any(|i| hessian[*i] <= 0.0) {
-            let eigenvalues = kkt.clone().symmetric_eigenvalues();
-            if eigenvalues.iter().filter(|value| **value > 0.0).count() != k {
-                return None;
-            }
+        let factors = Indefinite::new(&kkt);
+        if free.iter().any(|i| hessian[*i] <= 0.0) && factors.eigenvalues_by_sign().0 != k {
+            return None;
         }
-        let solution = kkt.lu().solve(&right)?;
+        let solution = factors.solve(&right)?;
         for (row, &i) in free.iter().enumerate() {
             step[i] = solution[row];
         }

@@ -3,7 +3,7 @@
 use super::limits::limits_at;
 use crate::error::StaticsError;
 use crate::state::Load;
-use cdpr_robot::{Pose, Robot, TensionLimits, Vector6};
+use cdpr_robot::{Pose, Robot, TensionDistribution, TensionLimits, Vector6};
 
 /// A robot to be held at a pose.
 #[derive(Clone)]
@@ -11,6 +11,8 @@ pub(super) struct Question<'a> {
     pub(super) robot: &'a Robot,
     pub(super) pose: &'a Pose,
     pub(super) load: &'a Load,
+    /// Which tensions are chosen.
+    pub(super) distribution: TensionDistribution,
     /// Reference tensions [N].
     pub(super) reference: Vec<f64>,
     pub(super) limits: Vec<TensionLimits>,
@@ -67,6 +69,8 @@ impl<'a> Question<'a> {
                 "a point away from the cable's anchor point at this pose",
             ));
         }
+        // Tensions stated here are those to come near to.
+        let distribution = reference.map_or(robot.distribution, |_| TensionDistribution::Nearest);
         let reference = reference.map_or_else(|| robot.reference(), <[f64]>::to_vec);
         StaticsError::one_per_cable("reference", &reference, n)?;
         if let Some((i, value)) = reference.iter().enumerate().find(|(_, value)| !value.is_finite()) {
@@ -74,13 +78,13 @@ impl<'a> Question<'a> {
         }
         let limits = (0..n).map(|i| robot.limits(i)).collect();
         let (arm, external) = external(robot, pose, load);
-        Ok(Self { robot, pose, load, reference, limits, arm, external })
+        Ok(Self { robot, pose, load, distribution, reference, limits, arm, external })
     }
 
     /// The question at a pose nearby, within the same limits.
     pub(super) fn nearby(&self, pose: &'a Pose, load: &'a Load, reference: Vec<f64>) -> Self {
         let (arm, external) = external(self.robot, pose, load);
-        Self { robot: self.robot, pose, load, reference, limits: self.limits.clone(), arm, external }
+        Self { pose, load, reference, limits: self.limits.clone(), arm, external, ..*self }
     }
 
     pub(super) fn cables(&self) -> usize {

@@ -2,18 +2,15 @@
 //!
 //! In directions along the chords the balance is linear: `cdpr_tension` finds the tensions nearest to the
 //! reference, the greatest payload and the greatest margin there, or a direction along which no tensions
-//! within the limits balance the wrench. Sagging cables need not keep it: [`Point::is_refuted_along`]
-//! says whether they do.
+//! within the limits balance the wrench. Sagging cables need not keep it: `feasible` checks whether they do.
 
-#[cfg(doc)]
-use super::optimum::Point;
 use super::question::Question;
 use cdpr_robot::{Matrix6xX, TensionLimits, Vector3, Vector6};
 use cdpr_tension::{Distribution, Objective, Problem, TensionError, distribute};
 use nalgebra::DVector;
 
 /// Where a search begins.
-pub(super) struct Start {
+pub(super) struct StraightStart {
     /// Tensions within the limits [N].
     pub(super) tensions: Vec<f64>,
     /// The objective, of tensions that balance the wrench.
@@ -32,11 +29,15 @@ pub(super) enum Goal<'a> {
     Wrench(&'a Vector6<f64>),
     /// The greatest distance from limits.
     Margin(&'a [TensionLimits]),
+    /// The least 1-norm.
+    LeastSum,
+    /// The least infinity-norm.
+    LeastGreatest,
 }
 
 impl Question<'_> {
     /// The tensions of straight cables that meet a goal, or those nearest to a balance.
-    pub(super) fn straight(&self, goal: &Goal) -> Start {
+    pub(super) fn straight(&self, goal: &Goal) -> StraightStart {
         let components = self.robot.freedoms().components();
         let wrench_matrix = self.straight_matrix().select_rows(&components);
         let pick = |wrench: &Vector6<f64>| {
@@ -51,23 +52,25 @@ impl Question<'_> {
                 Objective::GreatestWrench(&direction)
             }
             Goal::Margin(limits) => Objective::GreatestMargin(limits),
+            Goal::LeastSum => Objective::LeastSum,
+            Goal::LeastGreatest => Objective::LeastGreatest,
         };
         let problem = Problem { wrench_matrix: &wrench_matrix, wrench: &wrench, limits: &self.limits };
         match distribute(&problem, objective) {
             Ok(Distribution { tensions, value, .. }) => {
-                Start { tensions, value: Some(value), residue: 0.0, certificate: None }
+                StraightStart { tensions, value: Some(value), residue: 0.0, certificate: None }
             }
             Err(TensionError::Infeasible { tensions, residual, certificate, .. }) => {
                 let mut direction = Vector6::zeros();
                 components.iter().zip(&certificate).for_each(|(k, y)| direction[*k] = *y);
                 let residue = residual / (wrench.norm() + tensions.iter().sum::<f64>());
-                Start { tensions, value: None, residue, certificate: Some(direction) }
+                StraightStart { tensions, value: None, residue, certificate: Some(direction) }
             }
             // A start is no answer: without one from Clarabel the search begins at the reference.
             Err(_) => {
                 let each = self.reference.iter().zip(&self.limits);
                 let tensions = each.map(|(t, limits)| t.max(limits.min).min(limits.max)).collect();
-                Start { tensions, value: None, residue: 0.0, certificate: None }
+                StraightStart { tensions, value: None, residue: 0.0, certificate: None }
             }
         }
     }

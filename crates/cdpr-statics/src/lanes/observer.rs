@@ -15,7 +15,7 @@ pub(crate) mod rows;
 mod slopes;
 
 use crate::error::StaticsError;
-use crate::inverse::{Branch, FreeBranch, HeldPose, InverseSolution};
+use crate::inverse::{Branch, FreeBranch, HeldPose, InverseSolution, require_smooth};
 use crate::lanes::chain::{Outcome, Stage, observe};
 use crate::lanes::level::LevelFrame;
 use crate::lanes::observer::rows::{Nominal, Rows};
@@ -112,10 +112,12 @@ impl<'a> Observer<'a> {
     /// An observer of `robot`, wanted at `pose` under its own weight and then loaded with `load`.
     ///
     /// # Errors
-    /// [`StaticsError::Invalid`] for a load that is not finite, [`StaticsError::Robot`] for an invalid robot.
+    /// [`StaticsError::Invalid`] for a load that is not finite and for a distribution of tensions that jumps from
+    /// pose to pose, [`StaticsError::Robot`] for an invalid robot.
     pub fn new(robot: &'a Robot, pose: &Pose, load: &Load) -> Result<Self, StaticsError> {
         robot.validate()?;
         load.validate()?;
+        require_smooth(robot)?;
         let (solution, branch) = Branch::of(robot, pose).ok().unzip();
         let solution = solution.map(|InverseSolution { lengths, equilibrium, multipliers, .. }| {
             (HeldPose { lengths, equilibrium }, multipliers)

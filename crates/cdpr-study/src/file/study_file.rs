@@ -6,7 +6,7 @@ use crate::file::grid::GridSpec;
 use crate::file::output::Output;
 use crate::file::sensitivity_spec::SensitivitySpec;
 use crate::file::value::Value;
-use cdpr_robot::{Coordinate, TensionReference};
+use cdpr_robot::{Coordinate, TensionDistribution, TensionReference};
 use cdpr_sensitivity::{Law, Steps};
 use indexmap::IndexMap;
 use schemars::JsonSchema;
@@ -38,6 +38,10 @@ pub struct StudyFile {
     /// all cables [N], a list with one for each cable, or "mid", the middle of the limits.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tension_reference: Option<TensionReference>,
+    /// Which tensions the inverse model chooses, in place of the robot's choice: "nearest" to the reference or of
+    /// "least_2_norm". The other norms jump from observation to observation.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub distribution: Option<TensionDistribution>,
     /// Seed of all random numbers (replicates, bootstrap): the same seed gives the same numbers.
     pub seed: u64,
     /// Number of scrambled replicates of each sampling, which give the intervals of signed effects; 0 or at

@@ -13,7 +13,7 @@ use crate::model::nominal::Nominals;
 use crate::model::prepare::FEWEST_OBSERVATIONS;
 use crate::model::study::Study;
 use crate::names::BLOCKS_NAME;
-use cdpr_robot::{Coordinate, Robot, RobotError, TensionReference, from_json};
+use cdpr_robot::{Coordinate, Robot, RobotError, TensionDistribution, TensionReference, from_json};
 use std::borrow::Cow;
 use std::path::Path;
 
@@ -81,20 +81,24 @@ impl Study {
     }
 
     fn of(file: StudyFile, mut robot: Robot, path: &Path) -> Self {
-        if let Some(reference) = &file.tension_reference {
-            robot.tension_reference = Some(reference.clone());
-        }
+        robot.choose(file.distribution, file.tension_reference.clone());
         Self { path: path.to_owned(), file, robot, nominals: Nominals::default() }
     }
 
-    /// Gives the inverse model other tensions to prefer.
+    /// Gives the inverse model another choice of tensions, as [`Robot::choose`].
     ///
     /// # Errors
-    /// [`StudyError::Invalid`] for a negative tension or another number of them than of cables;
-    /// [`StudyError::Nominal`] for a pose that the nominal robot does not hold.
-    pub fn set_tension_reference(&mut self, reference: TensionReference) -> Result<(), StudyError> {
-        self.robot.tension_reference = Some(reference.clone());
-        self.file.tension_reference = Some(reference);
+    /// [`StudyError::Invalid`] for a negative tension or another number of them than of cables, and for a
+    /// distribution that jumps between observations; [`StudyError::Nominal`] for a pose that the nominal robot does
+    /// not hold.
+    pub fn choose_tensions(
+        &mut self,
+        distribution: Option<TensionDistribution>,
+        reference: Option<TensionReference>,
+    ) -> Result<(), StudyError> {
+        self.robot.choose(distribution, reference);
+        self.file.tension_reference = self.robot.tension_reference.clone();
+        self.file.distribution = distribution;
         self.validate()
     }
 
@@ -164,7 +168,12 @@ impl Study {
         if !(file.payload.is_finite() && file.payload > 0.0) {
             return Err(self.invalid("payload", file.payload, "a finite mass above zero [kg]"));
         }
-        if file.tension_reference.is_some()
+        if !self.robot.distribution.is_smooth() {
+            let expected =
+                "nearest or least_2_norm, in the study or the robot: other norms jump between observations";
+            return Err(self.invalid("distribution", self.robot.distribution.name(), expected));
+        }
+        if (file.tension_reference.is_some() || file.distribution.is_some())
             && let Err(RobotError::Invalid { field, value, expected }) = self.robot.validate()
         {
             return Err(self.invalid(&field, value, &expected));

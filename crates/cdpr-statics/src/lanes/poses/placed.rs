@@ -25,9 +25,9 @@ pub(crate) struct PlacedRobot<'a> {
 }
 
 impl<'a> PlacedRobot<'a> {
-    /// `None` for a robot that is not one for the lanes.
+    /// `None` for a robot that is not one for the lanes, or whose distribution of tensions is none for them.
     pub(crate) fn of(robot: &'a Robot) -> Option<Self> {
-        if ScalarReason::of_all(robot, &[]).is_some() {
+        if !robot.distribution.is_smooth() || ScalarReason::of_all(robot, &[]).is_some() {
             return None;
         }
         let exits = || robot.cables.iter().map(|cable| cable.exit_point);

@@ -1,4 +1,4 @@
-//! The maximization (I7) by linear programs.
+//! The maximization (I7) by linear programs, and the least norms of the tensions, (I13), which are maxima, too.
 //!
 //! Every iteration linearises the balance at the cables' chord forces and solves a linear program within a
 //! region about them. With the multipliers y of the balance in that program, steps are judged by
@@ -7,27 +7,45 @@
 //! m(σ, z) = z - M |F(σ, z)|_1,      M = 2 max |y|,      F = sum w_i + w_ex + z w_z                (I12)
 //! ```
 //!
-//! where |F|_1 includes by how much tensions pass limits that z draws closer. A greater M would allow only
+//! where |F|_1 includes by how much tensions pass limits that z draws closer, and what (I13) leaves. A greater M would allow only
 //! tiny steps along a balance that is curved. For the same reason a long step is followed by one back to the
 //! balance, a second-order correction. Where a step gains nothing, `newton` solves the conditions of a
 //! maximum with the limits that the program rests on. What is accepted as the maximum is one to first order:
 //! no step within the limits gains anything.
+//!
+//! The least 1-norm and infinity-norm of the tensions are -z of
+//!
+//! ```text
+//! maximise  z   subject to   sum w_i(t_i) + w_ex = 0,   min_i <= t_i <= max_i,
+//!           sum t_i + z = 0,   or   t_i <= 0 - z  for all i                                        (I13)
+//! ```
+
+mod newton;
 
 use crate::error::StaticsError;
 use crate::inverse::feasible::{BALANCED, search};
 use crate::inverse::held::Strand;
 use crate::inverse::optimum::{ELASTICITY, Optimum, Point};
 use crate::inverse::question::Question;
-use crate::inverse::start::{Goal, Start};
+use crate::inverse::start::{Goal, StraightStart};
 use cdpr_robot::{TensionLimits, Vector6};
 use cdpr_tension::{BoxProblem, BoxUnknown, LinearProgram, LinearSolution};
 
-/// z of (I7) and what it acts on.
+/// What z of (I7) and (I13) is.
+pub(super) enum Aim {
+    /// The multiple of a wrench, its moment divided by the characteristic length.
+    Wrench(Vector6<f64>),
+    /// The distance from limits that it draws closer.
+    Margin(Vec<TensionLimits>),
+    /// The negative sum of all tensions, their least 1-norm.
+    Sum,
+    /// The negative greatest tension, their least infinity-norm: limits of zero that z draws closer, and none below.
+    Greatest(Vec<TensionLimits>),
+}
+
+/// z and its range.
 pub(super) struct Maximization {
-    /// w_z, moments divided by the length that makes them comparable with forces.
-    pub(super) direction: Vector6<f64>,
-    /// The limits that z draws closer; `None` where they do not depend on z.
-    pub(super) drawn: Option<Vec<TensionLimits>>,
+    pub(super) aim: Aim,
     /// Least and greatest value of z [N].
     pub(super) range: [f64; 2],
     /// Components of a wrench that the cables have to balance.
@@ -104,27 +122,50 @@ impl Maximization {
         question: &Question<'a>,
         own: &Question<'a>,
     ) -> Result<Maximum<'a>, StaticsError> {
-        let goal = self.drawn.as_ref().map_or(Goal::Wrench(&self.direction), |drawn| Goal::Margin(drawn));
-        let Start { tensions, value, certificate, .. } = question.straight(&goal);
-        let (mut point, found) = self.climb(question, &tensions, value.unwrap_or(0.0))?;
+        let (goal, sign) = match &self.aim {
+            Aim::Wrench(direction) => (Goal::Wrench(direction), 1.0),
+            Aim::Margin(limits) => (Goal::Margin(limits), 1.0),
+            Aim::Sum => (Goal::LeastSum, -1.0),
+            Aim::Greatest(_) => (Goal::LeastGreatest, -1.0),
+        };
+        let StraightStart { tensions, value, certificate, .. } = question.straight(&goal);
+        let (mut point, found) = self.climb(question, &tensions, sign * value.unwrap_or(0.0))?;
         if let Some(found) = found {
             return Ok(found);
         }
         // What refutes a balance at z = 0 refutes one at any z, unless z pulls the other way.
         let pulls_away =
-            |y: &Vector6<f64>| y.dot(&self.direction) * self.range[1] >= -ROUNDING * point.size();
+            |y: &Vector6<f64>| y.dot(&self.direction()) * self.range[1] >= -ROUNDING * point.size();
         let directions = [certificate, Some(point.residual().normalize())].into_iter().flatten();
         let directions: Vec<_> = directions.filter(pulls_away).collect();
         if point.residue() > BALANCED && directions.iter().any(|y| point.is_refuted_along(y)) {
             return Err(point.refusal(question, 1, point.iterations, true));
         }
         // Far from a balance within wide limits, another start is not worth its time.
-        if self.drawn.is_some() && point.residue() > NEARLY_BALANCED {
+        if matches!(self.aim, Aim::Margin(_)) && point.residue() > NEARLY_BALANCED {
             return Err(point.refusal(question, 1, point.iterations, false));
         }
         let Optimum { tensions, iterations, stationarity, .. } = search(own)?;
         let (_, found) = self.climb(question, &tensions, 0.0)?;
         found.ok_or(StaticsError::InverseNotConverged { iterations, stationarity })
+    }
+
+    /// w_z of (I7).
+    pub(super) fn direction(&self) -> Vector6<f64> {
+        if let Aim::Wrench(direction) = &self.aim { *direction } else { Vector6::zeros() }
+    }
+
+    /// The limits that z draws closer.
+    pub(super) fn drawn(&self) -> Option<&[TensionLimits]> {
+        match &self.aim {
+            Aim::Margin(limits) | Aim::Greatest(limits) => Some(limits),
+            Aim::Wrench(_) | Aim::Sum => None,
+        }
+    }
+
+    /// Whether z is the negative sum of the tensions.
+    pub(super) fn is_sum(&self) -> bool {
+        matches!(self.aim, Aim::Sum)
     }
 
     /// Climbs from some tensions and z [N]; returns where it ends, and the maximum if it is one.
@@ -218,7 +259,7 @@ impl Maximization {
         let unknown = |(i, strand): (usize, &Strand)| {
             let row = &point.rows[i];
             let [mut low, mut high] = strand.room();
-            if let Some(limits) = self.drawn.as_ref().map(|drawn| drawn[i]) {
+            if let Some(limits) = self.drawn().map(|drawn| drawn[i]) {
                 low = low.max((limits.min + at.z - row.tension) / row.tension_slope);
                 high = high.min((limits.max - at.z - row.tension) / row.tension_slope);
             }
@@ -226,7 +267,7 @@ impl Maximization {
             BoxUnknown { gradient: 0.0, curvature, column: row.slope, bounds: [low.min(high), high.max(low)] }
         };
         let unknowns: Vec<BoxUnknown> = point.strands.iter().enumerate().map(unknown).collect();
-        let residual = point.residual() + self.direction * at.z;
+        let residual = point.residual() + self.direction() * at.z;
         let program = BoxProblem {
             unknowns: &unknowns,
             residual,
@@ -241,14 +282,15 @@ impl Maximization {
         at.z - penalty * self.open(at)
     }
 
-    /// |F|_1 and by how much tensions pass the limits drawn closer [N].
+    /// |F|_1, by how much tensions pass the limits drawn closer, and what (I13) leaves [N].
     pub(super) fn open(&self, Iterate { point, z }: &Iterate) -> f64 {
-        let balance: f64 = (point.residual() + self.direction * *z).lp_norm(1);
+        let balance: f64 = (point.residual() + self.direction() * *z).lp_norm(1);
         let passed = |(i, limits): (usize, &TensionLimits)| {
             let t = point.rows[i].tension;
             (limits.min + z - t).max(0.0) + (t - limits.max + z).max(0.0)
         };
-        balance + self.drawn.iter().flatten().enumerate().map(passed).sum::<f64>()
+        let total = if self.is_sum() { (point.total() + z).abs() } else { 0.0 };
+        balance + self.drawn().into_iter().flatten().enumerate().map(passed).sum::<f64>() + total
     }
 
     /// Solves the program for a step, and computes the chord forces of all limits that it meets.
@@ -281,7 +323,7 @@ impl Maximization {
     /// the chord forces, z, and the distances of tensions from limits drawn closer.
     fn program(&self, point: &Point, size: f64, trust: &Trust) -> LinearProgram {
         let n = point.strands.len();
-        let slacks = self.drawn.as_ref().map_or(0, |limits| 2 * limits.len());
+        let slacks = self.drawn().map_or(0, |limits| 2 * limits.len());
         let within = |strand: &Strand| {
             let at = strand.held.chord_force();
             let [low, high] = strand.room();
@@ -296,11 +338,11 @@ impl Maximization {
         let residual = point.residual();
         let balance = self.components.iter().map(|&k| {
             let mut row: Vec<f64> = point.rows.iter().map(|row| row.slope[k]).collect();
-            row.push(self.direction[k]);
+            row.push(self.direction()[k]);
             row.extend(vec![0.0; slacks]);
             (row, -residual[k] / size)
         });
-        let drawn = self.drawn.iter().flatten().enumerate().flat_map(|(i, limits)| {
+        let drawn = self.drawn().into_iter().flatten().enumerate().flat_map(|(i, limits)| {
             // t + t' d - z - p = min,  t + t' d + z + q = max
             [(-1.0, limits.min), (1.0, limits.max)].into_iter().enumerate().map(
                 move |(side, (sign, limit))| {
@@ -312,7 +354,12 @@ impl Maximization {
                 },
             )
         });
-        let (rows, right) = balance.chain(drawn).unzip();
+        // (I13): sum t + sum t' d + z = 0
+        let total = self.is_sum().then(|| {
+            let slopes = point.rows.iter().map(|row| row.tension_slope);
+            (slopes.chain([1.0]).collect(), -point.total() / size)
+        });
+        let (rows, right) = balance.chain(drawn).chain(total).unzip();
         LinearProgram { objective, rows, right, bounds, penalty: trust.cost }
     }
 }

@@ -12,8 +12,9 @@
 //! unknowns beyond the balance, A is square and H takes no part; where fewer are, only H makes the steps
 //! converge.
 
-use super::maximization::{BALANCE, Iterate, Maximization};
+use crate::dense::Indefinite;
 use crate::inverse::held::Strand;
+use crate::inverse::maximization::{BALANCE, Iterate, Maximization};
 use cdpr_robot::Vector6;
 use cdpr_tension::LinearSolution;
 use nalgebra::{DMatrix, DVector};
@@ -43,6 +44,8 @@ struct Multipliers {
     balance: Vector6<f64>,
     /// Of the active limits drawn closer.
     drawn: Vec<f64>,
+    /// Of the sum of the tensions in (I13).
+    total: f64,
 }
 
 impl Maximization {
@@ -57,9 +60,11 @@ impl Maximization {
         let active = self.active(at, solution, size);
         let mut multipliers = self.multipliers(&active, solution);
         let mut at = at.clone();
+        // Free cables and z.
+        let unknowns = 1 + active.fixed.iter().filter(|fixed| fixed.is_none()).count();
         let mut before = f64::INFINITY;
         for _ in 0..MAX_ITERATIONS {
-            let (step, matrix, next) = self.newton_step(&at, &active, &multipliers)?;
+            let (step, factors, next) = self.newton_step(&at, &active, &multipliers)?;
             let n = at.point.strands.len();
             let relative =
                 at.point.strands.iter().zip(&step).map(|(strand, d)| d.abs() / strand.held.chord_force());
@@ -74,8 +79,10 @@ impl Maximization {
             }
             (before, multipliers) = (change, next);
             if is_last {
-                let is_maximum = self.open(&at) <= BALANCE * at.point.size()
-                    && is_maximum(matrix, self.components.len() + active.drawn.len());
+                // The second derivatives of the Lagrangian are negative along all motions that keep the
+                // equations where (I10) has as many negative eigenvalues as unknowns.
+                let (_, negative) = factors.eigenvalues_by_sign();
+                let is_maximum = self.open(&at) <= BALANCE * at.point.size() && negative == unknowns;
                 return is_maximum.then_some(at);
             }
         }
@@ -104,16 +111,17 @@ impl Maximization {
             let multiplier = solution.multipliers[self.components.len() + 2 * i + side];
             if *side == 0 { -multiplier } else { multiplier }
         };
-        Multipliers { balance, drawn: active.drawn.iter().map(of_drawn).collect() }
+        let total = if self.is_sum() { -solution.multipliers[self.components.len()] } else { 0.0 };
+        Multipliers { balance, drawn: active.drawn.iter().map(of_drawn).collect(), total }
     }
 
-    /// Changes of all chord forces and of z, the matrix of (I10) and the multipliers.
+    /// Changes of all chord forces and of z, the factors of (I10) and the multipliers.
     fn newton_step(
         &self,
         at: &Iterate,
         active: &Active,
         multipliers: &Multipliers,
-    ) -> Option<(Vec<f64>, DMatrix<f64>, Multipliers)> {
+    ) -> Option<(Vec<f64>, Indefinite, Multipliers)> {
         let point = &at.point;
         let n = point.strands.len();
         let free: Vec<usize> = (0..n).filter(|i| active.fixed[*i].is_none()).collect();
@@ -121,14 +129,16 @@ impl Maximization {
             .map(|(strand, fixed)| fixed.map_or(0.0, |side| strand.room()[side]))
             .collect();
         let (k, m) = (free.len(), self.components.len());
-        let rows = m + active.drawn.len();
+        let (fixed_rows, is_sum) = (m + active.drawn.len(), self.is_sum());
+        let rows = fixed_rows + usize::from(is_sum);
         let mut matrix = DMatrix::zeros(k + 1 + rows, k + 1 + rows);
         let mut right = DVector::zeros(k + 1 + rows);
         right[k] = -1.0;
         for (column, &i) in free.iter().enumerate() {
             let strand = &point.strands[i];
             let of_cable = active.drawn.iter().zip(&multipliers.drawn).filter(|((j, _), _)| *j == i);
-            let of_tension: f64 = of_cable.map(|((_, side), mu)| [*mu, -mu][*side]).sum();
+            let of_tension =
+                of_cable.map(|((_, side), mu)| [*mu, -mu][*side]).sum::<f64>() + multipliers.total;
             matrix[(column, column)] =
                 strand.bend(&multipliers.balance, point.arm) + of_tension * strand.tension_curvature();
         }
@@ -136,7 +146,7 @@ impl Maximization {
             .rows
             .iter()
             .zip(&step)
-            .fold(point.residual() + self.direction * at.z, |sum, (row, d)| sum + row.slope * *d);
+            .fold(point.residual() + self.direction() * at.z, |sum, (row, d)| sum + row.slope * *d);
         let mut set = |row: usize, column: usize, value: f64| {
             matrix[(k + 1 + row, column)] = value;
             matrix[(column, k + 1 + row)] = value;
@@ -145,11 +155,11 @@ impl Maximization {
             for (column, &i) in free.iter().enumerate() {
                 set(row, column, point.rows[i].slope[component]);
             }
-            set(row, k, self.direction[component]);
+            set(row, k, self.direction()[component]);
             right[k + 1 + row] = -residual[component];
         }
         for (row, &(i, side)) in active.drawn.iter().enumerate() {
-            let limits = self.drawn.as_ref()?[i];
+            let limits = self.drawn()?[i];
             let sign = [1.0, -1.0][side];
             let slope = sign * point.rows[i].tension_slope;
             let limit = [limits.min, limits.max][side];
@@ -160,10 +170,16 @@ impl Maximization {
             // Of a fixed cable the change is known.
             right[k + 1 + m + row] = -(sign * (point.rows[i].tension - limit) - at.z) - slope * step[i];
         }
-        let solution = matrix.clone().lu().solve(&right)?;
-        if solution.iter().any(|x| !x.is_finite()) {
-            return None;
+        if is_sum {
+            for (column, &i) in free.iter().enumerate() {
+                set(fixed_rows, column, point.rows[i].tension_slope);
+            }
+            set(fixed_rows, k, 1.0);
+            let of_fixed: f64 = point.rows.iter().zip(&step).map(|(row, d)| row.tension_slope * d).sum();
+            right[k + 1 + fixed_rows] = -(point.total() + at.z) - of_fixed;
         }
+        let factors = Indefinite::new(&matrix);
+        let solution = factors.solve(&right)?;
         for (column, &i) in free.iter().enumerate() {
             step[i] = solution[column];
         }
@@ -173,7 +189,8 @@ impl Maximization {
             balance[*component] = solution[k + 1 + row];
         }
         let drawn = solution.rows(k + 1 + m, active.drawn.len()).iter().copied().collect();
-        Some((step, matrix, Multipliers { balance, drawn }))
+        let total = if is_sum { solution[k + 1 + fixed_rows] } else { 0.0 };
+        Some((step, factors, Multipliers { balance, drawn, total }))
     }
 
     /// Whether cables between their limits stay there; computes the limits that a step meets.
@@ -197,13 +214,4 @@ impl Maximization {
         }
         Some(true)
     }
-}
-
-/// Whether the second derivatives of the Lagrangian are negative along all motions that keep the equations:
-/// (I10) then has as many positive eigenvalues as equations.
-fn is_maximum(matrix: DMatrix<f64>, equations: usize) -> bool {
-    let unknowns = matrix.nrows() - equations;
-    let eigenvalues = matrix.symmetric_eigenvalues();
-    let negative = eigenvalues.iter().filter(|value| **value < 0.0).count();
-    negative == unknowns
 }
