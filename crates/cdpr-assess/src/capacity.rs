@@ -21,8 +21,9 @@ mod rising;
 
 use cdpr_robot::{Coordinate, Pose, Robot, Wrench, decimal};
 use cdpr_statics::{
-    Blocking, DirectProblem, DirectSolution, Equilibrium, Greatest, HeldPose, Limit, Load, MAX_STRAIN, Start,
-    StaticsError, direct, follow_load, greatest_payload, held_at, rest_near, tension_margin,
+    Blocking, DirectProblem, DirectSolution, Equilibrium, Greatest, HeldPose, InverseSolution, Limit, Load,
+    MAX_STRAIN, Start, StaticsError, WantedPose, direct, follow_load, greatest_payload, inverse, rest_near,
+    tension_margin,
 };
 use rising::{Rising, nearest};
 use std::fmt;
@@ -152,7 +153,7 @@ pub fn capacity_at(
     set: &WrenchSet,
     free: &[Coordinate],
 ) -> Capacity {
-    let wound_up = held_at(robot, pose, &Load::none(), free);
+    let wound_up = inverse(robot, WantedPose::at(pose).free(free), &Load::none());
     capacity_of(robot, pose, load, set, free, wound_up.as_ref().map_err(Clone::clone))
 }
 
@@ -163,11 +164,11 @@ pub(crate) fn capacity_of(
     load: &Load,
     set: &WrenchSet,
     free: &[Coordinate],
-    wound_up: Result<&HeldPose, StaticsError>,
+    wound_up: Result<&InverseSolution, StaticsError>,
 ) -> Capacity {
     let set = set.shifted(load.wrench);
     let loaded = |payload: f64, wrench: &Wrench| Load { payload, wrench: *wrench };
-    let first = wound_up.map(|HeldPose { lengths, equilibrium }| Rest {
+    let first = wound_up.map(|InverseSolution { lengths, equilibrium, .. }| Rest {
         lengths: lengths.clone(),
         equilibrium: equilibrium.clone(),
         stands: None,

@@ -14,7 +14,7 @@
 //! distance.
 
 use cdpr_robot::{Coordinate, Pose, Robot, Vector3};
-use cdpr_statics::{DMatrix, DirectProblem, Equilibrium, HeldPose, Load, StaticsError, held_at};
+use cdpr_statics::{DMatrix, DirectProblem, Equilibrium, Load, StaticsError, WantedPose, inverse};
 
 /// The least distances at a pose.
 #[derive(Clone, Debug, PartialEq)]
@@ -78,15 +78,15 @@ pub fn clearance_at(
 /// cables than free motions the `free` coordinates are found.
 ///
 /// # Errors
-/// Those of [`held_at`].
+/// Those of [`inverse`].
 pub fn clearance_under(
     robot: &Robot,
     pose: &Pose,
     load: &Load,
     free: &[Coordinate],
 ) -> Result<Clearance, StaticsError> {
-    let HeldPose { lengths, equilibrium } = held_at(robot, pose, load, free)?;
-    clearance_at(robot, &lengths, &equilibrium)
+    let found = inverse(robot, WantedPose::at(pose).free(free), load)?;
+    clearance_at(robot, &found.lengths, &found.equilibrium)
 }
 
 /// Intervals of a cable between the points of its curve.

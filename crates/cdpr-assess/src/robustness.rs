@@ -19,7 +19,8 @@ use crate::error::AssessError;
 use cdpr_robot::{Pose, Robot, Vector3, Vector6};
 use cdpr_sensitivity::{RandomDesign, SampleDesign};
 use cdpr_statics::{
-    DirectMethod, DirectProblem, DirectSolution, Load, Residual, Start, StaticsError, direct, held_at,
+    DirectMethod, DirectProblem, DirectSolution, Load, Residual, Start, StaticsError, WantedPose, direct,
+    inverse,
 };
 use cdpr_study::StudyError;
 use rayon::prelude::*;
@@ -291,8 +292,8 @@ fn draw(
     let angle = if protocol.free.is_empty() { angle } else { 0.0 };
     let pose = moved(robot, &Pose::at(place.x, place.y, place.z), Vector3::zeros(), angle * axis);
     let refuse = |refusal| Box::new(RefusedPose { draw: index, pose, refusal });
-    let held =
-        held_at(robot, &pose, &Load::none(), &protocol.free).map_err(|e| refuse(Refusal::Infeasible(e)))?;
+    let held = inverse(robot, WantedPose::at(&pose).free(&protocol.free), &Load::none())
+        .map_err(|e| refuse(Refusal::Infeasible(e)))?;
     let found = DirectProblem::new(robot, &held.lengths, &Load::none())
         .and_then(|problem| problem.direct_any(Start::Near(&held.equilibrium)))
         .map_err(|error| refuse(Refusal::Unanswered(error)))?;

@@ -3,7 +3,7 @@
 
 use cdpr_assess::{Block, WrenchSet, capacity_at, clearance_at};
 use cdpr_robot::{Coordinate, Pose, Robot, Rotation3, Vector3, Vector6, Wrench};
-use cdpr_statics::{Limit, Load, StaticsError, deflection, inverse, inverse_free};
+use cdpr_statics::{Limit, Load, StaticsError, WantedPose, deflection, free_solutions, inverse};
 use serde_json::Value;
 
 fn cogiro() -> Robot {
@@ -62,7 +62,7 @@ fn of_sagging_cables_payload_and_distances_are_those_of_an_independent_program()
         payloads = payloads.max((payload / exact - 1.0).abs());
         assert!(payload < row["straight_payload"].as_f64().unwrap());
 
-        let held = inverse(&robot, pose, &Load::none(), None).unwrap();
+        let held = inverse(&robot, pose, &Load::none()).unwrap();
         let row = &row["distances"];
         for (tension, exact) in held.tensions.iter().zip(row["tensions"].as_array().unwrap()) {
             assert!((tension / exact.as_f64().unwrap() - 1.0).abs() < 1e-6);
@@ -85,7 +85,7 @@ fn with_the_lengths_kept_the_payload_ends_where_a_tension_reaches_its_limit() {
     for (robot, pose) in [(cogiro(), Pose::at(0.5, -0.3, 1.5)), (ipanema, Pose::at(0.2, 0.1, 1.3))] {
         let found = capacity_at(&robot, &pose, &Load::none(), &WrenchSet::of(Vec::new()), &[]);
         let tensions = |payload: f64| {
-            let found = deflection(&robot, &pose, &[0.0; 8], &Load::payload(payload)).unwrap();
+            let found = deflection(&robot, &pose, &Load::payload(payload)).unwrap();
             found.loaded.equilibrium.tensions()
         };
         for figure in [found.payload_kept.as_ref(), found.payload_kept_slack.as_ref()] {
@@ -116,7 +116,12 @@ fn with_free_coordinates_the_payload_ends_where_a_tension_reaches_its_limit() {
         };
         println!("{} kg, {}", found.value, found.blocked_by());
         assert!(found.value > 3.0 * robot.platform.mass);
-        let rests = inverse_free(&robot, &pose, &Load::payload(found.value * (1.0 - 1e-9)), &free).unwrap();
+        let rests = free_solutions(
+            &robot,
+            WantedPose::at(&pose).free(&free),
+            &Load::payload(found.value * (1.0 - 1e-9)),
+        )
+        .unwrap();
         assert!((rests.first.tensions[cable] / value - 1.0).abs() < 1e-6, "{found:?}");
     }
 }
@@ -126,7 +131,7 @@ fn a_payload_that_is_rounding_is_zero() {
     // The greatest tension of a cable is what it has already.
     let pose = Pose::at(0.3, 0.2, 1.5);
     let mut robot = cogiro();
-    let held = inverse(&robot, &pose, &Load::none(), None).unwrap();
+    let held = inverse(&robot, &pose, &Load::none()).unwrap();
     let steepest = held.tensions.iter().copied().fold(0.0, f64::max);
     for cable in &mut robot.cables {
         cable.tension_limits.max = Some(steepest);
@@ -154,7 +159,8 @@ fn few_cables_points_and_planes_have_a_capacity_or_say_why_not() {
     assert!(matches!(found.payload_kept, Err(StaticsError::Unstable { .. })));
     let payload = found.payload_anew.unwrap();
     let Block::Limit { cable, limit: Limit::Max, value, .. } = payload.blocking[0] else { panic!() };
-    let rests = inverse_free(&few, &pose, &Load::payload(payload.value), &free).unwrap();
+    let rests =
+        free_solutions(&few, WantedPose::at(&pose).free(&free), &Load::payload(payload.value)).unwrap();
     let mut rests = [rests.first].into_iter().chain(rests.others);
     assert!(rests.any(|rest| (rest.tensions[cable] / value - 1.0).abs() < 1e-7), "{payload:?}");
 
@@ -164,7 +170,7 @@ fn few_cables_points_and_planes_have_a_capacity_or_say_why_not() {
     point.platform.point = true;
     let found = capacity_at(&point, &pose, &Load::none(), &set, &[]);
     assert!(found.payload_anew.unwrap().value > 100.0 && found.margin_anew.unwrap().value > 0.0);
-    let held = inverse(&point, &pose, &Load::none(), None).unwrap();
+    let held = inverse(&point, &pose, &Load::none()).unwrap();
     let clearance = clearance_at(&point, &held.lengths, &held.equilibrium).unwrap();
     assert_eq!((clearance.cables, clearance.platform), (None, None));
 }

@@ -74,7 +74,7 @@ fn asked_of_rest(robot: &Robot, lengths: &[f64], load: &Load) -> Option<String> 
 fn lengths_of_another_robot_are_questioned_where_the_platform_rests_and_its_own_are_not() {
     let held = |name: &str, pose: Pose| {
         let robot = named(name);
-        let lengths = inverse(&robot, &pose, &Load::none(), None).unwrap().lengths;
+        let lengths = inverse(&robot, &pose, &Load::none()).unwrap().lengths;
         for load in [Load::none(), Load::payload(0.2 * robot.platform.mass)] {
             assert_eq!(asked_of_rest(&robot, &lengths, &load), None, "{name}");
         }
@@ -100,7 +100,7 @@ fn lengths_of_another_robot_are_questioned_where_the_platform_rests_and_its_own_
 fn a_platform_below_the_ground_or_turned_over_is_questioned() {
     let mut robot = named("caroca");
     let wanted = Pose::at(0.0, 0.0, 0.6);
-    let lengths = inverse(&robot, &wanted, &Load::none(), None).unwrap().lengths;
+    let lengths = inverse(&robot, &wanted, &Load::none()).unwrap().lengths;
     assert_eq!(asked_of_rest(&robot, &lengths, &Load::none()), None);
     robot.ground_z = Some(0.5);
     let asked = asked_of_rest(&robot, &lengths, &Load::none()).unwrap();

@@ -5,9 +5,7 @@ use cdpr_assess::{
     compute_workspace, tilt_at, workspace_boundary,
 };
 use cdpr_robot::{Coordinate, Matrix3, Parameter, Pose, Robot, Rotation3, Vector3, Wrench};
-use cdpr_statics::{
-    DirectProblem, Load, StaticsError, deflection, deflection_free, derivatives, held_at, inverse,
-};
+use cdpr_statics::{DirectProblem, Load, StaticsError, WantedPose, deflection, derivatives, inverse};
 use cdpr_study::{ErrorModel, Grid, GridAxis, StudyError, uncertainties};
 use serde_json::Value;
 use std::f64::consts::FRAC_PI_2;
@@ -82,7 +80,7 @@ fn every_position_is_what_the_models_say_of_it() {
     assert_eq!(poses.len(), 12);
     for (found, pose) in poses.iter().zip(grid().poses()) {
         assert_eq!(found.pose, pose);
-        let exact = derivatives(&robot, &pose, &[0.0; 8], &Load::payload(50.0));
+        let exact = derivatives(&robot, &pose, &Load::payload(50.0));
         let (held, exact) = match (&found.outcome, exact) {
             (Ok(held), Ok(exact)) => (held, exact),
             (Err(found), Err(exact)) => {
@@ -101,7 +99,7 @@ fn every_position_is_what_the_models_say_of_it() {
         assert!((held.least_stiffness - stiffness).abs() < SAME * stiffness);
         assert_eq!(held.lowest_frequency, None);
         assert!(held.is_within_limits());
-        let anew = inverse(&robot, &pose, &Load::payload(50.0), None).unwrap().tensions;
+        let anew = inverse(&robot, &pose, &Load::payload(50.0)).unwrap().tensions;
         let found = found.anew.clone().unwrap().unwrap();
         assert_range(&anew, [found.least_tension, found.greatest_tension]);
 
@@ -182,7 +180,7 @@ fn the_stadium_robot_is_held_wherever_an_independent_program_finds_tensions() {
             let position = found.pose.position;
             assert_eq!((row[1].as_f64(), row[2].as_f64()), (Some(position.x), Some(position.y)));
             kept += usize::from(found.outcome.as_ref().is_ok_and(cdpr_assess::Held::is_within_limits));
-            let tensions = inverse(&robot, &found.pose, &load, None);
+            let tensions = inverse(&robot, &found.pose, &load);
             anew += usize::from(tensions.is_ok());
             if let Some(status) = &found.anew {
                 assert_eq!(status.is_ok(), tensions.is_ok());
@@ -223,7 +221,7 @@ fn a_platform_with_an_inertia_has_its_lowest_frequency_under_the_load() {
             let frequency = held.lowest_frequency.unwrap();
             assert_eq!(row.lowest_frequency_hz, Some(frequency));
             // The lengths are those without the load.
-            let exact = deflection(&robot, &found.pose, &[0.0; 8], &load).unwrap();
+            let exact = deflection(&robot, &found.pose, &load).unwrap();
             let problem = DirectProblem::new(&robot, &exact.lengths, &load).unwrap();
             let modes = problem.modes(&exact.loaded.equilibrium).unwrap();
             assert!(modes.iter().all(|mode| mode.frequency >= frequency * (1.0 - SAME)));
@@ -282,11 +280,14 @@ fn a_robot_with_four_cables_has_a_workspace_of_its_held_coordinates() {
     assert_eq!(poses.len(), 8);
     for found in &poses {
         let held = found.outcome.as_ref().unwrap();
-        let exact = deflection_free(&robot, &found.pose, &[0.0; 4], &workspace.load, &free).unwrap();
+        let exact = deflection(&robot, WantedPose::at(&found.pose).free(&free), &workspace.load).unwrap();
         assert_eq!(held.displacement, exact.displacement());
         assert_eq!(held.least_stiffness, exact.loaded.stability.least_stiffness());
         assert!(held.lowest_frequency.unwrap() > 0.0 && held.dominant.is_some());
-        let anew = held_at(&robot, &found.pose, &workspace.load, &free).unwrap().equilibrium.tensions();
+        let anew = inverse(&robot, WantedPose::at(&found.pose).free(&free), &workspace.load)
+            .unwrap()
+            .equilibrium
+            .tensions();
         let range = found.anew.clone().unwrap().unwrap();
         assert!(anew.contains(&range.least_tension) && anew.contains(&range.greatest_tension));
     }
@@ -387,7 +388,7 @@ fn the_platform_is_held_at_the_tilt_reached_and_not_beyond() {
             let axis = Vector3::new(-towards.azimuth.sin(), towards.azimuth.cos(), 0.0);
             let held = |angle: f64| {
                 let tilted = Pose { rotation: Rotation3::new(angle * axis) * pose.rotation, ..pose };
-                inverse(&robot, &tilted, &Load::none(), None).is_ok()
+                inverse(&robot, &tilted, &Load::none()).is_ok()
             };
             let angle = towards.angle;
             println!(
@@ -433,8 +434,7 @@ fn the_boundary_runs_between_what_is_held_and_what_is_not() {
     assert!((coarse.measure - fine.measure).abs() < coarse.error + fine.error);
     assert!(fine.error < 2e-3 * fine.measure && coarse.error < 1e-2 * coarse.measure);
     let center = Vector3::new(0.0, 0.0, 1.0);
-    let held =
-        |p: Vector3<f64>| inverse(&robot, &Pose::at(p.x, p.y, p.z), &Load::payload(100.0), None).is_ok();
+    let held = |p: Vector3<f64>| inverse(&robot, &Pose::at(p.x, p.y, p.z), &Load::payload(100.0)).is_ok();
     let points = &fine.polygons[0];
     assert!(points.len() > 100);
     let between = points.iter().filter(|p| held(center.lerp(p, 0.995)) && !held(center.lerp(p, 1.005)));

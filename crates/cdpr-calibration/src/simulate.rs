@@ -6,7 +6,8 @@ use crate::unknowns::{SensorError, check_each_once};
 use cdpr_cable::SpatialCable;
 use cdpr_robot::{Axis, CableEnd, Coordinate, Pose, Robot, Rotation3, TiltAxis, Vector3};
 use cdpr_statics::{
-    DirectProblem, DirectSolution, FreeSolution, Load, Start, StaticsError, follow_load, inverse_free,
+    DirectProblem, DirectSolution, FreeSolution, Load, Start, StaticsError, WantedPose, follow_load,
+    free_solutions,
 };
 use cdpr_study::ErrorModel;
 use rand::{RngExt, SeedableRng};
@@ -87,7 +88,10 @@ pub fn simulate(of: &Simulated) -> Result<Vec<Row>, CalibrationError> {
     for (k, wanted) in of.poses.iter().enumerate() {
         let at = CalibrationError::row(k + 1);
         // The winches are set without the load.
-        let Ok(commanded) = inverse_free(of.nominal, wanted, &Load::none(), of.free) else { continue };
+        let Ok(commanded) = free_solutions(of.nominal, WantedPose::at(wanted).free(of.free), &Load::none())
+        else {
+            continue;
+        };
         let FreeSolution { lengths, equilibrium: near, .. } = commanded.first;
         let mut random = ChaCha8Rng::seed_from_u64(of.seed);
         random.set_stream(k as u64);

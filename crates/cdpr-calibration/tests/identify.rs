@@ -103,7 +103,7 @@ fn a_change_along_a_combination_shows_as_its_signal_says() {
         let change = 1e-3;
         let mut squares = 0.0;
         for pose in poses() {
-            let lengths = inverse(&robot, &pose, &Load::none(), None).unwrap().lengths;
+            let lengths = inverse(&robot, &pose, &Load::none()).unwrap().lengths;
             let nominal = direct(&robot, &lengths, &load, Start::Pose(&pose)).unwrap().equilibrium;
             let stands = |sign: f64| {
                 let mut deviations = vec![0.0; all.len()];

@@ -14,6 +14,8 @@
 //!
 //! of the nominal robot, first by the angle about u and then by the one about v: nominally both are zero.
 
+pub(crate) mod deviations;
+
 use crate::axis::Axis;
 use crate::error::RobotError;
 use crate::robot::{Pulley, Robot, RobotCable, VERTICAL};

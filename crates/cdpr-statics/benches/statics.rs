@@ -16,17 +16,17 @@ fn inverse_model(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("inverse");
     let robot = caroca();
     for (name, pose) in [("symmetric", Pose::at(0.0, 0.0, 1.75)), ("corner", Pose::at(3.2, 1.7, 3.0))] {
-        let solution = inverse(&robot, &pose, &Load::none(), None).unwrap();
+        let solution = inverse(&robot, &pose, &Load::none()).unwrap();
         assert!(solution.residual.force < 1e-9);
         group.bench_function(name, |b| {
-            b.iter(|| counted(|| inverse(black_box(&robot), black_box(&pose), &Load::none(), None)));
+            b.iter(|| counted(|| inverse(black_box(&robot), black_box(&pose), &Load::none())));
         });
     }
     for (name, axis) in pulleys() {
         let (robot, pose) = (led(axis), Pose::at(0.0, 0.0, 1.75));
-        assert!(inverse(&robot, &pose, &Load::none(), None).unwrap().residual.force < 1e-9);
+        assert!(inverse(&robot, &pose, &Load::none()).unwrap().residual.force < 1e-9);
         group.bench_function(BenchmarkId::new("pulleys", name), |b| {
-            b.iter(|| counted(|| inverse(black_box(&robot), black_box(&pose), &Load::none(), None)));
+            b.iter(|| counted(|| inverse(black_box(&robot), black_box(&pose), &Load::none())));
         });
     }
     group.finish();
@@ -50,7 +50,7 @@ fn direct_model(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("direct");
     let robot = caroca();
     let pose = Pose::at(0.4, -0.3, 1.75);
-    let wanted = inverse(&robot, &pose, &Load::none(), None).unwrap();
+    let wanted = inverse(&robot, &pose, &Load::none()).unwrap();
     let slack: Vec<f64> =
         wanted.lengths.iter().enumerate().map(|(i, l)| if i % 4 == 1 { l + 0.3 } else { *l }).collect();
     let far = pose.moved(Vector3::new(0.3, 0.2, -0.3), Vector3::new(0.15, -0.1, 0.15));
@@ -68,7 +68,7 @@ fn direct_model(criterion: &mut Criterion) {
         });
     }
     let lawful = Robot::from_json(include_str!("../../../data/robots/caroca-law.json")).unwrap();
-    let wound = inverse(&lawful, &pose, &Load::none(), None).unwrap();
+    let wound = inverse(&lawful, &pose, &Load::none()).unwrap();
     let (load, near) = (Load::payload(50.0), Start::Near(&wound.equilibrium));
     assert!(direct(&lawful, &wound.lengths, &load, near).unwrap().report.residual.force < 1e-8);
     group.bench_function("law", |b| {
@@ -93,7 +93,7 @@ fn direct_model(criterion: &mut Criterion) {
 fn tracking(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("direct");
     let robot = caroca();
-    let wanted = inverse(&robot, &Pose::at(0.4, -0.3, 1.75), &Load::none(), None).unwrap();
+    let wanted = inverse(&robot, &Pose::at(0.4, -0.3, 1.75), &Load::none()).unwrap();
     let load = Load::payload(50.0);
     let wound: Vec<f64> =
         wanted.lengths.iter().enumerate().map(|(i, l)| l + 1e-3 * (i as f64).sin()).collect();
@@ -116,7 +116,7 @@ fn proofs_and_searches(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("direct");
     let robot = caroca();
     let pose = Pose::at(0.4, -0.3, 1.75);
-    let wanted = inverse(&robot, &pose, &Load::none(), None).unwrap();
+    let wanted = inverse(&robot, &pose, &Load::none()).unwrap();
     let load = Load::payload(50.0);
     let found = direct(&robot, &wanted.lengths, &load, Start::Near(&wanted.equilibrium)).unwrap();
     let proof = DirectProblem::new(&robot, &wanted.lengths, &load).unwrap().certify(&found).unwrap();
@@ -147,10 +147,10 @@ fn whole_deflection(criterion: &mut Criterion) {
     for (name, pose, expected_mm) in
         [("symmetric", Pose::at(0.0, 0.0, 1.75), 1.33125), ("corner", Pose::at(3.2, 1.7, 3.0), 0.82186)]
     {
-        let found = deflection(&robot, &pose, &[0.0; 8], &load).unwrap();
+        let found = deflection(&robot, &pose, &load).unwrap();
         assert!((1e3 * found.rms() - expected_mm).abs() < 1e-4);
         group.bench_function(name, |b| {
-            b.iter(|| counted(|| deflection(black_box(&robot), black_box(&pose), &[0.0; 8], &load)));
+            b.iter(|| counted(|| deflection(black_box(&robot), black_box(&pose), &load)));
         });
         group.bench_function(BenchmarkId::new("tangent", name), |b| {
             let (lengths, unloaded) = (&found.lengths, &found.unloaded.equilibrium);
@@ -161,10 +161,10 @@ fn whole_deflection(criterion: &mut Criterion) {
     }
     for (name, axis) in pulleys() {
         let (robot, pose) = (led(axis), Pose::at(0.0, 0.0, 1.75));
-        let found = deflection(&robot, &pose, &[0.0; 8], &load).unwrap();
+        let found = deflection(&robot, &pose, &load).unwrap();
         assert!(found.loaded.report.residual.force < 1e-8);
         group.bench_function(BenchmarkId::new("pulleys", name), |b| {
-            b.iter(|| counted(|| deflection(black_box(&robot), black_box(&pose), &[0.0; 8], &load)));
+            b.iter(|| counted(|| deflection(black_box(&robot), black_box(&pose), &load)));
         });
     }
     group.finish();
@@ -177,10 +177,10 @@ fn exact_derivatives(criterion: &mut Criterion) {
     for (name, pose, expected) in
         [("symmetric", Pose::at(0.0, 0.0, 1.75), -0.012889), ("corner", Pose::at(3.2, 1.7, 3.0), -0.007163)]
     {
-        let found = derivatives(&robot, &pose, &[0.0; 8], &load).unwrap();
+        let found = derivatives(&robot, &pose, &load).unwrap();
         assert!((1e12 * found.rms().unwrap()[2] - expected).abs() < 1e-6);
         group.bench_function(name, |b| {
-            b.iter(|| counted(|| derivatives(black_box(&robot), black_box(&pose), &[0.0; 8], &load)));
+            b.iter(|| counted(|| derivatives(black_box(&robot), black_box(&pose), &load)));
         });
     }
     group.finish();

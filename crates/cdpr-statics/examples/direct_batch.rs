@@ -21,7 +21,7 @@ fn main() -> Result<(), StaticsError> {
             let pose =
                 Pose::at(2.0 * share(k, 0.754_877_666_246_692_7), share(k, 0.569_840_290_998_053_2), z);
             let start = pose.moved(Vector3::repeat(0.01), Vector3::zeros());
-            Ok((inverse(&robot, &pose, &Load::none(), None)?.lengths, start))
+            Ok((inverse(&robot, &pose, &Load::none())?.lengths, start))
         })
         .collect::<Result<_, StaticsError>>()?;
     let mut times: Vec<f64> = Vec::new();

@@ -10,7 +10,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let robot = Robot::from_json(include_str!("../../../data/robots/caroca.json"))?;
     let pose = Pose::at(0.0, 0.0, 1.75);
     let load = Load::payload(50.0);
-    let wanted = inverse(&robot, &pose, &load, None)?;
+    let wanted = inverse(&robot, &pose, &load)?;
     let mut lengths = wanted.lengths;
     let mut equilibrium = wanted.equilibrium;
     println!("{:>10} {:>24} {:>10} {:>13}  slack", "added", "moved [mm]", "T2 [N]", "residual [N]");

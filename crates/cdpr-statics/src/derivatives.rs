@@ -64,8 +64,8 @@ use crate::error::StaticsError;
 use crate::inverse::{Branch, InverseSolution};
 use crate::loading::{Deflection, Wound, deflection_from, wind, wind_free, wind_from, wind_near};
 use crate::problem::DirectProblem;
-use crate::state::{Equilibrium, Load};
-use cdpr_robot::{Coordinate, Matrix6xX, Pose, Robot, Vector3};
+use crate::state::{Equilibrium, Load, Wanted, WantedPose, one_by_one};
+use cdpr_robot::{Matrix6xX, Pose, Robot, Vector3};
 use nalgebra::{DMatrix, Matrix3xX};
 pub use optimum::AtBound;
 use rest::Rest;
@@ -125,16 +125,18 @@ pub struct VarianceBudget {
     pub std: f64,
 }
 
-/// The deflection at a wanted pose as [`crate::deflection`] gives it, with its derivatives.
+/// The deflection at a wanted pose, or at each of many, as [`crate::deflection`] gives it, with its derivatives.
 ///
-/// Where a bound is left on one side of an input, left and right derivatives differ: [`OneSided`].
+/// Where a bound is left on one side of an input, left and right derivatives differ: [`OneSided`]. With free
+/// coordinates set-points do not come from a distribution of tensions but from the rest of the platform, and
+/// no derivative has two sides.
 ///
 /// ```
 /// use cdpr_robot::{Parameter, Pose, Robot};
 /// use cdpr_statics::{Load, derivatives};
 ///
 /// let robot = Robot::from_json(include_str!("../../../data/robots/caroca.json"))?;
-/// let found = derivatives(&robot, &Pose::at(0.0, 0.0, 1.75), &[0.0; 8], &Load::payload(50.0))?;
+/// let found = derivatives(&robot, &Pose::at(0.0, 0.0, 1.75), &Load::payload(50.0))?;
 /// let modulus = found.inputs.column(Parameter::YoungsModulus);
 /// let rms = found.rms()?; // [m per SI unit]
 /// assert!(modulus.is_some_and(|column| (1e12 * rms[column] + 0.01289).abs() < 1e-5)); // [mm/GPa]
@@ -143,14 +145,20 @@ pub struct VarianceBudget {
 ///
 /// # Errors
 /// Those of [`crate::deflection`]; [`StaticsError::NoDerivative`] where an equilibrium or the tension
-/// distribution is at the border of its existence.
-pub fn derivatives(
+/// distribution is at the border of its existence, and with free coordinates for an offset set-point that a
+/// limit keeps.
+pub fn derivatives<W: Wanted>(
     robot: &Robot,
-    pose: &Pose,
-    tension_offsets: &[f64],
+    wanted: W,
     load: &Load,
-) -> Result<Derivatives, StaticsError> {
-    of_wound(robot, pose, tension_offsets, load, &wind(robot, pose, tension_offsets)?)
+) -> W::Answers<Result<Derivatives, StaticsError>> {
+    one_by_one(wanted, |wanted| {
+        let offsets = wanted.offsets_of(robot);
+        if !wanted.free.is_empty() {
+            return with_free(robot, wanted, &offsets, load);
+        }
+        of_wound(robot, wanted, &offsets, load, &wind(robot, wanted, &offsets)?)
+    })
 }
 
 /// [`derivatives`] without offsets, with the answer of the inverse model under the platform's own weight at
@@ -158,7 +166,7 @@ pub fn derivatives(
 ///
 /// # Errors
 /// As [`derivatives`].
-pub fn derivatives_from(
+pub(crate) fn derivatives_from(
     robot: &Robot,
     pose: &Pose,
     load: &Load,
@@ -166,7 +174,7 @@ pub fn derivatives_from(
 ) -> Result<Derivatives, StaticsError> {
     let offsets = vec![0.0; robot.cables.len()];
     let wound = wind_from(robot, pose, &offsets, wanted)?;
-    of_wound(robot, pose, &offsets, load, &wound)
+    of_wound(robot, &WantedPose::at(pose), &offsets, load, &wound)
 }
 
 /// [`derivatives`] of a robot that differs a little from the one whose inverse model is known.
@@ -180,44 +188,37 @@ pub(crate) fn derivatives_near(
     tension_offsets: &[f64],
     load: &Load,
 ) -> Result<Derivatives, StaticsError> {
-    of_wound(robot, pose, tension_offsets, load, &wind_near(branch, robot, pose, tension_offsets)?)
+    let wound = wind_near(branch, robot, pose, tension_offsets)?;
+    of_wound(robot, &WantedPose::at(pose), tension_offsets, load, &wound)
 }
 
 /// The derivatives of the deflection of cables that are wound.
 fn of_wound(
     robot: &Robot,
-    pose: &Pose,
+    wanted: &WantedPose,
     tension_offsets: &[f64],
     load: &Load,
     wound: &Wound,
 ) -> Result<Derivatives, StaticsError> {
     let deflection = deflection_from(robot, wound.lengths.clone(), load, &wound.held)?;
-    let winding = Winding { robot, pose, inputs: Inputs::of(robot), wound };
+    let WantedPose { pose, tension_reference, .. } = wanted;
+    let winding = Winding { robot, pose, reference: *tension_reference, inputs: Inputs::of(robot), wound };
     let set_points = winding.set_points(tension_offsets)?;
     let lengths = winding.lengths(&set_points.rows)?;
     of_lengths(robot, load, deflection, winding.inputs, set_points, lengths)
 }
 
-/// As [`derivatives`], for a robot with fewer cables than free motions: the `free` coordinates of the pose
-/// are found. Set-points do not come from a distribution of tensions but from the rest of the platform, and
-/// no derivative has two sides.
-///
-/// # Errors
-/// Those of [`crate::deflection_free`]; [`StaticsError::NoDerivative`] as for [`derivatives`], and for an
-/// offset set-point that a limit keeps.
-pub fn derivatives_free(
+/// The derivatives of the deflection of a robot with free coordinates.
+fn with_free(
     robot: &Robot,
-    pose: &Pose,
+    wanted: &WantedPose,
     tension_offsets: &[f64],
     load: &Load,
-    free: &[Coordinate],
 ) -> Result<Derivatives, StaticsError> {
-    if free.is_empty() {
-        return derivatives(robot, pose, tension_offsets, load);
-    }
-    let (unmoved, wound) = wind_free(robot, pose, tension_offsets, free)?;
+    let (unmoved, wound) = wind_free(robot, wanted, tension_offsets)?;
     let deflection = deflection_from(robot, wound.lengths.clone(), load, &wound.equilibrium)?;
     let inputs = Inputs::of(robot);
+    let WantedPose { pose, free, .. } = wanted;
     let rest = Rest { robot, wanted: pose, free, inputs: &inputs, unmoved: &unmoved, wound: &wound };
     let (rows, lengths) = rest.slopes(tension_offsets)?;
     of_lengths(robot, load, deflection, inputs, SetPoints { rows, one_sided: Vec::new() }, lengths)

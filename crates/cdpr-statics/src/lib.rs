@@ -2,9 +2,10 @@
 //!
 //! | question | function |
 //! |---|---|
-//! | which unstrained lengths hold a pose (IEGM)? | [`inverse`] |
+//! | which unstrained lengths hold a pose, or each of many (IEGM)? | [`inverse`] |
 //! | and those of a path, without jumps where there need be none? | [`InversePath`] |
-//! | and with fewer cables than free motions (n < m)? | [`inverse_free`] |
+//! | with fewer cables than free motions (n < m), with other tensions? | a [`WantedPose`] for a pose |
+//! | where else does it rest with free coordinates? | [`free_solutions`] |
 //! | what can be carried there, how far are the limits of tension? | [`greatest_payload`], [`tension_margin`] |
 //! | where does the platform stand for given lengths and load (DEGM)? | [`direct`] |
 //! | and for the next lengths and load, in a microsecond or two? | [`Tracker`] |
@@ -12,7 +13,7 @@
 //! | how exact is that, with a proof? | [`DirectProblem::certify`] |
 //! | where else could it stand? | [`DirectProblem::direct_all`], [`DirectProblem::direct_any`] |
 //! | where does it go while lengths or loads change, and where does it jump? | [`follow`] |
-//! | how far does a load displace it, Eq. (4)? | [`deflection`], [`deflections`] |
+//! | how far does a load displace it, Eq. (4)? | [`deflection`] |
 //! | where does it end after a load cycle, on cables that dissipate energy? | [`load_cycle`] |
 //! | and with a million other values of the parameters? | [`Observer`] |
 //! | which parameter changes lengths, tensions, poses and deflection, and by how much? | [`derivatives`] |
@@ -29,7 +30,7 @@
 //!
 //! let robot = Robot::from_json(include_str!("../../../data/robots/caroca.json"))?;
 //! let pose = Pose::at(0.0, 0.0, 1.75);
-//! let deflection = deflection(&robot, &pose, &[0.0; 8], &Load::payload(50.0))?;
+//! let deflection = deflection(&robot, &pose, &Load::payload(50.0))?;
 //! assert!((1e3 * deflection.rms() - 1.33125).abs() < 1e-4); // [mm]
 //! assert!(deflection.loaded.report.residual.force < 1e-8); // [N]
 //!
@@ -58,7 +59,6 @@ mod state;
 pub use certificate::Certificate;
 pub use derivatives::{
     AtBound, Derivatives, EquilibriumDerivatives, ForceDerivatives, OneSided, VarianceBudget, derivatives,
-    derivatives_free, derivatives_from,
 };
 pub use direct::{
     DirectMethod, DirectSolution, Equilibria, Found, Loss, LossKind, Mode, Path, PathStep, Report, Setting,
@@ -68,22 +68,21 @@ pub use equations::{CableShape, Inputs, Linearization};
 pub use error::{Blocked, BranchEnd, StaticsError};
 pub use inverse::{
     Blocking, FreeSolution, FreeSolutions, Greatest, HeldPose, InversePath, InverseSolution, LONGEST,
-    PathSolution, greatest_payload, held_at, inverse, inverse_free, inverse_free_with_loops, is_held,
-    lengths_for_tensions, limits_at, rest_near, tension_margin,
+    PathSolution, free_solutions, greatest_payload, is_held, lengths_for_tensions, limits_at, rest_near,
+    tension_margin,
 };
 pub use lanes::{
-    LoadedPose, Observation, ObservationMotion, ObservationSlopes, Observed, Observer, PoseSlopes,
-    ScalarReason, Tracker, inverse_all, loaded_poses, loaded_poses_slopes,
+    Loaded, LoadedPose, Observation, ObservationMotion, ObservationSlopes, Observed, Observer, PoseSlopes,
+    ScalarReason, Tracker, inverse, loaded_poses,
 };
 pub use loading::{
-    CableFrequency, CycleStep, Deflection, HysteresisLaw, LoadCycle, NaturalMode, PoseDeflections, PoseModes,
-    PoseStiffness, Unloading, deflection, deflection_free, deflection_from, deflections, follow, load_cycle,
-    modes_at, stiffness_at, wound_lengths,
+    CableFrequency, CycleStep, Deflection, HysteresisLaw, LoadCycle, NaturalMode, PoseModes, PoseStiffness,
+    Unloading, deflection, deflection_from, follow, load_cycle, modes_at, stiffness_at, wound_lengths,
 };
 pub use out_of_limits::{Limit, OutOfLimits, out_of_limits, tensions_out_of_limits};
 pub use problem::{DirectProblem, check_lengths};
 pub use rest_fault::RestFault;
-pub use state::{Equilibrium, Load, Residual};
+pub use state::{Equilibrium, Load, Residual, Wanted, WantedPose};
 
 pub use cdpr_cable::MAX_STRAIN;
 pub use cdpr_robot::{Matrix6xX, Vector2, Vector3, Vector6};

@@ -10,7 +10,8 @@ use cdpr_robot::{
     TensionLimits, Vector3, Vector6, Wrench,
 };
 use cdpr_statics::{
-    DirectProblem, DirectSolution, Load, Mode, Start, StaticsError, direct, inverse, inverse_free, rough_pose,
+    DirectProblem, DirectSolution, Load, Mode, Start, StaticsError, WantedPose, direct, free_solutions,
+    inverse, rough_pose,
 };
 use nalgebra::Matrix6;
 use rand::{RngExt, SeedableRng};
@@ -151,7 +152,7 @@ fn a_point_mass_on_three_strings_hangs_where_three_springs_hold_it() {
     let expected = Vector6::new(2.0 / horizontal, 0.0, 3.0 / vertical, 0.0, 0.0, 0.0);
     assert!((displacement - expected).norm() < 1e-9 * expected.norm(), "{displacement}");
     // Three cables for three freedoms: the inverse model has one answer.
-    let held = inverse(&robot, &Pose::at(0.0, 0.0, 0.0), &Load::none(), None).unwrap();
+    let held = inverse(&robot, &Pose::at(0.0, 0.0, 0.0), &Load::none()).unwrap();
     assert!(held.lengths.iter().all(|l| (l / length - 1.0).abs() < 1e-12));
     assert!(held.residual.force < 1e-10 && held.residual.moment == 0.0);
     assert_eq!(held.multipliers.fixed_rows::<3>(3).norm(), 0.0);
@@ -169,7 +170,7 @@ fn a_planar_robot_is_the_spatial_one_whose_other_motions_are_held() {
     let planar =
         |count: usize| Robot { plane: Some(Plane::Xz), ..suspended(&points[..count], &rope, platform) };
     let start = Pose::at(0.2, 0.0, 1.0).moved(Vector3::zeros(), Vector3::new(0.0, 0.1, 0.0));
-    let held = inverse(&planar(3), &start, &Load::none(), None).unwrap();
+    let held = inverse(&planar(3), &start, &Load::none()).unwrap();
     assert!(held.residual.force < 1e-10 && held.residual.moment < 1e-10);
     for count in [2, 3] {
         let robot = planar(count);
@@ -371,7 +372,7 @@ fn random_robots_on_few_cables_rest_and_are_found_again_from_some_of_their_coord
             true => wanted.moved(Vector3::new(0.0, 0.0, 0.02 * problem_size(&lengths)), Vector3::zeros()),
             false => wanted,
         };
-        let solutions = inverse_free(&robot, &wanted, &Load::none(), &free);
+        let solutions = free_solutions(&robot, WantedPose::at(&wanted).free(&free), &Load::none());
         let all =
             solutions.iter().flat_map(|solutions| [&solutions.first].into_iter().chain(&solutions.others));
         let nearest = all.map(|one| {

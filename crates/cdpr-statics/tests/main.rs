@@ -38,3 +38,4 @@ mod tangent;
 mod tensions;
 mod tracker;
 mod vector_units;
+mod wanted;

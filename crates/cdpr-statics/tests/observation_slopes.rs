@@ -226,7 +226,7 @@ fn a_greatest_tension_at_the_exit_point_has_slopes_in_lanes_but_for_pulleys() {
             let pulley = Pulley { radius: 0.1, axis: Vector3::z() };
             (cable.pulley, cable.lead) = (pulleys.then_some(pulley), 1.0);
         }
-        let free = cdpr_statics::inverse(&robot, &pose, &Load::none(), None).unwrap();
+        let free = cdpr_statics::inverse(&robot, &pose, &Load::none()).unwrap();
         let tightest =
             (0..free.tensions.len()).max_by(|a, b| free.tensions[*a].total_cmp(&free.tensions[*b])).unwrap();
         let own = &mut robot.cables[tightest].tension_limits;

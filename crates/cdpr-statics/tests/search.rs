@@ -142,7 +142,7 @@ fn a_platform_loaded_on_top_falls_over_and_the_fall_is_reported() {
 fn changing_lengths_there_and_back_ends_at_the_same_pose() {
     let robot = caroca();
     let pose = Pose::at(0.5, -0.3, 1.5);
-    let wanted = inverse(&robot, &pose, &Load::none(), None).unwrap();
+    let wanted = inverse(&robot, &pose, &Load::none()).unwrap();
     let mut wound = wanted.lengths.clone();
     wound[0] -= 0.02;
     wound[5] += 0.3;
@@ -216,7 +216,7 @@ fn a_cable_that_becomes_vertical_on_the_way_is_passed() {
 fn a_certificate_bounds_the_distance_of_a_solution_that_is_off() {
     let robot = caroca();
     let pose = Pose::at(1.0, 0.5, 2.0);
-    let wanted = inverse(&robot, &pose, &Load::none(), None).unwrap();
+    let wanted = inverse(&robot, &pose, &Load::none()).unwrap();
     let load = Load::payload(50.0);
     let exact = direct(&robot, &wanted.lengths, &load, Start::Near(&wanted.equilibrium)).unwrap();
     let proof = DirectProblem::new(&robot, &wanted.lengths, &load).unwrap().certify(&exact).unwrap();
@@ -258,7 +258,7 @@ fn what_cannot_be_proved_says_why() {
 fn winding_all_cables_in_ends_where_they_are_strained_and_keeps_what_was_found() {
     let robot = caroca();
     let pose = Pose::at(0.0, 0.0, 1.75);
-    let wanted = inverse(&robot, &pose, &Load::none(), None).unwrap();
+    let wanted = inverse(&robot, &pose, &Load::none()).unwrap();
     let from = Setting { lengths: wanted.lengths.clone(), load: Load::none() };
     let to = Setting { lengths: wanted.lengths.iter().map(|length| 0.8 * length).collect(), ..from.clone() };
     let path = follow(&robot, &from, &to, Start::Near(&wanted.equilibrium)).unwrap();
@@ -284,7 +284,7 @@ fn lengths_alone_tell_where_to_start_from() {
         let wanted = Pose::at(6.0 * draw(0.618), 4.0 * draw(0.755), 2.0 + 1.3 * draw(0.57));
         let wanted = wanted
             .moved(Vector3::zeros(), Vector3::new(0.15 * draw(0.31), 0.15 * draw(0.77), 0.3 * draw(0.19)));
-        let Ok(wound) = inverse(&cogiro, &wanted, &Load::none(), None) else { continue };
+        let Ok(wound) = inverse(&cogiro, &wanted, &Load::none()) else { continue };
         let start = rough_pose(&cogiro, &wound.lengths);
         let found = direct(&cogiro, &wound.lengths, &Load::none(), Start::Pose(&start)).unwrap();
         assert!(found.equilibrium.pose.motion_to(&wanted).norm() < 1e-8, "{wanted:?} from {start:?}");

@@ -27,7 +27,7 @@ pub fn robot(text: &str) {
     }
     let exits: Vector3<f64> = robot.cables.iter().map(|cable| cable.exit_point / n as f64).sum();
     let pose = Pose::at(exits.x, exits.y, exits.z);
-    match inverse(&robot, &pose, &Load::none(), None) {
+    match inverse(&robot, &pose, &Load::none()) {
         Ok(InverseSolution { lengths, tensions, equilibrium, residual, .. }) => {
             finite("lengths", &lengths);
             finite("tensions", &tensions);

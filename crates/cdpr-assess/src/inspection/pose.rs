@@ -142,7 +142,7 @@ pub(super) fn held(robot: &Robot) -> Option<(Pose, InverseSolution)> {
         let offset = 0.05 * size * f64::from((k + 1) / 2) * if k % 2 == 0 { 1.0 } else { -1.0 };
         let z = Some(middle + offset).filter(|z| *z >= floor)?;
         let pose = Pose::at(0.5 * (x_low + x_high), 0.5 * (y_low + y_high), z);
-        inverse(robot, &pose, &Load::none(), None).ok().map(|solution| (pose, solution))
+        inverse(robot, &pose, &Load::none()).ok().map(|solution| (pose, solution))
     })
 }
 

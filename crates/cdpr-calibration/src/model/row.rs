@@ -91,7 +91,7 @@ impl Model<'_> {
         let tensions: Option<Vec<f64>> = (0..robot.cables.len()).map(measured).collect();
         let tensions = match tensions {
             Some(tensions) => tensions,
-            None => inverse(&robot, near, &self.load(row, &robot), None).map_err(&at)?.tensions,
+            None => inverse(&robot, near, &self.load(row, &robot)).map_err(&at)?.tensions,
         };
         let held = lengths_for_tensions(&robot, near, &tensions).map_err(&at)?;
         self.rested(row, &robot, x, state, held).map_err(&at)
@@ -273,7 +273,7 @@ impl Model<'_> {
 /// tensions carry its weight together.
 pub(crate) fn held_lengths(robot: &Robot, pose: &Pose) -> Result<Vec<f64>, StaticsError> {
     if robot.is_fully_actuated() {
-        return inverse(robot, pose, &Load::none(), None).map(|held| held.lengths);
+        return inverse(robot, pose, &Load::none()).map(|held| held.lengths);
     }
     let n = robot.cables.len();
     let each = robot.weight(pose, 0.0).force.norm() / n as f64;

@@ -8,7 +8,7 @@ use crate::pose::at_pose::{RobotAtPose, Row, cells, numbered};
 use crate::poses;
 use crate::questions;
 use cdpr_robot::{Pose, Robot, shown};
-use cdpr_statics::{DirectProblem, PoseModes, Start, StaticsError, modes_at, rough_pose};
+use cdpr_statics::{DirectProblem, PoseModes, Start, StaticsError, WantedPose, modes_at, rough_pose};
 use serde::Serialize;
 
 /// A robot at a pose or with lengths, and a load.
@@ -32,8 +32,9 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     let Settings { at, free, lengths, start } = settings;
     let load = at.load.load();
     let Some(arguments::List(lengths)) = lengths else {
-        let solve =
-            |robot: &Robot, pose: &Pose| Ok(Answer::new(robot, &modes_at(robot, pose, &load, &free.free)?));
+        let solve = |robot: &Robot, pose: &Pose| {
+            Ok(Answer::new(robot, &modes_at(robot, WantedPose::at(pose).free(&free.free), &load)?))
+        };
         return at.answer(solve, Answer::print);
     };
     let robot = at.robot()?;

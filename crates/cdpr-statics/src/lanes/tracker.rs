@@ -19,7 +19,7 @@ use smallvec::SmallVec;
 /// use cdpr_statics::{Load, Tracker, inverse};
 ///
 /// let robot = Robot::from_json(include_str!("../../../../data/robots/caroca.json"))?;
-/// let wanted = inverse(&robot, &Pose::at(0.0, 0.0, 1.75), &Load::none(), None)?;
+/// let wanted = inverse(&robot, &Pose::at(0.0, 0.0, 1.75), &Load::none())?;
 /// let mut tracker = Tracker::new(&robot, &wanted.lengths, &Load::none(), &wanted.equilibrium)?;
 /// let mut lengths = wanted.lengths.clone();
 /// lengths[0] -= 1e-3;

@@ -24,10 +24,10 @@
 use crate::direct::{Stability, Start};
 use crate::equations::{Balance, SpannedCable};
 use crate::error::StaticsError;
-use crate::inverse::held_at;
+use crate::inverse::{held_at, refuse_offsets};
 use crate::problem::DirectProblem;
-use crate::state::{Equilibrium, Load};
-use cdpr_robot::{Coordinate, Matrix3, Pose, Robot, Vector3, Vector6};
+use crate::state::{Equilibrium, Load, WantedPose};
+use cdpr_robot::{Matrix3, Pose, Robot, Vector3, Vector6};
 use nalgebra::Matrix6;
 use std::f64::consts::TAU;
 
@@ -268,18 +268,16 @@ impl DirectProblem<'_> {
 /// Squares of frequencies below this share of the greatest one are rounding.
 const ROUNDING: f64 = 1e-12;
 
-/// The natural motions of a robot at a wanted pose under the platform's weight and `load`. With fewer cables
-/// than free motions the `free` coordinates of the pose are found.
+/// The natural motions of a robot at a wanted pose under the platform's weight and `load`.
 ///
 /// # Errors
-/// Those of [`held_at`], of [`DirectProblem::direct_any`] and of [`DirectProblem::modes`].
-pub fn modes_at(
+/// Those of [`crate::inverse`], of [`DirectProblem::direct_any`] and of [`DirectProblem::modes`].
+pub fn modes_at<'a>(
     robot: &Robot,
-    pose: &Pose,
+    wanted: impl Into<WantedPose<'a>>,
     load: &Load,
-    free: &[Coordinate],
 ) -> Result<PoseModes, StaticsError> {
-    let wanted = held_at(robot, pose, load, free)?;
+    let wanted = held_at(robot, &refuse_offsets(wanted.into())?, load)?;
     let problem = DirectProblem::new(robot, &wanted.lengths, load)?;
     let held = problem.direct_any(Start::Near(&wanted.equilibrium))?;
     PoseModes::new(&problem, held.equilibrium)
