@@ -13,7 +13,7 @@
 //! cables whose exit or anchor points lie within the thickness of the cables share a point and have no
 //! distance.
 
-use cdpr_robot::{Coordinate, Pose, Robot, Vector3};
+use cdpr_robot::{Pose, Robot, Vector3};
 use cdpr_statics::{DMatrix, DirectProblem, Equilibrium, Load, StaticsError, WantedPose, inverse};
 
 /// The least distances at a pose.
@@ -74,18 +74,16 @@ pub fn clearance_at(
     Ok(clearance)
 }
 
-/// The distances of the cables that bear `load` at a pose, with the tensions distributed anew; with fewer
-/// cables than free motions the `free` coordinates are found.
+/// The distances of the cables that bear `load` at a wanted pose, with the tensions distributed anew.
 ///
 /// # Errors
 /// Those of [`inverse`].
-pub fn clearance_under(
+pub fn clearance_under<'a>(
     robot: &Robot,
-    pose: &Pose,
+    wanted: impl Into<WantedPose<'a>>,
     load: &Load,
-    free: &[Coordinate],
 ) -> Result<Clearance, StaticsError> {
-    let found = inverse(robot, WantedPose::at(pose).free(free), load)?;
+    let found = inverse(robot, wanted.into(), load)?;
     clearance_at(robot, &found.lengths, &found.equilibrium)
 }
 

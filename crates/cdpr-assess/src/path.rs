@@ -12,9 +12,9 @@
 //! with the mean of both squares where left and right derivatives differ.
 
 use cdpr_robot::{Pose, Robot};
+use cdpr_statics::vibration::CableFrequency;
 use cdpr_statics::{
-    CableFrequency, Deflection, Derivatives, DirectProblem, InversePath, Load, StaticsError, deflection_from,
-    derivatives,
+    Deflection, Derivatives, DirectProblem, InversePath, Load, StaticsError, deflection_from, derivatives,
 };
 use cdpr_study::{ErrorModel, StudyError};
 use serde::Serialize;

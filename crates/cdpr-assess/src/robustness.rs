@@ -19,8 +19,8 @@ use crate::error::AssessError;
 use cdpr_robot::{Pose, Robot, Vector3, Vector6};
 use cdpr_sensitivity::{RandomDesign, SampleDesign};
 use cdpr_statics::{
-    DirectMethod, DirectProblem, DirectSolution, Load, Residual, Start, StaticsError, WantedPose, direct,
-    inverse,
+    DirectMethod, DirectProblem, DirectSolution, DirectStart, Load, Residual, StaticsError, WantedPose,
+    direct, inverse,
 };
 use cdpr_study::StudyError;
 use rayon::prelude::*;
@@ -295,7 +295,7 @@ fn draw(
     let held = inverse(robot, WantedPose::at(&pose).free(&protocol.free), &Load::none())
         .map_err(|e| refuse(Refusal::Infeasible(e)))?;
     let found = DirectProblem::new(robot, &held.lengths, &Load::none())
-        .and_then(|problem| problem.direct_any(Start::Near(&held.equilibrium)))
+        .and_then(|problem| problem.direct_any(DirectStart::Near(&held.equilibrium)))
         .map_err(|error| refuse(Refusal::Unanswered(error)))?;
     // Only the stability of the equilibrium at the true pose matters, not what the direct model does from
     // there.
@@ -326,7 +326,7 @@ fn solve(robot: &Robot, held: &HeldPose, start_offset: usize, offset: &StartOffs
     let [away, about] = held.directions;
     let start = moved(robot, &held.pose, offset.distance * away, offset.angle * about);
     let clock = Instant::now();
-    let found = direct(robot, &held.lengths, &Load::none(), Start::Pose(&start));
+    let found = direct(robot, &held.lengths, &Load::none(), DirectStart::Pose(&start));
     let microseconds = 1e6 * clock.elapsed().as_secs_f64();
     Solve {
         draw: held.draw,

@@ -13,10 +13,12 @@ use crate::capacity::{Capacity, WrenchSet, capacity_of};
 use crate::clearance::{Clearance, clearance_at};
 use crate::tilt::{Tilt, tilt_at};
 use cdpr_robot::{Axis, Coordinate, Pose, Robot, Rotation3, Vector3};
+use cdpr_statics::batch::{LoadedPose, PoseSlopes, loaded_poses};
+use cdpr_statics::limits::{Limit, OutOfLimits, tensions_out_of_limits};
+use cdpr_statics::vibration::CableFrequency;
 use cdpr_statics::{
-    CableFrequency, Deflection, DirectProblem, InverseSolution, Limit, Load, LoadedPose, OutOfLimits,
-    PoseSlopes, Start, StaticsError, WantedPose, deflection, derivatives, inverse, is_held, loaded_poses,
-    tensions_out_of_limits,
+    Deflection, DirectProblem, DirectStart, InverseSolution, Load, StaticsError, WantedPose, deflection,
+    derivatives, inverse, is_held,
 };
 use cdpr_study::{ErrorModel, Grid, StudyError};
 use rayon::prelude::*;
@@ -288,7 +290,7 @@ fn tensions_at_rest<'a>(
     let Workspace { robot, ref load, free, .. } = *workspace;
     if !free.is_empty() {
         let InverseSolution { lengths, equilibrium, .. } = wound_up;
-        DirectProblem::new(robot, lengths, load)?.direct_held(Start::Near(equilibrium))?;
+        DirectProblem::new(robot, lengths, load)?.direct_held(DirectStart::Near(equilibrium))?;
     }
     Ok(&wound_up.tensions)
 }

@@ -2,7 +2,7 @@
 
 use cdpr_assess::{Severity, doubtful_rest, inspect};
 use cdpr_robot::{Gravity, Pose, Pulley, Robot, Vector3};
-use cdpr_statics::{Load, Start, direct, inverse, rough_pose};
+use cdpr_statics::{DirectStart, Load, direct, inverse, rough_pose};
 
 fn about_gravity(gravity: impl Into<Gravity>) -> Vec<(Severity, String)> {
     let mut robot = Robot::from_json(include_str!("../../../data/robots/caroca.json")).unwrap();
@@ -65,7 +65,7 @@ fn named(name: &str) -> Robot {
 /// Value and reason of the question about where a robot rests with these lengths.
 fn asked_of_rest(robot: &Robot, lengths: &[f64], load: &Load) -> Option<String> {
     let start = rough_pose(robot, lengths);
-    let found = direct(robot, lengths, load, Start::Pose(&start)).unwrap();
+    let found = direct(robot, lengths, load, DirectStart::Pose(&start)).unwrap();
     let doubt = doubtful_rest(robot, "the equilibrium", (lengths, load), &found, &start.rotation)?;
     Some(format!("{} {}", doubt.value, doubt.why))
 }
@@ -107,7 +107,7 @@ fn a_platform_below_the_ground_or_turned_over_is_questioned() {
     assert!(asked.contains("below the ground, ground_z = 0.5 m"), "{asked}");
     robot.ground_z = None;
     // From a start that is turned over itself.
-    let found = direct(&robot, &lengths, &Load::none(), Start::Pose(&wanted)).unwrap();
+    let found = direct(&robot, &lengths, &Load::none(), DirectStart::Pose(&wanted)).unwrap();
     let start = cdpr_robot::Rotation3::from_euler_angles(3.0, 0.0, 0.0);
     let given = (&lengths[..], &Load::none());
     let asked = doubtful_rest(&robot, "it", given, &found, &start).unwrap();

@@ -2,10 +2,9 @@
 
 use cdpr_assess::{Further, Workspace, WorkspacePose, compute_workspace};
 use cdpr_robot::{Matrix3, Parameter, Plane, Robot, Rotation3, Vector3, Wrench};
-use cdpr_statics::{
-    DirectProblem, Load, LoadedPose, OutOfLimits, PoseSlopes, StaticsError, deflection, derivatives, inverse,
-    loaded_poses, out_of_limits,
-};
+use cdpr_statics::batch::{LoadedPose, PoseSlopes, loaded_poses};
+use cdpr_statics::limits::{OutOfLimits, out_of_limits};
+use cdpr_statics::{DirectProblem, Load, StaticsError, deflection, derivatives, inverse};
 use cdpr_study::{Grid, GridAxis};
 
 /// A robot, a box of x, y and z with numbers of points, and a load.

@@ -5,10 +5,9 @@ use crate::error::CalibrationError;
 use crate::unknowns::{SensorError, check_each_once};
 use cdpr_cable::SpatialCable;
 use cdpr_robot::{Axis, CableEnd, Coordinate, Pose, Robot, Rotation3, TiltAxis, Vector3};
-use cdpr_statics::{
-    DirectProblem, DirectSolution, FreeSolution, Load, Start, StaticsError, WantedPose, follow_load,
-    free_solutions,
-};
+use cdpr_statics::continuation::follow_load;
+use cdpr_statics::free_coordinates::{FreeSolution, free_solutions};
+use cdpr_statics::{DirectProblem, DirectSolution, DirectStart, Load, StaticsError, WantedPose};
 use cdpr_study::ErrorModel;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -179,7 +178,7 @@ fn rests(
     near: &Pose,
     load: &Load,
 ) -> Result<[DirectSolution; 2], StaticsError> {
-    let unloaded = DirectProblem::new(robot, lengths, &Load::none())?.direct(Start::Pose(near))?;
+    let unloaded = DirectProblem::new(robot, lengths, &Load::none())?.direct(DirectStart::Pose(near))?;
     let loaded = follow_load(robot, lengths, (&Load::none(), &unloaded), load)?;
     Ok([unloaded, loaded])
 }

@@ -2,7 +2,8 @@
 
 use cdpr_calibration::{Noise, Simulated};
 use cdpr_robot::{CableEnd, Coordinate, Parameter, Pose, Robot, Vector3};
-use cdpr_statics::{Load, WantedPose, free_solutions};
+use cdpr_statics::free_coordinates::free_solutions;
+use cdpr_statics::{Load, WantedPose};
 use cdpr_study::ErrorModel;
 
 pub(crate) fn caroca() -> Robot {

@@ -5,7 +5,8 @@
 use crate::common::{answered, cdpr, data_path, data_text, text};
 use crate::equilibria::{self, number, vector};
 use cdpr_robot::{Pose, Robot, UnitQuaternion, Vector3, Wrench};
-use cdpr_statics::{DirectProblem, Load, Start, deflection, direct, inverse, modes_at};
+use cdpr_statics::vibration::modes_at;
+use cdpr_statics::{DirectProblem, DirectStart, Load, deflection, direct, inverse};
 use serde_json::{Value, json};
 use std::process::{Command, Stdio};
 use tempfile::TempDir;
@@ -207,7 +208,7 @@ fn a_case_without_answer_keeps_its_place_among_the_others() {
     let mut heavier = caroca();
     heavier.platform.mass = 230.0;
     let exact =
-        direct(&heavier, &held.lengths, &Load::none(), Start::Pose(&Pose::at(0.3, 0.2, 1.4))).unwrap();
+        direct(&heavier, &held.lengths, &Load::none(), DirectStart::Pose(&Pose::at(0.3, 0.2, 1.4))).unwrap();
     let apart = vector(&found[3]["position"]) - exact.equilibrium.pose.position;
     assert!(apart.norm() < 1e-12, "{apart}");
     let text = text(cdpr(&["direct", &robot, "--from", path.to_str().unwrap()]).stdout);

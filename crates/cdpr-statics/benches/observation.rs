@@ -7,7 +7,8 @@
 mod problems;
 
 use cdpr_robot::{Coordinate, Parameter, Pose, Pulley, Robot, Vector3};
-use cdpr_statics::{Load, Observation, ObservationSlopes, Observer, WantedPose};
+use cdpr_statics::batch::{Observation, ObservationSlopes};
+use cdpr_statics::{Load, Observer, WantedPose};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use problems::common::{alone, observed, robots};
 use problems::{caroca, counted, ring, settings};

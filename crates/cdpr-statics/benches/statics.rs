@@ -5,9 +5,8 @@
 mod problems;
 
 use cdpr_robot::{Pose, Pulley, Robot, Vector3};
-use cdpr_statics::{
-    DirectProblem, Load, Setting, Start, Tracker, deflection, derivatives, direct, follow, inverse,
-};
+use cdpr_statics::continuation::{Setting, follow};
+use cdpr_statics::{DirectProblem, DirectStart, Load, Tracker, deflection, derivatives, direct, inverse};
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use problems::{caroca, counted, ring, settings};
 use std::hint::black_box;
@@ -56,9 +55,9 @@ fn direct_model(criterion: &mut Criterion) {
     let far = pose.moved(Vector3::new(0.3, 0.2, -0.3), Vector3::new(0.15, -0.1, 0.15));
     // 50 kg added; 0.5 m and 0.25 rad away; two cables slack.
     let cases = [
-        ("near", &wanted.lengths, Load::payload(50.0), Start::Near(&wanted.equilibrium)),
-        ("far", &wanted.lengths, Load::none(), Start::Pose(&far)),
-        ("slack", &slack, Load::none(), Start::Pose(&pose)),
+        ("near", &wanted.lengths, Load::payload(50.0), DirectStart::Near(&wanted.equilibrium)),
+        ("far", &wanted.lengths, Load::none(), DirectStart::Pose(&far)),
+        ("slack", &slack, Load::none(), DirectStart::Pose(&pose)),
     ];
     for (name, lengths, load, start) in cases {
         let found = direct(&robot, lengths, &load, start).unwrap();
@@ -69,7 +68,7 @@ fn direct_model(criterion: &mut Criterion) {
     }
     let lawful = Robot::from_json(include_str!("../../../data/robots/caroca-law.json")).unwrap();
     let wound = inverse(&lawful, &pose, &Load::none()).unwrap();
-    let (load, near) = (Load::payload(50.0), Start::Near(&wound.equilibrium));
+    let (load, near) = (Load::payload(50.0), DirectStart::Near(&wound.equilibrium));
     assert!(direct(&lawful, &wound.lengths, &load, near).unwrap().report.residual.force < 1e-8);
     group.bench_function("law", |b| {
         b.iter(|| counted(|| direct(black_box(&lawful), black_box(&wound.lengths), &load, near)));
@@ -78,8 +77,8 @@ fn direct_model(criterion: &mut Criterion) {
         let robot = ring(n);
         let pose = Pose::at(0.1, 0.2, 1.5);
         let lengths: Vec<f64> = (0..n).map(|i| 0.9999 * robot.span(&pose, i).norm()).collect();
-        let start = direct(&robot, &lengths, &Load::none(), Start::Pose(&pose)).unwrap();
-        let near = Start::Near(&start.equilibrium);
+        let start = direct(&robot, &lengths, &Load::none(), DirectStart::Pose(&pose)).unwrap();
+        let near = DirectStart::Near(&start.equilibrium);
         let load = Load::payload(5.0);
         assert!(direct(&robot, &lengths, &load, near).unwrap().report.residual.force < 1e-8);
         group.bench_function(BenchmarkId::new("cables", n), |b| {
@@ -98,7 +97,8 @@ fn tracking(criterion: &mut Criterion) {
     let wound: Vec<f64> =
         wanted.lengths.iter().enumerate().map(|(i, l)| l + 1e-3 * (i as f64).sin()).collect();
     let mut tracker = Tracker::new(&robot, &wanted.lengths, &load, &wanted.equilibrium).unwrap();
-    let expected = direct(&robot, &wound, &load, Start::Near(&wanted.equilibrium)).unwrap().equilibrium.pose;
+    let expected =
+        direct(&robot, &wound, &load, DirectStart::Near(&wanted.equilibrium)).unwrap().equilibrium.pose;
     let found = tracker.update(&wound, &load).unwrap().pose;
     assert!((found.position - expected.position).norm() < 1e-12);
     let mut there = false;
@@ -118,7 +118,7 @@ fn proofs_and_searches(criterion: &mut Criterion) {
     let pose = Pose::at(0.4, -0.3, 1.75);
     let wanted = inverse(&robot, &pose, &Load::none()).unwrap();
     let load = Load::payload(50.0);
-    let found = direct(&robot, &wanted.lengths, &load, Start::Near(&wanted.equilibrium)).unwrap();
+    let found = direct(&robot, &wanted.lengths, &load, DirectStart::Near(&wanted.equilibrium)).unwrap();
     let proof = DirectProblem::new(&robot, &wanted.lengths, &load).unwrap().certify(&found).unwrap();
     assert!(proof.position < 1e-12 && proof.is_stable());
     group.bench_function("certify", |b| {
@@ -134,9 +134,9 @@ fn proofs_and_searches(criterion: &mut Criterion) {
     });
     let from = Setting { lengths: wanted.lengths.clone(), load: Load::none() };
     let to = Setting { lengths: wanted.lengths.clone(), load };
-    assert_eq!(follow(&robot, &from, &to, Start::Near(&wanted.equilibrium)).unwrap().lost, None);
+    assert_eq!(follow(&robot, &from, &to, DirectStart::Near(&wanted.equilibrium)).unwrap().lost, None);
     group.bench_function("follow", |b| {
-        b.iter(|| counted(|| follow(black_box(&robot), &from, &to, Start::Near(&wanted.equilibrium))));
+        b.iter(|| counted(|| follow(black_box(&robot), &from, &to, DirectStart::Near(&wanted.equilibrium))));
     });
     group.finish();
 }

@@ -7,7 +7,7 @@
 #![allow(clippy::print_stdout)]
 
 use cdpr_robot::{Pose, Robot, Vector3};
-use cdpr_statics::{Load, Start, StaticsError, direct, inverse};
+use cdpr_statics::{DirectStart, Load, StaticsError, direct, inverse};
 use rayon::prelude::*;
 use std::time::Instant;
 
@@ -29,7 +29,7 @@ fn main() -> Result<(), StaticsError> {
         let clock = Instant::now();
         let found = cases
             .par_iter()
-            .map(|(lengths, start)| direct(&robot, lengths, &Load::none(), Start::Pose(start)))
+            .map(|(lengths, start)| direct(&robot, lengths, &Load::none(), DirectStart::Pose(start)))
             .collect::<Result<Vec<_>, _>>()?;
         // What an answer of the Python package has, too.
         let softest: Vec<f64> =

@@ -21,8 +21,9 @@
 //! ```
 
 use cdpr_robot::{CableEnd, Deviations, Parameter, Pose, Robot};
+use cdpr_statics::batch::Observation;
 use cdpr_statics::{
-    InverseSolution, Load, Observation, Observer, Start, Tracker, WantedPose, deflection, direct, inverse,
+    DirectStart, InverseSolution, Load, Observer, Tracker, WantedPose, deflection, direct, inverse,
 };
 use serde_json::{Value, json};
 use std::hint::black_box;
@@ -76,7 +77,7 @@ fn case(robot: &Robot, listed: &Value, pose: usize) -> Result<Value, Error> {
     let wanted = hold()?;
     let inverse_us = median((0..REPEATS).map(|_| microseconds(hold)).collect());
     let start = &wanted.equilibrium;
-    let solve = || direct(black_box(robot), black_box(&wanted.lengths), &load, Start::Near(start));
+    let solve = || direct(black_box(robot), black_box(&wanted.lengths), &load, DirectStart::Near(start));
     let loaded = solve()?;
     let direct_us = median((0..REPEATS).map(|_| microseconds(solve)).collect());
     // The tracker begins where the platform rests without the payload; every second solve takes it back

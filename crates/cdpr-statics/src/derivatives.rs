@@ -59,7 +59,8 @@ mod winding;
 
 #[cfg(doc)]
 use crate::equations::ABOVE_LEAST;
-use crate::equations::{CableDerivatives, Inputs, Partials, Pins, Reading, read, solve};
+pub use crate::equations::Inputs;
+use crate::equations::{CableDerivatives, Partials, Pins, Reading, read, solve};
 use crate::error::StaticsError;
 use crate::inverse::{Branch, InverseSolution};
 use crate::loading::{Deflection, Wound, deflection_from, wind, wind_free, wind_from, wind_near};
@@ -115,17 +116,8 @@ pub struct EquilibriumDerivatives {
     pub tensions: DMatrix<f64>,
 }
 
-/// Share of each parameter in the variance of |dp|, to first order and for independent parameters.
-#[derive(Clone, Debug, PartialEq)]
-pub struct VarianceBudget {
-    /// Share of each parameter, 0 to 1, in the order of [`Inputs::parameters`]; they add up to 1, or are zero
-    /// where nothing varies.
-    pub shares: Vec<f64>,
-    /// Predicted standard deviation of |dp| [m].
-    pub std: f64,
-}
-
-/// The deflection at a wanted pose, or at each of many, as [`crate::deflection`] gives it, with its derivatives.
+/// The deflection at a wanted pose, or at each of many, as [`crate::deflection`] gives it, with its
+/// derivatives.
 ///
 /// Where a bound is left on one side of an input, left and right derivatives differ: [`OneSided`]. With free
 /// coordinates set-points do not come from a distribution of tensions but from the rest of the platform, and
@@ -341,22 +333,6 @@ impl Derivatives {
         let Deflection { loaded: found, lengths, .. } = &self.deflection;
         let (length_slopes, pose_slopes) = (&self.lengths, &self.loaded.pose);
         AtRest { robot, load, inputs: &self.inputs, found, lengths, length_slopes, pose_slopes }
-    }
-
-    /// Variance of |dp| from that of each parameter (squared SI units), to first order:
-    /// `sum (d|dp|/dθ_j)² var_j`, with the mean of both squares where left and right derivative differ.
-    ///
-    /// # Errors
-    /// [`StaticsError::Invalid`] unless there is one finite variance, not negative, for each parameter; as
-    /// [`Derivatives::rms`].
-    pub fn variance_budget(&self, variances: &[f64]) -> Result<VarianceBudget, StaticsError> {
-        self.inputs.check("variances", variances)?;
-        let (left, right) = (self.rms()?, self.right().rms()?);
-        let squares = left.iter().zip(&right).map(|(left, right)| 0.5 * (left * left + right * right));
-        let parts: Vec<f64> = squares.zip(variances).map(|(square, variance)| square * variance).collect();
-        let variance: f64 = parts.iter().sum();
-        let share = |part: &f64| if variance > 0.0 { part / variance } else { 0.0 };
-        Ok(VarianceBudget { shares: parts.iter().map(share).collect(), std: variance.sqrt() })
     }
 }
 

@@ -95,8 +95,8 @@ pub(crate) fn inverse_at(
 /// Whether tensions within the limits hold the platform at `pose` under its weight and `load`, as far as the
 /// search from the tensions of straight cables tells.
 ///
-/// A yes is certain. A no comes much sooner than from [`crate::inverse`], which tries other starts before it calls
-/// a pose infeasible: cables that sag may hold a pose with tensions far from those of straight ones.
+/// A yes is certain. A no comes much sooner than from [`crate::inverse`], which tries other starts before it
+/// calls a pose infeasible: cables that sag may hold a pose with tensions far from those of straight ones.
 ///
 /// # Errors
 /// Those of [`crate::inverse`] but [`StaticsError::NoTensions`] and [`StaticsError::InverseNotConverged`].

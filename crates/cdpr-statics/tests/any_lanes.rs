@@ -6,9 +6,8 @@ use cdpr_robot::{
     CableEnd, CableProperties, OwnLimits, Parameter, Plane, Platform, Pose, Pulley, Robot, RobotCable,
     Rotation3, TensionLimits, TensionReference, Vector3,
 };
-use cdpr_statics::{
-    Load, Observation, ObservationSlopes, Observer, ScalarReason, WantedPose, deflection, inverse,
-};
+use cdpr_statics::batch::{Observation, ObservationSlopes, ScalarReason};
+use cdpr_statics::{Load, Observer, WantedPose, deflection, inverse};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;

@@ -6,9 +6,11 @@ use cdpr_robot::{
     CableEnd, Parameter, Platform, Pose, Robot, RobotCable, Rotation3, TensionLimits, TensionReference,
     Vector3, Vector6, Wrench,
 };
+use cdpr_statics::derivatives::EquilibriumDerivatives;
+use cdpr_statics::limits::limits_at;
 use cdpr_statics::{
-    Deflection, Derivatives, EquilibriumDerivatives, HeldPose, Load, StaticsError, WantedPose,
-    deflection_from, derivatives, inverse, lengths_for_tensions, limits_at,
+    Deflection, Derivatives, HeldPose, Load, StaticsError, WantedPose, deflection_from, derivatives, inverse,
+    lengths_for_tensions,
 };
 use nalgebra::DVector;
 use rand::{RngExt, SeedableRng};
@@ -385,7 +387,7 @@ pub(crate) fn random_case(seed: u64) -> Case {
     let pose = Pose::at(0.0, 0.0, 1.5).moved(within(1.5), within(0.1));
     let force = mass * within(1.0);
     let moment = 0.1 * mass * within(1.0);
-    let wrench = if seed.is_multiple_of(2) { Wrench::zero() } else { Wrench { force, moment } };
+    let wrench = if seed.is_multiple_of(2) { Wrench::none() } else { Wrench { force, moment } };
     let payload = mass * rng.random_range(0.05..0.5);
     let offset = [0.0, 0.1, 1.0][seed as usize % 3] * mass;
     let offsets = (0..n).map(|_| offset * rng.random_range(-1.0..1.0)).collect();

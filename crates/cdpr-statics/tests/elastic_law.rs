@@ -2,9 +2,11 @@
 
 use crate::common::{caroca, observed};
 use cdpr_robot::{Parameter, PiecewiseLaw, Pose, Robot, Segment, UnitQuaternion, Vector3, deviations};
+use cdpr_statics::batch::Observation;
+use cdpr_statics::continuation::{Setting, follow};
 use cdpr_statics::{
-    DirectProblem, Load, Observation, Observer, Setting, Start, StaticsError, Tracker, WantedPose,
-    deflection, derivatives, direct, follow, inverse,
+    DirectProblem, DirectStart, Load, Observer, StaticsError, Tracker, WantedPose, deflection, derivatives,
+    direct, inverse,
 };
 
 /// A law from the tension at which each of its segments begins and its stiffness over the cable's.
@@ -60,7 +62,8 @@ fn the_direct_model_finds_the_pose_of_the_inverse_model() {
                 position: pose.position + Vector3::new(0.1, -0.2, 0.15),
                 rotation: UnitQuaternion::from_euler_angles(0.1, -0.05, 0.2).to_rotation_matrix(),
             };
-            let found = direct(&robot, &wanted.lengths, &Load::payload(50.0), Start::Pose(&off)).unwrap();
+            let found =
+                direct(&robot, &wanted.lengths, &Load::payload(50.0), DirectStart::Pose(&off)).unwrap();
             assert!((found.equilibrium.pose.position - pose.position).norm() < 1e-11);
             assert!(found.stability.is_stable() && found.report.residual.force < 1e-8);
             for (one, other) in found.equilibrium.tensions().iter().zip(&wanted.tensions) {
@@ -143,7 +146,7 @@ fn lanes_and_certificates_never_take_such_a_cable_for_a_linear_one() {
     let refused = DirectProblem::new(&robot, &wanted.lengths, &load).unwrap().certify(&wanted.loaded);
     assert!(matches!(refused, Err(StaticsError::NotCertified { .. })));
     let [from, to] = [Load::none(), load].map(|load| Setting { lengths: wanted.lengths.clone(), load });
-    let path = follow(&robot, &from, &to, Start::Near(&wanted.unloaded.equilibrium)).unwrap();
+    let path = follow(&robot, &from, &to, DirectStart::Near(&wanted.unloaded.equilibrium)).unwrap();
     let end = &path.steps.last().unwrap().solution.equilibrium;
     assert!(
         path.lost.is_none() && (end.pose.position - wanted.loaded.equilibrium.pose.position).norm() < 1e-11
@@ -163,12 +166,12 @@ fn a_weightless_cable_is_slack_up_to_its_length_at_rest() {
     let pose = Pose::at(0.0, 0.0, 1.75);
     let mut lengths = inverse(&robot, &pose, &Load::none()).unwrap().lengths;
     lengths[3] *= 1.1;
-    let loose = direct(&robot, &lengths, &Load::none(), Start::Pose(&pose)).unwrap();
+    let loose = direct(&robot, &lengths, &Load::none(), DirectStart::Pose(&pose)).unwrap();
     let chord = robot.span(&loose.equilibrium.pose, 3).norm();
     assert_eq!(loose.report.slack, [3]);
     // Its points are farther apart than its unstrained length, and nearer than its length without tension.
     lengths[3] = chord / (1.0 + 0.5 * strain);
-    let found = direct(&robot, &lengths, &Load::none(), Start::Near(&loose.equilibrium)).unwrap();
+    let found = direct(&robot, &lengths, &Load::none(), DirectStart::Near(&loose.equilibrium)).unwrap();
     let chord = robot.span(&found.equilibrium.pose, 3).norm();
     assert!(lengths[3] < chord && chord < lengths[3] * (1.0 + strain), "{} {chord}", lengths[3]);
     assert_eq!(found.equilibrium.tensions()[3], 0.0);

@@ -2,10 +2,10 @@
 
 use crate::equilibria::number;
 use cdpr_robot::{Coordinate, Pose, Robot, Rotation3, Vector3};
-use cdpr_statics::{
-    DirectProblem, FreeSolution, FreeSolutions, LONGEST, Limit, Load, RestFault, StaticsError, WantedPose,
-    free_solutions, inverse, out_of_limits,
-};
+use cdpr_statics::error::RestFault;
+use cdpr_statics::free_coordinates::{FreeSolution, FreeSolutions, LONGEST, free_solutions};
+use cdpr_statics::limits::{Limit, out_of_limits};
+use cdpr_statics::{DirectProblem, Load, StaticsError, WantedPose, inverse};
 use serde_json::Value;
 
 const FREE: [Coordinate; 2] = [Coordinate::Roll, Coordinate::Pitch];

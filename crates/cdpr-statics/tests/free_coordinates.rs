@@ -9,9 +9,12 @@ use cdpr_robot::{
     CableProperties, Coordinate, Matrix3, Parameter, Plane, Platform, Pose, Robot, Rotation3, Vector3,
     Vector6, Wrench,
 };
+use cdpr_statics::free_coordinates::{FreeSolution, FreeSolutions, free_solutions};
+use cdpr_statics::stiffness::stiffness_at;
+use cdpr_statics::vibration::modes_at;
 use cdpr_statics::{
-    Deflection, DirectProblem, DirectSolution, FreeSolution, FreeSolutions, Load, Start, StaticsError,
-    WantedPose, deflection, derivatives, free_solutions, inverse, modes_at, stiffness_at,
+    Deflection, DirectProblem, DirectSolution, DirectStart, Load, StaticsError, WantedPose, deflection,
+    derivatives, inverse,
 };
 use nalgebra::DVector;
 use serde_json::Value;
@@ -57,7 +60,7 @@ fn lengths_and_free_coordinates_match_arithmetic_of_20_digits() {
         // Every other is a solution, too: the direct model stays there.
         for other in &others {
             let problem = DirectProblem::new(&robot, &other.lengths, &load(&case)).unwrap();
-            let again = problem.direct_any(Start::Near(&other.equilibrium)).unwrap();
+            let again = problem.direct_any(DirectStart::Near(&other.equilibrium)).unwrap();
             let motion = other.equilibrium.pose.motion_to(&again.equilibrium.pose).norm();
             assert!(motion < 1e-9 && again.stability.is_stable() == other.stability.is_stable(), "{line}");
             let (roll, pitch, yaw) = other.equilibrium.pose.rotation.euler_angles();
@@ -376,12 +379,15 @@ fn a_rest_with_free_coordinates_is_followed_to_many_times_its_load() {
         };
         for times in [3.0, 10.0, 30.0, 100.0] {
             let load = Load::payload(times * robot.platform.mass);
-            let at_once = cdpr_statics::rest_near(&robot, &unloaded.equilibrium, &load, &free).unwrap();
+            let at_once =
+                cdpr_statics::free_coordinates::rest_near(&robot, &unloaded.equilibrium, &load, &free)
+                    .unwrap();
             let mut stepwise = unloaded.equilibrium.clone();
             for step in 1..=20 {
                 let share = f64::from(step) / 20.0;
                 let load = Load::payload(((1.0 + times).powf(share) - 1.0) * robot.platform.mass);
-                let rest = cdpr_statics::rest_near(&robot, &stepwise, &load, &free).unwrap();
+                let rest =
+                    cdpr_statics::free_coordinates::rest_near(&robot, &stepwise, &load, &free).unwrap();
                 stepwise = rest.equilibrium;
             }
             let apart = at_once.equilibrium.pose.motion_to(&stepwise.pose).norm();

@@ -3,9 +3,9 @@
 
 use crate::equilibria::{number, vector};
 use cdpr_robot::{Coordinate, Pose, Robot, Rotation3, Vector3};
-use cdpr_statics::{
-    DirectProblem, Load, RestFault, Start, StaticsError, WantedPose, deflection, free_solutions,
-};
+use cdpr_statics::error::RestFault;
+use cdpr_statics::free_coordinates::free_solutions;
+use cdpr_statics::{DirectProblem, DirectStart, Load, StaticsError, WantedPose, deflection};
 use serde_json::Value;
 
 fn grab() -> Robot {
@@ -34,7 +34,7 @@ fn lengths(robot: &Robot, pose: &Pose) -> Vec<f64> {
 fn found(robot: &Robot, lengths: &[f64], start: &Pose) -> (Pose, [f64; 2]) {
     let load = Load::none();
     let problem = DirectProblem::new(robot, lengths, &load).unwrap();
-    let held = problem.direct(Start::Pose(start)).unwrap();
+    let held = problem.direct(DirectStart::Pose(start)).unwrap();
     let modes = problem.modes(&held.equilibrium).unwrap();
     (held.equilibrium.pose, [modes[0].frequency, modes[1].frequency])
 }

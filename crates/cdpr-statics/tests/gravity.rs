@@ -3,9 +3,9 @@
 use crate::common::{alone, caroca, cogiro, observed};
 use crate::pulleys::{led, tilted, turned};
 use cdpr_robot::{Matrix3, PiecewiseLaw, Pose, Robot, Rotation3, Vector3, Wrench};
-use cdpr_statics::{
-    Load, Observation, Observer, PoseModes, Start, Tracker, derivatives, direct, inverse, modes_at,
-};
+use cdpr_statics::batch::Observation;
+use cdpr_statics::vibration::{PoseModes, modes_at};
+use cdpr_statics::{DirectStart, Load, Observer, Tracker, derivatives, direct, inverse};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -89,7 +89,7 @@ fn a_turned_robot_is_found_from_its_lengths_from_a_pose_nearby() {
             let (robot, pose) = (turned(&robot, &rotation), turned_pose(&pose, &rotation));
             let wanted = inverse(&robot, &pose, &Load::none()).unwrap();
             let start = pose.moved(Vector3::new(0.2, -0.1, 0.1), Vector3::new(0.1, 0.2, -0.1));
-            let found = direct(&robot, &wanted.lengths, &Load::none(), Start::Pose(&start)).unwrap();
+            let found = direct(&robot, &wanted.lengths, &Load::none(), DirectStart::Pose(&start)).unwrap();
             let motion = pose.motion_to(&found.equilibrium.pose);
             assert!(motion.norm() < 1e-9, "{}: {motion}", robot.name);
         }

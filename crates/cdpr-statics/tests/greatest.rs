@@ -1,9 +1,9 @@
 //! The greatest payload and the margin of tensions are where the inverse model ends.
 
 use cdpr_robot::{Pose, Robot, Vector3, Wrench};
-use cdpr_statics::{
-    Limit, Load, MAX_STRAIN, StaticsError, greatest_payload, inverse, is_held, tension_margin,
-};
+use cdpr_statics::capacity::{greatest_payload, tension_margin};
+use cdpr_statics::limits::Limit;
+use cdpr_statics::{Load, MAX_STRAIN, StaticsError, inverse, is_held};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use std::time::Instant;
@@ -83,7 +83,7 @@ fn drawn_in(robot: &Robot, margin: f64) -> Robot {
 /// What is wrong about the greatest payload at a pose that is held, if anything is.
 fn payload_fault(robot: &Robot, pose: &Pose) -> Option<String> {
     let holds = |payload| inverse(robot, pose, &Load::payload(payload)).is_ok();
-    let found = match greatest_payload(robot, pose, &Wrench::zero()) {
+    let found = match greatest_payload(robot, pose, &Wrench::none()) {
         Ok(found) => found,
         Err(error) => return Some(error.to_string()),
     };
@@ -136,7 +136,7 @@ fn the_greatest_payload_strains_no_cable_too_much() {
     }
     let largest = robot.limits(0).max / robot.cables[0].properties.axial_stiffness();
     assert!(largest > 1.5 * MAX_STRAIN, "{largest}");
-    let found = greatest_payload(&robot, &pose, &Wrench::zero()).unwrap();
+    let found = greatest_payload(&robot, &pose, &Wrench::none()).unwrap();
     let tensions = found.equilibrium.exit_tensions(&robot, &found.lengths);
     let strains = tensions.iter().enumerate().map(|(i, tension)| robot.cable(i).strain(*tension));
     let greatest = strains.fold(0.0, f64::max);
@@ -146,14 +146,14 @@ fn the_greatest_payload_strains_no_cable_too_much() {
     let beyond = inverse(&robot, &pose, &Load::payload(1.01 * found.value)).unwrap_err();
     assert_eq!(beyond.kind(), "cable_overstrained");
     // Stronger cables carry the limit of tension.
-    assert!(greatest_payload(&self::robot("cogiro"), &pose, &Wrench::zero()).unwrap().value > found.value);
+    assert!(greatest_payload(&self::robot("cogiro"), &pose, &Wrench::none()).unwrap().value > found.value);
 }
 
 #[test]
 fn what_a_limit_gives_is_the_slope_of_the_payload() {
     let robot = robot("cogiro");
     let pose = Pose::at(1.0, 0.5, 2.0);
-    let at = |robot: &Robot| greatest_payload(robot, &pose, &Wrench::zero()).unwrap();
+    let at = |robot: &Robot| greatest_payload(robot, &pose, &Wrench::none()).unwrap();
     let found = at(&robot);
     assert_eq!(found.blocking.len(), 3);
     for block in &found.blocking {
@@ -176,7 +176,7 @@ fn what_a_limit_gives_is_the_slope_of_the_payload() {
 #[test]
 fn a_pose_that_no_pull_can_hold_is_refused() {
     let robot = robot("cogiro");
-    let error = greatest_payload(&robot, &Pose::at(12.0, 0.0, 2.0), &Wrench::zero()).unwrap_err();
+    let error = greatest_payload(&robot, &Pose::at(12.0, 0.0, 2.0), &Wrench::none()).unwrap_err();
     assert!(matches!(error, StaticsError::NoTensions { .. }), "{error}");
 }
 

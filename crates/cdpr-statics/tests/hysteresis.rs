@@ -3,7 +3,8 @@
 use crate::common::caroca;
 use crate::elastic_law::law;
 use cdpr_robot::{Pose, Pulley, Robot, Vector3};
-use cdpr_statics::{HysteresisLaw, Load, StaticsError, Unloading, deflection, load_cycle};
+use cdpr_statics::hysteresis::{HysteresisLaw, Unloading, load_cycle};
+use cdpr_statics::{Load, StaticsError, deflection};
 
 /// One law for all eight cables.
 fn curves(loading: &[(f64, f64)], unloading: &[(f64, f64)]) -> Vec<HysteresisLaw> {

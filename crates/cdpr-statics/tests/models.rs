@@ -3,8 +3,8 @@
 use crate::common::{caroca, cogiro, ring};
 use cdpr_robot::{Platform, Pose, Robot, Rotation3, TensionLimits, Vector3, Wrench};
 use cdpr_statics::{
-    DirectMethod, DirectProblem, Equilibrium, HeldPose, Load, Start, StaticsError, WantedPose, deflection,
-    derivatives, direct, inverse, lengths_for_tensions,
+    DirectMethod, DirectProblem, DirectStart, Equilibrium, HeldPose, Load, StaticsError, WantedPose,
+    deflection, derivatives, direct, inverse, lengths_for_tensions,
 };
 use proptest::prelude::*;
 
@@ -103,7 +103,7 @@ fn invalid_inputs_are_named() {
     let lengths = inverse(&robot, &pose, &Load::none()).unwrap().lengths;
     let text = |result: Result<_, StaticsError>| result.unwrap_err().to_string();
     let solve = |lengths: &[f64], load: &Load, start: &Pose| {
-        direct(&robot, lengths, load, Start::Pose(start)).map(|_| ())
+        direct(&robot, lengths, load, DirectStart::Pose(start)).map(|_| ())
     };
     assert_eq!(
         text(solve(&lengths[..7], &Load::none(), &pose)),
@@ -157,7 +157,8 @@ fn poses_are_held_where_a_cable_carries_less_than_its_own_weight_or_rests_on_a_l
         hang_loosely += usize::from(cables.any(loose));
         at_bound += usize::from(wanted.active.iter().any(Option::is_some));
         assert!(wanted.residual.force < 1e-7, "{:?}", wanted.residual);
-        let found = direct(&robot, &wanted.lengths, &Load::none(), Start::Near(&wanted.equilibrium)).unwrap();
+        let found =
+            direct(&robot, &wanted.lengths, &Load::none(), DirectStart::Near(&wanted.equilibrium)).unwrap();
         assert!(pose.motion_to(&found.equilibrium.pose).norm() < 1e-8);
     }
     assert!(hang_loosely > 0 && at_bound > 10, "{hang_loosely} {at_bound}");
@@ -178,14 +179,15 @@ fn a_cable_that_carries_many_times_its_weight_is_not_slack_however_long_it_is() 
     ));
     let robot = robot.unwrap();
     let wanted = inverse(&robot, &Pose::at(0.0, 0.0, 14.0), &Load::none()).unwrap();
-    let found = direct(&robot, &wanted.lengths, &Load::none(), Start::Near(&wanted.equilibrium)).unwrap();
+    let found =
+        direct(&robot, &wanted.lengths, &Load::none(), DirectStart::Near(&wanted.equilibrium)).unwrap();
     println!("tensions {:?}", wanted.tensions);
     assert_eq!(found.report.longer_than_chord, [0, 1, 2, 3]);
     assert!(found.report.slack.is_empty(), "{:?}", found.report);
     // Fifteen metres more of one of them let it hang.
     let mut lengths = wanted.lengths.clone();
     lengths[0] += 15.0;
-    let found = direct(&robot, &lengths, &Load::none(), Start::Near(&wanted.equilibrium)).unwrap();
+    let found = direct(&robot, &lengths, &Load::none(), DirectStart::Near(&wanted.equilibrium)).unwrap();
     assert_eq!(found.report.slack, [0], "{:?}", found.equilibrium.tensions());
 }
 
@@ -197,7 +199,7 @@ fn a_slack_cable_without_weight_is_the_limit_of_a_light_one() {
         let wanted = inverse(&robot, &Pose::at(0.0, 0.0, 1.75), &Load::none()).unwrap();
         let mut lengths = wanted.lengths;
         lengths[0] *= 1.05;
-        let found = direct(&robot, &lengths, &Load::none(), Start::Near(&wanted.equilibrium)).unwrap();
+        let found = direct(&robot, &lengths, &Load::none(), DirectStart::Near(&wanted.equilibrium)).unwrap();
         assert!(found.report.slack.contains(&0));
         let linearization = DirectProblem::new(&robot, &lengths, &Load::none())
             .unwrap()
@@ -262,10 +264,10 @@ proptest! {
         prop_assert!(wanted.residual.closure < 1e-13 * top.norm(), "{:?}", wanted.residual);
         let start = pose.moved(
             Vector3::new(away[0], away[1], away[2]), Vector3::new(away[3], away[4], away[5]));
-        for start in [Start::Near(&wanted.equilibrium), Start::Pose(&start)] {
+        for start in [DirectStart::Near(&wanted.equilibrium), DirectStart::Pose(&start)] {
             let found = direct(&robot, &wanted.lengths, &load, start).unwrap();
             // A cable that is longer than its chord lets several equilibria exist side by side.
-            if matches!(start, Start::Near(_)) || found.report.longer_than_chord.is_empty() {
+            if matches!(start, DirectStart::Near(_)) || found.report.longer_than_chord.is_empty() {
                 assert_same_pose(&found.equilibrium.pose, &pose, 1e-9, 1e-9)?;
             }
         }
@@ -280,7 +282,7 @@ proptest! {
         robot.validate().unwrap();
         let start = Pose::at(0.2, -0.1, 1.5).moved(Vector3::zeros(), Vector3::new(0.0, 0.0, turn));
         let lengths: Vec<f64> = (0..n).map(|i| robot.span(&start, i).norm() * (1.0 + slack[i])).collect();
-        let found = direct(&robot, &lengths, &Load::none(), Start::Pose(&start)).unwrap();
+        let found = direct(&robot, &lengths, &Load::none(), DirectStart::Pose(&start)).unwrap();
         let weight = mass * 9.81;
         prop_assert!(found.report.residual.force < 1e-8 * weight, "{:?}", found.report);
         prop_assert!(found.report.residual.closure < 1e-12);
@@ -299,7 +301,7 @@ proptest! {
         let pose = Pose::at(x, y, 1.5).moved(Vector3::zeros(), Vector3::new(0.0, 0.0, turn));
         match inverse(&robot, &pose, &Load::none()) {
             Ok(wanted) => {
-                let near = Start::Near(&wanted.equilibrium);
+                let near = DirectStart::Near(&wanted.equilibrium);
                 let found = direct(&robot, &wanted.lengths, &Load::none(), near).unwrap();
                 // A pose of six cables may be an unstable equilibrium: then another one is found, and said
                 // so.
@@ -362,7 +364,7 @@ proptest! {
         prop_assume!(wanted.is_ok());
         let wanted = wanted.unwrap();
         let solve = |lengths: &[f64], load: &Load| {
-            direct(&robot, lengths, load, Start::Near(&wanted.equilibrium)).unwrap().equilibrium.pose
+            direct(&robot, lengths, load, DirectStart::Near(&wanted.equilibrium)).unwrap().equilibrium.pose
         };
         let pose = solve(&wanted.lengths, &load);
         let problem = DirectProblem::new(&robot, &wanted.lengths, &load).unwrap();
@@ -401,7 +403,7 @@ fn the_start_is_not_returned_as_an_answer() {
     let robot = caroca();
     let lengths = inverse(&robot, &Pose::at(0.0, 0.0, 1.75), &Load::none()).unwrap().lengths;
     let start = Pose::at(1.0, 0.7, 0.9).moved(Vector3::zeros(), Vector3::new(0.2, 0.1, -0.2));
-    let found = direct(&robot, &lengths, &Load::none(), Start::Pose(&start)).unwrap();
+    let found = direct(&robot, &lengths, &Load::none(), DirectStart::Pose(&start)).unwrap();
     assert!(start.motion_to(&found.equilibrium.pose).norm() > 0.5);
     assert!(found.report.residual.force < 1e-8);
 }
@@ -411,7 +413,7 @@ fn forces_that_do_not_fit_the_robot_are_refused_as_a_start() {
     let robot = caroca();
     let wanted = inverse(&robot, &Pose::at(0.0, 0.0, 1.75), &Load::none()).unwrap();
     let short = Equilibrium { pose: wanted.equilibrium.pose, cable_forces: Vec::new() };
-    let error = direct(&robot, &wanted.lengths, &Load::none(), Start::Near(&short)).unwrap_err();
+    let error = direct(&robot, &wanted.lengths, &Load::none(), DirectStart::Near(&short)).unwrap_err();
     assert_eq!(
         error.to_string(),
         "start.cable_forces is a list of 0: expected one force for each of the 8 cables"

@@ -5,7 +5,9 @@ use crate::equilibria::{number, vector};
 use crate::pulleys::{led, robot};
 use crate::reference::rotation;
 use cdpr_robot::{Matrix3, Platform, Pose, Robot, Vector3, Vector6, Wrench};
-use cdpr_statics::{DirectProblem, Load, Start, modes_at, stiffness_at};
+use cdpr_statics::stiffness::stiffness_at;
+use cdpr_statics::vibration::modes_at;
+use cdpr_statics::{DirectProblem, DirectStart, Load};
 use nalgebra::Matrix6;
 use serde_json::Value;
 
@@ -47,7 +49,7 @@ fn frequencies_and_shapes_match_arithmetic_of_20_digits() {
         let start =
             Pose { position: vector(&case["start_position"]), rotation: rotation(&case["start_rotation"]) };
         let problem = DirectProblem::new(&robot, &lengths, &load).unwrap();
-        let found = problem.direct(Start::Pose(&start)).unwrap();
+        let found = problem.direct(DirectStart::Pose(&start)).unwrap();
         let modes = problem.modes(&found.equilibrium).unwrap();
         let mass = Matrix6::from_fn(|i, j| number(&case["mass_matrix"][i][j]));
         for (k, mode) in modes.iter().enumerate() {

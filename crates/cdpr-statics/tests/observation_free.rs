@@ -6,9 +6,8 @@ use crate::free_coordinates::with_few_cables;
 use crate::observer::{compared, rows_by_size};
 use cdpr_cable::{PiecewiseLaw, Segment};
 use cdpr_robot::{Coordinate, Parameter, Pose, Pulley, Robot, Rotation3, TensionLimits, Vector3, library};
-use cdpr_statics::{
-    Load, Observation, ObservationMotion, Observer, ScalarReason, WantedPose, deflection, inverse,
-};
+use cdpr_statics::batch::{Observation, ObservationMotion, ScalarReason};
+use cdpr_statics::{Load, Observer, WantedPose, deflection, inverse};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
@@ -246,7 +245,7 @@ fn outcomes(seed: u64) -> Vec<(String, f64)> {
     };
     let longest = longest(&robot, &pose);
     let rows = rows_by_size(&robot, &pose, 8, 0.1, seed);
-    let outcome = |(row, found): (&[f64], &Result<cdpr_statics::Observation, _>)| match found {
+    let outcome = |(row, found): (&[f64], &Result<cdpr_statics::batch::Observation, _>)| match found {
         Err(error) => (format!("failed: {}", cdpr_statics::StaticsError::kind(error)), 0.0),
         Ok(found) => match (found.scalar, alone::<Observation>(&observer, row)) {
             (Some(why), _) => (format!("scalar: {}", why.name()), 0.0),

@@ -4,7 +4,8 @@ use crate::any_lanes::{Case, case};
 use crate::common::{alone, caroca, observed, points_and_planar, robots};
 use cdpr_cable::{PiecewiseLaw, Segment};
 use cdpr_robot::{CableEnd, Parameter, Pose, Pulley, Robot, Vector3, library};
-use cdpr_statics::{Load, Observation, ObservationSlopes, Observer, ScalarReason};
+use cdpr_statics::batch::{Observation, ObservationSlopes, ScalarReason};
+use cdpr_statics::{Load, Observer};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
@@ -33,7 +34,7 @@ fn compare(robot: &Robot, pose: &Pose, load: &Load, rows: &[f64]) -> Vec<(&'stat
     let observed = observed::<Observation>(&observer, rows);
     assert_eq!(found.len(), observed.len());
     let outcome = |((row, observed), found): ((&[f64], _), &Result<_, _>)| {
-        let (observed, found): (&Result<_, _>, &cdpr_statics::ObservationSlopes) = match found {
+        let (observed, found): (&Result<_, _>, &cdpr_statics::batch::ObservationSlopes) = match found {
             Ok(found) => (observed, found),
             Err(error) => return (cdpr_statics::StaticsError::kind(error), 0.0),
         };

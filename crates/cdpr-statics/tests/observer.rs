@@ -5,9 +5,8 @@ use cdpr_robot::{
     CableEnd, Deviations, Parameter, ParameterLayout, Pose, Pulley, Robot, RobotError, TensionReference,
     Vector3, library,
 };
-use cdpr_statics::{
-    Load, Observation, ObservationMotion, ObservationSlopes, Observer, Residual, ScalarReason, StaticsError,
-};
+use cdpr_statics::batch::{Observation, ObservationMotion, ObservationSlopes, ScalarReason};
+use cdpr_statics::{Load, Observer, Residual, StaticsError};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use std::collections::BTreeMap;

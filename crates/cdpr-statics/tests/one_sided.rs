@@ -3,7 +3,8 @@
 use crate::common::robots;
 use crate::derivatives::{Case, column};
 use cdpr_robot::{Parameter, ParameterLayout};
-use cdpr_statics::{AtBound, Bound, Derivatives, InverseSolution, Load, WantedPose, derivatives, inverse};
+use cdpr_statics::derivatives::AtBound;
+use cdpr_statics::{Bound, Derivatives, InverseSolution, Load, WantedPose, derivatives, inverse};
 use nalgebra::DVector;
 use std::collections::BTreeMap;
 

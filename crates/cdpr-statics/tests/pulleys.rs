@@ -8,7 +8,8 @@ use cdpr_robot::{
     CableEnd, CableProperties, Platform, Pose, Pulley, Robot, RobotCable, Rotation3, TensionLimits, Vector3,
     Wrench,
 };
-use cdpr_statics::{DirectProblem, Load, Start, WantedPose, deflection, direct, inverse, stiffness_at};
+use cdpr_statics::stiffness::stiffness_at;
+use cdpr_statics::{DirectProblem, DirectStart, Load, WantedPose, deflection, direct, inverse};
 use nalgebra::Matrix6;
 use serde_json::Value;
 
@@ -54,7 +55,7 @@ fn equilibria_over_pulleys_match_arithmetic_of_20_digits() {
         let start =
             Pose { position: vector(&case["start_position"]), rotation: rotation(&case["start_rotation"]) };
         let expected = Pose { position: vector(&case["position"]), rotation: rotation(&case["rotation"]) };
-        let solution = direct(&robot, &lengths, &load, Start::Pose(&start)).unwrap();
+        let solution = direct(&robot, &lengths, &load, DirectStart::Pose(&start)).unwrap();
         let motion = expected.motion_to(&solution.equilibrium.pose);
         let (position, angle) = (motion.fixed_rows::<3>(0).norm(), motion.fixed_rows::<3>(3).norm());
         let of_cables = |name: &str| -> Vec<f64> {
@@ -197,7 +198,7 @@ fn a_robot_with_pulleys_is_found_again_from_its_lengths() {
         let held = inverse(&robot, &pose, &Load::none()).unwrap();
         assert!(held.stationarity < 1e-9);
         let start = pose.moved(Vector3::new(0.3, -0.2, 0.1), Vector3::new(0.05, 0.1, -0.1));
-        let found = direct(&robot, &held.lengths, &Load::none(), Start::Pose(&start)).unwrap();
+        let found = direct(&robot, &held.lengths, &Load::none(), DirectStart::Pose(&start)).unwrap();
         assert!(pose.motion_to(&found.equilibrium.pose).norm() < 1e-11);
     }
 }

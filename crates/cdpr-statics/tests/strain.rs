@@ -3,10 +3,14 @@
 use crate::common::{caroca, cogiro, observed};
 use cdpr_cable::MAX_STRAIN;
 use cdpr_robot::{ParameterLayout, Pose, Pulley, Robot, Vector3, Wrench};
+use cdpr_statics::batch::{LoadedPose, Observation, loaded_poses};
+use cdpr_statics::capacity::{greatest_payload, tension_margin};
+use cdpr_statics::free_coordinates::free_solutions;
+use cdpr_statics::stiffness::stiffness_at;
+use cdpr_statics::vibration::modes_at;
 use cdpr_statics::{
-    InversePath, Load, LoadedPose, Observation, Observer, Start, StaticsError, Tracker, deflection,
-    derivatives, direct, free_solutions, greatest_payload, inverse, is_held, loaded_poses, modes_at,
-    stiffness_at, tension_margin,
+    DirectStart, InversePath, Load, Observer, StaticsError, Tracker, deflection, derivatives, direct,
+    inverse, is_held,
 };
 
 /// Cables so soft that the tensions of a pose strain them by a multiple of what the models hold for.
@@ -71,7 +75,7 @@ fn an_answer_just_within_the_strain_stands() {
     assert!(loaded_poses::<LoadedPose>(robot, &[&found], &Load::none())[0].is_ok());
     // More load strains more.
     let load = Load::payload(200.0);
-    let start = Start::Near(&found.equilibrium);
+    let start = DirectStart::Near(&found.equilibrium);
     assert_eq!(direct(robot, &found.lengths, &load, start).unwrap_err().kind(), "cable_overstrained");
     assert_eq!(
         loaded_poses::<LoadedPose>(robot, &[&found], &load).remove(0).unwrap_err().kind(),
@@ -86,7 +90,7 @@ fn payloads_and_margins_with_tensions_distributed_anew_have_the_same_bound() {
     let pose = Pose::at(1.0, -0.5, 2.0);
     let robot = soft(cogiro(), &pose, 0.9);
     for found in
-        [greatest_payload(&robot, &pose, &Wrench::zero()), tension_margin(&robot, &pose, &Load::none())]
+        [greatest_payload(&robot, &pose, &Wrench::none()), tension_margin(&robot, &pose, &Load::none())]
     {
         let found = found.unwrap();
         let tensions = found.equilibrium.exit_tensions(&robot, &found.lengths);
@@ -94,5 +98,5 @@ fn payloads_and_margins_with_tensions_distributed_anew_have_the_same_bound() {
     }
     // Where the platform's own weight strains cables too much, nothing is carried.
     let robot = soft(cogiro(), &pose, 1.1);
-    assert_eq!(greatest_payload(&robot, &pose, &Wrench::zero()).unwrap_err().kind(), "cable_overstrained");
+    assert_eq!(greatest_payload(&robot, &pose, &Wrench::none()).unwrap_err().kind(), "cable_overstrained");
 }

@@ -3,9 +3,11 @@
 use crate::common::{caroca, cogiro, fast, ipanema, stadium};
 use crate::pulleys::led;
 use cdpr_robot::{CableEnd, Pose, Robot, TensionReference};
+use cdpr_statics::hysteresis::{HysteresisLaw, load_cycle};
+use cdpr_statics::limits::{Limit, OutOfLimits, limits_at, out_of_limits};
+use cdpr_statics::stiffness::stiffness_at;
 use cdpr_statics::{
-    Bound, HysteresisLaw, InverseSolution, Limit, Load, OutOfLimits, StaticsError, WantedPose, deflection,
-    inverse, limits_at, load_cycle, out_of_limits, stiffness_at, wound_lengths,
+    Bound, InverseSolution, Load, StaticsError, WantedPose, deflection, inverse, wound_lengths,
 };
 
 /// Robots of every kind at a pose that they hold, with a tension above those of least norm.

@@ -2,7 +2,7 @@
 
 use crate::common::{caroca, ring, suspended};
 use cdpr_robot::{Pose, Robot, Rotation3, Vector3, Wrench};
-use cdpr_statics::{Load, Start, StaticsError, Tracker, direct, inverse};
+use cdpr_statics::{DirectStart, Load, StaticsError, Tracker, direct, inverse};
 use std::hint::black_box;
 
 /// Lengths along a path through the workspace, with loads that come and go.
@@ -28,7 +28,7 @@ fn a_path_is_that_of_the_direct_model() {
     let mut tracker = Tracker::new(&robot, &path[0].0, &path[0].1, &start).unwrap();
     for (lengths, load) in &path {
         let before = tracker.equilibrium().clone();
-        let expected = direct(&robot, lengths, load, Start::Near(&before)).unwrap().equilibrium;
+        let expected = direct(&robot, lengths, load, DirectStart::Near(&before)).unwrap().equilibrium;
         let found = tracker.update(lengths, load).unwrap();
         let motion = found.pose.motion_to(&expected.pose);
         assert!(motion.norm() < 1e-12, "{motion}");
@@ -64,8 +64,8 @@ fn any_number_of_cables_fills_the_lanes() {
         let pose = Pose::at(0.1, 0.2, 1.5);
         let lengths: Vec<f64> = (0..n).map(|i| 0.9999 * robot.span(&pose, i).norm()).collect();
         let wound: Vec<f64> = lengths.iter().enumerate().map(|(i, l)| l + 2e-4 * (i as f64).sin()).collect();
-        let start = direct(&robot, &lengths, &Load::none(), Start::Pose(&pose)).unwrap().equilibrium;
-        let expected = direct(&robot, &wound, &Load::none(), Start::Near(&start)).unwrap().equilibrium;
+        let start = direct(&robot, &lengths, &Load::none(), DirectStart::Pose(&pose)).unwrap().equilibrium;
+        let expected = direct(&robot, &wound, &Load::none(), DirectStart::Near(&start)).unwrap().equilibrium;
         let mut tracker = Tracker::new(&robot, &lengths, &Load::none(), &start).unwrap();
         let allocated = allocation_counter::measure(|| {
             assert!(tracker.update(&wound, &Load::none()).is_ok());
@@ -92,7 +92,7 @@ fn slack_cables_and_moments_are_those_of_the_direct_model() {
         [(&slack, Load::none()), (&slack, moment), (&wanted.lengths, moment), (&wanted.lengths, Load::none())]
     {
         let before = tracker.equilibrium().clone();
-        let expected = direct(&robot, lengths, &load, Start::Near(&before)).unwrap().equilibrium.pose;
+        let expected = direct(&robot, lengths, &load, DirectStart::Near(&before)).unwrap().equilibrium.pose;
         let found = tracker.update(lengths, &load).unwrap().pose;
         assert!(found.motion_to(&expected).norm() < 1e-11);
     }

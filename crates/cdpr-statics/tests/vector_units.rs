@@ -3,10 +3,10 @@
 use crate::common::{caroca, cogiro, observed};
 use cdpr_number::lanes::Unit;
 use cdpr_robot::{Coordinate, Parameter, Pose, Pulley, Robot, Vector3};
-use cdpr_statics::{
-    InverseSolution, Load, LoadedPose, Observation, ObservationMotion, ObservationSlopes, Observer,
-    PoseSlopes, StaticsError, Tracker, WantedPose, inverse, loaded_poses,
+use cdpr_statics::batch::{
+    LoadedPose, Observation, ObservationMotion, ObservationSlopes, PoseSlopes, loaded_poses,
 };
+use cdpr_statics::{InverseSolution, Load, Observer, StaticsError, Tracker, WantedPose, inverse};
 use std::fmt::Debug;
 
 /// The result of `task`, which must be the same on all vector units.
@@ -96,7 +96,7 @@ fn neither_vector_unit_nor_neighbours_change_a_bit_of_a_pose() {
     let found = on_all_units(|| loaded_poses::<LoadedPose>(&robot, &wanted, &load));
     assert_eq!(found[3..], loaded_poses::<LoadedPose>(&robot, &wanted[3..], &load));
     let in_lanes = |found: &&Result<_, StaticsError>| {
-        let found: &Result<cdpr_statics::LoadedPose, _> = found;
+        let found: &Result<cdpr_statics::batch::LoadedPose, _> = found;
         found.as_ref().is_ok_and(|found| found.scalar.is_none())
     };
     assert!(found.iter().filter(in_lanes).count() > 15);

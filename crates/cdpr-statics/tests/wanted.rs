@@ -2,9 +2,12 @@
 
 use crate::common::{caroca, cogiro, ipanema};
 use cdpr_robot::{Coordinate, Pose, Robot, TensionReference};
+use cdpr_statics::free_coordinates::free_solutions;
+use cdpr_statics::stiffness::stiffness_at;
+use cdpr_statics::vibration::modes_at;
 use cdpr_statics::{
-    InversePath, InverseSolution, Load, Observer, StaticsError, WantedPose, deflection, derivatives,
-    free_solutions, inverse, modes_at, stiffness_at, wound_lengths,
+    InversePath, InverseSolution, Load, Observer, StaticsError, WantedPose, deflection, derivatives, inverse,
+    wound_lengths,
 };
 
 /// CoGiRo on every other cable, with the coordinates that it finds itself.

@@ -2,9 +2,11 @@
 
 use cdpr_robot::{Deviations, Parameter, ParameterLayout, Pose};
 use cdpr_sensitivity::SampleDesign;
+use cdpr_statics::free_coordinates::free_solutions;
+use cdpr_statics::stiffness::stiffness_at;
+use cdpr_statics::vibration::modes_at;
 use cdpr_statics::{
-    DirectProblem, Load, Start, StaticsError, WantedPose, deflection, free_solutions, inverse, modes_at,
-    stiffness_at, wound_lengths,
+    DirectProblem, DirectStart, Load, StaticsError, WantedPose, deflection, inverse, wound_lengths,
 };
 use cdpr_study::{
     InputMeasures, Measured, Output, Sampling, SensitivitySpec, SensitivitySummary, Session, Study,
@@ -91,7 +93,7 @@ fn a_frequency_and_a_stiffness_are_those_of_the_deflected_robot() {
                     wound_lengths(&deviating.robot, WantedPose::at(&sampling.pose).tension_offsets(offsets))
                         .unwrap();
                 let problem = DirectProblem::new(&deviating.robot, &lengths, &sampling.load).unwrap();
-                let rest = problem.direct(Start::Pose(&sampling.pose)).unwrap();
+                let rest = problem.direct(DirectStart::Pose(&sampling.pose)).unwrap();
                 // Rotations are measured by a length of the nominal robot: one that deviates changes nothing.
                 let nominal = problem.with_characteristic_length(study.robot.platform_size());
                 let expected = match output {
@@ -127,7 +129,7 @@ fn a_position_error_is_where_the_direct_model_puts_the_robot_with_nominal_length
         for (deviations, measured) in observed(&sampling).iter().step_by(7) {
             let deviating = study.robot.perturbed(deviations).unwrap().robot;
             let problem = DirectProblem::new(&deviating, &lengths, &Load::none()).unwrap();
-            let rest = problem.direct(Start::Pose(&sampling.pose)).unwrap().equilibrium.pose;
+            let rest = problem.direct(DirectStart::Pose(&sampling.pose)).unwrap().equilibrium.pose;
             let away = 1e3 * (rest.position - sampling.pose.position).norm();
             assert!((measured.value() - away).abs() < 1e-6, "{} and not {away}", measured.value());
             assert!(away > 0.1);

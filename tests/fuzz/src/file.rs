@@ -2,7 +2,9 @@
 
 use cdpr_cable::Phase;
 use cdpr_robot::{Pose, Robot, Vector3};
-use cdpr_statics::{DirectSolution, Equilibrium, InverseSolution, Load, Residual, Start, direct, inverse};
+use cdpr_statics::{
+    DirectSolution, DirectStart, Equilibrium, InverseSolution, Load, Residual, direct, inverse,
+};
 use cdpr_study::{Study, read_record};
 use serde_json::Value;
 use std::path::Path;
@@ -33,7 +35,7 @@ pub fn robot(text: &str) {
             finite("tensions", &tensions);
             finite_equilibrium(&equilibrium, &residual);
             assert_eq!((lengths.len(), tensions.len()), (n, n));
-            match direct(&robot, &lengths, &Load::none(), Start::Near(&equilibrium)) {
+            match direct(&robot, &lengths, &Load::none(), DirectStart::Near(&equilibrium)) {
                 Ok(DirectSolution { equilibrium, report, .. }) => {
                     finite_equilibrium(&equilibrium, &report.residual);
                 }

@@ -3,7 +3,8 @@
 use super::{Dominant, HELD, Workspace, WorkspacePose};
 use crate::capacity::{Capacity, Figure};
 use crate::clearance::CableDistance;
-use cdpr_statics::{Load, OutOfLimits, StaticsError};
+use cdpr_statics::limits::OutOfLimits;
+use cdpr_statics::{Load, StaticsError};
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
 /// A row of `workspace.csv`, and an element of each column of `workspace.json`: positions [m], deflection

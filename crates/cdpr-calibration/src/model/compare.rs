@@ -4,7 +4,8 @@ use crate::campaign::{Quantity, Row};
 use crate::model::{Model, RowState, Shared};
 use crate::unknowns::SensorError;
 use cdpr_robot::{Robot, Vector3};
-use cdpr_statics::{DirectProblem, ForceDerivatives, StaticsError};
+use cdpr_statics::derivatives::ForceDerivatives;
+use cdpr_statics::{DirectProblem, StaticsError};
 use nalgebra::{DMatrix, DVector, RowDVector};
 
 /// A row at a state: residuals over standard deviations, and their derivatives.

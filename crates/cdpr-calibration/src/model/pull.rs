@@ -13,7 +13,7 @@
 use crate::model::Model;
 use cdpr_cable::SpatialCable;
 use cdpr_robot::{Parameter, Pulley, Robot, Rotation3, TiltAxis, Vector3};
-use cdpr_statics::ForceDerivatives;
+use cdpr_statics::derivatives::ForceDerivatives;
 use nalgebra::{DMatrix, RowDVector};
 
 impl Model<'_> {

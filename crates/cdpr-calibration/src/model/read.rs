@@ -6,7 +6,8 @@ use crate::unknowns::SensorError;
 use cdpr_robot::{
     Axis, CableEnd, Coordinate, Matrix6xX, Pose, Robot, Rotation3, TiltAxis, UnitQuaternion, Vector3, Vector6,
 };
-use cdpr_statics::{Equilibrium, ForceDerivatives};
+use cdpr_statics::Equilibrium;
+use cdpr_statics::derivatives::ForceDerivatives;
 use nalgebra::{Matrix3, RowDVector};
 
 /// Derivatives of what is read by everything it may depend on.

@@ -10,9 +10,8 @@ use crate::poses::{self, Angles};
 use crate::questions;
 use cdpr_report::{Cycle, CycleBranch, cycle};
 use cdpr_robot::{Pose, Robot};
-use cdpr_statics::{
-    CycleStep, HysteresisLaw, Load, LoadCycle, StaticsError, Unloading, WantedPose, load_cycle,
-};
+use cdpr_statics::hysteresis::{CycleStep, HysteresisLaw, LoadCycle, Unloading, load_cycle};
+use cdpr_statics::{Load, StaticsError, WantedPose};
 use cdpr_study::{CableLaw, elastic_laws, open_law, open_record};
 use serde::Serialize;
 use std::path::{Path, PathBuf};

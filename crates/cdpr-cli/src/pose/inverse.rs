@@ -7,9 +7,9 @@ use crate::output::Ending;
 use crate::pose::at_pose::{RobotAtPose, Row, cells, numbered};
 use crate::poses::{COLUMNS, pose_numbers};
 use cdpr_robot::{Pose, Robot};
+use cdpr_statics::free_coordinates::{FreeSolution, FreeSolutions, free_solutions};
 use cdpr_statics::{
-    DirectProblem, FreeSolution, FreeSolutions, InversePath, InverseSolution, Load, Stability, StaticsError,
-    WantedPose, free_solutions, inverse,
+    DirectProblem, InversePath, InverseSolution, Load, Stability, StaticsError, WantedPose, inverse,
 };
 use serde::Serialize;
 

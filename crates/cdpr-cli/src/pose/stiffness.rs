@@ -5,7 +5,8 @@ use crate::error::ProgramError;
 use crate::output::{Ending, table};
 use crate::pose::at_pose::{RobotAtFreePose, Row, cells};
 use cdpr_robot::Robot;
-use cdpr_statics::{PoseStiffness, WantedPose, stiffness_at};
+use cdpr_statics::WantedPose;
+use cdpr_statics::stiffness::{PoseStiffness, stiffness_at};
 use serde::Serialize;
 
 pub(crate) fn run(RobotAtFreePose { at, free }: &RobotAtFreePose) -> Result<Ending, ProgramError> {

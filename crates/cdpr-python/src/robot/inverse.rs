@@ -4,9 +4,11 @@ use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each, run};
 use crate::robot::Robot;
 use crate::robot::direct::numbers_of_limits;
 use cdpr_robot::{Coordinate, Pose, RobotError};
+use cdpr_statics::free_coordinates::{FreeSolution, FreeSolutions, free_solutions};
+use cdpr_statics::limits::out_of_limits;
 use cdpr_statics::{
-    Bound, Equilibrium, FreeSolution, FreeSolutions, InversePath, InverseSolution as InverseModel,
-    PathSolution, Residual, StaticsError, WantedPose, free_solutions, inverse, out_of_limits,
+    Bound, Equilibrium, InversePath, InverseSolution as InverseModel, PathSolution, Residual, StaticsError,
+    WantedPose, inverse,
 };
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};

@@ -4,7 +4,8 @@ use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each};
 use crate::robot::Robot;
 use crate::robot::inverse::coordinates;
 use cdpr_robot::Vector3;
-use cdpr_statics::{NaturalMode, PoseModes, WantedPose, modes_at};
+use cdpr_statics::WantedPose;
+use cdpr_statics::vibration::{NaturalMode, PoseModes, modes_at};
 use pyo3::prelude::*;
 
 answer! {

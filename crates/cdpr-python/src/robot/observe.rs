@@ -4,7 +4,8 @@ use crate::convert::{Answer, Cases, Columns, Loads, Numbers, Raised, Rows, answe
 use crate::robot::Robot;
 use crate::robot::inverse::coordinates;
 use cdpr_robot::{Deviations, ParameterLayout, Vector3};
-use cdpr_statics::{Observation, Observer, StaticsError, WantedPose};
+use cdpr_statics::batch::Observation;
+use cdpr_statics::{Observer, StaticsError, WantedPose};
 use pyo3::prelude::*;
 use rayon::prelude::*;
 use std::sync::atomic::Ordering;

@@ -4,7 +4,8 @@ use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each};
 use crate::robot::Robot;
 use crate::robot::inverse::coordinates;
 use cdpr_robot::Vector3;
-use cdpr_statics::{Mode, PoseStiffness, StaticsError, WantedPose, stiffness_at};
+use cdpr_statics::stiffness::{Mode, PoseStiffness, stiffness_at};
+use cdpr_statics::{StaticsError, WantedPose};
 use pyo3::prelude::*;
 
 answer! {

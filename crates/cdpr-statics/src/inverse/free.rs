@@ -47,7 +47,8 @@ use sound::{Loops, longest};
 ///
 /// ```
 /// use cdpr_robot::{Coordinate, Robot};
-/// use cdpr_statics::{Load, WantedPose, free_solutions};
+/// use cdpr_statics::{Load, WantedPose};
+/// use cdpr_statics::free_coordinates::free_solutions;
 ///
 /// let mut robot = Robot::from_json(include_str!("../../../../data/robots/cogiro.json"))?;
 /// robot.cables = [1, 3, 5, 7].map(|i| robot.cables[i].clone()).to_vec();

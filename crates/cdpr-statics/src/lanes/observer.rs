@@ -115,9 +115,9 @@ impl<'a> Observer<'a> {
     /// nominal one.
     ///
     /// # Errors
-    /// [`StaticsError::Invalid`] for a load that is not finite, for offsets, which are among the deviations, and
-    /// for a tension reference, which is the robot's own; [`StaticsError::Robot`] for an invalid robot; with
-    /// free coordinates those of [`crate::inverse`].
+    /// [`StaticsError::Invalid`] for a load that is not finite, for offsets, which are among the deviations,
+    /// and for a tension reference, which is the robot's own; [`StaticsError::Robot`] for an invalid robot;
+    /// with free coordinates those of [`crate::inverse`].
     pub fn new<'w>(
         robot: &'a Robot,
         wanted: impl Into<WantedPose<'w>>,

@@ -46,8 +46,8 @@ const SEQUENCES: usize = MAX_LANES;
 /// Greatest error of (I2) in a cable, relative to the sum of tensions.
 const STATIONARY: f64 = 1e-10;
 
-/// The unstrained lengths with which the platform rests at a wanted pose, or at each of many, under its weight
-/// and `load`.
+/// The unstrained lengths with which the platform rests at a wanted pose, or at each of many, under its
+/// weight and `load`.
 ///
 /// Within their limits the tensions are as near as possible to the reference that is wanted or that of the
 /// robot, which is zero unless it is stated: the least-norm tensions.
@@ -55,12 +55,12 @@ const STATIONARY: f64 = 1e-10;
 /// With fewer cables than free motions, the free coordinates are found: a stable solution close to the given
 /// pose is taken without a search for others, else the first one of [`free_solutions`].
 ///
-/// **Many poses** should follow each other closely, as along the lines of a grid: robots with a cable for each
-/// free motion, over pulleys with vertical axes or none, are then answered in the lanes of the vector unit,
-/// each pose from the one before it, and all others one by one. An answer found in lanes counts no
+/// **Many poses** should follow each other closely, as along the lines of a grid: robots with a cable for
+/// each free motion, over pulleys with vertical axes or none, are then answered in the lanes of the vector
+/// unit, each pose from the one before it, and all others one by one. An answer found in lanes counts no
 /// iterations. It depends on the poses before it in the same call, in the last digits; it does not depend on
-/// the vector unit. Where (I1) has several minima, the answer to one pose is the best that several starts lead
-/// to; one in lanes with a cable that sags is proved to be the least of all on a grid of its tensions.
+/// the vector unit. Where (I1) has several minima, the answer to one pose is the best that several starts
+/// lead to; one in lanes with a cable that sags is proved to be the least of all on a grid of its tensions.
 ///
 /// ```
 /// use cdpr_robot::{Pose, Robot};
@@ -82,8 +82,8 @@ const STATIONARY: f64 = 1e-10;
 /// - [`StaticsError::Overstrained`] where the tensions strain a cable by more than the models hold for.
 /// - [`StaticsError::ExitLimit`] where the limits of a cable contradict each other at this pose.
 /// - [`StaticsError::Cable`] where a cable's own weight demands more than the greatest tension.
-/// - [`StaticsError::Invalid`] for a pose, load or reference that is not finite, a reference of another number
-///   of cables, and offsets of set-points.
+/// - [`StaticsError::Invalid`] for a pose, load or reference that is not finite, a reference of another
+///   number of cables, and offsets of set-points.
 /// - [`StaticsError::FreeCoordinates`] for a robot with fewer cables than free motions, where not as many
 ///   coordinates are free.
 /// - [`StaticsError::InverseNotConverged`] where tensions hold the pose but their optimum was not found.

@@ -4,7 +4,7 @@
 //! of the tension set-points change those lengths. Then the direct model runs without and with the load, and
 //! the deflection is `dp = p_loaded - p_unloaded`.
 
-use crate::direct::{DirectSolution, Start, follow_load};
+use crate::direct::{DirectSolution, DirectStart, follow_load};
 use crate::equations::FORCES;
 use crate::error::StaticsError;
 use crate::inverse::{
@@ -86,8 +86,8 @@ pub(crate) struct Wound {
 
 /// Deflection under `load` at a wanted pose or at each of many.
 ///
-/// The inverse model sets the lengths for the wanted pose under the platform's own weight, with the offsets of
-/// the set-points. With free coordinates, set-points that are not offset are not kept within the limits.
+/// The inverse model sets the lengths for the wanted pose under the platform's own weight, with the offsets
+/// of the set-points. With free coordinates, set-points that are not offset are not kept within the limits.
 ///
 /// # Errors
 /// Those of [`crate::inverse`] and of [`deflection_from`].
@@ -158,11 +158,11 @@ fn wind_rest(
     Ok((held, wound))
 }
 
-/// Unstrained lengths [m] that give offset tension set-points while the platform is held at a wanted pose, or,
-/// with free coordinates, where it rests.
+/// Unstrained lengths [m] that give offset tension set-points while the platform is held at a wanted pose,
+/// or, with free coordinates, where it rests.
 ///
-/// The set-points are the tensions of the inverse model under the platform's own weight plus the offsets, kept
-/// within the limits. Once released, the platform stands elsewhere.
+/// The set-points are the tensions of the inverse model under the platform's own weight plus the offsets,
+/// kept within the limits. Once released, the platform stands elsewhere.
 ///
 /// # Errors
 /// Those of [`crate::inverse`].
@@ -237,7 +237,8 @@ pub fn deflection_from(
     load: &Load,
     start: &Equilibrium,
 ) -> Result<Deflection, StaticsError> {
-    let unloaded = DirectProblem::new(robot, &lengths, &Load::none())?.direct_held(Start::Near(start))?;
+    let unloaded =
+        DirectProblem::new(robot, &lengths, &Load::none())?.direct_held(DirectStart::Near(start))?;
     let loaded = follow_load(robot, &lengths, (&Load::none(), &unloaded), load)?;
     Ok(Deflection { lengths, unloaded, loaded })
 }

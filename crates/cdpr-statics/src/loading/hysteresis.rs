@@ -19,7 +19,7 @@
 //! all tensions together do no work on a payload. Both sums agree to second order in how much the tension
 //! varies along a cable.
 
-use crate::direct::{DirectSolution, Start, follow_load};
+use crate::direct::{DirectSolution, DirectStart, follow_load};
 use crate::error::StaticsError;
 use crate::inverse::{HeldPose, held_at, refuse_offsets};
 use crate::problem::DirectProblem;
@@ -163,7 +163,7 @@ pub fn load_cycle<'a>(
     let mut ways = Vec::with_capacity(2);
     let mut means = Vec::with_capacity(3);
     let mut energies = vec![0.0; n];
-    let first = DirectProblem::new(&robot, &lengths, &Load::none())?.direct_held(Start::Near(&held))?;
+    let first = DirectProblem::new(&robot, &lengths, &Load::none())?.direct_held(DirectStart::Near(&held))?;
     let mut here = CycleStep { payload: 0.0, solution: first };
     means.push(mean_tensions(&robot, &lengths, &here.solution.equilibrium)?);
     for up in [true, false] {

@@ -15,13 +15,13 @@
 //! vᵀ K v = sum vᵀ K_i v + vᵀ K_w v                                                               (V2)
 //! ```
 //!
-//! K is the symmetric part of the stiffness, [`crate::Linearization::symmetric_stiffness`].
+//! K is the symmetric part of the stiffness, [`crate::stiffness::Linearization::symmetric_stiffness`].
 //!
 //! These frequencies hold where the cables themselves vibrate much faster than the platform. The lowest
 //! frequency of each cable between ends at rest, (C29) of `cdpr_cable` with the mean of its end tensions, says
 //! whether they do: [`CableFrequency`].
 
-use crate::direct::{Stability, Start};
+use crate::direct::{DirectStart, Stability};
 use crate::equations::{Balance, SpannedCable};
 use crate::error::StaticsError;
 use crate::inverse::{held_at, refuse_offsets};
@@ -279,6 +279,6 @@ pub fn modes_at<'a>(
 ) -> Result<PoseModes, StaticsError> {
     let wanted = held_at(robot, &refuse_offsets(wanted.into())?, load)?;
     let problem = DirectProblem::new(robot, &wanted.lengths, load)?;
-    let held = problem.direct_any(Start::Near(&wanted.equilibrium))?;
+    let held = problem.direct_any(DirectStart::Near(&wanted.equilibrium))?;
     PoseModes::new(&problem, held.equilibrium)
 }

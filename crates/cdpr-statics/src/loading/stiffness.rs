@@ -1,6 +1,6 @@
 //! The Cartesian stiffness at a wanted pose.
 
-use crate::direct::{Stability, Start};
+use crate::direct::{DirectStart, Stability};
 use crate::error::StaticsError;
 use crate::inverse::{held_at, refuse_offsets};
 use crate::problem::DirectProblem;
@@ -12,7 +12,7 @@ use nalgebra::Matrix6;
 #[derive(Clone, Debug, PartialEq)]
 pub struct PoseStiffness {
     /// Stiffness K in (dp, dφ) [N/m, N/rad, N, N m/rad], the true tangent: see
-    /// [`crate::Linearization::stiffness`].
+    /// [`crate::stiffness::Linearization::stiffness`].
     pub matrix: Matrix6<f64>,
     /// Its symmetric part, which differs from it under a moment.
     pub symmetric_part: Matrix6<f64>,
@@ -36,7 +36,7 @@ pub fn stiffness_at<'a>(
 ) -> Result<PoseStiffness, StaticsError> {
     let wanted = held_at(robot, &refuse_offsets(wanted.into())?, load)?;
     let problem = DirectProblem::new(robot, &wanted.lengths, load)?;
-    let held = problem.direct_any(Start::Near(&wanted.equilibrium))?;
+    let held = problem.direct_any(DirectStart::Near(&wanted.equilibrium))?;
     let linearization = problem.linearize(&held.equilibrium)?;
     Ok(PoseStiffness {
         matrix: *linearization.stiffness(),

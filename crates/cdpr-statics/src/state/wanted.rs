@@ -22,7 +22,7 @@ pub struct WantedPose<'a> {
     /// and none for a robot with a cable for each.
     pub free: &'a [Coordinate],
     /// Whether cables of any length are taken where coordinates are free: a loop that hangs on its ends may
-    /// hold a platform, too. Otherwise none is longer than [`crate::LONGEST`] chords.
+    /// hold a platform, too. Otherwise none is longer than [`crate::free_coordinates::LONGEST`] chords.
     pub loops: bool,
     /// Offset of the tension set-point of every cable [N]; empty for none.
     ///

@@ -1,9 +1,8 @@
 //! The nominal robot at the poses of a study, solved once for each.
 
 use cdpr_robot::{Coordinate, Pose, Robot};
-use cdpr_statics::{
-    Deflection, DirectSolution, Load, OutOfLimits, StaticsError, WantedPose, deflection, out_of_limits,
-};
+use cdpr_statics::limits::{OutOfLimits, out_of_limits};
+use cdpr_statics::{Deflection, DirectSolution, Load, StaticsError, WantedPose, deflection};
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// Poses that are kept: those of single samplings and of surfaces, and the first ones of a sampling at

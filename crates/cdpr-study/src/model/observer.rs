@@ -6,10 +6,10 @@ use crate::file::output::Output;
 use crate::model::error_model::ErrorModel;
 use crate::model::observed::{Measured, MeasuredQuantity};
 use cdpr_robot::{Coordinate, Deviations, Perturbed, Pose, Robot, Vector3, Vector6};
+use cdpr_statics::batch::{Observation, ObservationMotion, ObservationSlopes, ScalarReason};
 use cdpr_statics::{
-    Deflection, Derivatives, DirectProblem, Load, Matrix3xX, Observation, ObservationMotion,
-    ObservationSlopes, Observer, ScalarReason, Start, StaticsError, WantedPose, deflection, derivatives,
-    direct, wound_lengths,
+    Deflection, Derivatives, DirectProblem, DirectStart, Load, Matrix3xX, Observer, StaticsError, WantedPose,
+    deflection, derivatives, direct, wound_lengths,
 };
 use std::borrow::Cow;
 
@@ -39,7 +39,7 @@ pub(crate) struct Observing<'a> {
 
 impl<'a> OutputObserver<'a> {
     /// # Errors
-    /// Those of [`Observer::with_free`].
+    /// Those of [`Observer::new`].
     pub(crate) fn new(of: Observing<'a>, nominal: &Deflection) -> Result<Self, StaticsError> {
         let Observing { robot, pose, load, output, free } = of;
         let lanes = Observer::new(robot, WantedPose::at(&pose).free(free), &load)?;
@@ -171,7 +171,7 @@ impl<'a> OutputObserver<'a> {
     fn moved(&self, perturbed: &Perturbed) -> Result<Vector6<f64>, StaticsError> {
         let rest = &self.nominal.unloaded.equilibrium;
         let lengths = self.lengths(perturbed)?;
-        let found = direct(&perturbed.robot, &lengths, &Load::none(), Start::Near(rest))?;
+        let found = direct(&perturbed.robot, &lengths, &Load::none(), DirectStart::Near(rest))?;
         Ok(rest.pose.motion_to(&found.equilibrium.pose))
     }
 
@@ -188,7 +188,7 @@ impl<'a> OutputObserver<'a> {
         let rest = &self.nominal.unloaded.equilibrium;
         let (none, lengths) = (Load::none(), self.lengths(perturbed)?);
         let problem = DirectProblem::new(&perturbed.robot, &lengths, &none)?;
-        let found = problem.direct(Start::Near(rest))?.equilibrium;
+        let found = problem.direct(DirectStart::Near(rest))?.equilibrium;
         let mut slopes: Matrix3xX<f64> = problem.derivatives(&found)?.pose.fixed_rows::<3>(0).into();
         if errors.has_offsets() {
             // Offsets act through the lengths alone, which are those of the nominal robot.

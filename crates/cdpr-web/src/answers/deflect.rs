@@ -4,7 +4,8 @@ use crate::answers::failure::Failure;
 use crate::answers::state::State;
 use crate::question::Hold;
 use cdpr_robot::Robot;
-use cdpr_statics::{Deflection, Load, WantedPose, deflection, limits_at};
+use cdpr_statics::limits::limits_at;
+use cdpr_statics::{Deflection, Load, WantedPose, deflection};
 use serde::Serialize;
 
 /// The platform without and with the load.

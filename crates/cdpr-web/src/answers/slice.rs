@@ -3,7 +3,8 @@
 use crate::answers::failure::Failure;
 use crate::question::Slice;
 use cdpr_robot::{Pose, Robot, Vector3};
-use cdpr_statics::{Deflection, WantedPose, deflection, out_of_limits};
+use cdpr_statics::limits::out_of_limits;
+use cdpr_statics::{Deflection, WantedPose, deflection};
 use cdpr_study::free_along;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -73,7 +74,8 @@ impl Cells {
                 let Deflection { lengths, unloaded, loaded } = found;
                 let states = [&unloaded.equilibrium, &loaded.equilibrium];
                 let beyond = out_of_limits(robot, lengths, &states);
-                let within = !beyond.iter().any(|beyond| beyond.limit != cdpr_statics::Limit::MaxElsewhere);
+                let within =
+                    !beyond.iter().any(|beyond| beyond.limit != cdpr_statics::limits::Limit::MaxElsewhere);
                 if !within {
                     none("beyond_limits");
                 }

@@ -93,7 +93,7 @@ impl FreeBranch {
 ///
 /// # Errors
 /// [`StaticsError::NoRest`] where the steps lead to none, to a loop or below the ground; those of
-/// [`crate::free_solutions`] for invalid inputs.
+/// [`crate::free_coordinates::free_solutions`] for invalid inputs.
 pub fn rest_near(
     robot: &Robot,
     near: &Equilibrium,
