@@ -1,9 +1,11 @@
 //! Crates depend on each other, and modules import from each other, as docs/ARCHITECTURE.md says. Each label
-//! is that of one equation.
+//! is that of one equation. Files and functions are short; names and words have one meaning and one spelling.
 
 mod floors;
 mod labels;
 mod modules;
+mod sizes;
+mod words;
 
 use cargo_metadata::{DependencyKind, MetadataCommand, Package};
 use floors::Floors;
@@ -115,7 +117,7 @@ fn code(file: &Path) -> String {
 fn each_numerical_library_is_named_by_one_module_of_a_crate() {
     let crates = Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates");
     for (library, modules) in [
-        ("clarabel", &["cdpr-tension/src/quadratic_program.rs"][..]),
+        ("clarabel", &["cdpr-tension/src/program.rs"][..]),
         (
             "faer",
             &[
@@ -193,4 +195,61 @@ fn cited_labels_exist() {
     let cited = texts.iter().flat_map(|(file, text)| labels::cited(text).map(move |label| (label, file)));
     let unknown: BTreeSet<_> = cited.filter(|(label, _)| !defined.contains(label)).collect();
     assert!(unknown.is_empty(), "defined nowhere: {unknown:?}");
+}
+
+/// Crates that do not keep the rules of sizes, names and spelling yet: they are being rewritten.
+const NOT_COVERED_YET: [&str; 3] = ["cdpr-cable", "cdpr-statics", "cdpr-tension"];
+
+/// Files of all crates and of these tests with one of these endings, by their paths from the root.
+fn covered(endings: &[&str]) -> BTreeMap<PathBuf, String> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let is_skipped =
+        |name: &str| NOT_COVERED_YET.contains(&name) || ["node_modules", "target"].contains(&name);
+    let (mut folders, mut files) =
+        (["crates", "docs", "tests", "xtask"].map(|folder| root.join(folder)).to_vec(), BTreeMap::new());
+    while let Some(folder) = folders.pop() {
+        for path in std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
+            let name = path.file_name().unwrap().to_str().unwrap();
+            if path.is_dir() && !is_skipped(name) && !name.starts_with('.') {
+                folders.push(path);
+            } else if path.extension().is_some_and(|end| endings.contains(&end.to_str().unwrap())) {
+                let text = std::fs::read_to_string(&path).unwrap();
+                files.insert(path.strip_prefix(&root).unwrap().to_owned(), text);
+            }
+        }
+    }
+    files
+}
+
+#[test]
+fn files_and_functions_are_short_and_functions_have_few_parameters() {
+    let excesses = covered(&["rs"]).into_iter().flat_map(|(file, text)| {
+        sizes::excesses(&text).into_iter().map(move |what| format!("{}: {what}", file.display()))
+    });
+    let excesses: Vec<_> = excesses.collect();
+    assert!(excesses.is_empty(), "{}", excesses.join("\n"));
+}
+
+#[test]
+fn the_name_of_a_public_type_is_unique_in_its_crate() {
+    let mut files: BTreeMap<(PathBuf, String), Vec<PathBuf>> = BTreeMap::new();
+    for (file, text) in covered(&["rs"]) {
+        let Some((folder, _)) = file.to_str().unwrap().split_once("/src/") else { continue };
+        for name in words::public_types(&text) {
+            files.entry((folder.into(), name)).or_default().push(file.clone());
+        }
+    }
+    files.retain(|_, files| files.len() > 1);
+    assert!(files.is_empty(), "{files:#?}");
+}
+
+#[test]
+fn a_word_has_one_spelling() {
+    let mut found = Vec::new();
+    for (file, text) in covered(&["md", "py", "pyi", "rs", "toml"]) {
+        found.extend(
+            words::other_spellings(&text).into_iter().map(|word| format!("{}: {word}", file.display())),
+        );
+    }
+    assert!(found.is_empty(), "expected -ize: {found:#?}");
 }

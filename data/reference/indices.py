@@ -60,7 +60,7 @@ def coefficients(x, y):
     inverse = np.linalg.inv(correlation)
     pcc = -inverse[:-1, -1] / np.sqrt(np.diag(inverse)[:-1] * inverse[-1, -1])
     r_squared = float(src @ correlation[:-1, -1])
-    return {"standardised": src.tolist(), "partial": pcc.tolist(), "r_squared": r_squared}
+    return {"standardized": src.tolist(), "partial": pcc.tolist(), "r_squared": r_squared}
 
 
 def regression():

@@ -12,7 +12,7 @@
 %
 % Inverse model, with the direction (cos s, sin s) of each cable's force, R = 1:
 %
-%   minimise  sum t_i^2  over t, s, L   subject to   (3) without payload, (2a), (2b) with fx = t cos s,
+%   minimize  sum t_i^2  over t, s, L   subject to   (3) without payload, (2a), (2b) with fx = t cos s,
 %   fz = t sin s, and least_i <= t_i <= greatest_i
 %
 % Observation: inverse model of the robot with deviations, tension offsets dt, lengths for these, direct model

@@ -37,9 +37,10 @@ pub use robustness::{
 };
 pub use tilt::{Tilt, TiltTowards, tilt_at};
 pub use tolerance::{Limit, Limited, Reached, Tolerance, ToleranceBudget, tolerance_budget};
-pub use workspace::{
-    Anew, BoundarySummary, Dominant, Further, HELD, Held, TiltDirections, Way, Workspace, WorkspacePose,
-    WorkspaceRow, WorkspaceSummary, compute_workspace, workspace_boundary,
-};
+pub use workspace::question::{Further, TiltDirections, Way, Workspace};
+pub use workspace::results::{Anew, Dominant, HELD, Held, WorkspacePose};
+pub use workspace::row::WorkspaceRow;
+pub use workspace::summary::{BoundarySummary, WorkspaceSummary};
+pub use workspace::{compute_workspace, workspace_boundary};
 pub use write::{FoundRegion, read_region};
 pub use write::{begin_robustness, begin_workspace, write_robustness, write_workspace};

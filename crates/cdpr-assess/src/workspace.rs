@@ -5,153 +5,25 @@
 //! yields, and its tensions are what the direct model says. Where the winches hold the pose, the tensions are
 //! distributed anew, by the inverse model with the load. A pose may be held in one way and not in the other.
 
-mod row;
-mod summary;
+pub(crate) mod question;
+pub(crate) mod results;
+pub(crate) mod row;
+pub(crate) mod summary;
 
 use crate::boundary::{Boundary, boundary};
-use crate::capacity::{Capacity, WrenchSet, capacity_of};
-use crate::clearance::{Clearance, clearance_at};
-use crate::tilt::{Tilt, tilt_at};
-use cdpr_robot::{Axis, Coordinate, Pose, Robot, Rotation3, Vector3};
+use crate::capacity::capacity_of;
+use crate::clearance::clearance_at;
+use crate::tilt::tilt_at;
+use crate::workspace::question::{TiltDirections, Way, Workspace, check};
+use crate::workspace::results::{Anew, Dominant, Held, WorkspacePose};
+use cdpr_robot::{Axis, Pose, Vector3};
 use cdpr_statics::batch::{LoadedPose, PoseSlopes, loaded_poses};
-use cdpr_statics::limits::{Limit, OutOfLimits, tensions_out_of_limits};
-use cdpr_statics::vibration::CableFrequency;
 use cdpr_statics::{
     Deflection, DirectProblem, DirectStart, InverseSolution, Load, StaticsError, WantedPose, deflection,
     derivatives, inverse, is_held,
 };
-use cdpr_study::{ErrorModel, Grid, StudyError};
+use cdpr_study::{Grid, StudyError};
 use rayon::prelude::*;
-pub use row::WorkspaceRow;
-pub use summary::{BoundarySummary, WorkspaceSummary};
-
-/// The question about every position of a grid.
-#[derive(Clone, Copy, Debug)]
-pub struct Workspace<'a> {
-    /// The robot.
-    pub robot: &'a Robot,
-    /// The positions.
-    pub grid: Grid,
-    /// The orientation at all positions.
-    pub rotation: Rotation3<f64>,
-    /// The load whose effect is the deflection. Without it only tensions and stiffness are computed.
-    pub load: Load,
-    /// The uncertain parameters; `None` if no tolerance is wanted.
-    pub tolerances: Option<&'a ErrorModel>,
-    /// Coordinates that are found at every position, for a robot with fewer cables than free motions: as many
-    /// as cables are missing.
-    pub free: &'a [Coordinate],
-    /// What is asked for besides.
-    pub further: Further<'a>,
-}
-
-/// Questions whose answers take longer than the others.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Further<'a> {
-    /// The greatest payload and the margins of the tensions, for a set of wrenches beside the load.
-    pub capacity: Option<&'a WrenchSet>,
-    /// The distances of cables to each other and to the platform.
-    pub distances: bool,
-    /// How far the platform may tilt.
-    pub tilt: Option<TiltDirections>,
-}
-
-/// In how many directions, and how exactly, the tilt is wanted.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TiltDirections {
-    /// Number of azimuths.
-    pub count: usize,
-    /// Accuracy [rad].
-    pub accuracy: f64,
-}
-
-/// How a load comes onto the platform.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Way {
-    /// The winches hold the pose: tensions are distributed anew.
-    Anew,
-    /// The lengths are kept.
-    Kept,
-}
-
-impl Way {
-    /// `anew` or `kept`.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Anew => "anew",
-            Self::Kept => "kept",
-        }
-    }
-}
-
-/// A position and its results.
-#[derive(Clone, Debug, PartialEq)]
-pub struct WorkspacePose {
-    /// The wanted pose.
-    pub pose: Pose,
-    /// The result with the lengths kept under the load, or the reason why no tensions hold the platform or
-    /// bear the load.
-    pub outcome: Result<Held, StaticsError>,
-    /// The tensions distributed anew under the load, or the reason why they cannot be; `None` without a load.
-    pub anew: Option<Result<Anew, StaticsError>>,
-    /// What can be carried, if asked for.
-    pub capacity: Option<Box<Capacity>>,
-    /// Distances of the cables that bear the load, tensions distributed anew, if asked for.
-    pub clearance: Option<Box<Result<Clearance, StaticsError>>>,
-    /// How far the platform may tilt under the load, if asked for.
-    pub tilt: Option<Box<Result<Tilt, StaticsError>>>,
-}
-
-/// Tensions within the limits that hold a pose under the load.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Anew {
-    /// Least tension at the platform [N].
-    pub least_tension: f64,
-    /// Greatest tension at the platform [N].
-    pub greatest_tension: f64,
-}
-
-/// A pose with feasible tensions, on lengths that the load does not change.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Held {
-    /// Least tension at the platform, without and with the load [N].
-    pub least_tension: f64,
-    /// Greatest tension at the platform, without and with the load [N].
-    pub greatest_tension: f64,
-    /// Tensions out of limits, without or with the load, the most serious one of each cable.
-    pub out_of_limits: Vec<OutOfLimits>,
-    /// dp, Eq. (4) [m].
-    pub displacement: Vector3<f64>,
-    /// Stiffness of the softest motion with the load [N/m], see [`cdpr_statics::Stability`].
-    pub least_stiffness: f64,
-    /// Lowest natural frequency with the load [Hz]; `None` for a robot that lacks `platform.inertia`.
-    pub lowest_frequency: Option<f64>,
-    /// The slowest cable with the load, between ends at rest, where there is a lowest frequency.
-    pub lowest_cable_frequency: Option<CableFrequency>,
-    /// Cables (from 0) that are slack with the load.
-    pub slack: Vec<usize>,
-    /// The tolerance that matters most; `None` if no tolerance is wanted, nothing is uncertain, or |dp| has
-    /// no derivative.
-    pub dominant: Option<Dominant>,
-}
-
-impl WorkspacePose {
-    /// Whether a tension there is above its greatest value or breaks the cable.
-    fn is_too_much(&self) -> bool {
-        self.outcome.as_ref().is_ok_and(|held| held.out_of_limits.iter().any(OutOfLimits::is_too_much))
-    }
-}
-
-/// The cause behind the largest share of the variance of |dp|, to first order.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Dominant {
-    /// Index of the error model's input.
-    pub input: usize,
-    /// Its share, 0 to 1.
-    pub share: f64,
-    /// Standard deviation of |dp| from all of them [m].
-    pub std: f64,
-}
 
 /// Positions that are computed together are a multiple of this: the poses of a block of [`inverse`].
 const BLOCK: usize = 64;
@@ -159,9 +31,6 @@ const BLOCK: usize = 64;
 /// Parts that a large map is cut into. The answers depend on them in the last digits, but not on the
 /// threads.
 const PARTS: usize = 128;
-
-/// The status of a position that is held with all tensions within the limits.
-pub const HELD: &str = "held";
 
 /// Computes all positions in parallel, in the order of the grid. `tick` is called after each position; a
 /// `stop` that returns true ends the run.
@@ -338,48 +207,6 @@ pub fn workspace_boundary(
     boundary(&Axis::ALL.map(|axis| grid.axis(axis).coordinates()), &is_inside, stop)
 }
 
-/// Checks the settings.
-fn check(workspace: &Workspace) -> Result<(), StudyError> {
-    let Workspace { robot, grid, load, tolerances, free, further, .. } = *workspace;
-    if !(load.payload.is_finite() && load.payload >= 0.0) {
-        return Err(StudyError::setting("payload", load.payload, "a finite mass, zero or more [kg]"));
-    }
-    for (field, vector) in [("force", load.wrench.force), ("moment", load.wrench.moment)] {
-        if vector.iter().any(|component| !component.is_finite()) {
-            let value = format!("{:?}", vector.as_slice());
-            return Err(StudyError::setting(field, value, "finite components [N, N m]"));
-        }
-    }
-    if tolerances.is_some() && load == Load::none() {
-        return Err(StudyError::setting(
-            "load",
-            "zero",
-            "a load that displaces the platform, because tolerances act on its deflection",
-        ));
-    }
-    let (cables, freedoms) = (robot.cables.len(), robot.freedoms().count());
-    let missing = freedoms.saturating_sub(cables);
-    if free.len() != missing {
-        let names: Vec<_> = free.iter().map(ToString::to_string).collect();
-        let expected = format!(
-            "{missing} of x, y, z, roll, pitch, yaw, for {cables} cables and {freedoms} free motions"
-        );
-        return Err(StudyError::setting("free", format!("[{}]", names.join(", ")), expected));
-    }
-    if let Some((one, expected)) = grid.of_free(free) {
-        return Err(StudyError::setting("free", one, expected));
-    }
-    if let Some(model) = tolerances {
-        model.check(robot)?;
-    }
-    if further.tilt.is_some() && !free.is_empty() {
-        let named = free.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
-        let expected = "no tilt, because the platform with free coordinates tilts as it rests";
-        return Err(StudyError::setting("free", format!("[{named}]"), expected));
-    }
-    Ok(())
-}
-
 /// A pose with free coordinates, with the lengths kept.
 fn held_free(workspace: &Workspace, pose: &Pose) -> Result<Held, StaticsError> {
     let Workspace { robot, ref load, tolerances, free, .. } = *workspace;
@@ -404,37 +231,6 @@ fn held_free(workspace: &Workspace, pose: &Pose) -> Result<Held, StaticsError> {
 /// The least and the greatest.
 fn range(tensions: &[f64]) -> [f64; 2] {
     tensions.iter().fold([f64::INFINITY, 0.0], |[least, greatest], t| [least.min(*t), greatest.max(*t)])
-}
-
-impl Held {
-    fn new(robot: &Robot, loaded: LoadedPose, dominant: Option<Dominant>) -> Self {
-        let each = || loaded.tensions.iter().flatten().map(|[at_platform, _]| *at_platform);
-        Self {
-            least_tension: each().fold(f64::INFINITY, f64::min),
-            greatest_tension: each().fold(0.0, f64::max),
-            out_of_limits: tensions_out_of_limits(robot, &loaded.tensions),
-            displacement: loaded.displacement,
-            least_stiffness: loaded.least_stiffness,
-            lowest_frequency: loaded.lowest_frequency,
-            lowest_cable_frequency: loaded.lowest_cable_frequency,
-            slack: loaded.slack,
-            dominant,
-        }
-    }
-
-    /// Whether all tensions are within the limits of their cables and below the breaking forces.
-    pub fn is_within_limits(&self) -> bool {
-        self.out_of_limits.iter().all(|found| found.limit == Limit::MaxElsewhere)
-    }
-}
-
-impl Dominant {
-    fn of(slopes: &[f64], model: &ErrorModel) -> Option<Self> {
-        let parts = model.variances(slopes);
-        let variance: f64 = parts.iter().sum();
-        let (input, part) = parts.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1))?;
-        (variance > 0.0).then(|| Self { input, share: part / variance, std: variance.sqrt() })
-    }
 }
 
 #[cfg(test)]

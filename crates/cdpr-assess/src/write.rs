@@ -2,7 +2,7 @@
 
 use crate::boundary::Boundary;
 use crate::robustness::{Answer, Refusal, RobustnessResult, RobustnessSummary, in_degrees};
-use crate::workspace::WorkspaceSummary;
+use crate::workspace::summary::WorkspaceSummary;
 use cdpr_robot::{Pose, Vector3};
 use cdpr_study::{IfExists, ResultsFolder, ResultsOf, StudyError, read_result};
 use serde::Deserialize;

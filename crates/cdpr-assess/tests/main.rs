@@ -3,8 +3,10 @@
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 
 mod capacity;
+mod free_workspaces;
 mod inspection;
 mod maps;
+mod refused_workspaces;
 mod robustness;
 mod tolerance;
 mod workspace;

@@ -20,7 +20,19 @@ const COGIRO: &str = include_str!("../../../data/robots/cogiro.json");
 
 /// Boxes that the border of the workspace runs through, where the robot has one.
 fn maps() -> Vec<Map> {
-    let robot = |json: &str| Robot::from_json(json).unwrap();
+    [changed_robots(), robots_of_the_library()].into_iter().flatten().collect()
+}
+
+fn robot(json: &str) -> Robot {
+    Robot::from_json(json).unwrap()
+}
+
+fn map(name: &'static str, robot: Robot, axes: [(f64, f64, usize); 3], load: Load) -> Map {
+    Map { name, robot, axes, load }
+}
+
+/// CAROCA and CoGiRo, as they are and changed, under several loads.
+fn changed_robots() -> Vec<Map> {
     let force = Wrench { force: Vector3::new(30.0, -20.0, 10.0), moment: Vector3::zeros() };
     let moment = Wrench { moment: Vector3::new(0.0, 0.0, 5.0), ..force };
     let tilted = |json: &str, gravity: Vector3<f64>| Robot { gravity: gravity.into(), ..robot(json) };
@@ -34,7 +46,6 @@ fn maps() -> Vec<Map> {
     for (i, cable) in led.cables.iter_mut().enumerate() {
         cable.lead = 1.0 + i as f64;
     }
-    let map = |name, robot, axes, load| Map { name, robot, axes, load };
     vec![
         map("CAROCA", robot(CAROCA), [(-3.4, 3.4, 11), (-1.9, 1.9, 9), (0.6, 3.4, 4)], Load::payload(50.0)),
         map(
@@ -74,6 +85,12 @@ fn maps() -> Vec<Map> {
             [(-7.0, 7.0, 7), (-5.0, 5.0, 7), (0.5, 4.5, 3)],
             Load::payload(50.0),
         ),
+    ]
+}
+
+/// Other robots of the library under payloads.
+fn robots_of_the_library() -> Vec<Map> {
+    vec![
         map(
             "FAST",
             robot(include_str!("../../../data/robots/fast.json")),

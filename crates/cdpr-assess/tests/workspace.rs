@@ -4,14 +4,13 @@ use cdpr_assess::{
     Further, TiltDirections, Way, Workspace, WorkspaceSummary, WrenchSet, capacity_at, clearance_under,
     compute_workspace, tilt_at, workspace_boundary,
 };
-use cdpr_robot::{Coordinate, Matrix3, Parameter, Pose, Robot, Rotation3, Vector3, Wrench};
-use cdpr_statics::{DirectProblem, Load, StaticsError, WantedPose, deflection, derivatives, inverse};
-use cdpr_study::{ErrorModel, Grid, GridAxis, StudyError, uncertainties};
+use cdpr_robot::{Matrix3, Parameter, Pose, Robot, Rotation3, Vector3, Wrench};
+use cdpr_statics::{DirectProblem, Load, StaticsError, deflection, derivatives, inverse};
+use cdpr_study::{ErrorModel, Grid, GridAxis};
 use serde_json::Value;
 use std::f64::consts::FRAC_PI_2;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
-fn caroca() -> Robot {
+pub(crate) fn caroca() -> Robot {
     Robot::from_json(include_str!("../../../data/robots/caroca.json")).unwrap()
 }
 
@@ -27,7 +26,7 @@ fn assert_range(tensions: &[f64], range: [f64; 2]) {
     assert!(range.iter().zip(exact).all(|(found, exact)| (found - exact).abs() < SAME * exact), "{range:?}");
 }
 
-fn grid() -> Grid {
+pub(crate) fn grid() -> Grid {
     let axis = |min, max, points| GridAxis { min, max, points };
     Grid::new([axis(-1.0, 1.0, 3), axis(-0.5, 0.5, 2), axis(1.0, 9.0, 2)]).unwrap()
 }
@@ -237,112 +236,6 @@ fn a_platform_with_an_inertia_has_its_lowest_frequency_under_the_load() {
 }
 
 #[test]
-fn a_map_over_a_coordinate_that_is_free_is_refused() {
-    let robot = Robot::from_json(include_str!("../../../data/robots/four-cables.json")).unwrap();
-    fn map<'a>(robot: &'a Robot, free: &'a [Coordinate]) -> Workspace<'a> {
-        let grid = Grid::over_frame(robot, cdpr_robot::Axis::Z, 2.0, [3, 3]).unwrap();
-        let rotation = Rotation3::identity();
-        Workspace {
-            robot,
-            grid,
-            rotation,
-            load: Load::none(),
-            tolerances: None,
-            free,
-            further: Further::default(),
-        }
-    }
-    for free in [[Coordinate::X, Coordinate::Y], [Coordinate::Roll, Coordinate::Y]] {
-        let name = free.into_iter().find(|one| !one.is_angle()).unwrap();
-        for error in [
-            compute_workspace(&map(&robot, &free), &|| (), &|| false).unwrap_err(),
-            workspace_boundary(&map(&robot, &free), Way::Kept, &|| false).unwrap_err(),
-        ] {
-            let error = error.to_string();
-            assert!(error.starts_with(&format!("free is {name}: expected coordinates")), "{error}");
-        }
-    }
-}
-
-#[test]
-fn a_robot_with_four_cables_has_a_workspace_of_its_held_coordinates() {
-    let robot = Robot::from_json(include_str!("../../../data/robots/four-cables.json")).unwrap();
-    let model = ErrorModel::normal(&robot, &vec![1e-3; Parameter::of(&robot).len()]);
-    let free = [Coordinate::Roll, Coordinate::Pitch];
-    let axis = |min, max, points| GridAxis { min, max, points };
-    let workspace = Workspace {
-        robot: &robot,
-        grid: Grid::new([axis(0.3, 0.5, 2), axis(0.3, 0.4, 2), axis(1.5, 2.0, 2)]).unwrap(),
-        rotation: Rotation3::identity(),
-        load: Load::payload(20.0),
-        tolerances: Some(&model),
-        free: &free,
-        further: Further::default(),
-    };
-    let poses = compute_workspace(&workspace, &|| (), &|| false).unwrap();
-    assert_eq!(poses.len(), 8);
-    for found in &poses {
-        let held = found.outcome.as_ref().unwrap();
-        let exact = deflection(&robot, WantedPose::at(&found.pose).free(&free), &workspace.load).unwrap();
-        assert_eq!(held.displacement, exact.displacement());
-        assert_eq!(held.least_stiffness, exact.loaded.stability.least_stiffness());
-        assert!(held.lowest_frequency.unwrap() > 0.0 && held.dominant.is_some());
-        let anew = inverse(&robot, WantedPose::at(&found.pose).free(&free), &workspace.load)
-            .unwrap()
-            .equilibrium
-            .tensions();
-        let range = found.anew.clone().unwrap().unwrap();
-        assert!(anew.contains(&range.least_tension) && anew.contains(&range.greatest_tension));
-    }
-    let workspace = Workspace { free: &free[..1], ..workspace };
-    let message = compute_workspace(&workspace, &|| (), &|| false).unwrap_err().to_string();
-    assert!(message.starts_with("free is [roll]: expected 2 of x, y, z, roll, pitch, yaw"), "{message}");
-}
-
-#[test]
-fn tensions_of_a_map_with_free_coordinates_are_within_their_limits() {
-    let robot = Robot::from_json(include_str!("../../../data/robots/four-cables.json")).unwrap();
-    let axis = |min, max, points| GridAxis { min, max, points };
-    let workspace = Workspace {
-        robot: &robot,
-        grid: Grid::new([axis(0.3, 0.6, 4), axis(0.2, 0.4, 3), axis(1.5, 2.5, 3)]).unwrap(),
-        rotation: Rotation3::identity(),
-        load: Load::payload(1e-3),
-        tolerances: None,
-        free: &[Coordinate::Roll, Coordinate::Pitch],
-        further: Further::default(),
-    };
-    let poses = compute_workspace(&workspace, &|| (), &|| false).unwrap();
-    let anew: Vec<_> = poses.iter().filter_map(|found| found.anew.as_ref()?.as_ref().ok()).collect();
-    assert_eq!((poses.len(), anew.len()), (36, 27));
-    assert!(anew.iter().all(|range| range.least_tension >= 10.0 && range.greatest_tension <= 5000.0));
-}
-
-#[test]
-fn a_position_that_is_held_upside_down_alone_is_unstable() {
-    let robot = Robot::from_json(include_str!("../../../data/robots/grab.json")).unwrap();
-    let axis = |min, max, points| GridAxis { min, max, points };
-    let workspace = Workspace {
-        robot: &robot,
-        grid: Grid::new([axis(0.94, 1.36, 2), axis(0.06, 0.48, 2), axis(-0.92, -0.92, 1)]).unwrap(),
-        rotation: Rotation3::identity(),
-        load: Load::payload(0.5),
-        tolerances: None,
-        free: &[Coordinate::Roll, Coordinate::Pitch],
-        further: Further::default(),
-    };
-    let poses = compute_workspace(&workspace, &|| (), &|| false).unwrap();
-    let kind = |error: &StaticsError| error.kind();
-    for found in poses {
-        // The platform is upright on the line y = 0.06 m alone.
-        let upright = found.pose.position.y < 0.1;
-        let anew = found.anew.as_ref().unwrap();
-        assert_eq!(found.outcome.as_ref().err().map(kind), (!upright).then_some("unstable"));
-        assert_eq!(anew.as_ref().err().map(kind), (!upright).then_some("unstable"));
-    }
-}
-
-#[test]
 fn further_columns_are_what_is_said_of_each_pose() {
     let robot = caroca();
     let set = WrenchSet::of(Vec::new());
@@ -456,67 +349,6 @@ fn the_boundary_runs_between_what_is_held_and_what_is_not() {
         refused.to_string().starts_with("grid is [3, 1, 1] points: expected a plane or a box"),
         "{refused}"
     );
-}
-
-#[test]
-fn tolerances_of_another_robot_are_refused() {
-    let robot = caroca();
-    let seven = Robot { cables: robot.cables[..7].to_vec(), ..robot.clone() };
-    let model = ErrorModel::normal(&seven, &[1.0; 55]);
-    let workspace = Workspace {
-        robot: &robot,
-        grid: grid(),
-        rotation: Rotation3::identity(),
-        load: Load::payload(50.0),
-        tolerances: Some(&model),
-        free: &[],
-        further: Further::default(),
-    };
-    let message = compute_workspace(&workspace, &|| (), &|| false).unwrap_err().to_string();
-    assert_eq!(message, "error model is for 55 parameters: expected one for the 62 parameters of CAROCA");
-    let workspace = Workspace { load: Load::payload(f64::NAN), tolerances: None, ..workspace };
-    let message = compute_workspace(&workspace, &|| (), &|| false).unwrap_err().to_string();
-    assert_eq!(message, "payload is NaN: expected a finite mass, zero or more [kg]");
-}
-
-#[test]
-fn a_workspace_ends_where_it_is_told_to() {
-    let robot = caroca();
-    let workspace = Workspace {
-        robot: &robot,
-        grid: grid(),
-        rotation: Rotation3::identity(),
-        load: Load::payload(50.0),
-        tolerances: None,
-        free: &[],
-        further: Further::default(),
-    };
-    let done = AtomicUsize::new(0);
-    let tick = || {
-        done.fetch_add(1, Ordering::Relaxed);
-    };
-    let found = compute_workspace(&workspace, &tick, &|| done.load(Ordering::Relaxed) > 0);
-    assert!(matches!(found, Err(StudyError::Stopped)));
-    // Each thread may have begun one position before the stop.
-    assert!((1..=rayon::current_num_threads()).contains(&done.into_inner()));
-}
-
-#[test]
-fn uncertainties_are_of_a_parameter_or_its_group_positive_and_finite() {
-    let robot = caroca();
-    let of = |name: &str, std: f64| uncertainties(&robot, &[(name.to_owned(), std)]);
-    let named = [("a".to_owned(), 0.002), ("a1.x".to_owned(), 0.001)];
-    let found = uncertainties(&robot, &named).unwrap();
-    assert_eq!((found[0], found[3], found[4], found[27]), (0.0, 0.001, 0.002, 0.0));
-    for (name, std, start) in [
-        ("spring", 1.0, "uncertainty of spring is 1: expected a positive standard deviation"),
-        ("mass", 0.0, "uncertainty of mass is 0: expected"),
-        ("mass", f64::INFINITY, "uncertainty of mass is inf: expected"),
-        ("mass", f64::NAN, "uncertainty of mass is NaN: expected"),
-    ] {
-        let message = of(name, std).unwrap_err().to_string();
-        assert!(message.starts_with(start), "{message}");
-    }
 }
 
 #[test]

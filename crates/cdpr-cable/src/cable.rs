@@ -21,7 +21,7 @@
 
 use crate::error::{CableError, MAX_STRAIN, SMALLEST, check};
 use crate::guide::{Guide, in_plane};
-use crate::kernel::closure_of_limp;
+use crate::kernel::{Material, closure_of_limp};
 use crate::law::ElasticLaw;
 use nalgebra::{Vector2, Vector3};
 
@@ -67,6 +67,15 @@ impl<T: Copy> Numbers<T> {
             length: of(self.length),
             axis: self.axis.map(of),
         }
+    }
+}
+
+impl<'a> Cable<'a> {
+    /// The material of a cable with this law and these numbers.
+    #[inline]
+    pub(crate) fn material<T: Copy>(&self, numbers: &Numbers<T>) -> Material<'a, T> {
+        let Numbers { weight_per_length, axial_flexibility, .. } = *numbers;
+        Material { law: self.law.terms(), weight_per_length, axial_flexibility }
     }
 }
 

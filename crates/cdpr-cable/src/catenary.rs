@@ -5,7 +5,6 @@
 pub(crate) mod compliance;
 pub(crate) mod guided;
 mod mechanics;
-mod pieces;
 pub(crate) mod shape;
 pub(crate) mod spatial;
 
@@ -88,7 +87,7 @@ impl<'a> Catenary<'a> {
     pub fn free_length(&self) -> f64 {
         match &self.cable.guide {
             None => self.unstrained_length,
-            Some(guide) => self.guided(guide).way.free,
+            Some(guide) => self.guided(guide).free,
         }
     }
 

@@ -6,17 +6,16 @@
 //! of
 //! [`crate::Catenary`] answer the same questions, for cables of any elastic law.
 
-mod lane_guide;
-mod lane_law;
+mod guide;
+mod material;
 mod plane;
 mod response;
 mod series;
 
-pub use lane_guide::{LaneEndSlopes, LaneGuide, LaneWay, LeavePoint};
-pub use lane_law::{
-    LaneSegment, lane_law_end, lane_law_energy, lane_law_response, lane_law_strain, lane_law_stretch,
-};
+pub(crate) use guide::GuidedInSpace;
+pub use guide::{GuideTerms, GuidedEndSlopes, LeavePoint, SwivelAxis, Way};
+pub use material::{LawSegment, Material};
 pub use plane::{closure_of_limp, in_plane_stiffness, stiffness_in_space};
 pub(crate) use response::Terms;
-pub use response::{LaneEnd, Response, lane_end, lane_response, response};
-pub use series::{FOLDED, TAUT};
+pub use response::{LaneEnd, Response, response};
+pub use series::TAUT;

@@ -9,11 +9,10 @@
 //! ```
 //!
 //! Within a segment `1 + ε = α_k + T/EA_k` with `α_k = 1 + (σ_k - T_k/κ_k)/EA`, and the complementary energy
-//! per length is `∫ ε dT = c_k + (α_k - 1) T + T²/2EA_k`.
+//! per length is `∫ ε dT = c_k + (α_k - 1) T + T²/2EA_k` with a constant c_k.
 
 use crate::error::{CableError, check};
-use crate::kernel::LaneSegment;
-use cdpr_number::Number;
+use crate::kernel::LawSegment;
 
 /// Strain as a function of the tension.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,10 +23,23 @@ pub enum ElasticLaw<'a> {
     Piecewise(&'a PiecewiseLaw),
 }
 
+impl<'a> ElasticLaw<'a> {
+    /// The segments as [`crate::kernel::Material`] takes them; none of a linear law.
+    #[inline]
+    pub(crate) fn terms(&self) -> &'a [LawSegment] {
+        match self {
+            Self::Linear => &[],
+            Self::Piecewise(law) => law.terms(),
+        }
+    }
+}
+
 /// A strain that grows with the tension by segments of different stiffness.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PiecewiseLaw {
     pieces: Vec<Piece>,
+    /// The same, as the equations of a cable take them.
+    terms: Vec<LawSegment>,
 }
 
 /// A range of tensions over which the stiffness of a law is constant.
@@ -47,17 +59,6 @@ struct Piece {
     scaled_strain: f64,
     /// ∫ σ dT from zero to its beginning [N²].
     scaled_energy: f64,
-}
-
-/// Coefficients of a segment for a given EA, as the equations of a piece of cable take them.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct SegmentTerms<T> {
-    /// α_k = 1 + (σ_k - T_k/κ_k)/EA.
-    pub(crate) alpha: T,
-    /// Axial flexibility 1/EA_k [1/N].
-    pub(crate) flexibility: T,
-    /// Constant c_k of the complementary energy per length [N].
-    pub(crate) energy: T,
 }
 
 impl PiecewiseLaw {
@@ -86,7 +87,8 @@ impl PiecewiseLaw {
                 });
             pieces.push(Piece { segment, scaled_strain, scaled_energy });
         }
-        Ok(Self { pieces })
+        let terms = pieces.iter().map(Piece::terms).collect();
+        Ok(Self { pieces, terms })
     }
 
     /// The segments, from zero tension up.
@@ -137,38 +139,23 @@ impl PiecewiseLaw {
         &self.pieces[above.max(1) - 1]
     }
 
-    /// Coefficients of the segment at a tension, for a cable of axial flexibility 1/EA [1/N].
-    pub(crate) fn segment_terms<T: Number>(&self, tension: f64, axial_flexibility: T) -> SegmentTerms<T> {
-        let Piece { segment: Segment { tension: t, ratio }, scaled_strain, scaled_energy } =
-            *self.at(tension);
-        SegmentTerms {
-            alpha: axial_flexibility * (scaled_strain - t / ratio) + 1.0,
-            flexibility: axial_flexibility * (1.0 / ratio),
-            energy: axial_flexibility * (scaled_energy - scaled_strain * t + 0.5 * t * t / ratio),
-        }
-    }
-
-    /// The segments as lanes take them.
-    pub fn lane_segments(&self) -> Vec<LaneSegment> {
-        let of = |piece: &Piece| {
-            let Segment { tension, ratio } = piece.segment;
-            LaneSegment {
-                from: tension,
-                offset: piece.scaled_strain - tension / ratio,
-                flexibility: 1.0 / ratio,
-                energy: piece.scaled_energy,
-            }
-        };
-        self.pieces.iter().map(of).collect()
-    }
-
-    /// Tensions at which the stiffness changes [N].
-    pub(crate) fn kinks(&self) -> impl Iterator<Item = f64> {
-        self.pieces[1..].iter().map(|piece| piece.segment.tension)
+    /// The segments as [`crate::kernel::Material`] takes them.
+    pub fn terms(&self) -> &[LawSegment] {
+        &self.terms
     }
 }
 
 impl Piece {
+    fn terms(&self) -> LawSegment {
+        let Segment { tension, ratio } = self.segment;
+        LawSegment {
+            from: tension,
+            offset: self.scaled_strain - tension / ratio,
+            flexibility: 1.0 / ratio,
+            energy: self.scaled_energy,
+        }
+    }
+
     fn strain_at(&self, tension: f64) -> f64 {
         self.scaled_strain + (tension - self.segment.tension) / self.segment.ratio
     }
@@ -182,6 +169,7 @@ impl Piece {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::kernel::Material;
     use approx::assert_relative_eq;
 
     fn segment((tension, ratio): (f64, f64)) -> Segment {
@@ -215,21 +203,18 @@ mod tests {
     }
 
     #[test]
-    fn the_coefficients_of_a_segment_give_the_law_and_its_integral() {
+    fn the_material_has_the_law_and_its_integral() {
         let (law, ea) = (stiffening(), 1e4);
         let mut energy = 0.0;
         let step = 0.25;
         for k in 0..2000 {
-            let (low, middle, high) =
-                (step * f64::from(k), step * (f64::from(k) + 0.5), step * f64::from(k + 1));
+            let (middle, high) = (step * (f64::from(k) + 0.5), step * f64::from(k + 1));
             energy += step * law.scaled_strain(middle) / ea;
-            let SegmentTerms { alpha, flexibility, energy: c } = law.segment_terms(low, 1.0 / ea);
-            assert_relative_eq!(
-                alpha + high * flexibility,
-                1.0 + law.scaled_strain(high) / ea,
-                max_relative = 1e-14
-            );
-            let closed = c + (alpha - 1.0) * high + 0.5 * high * high * flexibility;
+            let material = Material { law: law.terms(), weight_per_length: 0.0, axial_flexibility: 1.0 / ea };
+            let [stretch, flexibility] = material.stretch(high);
+            assert_relative_eq!(stretch, 1.0 + law.scaled_strain(high) / ea, max_relative = 1e-14);
+            assert_relative_eq!(flexibility, 1.0 / (ea * law.ratio(high)), max_relative = 1e-14);
+            let closed = material.energy(high);
             assert_relative_eq!(closed, energy, max_relative = 1e-12);
         }
     }

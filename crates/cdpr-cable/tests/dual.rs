@@ -1,7 +1,7 @@
 //! Every derivative of the catenary against dual numbers: the same equations over a number with derivative.
 
 use approx::assert_relative_eq;
-use cdpr_cable::kernel::{lane_end, response};
+use cdpr_cable::kernel::{Material, response};
 use cdpr_cable::{Cable, Catenary, Vector2, least_tension, length_for_tension};
 use cdpr_number::{Dual, Number};
 use proptest::prelude::*;
@@ -36,12 +36,14 @@ fn dual_numbers_of_dual_numbers_are_mixed_derivatives_of_a_cable() {
     let (w, flexibility, length, [fx, fz]) = (1.3, 1e-6, 40.0, [25.0, 31.0]);
     let per_weight = |fx: f64| {
         let [f, l, x, z] = [flexibility, length, fx, fz].map(Dual::<f64, 1>::constant);
-        lane_end(Dual::input(w, 0), f, l, [x, z]).end[1].slopes[0]
+        let material = Material { law: &[], weight_per_length: Dual::input(w, 0), axial_flexibility: f };
+        material.end(l, [x, z]).end[1].slopes[0]
     };
     let [f, l, z] = [flexibility, length, fz].map(Dual::<f64, 1>::constant).map(Dual::<_, 1>::constant);
     let along = Dual::input(Dual::constant(fx), 0);
     let weight = Dual::constant(Dual::input(w, 0));
-    let end = lane_end(weight, f, l, [along, z]).end[1];
+    let material = Material { law: &[], weight_per_length: weight, axial_flexibility: f };
+    let end = material.end(l, [along, z]).end[1];
     assert_relative_eq!(end.value.slopes[0], per_weight(fx), max_relative = 1e-15);
     let step = 1e-3;
     let at = |h: f64| (per_weight(fx + h) - per_weight(fx - h)) / (2.0 * h);

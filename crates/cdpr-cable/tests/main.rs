@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 
 mod dual;
+mod guide_terms;
 mod guided;
 mod held;
 mod longest_taut;

@@ -1,7 +1,7 @@
 //! The fit: damped Gauss-Newton for all unknowns, with those of single rows eliminated.
 //!
 //! The sum over all residuals ρ of `loss(ρ)` and of the squares of `(x - mean)/std` of the priors is made
-//! least. The loss is ρ², or grows less for great residuals: it is then minimised by squares with the weight
+//! least. The loss is ρ², or grows less for great residuals: it is then minimized by squares with the weight
 //! `loss'(ρ)/2ρ`. Every unknown is counted in its scale ([`crate::Unknown::scale`]): what the data tell less
 //! exactly than one scale, they do not tell, and it keeps its value.
 
@@ -20,7 +20,8 @@ use crate::fit::start::SOFT;
 use crate::fitted::{Difference, Fit, FitSettings};
 use crate::model::{Model, Shared, State};
 use crate::plausible::{check_columns, check_signs};
-use crate::unknowns::{SensorError, Unknown, Unknowns, check_each_once};
+use crate::sensor_error::{SensorError, check_each_once};
+use crate::unknowns::{Unknown, Unknowns};
 use cdpr_robot::{Robot, Vector3};
 
 /// Fits the unknowns of a robot to rows of measurements.

@@ -20,6 +20,7 @@ mod model;
 mod plan;
 mod plausible;
 mod results;
+mod sensor_error;
 mod simulate;
 mod solve;
 mod table;
@@ -39,6 +40,7 @@ pub use results::folder::{CALIBRATED_NAME, POSTERIOR_NAME, begin_calibration, wr
 pub use results::patterns::{Split, Trend};
 pub use results::predicted::UncertaintyMap;
 pub use results::summary::{CalibrationSummary, Context, OutlierSummary, ParameterSummary, SensorSummary};
+pub use sensor_error::SensorError;
 pub use simulate::{Simulated, drawn, drawn_errors, simulate};
 pub use table::{MEASUREMENTS_FORMAT, Measurements, read_measurements, write_measurements};
-pub use unknowns::{SensorError, Unknown, Unknowns};
+pub use unknowns::{Unknown, Unknowns};

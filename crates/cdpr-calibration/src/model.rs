@@ -13,12 +13,13 @@
 //! are not measured at all, they are unknowns of the row without residual.
 
 pub(crate) mod compare;
-mod pull;
 pub(crate) mod read;
 pub(crate) mod row;
+mod tilt;
 
 use crate::campaign::{Quantity, Row};
-use crate::unknowns::{SensorError, Unknowns};
+use crate::sensor_error::SensorError;
+use crate::unknowns::Unknowns;
 use cdpr_robot::{Axis, ParameterLayout, Pose, Robot, Rotation3, Vector3};
 use cdpr_statics::{Equilibrium, Load, StaticsError};
 
@@ -64,6 +65,14 @@ impl RowState {
     }
 }
 
+/// A row with all that its state depends on.
+#[derive(Clone, Copy)]
+pub(crate) struct RowAt<'a> {
+    pub(crate) row: &'a Row,
+    pub(crate) shared: &'a Shared,
+    pub(crate) robot: &'a Robot,
+}
+
 /// The model of a campaign.
 pub(crate) struct Model<'a> {
     pub(crate) robot: &'a Robot,
@@ -93,10 +102,6 @@ impl<'a> Model<'a> {
 
     pub(super) fn of(&self, error: SensorError, k: usize, x: &[f64]) -> f64 {
         self.unknowns.sensor(error).map_or(0.0, |first| x[first + k])
-    }
-
-    pub(super) fn slope(&self, error: SensorError, k: usize, value: f64) -> Option<(usize, f64)> {
-        self.unknowns.sensor(error).map(|first| (first + k, value))
     }
 
     /// Equation (R1).

@@ -7,8 +7,8 @@
 //! C' = C - C Bᵀ (1 + B C Bᵀ)⁻¹ B C                                                                 (K4)
 //! ```
 //!
-//! D-optimal sets maximise `-½ log2 det C`, A-optimal ones minimise the trace of C; sets for the work
-//! minimise the mean or the greatest of `t C tᵀ` over rows t, which tell how the parameters displace the
+//! D-optimal sets maximize `-½ log2 det C`, A-optimal ones minimize the trace of C; sets for the work
+//! minimize the mean or the greatest of `t C tᵀ` over rows t, which tell how the parameters displace the
 //! platform where it works. A set grows by the pose that gains most. Then each of its poses is exchanged for
 //! the candidate that gains most, until no exchange gains (Fedorov 1972): a local optimum.
 
@@ -179,7 +179,7 @@ impl Calibration {
             .min_by(|a, b| a.1.total_cmp(&b.1))
     }
 
-    /// What the criterion minimises, with a further pose.
+    /// What the criterion minimizes, with a further pose.
     fn loss(&self, covariance: &DMatrix<f64>, matrix: &DMatrix<f64>, criterion: Criterion) -> f64 {
         let seen = matrix * covariance;
         let inner = DMatrix::identity(matrix.nrows(), matrix.nrows()) + &seen * matrix.transpose();

@@ -3,8 +3,8 @@
 
 use crate::campaign::{Quantity, Row};
 use crate::error::CalibrationError;
-use crate::unknowns::size;
-use cdpr_robot::{Axis, Pose, Robot, Vector3};
+use crate::sensor_error::size;
+use cdpr_robot::{Axis, Pose, Robot, Rotation3, Vector3};
 
 /// A misfit of a column above this share of the robot's size is looked into.
 const FAR: f64 = 0.05;
@@ -12,7 +12,8 @@ const FAR: f64 = 0.05;
 /// A misfit above this share of the robot's size is more than sag and tolerances make.
 const SEEN: f64 = 0.01;
 
-/// Coordinates as they are.
+/// Coordinates as they are: their order and signs.
+const ORDER: [usize; 3] = [0, 1, 2];
 const SIGNS: [f64; 3] = [1.0; 3];
 
 /// A length this share of the robot's size away from the distance of its points is of another row or robot.
@@ -49,99 +50,139 @@ fn cell(row: &Row, cable: usize, length: f64, expected: String) -> CalibrationEr
 /// with the other sign, or one that fits nowhere; [`CalibrationError::Cell`] for a row that stands out in
 /// this way.
 pub(crate) fn check_columns(robot: &Robot, rows: &[Row]) -> Result<(), CalibrationError> {
-    let measured: Vec<(Vector3<f64>, &Row, &Vec<f64>)> = rows
-        .iter()
-        .filter_map(|row| {
-            let [x, y, z] = Axis::ALL.map(|axis| row.value(Quantity::Position(axis)));
-            Some((Vector3::new(x?, y?, z?), row, row.lengths.as_ref()?))
-        })
-        .collect();
-    if measured.is_empty() {
+    let rows: Vec<_> = rows.iter().filter_map(Placed::of).collect();
+    if rows.is_empty() {
         return Ok(());
     }
-    let n = robot.cables.len();
-    // Misfit of column i with cable j, with the coordinates of the position in this order and with these
-    // signs.
-    let misfit = |i: usize, j: usize, order: [usize; 3], sign: [f64; 3]| {
-        let square = |(position, row, lengths): &(Vector3<f64>, &Row, &Vec<f64>)| {
-            let position = Vector3::from(order.map(|k| sign[k] * position[k]));
-            let rotation = row.rotation.unwrap_or_else(cdpr_robot::Rotation3::identity);
-            let distance = robot.span(&Pose { position, rotation }, j).norm();
-            (lengths[i] - distance).powi(2)
-        };
-        (measured.iter().map(square).sum::<f64>() / measured.len() as f64).sqrt()
-    };
-    let far = FAR * size(robot);
-    let named = |one: String, other: String| {
-        let expected = "them the other way round: lengths and positions would then fit";
-        Err(CalibrationError::Column { column: format!("{one} and {other}"), expected: expected.to_owned() })
-    };
-    let own = [0, 1, 2];
-    let whole = |order, sign| (0..n).map(|i| misfit(i, i, order, sign)).sum::<f64>() / n as f64;
-    let now = whole(own, SIGNS);
-    for k in own.iter().filter(|_| now > SEEN * size(robot)) {
-        let mut sign = SIGNS;
-        sign[*k] = -1.0;
-        if whole(own, sign) < LEFT * now {
-            let column = Quantity::Position(Axis::ALL[*k]).to_string();
-            let expected = "the other sign: lengths and positions would then fit".to_owned();
-            return Err(CalibrationError::Column { column, expected });
-        }
+    let placed = PlacedRows { robot, size: size(robot), rows };
+    let misfit = placed.mean_misfit(ORDER, SIGNS);
+    placed.check_coordinates(misfit)?;
+    placed.check_order_of_lengths(misfit)?;
+    placed.check_distances()
+}
+
+/// A row with a measured position and lengths.
+struct Placed<'a> {
+    position: Vector3<f64>,
+    lengths: &'a [f64],
+    row: &'a Row,
+}
+
+impl<'a> Placed<'a> {
+    fn of(row: &'a Row) -> Option<Self> {
+        let [x, y, z] = Axis::ALL.map(|axis| row.value(Quantity::Position(axis)));
+        Some(Self { position: Vector3::new(x?, y?, z?), lengths: row.lengths.as_ref()?, row })
     }
-    if now > far {
-        for (one, other) in [(0, 1), (0, 2), (1, 2)] {
-            let mut order = own;
-            order.swap(one, other);
-            if whole(order, SIGNS) < LEFT * now {
-                let name = |k: usize| Quantity::Position(Axis::ALL[k]).to_string();
-                return named(name(one), name(other));
+}
+
+/// All of these of a robot, one at least.
+struct PlacedRows<'a> {
+    robot: &'a Robot,
+    /// Size of the robot [m].
+    size: f64,
+    rows: Vec<Placed<'a>>,
+}
+
+impl PlacedRows<'_> {
+    /// Distance of the points of a cable [m] with the platform of a row at a position.
+    fn distance(&self, of: &Placed, position: Vector3<f64>, cable: usize) -> f64 {
+        let rotation = of.row.rotation.unwrap_or_else(Rotation3::identity);
+        self.robot.span(&Pose { position, rotation }, cable).norm()
+    }
+
+    /// Misfit of column i with cable j [m], with the coordinates of the position in this order and with these
+    /// signs.
+    fn misfit(&self, [i, j]: [usize; 2], order: [usize; 3], sign: [f64; 3]) -> f64 {
+        let square = |of: &Placed| {
+            let position = Vector3::from(order.map(|k| sign[k] * of.position[k]));
+            (of.lengths[i] - self.distance(of, position, j)).powi(2)
+        };
+        (self.rows.iter().map(square).sum::<f64>() / self.rows.len() as f64).sqrt()
+    }
+
+    /// Mean of the misfits of all columns with their own cables [m].
+    fn mean_misfit(&self, order: [usize; 3], sign: [f64; 3]) -> f64 {
+        let n = self.robot.cables.len();
+        (0..n).map(|i| self.misfit([i, i], order, sign)).sum::<f64>() / n as f64
+    }
+
+    /// Refuses a coordinate with the other sign, and two that are swapped.
+    fn check_coordinates(&self, misfit: f64) -> Result<(), CalibrationError> {
+        let name = |k: usize| Quantity::Position(Axis::ALL[k]).to_string();
+        for k in ORDER.into_iter().filter(|_| misfit > SEEN * self.size) {
+            let mut sign = SIGNS;
+            sign[k] = -1.0;
+            if self.mean_misfit(ORDER, sign) < LEFT * misfit {
+                let expected = "the other sign: lengths and positions would then fit".to_owned();
+                return Err(CalibrationError::Column { column: name(k), expected });
             }
         }
+        for (one, other) in [(0, 1), (0, 2), (1, 2)].into_iter().filter(|_| misfit > FAR * self.size) {
+            let mut order = ORDER;
+            order.swap(one, other);
+            if self.mean_misfit(order, SIGNS) < LEFT * misfit {
+                return Err(swapped(&name(one), &name(other)));
+            }
+        }
+        Ok(())
     }
-    for i in 0..n {
-        for j in i + 1..n {
-            let of = |i, j| misfit(i, j, own, SIGNS);
+
+    /// Refuses two columns of lengths that are swapped.
+    fn check_order_of_lengths(&self, misfit: f64) -> Result<(), CalibrationError> {
+        let n = self.robot.cables.len();
+        for (i, j) in (0..n).flat_map(|i| (i + 1..n).map(move |j| (i, j))) {
+            let of = |i, j| self.misfit([i, j], ORDER, SIGNS);
             let (before, after) = (of(i, i) + of(j, j), of(i, j) + of(j, i));
             // All columns must fit then: a coordinate with the wrong sign makes those of a symmetric robot
             // look swapped in pairs.
-            let rest = n as f64 * now - before;
-            if before > 2.0 * far && rest + after < LEFT * before {
-                return named(Quantity::Length(i).to_string(), Quantity::Length(j).to_string());
+            let rest = n as f64 * misfit - before;
+            if before > 2.0 * FAR * self.size && rest + after < LEFT * before {
+                return Err(swapped(&Quantity::Length(i).to_string(), &Quantity::Length(j).to_string()));
             }
         }
+        Ok(())
     }
-    // What most rows and columns have, one must have, too.
-    let distance = |(position, row, _): &(Vector3<f64>, &Row, &Vec<f64>), i: usize| {
-        let rotation = row.rotation.unwrap_or_else(cdpr_robot::Rotation3::identity);
-        robot.span(&Pose { position: *position, rotation }, i).norm()
-    };
-    let off = |of: &(Vector3<f64>, &Row, &Vec<f64>), i: usize| (of.2[i] - distance(of, i)).abs();
-    let usual: Vec<f64> = (0..n).map(|i| median(measured.iter().map(|of| off(of, i)).collect())).collect();
-    let elsewhere = ELSEWHERE * size(robot);
-    if median(usual.clone()) > far {
-        return Ok(());
-    }
-    if let Some(i) = usual.iter().position(|of| *of > elsewhere) {
-        let [read, expected] = [measured[0].2[i], distance(&measured[0], i)];
-        let expected = format!(
-            "lengths near the distances of its points at the measured poses, {expected:.4} m in place of \
-             {read:.4} m in line {}: its unit or its cable may be another",
-            measured[0].1.line
-        );
-        return Err(CalibrationError::Column { column: Quantity::Length(i).to_string(), expected });
-    }
-    for of in &measured {
-        let farthest = (0..n).max_by(|i, j| off(of, *i).total_cmp(&off(of, *j)));
-        if let Some(i) = farthest.filter(|i| off(of, *i) > elsewhere) {
-            let expected = format!(
-                "about {:.4} m, the distance of its points at the measured pose: the row may be of another \
-                 pose or robot",
-                distance(of, i)
-            );
-            return Err(cell(of.1, i, of.2[i], expected));
+
+    /// Refuses a column, and a row, whose lengths are far from the distances while most are not.
+    fn check_distances(&self) -> Result<(), CalibrationError> {
+        let n = self.robot.cables.len();
+        let distance = |of: &Placed, i: usize| self.distance(of, of.position, i);
+        let off = |of: &Placed, i: usize| (of.lengths[i] - distance(of, i)).abs();
+        let usual: Vec<f64> =
+            (0..n).map(|i| median(self.rows.iter().map(|of| off(of, i)).collect())).collect();
+        if median(usual.clone()) > FAR * self.size {
+            return Ok(());
         }
+        let elsewhere = ELSEWHERE * self.size;
+        if let Some(i) = usual.iter().position(|of| *of > elsewhere) {
+            let first = &self.rows[0];
+            let expected = format!(
+                "lengths near the distances of its points at the measured poses, {:.4} m in place of {:.4} m \
+                 in line {}: its unit or its cable may be another",
+                distance(first, i),
+                first.lengths[i],
+                first.row.line
+            );
+            return Err(CalibrationError::Column { column: Quantity::Length(i).to_string(), expected });
+        }
+        for of in &self.rows {
+            let farthest = (0..n).max_by(|i, j| off(of, *i).total_cmp(&off(of, *j)));
+            if let Some(i) = farthest.filter(|i| off(of, *i) > elsewhere) {
+                let expected = format!(
+                    "about {:.4} m, the distance of its points at the measured pose: the row may be of \
+                     another pose or robot",
+                    distance(of, i)
+                );
+                return Err(cell(of.row, i, of.lengths[i], expected));
+            }
+        }
+        Ok(())
     }
-    Ok(())
+}
+
+fn swapped(one: &str, other: &str) -> CalibrationError {
+    let expected = "them the other way round: lengths and positions would then fit".to_owned();
+    CalibrationError::Column { column: format!("{one} and {other}"), expected }
 }
 
 fn median(mut values: Vec<f64>) -> f64 {

@@ -6,9 +6,11 @@ pub(crate) mod predicted;
 pub(crate) mod summary;
 mod warnings;
 
+use crate::campaign::{Quantity, Row};
 use crate::fitted::{Difference, Fit};
 use crate::results::predicted::uncertainty_map;
 use crate::results::summary::{CalibrationSummary, Context, OutlierSummary, ParameterSummary, SensorSummary};
+use crate::sensor_error::SensorError;
 use cdpr_robot::{Axis, Parameter, Robot, UnitQuaternion};
 use cdpr_statics::{DirectProblem, Load};
 use cdpr_study::{ERRORS_FORMAT, ErrorModel, ErrorsFile};
@@ -79,12 +81,7 @@ impl Fit {
     }
 
     /// Mean variance of a coordinate of P at the poses of the rows, for a covariance of the parameters [m²].
-    fn position_variance(
-        &self,
-        robot: &Robot,
-        covariance: &DMatrix<f64>,
-        lengths: &[Vec<f64>],
-    ) -> Option<f64> {
+    fn position_variance(&self, robot: &Robot, covariance: &DMatrix<f64>, lengths: &[&[f64]]) -> Option<f64> {
         let count = covariance.nrows();
         let mut sum = (0.0, 0);
         for (pose, lengths) in self.poses.iter().zip(lengths) {
@@ -101,102 +98,35 @@ impl Fit {
     }
 
     /// The summary. `rows` are the rows that were fitted.
-    pub fn summary(&self, context: &Context, rows: &[crate::Row]) -> CalibrationSummary {
+    pub fn summary(&self, context: &Context, rows: &[Row]) -> CalibrationSummary {
         let scale = self.noise_scale(context.noise_is_stated);
-        let all = Parameter::of(context.nominal);
+        let stated = |value: Option<f64>| value.filter(|_| context.noise_is_stated);
         let covariance = self.parameter_covariance() * (scale * scale);
-        let mut parameters = IndexMap::new();
-        let prior = context.prior.map(|prior| prior_covariance(prior, all.len()));
-        for (index, parameter) in all.iter().enumerate() {
-            let terms = self.unknowns.terms.iter().filter(|term| term.parameter == index);
-            let weights: Vec<_> = terms.map(|term| (term.input, term.factor)).collect();
-            if weights.is_empty() {
-                continue;
-            }
-            let [std, std_of_data] = self.stds(&weights).map(|std| std.map(|std| std * scale));
-            let prior_std = prior.as_ref().map(|prior| prior[(index, index)].sqrt()).filter(|std| *std > 0.0);
-            let before = parameter.nominal(context.nominal);
-            let moved = self.deviations[index];
-            parameters.insert(
-                parameter.to_string(),
-                ParameterSummary {
-                    unit: parameter.unit(),
-                    before,
-                    after: before + moved,
-                    std,
-                    std_of_data,
-                    prior_std,
-                    moved_by_prior_std: prior_std.map(|std| moved / std),
-                    identifiable: std_of_data.is_some(),
-                },
-            );
-        }
-        let mut sensors = IndexMap::new();
-        for (error, first) in &self.unknowns.sensors {
-            let next =
-                self.unknowns.sensors.iter().map(|(_, other)| *other).filter(|other| other > first).min();
-            for k in *first..next.unwrap_or(self.estimates.len()) {
-                let estimate = &self.estimates[k];
-                let rotation = UnitQuaternion::from_rotation_matrix(&self.frame).scaled_axis();
-                let after = match (*error, k - first) {
-                    (crate::SensorError::Frame, at @ 0..3) => self.origin[at],
-                    (crate::SensorError::Frame, at) => rotation[at - 3],
-                    _ => estimate.value,
-                };
-                sensors.insert(
-                    estimate.name.clone(),
-                    ParameterSummary {
-                        unit: error.unit(k - first),
-                        before: 0.0,
-                        after,
-                        std: estimate.std.map(|std| std * scale),
-                        std_of_data: estimate.std_of_data.map(|std| std * scale),
-                        prior_std: estimate.prior_std,
-                        moved_by_prior_std: estimate.prior_std.map(|std| estimate.value / std),
-                        identifiable: estimate.is_identifiable(),
-                    },
-                );
-            }
-        }
-        let lengths: Vec<Vec<f64>> = rows.iter().filter_map(|row| row.lengths.clone()).collect();
-        let lengths = if lengths.len() == rows.len() { lengths } else { Vec::new() };
-        let relative = self.unknowns.sensor(crate::SensorError::LengthOffset).is_some();
+        let prior = context.prior.map(|prior| prior_covariance(prior, covariance.nrows()));
+        let lengths: Option<Vec<&[f64]>> = rows.iter().map(|row| row.lengths.as_deref()).collect();
+        let relative = self.unknowns.sensor(SensorError::LengthOffset).is_some();
         let std_of = |robot: &Robot, covariance: &DMatrix<f64>| {
-            if relative { None } else { self.position_variance(robot, covariance, &lengths).map(f64::sqrt) }
+            let lengths = lengths.as_ref().filter(|_| !relative)?;
+            self.position_variance(robot, covariance, lengths).map(f64::sqrt)
         };
-        let p_value = self.p_value().filter(|_| context.noise_is_stated);
+        let map = || uncertainty_map(self, context.nominal, prior.as_ref(), &covariance);
         let mut summary = CalibrationSummary {
             robot: context.nominal.name.clone(),
             version: env!("CARGO_PKG_VERSION"),
             rows: context.rows,
-            parameters,
-            sensors,
+            parameters: self.parameters(context, prior.as_ref(), scale),
+            sensors: self.errors_of_sensors(scale),
             chi_square: self.chi_square,
             degrees_of_freedom: self.degrees_of_freedom,
-            p_value,
-            p_value_of_less: self.p_value_of_less().filter(|_| context.noise_is_stated),
+            p_value: stated(self.p_value()),
+            p_value_of_less: stated(self.p_value_of_less()),
             noise_scale: scale,
-            not_identifiable: self
-                .unidentifiable
-                .iter()
-                .map(|combination| combination.weights.clone())
-                .collect(),
+            not_identifiable: self.unidentifiable.iter().map(|of| of.weights.clone()).collect(),
             residuals: self.by_sensor(context.predicted),
-            outliers: self
-                .outliers()
-                .iter()
-                .filter(|_| context.noise_is_stated)
-                .map(|of| OutlierSummary {
-                    line: of.line,
-                    column: of.quantity.to_string(),
-                    difference: of.difference,
-                    standard_deviations: of.standardized(),
-                })
-                .collect(),
+            outliers: if context.noise_is_stated { self.outlier_summaries() } else { Vec::new() },
             trends: if context.noise_is_stated { self.trends() } else { Vec::new() },
             splits: self.splits(),
-            workspace: uncertainty_map(self, context.nominal, prior.as_ref(), &covariance)
-                .filter(|_| !relative),
+            workspace: if relative { None } else { map() },
             position_std_before: prior.as_ref().and_then(|prior| std_of(context.nominal, prior)),
             position_std_after: std_of(&self.robot, &covariance),
             steps: self.steps,
@@ -206,6 +136,61 @@ impl Fit {
         };
         summary.warnings = self.warnings(&summary, context);
         summary
+    }
+
+    /// The parameters that were sought, standard deviations times `scale`.
+    fn parameters(
+        &self,
+        context: &Context,
+        prior: Option<&DMatrix<f64>>,
+        scale: f64,
+    ) -> IndexMap<String, ParameterSummary> {
+        let summary = |(index, parameter): (usize, &Parameter)| {
+            let terms = self.unknowns.terms.iter().filter(|term| term.parameter == index);
+            let weights: Vec<_> = terms.map(|term| (term.input, term.factor)).collect();
+            if weights.is_empty() {
+                return None;
+            }
+            let [std, std_of_data] = self.stds(&weights).map(|std| std.map(|std| std * scale));
+            let prior_std = prior.map(|prior| prior[(index, index)].sqrt()).filter(|std| *std > 0.0);
+            let (before, moved) = (parameter.nominal(context.nominal), self.deviations[index]);
+            let summary =
+                ParameterSummary::new(before, moved, [std, std_of_data, prior_std], parameter.unit());
+            Some((parameter.to_string(), summary))
+        };
+        Parameter::of(context.nominal).iter().enumerate().filter_map(summary).collect()
+    }
+
+    /// The errors of sensors that were sought, standard deviations times `scale`.
+    fn errors_of_sensors(&self, scale: f64) -> IndexMap<String, ParameterSummary> {
+        let mut sensors = IndexMap::new();
+        let rotation = UnitQuaternion::from_rotation_matrix(&self.frame).scaled_axis();
+        for (error, first) in &self.unknowns.sensors {
+            let later = self.unknowns.sensors.iter().map(|(_, other)| *other).filter(|other| other > first);
+            for k in *first..later.min().unwrap_or(self.estimates.len()) {
+                let estimate = &self.estimates[k];
+                let [std, std_of_data] =
+                    [estimate.std, estimate.std_of_data].map(|std| std.map(|std| std * scale));
+                let stds = [std, std_of_data, estimate.prior_std];
+                let mut summary = ParameterSummary::new(0.0, estimate.value, stds, error.unit(k - first));
+                if *error == SensorError::Frame {
+                    let at = k - first;
+                    summary.after = if at < 3 { self.origin[at] } else { rotation[at - 3] };
+                }
+                sensors.insert(estimate.name.clone(), summary);
+            }
+        }
+        sensors
+    }
+
+    fn outlier_summaries(&self) -> Vec<OutlierSummary> {
+        let summary = |of: &Difference| OutlierSummary {
+            line: of.line,
+            column: of.quantity.to_string(),
+            difference: of.difference,
+            standard_deviations: of.standardized(),
+        };
+        self.outliers().iter().map(|of| summary(of)).collect()
     }
 
     fn by_sensor(&self, predicted: Option<&[Difference]>) -> BTreeMap<&'static str, SensorSummary> {
@@ -249,7 +234,7 @@ fn prior_covariance(model: &ErrorModel, count: usize) -> DMatrix<f64> {
 pub fn arrows(found: &Fit) -> Vec<([f64; 3], [f64; 3], [f64; 3])> {
     let of = |differences: &[Difference], row: usize| {
         Axis::ALL.map(|axis| {
-            let is = |of: &&Difference| of.row == row && of.quantity == crate::Quantity::Position(axis);
+            let is = |of: &&Difference| of.row == row && of.quantity == Quantity::Position(axis);
             differences.iter().find(is).map(|of| of.difference)
         })
     };

@@ -2,8 +2,7 @@
 
 use crate::campaign::{Noise, Quantity, Reading, Row};
 use crate::error::CalibrationError;
-use crate::unknowns::{SensorError, check_each_once};
-use cdpr_cable::SpatialCable;
+use crate::sensor_error::{SensorError, check_each_once};
 use cdpr_robot::{Axis, CableEnd, Coordinate, Pose, Robot, Rotation3, TiltAxis, Vector3};
 use cdpr_statics::continuation::follow_load;
 use cdpr_statics::free_coordinates::{FreeSolution, free_solutions};
@@ -63,18 +62,6 @@ pub fn drawn_errors(
     errors.iter().map(&mut draw).collect()
 }
 
-impl Simulated<'_> {
-    /// The number `k` of an error of the sensors.
-    fn error(&self, error: SensorError, k: usize) -> f64 {
-        let found = self.errors.iter().find(|(own, _)| *own == error);
-        found.and_then(|(_, numbers)| numbers.get(k)).copied().unwrap_or(0.0)
-    }
-
-    fn triple(&self, error: SensorError, first: usize) -> Vector3<f64> {
-        Vector3::from([0, 1, 2].map(|k| self.error(error, first + k)))
-    }
-}
-
 /// The rows of a campaign, one for each pose that the nominal robot holds.
 ///
 /// # Errors
@@ -85,90 +72,32 @@ pub fn simulate(of: &Simulated) -> Result<Vec<Row>, CalibrationError> {
     let truth = of.nominal.perturbed(of.deviations)?.robot;
     let mut rows = Vec::new();
     for (k, wanted) in of.poses.iter().enumerate() {
-        let at = CalibrationError::row(k + 1);
         // The winches are set without the load.
         let Ok(commanded) = free_solutions(of.nominal, WantedPose::at(wanted).free(of.free), &Load::none())
         else {
             continue;
         };
-        let FreeSolution { lengths, equilibrium: near, .. } = commanded.first;
-        let mut random = ChaCha8Rng::seed_from_u64(of.seed);
-        random.set_stream(k as u64);
-        let mut draw = || -> f64 { random.sample(StandardNormal) };
-        let lengths = &lengths[..];
-        let [unloaded, loaded] = rests(&truth, lengths, &near.pose, &of.load).map_err(&at)?;
-        let found = loaded.equilibrium;
-        let read_by = |(i, length): (usize, &f64)| {
-            (1.0 + of.error(SensorError::DrumScale, i)) * length + of.error(SensorError::LengthOffset, i)
-        };
-        let std = of.noise.length.unwrap_or(0.0);
-        let mut row = Row::new(k + 1, of.load);
-        row.lengths = Some(lengths.iter().enumerate().map(|of| read_by(of) + std * draw()).collect());
-        row.length_std = vec![std; if std > 0.0 { lengths.len() } else { 0 }];
-        let mut readings = Vec::new();
-        let mut read = |quantity: Quantity, value: f64, std: Option<f64>, noise: f64| {
-            readings.extend(std.map(|std| Reading { quantity, value: value + std * noise, std }));
-        };
-        let pose = found.pose;
-        let frame = Rotation3::new(of.triple(SensorError::Frame, 3));
-        let scale = 1.0 + of.error(SensorError::FrameScale, 0);
-        let origin = of.triple(SensorError::Frame, 0);
-        let seen = |place: Vector3<f64>| frame * place * scale + origin;
-        for axis in Axis::ALL {
-            let value = seen(pose.position)[axis.index()];
-            read(Quantity::Position(axis), value, of.noise.position, draw());
-        }
-        if let Some(std) = of.noise.rotation {
-            let turn = Vector3::new(draw(), draw(), draw()) * std;
-            row.rotation = Some(Rotation3::new(turn) * frame * pose.rotation);
-            Axis::ALL.iter().for_each(|axis| read(Quantity::Rotation(*axis), 0.0, Some(std), 0.0));
-        }
-        for (m, marker) in of.markers.iter().enumerate() {
-            let place = marker + of.triple(SensorError::Markers, 3 * m);
-            let place = seen(pose.position + pose.rotation * place);
-            let std = of.noise.marker.or(of.noise.position);
-            for axis in Axis::ALL {
-                read(Quantity::Marker(m, axis), place[axis.index()], std, draw());
-            }
-        }
-        if of.noise.displacement.is_some() {
-            let moved = seen(pose.position) - seen(unloaded.equilibrium.pose.position);
-            for axis in Axis::ALL {
-                read(Quantity::Displacement(axis), moved[axis.index()], of.noise.displacement, draw());
-            }
-        }
-        let problem = DirectProblem::new(&truth, lengths, &of.load).map_err(&at)?;
-        let forces = problem.force_derivatives(&found).map_err(&at)?.forces;
-        let tensions: Vec<f64> = match of.tension_at {
-            CableEnd::Anchor => found.tensions(),
-            CableEnd::Exit => {
-                let level = truth.gravity.level();
-                let exit = |(i, force): (usize, &Vector3<f64>)| {
-                    let force = level.map_or(-*force, |level| -(level * force));
-                    let cable = SpatialCable { cable: truth.cable(i), unstrained_length: lengths[i], force };
-                    if cable.is_limp() { 0.0 } else { cable.in_plane().0.exit_tension() }
-                };
-                forces.iter().enumerate().map(exit).collect()
-            }
-        };
-        for (i, tension) in tensions.into_iter().enumerate() {
-            let (gain, bias) = (of.error(SensorError::TensionGain, i), of.error(SensorError::TensionBias, i));
-            let value = (1.0 + gain) * tension + bias;
-            read(Quantity::Tension(i, of.tension_at), value, of.noise.tension, draw());
-        }
-        for (i, force) in forces.iter().enumerate() {
-            // The weight of the cable does not turn a pulley with a vertical axis.
-            if let Some(pulley) = of.nominal.cables[i].pulley.filter(|pulley| pulley.axis.xy().norm() == 0.0)
-            {
-                let [u, v] = TiltAxis::ALL.map(|axis| -axis.of(&pulley).dot(force));
-                let value = v.atan2(u) + of.error(SensorError::SwivelOffset, i);
-                read(Quantity::Swivel(i), value, of.noise.swivel, draw());
-            }
-        }
-        row.readings = readings;
-        rows.push(row);
+        rows.push(measured(of, &truth, k, &commanded.first).map_err(CalibrationError::row(k + 1))?);
     }
     Ok(rows)
+}
+
+/// What the sensors read of the true robot with the lengths that are commanded for pose `k`.
+fn measured(of: &Simulated, truth: &Robot, k: usize, commanded: &FreeSolution) -> Result<Row, StaticsError> {
+    let lengths = &commanded.lengths[..];
+    let [unloaded, loaded] =
+        rests(truth, lengths, &commanded.equilibrium.pose, &of.load)?.map(|found| found.equilibrium);
+    let mut random = ChaCha8Rng::seed_from_u64(of.seed);
+    random.set_stream(k as u64);
+    let mut sensors = Sensors { of, random, row: Row::new(k + 1, of.load) };
+    sensors.read_lengths(lengths);
+    sensors.read_pose(&loaded.pose);
+    sensors.read_displacement(&(loaded.pose.position - unloaded.pose.position));
+    let problem = DirectProblem::new(truth, lengths, &of.load)?;
+    let forces_at = |end| problem.force_derivatives(&loaded, end).map(|found| found.forces);
+    sensors.read_tensions(&forces_at(of.tension_at)?);
+    sensors.read_swivels(&forces_at(CableEnd::Exit)?);
+    Ok(sensors.row)
 }
 
 /// The equilibrium without the load, near a pose, and what it becomes while the load is raised.
@@ -181,4 +110,107 @@ fn rests(
     let unloaded = DirectProblem::new(robot, lengths, &Load::none())?.direct(DirectStart::Pose(near))?;
     let loaded = follow_load(robot, lengths, (&Load::none(), &unloaded), load)?;
     Ok([unloaded, loaded])
+}
+
+/// The sensors at one pose, with their errors and noise, and what they have read so far.
+struct Sensors<'a> {
+    of: &'a Simulated<'a>,
+    random: ChaCha8Rng,
+    row: Row,
+}
+
+impl Sensors<'_> {
+    /// The number `k` of an error of the sensors.
+    fn error(&self, error: SensorError, k: usize) -> f64 {
+        let found = self.of.errors.iter().find(|(own, _)| *own == error);
+        found.and_then(|(_, numbers)| numbers.get(k)).copied().unwrap_or(0.0)
+    }
+
+    fn triple(&self, error: SensorError, first: usize) -> Vector3<f64> {
+        Vector3::from([0, 1, 2].map(|k| self.error(error, first + k)))
+    }
+
+    fn draw(&mut self) -> f64 {
+        self.random.sample(StandardNormal)
+    }
+
+    /// Reads a value with noise; the noise of a sensor that is not there is drawn, too.
+    fn read(&mut self, quantity: Quantity, value: f64, std: Option<f64>) {
+        let noise = self.draw();
+        self.row.readings.extend(std.map(|std| Reading { quantity, value: value + std * noise, std }));
+    }
+
+    fn read_vector(&mut self, of: impl Fn(Axis) -> Quantity, values: Vector3<f64>, std: Option<f64>) {
+        Axis::ALL.iter().for_each(|axis| self.read(of(*axis), values[axis.index()], std));
+    }
+
+    fn read_lengths(&mut self, lengths: &[f64]) {
+        let std = self.of.noise.length.unwrap_or(0.0);
+        let mut read = |(i, length): (usize, &f64)| {
+            let scaled = (1.0 + self.error(SensorError::DrumScale, i)) * length;
+            scaled + self.error(SensorError::LengthOffset, i) + std * self.draw()
+        };
+        let lengths = lengths.iter().enumerate().map(&mut read).collect::<Vec<_>>();
+        self.row.length_std = vec![std; if std > 0.0 { lengths.len() } else { 0 }];
+        self.row.lengths = Some(lengths);
+    }
+
+    /// Rotation and scale of a displacement by the tracker.
+    fn turned(&self, displacement: Vector3<f64>) -> Vector3<f64> {
+        let frame = Rotation3::new(self.triple(SensorError::Frame, 3));
+        frame * displacement * (1.0 + self.error(SensorError::FrameScale, 0))
+    }
+
+    /// A place as the tracker sees it.
+    fn seen(&self, place: Vector3<f64>) -> Vector3<f64> {
+        self.turned(place) + self.triple(SensorError::Frame, 0)
+    }
+
+    /// Position, orientation and markers.
+    fn read_pose(&mut self, pose: &Pose) {
+        let of = self.of;
+        let position = self.seen(pose.position);
+        self.read_vector(Quantity::Position, position, of.noise.position);
+        if let Some(std) = of.noise.rotation {
+            let turn = Vector3::new(self.draw(), self.draw(), self.draw()) * std;
+            let frame = Rotation3::new(self.triple(SensorError::Frame, 3));
+            self.row.rotation = Some(Rotation3::new(turn) * frame * pose.rotation);
+            let zero = |axis| Reading { quantity: Quantity::Rotation(axis), value: 0.0, std };
+            self.row.readings.extend(Axis::ALL.map(zero));
+        }
+        for (m, marker) in of.markers.iter().enumerate() {
+            let place = marker + self.triple(SensorError::Markers, 3 * m);
+            let place = self.seen(pose.position + pose.rotation * place);
+            let std = of.noise.marker.or(of.noise.position);
+            self.read_vector(|axis| Quantity::Marker(m, axis), place, std);
+        }
+    }
+
+    fn read_displacement(&mut self, moved: &Vector3<f64>) {
+        let std = self.of.noise.displacement;
+        if std.is_some() {
+            self.read_vector(Quantity::Displacement, self.turned(*moved), std);
+        }
+    }
+
+    /// Tensions by the forces where the load cells sit.
+    fn read_tensions(&mut self, forces: &[Vector3<f64>]) {
+        for (i, force) in forces.iter().enumerate() {
+            let gain = 1.0 + self.error(SensorError::TensionGain, i);
+            let value = gain * force.norm() + self.error(SensorError::TensionBias, i);
+            self.read(Quantity::Tension(i, self.of.tension_at), value, self.of.noise.tension);
+        }
+    }
+
+    /// Swivel angles of pulleys with a vertical axis by the forces at their leave points.
+    fn read_swivels(&mut self, forces: &[Vector3<f64>]) {
+        for (i, force) in forces.iter().enumerate() {
+            let pulley = self.of.nominal.cables[i].pulley;
+            if let Some(pulley) = pulley.filter(|pulley| pulley.axis.xy().norm() == 0.0) {
+                let [u, v] = TiltAxis::ALL.map(|axis| axis.of(&pulley).dot(force));
+                let value = v.atan2(u) + self.error(SensorError::SwivelOffset, i);
+                self.read(Quantity::Swivel(i), value, self.of.noise.swivel);
+            }
+        }
+    }
 }

@@ -2,12 +2,14 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 
+mod all_inputs;
 mod analyse;
 mod asked;
 mod bad_input;
 mod book;
 mod calibrate;
 mod calibration;
+mod changed_folder;
 mod commands;
 mod common;
 mod derivatives;
@@ -29,9 +31,11 @@ mod path;
 mod poses;
 mod questions;
 mod robustness;
+mod shell;
 mod strangers;
 mod study_blocks;
 mod study_poses;
+mod study_refused;
 mod study_run;
 mod study_together;
 mod tensions;

@@ -8,14 +8,13 @@ use cdpr_robot::{Pose, Robot, UnitQuaternion, Vector3, Wrench};
 use cdpr_statics::vibration::modes_at;
 use cdpr_statics::{DirectProblem, DirectStart, Load, deflection, direct, inverse};
 use serde_json::{Value, json};
-use std::process::{Command, Stdio};
 use tempfile::TempDir;
 
 fn caroca() -> Robot {
     Robot::from_json(&data_text("robots/caroca.json")).unwrap()
 }
 
-fn printed(arguments: &[&str]) -> String {
+pub(crate) fn printed(arguments: &[&str]) -> String {
     answered(cdpr(arguments))
 }
 
@@ -270,35 +269,6 @@ fn a_check_ends_with_its_own_code_where_it_warns() {
     assert_eq!(findings[0]["field"], "cable.youngs_modulus");
     assert_eq!(findings[0]["value"], "100 Pa");
     assert!(findings[0]["remedy"].as_str().unwrap().contains("1.000e11 Pa, if 100 is in GPa"));
-}
-
-#[test]
-fn a_reader_that_goes_away_is_no_failure() {
-    for arguments in [
-        vec!["derivatives", &data_path("robots/caroca.json"), "--pose", "0,0,1.75", "--payload", "50"],
-        vec!["check", &data_path("robots/caroca.json")],
-        vec!["completions", "bash"],
-    ] {
-        let mut child = Command::new(env!("CARGO_BIN_EXE_cdpr"))
-            .args(&arguments)
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped())
-            .spawn()
-            .unwrap();
-        drop(child.stdout.take());
-        let output = child.wait_with_output().unwrap();
-        assert!(output.status.success() && output.stderr.is_empty(), "{arguments:?}: {output:?}");
-    }
-}
-
-#[test]
-fn every_shell_gets_completions_of_every_command() {
-    for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
-        let script = printed(&["completions", shell]);
-        for word in ["catenary", "workspace", "certify"] {
-            assert!(script.contains(word), "{shell}: {word}");
-        }
-    }
 }
 
 #[test]

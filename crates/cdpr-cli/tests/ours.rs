@@ -16,7 +16,7 @@ fn done(output: Output) {
 }
 
 /// Commands that write one file, `FILE`, the ending of its format, and a text by which such files were once
-/// recognised.
+/// recognized.
 fn writers() -> Vec<(Vec<String>, &'static str, &'static str)> {
     let (caroca, record) = (data_path("robots/caroca.json"), data_path("cables/caroca-4mm-record.csv"));
     let source = data_path("reference/exchange/caroca.yaml");

@@ -206,7 +206,7 @@ impl<S: Simd> SymmetricFactors<S> {
     }
 }
 
-/// The solution of six equations whose matrix has the columns `columns`, by orthogonalisation: it needs no
+/// The solution of six equations whose matrix has the columns `columns`, by orthogonalization: it needs no
 /// choice of pivots, which lanes cannot make.
 // Indices as in the formula.
 #[allow(clippy::needless_range_loop)]

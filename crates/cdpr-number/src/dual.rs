@@ -144,6 +144,11 @@ impl<T: Number, const N: usize> Number for Dual<T, N> {
         let value = self.value.sqrt();
         self.chain(value, (value * 2.0).recip())
     }
+
+    #[inline(always)]
+    fn within(self, error: f64) -> Self {
+        Self { value: self.value.within(error), ..self }
+    }
 }
 
 impl<T: Lanewise, const N: usize> Lanewise for Dual<T, N> {
@@ -176,22 +181,5 @@ impl<T: Real, const N: usize> Real for Dual<T, N> {
 
     fn value(self) -> f64 {
         self.value.value()
-    }
-
-    fn upper(self) -> f64 {
-        self.value.upper()
-    }
-
-    fn ln(self) -> Self {
-        self.chain(self.value.ln(), self.value.recip())
-    }
-
-    fn atan2(self, x: Self) -> Self {
-        let inverse = (self.value * self.value + x.value * x.value).recip();
-        self.combined(x, self.value.atan2(x.value), [x.value * inverse, -(self.value * inverse)])
-    }
-
-    fn within(self, error: f64) -> Self {
-        Self { value: self.value.within(error), ..self }
     }
 }

@@ -24,14 +24,25 @@ pub trait Number:
 
     /// Square root of a number that is not negative.
     fn sqrt(self) -> Self;
+
+    /// This number, known to within `error` only, as the remainder of a series.
+    ///
+    /// Kinds of number that do not bound errors ignore it.
+    #[inline(always)]
+    fn within(self, error: f64) -> Self {
+        let _ = error;
+        self
+    }
 }
 
-/// Numbers for several cables at a time, whose formulas cannot branch: a comparison has an answer for each.
+/// Numbers that choose between equivalent formulas.
+///
+/// Those for several cables at a time cannot branch: a comparison has an answer for each.
 pub trait Lanewise: Number {
     /// An answer for each cable.
     type Mask: Copy;
 
-    /// Whether a number is at most `bound`; false for NaN.
+    /// Whether a number is at most `bound`; false for NaN, and for an interval that reaches beyond it.
     fn at_most(self, bound: f64) -> Self::Mask;
 
     /// Whether the answer is yes for all.
@@ -42,26 +53,12 @@ pub trait Lanewise: Number {
 }
 
 /// Numbers for formulas with branches: a double, an interval of doubles, a double with its derivative.
-pub trait Real: Number {
+pub trait Real: Lanewise<Mask = bool> {
     /// The exact number `value`.
     fn of(value: f64) -> Self;
 
     /// A double nearby, which decides between two equivalent formulas.
     fn value(self) -> f64;
-
-    /// An upper bound of the number.
-    fn upper(self) -> f64;
-
-    /// Natural logarithm of a positive number.
-    fn ln(self) -> Self;
-
-    /// Angle of the vector (x, self) from the x axis [rad], for a number that is not negative.
-    fn atan2(self, x: Self) -> Self;
-
-    /// This number, known to within `error` only, as the remainder of a series.
-    ///
-    /// Kinds of number that do not bound errors ignore it.
-    fn within(self, error: f64) -> Self;
 }
 
 impl Number for f64 {
@@ -108,26 +105,6 @@ impl Real for f64 {
 
     #[inline(always)]
     fn value(self) -> f64 {
-        self
-    }
-
-    #[inline(always)]
-    fn upper(self) -> f64 {
-        self
-    }
-
-    #[inline(always)]
-    fn ln(self) -> Self {
-        Self::ln(self)
-    }
-
-    #[inline(always)]
-    fn atan2(self, x: Self) -> Self {
-        Self::atan2(self, x)
-    }
-
-    #[inline(always)]
-    fn within(self, _error: f64) -> Self {
         self
     }
 }

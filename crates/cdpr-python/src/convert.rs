@@ -2,13 +2,17 @@
 
 pub(crate) mod answer;
 mod arrays;
+mod cases;
+mod columns;
 mod error;
 mod json;
 mod question;
 mod threads;
 
 pub(crate) use answer::answer;
-pub(crate) use arrays::{Array, Cases, Columns, Loads, Numbers, Rows, components, filled, whole};
+pub(crate) use arrays::{Array, Numbers, components, filled, whole};
+pub(crate) use cases::{Cases, Loads, Rows};
+pub(crate) use columns::Columns;
 pub(crate) use error::{Answer, Raised};
 pub(crate) use json::{json_text, to_json};
 pub(crate) use question::question;

@@ -2,6 +2,7 @@
 //!
 //! Each model is a method in a file of the folder.
 
+mod arguments;
 pub(crate) mod boundary;
 pub(crate) mod capacity;
 pub(crate) mod certify;
@@ -15,10 +16,9 @@ pub(crate) mod path;
 pub(crate) mod stiffness;
 pub(crate) mod workspace;
 
-use crate::convert::{Answer, Array, Numbers, Raised, components, guarded, json_text, question};
+use crate::convert::{Answer, Numbers, Raised, components, guarded, json_text, question};
 use cdpr_robot::{
-    CableEnd, CableProperties, Gravity, OwnLimits, Parameter, Plane, Platform, Provenance, RobotCable,
-    TensionLimits, TensionReference, Vector3, plausible,
+    CableEnd, CableProperties, Parameter, Platform, Provenance, RobotCable, TensionLimits, Vector3, plausible,
 };
 use cdpr_study::open_robot;
 use numpy::{PyArray1, PyArray2};
@@ -65,16 +65,6 @@ impl Robot {
     }
 }
 
-/// The plane of this name.
-fn plane_of(name: &str) -> Answer<Plane> {
-    match name {
-        "xy" => Ok(Plane::Xy),
-        "xz" => Ok(Plane::Xz),
-        "yz" => Ok(Plane::Yz),
-        _ => Err(Raised::Input(format!("plane is {name:?}: expected \"xy\", \"xz\" or \"yz\""))),
-    }
-}
-
 #[pymethods]
 impl Robot {
     #[new]
@@ -99,18 +89,20 @@ impl Robot {
         plane: Option<&str>,
         ground_z: Option<f64>,
     ) -> Answer<Self> {
-        let (anchors, exits) =
-            (points("anchor_points", &anchor_points)?, points("exit_points", &exit_points)?);
+        let (anchors, exits) = (
+            arguments::points("anchor_points", &anchor_points)?,
+            arguments::points("exit_points", &exit_points)?,
+        );
         if anchors.len() != exits.len() {
             let (value, expected) = (exits.len(), anchors.len());
             return Err(Raised::Input(format!(
                 "exit_points has {value} rows: expected {expected}, as anchor_points"
             )));
         }
-        let sections = of_cables("section", &section, anchors.len())?;
-        let densities = of_cables("linear_density", &linear_density, anchors.len())?;
-        let moduli = of_cables("youngs_modulus", &youngs_modulus, anchors.len())?;
-        let (tension_limits, own_limits) = limits(&tension_limits, anchors.len())?;
+        let sections = arguments::of_cables("section", &section, anchors.len())?;
+        let densities = arguments::of_cables("linear_density", &linear_density, anchors.len())?;
+        let moduli = arguments::of_cables("youngs_modulus", &youngs_modulus, anchors.len())?;
+        let (tension_limits, own_limits) = arguments::limits(&tension_limits, anchors.len())?;
         let cables = (0..anchors.len())
             .map(|i| RobotCable {
                 tension_limits: own_limits[i],
@@ -128,20 +120,13 @@ impl Robot {
         let robot = cdpr_robot::Robot {
             name,
             provenance: Provenance::default(),
-            gravity: gravity.as_ref().map_or(Ok(EARTH.into()), self::gravity)?,
+            gravity: gravity.as_ref().map_or(Ok(arguments::EARTH.into()), arguments::gravity)?,
             platform: Platform { point, ..Platform::new(mass, center_of_mass) },
-            plane: plane.map(plane_of).transpose()?,
+            plane: plane.map(arguments::plane_of).transpose()?,
             ground_z,
             tension_limits,
-            max_at: match max_at {
-                "anchor" => CableEnd::Anchor,
-                "exit" => CableEnd::Exit,
-                _ => {
-                    let message = format!("max_at is {max_at:?}: expected \"anchor\" or \"exit\"");
-                    return Err(Raised::Input(message));
-                }
-            },
-            tension_reference: tension_reference.as_ref().map(reference).transpose()?,
+            max_at: arguments::end_of(max_at)?,
+            tension_reference: tension_reference.as_ref().map(arguments::reference).transpose()?,
             cables,
         };
         robot.validate()?;
@@ -283,7 +268,7 @@ impl Robot {
     /// Raises InputError for a negative tension or another number of them than of cables.
     #[pyo3(signature = (reference))]
     fn with_tension_reference(&self, reference: Option<Numbers>) -> Answer<Self> {
-        let tension_reference = reference.as_ref().map(self::reference).transpose()?;
+        let tension_reference = reference.as_ref().map(arguments::reference).transpose()?;
         let robot = cdpr_robot::Robot { tension_reference, ..self.robot.clone() };
         robot.validate()?;
         Ok(Self { robot })
@@ -380,79 +365,5 @@ impl Robot {
         property: impl Fn(&CableProperties) -> f64,
     ) -> Bound<'py, PyArray1<f64>> {
         PyArray1::from_iter(py, self.robot.cables.iter().map(|cable| property(&cable.properties)))
-    }
-}
-
-fn points(name: &str, array: &Numbers) -> Answer<Vec<Vector3<f64>>> {
-    let Array { shape, values } = Array::new(name, array)?;
-    if !matches!(shape[..], [_, 3]) {
-        return Err(Raised::Input(format!(
-            "{name} has the shape {shape:?}: expected (n, 3), one point for each cable"
-        )));
-    }
-    Ok(values.chunks_exact(3).map(Vector3::from_column_slice).collect())
-}
-
-/// Limits of all cables, and those that differ from them: of one row, or of one row for each cable.
-fn limits(array: &Numbers, cables: usize) -> Answer<(TensionLimits, Vec<OwnLimits>)> {
-    const NAME: &str = "tension_limits";
-    let Array { shape, values } = Array::new(NAME, array)?;
-    if shape.len() < 2 {
-        let [min, max] = components(NAME, array)?;
-        return Ok((TensionLimits { min, max }, vec![OwnLimits::default(); cables]));
-    }
-    if shape != [cables, 2] {
-        return Err(Raised::Input(format!(
-            "{NAME} has the shape {shape:?}: expected (2,), or ({cables}, 2), one row for each cable"
-        )));
-    }
-    let shared = TensionLimits { min: values[0], max: values[1] };
-    let own = values.chunks_exact(2).map(|row| OwnLimits {
-        min: Some(row[0]).filter(|min| *min != shared.min),
-        max: Some(row[1]).filter(|max| *max != shared.max),
-        max_at: None,
-    });
-    Ok((shared, own.collect()))
-}
-
-fn reference(given: &Numbers) -> Answer<TensionReference> {
-    if let Ok(word) = given.extract::<String>() {
-        return Ok(word.parse()?);
-    }
-    let Array { shape, values } = Array::new("tension_reference", given)?;
-    match shape[..] {
-        [] => Ok(TensionReference::All(values[0])),
-        [_] => Ok(TensionReference::Each(values)),
-        _ => Err(Raised::Input(format!(
-            "tension_reference has the shape {shape:?}: expected a number, or one for each cable"
-        ))),
-    }
-}
-
-/// Gravity on Earth [m/s²].
-const EARTH: f64 = 9.81;
-
-/// Gravity as a number or a vector.
-fn gravity(given: &Numbers) -> Answer<Gravity> {
-    let Array { shape, values } = Array::new("gravity", given)?;
-    match (&shape[..], &values[..]) {
-        ([], [number]) => Ok((*number).into()),
-        ([_], [x, y, z]) => Ok(Vector3::new(*x, *y, *z).into()),
-        _ => {
-            let expected = "a number along -z, or a vector of three numbers";
-            Err(Raised::Input(format!("gravity has the shape {shape:?}: expected {expected}")))
-        }
-    }
-}
-
-/// A number for each cable.
-fn of_cables(name: &str, array: &Numbers, cables: usize) -> Answer<Vec<f64>> {
-    let Array { shape, values } = Array::new(name, array)?;
-    match shape[..] {
-        [] => Ok(vec![values[0]; cables]),
-        [count] if count == cables => Ok(values),
-        _ => Err(Raised::Input(format!(
-            "{name} has the shape {shape:?}: expected a number, or one for each of the {cables} cables"
-        ))),
     }
 }

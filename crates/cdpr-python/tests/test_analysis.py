@@ -13,7 +13,7 @@ def table(rows, seed=1):
     return x, numpy.sin(x[:, 0]) + 7 * numpy.sin(x[:, 1]) ** 2 + 0.1 * x[:, 2] ** 4 * numpy.sin(x[:, 0])
 
 
-def test_ishigamis_function_is_recognised_from_its_rows_alone():
+def test_ishigamis_function_is_recognized_from_its_rows_alone():
     x, y = table(2000)
     found = cdpr.analyse(x, y)
     exact = numpy.array([0.3139, 0.4424, 0.0, 0.0])

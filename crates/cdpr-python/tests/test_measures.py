@@ -49,15 +49,15 @@ def test_a_linear_model_has_its_coefficients_on_every_sample(make):
     outputs = 3 * rows[:, 0] - 2 * rows[:, 1]
     found = design.regression(outputs)
     expected = numpy.array([3, -2]) * rows.std(axis=0) / outputs.std()
-    numpy.testing.assert_allclose(found.standardised, expected, rtol=1e-9)
+    numpy.testing.assert_allclose(found.standardized, expected, rtol=1e-9)
     numpy.testing.assert_allclose(found.share, expected**2, rtol=1e-9)
     assert found.r_squared == pytest.approx(1.0, abs=1e-12) and found.failed == 0
     # exp keeps the order of the outputs, but is not linear.
     bent = numpy.exp(outputs)
     assert design.regression(bent).r_squared < 0.9
     numpy.testing.assert_allclose(
-        design.regression(bent, ranks=True).standardised,
-        design.regression(outputs, ranks=True).standardised,
+        design.regression(bent, ranks=True).standardized,
+        design.regression(outputs, ranks=True).standardized,
         rtol=1e-12,
     )
     # b (max - min) / 2, and for a normal law 2 b std sqrt(2 / pi).
@@ -77,7 +77,7 @@ def test_correlated_inputs_have_their_correlation_and_no_effects(make):
     rows = design.rows()
     assert numpy.corrcoef(rows.T)[0, 1] == pytest.approx(0.6, abs=0.05)
     numpy.testing.assert_array_equal(make(laws, 4096, correlation=[[1, 0.6], [0.6, 1]]).rows(), rows)
-    assert design.regression(rows[:, 0]).standardised == pytest.approx([1, 0], abs=1e-9)
+    assert design.regression(rows[:, 0]).standardized == pytest.approx([1, 0], abs=1e-9)
     with pytest.raises(cdpr.InputError, match="correlation is given: `effects` expects independent inputs"):
         design.effects(rows[:, 0])
 
@@ -168,7 +168,7 @@ def test_an_output_along_one_direction_has_one_active_direction():
     assert list(found.needed[0.9]) == [1, 1, 1]
 
 
-def test_generalised_indices_are_shares_of_the_trace():
+def test_generalized_indices_are_shares_of_the_trace():
     design = SaltelliDesign({"a": uniform(0, 1), "b": uniform(0, 1)}, 512, seed=2)
     a, b = design.rows().T
     found = design.vector_indices(numpy.stack([a, 2 * b], axis=1), level=0.999)

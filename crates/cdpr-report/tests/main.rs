@@ -9,3 +9,4 @@ mod finite;
 mod heat_map;
 mod report;
 mod reread;
+mod robustness_figures;

@@ -53,7 +53,9 @@ pub use limits::{CableEnd, NamedReference, OwnLimits, TensionLimits, TensionRefe
 pub use nalgebra::{Matrix3, Matrix6xX, Rotation3, UnitQuaternion, Vector2, Vector3, Vector6};
 pub use number::{decimal, rounded};
 pub use parameter::deviations::Deviations;
-pub use parameter::{Parameter, ParameterLayout, Perturbed, TiltAxis, deviations};
+pub use parameter::layout::ParameterLayout;
+pub use parameter::perturbed::{Perturbed, deviations};
+pub use parameter::{Parameter, TiltAxis};
 pub use plausible::{Doubt, Doubts, frame};
 pub use pose::quaternion::{QuaternionError, rotation_by_angles, rotation_in_order, rotation_of};
 pub use pose::{Pose, orthonormalized};

@@ -22,7 +22,7 @@ impl Pose {
         Self { position: Vector3::new(x, y, z), rotation: Rotation3::identity() }
     }
 
-    /// The pose with a quaternion (w, x, y, z), which is normalised; `None` if it is zero or not finite.
+    /// The pose with a quaternion (w, x, y, z), which is normalized; `None` if it is zero or not finite.
     pub fn with_quaternion(position: Vector3<f64>, [w, x, y, z]: [f64; 4]) -> Option<Self> {
         let quaternion = UnitQuaternion::try_new(Quaternion::new(w, x, y, z), 1e-12)?;
         let finite = quaternion.coords.iter().chain(position.iter()).all(|c| c.is_finite());

@@ -23,14 +23,14 @@ use crate::error::{SensitivityError, check_length, check_range};
 /// that were observed before are not continued by others.
 pub const POINTS_VERSION: u32 = 2;
 
-/// What every design has: its inputs, its size and the seed of its randomisation.
+/// What every design has: its inputs, its size and the seed of its randomization.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layout {
     /// Inputs, one per column.
     pub inputs: Vec<Input>,
     /// Number of rows, at least 1.
     pub points: usize,
-    /// Seed of the randomisation, `None` for a deterministic design.
+    /// Seed of the randomization, `None` for a deterministic design.
     pub seed: Option<u64>,
 }
 
@@ -71,12 +71,12 @@ pub trait SampleDesign: Sized + Sync {
         self.layout().points
     }
 
-    /// Seed of the randomisation, `None` for a deterministic design.
+    /// Seed of the randomization, `None` for a deterministic design.
     fn seed(&self) -> Option<u64> {
         self.layout().seed
     }
 
-    /// Returns a design of the same inputs and size under the randomisation of `seed`. Designs of different
+    /// Returns a design of the same inputs and size under the randomization of `seed`. Designs of different
     /// seeds are independent of each other.
     #[must_use]
     fn replicate(&self, seed: u64) -> Self;

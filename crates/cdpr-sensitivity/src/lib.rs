@@ -6,7 +6,7 @@
 //! |---|---|
 //! | choose the inputs, their laws and steps | [`law`], [`design::input`] |
 //! | choose the points at which the model runs | [`design`] and its modules |
-//! | summarise the output | [`sample::summary`] |
+//! | summarize the output | [`sample::summary`] |
 //! | find the law that the output follows | [`law::fit`], [`law::choice`] |
 //! | find the inputs that matter | [`measure::effect`], [`measure::morris`], [`measure::dgsm`] |
 //! | the same by a linear model | [`measure::regression`] |

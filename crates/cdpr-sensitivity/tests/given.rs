@@ -259,7 +259,7 @@ fn an_analysis_is_the_same_on_any_number_of_threads_and_names_what_it_lacks() {
     let found = analyse(1);
     assert_eq!(found, analyse(4));
     assert!(found.notes.iter().any(|note| note.starts_with("first-order indices")), "{:?}", found.notes);
-    assert!(found.inputs[0].first.is_none() && found.inputs[0].standardised.is_some_and(|src| src > 0.99));
+    assert!(found.inputs[0].first.is_none() && found.inputs[0].standardized.is_some_and(|src| src > 0.99));
     let constant = GivenData::new(vec!["x".to_owned()], vec![vec![1.0; 9]], vec![Some(2.0); 9]).unwrap();
     let error = Analyser::new(3).analyse(&constant).unwrap_err();
     assert!(matches!(error, SensitivityError::ConstantSample { count: 9, .. }), "{error}");
@@ -286,7 +286,7 @@ fn correlated_inputs_are_related_and_constant_ones_have_no_measure() {
     assert!(pair.rank_correlation > 0.95 && found.verdict.certain.is_empty(), "{:?}", found.verdict);
     assert!(found.verdict.related.iter().all(|of| of.reasons[0].starts_with("depends on `")));
     let constant = &found.inputs[2];
-    assert!(constant.standardised.is_none() && constant.dependence.is_none());
+    assert!(constant.standardized.is_none() && constant.dependence.is_none());
     assert!(constant.half.is_none() && constant.shares.is_none());
 }
 

@@ -203,7 +203,7 @@ fn an_input_of_two_levels_has_their_contrast_and_a_constant_one_nothing() {
     assert!((share.value - 6.0 / variance).abs() < 0.005 && share.low > 0.9, "{share:?}");
     let constant = &found.inputs[2];
     assert!(constant.half.is_none() && constant.first.is_none() && constant.dependence.is_none());
-    assert!(constant.standardised.is_none() && constant.pawn.is_none() && constant.delta.is_none());
+    assert!(constant.standardized.is_none() && constant.pawn.is_none() && constant.delta.is_none());
     assert!(constant.shares.is_none() && found.verdict.doubtful[0].reason == "it is constant");
 }
 

@@ -66,7 +66,7 @@ use crate::inverse::{Branch, InverseSolution};
 use crate::loading::{Deflection, Wound, deflection_from, wind, wind_free, wind_from, wind_near};
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load, Wanted, WantedPose, one_by_one};
-use cdpr_robot::{Matrix6xX, Pose, Robot, Vector3};
+use cdpr_robot::{CableEnd, Matrix6xX, Pose, Robot, Vector3};
 use nalgebra::{DMatrix, Matrix3xX};
 pub use optimum::AtBound;
 use rest::Rest;
@@ -358,26 +358,35 @@ impl DirectProblem<'_> {
 pub struct ForceDerivatives {
     /// Derivatives of the pose: (dp, dφ) in the base frame, `R <- exp(dφ) R` [m, rad per unit].
     pub pose: Matrix6xX<f64>,
-    /// Force of each cable on the platform, in the base frame [N].
+    /// Force with which each cable pulls at that end, in the base frame [N]: on the platform, or on its guide.
     pub forces: Vec<Vector3<f64>>,
     /// Derivatives of these forces, rows 3i to 3i + 2 for cable i [N per unit].
     pub per_input: DMatrix<f64>,
 }
 
 impl DirectProblem<'_> {
-    /// Derivatives of an equilibrium, with those by the lengths and with the forces as vectors: what
-    /// measurements of any kind are compared with.
+    /// Derivatives of an equilibrium, with those by the lengths and with the forces at an end of the cables as
+    /// vectors: what measurements of any kind are compared with.
     ///
     /// # Errors
     /// As [`DirectProblem::derivatives`].
-    pub fn force_derivatives(&self, equilibrium: &Equilibrium) -> Result<ForceDerivatives, StaticsError> {
+    pub fn force_derivatives(
+        &self,
+        equilibrium: &Equilibrium,
+        end: CableEnd,
+    ) -> Result<ForceDerivatives, StaticsError> {
         self.check("equilibrium", equilibrium)?;
         let inputs = Inputs::of(self.robot);
         let (n, count) = (self.cables(), inputs.count());
         let mut lengths = DMatrix::zeros(n, count + n);
         (0..n).for_each(|i| lengths[(i, count + i)] = 1.0);
         let pose = EquilibriumDerivatives::new(self, &inputs, equilibrium, Some(&lengths))?.pose;
-        let cables = CableDerivatives::all(self, &equilibrium.pose, &equilibrium.cable_forces);
+        let mut cables = CableDerivatives::all(self, &equilibrium.pose, &equilibrium.cable_forces);
+        if end == CableEnd::Exit {
+            for (i, force) in equilibrium.cable_forces.iter().enumerate() {
+                cables[i] = cables[i].of_pull(self.robot, &equilibrium.pose, i, &self.catenary(i, *force));
+            }
+        }
         let mut per_input = DMatrix::zeros(3 * n, count + n);
         let columns = inputs.pose();
         for (axis, unit) in [Vector3::x(), Vector3::y(), Vector3::z()].into_iter().enumerate() {

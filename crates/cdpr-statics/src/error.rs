@@ -4,7 +4,7 @@ pub use crate::rest_fault::RestFault;
 use crate::state::Residual;
 use cdpr_cable::CableError;
 use cdpr_robot::{Pose, RobotError, counted, decimal, short, shortened};
-use cdpr_tension::{Bound, TensionError};
+use cdpr_tension::Bound;
 
 /// Why a model has no answer.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -12,17 +12,6 @@ pub enum StaticsError {
     /// The robot or its perturbation is invalid.
     #[error(transparent)]
     Robot(#[from] RobotError),
-    /// No tensions hold the pose, or their problem could not be solved.
-    #[error(
-        "at position ({x}, {y}, {z}) m: {source}",
-        x = short(position[0]), y = short(position[1]), z = short(position[2])
-    )]
-    Tension {
-        /// Position of the platform [m].
-        position: [f64; 3],
-        /// The reason.
-        source: TensionError,
-    },
     /// A cable has no equilibrium for what it is given.
     #[error("cable {}: {source}", index + 1)]
     Cable {
@@ -317,8 +306,6 @@ impl StaticsError {
     pub fn kind(&self) -> &'static str {
         match self {
             Self::Robot(_) => "invalid_robot",
-            Self::Tension { source: TensionError::Infeasible { .. }, .. } => "infeasible_tension",
-            Self::Tension { .. } => "tension_solver",
             Self::Cable { source: CableError::TensionTooSmall { .. }, .. } => "tension_too_small",
             Self::Cable { source: CableError::Overstrained { .. }, .. } | Self::Overstrained { .. } => {
                 "cable_overstrained"

@@ -32,6 +32,7 @@ mod in_turn;
 mod limits;
 mod optimum;
 mod question;
+mod start;
 
 #[cfg(doc)]
 use crate::equations::ABOVE_LEAST;

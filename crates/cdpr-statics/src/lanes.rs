@@ -11,6 +11,7 @@ mod level;
 mod load;
 mod newton;
 mod observer;
+mod platform;
 mod poses;
 mod reason;
 mod skew;

@@ -11,6 +11,7 @@ mod derivative_invariants;
 mod derivatives;
 mod drawn;
 mod elastic_law;
+mod end_forces;
 mod equilibria;
 mod few_cables;
 mod few_roots;

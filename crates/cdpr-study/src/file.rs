@@ -6,6 +6,7 @@ pub(crate) mod grid;
 pub(crate) mod names;
 pub(crate) mod output;
 pub(crate) mod record;
+pub(crate) mod sensitivity_spec;
 pub(crate) mod study_file;
 pub(crate) mod template;
 pub(crate) mod value;

@@ -5,6 +5,7 @@ pub(crate) mod disk;
 pub(crate) mod files;
 pub(crate) mod finite;
 pub(crate) mod input;
+pub(crate) mod lock;
 pub(crate) mod manifest;
 pub(crate) mod owned;
 pub(crate) mod single;

@@ -53,7 +53,7 @@ mod table;
 pub use analysis::comparison::{ComparisonRow, Verdict};
 pub use analysis::extremes::Extremes;
 pub use analysis::measures::{GroupMeasures, InputMeasures, MEASURES, Measure, Quantity, SubspaceSummary};
-pub use analysis::methods::MethodSummary;
+pub use analysis::methods::run::MethodSummary;
 pub use analysis::part::{Overview, StudySummary};
 pub use analysis::poses::{HELD, PoseRow, PosesResult, PosesSummary, observe_poses};
 pub use analysis::sampling::{
@@ -72,17 +72,19 @@ pub use file::errors_file::{ERRORS_FORMAT, ErrorsFile, errors_schema};
 pub use file::grid::{GridAxis, GridSpec};
 pub use file::output::{Output, VectorOutput};
 pub use file::record::{open_record, read_record};
+pub use file::sensitivity_spec::SensitivitySpec;
 pub use file::study_file::{
     AxisSpec, ComparisonSpec, CorrelationSpec, InputSpec, PoseSpec, PosesSpec, STUDY_FORMAT, SamplingSpec,
-    SensitivitySpec, Statistic, StudyFile, SurfaceSpec, json_schema,
+    Statistic, StudyFile, SurfaceSpec, json_schema,
 };
 pub use file::template::{TEMPLATE_NOTES, template, template_cost, write_template};
 pub use file::value::Value;
 pub use fs::files::{open_cable, open_robot, open_robot_in_any_unit};
 pub use fs::finite::is_not_finite;
 pub use fs::input::{check_table, other_kind, read_bytes, read_table, read_text};
+pub use fs::lock::Access;
 pub use fs::manifest::{ResultsOf, read_result};
-pub use fs::owned::{Access, ResultsFolder};
+pub use fs::owned::ResultsFolder;
 pub use fs::single::{IfExists, check_replaceable, write_text};
 pub use given::{
     BadCell, GivenColumn, GivenTable, TableAnalysis, TableRequest, VectorAnalysis, analyse_table,

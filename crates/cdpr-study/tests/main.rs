@@ -2,11 +2,13 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 
+mod correlated_inputs;
 mod error_model;
 mod operating_point;
 mod output;
 mod parquet;
 mod record;
 mod sensitivity;
+mod sensitivity_settings;
 mod shared_folder;
 mod tables;

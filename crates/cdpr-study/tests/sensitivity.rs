@@ -1,23 +1,22 @@
 //! The measures of sensitivity agree where they should, and one that fails leaves a note.
 
-use cdpr_robot::Robot;
 use cdpr_sensitivity::SampleDesign;
 use cdpr_study::{
     InputMeasures, MEASURES, SensitivitySpec, SensitivitySummary, Session, Study, StudyError, Truncation,
-    VectorOutput, measure, observe, template, template_cost,
+    VectorOutput, measure, observe,
 };
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-fn text() -> String {
+pub(crate) fn text() -> String {
     std::fs::read_to_string(path()).unwrap()
 }
 
-fn path() -> &'static Path {
+pub(crate) fn path() -> &'static Path {
     Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/studies/caroca-sensitivity.json"))
 }
 
-const SMALL: SensitivitySpec = SensitivitySpec {
+pub(crate) const SMALL: SensitivitySpec = SensitivitySpec {
     observations: 500,
     saltelli_blocks: 256,
     bootstrap_resamples: 200,
@@ -31,7 +30,7 @@ const SMALL: SensitivitySpec = SensitivitySpec {
     expansion: Truncation { max_degree: 2, norm: 0.75, interactions: 2 },
 };
 
-fn of_sampling(name: &str, spec: &SensitivitySpec) -> SensitivitySummary {
+pub(crate) fn of_sampling(name: &str, spec: &SensitivitySpec) -> SensitivitySummary {
     let study = Study::open(path()).unwrap();
     let sampling = study.sampling(name).unwrap();
     let session = Session::in_memory();
@@ -39,13 +38,13 @@ fn of_sampling(name: &str, spec: &SensitivitySpec) -> SensitivitySummary {
 }
 
 /// Measures that were left out; a doubt about intervals leaves nothing out.
-fn left_out(found: &SensitivitySummary) -> Vec<&str> {
+pub(crate) fn left_out(found: &SensitivitySummary) -> Vec<&str> {
     let is_doubt = |note: &&String| note.ends_with("the intervals are an indication only");
     let notes = found.notes.iter().filter(|note| !is_doubt(note));
     notes.map(|note| note.split(':').next().unwrap()).collect()
 }
 
-fn input<'a>(found: &'a SensitivitySummary, name: &str) -> &'a InputMeasures {
+pub(crate) fn input<'a>(found: &'a SensitivitySummary, name: &str) -> &'a InputMeasures {
     found.inputs.iter().find(|input| input.input == name).unwrap()
 }
 
@@ -113,7 +112,7 @@ fn bounds_by_derivatives_hold_the_sobol_indices_of_every_parameter() {
 }
 
 /// The study with these fields in place of the first ones of their names.
-fn changed(changes: &[(&str, &str)]) -> Result<Study, StudyError> {
+pub(crate) fn changed(changes: &[(&str, &str)]) -> Result<Study, StudyError> {
     let mut text = text();
     for (from, to) in changes {
         assert!(text.contains(from), "{from}");
@@ -122,7 +121,7 @@ fn changed(changes: &[(&str, &str)]) -> Result<Study, StudyError> {
     Study::from_json(&text, path())
 }
 
-fn measured(study: &Study, name: &str, spec: &SensitivitySpec) -> SensitivitySummary {
+pub(crate) fn measured(study: &Study, name: &str, spec: &SensitivitySpec) -> SensitivitySummary {
     let sampling = study.sampling(name).unwrap();
     let session = Session::in_memory();
     measure(&sampling, spec, &observe(&sampling, &session).unwrap(), &session).unwrap()
@@ -166,41 +165,6 @@ fn groups_of_unknown_names_are_refused() {
     let wrong = ("\"samplings\": {", "\"groups\": {\"p\": [\"a1\", \"c9\"]}, \"samplings\": {");
     let error = changed(&[wrong]).unwrap_err().to_string();
     assert!(error.contains("groups.p is c9: expected the name of an input"), "{error}");
-}
-
-const CORRELATED: (&str, &str) = (
-    "\"error_model\": \"table_3\",",
-    "\"error_model\": \"table_3\", \"first_index\": 1, \
-     \"correlations\": [{\"between\": [\"youngs_modulus\", \"mass\"], \"value\": 0.8}],",
-);
-
-#[test]
-fn a_parameter_that_acts_only_through_its_correlation_has_a_shapley_effect() {
-    let mut study = changed(&[CORRELATED]).unwrap();
-    let spec = SensitivitySpec { shapley_walks: 512, ..SMALL };
-    study.file.sensitivity = Some(spec);
-    let found = measured(&study, "mechanical", &spec);
-    // The modulus has nearly all of the variance. By C = 0.8 of uniform laws the mass explains 0.62 of it;
-    // half of what both explain is its own.
-    let (modulus, mass) = (input(&found, "youngs_modulus"), input(&found, "mass"));
-    let correlation = 6.0 / std::f64::consts::PI * 0.4_f64.asin();
-    let shared = 0.5 * correlation * correlation;
-    for (of, exact) in [(modulus, 1.0 - shared), (mass, shared)] {
-        let (low, high) = (of.shapley_low.unwrap(), of.shapley_high.unwrap());
-        assert!(low - 0.01 < exact && exact < high + 0.01 && high - low < 0.2, "{exact}: {low} {high}");
-    }
-    assert!((found.sums["all"]["shapley"] - 1.0).abs() < 1e-9);
-    // What needs independent inputs is left out by name.
-    assert!(found.notes[0].starts_with("t_student, derivatives, morris, dgsm"), "{:?}", found.notes);
-    let methods: Vec<_> = found.methods.keys().map(String::as_str).collect();
-    assert_eq!(methods, ["regression", "rank_regression", "shapley"]);
-    assert!(mass.sobol_total.is_none() && mass.t_student.is_none());
-
-    // Without correlations it is the share of Sobol' indices.
-    let study = changed(&[]).unwrap();
-    let found = measured(&study, "mechanical", &spec);
-    let modulus = input(&found, "youngs_modulus");
-    assert!(modulus.shapley_low.unwrap() < 0.9945 && modulus.shapley_high.unwrap() > 0.9945, "{modulus:?}");
 }
 
 #[test]
@@ -287,57 +251,6 @@ fn errors_of_the_position_have_indices_of_the_pose() {
 }
 
 #[test]
-fn correlated_deviations_are_observed_as_such() {
-    let study = changed(&[CORRELATED]).unwrap();
-    let sampling = study.sampling("mechanical").unwrap();
-    let place = |name| sampling.design.inputs().iter().position(|input| input.name == name).unwrap();
-    let (i, j, k) = (place("youngs_modulus"), place("mass"), sampling.design.inputs().len());
-    let mut pairs = Vec::new();
-    let each = |part: &cdpr_study::Part| -> Vec<[f64; 2]> {
-        part.rows.chunks(k).map(|row| [row[i], row[j]]).collect()
-    };
-    cdpr_study::observe_into(&sampling, &Session::in_memory(), each, |part| {
-        pairs.extend(part);
-        Ok(())
-    })
-    .unwrap();
-    let mean = |of: &dyn Fn(&[f64; 2]) -> f64| pairs.iter().map(of).sum::<f64>() / pairs.len() as f64;
-    let [x, y] = [mean(&|pair| pair[0]), mean(&|pair| pair[1])];
-    let product = mean(&|pair| (pair[0] - x) * (pair[1] - y));
-    let scale = (mean(&|pair| (pair[0] - x).powi(2)) * mean(&|pair| (pair[1] - y).powi(2))).sqrt();
-    let expected = 6.0 / std::f64::consts::PI * 0.4_f64.asin();
-    assert!((product / scale - expected).abs() < 0.02, "{}", product / scale);
-    let found = cdpr_study::analyse(
-        &sampling,
-        &observe(&sampling, &Session::in_memory()).unwrap(),
-        &Session::in_memory(),
-    );
-    let found = found.unwrap();
-    assert!(found.t_student.is_empty() && found.signed_effects.is_empty());
-    assert!(found.notes.iter().any(|note| note.contains("the inputs are correlated")), "{:?}", found.notes);
-}
-
-#[test]
-fn correlations_that_cannot_be_are_refused() {
-    let refusal = |correlations: &str| {
-        let to =
-            format!("\"error_model\": \"table_3\", \"first_index\": 1, \"correlations\": [{correlations}],");
-        changed(&[("\"error_model\": \"table_3\",", &to)]).unwrap_err().to_string()
-    };
-    let unknown = refusal("{\"between\": [\"mass\", \"m\"], \"value\": 0.5}");
-    assert!(unknown.contains("correlations[0].between is m: expected the name of an input"), "{unknown}");
-    let one = refusal("{\"between\": [\"mass\", \"youngs_modulus\"], \"value\": 1.0}");
-    assert!(one.contains("value is 1: expected a number above -1 and below 1"), "{one}");
-    let same = refusal("{\"between\": [\"mass\", \"mass\"], \"value\": 0.5}");
-    assert!(same.contains("two different inputs"), "{same}");
-    let of =
-        |i: &str, j: &str, value: f64| format!("{{\"between\": [\"{i}\", \"{j}\"], \"value\": {value}}}");
-    let contradiction =
-        [of("a1.x", "a1.y", 0.9), of("a1.y", "a1.z", 0.9), of("a1.x", "a1.z", -0.9)].join(", ");
-    assert!(refusal(&contradiction).contains("positive definite"));
-}
-
-#[test]
 fn trajectories_take_the_place_of_radial_blocks() {
     let spec = SensitivitySpec { morris_levels: Some(4), ..SMALL };
     let (radial, found) = (of_sampling("mechanical", &SMALL), of_sampling("mechanical", &spec));
@@ -417,103 +330,4 @@ fn a_measure_that_fails_is_a_note() {
     assert!(!found.sums["all"].contains_key("regression_share"));
     assert!(!found.agreement.measures.iter().any(|name| name == "regression_share"));
     assert_eq!(found.leading()[0].input, "youngs_modulus");
-}
-
-#[test]
-fn invalid_settings_are_refused_with_field_value_and_remedy() {
-    let refusal = |from: &str, to: &str| {
-        let text = text();
-        assert!(text.contains(from));
-        let error = Study::from_json(&text.replacen(from, to, 1), path()).unwrap_err();
-        let StudyError::At { source, .. } = error else { panic!("no line and column: {error}") };
-        assert!(matches!(*source, StudyError::Invalid { .. }), "{source}");
-        source.to_string()
-    };
-    let blocks = refusal("\"saltelli_blocks\": 4096", "\"saltelli_blocks\": 15");
-    assert!(blocks.ends_with("sensitivity.saltelli_blocks is 15: expected 0, or at least 16"), "{blocks}");
-    let norm = refusal("\"norm\": 0.75", "\"norm\": 0.0");
-    assert!(
-        norm.ends_with("sensitivity.expansion.norm is 0: expected a number above 0, at most 1"),
-        "{norm}"
-    );
-    let levels = refusal("\"morris_blocks\": 128", "\"morris_blocks\": 128, \"morris_levels\": 5");
-    assert!(
-        levels.ends_with("sensitivity.morris_levels is 5: expected an even number from 2 to 1024"),
-        "{levels}"
-    );
-    let degree = refusal("\"max_degree\": 3", "\"max_degree\": 101");
-    assert!(degree.ends_with("sensitivity.expansion.max_degree is 101: expected 1 to 100"), "{degree}");
-}
-
-#[test]
-fn settings_left_out_are_those_of_the_data_file() {
-    let spec = Study::open(path()).unwrap().file.sensitivity.unwrap();
-    assert_eq!(spec, SensitivitySpec::default());
-}
-
-#[test]
-fn fewer_observations_shorten_all_measures_and_an_extension_keeps_them() {
-    let robot = Robot::from_json(include_str!("../../../data/robots/cogiro.json")).unwrap();
-    let text = template(&robot, "cogiro", None, None, &[]).unwrap();
-    let cost = template_cost(&robot);
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("study.json");
-    std::fs::write(&path, text).unwrap();
-    let mut study = Study::open(&path).unwrap();
-    let whole = study.file.sensitivity.unwrap();
-    // What the template says of itself is what a run makes.
-    let counts =
-        cost.lines().skip(1).map(|line| line.split_whitespace().next().unwrap().parse::<usize>().unwrap());
-    assert_eq!(counts.sum::<usize>(), study.all_observations().unwrap());
-    study.set_observations(512).unwrap();
-    let short = study.file.sensitivity.unwrap();
-    assert_eq!((whole.saltelli_blocks, short.saltelli_blocks), (128, 32));
-    assert_eq!((whole.morris_blocks, short.morris_blocks), (32, 8));
-    assert_eq!((whole.derivative_points, short.derivative_points), (64, 16));
-    study.extend(4096).unwrap();
-    assert_eq!(study.file.sensitivity, Some(short));
-}
-
-#[test]
-fn no_blocks_of_saltelli_leave_sobol_indices_out_and_few_are_refused() {
-    let found = of_sampling("mechanical", &SensitivitySpec { saltelli_blocks: 0, ..SMALL });
-    assert!(!found.methods.contains_key("sobol") && found.methods.contains_key("morris"));
-    assert_eq!(left_out(&found), Vec::<&str>::new());
-    assert!(
-        found.inputs.iter().all(|input| input.sobol_total.is_none() && input.morris_mean_absolute.is_some())
-    );
-    let mut study: serde_json::Value = serde_json::from_str(&text()).unwrap();
-    for (blocks, refused) in [(0, false), (5, true), (16, false)] {
-        study["sensitivity"]["saltelli_blocks"] = blocks.into();
-        let opened = Study::from_json(&study.to_string(), path());
-        assert_eq!(opened.is_err(), refused, "{blocks}");
-        if let Err(error) = opened {
-            assert!(
-                error.to_string().contains("saltelli_blocks is 5: expected 0, or at least 16"),
-                "{error}"
-            );
-        }
-    }
-    study["sensitivity"]["saltelli_blocks"] = 0.into();
-    let study = Study::from_json(&study.to_string(), path()).unwrap();
-    let some = Study::open(path()).unwrap();
-    assert!(study.observations("mechanical").unwrap() < some.observations("mechanical").unwrap());
-}
-
-#[test]
-fn a_study_says_which_samplings_the_scalar_models_observe_and_how_long() {
-    let mut study = Study::open(path()).unwrap();
-    assert_eq!(study.scalar_samplings().unwrap(), []);
-    for cable in &mut study.robot.cables {
-        cable.pulley =
-            Some(cdpr_robot::Pulley { radius: 0.045, axis: cdpr_robot::Vector3::new(0.1, 0.0, 0.99) });
-    }
-    let slow = study.scalar_samplings().unwrap();
-    let names: Vec<_> = slow.iter().map(|sampling| sampling.name.as_str()).collect();
-    assert!(names.contains(&"mechanical"), "{names:?}");
-    for sampling in &slow {
-        assert_eq!(sampling.observations, study.observations(&sampling.name).unwrap());
-        assert!(sampling.reason == cdpr_statics::batch::ScalarReason::Pulleys && sampling.seconds > 0.0);
-        assert!(sampling.to_string().contains("pulleys with vertical axes only"), "{sampling}");
-    }
 }

@@ -1,19 +1,33 @@
-//! The distribution problem, and why it may have no solution.
+//! Tensions within limits that balance a wrench: the problem, what is chosen, and why there may be none.
 
 use cdpr_robot::{TensionLimits, short};
-use nalgebra::{DVector, Matrix6xX, Vector6};
+use nalgebra::{DMatrix, DVector};
 
-/// A distribution problem (T1).
+/// Tensions t within limits that balance a wrench w, (T1).
 #[derive(Clone, Copy, Debug)]
 pub struct Problem<'a> {
-    /// Wrench matrix W, 6 x n [1, m].
-    pub wrench_matrix: &'a Matrix6xX<f64>,
+    /// Wrench matrix W: a row for each component of the wrench, a column for each cable [1, m].
+    pub wrench_matrix: &'a DMatrix<f64>,
     /// Sum w of all wrenches on the platform but the cables' [N, N m].
-    pub wrench: Vector6<f64>,
-    /// Reference tensions t_ref, n of them [N]; zeros for the least-norm distribution.
-    pub reference: &'a [f64],
-    /// Bounds of each tension, n of them [N].
+    pub wrench: &'a DVector<f64>,
+    /// Limits of each tension, the least zero or more [N].
     pub limits: &'a [TensionLimits],
+}
+
+/// What is chosen among the tensions that balance the wrench.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Objective<'a> {
+    /// The least `|t - r|` for a reference r [N]; zeros for the least 2-norm.
+    Nearest(&'a [f64]),
+    /// The least sum of tensions, their 1-norm.
+    LeastSum,
+    /// The least greatest tension, their infinity-norm.
+    LeastGreatest,
+    /// The greatest multiple z of a wrench d that is balanced, too: `W t + w + z d = 0`, z >= 0.
+    GreatestWrench(&'a DVector<f64>),
+    /// The greatest distance z of all tensions from limits of their own: `min_i + z <= t_i <= max_i - z`. It is
+    /// negative where these limits leave no balance.
+    GreatestMargin(&'a [TensionLimits]),
 }
 
 /// A bound that holds a tension.
@@ -28,10 +42,10 @@ pub enum Bound {
 /// Why there is no distribution.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum TensionError {
-    /// No tensions within the bounds balance the wrench.
+    /// No tensions within the limits balance the wrench.
     #[error(
-        "no tensions between {} N and {} N balance the wrench: the best of them leave a residual of \
-         {force:.3} N and {moment:.3} N m; change the pose, the load or the limits",
+        "no tensions between {} N and {} N balance the wrench: the nearest leave a residual of {residual:.3} \
+         N; change the pose, the load or the limits",
         short(*min), short(*max)
     )]
     Infeasible {
@@ -39,12 +53,12 @@ pub enum TensionError {
         min: f64,
         /// Greatest tension allowed in any cable [N].
         max: f64,
-        /// Norm of the residual force in the best attempt [N].
-        force: f64,
-        /// Norm of the residual moment in the best attempt [N m].
-        moment: f64,
-        /// The tensions of that attempt [N]: those within the bounds with the least |W t + w|.
+        /// `|W t + w|` of the nearest tensions, 1 N as much as 1 N m [N].
+        residual: f64,
+        /// The tensions within the limits with the least residual [N].
         tensions: Vec<f64>,
+        /// The proof: a unit wrench y with `y·(W t + w) > 0` for all tensions within the limits.
+        certificate: DVector<f64>,
     },
     /// A value of the problem is not finite, or sizes differ.
     #[error("{field} is {value}: expected {expected}")]
@@ -56,65 +70,104 @@ pub enum TensionError {
         /// What would be right.
         expected: &'static str,
     },
-    /// The solver of the quadratic program stopped without an answer.
-    #[error("the solver of the quadratic program stopped with status {status}")]
+    /// Clarabel stopped without a solution and without a proof that there is none.
+    #[error("the solver of the tensions stopped with status {status}")]
     Solver {
         /// The status it reported.
         status: String,
     },
 }
 
+impl TensionError {
+    fn invalid(field: &'static str, value: String, expected: &'static str) -> Self {
+        Self::Invalid { field, value, expected }
+    }
+}
+
 impl Problem<'_> {
-    pub(crate) fn validate(&self) -> Result<(), TensionError> {
-        let n = self.wrench_matrix.ncols();
-        if self.reference.len() != n {
-            return Err(TensionError::Invalid {
-                field: "reference",
-                value: format!("a list of {} tensions", self.reference.len()),
-                expected: "one reference tension for each column of the wrench matrix",
-            });
-        }
-        if self.limits.len() != n {
-            return Err(TensionError::Invalid {
-                field: "limits",
-                value: format!("a list of {} limits", self.limits.len()),
-                expected: "one pair of limits for each column of the wrench matrix",
-            });
-        }
-        let finite =
-            |field, mut values: Box<dyn Iterator<Item = &f64> + '_>| match values.find(|v| !v.is_finite()) {
-                Some(value) => {
-                    Err(TensionError::Invalid { field, value: value.to_string(), expected: "finite numbers" })
-                }
-                None => Ok(()),
-            };
-        finite("wrench_matrix", Box::new(self.wrench_matrix.iter()))?;
-        finite("wrench", Box::new(self.wrench.iter()))?;
-        finite("reference", Box::new(self.reference.iter()))?;
-        match self.limits.iter().find(|l| !(l.min.is_finite() && l.max.is_finite() && l.min <= l.max)) {
-            None => Ok(()),
-            Some(TensionLimits { min, max }) => {
-                let value = format!("{min} N to {max} N");
-                Err(TensionError::Invalid {
-                    field: "limits",
-                    value,
-                    expected: "finite limits, the least first",
-                })
+    pub(crate) fn validate(&self, objective: &Objective) -> Result<(), TensionError> {
+        let (rows, n) = self.wrench_matrix.shape();
+        check_length("wrench", self.wrench.len(), rows, "one component for each row of the wrench matrix")?;
+        check_length("limits", self.limits.len(), n, PER_COLUMN)?;
+        check_finite("wrench_matrix", self.wrench_matrix.as_slice())?;
+        check_finite("wrench", self.wrench.as_slice())?;
+        check_limits("limits", self.limits)?;
+        match objective {
+            Objective::Nearest(reference) => {
+                check_length("reference", reference.len(), n, PER_COLUMN)?;
+                check_finite("reference", reference)
             }
+            Objective::GreatestWrench(direction) => {
+                check_length("direction", direction.len(), rows, "one component for each row")?;
+                check_finite("direction", direction.as_slice())
+            }
+            Objective::GreatestMargin(limits) => {
+                check_length("margin", limits.len(), n, PER_COLUMN)?;
+                check_limits("margin", limits)
+            }
+            Objective::LeastSum | Objective::LeastGreatest => Ok(()),
         }
     }
 
-    /// Residual wrench W t + w_ex [N, N m], Eq. (3).
-    pub(crate) fn residual(&self, tensions: &[f64]) -> Vector6<f64> {
-        // Eq. (3)
+    /// Residual wrench W t + w [N, N m], Eq. (3).
+    pub(crate) fn residual(&self, tensions: &[f64]) -> DVector<f64> {
         self.wrench + self.wrench_matrix * DVector::from_column_slice(tensions)
     }
 
-    /// A tension that scales the problem [N], so that the solver's tolerances are relative: the wrench, the
-    /// reference or the least tensions, whichever is largest.
-    pub(crate) fn scale(&self) -> f64 {
-        let force = self.wrench.fixed_rows::<3>(0).norm();
-        let least = self.limits.iter().map(|limits| limits.min.abs());
-        self.reference.iter().map(|t| t.abs()).chain(least).fold(force, f64::max).max(f64::MIN_POSITIVE)
+    /// A unit of force [N] in which the numbers of the problem are near one.
+    pub(crate) fn unit(&self, reference: &[f64]) -> f64 {
+        let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, |a: f64, b| a.max(b.abs()));
+        let demanded = largest(&mut self.limits.iter().map(|limits| limits.min));
+        let size = demanded.max(self.wrench.amax()).max(largest(&mut reference.iter().copied()));
+        if size > 0.0 { size } else { largest(&mut self.limits.iter().map(|limits| limits.max)).max(1.0) }
+    }
+
+    /// Whether `y·(W t + w)` is clearly positive for all tensions within the limits, so that none balance the
+    /// wrench: the inequality of Farkas, in floating point with a margin far above its rounding.
+    pub(crate) fn refuted_along(&self, y: &DVector<f64>) -> bool {
+        /// Share of the sum of the sizes of all terms.
+        const MARGIN: f64 = 1e-9;
+        let along = self.wrench_matrix.tr_mul(y);
+        let [mut least, mut size] = [y.dot(self.wrench), y.component_mul(self.wrench).abs().sum()];
+        for (slope, TensionLimits { min, max }) in along.iter().zip(self.limits) {
+            let term = if *slope < 0.0 { slope * max } else { slope * min };
+            least += term;
+            size += term.abs();
+        }
+        least > MARGIN * size
+    }
+}
+
+const PER_COLUMN: &str = "one for each column of the wrench matrix";
+
+fn check_length(
+    field: &'static str,
+    length: usize,
+    expected: usize,
+    rule: &'static str,
+) -> Result<(), TensionError> {
+    if length == expected {
+        return Ok(());
+    }
+    Err(TensionError::invalid(field, format!("a list of length {length}"), rule))
+}
+
+fn check_finite(field: &'static str, values: &[f64]) -> Result<(), TensionError> {
+    match values.iter().find(|value| !value.is_finite()) {
+        Some(value) => Err(TensionError::invalid(field, value.to_string(), "finite numbers")),
+        None => Ok(()),
+    }
+}
+
+fn check_limits(field: &'static str, limits: &[TensionLimits]) -> Result<(), TensionError> {
+    let valid =
+        |limits: &&TensionLimits| 0.0 <= limits.min && limits.min <= limits.max && limits.max.is_finite();
+    match limits.iter().find(|limits| !valid(limits)) {
+        None => Ok(()),
+        Some(TensionLimits { min, max }) => Err(TensionError::invalid(
+            field,
+            format!("{min} N to {max} N"),
+            "finite tensions of zero or more, the least first",
+        )),
     }
 }

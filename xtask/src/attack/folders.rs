@@ -21,26 +21,39 @@ pub(super) fn prepare(folder: &Path, program: &Path) -> io::Result<()> {
     ["victim/2024.csv", "victim/0000.csv"].iter().try_for_each(|name| fs::write(folder.join(name), MINE))
 }
 
+/// A run with a folder of results of its own.
+const RUN: &str = "study run study.json --table csv --out out";
+
 /// All cases.
 pub(super) fn all() -> Vec<Case> {
-    let mut cases = Vec::new();
-    let mut push = |what: &str, change: &str, command: &str, may_succeed: bool| {
-        let shell = Some(format!("cp -r {DONE} out; {change}"));
-        cases.push(Case {
-            what: what.to_owned(),
-            shell,
-            arguments: split(command),
-            may_succeed,
-            ..Case::default()
-        });
-    };
-    const RUN: &str = "study run study.json --table csv --out out";
-    let writers =
-        ["--overwrite", "--resume", "--shard 1/1"].map(|option| format!("{RUN} {option}")).into_iter();
-    let writers: Vec<_> = writers
-        .chain(["study merge out", "study extend out --observations 40", "report out"].map(str::to_owned))
-        .collect();
-    for (what, change) in [
+    [links(), lists_of_files_outside(), blocking_files(), edited_files(), reports_over_files()]
+        .into_iter()
+        .chain([files_of_the_user(), paths_that_are_no_text(), disturbed_runs()])
+        .flatten()
+        .collect()
+}
+
+/// A command around the program, after a preparation in the shell.
+fn case(what: &str, shell: String, around: &'static str, command: &str, may_succeed: bool) -> Case {
+    let (what, shell) = (what.to_owned(), Some(shell));
+    Case { what, shell, around, arguments: split(command), may_succeed, ..Case::default() }
+}
+
+/// A command on a copy of the folder of results after a change.
+fn changed(what: &str, change: &str, command: &str, may_succeed: bool) -> Case {
+    case(what, format!("cp -r {DONE} out; {change}"), "", command, may_succeed)
+}
+
+/// Commands that write into a folder of results.
+fn writers() -> Vec<String> {
+    let options = ["--overwrite", "--resume", "--shard 1/1"].map(|option| format!("{RUN} {option}"));
+    let others = ["study merge out", "study extend out --observations 40", "report out"].map(str::to_owned);
+    options.into_iter().chain(others).collect()
+}
+
+/// Links and other strange things in a folder of results.
+fn links() -> Vec<Case> {
+    let changes = [
         ("blocks is a link", "rm -r out/blocks; ln -s .. out/blocks"),
         ("the folder of a sampling is a link", "ln -s ../victim out/mechanical"),
         ("a link among the blocks", "ln -s ../../../../victim out/blocks/mechanical/sampling/more"),
@@ -59,18 +72,29 @@ pub(super) fn all() -> Vec<Case> {
             "mkdir out/mechanical; printf mine >out/mechanical/2024.csv; \
             printf mine >out/mine.svg; printf mine >out/blocks/mechanical/sampling/000009.block",
         ),
-    ] {
-        writers.iter().for_each(|command| push(what, change, command, true));
-    }
-    for name in
-        ["../victim.csv", "../victim/2024.csv", "/etc/passwd.csv", "a/../../victim.csv", "blocks/0000.csv"]
-    {
+    ];
+    let writers = writers();
+    let each =
+        changes.iter().flat_map(|(what, change)| writers.iter().map(|by| changed(what, change, by, true)));
+    each.collect()
+}
+
+/// Lists of results that name files elsewhere.
+fn lists_of_files_outside() -> Vec<Case> {
+    let names =
+        ["../victim.csv", "../victim/2024.csv", "/etc/passwd.csv", "a/../../victim.csv", "blocks/0000.csv"];
+    let of_name = |name: &str| {
         let list =
             format!("{{\"format\":\"cdpr-results/1\",\"of\":\"study\",\"files\":{{\"{name}\":null}}}}");
         let change = format!("echo '{list}' >out/cdpr-results.json");
-        writers.iter().for_each(|command| push("a list of files outside", &change, command, false));
-    }
-    for name in [
+        writers().iter().map(|by| changed("a list of files outside", &change, by, false)).collect::<Vec<_>>()
+    };
+    names.into_iter().flat_map(of_name).collect()
+}
+
+/// Files that never end, or whose reader waits.
+fn blocking_files() -> Vec<Case> {
+    let names = [
         "study.json",
         "robot.json",
         "summary.json",
@@ -80,14 +104,22 @@ pub(super) fn all() -> Vec<Case> {
         "mechanical.csv",
         "surface_E_rho.csv",
         "blocks/mechanical/sampling/000000.block",
-    ] {
+    ];
+    let writers = writers();
+    let commands = [&writers[1], &writers[3], &writers[5], "study status out"];
+    let mut cases = Vec::new();
+    for name in names {
         for (what, made) in [("a pipe", "mkfifo"), ("a device that never ends", "ln -s /dev/zero")] {
-            let change = format!("rm out/{name}; {made} out/{name}");
-            for command in [&writers[1], &writers[3], &writers[5], "study status out"] {
-                push(&format!("{name} is {what}"), &change, command, true);
-            }
+            let (what, change) = (format!("{name} is {what}"), format!("rm out/{name}; {made} out/{name}"));
+            cases.extend(commands.map(|command| changed(&what, &change, command, true)));
         }
     }
+    cases
+}
+
+/// Results that were edited.
+fn edited_files() -> Vec<Case> {
+    let mut cases = Vec::new();
     for (name, edit) in [
         ("robot.json", "s/\"mass\": /&1/"),
         ("study.json", "s/\"observations\": 20/\"observations\": 10/"),
@@ -95,77 +127,83 @@ pub(super) fn all() -> Vec<Case> {
         ("summary.json", "0,/\"mean\": /s//&1/"),
         ("surface_E_rho.csv", "s/0,/1,/"),
     ] {
-        let change = format!("sed -i '{edit}' out/{name}");
-        push(&format!("{name} was edited"), &change, "report out", false);
+        let (what, change) = (format!("{name} was edited"), format!("sed -i '{edit}' out/{name}"));
+        cases.push(changed(&what, &change, "report out", false));
         if ["robot.json", "study.json"].contains(&name) {
-            push(&format!("{name} was edited"), &change, "study merge out", false);
-            push(&format!("{name} was edited"), &change, "study status out", false);
+            cases.push(changed(&what, &change, "study merge out", false));
+            cases.push(changed(&what, &change, "study status out", false));
         }
     }
-    for name in
-        ["study.json", "robot.json", "summary.json", "mechanical.csv", "mechanical.svg", "cdpr-results.json"]
-    {
-        push("a report over another file", ":", &format!("report out --out out/{name}"), false);
-        push("a report over another file", ":", &format!("report out --out {DONE}/{name}"), false);
-    }
-    let mut push = |what: &str, shell: &str, around: &'static str, command: &str, may_succeed: bool| {
-        let (what, shell) = (what.to_owned(), Some(shell.to_owned()));
-        cases.push(Case { what, shell, around, arguments: split(command), may_succeed, ..Case::default() });
+    cases
+}
+
+fn reports_over_files() -> Vec<Case> {
+    let names =
+        ["study.json", "robot.json", "summary.json", "mechanical.csv", "mechanical.svg", "cdpr-results.json"];
+    let over = |folder: &str, name: &str| {
+        changed("a report over another file", ":", &format!("report out --out {folder}/{name}"), false)
     };
+    names.iter().flat_map(|name| ["out", DONE].map(|folder| over(folder, name))).collect()
+}
+
+/// Names of results that the user has taken already.
+fn files_of_the_user() -> Vec<Case> {
+    let own = |name: &str| format!("mkdir out; printf mine >out/{name}");
+    let mut cases = Vec::new();
     for name in
         ["report.html", "summary.json", "mechanical.csv", "mechanical_effects.svg", "robot.svg", "study.json"]
     {
-        let own = format!("mkdir out; printf mine >out/{name}");
         for option in ["", " --overwrite", " --resume", " --shard 1/1"] {
-            push("the user's own file", &own, "", &format!("{RUN}{option}"), false);
+            cases.push(case("the user's own file", own(name), "", &format!("{RUN}{option}"), false));
         }
     }
     for name in ["workspace.csv", "workspace.json", "deflection.svg"] {
-        let own = format!("mkdir out; printf mine >out/{name}");
-        push(
-            "the user's own file",
-            &own,
-            "",
-            "workspace robot.json --box=0:0:1,0:0:1,1.75:1.75:1 --out out",
-            false,
-        );
+        let command = "workspace robot.json --box=0:0:1,0:0:1,1.75:1.75:1 --out out";
+        cases.push(case("the user's own file", own(name), "", command, false));
     }
-    // The bytes of a path are no text.
-    for command in [
+    cases
+}
+
+/// Paths whose bytes are no text.
+fn paths_that_are_no_text() -> Vec<Case> {
+    let what = "a path that is not UTF-8";
+    let made = [
         "study run study.json --out out/\u{fffd} --shard 1/1 --format json",
         "study run study.json --out out/\u{fffd}",
         "workspace robot.json --box=0:0:1,0:0:1,1.75:1.75:1 --out out/\u{fffd} --format json",
         "study new --robot robot.json --out out/\u{fffd}.json",
         "study run study.json --out out\u{fffd}/\u{fffd}/\u{fffd}",
-    ] {
+    ];
+    let made = made.map(|command| {
         let last = command.contains("/\u{fffd}/");
-        push(
-            "a path that is not UTF-8",
-            "mkdir out",
-            "",
-            if last { "check \u{fffd}" } else { command },
-            !last,
-        );
-    }
-    for command in [
+        case(what, "mkdir out".to_owned(), "", if last { "check \u{fffd}" } else { command }, !last)
+    });
+    let read = [
         "study status \u{fffd}",
         "report \u{fffd} --format json",
         "inverse robot.json --pose \u{fffd}",
         "\u{fffd}",
-    ] {
-        push("a path that is not UTF-8", ":", "", command, false);
-    }
-    for command in
-        ["--help", "--version", "study run --help", "check robot.json", "inverse robot.json --pose 0,0,1.75"]
-    {
-        push("a full disk behind the standard output", ":", "exec \"$0\" \"$@\" >/dev/full", command, false);
-    }
+    ];
+    let read = read.map(|command| case(what, ":".to_owned(), "", command, false));
+    made.into_iter().chain(read).collect()
+}
+
+/// A full disk, two runs at once, and a run that is ended.
+fn disturbed_runs() -> Vec<Case> {
+    let printed =
+        ["--help", "--version", "study run --help", "check robot.json", "inverse robot.json --pose 0,0,1.75"];
+    let full = "exec \"$0\" \"$@\" >/dev/full";
+    let mut cases: Vec<Case> = printed
+        .map(|command| case("a full disk behind the standard output", ":".to_owned(), full, command, false))
+        .into();
     let both = "\"$0\" \"$@\" & \"$0\" \"$@\"; code=$?; wait; exit $code";
+    let writers = writers();
     for command in [&writers[0], &writers[1], &writers[3], &writers[4], &writers[5]] {
-        push("two at once", &format!("cp -r {DONE} out"), both, command, true);
+        cases.push(case("two at once", format!("cp -r {DONE} out"), both, command, true));
     }
-    push("two at once", "mkdir out", both, RUN, true);
+    cases.push(case("two at once", "mkdir out".to_owned(), both, RUN, true));
     let ended = "\"$0\" \"$@\" & sleep 0.5; kill -TERM $!; wait $!";
-    push("the end of a job", ":", ended, &format!("{RUN} --observations 10000000"), false);
+    let long = format!("{RUN} --observations 10000000");
+    cases.push(case("the end of a job", ":".to_owned(), ended, &long, false));
     cases
 }

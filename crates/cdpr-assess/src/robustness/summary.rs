@@ -103,7 +103,7 @@ pub struct Spread {
 }
 
 impl ProtocolSummary {
-    /// Summarises a test.
+    /// Summarizes a test.
     pub fn new(result: &RobustnessResult) -> Self {
         let protocol = &result.protocol;
         let found = protocol.found_distance;

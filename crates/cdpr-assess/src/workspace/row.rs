@@ -1,8 +1,9 @@
 //! A row of the table of a workspace.
 
-use super::{Dominant, HELD, Workspace, WorkspacePose};
 use crate::capacity::{Capacity, Figure};
 use crate::clearance::CableDistance;
+use crate::workspace::question::Workspace;
+use crate::workspace::results::{Dominant, HELD, WorkspacePose};
 use cdpr_statics::limits::OutOfLimits;
 use cdpr_statics::{Load, StaticsError};
 use serde::ser::{Serialize, SerializeMap, Serializer};
@@ -83,24 +84,9 @@ impl WorkspaceRow {
         let dominant = dominant.filter(|_| !overflow);
         let anew = pose.anew.as_ref();
         let tensions = anew.and_then(|anew| anew.as_ref().ok());
-        let figure = |of: fn(&Capacity) -> &Result<Figure, StaticsError>| {
-            pose.capacity
-                .as_ref()
-                .and_then(|capacity| of(capacity).as_ref().ok())
-                .filter(|f| f.value.is_finite())
-        };
-        // At a pose that is not held, `reason` says why already.
-        let blocked = |of: fn(&Capacity) -> &Result<Figure, StaticsError>| {
-            let found = of(pose.capacity.as_deref()?);
-            let same =
-                |error: &StaticsError| pose.outcome.as_ref().is_err_and(|own| own.kind() == error.kind());
-            match found {
-                Ok(figure) if figure.value == f64::NEG_INFINITY => {
-                    Some(format!("even without a payload {}", figure.blocked_by()))
-                }
-                Ok(figure) => Some(figure.blocked_by()),
-                Err(error) => Some(error.to_string()).filter(|_| !same(error)),
-            }
+        let value = |of: FigureOf| {
+            let figure = of(pose.capacity.as_deref()?).as_ref().ok()?;
+            Some(figure.value).filter(|value| value.is_finite())
         };
         let clearance = pose.clearance.as_deref().and_then(|clearance| clearance.as_ref().ok());
         let (cables, platform) = (clearance.and_then(|c| c.cables), clearance.and_then(|c| c.platform));
@@ -143,18 +129,35 @@ impl WorkspaceRow {
             anew_least_tension: tensions.map(|anew| anew.least_tension),
             anew_greatest_tension: tensions.map(|anew| anew.greatest_tension),
             anew_reason: anew.and_then(|anew| anew.as_ref().err().map(ToString::to_string)),
-            payload_anew_kg: figure(|capacity| &capacity.payload_anew).map(|figure| figure.value),
-            payload_anew_blocked_by: blocked(|capacity| &capacity.payload_anew),
-            payload_kept_kg: figure(|capacity| &capacity.payload_kept).map(|figure| figure.value),
-            payload_kept_blocked_by: blocked(|capacity| &capacity.payload_kept),
-            margin_anew: figure(|capacity| &capacity.margin_anew).map(|figure| figure.value),
-            margin_kept: figure(|capacity| &capacity.margin_kept).map(|figure| figure.value),
+            payload_anew_kg: value(|capacity| &capacity.payload_anew),
+            payload_anew_blocked_by: blocked_by(pose, |capacity| &capacity.payload_anew),
+            payload_kept_kg: value(|capacity| &capacity.payload_kept),
+            payload_kept_blocked_by: blocked_by(pose, |capacity| &capacity.payload_kept),
+            margin_anew: value(|capacity| &capacity.margin_anew),
+            margin_kept: value(|capacity| &capacity.margin_kept),
             nearest_cables_mm: cables.map(|near| 1e3 * near.distance),
             nearest_cables: cables.map(|CableDistance { pair: [i, j], .. }| format!("{} {}", i + 1, j + 1)),
             nearest_to_platform_mm: platform.map(|near| 1e3 * near.distance),
             nearest_to_platform: platform.map(|near| near.cable + 1),
             tilt_deg: tilt.map(|tilt| tilt.angle.to_degrees()),
             tilt_azimuth_deg: tilt.map(|tilt| tilt.azimuth.to_degrees()),
+        }
+    }
+}
+
+/// One figure of a capacity.
+type FigureOf = fn(&Capacity) -> &Result<Figure, StaticsError>;
+
+/// What blocks a payload, in words, or why there is none. At a pose that is not held, `reason` says why.
+fn blocked_by(pose: &WorkspacePose, of: FigureOf) -> Option<String> {
+    match of(pose.capacity.as_deref()?) {
+        Ok(figure) if figure.value == f64::NEG_INFINITY => {
+            Some(format!("even without a payload {}", figure.blocked_by()))
+        }
+        Ok(figure) => Some(figure.blocked_by()),
+        Err(error) => {
+            let is_said = pose.outcome.as_ref().is_err_and(|own| own.kind() == error.kind());
+            (!is_said).then(|| error.to_string())
         }
     }
 }

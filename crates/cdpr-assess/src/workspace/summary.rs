@@ -1,7 +1,9 @@
 //! A workspace in numbers: settings, counts, extremes.
 
-use super::{HELD, Way, Workspace, WorkspacePose, WorkspaceRow, row};
 use crate::boundary::Boundary;
+use crate::workspace::question::{Way, Workspace};
+use crate::workspace::results::{HELD, WorkspacePose};
+use crate::workspace::row::{self, WorkspaceRow};
 use cdpr_robot::{Pose, Vector3};
 use cdpr_study::{Extremes, Grid, robot_hash};
 use indexmap::IndexMap;
@@ -138,7 +140,7 @@ impl WorkspaceSummary {
         words.join(", ")
     }
 
-    /// Summarises the poses of a workspace.
+    /// Summarizes the poses of a workspace.
     pub fn new(workspace: &Workspace, poses: &[WorkspacePose]) -> Self {
         let rows: Vec<_> = poses.iter().map(|pose| WorkspaceRow::new(workspace, pose)).collect();
         let (mut status, mut anew_status, mut dominant) = (BTreeMap::new(), BTreeMap::new(), BTreeMap::new());

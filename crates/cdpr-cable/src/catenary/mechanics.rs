@@ -1,16 +1,15 @@
 //! What follows from the force at the end of a cable: its end position, flexibility, stiffness and energy.
 //!
 //! The equations of a linear cable are in `kernel/response.rs`, those of one with a piecewise linear law in
-//! `pieces.rs`.
+//! `kernel/material.rs`.
 
 use crate::cable::{Cable, Numbers};
 use crate::catenary::Catenary;
 use crate::catenary::compliance::Compliance;
 use crate::catenary::guided::{self, OnGuide};
-use crate::catenary::pieces;
-use crate::kernel::{Response, Terms, response};
+use crate::kernel::{Material, Response, Terms};
 use crate::law::ElasticLaw;
-use cdpr_number::Real;
+use cdpr_number::{Dual, Real};
 use nalgebra::{Matrix2, Matrix3, Vector2};
 
 impl Cable<'_> {
@@ -43,13 +42,7 @@ impl Cable<'_> {
     /// The response of a cable without its guide.
     #[inline]
     pub(crate) fn free_response<T: Real>(&self, numbers: &Numbers<T>, force: [T; 2]) -> Response<T> {
-        let Numbers { weight_per_length, axial_flexibility, length, .. } = *numbers;
-        match self.law {
-            ElasticLaw::Linear => response(weight_per_length, axial_flexibility, length, force),
-            ElasticLaw::Piecewise(law) => {
-                pieces::response(law, weight_per_length, axial_flexibility, length, force)
-            }
-        }
+        self.material(numbers).any_response(numbers.length, force)
     }
 }
 
@@ -58,7 +51,7 @@ impl Catenary<'_> {
     pub fn end_position(&self) -> Vector2<f64> {
         match (&self.cable.guide, self.cable.law) {
             (None, ElasticLaw::Linear) => self.terms().end_position().into(),
-            (None, ElasticLaw::Piecewise(law)) => pieces::end_position(self, law),
+            (None, ElasticLaw::Piecewise(_)) => self.response().end.into(),
             (Some(_), _) => self.leave_point() + self.free().end_position(),
         }
     }
@@ -78,10 +71,7 @@ impl Catenary<'_> {
     /// End position, flexibility and tension, as [`crate::kernel::response`] gives them for a linear cable.
     #[inline]
     pub fn response(&self) -> Response<f64> {
-        match (&self.cable.guide, self.cable.law) {
-            (None, ElasticLaw::Linear) => self.terms().response(),
-            _ => self.cable.response(&self.cable.numbers(self.unstrained_length), self.force.into()),
-        }
+        self.cable.response(&self.cable.numbers(self.unstrained_length), self.force.into())
     }
 
     /// End position, in-plane flexibility and lateral stiffness.
@@ -96,8 +86,7 @@ impl Catenary<'_> {
     pub fn end_per_weight(&self) -> Vector2<f64> {
         match (&self.cable.guide, self.cable.law) {
             (None, ElasticLaw::Linear) => self.terms().end_per_weight(),
-            (None, ElasticLaw::Piecewise(law)) => pieces::end_per_weight(self, law),
-            (Some(guide), _) => guided::end_slopes(self, guide).per_weight,
+            _ => self.end_by(|numbers, along| numbers.weight_per_length.slopes = along),
         }
     }
 
@@ -107,8 +96,10 @@ impl Catenary<'_> {
     pub fn end_per_stiffness(&self) -> Vector2<f64> {
         match (&self.cable.guide, self.cable.law) {
             (None, ElasticLaw::Linear) => self.terms().end_per_stiffness(),
-            (None, ElasticLaw::Piecewise(law)) => pieces::end_per_stiffness(self, law),
-            (Some(guide), _) => guided::end_slopes(self, guide).per_stiffness,
+            _ => {
+                let per_flexibility = self.end_by(|numbers, along| numbers.axial_flexibility.slopes = along);
+                -per_flexibility / (self.cable.axial_stiffness * self.cable.axial_stiffness)
+            }
         }
     }
 
@@ -116,8 +107,9 @@ impl Catenary<'_> {
     ///
     /// The force at A and the unstrained length are constant. `None` without a guide.
     pub fn end_per_guide(&self) -> Option<[Vector2<f64>; 2]> {
-        let slopes = guided::end_slopes(self, self.cable.guide.as_ref()?);
-        Some([slopes.per_lead, slopes.per_radius])
+        self.cable.guide?;
+        let per_lead = self.end_by(|numbers, along| numbers.lead.slopes = along);
+        Some([per_lead, self.end_by(|numbers, along| numbers.radius.slopes = along)])
     }
 
     /// In-plane stiffness `d(fx, fz)/d(x, z)` [N/m], `C⁻¹`; zero for a slack cable without weight.
@@ -139,7 +131,7 @@ impl Catenary<'_> {
     pub fn complementary_energy(&self) -> f64 {
         match (&self.cable.guide, self.cable.law) {
             (None, ElasticLaw::Linear) => self.terms().complementary_energy(),
-            (None, ElasticLaw::Piecewise(law)) => pieces::complementary_energy(self, law),
+            (None, ElasticLaw::Piecewise(_)) => self.material().complementary_energy(&self.terms()),
             (Some(_), _) => self.force.dot(&self.end_position()) - self.potential_energy(),
         }
     }
@@ -151,15 +143,27 @@ impl Catenary<'_> {
     pub fn potential_energy(&self) -> f64 {
         match (&self.cable.guide, self.cable.law) {
             (None, ElasticLaw::Linear) => self.terms().potential_energy(),
-            (None, ElasticLaw::Piecewise(law)) => pieces::potential_energy(self, law),
+            (None, ElasticLaw::Piecewise(_)) => self.material().potential_energy(&self.terms()),
             (Some(guide), _) => guided::potential_energy(self, guide),
         }
     }
 
-    /// The quantities that the equations of a linear cable share.
+    fn material(&self) -> Material<'_, f64> {
+        self.cable.material(&self.cable.numbers(self.unstrained_length))
+    }
+
+    /// The quantities that the equations of a cable share.
     fn terms(&self) -> Terms<f64> {
-        let Self { cable, unstrained_length, force } = *self;
-        Terms::new(cable.weight_per_length, 1.0 / cable.axial_stiffness, unstrained_length, force.x, force.y)
+        self.material().any_terms(self.unstrained_length, self.force.into())
+    }
+
+    /// The derivative of the end position with respect to the number that is given a slope.
+    #[cold]
+    fn end_by(&self, input: impl Fn(&mut Numbers<Dual<f64, 1>>, [f64; 1])) -> Vector2<f64> {
+        let mut numbers = self.cable.numbers(self.unstrained_length).map(Dual::of);
+        input(&mut numbers, [1.0]);
+        let end = self.cable.response(&numbers, <[f64; 2]>::from(self.force).map(Dual::of)).end;
+        end.map(|component| component.slopes[0]).into()
     }
 }
 

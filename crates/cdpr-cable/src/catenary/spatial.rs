@@ -8,6 +8,7 @@ use crate::cable::{Cable, Numbers};
 use crate::catenary::Catenary;
 use crate::catenary::guided::Guided;
 use crate::guide::{Entry, Guide};
+use crate::kernel::GuidedInSpace;
 use cdpr_number::{Dual, Real};
 use nalgebra::{Matrix3, Matrix3xX, Vector2, Vector3};
 
@@ -94,36 +95,44 @@ const NEARLY_VERTICAL: f64 = 1e-8;
 /// The share by which a vertical force is moved aside: its square is rounding.
 const ASIDE: f64 = 1e-7;
 
+/// Inputs of derivatives between held ends: seven of [`Numbers::with_inputs`], the length, the force.
+const INPUTS: usize = 11;
+const LENGTH: usize = 7;
+const FORCE: usize = 8;
+
+type Input = Dual<f64, INPUTS>;
+
 /// Horizontal forces below this share of the whole have no direction.
 const VERTICAL: f64 = 1e-20;
 
-/// The response over any kind of number.
-pub(crate) struct InSpace<T> {
-    leave: [T; 3],
-    pub(crate) end: [T; 3],
-    /// Rows of dA/dF.
-    pub(crate) flexibility: [[T; 3]; 3],
-    pub(crate) per_length: [T; 3],
+/// The response of the cable to the force `force` [N] at A.
+pub(crate) fn response<T: Real>(cable: &Cable, numbers: &Numbers<T>, force: &[T; 3]) -> GuidedInSpace<T> {
+    free_length_and_response(cable, numbers, force).1
 }
 
-/// The response of the cable to the force `force` [N] at A.
-pub(crate) fn response<T: Real>(cable: &Cable, numbers: &Numbers<T>, force: &[T; 3]) -> InSpace<T> {
+/// The unstrained length beyond the leave point [m], and the response to the force `force` [N] at A.
+fn free_length_and_response<T: Real>(
+    cable: &Cable,
+    numbers: &Numbers<T>,
+    force: &[T; 3],
+) -> (T, GuidedInSpace<T>) {
     let z = force[2];
     let (fx, [c, s]) = horizontal(force);
     let [kx, ky, kz] = numbers.axis;
     let in_plane = Numbers { axis: [c * kx + s * ky, c * ky - s * kx, kz], ..*numbers };
     let guided = Guided::new(cable, &guide(cable), &in_plane, [fx, z]);
-    let free = cable.free_response(&Numbers { length: guided.way.free, ..*numbers }, [fx, z]);
-    let (end, flexibility, per_length) = guided.in_space(numbers.weight_per_length, &free);
+    let free = cable.free_response(&Numbers { length: guided.free, ..*numbers }, [fx, z]);
+    let GuidedInSpace { leave, end, flexibility, end_per_length } = guided.in_space(fx, &free);
     let turn = |[h, l, z]: [T; 3]| [c * h - s * l, s * h + c * l, z];
     let rows = flexibility.map(turn);
     let columns = [0, 1, 2].map(|j| turn(rows.map(|row| row[j])));
-    InSpace {
-        leave: turn(guided.leave),
+    let response = GuidedInSpace {
+        leave: turn(leave),
         end: turn(end),
         flexibility: [0, 1, 2].map(|i| columns.map(|column| column[i])),
-        per_length: turn(per_length),
-    }
+        end_per_length: turn(end_per_length),
+    };
+    (guided.free, response)
 }
 
 /// The guide of a cable; the axis of a pulley is one that may be tilted.
@@ -170,12 +179,13 @@ impl<'a> SpatialCable<'a> {
     /// Position of A, flexibility and dA/dL.
     pub fn response(&self) -> SpatialResponse {
         let force = self.force.into();
-        let InSpace { leave, end, flexibility, per_length } = response(&self.cable, &self.numbers(), &force);
+        let GuidedInSpace { leave, end, flexibility, end_per_length } =
+            response(&self.cable, &self.numbers(), &force);
         SpatialResponse {
             leave: leave.into(),
             end: end.into(),
             flexibility: Matrix3::from_fn(|i, j| flexibility[i][j]),
-            end_per_length: per_length.into(),
+            end_per_length: end_per_length.into(),
         }
     }
 
@@ -190,49 +200,65 @@ impl<'a> SpatialCable<'a> {
     ///
     /// Not a number for a cable that hangs folded in a vertical plane without width.
     pub fn stiffness_slopes(&self, direction: Vector3<f64>) -> HeldSlopes {
-        let (fx, azimuth) = horizontal(&self.force.into());
+        self.between_held_ends(|found, _, stiffness| {
+            let value = stiffness * direction;
+            let entry = |i: usize, j: usize, k: usize| found.flexibility[i][j].slopes[k];
+            // (C28)
+            let slopes = (0..INPUTS).map(|k| -stiffness * (Matrix3::from_fn(|i, j| entry(i, j, k)) * value));
+            (value, Matrix3xX::from_columns(&slopes.collect::<Vec<_>>()))
+        })
+    }
+
+    /// The force on the cable where it leaves its guide [N], `w Lf e_z - F` of (C20), with its derivatives
+    /// between held ends.
+    ///
+    /// Not a number for a cable that hangs folded in a vertical plane without width.
+    pub fn leave_force_slopes(&self) -> HeldSlopes {
+        self.between_held_ends(|_, force, _| {
+            (force.map(|of| of.value).into(), Matrix3xX::from_fn(INPUTS, |i, k| force[i].slopes[k]))
+        })
+    }
+
+    /// A vector with its derivatives between held ends, from those at constant force and length that `of` returns
+    /// of the response, the force at the leave point and the stiffness. The inputs are what
+    /// [`Numbers::with_inputs`] has, the length, and the force.
+    fn between_held_ends(
+        &self,
+        of: impl Fn(&GuidedInSpace<Input>, &[Input; 3], &Matrix3<f64>) -> (Vector3<f64>, Matrix3xX<f64>),
+    ) -> HeldSlopes {
         let plain = self.numbers();
+        let at = |force: Vector3<f64>| {
+            let mut numbers = plain.with_inputs::<INPUTS, 0>();
+            numbers.length = Dual::input(plain.length, LENGTH);
+            let force = [0, 1, 2].map(|k| Dual::input(force[k], FORCE + k));
+            let (free, found) = free_length_and_response(&self.cable, &numbers, &force);
+            let flexibility = Matrix3::from_fn(|i, j| found.flexibility[i][j].value);
+            let stiffness = flexibility.try_inverse().unwrap_or_else(|| Matrix3::repeat(f64::NAN));
+            let leave_force = [-force[0], -force[1], numbers.weight_per_length * free - force[2]];
+            let (value, at_force) = of(&found, &leave_force, &stiffness);
+            let per_end = at_force.fixed_columns::<3>(FORCE) * stiffness;
+            let slope =
+                |k: usize| at_force.column(k) - per_end * Vector3::from(found.end.map(|end| end.slopes[k]));
+            HeldSlopes {
+                value,
+                per_actuation: slope(LENGTH),
+                per_end,
+                per_weight: slope(0),
+                per_stiffness: slope(1) * (-plain.axial_flexibility * plain.axial_flexibility),
+                per_lead: slope(2),
+                per_radius: slope(3),
+                per_axis: Matrix3::from_columns(&[4, 5, 6].map(slope)),
+            }
+        };
+        let (fx, azimuth) = horizontal(&self.force.into());
         if fx > NEARLY_VERTICAL * self.anchor_tension() {
-            return self.stiffness_slopes_at(&plain, self.force, direction);
+            return at(self.force);
         }
         // The plane of a vertical cable turns at once: what is odd about the vertical is zero.
         let [one, other] = [ASIDE, -ASIDE].map(|share| {
-            let aside = Vector3::new(azimuth[0], azimuth[1], 0.0) * (share * self.anchor_tension());
-            self.stiffness_slopes_at(&plain, self.force + aside, direction)
+            at(self.force + Vector3::new(azimuth[0], azimuth[1], 0.0) * (share * self.anchor_tension()))
         });
         one.mean(&other)
-    }
-
-    fn stiffness_slopes_at(
-        &self,
-        plain: &Numbers<f64>,
-        force: Vector3<f64>,
-        direction: Vector3<f64>,
-    ) -> HeldSlopes {
-        const LENGTH: usize = 7;
-        const FORCE: usize = 8;
-        let mut numbers = plain.with_inputs::<11, 0>();
-        numbers.length = Dual::input(plain.length, LENGTH);
-        let inputs = [0, 1, 2].map(|k| Dual::input(force[k], FORCE + k));
-        let found = response(&self.cable, &numbers, &inputs);
-        let entry = |i: usize, j: usize| found.flexibility[i][j];
-        let flexibility = Matrix3::from_fn(|i, j| entry(i, j).value);
-        let stiffness = flexibility.try_inverse().unwrap_or_else(|| Matrix3::repeat(f64::NAN));
-        let value = stiffness * direction;
-        // (C28)
-        let at_force = |k: usize| -stiffness * (Matrix3::from_fn(|i, j| entry(i, j).slopes[k]) * value);
-        let per_end = Matrix3::from_columns(&[0, 1, 2].map(|k| at_force(FORCE + k))) * stiffness;
-        let slope = |k: usize| at_force(k) - per_end * Vector3::from(found.end.map(|end| end.slopes[k]));
-        HeldSlopes {
-            value,
-            per_actuation: slope(LENGTH),
-            per_end,
-            per_weight: slope(0),
-            per_stiffness: slope(1) * (-plain.axial_flexibility * plain.axial_flexibility),
-            per_lead: slope(2),
-            per_radius: slope(3),
-            per_axis: Matrix3::from_columns(&[4, 5, 6].map(slope)),
-        }
     }
 
     /// Derivatives of the position of A with respect to what the cable and its guide are.

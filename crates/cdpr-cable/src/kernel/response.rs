@@ -75,7 +75,7 @@
 //! (`fx -> 0`). A taut cable, `q² <= 0.02`, does not need the choice: there
 //! `-fz V0 <= (w L/2)² = q² s²/4`, a fiftieth of `T T0`.
 
-use super::series::{SERIES_LIMIT, TAUT, psi_by_halves, psi_of_slack, psi_of_taut};
+use super::series::{TAUT, psi_by_halves, psi_of_taut};
 use cdpr_number::{Lanewise, Number, Real};
 use nalgebra::Vector2;
 
@@ -108,16 +108,7 @@ pub struct Response<T> {
 /// `length` [m]. Where `fx` is below 1e-25 of the other forces, `fx²` is raised by 1e-60 of their squares,
 /// which keeps a vertical folded cable regular.
 pub fn response<T: Real>(w: T, axial_flexibility: T, length: T, [fx, fz]: [T; 2]) -> Response<T> {
-    Terms::new(w, axial_flexibility, length, fx, fz).response()
-}
-
-/// The [`response`] of several cables at a time, in lanes: a taut cable, whose [`Response::slackness`] is at
-/// most [`TAUT`], costs as few roots and quotients as possible, and only sagging ones need more.
-///
-/// Cables that hang folded, with a slackness above [`FOLDED`], lose digits.
-#[inline(always)]
-pub fn lane_response<T: Lanewise>(w: T, axial_flexibility: T, length: T, [fx, fz]: [T; 2]) -> Response<T> {
-    Terms::with_square(w, axial_flexibility, length, fx, fz, fx * fx).lane_response(None)
+    Terms::new(w, axial_flexibility, length, fx, fz).response(None)
 }
 
 /// End position, tension and slackness of a cable.
@@ -129,20 +120,6 @@ pub struct LaneEnd<T> {
     pub tension: T,
     /// Slackness q².
     pub slackness: T,
-}
-
-/// The ends of several cables at a time alone, as in [`lane_response`].
-#[inline(always)]
-pub fn lane_end<T: Lanewise>(w: T, axial_flexibility: T, length: T, [fx, fz]: [T; 2]) -> LaneEnd<T> {
-    let terms = Terms::with_square(w, axial_flexibility, length, fx, fz, fx * fx);
-    let slackness = terms.slackness();
-    let taut = slackness.at_most(TAUT);
-    let mut psi = psi_of_taut(slackness);
-    if !T::all(taut) {
-        psi = T::select(taut, psi, terms.sag_in_lanes(slackness).0);
-    }
-    let x = fx * terms.lateral_flexibility(slackness * psi + 1.0);
-    LaneEnd { end: [x, terms.height(None)], tension: terms.t, slackness }
 }
 
 /// An inextensible part times α.
@@ -159,11 +136,11 @@ pub(crate) struct Terms<T> {
     pub(super) fx: T,
     pub(super) fz: T,
     pub(super) v0: T,
-    length: T,
+    pub(super) length: T,
     /// 1/EA.
     axial_flexibility: T,
     weight: T,
-    fx2: T,
+    pub(super) fx2: T,
     /// T, tension at A.
     pub(super) t: T,
     /// T0, tension at B.
@@ -175,7 +152,7 @@ pub(crate) struct Terms<T> {
 impl Terms<f64> {
     pub(crate) fn complementary_energy(&self) -> f64 {
         let Self { fx, fz, v0, length, axial_flexibility, t, t0, .. } = *self;
-        let (q2, psi) = self.sag_terms();
+        let Sag { q2, psi, .. } = self.sag();
         let (s, phi) = (t + t0, 1.0 + q2 * psi);
         let inextensible = (fz + v0) * (fz + v0) / (2.0 * s) + 0.5 * s + 2.0 * fx * fx * phi / s;
         let elastic = (fx * fx + (fz * fz + fz * v0 + v0 * v0) / 3.0) * axial_flexibility;
@@ -184,7 +161,7 @@ impl Terms<f64> {
 
     pub(crate) fn potential_energy(&self) -> f64 {
         let Self { fx, fz, v0, length, weight, axial_flexibility, fx2, t, t0, s_inv } = *self;
-        let (q2, psi) = self.sag_terms();
+        let Sag { q2, psi, .. } = self.sag();
         let (d, m) = (0.5 * weight, 0.5 * (fz + v0));
         let a = fx2 + m * m;
         let rest = d * d * (2.0 * a + d * d - 4.0 * m * m) / (t * t0 + a);
@@ -196,7 +173,7 @@ impl Terms<f64> {
     /// d(x, z)/dw, (C10).
     pub(crate) fn end_per_weight(&self) -> Vector2<f64> {
         let Self { fx, fz, v0, length, weight, axial_flexibility, fx2, t, t0, s_inv } = *self;
-        let (_, psi) = self.sag_terms();
+        let psi = self.sag().psi;
         let (tt0, p) = (t * t0, fz * v0);
         let difference = if p <= 0.0 { tt0 - p } else { fx2 * (fx2 + fz * fz + v0 * v0) / (tt0 + p) };
         let share = (length * s_inv) * (length * s_inv);
@@ -242,13 +219,13 @@ impl<T: Number> Terms<T> {
 
     /// The same of a cable with another axial flexibility.
     #[inline(always)]
-    pub(super) fn with_flexibility(self, axial_flexibility: T) -> Self {
-        Self { axial_flexibility, ..self }
+    pub(super) fn with_flexibility(&self, axial_flexibility: T) -> Self {
+        Self { axial_flexibility, ..*self }
     }
 
     /// q².
     #[inline(always)]
-    fn slackness(&self) -> T {
+    pub(super) fn slackness(&self) -> T {
         let q = self.weight * self.s_inv;
         q * q
     }
@@ -268,24 +245,75 @@ impl<T: Number> Terms<T> {
         length * ((fz + weight * -0.5) * axial_flexibility + stretched((fz + v0) * s_inv, alpha))
     }
 
-    /// g = fx²/D and N/D of a cable for which nothing cancels in D.
-    #[inline(always)]
-    fn shape_of_the_taut(&self) -> (T, T) {
-        let p = self.fz * self.v0;
-        let tt0 = self.t * self.t0;
-        let d_inv = (self.fx2 + tt0 + p).recip();
-        (self.fx2 * d_inv, (self.fx2 * self.squares() + p * 2.0 * (p + tt0)) * d_inv)
-    }
-
     /// fz² + V0².
     #[inline(always)]
     fn squares(&self) -> T {
         self.fz * self.fz + self.v0 * self.v0
     }
 
-    /// (C1)-(C5), (C8) and (C9) from q², ψ, g and N/D, with the inextensible part times `alpha`, (C13).
+    /// g = fx²/D and N/D of a cable for which nothing cancels in D.
     #[inline(always)]
-    fn assemble(&self, q2: T, psi: T, (g, n_over_d): (T, T), alpha: Option<T>) -> Response<T> {
+    fn shape_of_the_taut(&self) -> [T; 2] {
+        let p = self.fz * self.v0;
+        let tt0 = self.t * self.t0;
+        let d_inv = (self.fx2 + tt0 + p).recip();
+        [self.fx2 * d_inv, (self.fx2 * self.squares() + p * 2.0 * (p + tt0)) * d_inv]
+    }
+}
+
+/// What the sag of a cable makes of its response.
+struct Sag<T> {
+    /// q².
+    q2: T,
+    /// ψ(q²).
+    psi: T,
+    /// g = fx²/D and N/D.
+    shape: [T; 2],
+}
+
+impl<T: Lanewise> Terms<T> {
+    /// The sag of any cable.
+    #[inline(always)]
+    fn sag(&self) -> Sag<T> {
+        let q2 = self.slackness();
+        let taut = q2.at_most(TAUT);
+        let (mut psi, mut shape) = (psi_of_taut(q2), self.shape_of_the_taut());
+        if !T::all(taut) {
+            let Sag { psi: slack_psi, shape: [g, n_over_d], .. } = self.sag_of_the_slack(q2, shape);
+            psi = T::select(taut, psi, slack_psi);
+            shape = [T::select(taut, shape[0], g), T::select(taut, shape[1], n_over_d)];
+        }
+        Sag { q2, psi, shape }
+    }
+
+    /// The sag of cables that need not be taut, with the shape that they have unless they dip.
+    ///
+    /// With m = (fx² + fz² + V0²)/(T T0 - fz V0), D = fx² (1 + m) does not cancel where fz V0 < 0.
+    #[inline(always)]
+    fn sag_of_the_slack(&self, q2: T, [g, n_over_d]: [T; 2]) -> Sag<T> {
+        let Self { fx2, fz, v0, t, t0, s_inv, .. } = *self;
+        let (p, tt0) = (fz * v0, t * t0);
+        let dips = p.at_most(0.0);
+        let m = (fx2 + self.squares()) / (tt0 - p);
+        let d = T::select(dips, fx2 * (m + 1.0), fx2 + tt0 + p);
+        // sqrt(1 - q²)
+        let cosine = (d * 2.0).sqrt() * s_inv;
+        let folded_g = (m + 1.0).recip();
+        let folded_n = folded_g * (self.squares() + p * 2.0 * m);
+        let shape = [T::select(dips, folded_g, g), T::select(dips, folded_n, n_over_d)];
+        Sag { q2, psi: psi_by_halves(q2, cosine), shape }
+    }
+
+    #[inline(always)]
+    pub(crate) fn end_position(&self) -> [T; 2] {
+        let Sag { q2, psi, .. } = self.sag();
+        [self.fx * self.lateral_flexibility(q2 * psi + 1.0), self.height(None)]
+    }
+
+    /// (C1)-(C5), (C8) and (C9), with the inextensible part times `alpha`, (C13); 1 without it.
+    #[inline(always)]
+    pub(crate) fn response(&self, alpha: Option<T>) -> Response<T> {
+        let Sag { q2, psi, shape: [g, n_over_d] } = self.sag();
         let Self { fx, fz, v0, length, axial_flexibility, t, t0, s_inv, .. } = *self;
         let tt0_inv = (t * t0).recip();
         let sag = q2 * psi * 2.0;
@@ -315,42 +343,6 @@ impl<T: Number> Terms<T> {
     }
 }
 
-impl<T: Lanewise> Terms<T> {
-    /// The response, whose inextensible part is stretched by `alpha`, 1 without it.
-    #[inline(always)]
-    pub(super) fn lane_response(&self, alpha: Option<T>) -> Response<T> {
-        let q2 = self.slackness();
-        let taut = q2.at_most(TAUT);
-        let (mut psi, mut shape) = (psi_of_taut(q2), self.shape_of_the_taut());
-        if !T::all(taut) {
-            let (slack_psi, (g, n_over_d)) = self.sag_in_lanes(q2);
-            psi = T::select(taut, psi, slack_psi);
-            shape = (T::select(taut, shape.0, g), T::select(taut, shape.1, n_over_d));
-        }
-        self.assemble(q2, psi, shape, alpha)
-    }
-
-    /// ψ(q²), and g and N/D, of cables with any sag.
-    #[inline(always)]
-    fn sag_in_lanes(&self, q2: T) -> (T, (T, T)) {
-        let Self { fx2, fz, v0, t, t0, s_inv, .. } = *self;
-        let (p, tt0) = (fz * v0, t * t0);
-        let dips = p.at_most(0.0);
-        let m = (fx2 + self.squares()) / (tt0 - p);
-        let folded_d = fx2 * (m + 1.0);
-        let d = T::select(dips, folded_d, fx2 + tt0 + p);
-        // sqrt(1 - q²)
-        let cosine = (d * 2.0).sqrt() * s_inv;
-        let folded_g = (m + 1.0).recip();
-        let (g, n_over_d) = self.shape_of_the_taut();
-        let shape = (
-            T::select(dips, folded_g, g),
-            T::select(dips, folded_g * (self.squares() + p * 2.0 * m), n_over_d),
-        );
-        (psi_by_halves(q2, cosine), shape)
-    }
-}
-
 impl<T: Real> Terms<T> {
     pub(crate) fn new(w: T, axial_flexibility: T, length: T, fx: T, fz: T) -> Self {
         let others = fz.value().abs() + (w * length).value();
@@ -359,51 +351,5 @@ impl<T: Real> Terms<T> {
             fx2 = fx2 + (1e-60 * others * others + f64::MIN_POSITIVE);
         }
         Self::with_square(w, axial_flexibility, length, fx, fz, fx2)
-    }
-
-    /// m = (fx² + fz² + V0²)/(T T0 - fz V0): D = fx² (1 + m) without cancellation where fz V0 < 0.
-    fn fold(&self) -> T {
-        (self.fx2 + self.squares()) / (self.t * self.t0 - self.fz * self.v0)
-    }
-
-    /// D = fx² + T T0 + fz V0.
-    fn d(&self) -> T {
-        let p = self.fz * self.v0;
-        if p.value() >= 0.0 { self.fx2 + self.t * self.t0 + p } else { self.fx2 * (self.fold() + 1.0) }
-    }
-
-    /// (q², ψ(q²)).
-    fn sag_terms(&self) -> (T, T) {
-        let q2 = self.slackness();
-        // The remainder of a series and the rounding of its coefficients are at most 6e-17 together.
-        let psi = if q2.upper() <= TAUT {
-            psi_of_taut(q2).within(1e-16)
-        } else if q2.upper() < SERIES_LIMIT {
-            psi_of_slack(q2).within(1e-16)
-        } else {
-            // atanh q = ln((1 + q)/sqrt(1 - q²)), with 1 - q² = 2D/s²
-            let q = self.weight * self.s_inv;
-            let atanh = ((q + 1.0) * (self.t + self.t0) / (self.d() * 2.0).sqrt()).ln();
-            (atanh / q + -1.0) / q2
-        };
-        (q2, psi)
-    }
-
-    pub(crate) fn end_position(&self) -> [T; 2] {
-        let (q2, psi) = self.sag_terms();
-        [self.fx * self.lateral_flexibility(q2 * psi + 1.0), self.height(None)]
-    }
-
-    pub(crate) fn response(&self) -> Response<T> {
-        let (q2, psi) = self.sag_terms();
-        let p = self.fz * self.v0;
-        let shape = if q2.upper() <= TAUT || p.value() >= 0.0 {
-            self.shape_of_the_taut()
-        } else {
-            let m = self.fold();
-            let g = (m + 1.0).recip();
-            (g, g * (self.squares() + p * 2.0 * m))
-        };
-        self.assemble(q2, psi, shape, None)
     }
 }

@@ -347,7 +347,7 @@ impl<'a> HeldSpatialCable<'a> {
     /// F_L between held ends.
     fn force_per_length<T: Real>(&self, numbers: &Numbers<T>, force: &[T; 3]) -> [T; 3] {
         let found = response(&self.cable.cable, numbers, force);
-        solve(&found.flexibility, &found.per_length).map(|slope| -slope)
+        solve(&found.flexibility, &found.end_per_length).map(|slope| -slope)
     }
 
     fn at(cable: SpatialCable<'a>, end: Vector3<f64>, chord_force: f64) -> Self {

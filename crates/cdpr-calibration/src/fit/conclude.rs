@@ -7,8 +7,8 @@ use crate::fitted::{Estimate, Fit, FitStatus, UnidentifiableCombination, is_know
 use crate::identify::own_parameters;
 use crate::model::Shared;
 use crate::model::read::inverse_of_right;
+use crate::sensor_error::SensorError;
 use crate::solve::Decomposed;
-use crate::unknowns::SensorError;
 use cdpr_robot::{Parameter, UnitQuaternion};
 use nalgebra::{DMatrix, DVector};
 

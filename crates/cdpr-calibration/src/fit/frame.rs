@@ -3,7 +3,7 @@
 use crate::campaign::Quantity;
 use crate::error::CalibrationError;
 use crate::fit::problem::Problem;
-use crate::unknowns::size;
+use crate::sensor_error::size;
 use cdpr_robot::{Axis, Pose, Rotation3, Vector3};
 use nalgebra::Matrix3;
 

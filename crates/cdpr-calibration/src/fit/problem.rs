@@ -4,8 +4,8 @@ use crate::campaign::Row;
 use crate::error::CalibrationError;
 use crate::fitted::{Difference, FitSettings};
 use crate::model::compare::Compared;
-use crate::model::{Model, Shared, State};
-use crate::unknowns::SensorError;
+use crate::model::{Model, RowAt, Shared, State};
+use crate::sensor_error::SensorError;
 use cdpr_robot::{Pose, Robot, UnitQuaternion, Vector3};
 use rayon::prelude::*;
 
@@ -47,9 +47,8 @@ impl Problem<'_> {
             .into_par_iter()
             .map(|k| {
                 let row = &self.rows[k];
-                self.model
-                    .compare(row, &state.shared, &state.rows[k], robot)
-                    .map_err(CalibrationError::row(row.line))
+                let at = RowAt { row, shared: &state.shared, robot };
+                self.model.compare(&at, &state.rows[k]).map_err(CalibrationError::row(row.line))
             })
             .collect()
     }

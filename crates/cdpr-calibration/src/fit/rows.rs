@@ -3,13 +3,11 @@
 //! A row is stepped in its pose and tensions where cables are taut, else in its lengths
 //! ([`crate::model::row`]).
 
-use crate::campaign::Row;
 use crate::error::CalibrationError;
 use crate::fit::problem::Problem;
 use crate::model::compare::Compared;
-use crate::model::{RowState, Shared, State};
+use crate::model::{RowAt, RowState, State};
 use crate::solve::Eliminated;
-use cdpr_robot::Robot;
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
@@ -22,7 +20,7 @@ const BAD: f64 = 4.0;
 /// Share of a row's cost below which another equilibrium is taken.
 const WORTHWHILE: f64 = 0.9;
 
-/// Share of what a step of a row would gain, by its linearisation, that it has to gain.
+/// Share of what a step of a row would gain, by its linearization, that it has to gain.
 const GAINED: f64 = 1e-2;
 
 /// Weight of a tension that is kept, over the greatest derivative of a residual.
@@ -40,14 +38,6 @@ pub(super) enum Look {
     All,
     /// Those that fit badly.
     Bad,
-}
-
-/// A row with all that its state depends on.
-#[derive(Clone, Copy)]
-pub(super) struct RowAt<'a> {
-    pub(super) row: &'a Row,
-    pub(super) shared: &'a Shared,
-    pub(super) robot: &'a Robot,
 }
 
 /// A step of a row.
@@ -80,9 +70,10 @@ impl Problem<'_> {
         let better: Vec<Option<RowState>> = (self.rows, &from.rows)
             .into_par_iter()
             .map(|(row, state)| {
+                let here = RowAt { row, shared, robot: &robot };
                 let at = |state: RowState| {
-                    let compared = self.model.compare(row, shared, &state, &robot).ok()?;
-                    Some(self.at_their_best(&RowAt { row, shared, robot: &robot }, state, compared))
+                    let compared = self.model.compare(&here, &state).ok()?;
+                    Some(self.at_their_best(&here, state, compared))
                 };
                 let now = self.row_cost(&at(state.clone())?.1);
                 let numbers = row.readings.len() as f64;
@@ -115,18 +106,17 @@ impl Problem<'_> {
         step: &RowStep,
         way: Way,
     ) -> Option<(RowState, Compared)> {
-        let RowAt { row, shared, robot } = *at;
         let errors: Vec<f64> = from.own().iter().zip(&step.own).map(|(e, d)| e + d).collect();
         let state = match way {
-            Way::Lengths => self.model.follow(row, from, robot, &shared.x, errors).ok()?,
+            Way::Lengths => self.model.follow(at, from, errors).ok()?,
             Way::Tensions if step.own.is_empty() => return None,
             Way::Tensions => {
                 let both = step.unknowns.iter().chain(&step.own).copied();
                 let change = step.motion * DVector::from_iterator(step.motion.ncols(), both);
-                self.model.follow_tensions(row, from, robot, &shared.x, &errors, &change)?
+                self.model.follow_tensions(at, from, &errors, &change)?
             }
         };
-        let compared = self.model.compare(row, shared, &state, robot).ok()?;
+        let compared = self.model.compare(at, &state).ok()?;
         Some((state, compared))
     }
 

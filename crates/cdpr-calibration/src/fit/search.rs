@@ -7,11 +7,11 @@
 
 use crate::error::CalibrationError;
 use crate::fit::problem::Problem;
-use crate::fit::rows::{Look, RowAt, RowStep, Way, eliminated};
+use crate::fit::rows::{Look, RowStep, Way, eliminated};
 use crate::model::compare::Compared;
-use crate::model::{RowState, Shared, State};
+use crate::model::{RowAt, RowState, Shared, State};
+use crate::sensor_error::SensorError;
 use crate::solve::{Decomposed, Eliminated, reduce, triangle};
-use crate::unknowns::SensorError;
 use cdpr_robot::{Rotation3, Vector3};
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
@@ -35,7 +35,7 @@ const LEAST_DAMPING: f64 = 1e-10;
 /// Damping beyond which no step is left.
 const MOST_DAMPING: f64 = 1e4;
 
-/// All rows linearised at a state.
+/// All rows linearized at a state.
 pub(crate) struct Linearized {
     /// Triangular factor of [A ρ] in scales, without priors.
     data: DMatrix<f64>,
@@ -50,12 +50,12 @@ pub(super) struct Found {
     pub(super) state: State,
     pub(super) at: Linearized,
     pub(super) steps: usize,
-    /// Distance to the minimum by the last linearisation, in standard deviations.
+    /// Distance to the minimum by the last linearization, in standard deviations.
     pub(super) distance: f64,
 }
 
 impl Found {
-    /// The least chi-square by the last linearisation, where that is near enough to tell.
+    /// The least chi-square by the last linearization, where that is near enough to tell.
     pub(super) fn leads_to(&self) -> f64 {
         if self.distance <= SEEN { self.at.cost - self.distance * self.distance } else { self.at.cost }
     }
@@ -122,15 +122,15 @@ impl Problem<'_> {
         }
     }
 
-    /// The state with the unknowns of each row at their best, linearised.
+    /// The state with the unknowns of each row at their best, linearized.
     pub(super) fn settled(&self, mut state: State) -> Result<(State, Linearized), CalibrationError> {
         let robot = self.model.deviating(&state.shared.x)?;
         let settled: Vec<(RowState, Compared)> = (self.rows, state.rows)
             .into_par_iter()
             .map(|(row, from)| {
-                let compared = self.model.compare(row, &state.shared, &from, &robot);
-                let compared = compared.map_err(CalibrationError::row(row.line))?;
-                Ok(self.at_their_best(&RowAt { row, shared: &state.shared, robot: &robot }, from, compared))
+                let here = RowAt { row, shared: &state.shared, robot: &robot };
+                let compared = self.model.compare(&here, &from).map_err(CalibrationError::row(row.line))?;
+                Ok(self.at_their_best(&here, from, compared))
             })
             .collect::<Result<_, CalibrationError>>()?;
         let (rows, compared) = settled.into_iter().unzip();

@@ -1,11 +1,11 @@
 //! A row of measurements beside the model.
 
-use crate::campaign::{Quantity, Row};
-use crate::model::{Model, RowState, Shared};
-use crate::unknowns::SensorError;
-use cdpr_robot::{Robot, Vector3};
-use cdpr_statics::derivatives::ForceDerivatives;
-use cdpr_statics::{DirectProblem, StaticsError};
+use crate::campaign::Quantity;
+use crate::model::read::Observed;
+use crate::model::{Model, RowAt, RowState};
+use crate::sensor_error::SensorError;
+use cdpr_robot::CableEnd;
+use cdpr_statics::StaticsError;
 use nalgebra::{DMatrix, DVector, RowDVector};
 
 /// A row at a state: residuals over standard deviations, and their derivatives.
@@ -31,27 +31,10 @@ pub(crate) struct Compared {
 
 impl Model<'_> {
     /// The residuals of a row, with their derivatives.
-    pub(crate) fn compare(
-        &self,
-        row: &Row,
-        at: &Shared,
-        state: &RowState,
-        robot: &Robot,
-    ) -> Result<Compared, StaticsError> {
-        let x = &at.x[..];
-        let lengths = self.lengths(state, x);
-        let problem = DirectProblem::new(robot, &lengths, &self.load(row, robot))?;
-        let mut slopes = problem.force_derivatives(&state.loaded)?;
-        self.turn_tilts(robot, &mut slopes);
-        let mut unloaded = None;
-        if let Some(rest) = &state.unloaded {
-            let problem = DirectProblem::new(robot, &lengths, &self.without_load(row, robot))?;
-            let mut slopes = problem.force_derivatives(rest)?;
-            self.turn_tilts(robot, &mut slopes);
-            unloaded = Some((rest, slopes));
-        }
-        let own = state.errors.len();
-        let measured_lengths = if own > 0 && row.lengths.is_some() { own } else { 0 };
+    pub(crate) fn compare(&self, at: &RowAt, state: &RowState) -> Result<Compared, StaticsError> {
+        let observed = self.observed(at, state)?;
+        let (row, own) = (at.row, state.errors.len());
+        let measured_lengths = if row.lengths.is_some() { own } else { 0 };
         let count = row.readings.len() + measured_lengths;
         let mut compared = Compared {
             quantities: Vec::with_capacity(count),
@@ -60,33 +43,10 @@ impl Model<'_> {
             residuals: DVector::zeros(count),
             per_unknown: DMatrix::zeros(count, self.unknowns.all.len()),
             per_own: DMatrix::zeros(count, own),
-            motion: DMatrix::zeros(0, 0),
+            motion: if own > 0 { self.motion(at, &observed) } else { DMatrix::zeros(0, 0) },
             between: state.between_taut_and_slack(),
         };
-        if own > 0 {
-            compared.motion = self.motion(row, x, &lengths, &slopes);
-        }
-        for (r, reading) in row.readings.iter().enumerate() {
-            let (value, read) =
-                self.read(reading.quantity, row, robot, at, state, &lengths, &slopes, unloaded.as_ref());
-            let measured =
-                if matches!(reading.quantity, Quantity::Rotation(_)) { 0.0 } else { reading.value };
-            let difference = match reading.quantity {
-                Quantity::Angle(_) | Quantity::Swivel(_) => wrapped(measured - value),
-                _ => measured - value,
-            };
-            compared.quantities.push(reading.quantity);
-            compared.std.push(reading.std);
-            compared.residuals[r] = difference / reading.std;
-            let by = -1.0 / reading.std;
-            let models = self.chained(row, x, &lengths, &read.models);
-            let unknowns = self.unknowns.all.len();
-            compared.per_unknown.row_mut(r).copy_from(&(models.columns(0, unknowns) * by));
-            for (unknown, slope) in read.sensors {
-                compared.per_unknown[(r, unknown)] += by * slope;
-            }
-            compared.per_own.row_mut(r).copy_from(&(models.columns(unknowns, own) * by));
-        }
+        self.compare_readings(at, &observed, &mut compared);
         for i in 0..measured_lengths {
             let r = row.readings.len() + i;
             let std = row.length_std[i].max(f64::MIN_POSITIVE);
@@ -103,22 +63,43 @@ impl Model<'_> {
         }
         Ok(compared)
     }
-}
 
-impl Model<'_> {
+    /// What is read besides lengths.
+    fn compare_readings(&self, at: &RowAt, observed: &Observed, compared: &mut Compared) {
+        let (unknowns, own) = (self.unknowns.all.len(), compared.per_own.ncols());
+        for (r, reading) in at.row.readings.iter().enumerate() {
+            let read = observed.read(reading.quantity);
+            let difference = match reading.quantity {
+                Quantity::Rotation(_) => -read.value,
+                Quantity::Angle(_) | Quantity::Swivel(_) => wrapped(reading.value - read.value),
+                _ => reading.value - read.value,
+            };
+            compared.quantities.push(reading.quantity);
+            compared.std.push(reading.std);
+            compared.residuals[r] = difference / reading.std;
+            let by = -1.0 / reading.std;
+            let models = self.chained(at, &observed.lengths, &read.models);
+            compared.per_unknown.row_mut(r).copy_from(&(models.columns(0, unknowns) * by));
+            for (unknown, slope) in read.sensors {
+                compared.per_unknown[(r, unknown)] += by * slope;
+            }
+            compared.per_own.row_mut(r).copy_from(&(models.columns(unknowns, own) * by));
+        }
+    }
+
     /// Derivatives by the unknowns of all rows and by those of the row, from those by the inputs of the models
     /// and the lengths.
-    fn chained(&self, row: &Row, x: &[f64], lengths: &[f64], models: &RowDVector<f64>) -> RowDVector<f64> {
+    fn chained(&self, at: &RowAt, lengths: &[f64], models: &RowDVector<f64>) -> RowDVector<f64> {
         let unknowns = self.unknowns.all.len();
         let mut chained = RowDVector::zeros(unknowns + lengths.len());
         for term in &self.unknowns.terms {
-            if row.mass.is_none() || term.parameter != self.layout.mass() {
+            if at.row.mass.is_none() || term.parameter != self.layout.mass() {
                 chained[term.input] += term.factor * models[term.parameter];
             }
         }
         let first = models.len() - lengths.len();
         for (i, length) in lengths.iter().enumerate() {
-            let per_length = models[first + i] / (1.0 + self.of(SensorError::DrumScale, i, x));
+            let per_length = models[first + i] / (1.0 + self.of(SensorError::DrumScale, i, &at.shared.x));
             for (error, slope) in [(SensorError::LengthOffset, -1.0), (SensorError::DrumScale, -length)] {
                 if let Some(index) = self.unknowns.sensor(error) {
                     chained[index + i] += per_length * slope;
@@ -129,15 +110,12 @@ impl Model<'_> {
         chained
     }
 
-    fn motion(&self, row: &Row, x: &[f64], lengths: &[f64], slopes: &ForceDerivatives) -> DMatrix<f64> {
-        let of_pose = (0..6).map(|k| slopes.pose.row(k).into_owned());
-        let of_tension = slopes.forces.iter().enumerate().map(|(i, force)| {
-            let direction = force.try_normalize(0.0).unwrap_or_else(Vector3::zeros);
-            let slopes = direction.transpose() * slopes.per_input.fixed_rows::<3>(3 * i);
-            RowDVector::from_iterator(slopes.ncols(), slopes.iter().copied())
-        });
+    /// [`Compared::motion`].
+    fn motion(&self, at: &RowAt, observed: &Observed) -> DMatrix<f64> {
+        let of_pose = (0..6).map(|k| observed.motion().row(k).into_owned());
+        let of_tension = (0..observed.lengths.len()).map(|i| observed.tension(i, CableEnd::Anchor).1);
         let rows: Vec<_> =
-            of_pose.chain(of_tension).map(|models| self.chained(row, x, lengths, &models)).collect();
+            of_pose.chain(of_tension).map(|models| self.chained(at, &observed.lengths, &models)).collect();
         DMatrix::from_rows(&rows)
     }
 }

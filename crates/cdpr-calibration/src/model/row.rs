@@ -7,8 +7,8 @@
 
 use crate::campaign::{Quantity, Row};
 use crate::error::CalibrationError;
-use crate::model::{Model, RowState};
-use crate::unknowns::SensorError;
+use crate::model::{Model, RowAt, RowState};
+use crate::sensor_error::SensorError;
 use cdpr_robot::{Axis, CableEnd, Pose, Robot, Rotation3, UnitQuaternion, Vector3};
 use cdpr_statics::{
     DirectProblem, DirectStart, Equilibrium, HeldPose, Load, StaticsError, inverse, lengths_for_tensions,
@@ -218,28 +218,26 @@ impl Model<'_> {
     /// Follows a row to other unknowns, with these errors of its lengths.
     pub(crate) fn follow(
         &self,
-        row: &Row,
+        at: &RowAt,
         from: &RowState,
-        robot: &Robot,
-        x: &[f64],
         errors: Vec<f64>,
     ) -> Result<RowState, StaticsError> {
         let state = RowState { errors, ..from.clone() };
-        let lengths = self.lengths(&state, x);
-        self.placed(row, robot, state, &lengths, DirectStart::Near(&from.loaded))
+        let lengths = self.lengths(&state, &at.shared.x);
+        self.placed(at.row, at.robot, state, &lengths, DirectStart::Near(&from.loaded))
     }
 
     /// Follows a row to other unknowns by a predicted change of its pose (dp, dφ) and of its tensions; cables
-    /// that are not taut get the lengths that these errors give, but no more than hardly any tension. `None` where there is no length to follow.
+    /// that are not taut get the lengths that these errors give, but no more than hardly any tension. `None`
+    /// where there is no length to follow.
     pub(crate) fn follow_tensions(
         &self,
-        row: &Row,
+        at: &RowAt,
         from: &RowState,
-        robot: &Robot,
-        x: &[f64],
         errors: &[f64],
         change: &DVector<f64>,
     ) -> Option<RowState> {
+        let (robot, x) = (at.robot, &at.shared.x[..]);
         let before = self.lengths(from, x);
         let tensions = from.loaded.tensions();
         let weight = |i: usize| before[i] * robot.cable(i).weight_per_length;
@@ -265,7 +263,7 @@ impl Model<'_> {
             held.lengths[i] = length;
             held.equilibrium.cable_forces[i] = from.loaded.cable_forces[i];
         }
-        self.rested(row, robot, x, state, held).ok()
+        self.rested(at.row, robot, x, state, held).ok()
     }
 }
 

@@ -30,6 +30,27 @@ pub struct ParameterSummary {
     pub identifiable: bool,
 }
 
+impl ParameterSummary {
+    /// A parameter that has moved by this, with its standard deviations: after, by the data alone, and before.
+    pub(super) fn new(
+        before: f64,
+        moved: f64,
+        [std, std_of_data, prior_std]: [Option<f64>; 3],
+        unit: &'static str,
+    ) -> Self {
+        Self {
+            unit,
+            before,
+            after: before + moved,
+            std,
+            std_of_data,
+            prior_std,
+            moved_by_prior_std: prior_std.map(|std| moved / std),
+            identifiable: std_of_data.is_some(),
+        }
+    }
+}
+
 /// Residuals of the sensors of one kind.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct SensorSummary {

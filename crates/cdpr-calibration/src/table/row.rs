@@ -2,8 +2,9 @@
 
 use crate::campaign::{Noise, Quantity, Reading, Row, STD_EXPECTED, is_std};
 use crate::error::CalibrationError;
+use crate::sensor_error::size;
 use crate::table::columns::{Column, Named};
-use cdpr_robot::{Axis, Robot, rotation_in_order};
+use cdpr_robot::{Axis, Robot, Rotation3, rotation_in_order};
 use cdpr_statics::Load;
 
 /// The noise that is stated for all rows.
@@ -20,120 +21,182 @@ pub(super) fn row(
     robot: &Robot,
     noise: &Stated,
 ) -> Result<Row, CalibrationError> {
-    let cell_error = |named: &Named, value: &str, expected: &str| CalibrationError::Cell {
-        line,
-        column: named.name.clone(),
-        value: value.to_owned(),
-        expected: expected.to_owned(),
-    };
-    let values: Vec<Option<f64>> =
-        columns.iter().zip(cells).map(|(named, cell)| Some((*cell)? * named.factor)).collect();
-    let find = |column: Column, is_std: bool| {
-        let found = columns.iter().position(|named| named.column == column && named.is_std == is_std)?;
-        values[found].map(|value| (value, &columns[found]))
-    };
-    let std_of = |quantity: Quantity| -> Result<Option<f64>, CalibrationError> {
-        match find(Column::Reading(quantity), true) {
-            Some((std, _)) if is_std(std) => Ok(Some(std)),
-            Some((std, named)) => Err(cell_error(named, &std.to_string(), STD_EXPECTED)),
-            None => Ok(noise.stds.of(quantity)),
-        }
-    };
-    let mut load = Load::none();
-    load.payload = find(Column::Payload, false).map_or(0.0, |(value, _)| value);
-    for k in 0..3 {
-        load.wrench.force[k] = find(Column::Wrench(k), false).map_or(0.0, |(value, _)| value);
-        load.wrench.moment[k] = find(Column::Wrench(3 + k), false).map_or(0.0, |(value, _)| value);
+    let values = columns.iter().zip(cells).map(|(named, cell)| Some((*cell)? * named.factor)).collect();
+    let cells = Cells { line, columns, values, robot, noise };
+    let mut row = Row::new(line, cells.load());
+    row.mass = cells.mass()?;
+    if let Some(lengths) = cells.lengths()? {
+        row.lengths = Some(lengths);
+        row.length_std = cells.length_stds()?;
     }
-    let mut row = Row::new(line, load);
-    row.mass = find(Column::Mass, false).map(|(value, _)| value);
-    if let Some((mass, named)) = find(Column::Mass, false).filter(|(mass, _)| *mass <= 0.0) {
-        return Err(cell_error(named, &mass.to_string(), "a mass above zero [kg]"));
-    }
-    // Lengths
-    let lengths: Vec<_> =
-        (0..robot.cables.len()).map(|i| find(Column::Reading(Quantity::Length(i)), false)).collect();
-    let given = lengths.iter().flatten().count();
-    if given > 0 {
-        if let Some(i) = lengths.iter().position(Option::is_none) {
-            let reason = format!("column l{}_m is empty: expected all lengths, or none", i + 1);
-            return Err(CalibrationError::Incomplete { line, reason });
-        }
-        let values: Vec<f64> = lengths.iter().flatten().map(|(value, _)| *value).collect();
-        let widest = LONGEST * crate::unknowns::size(robot);
-        for (value, named) in lengths.iter().flatten() {
-            if value.abs() > widest {
-                let expected = format!("a length in m; the robot is {:.3} m wide", widest / LONGEST);
-                return Err(cell_error(named, &value.to_string(), &expected));
-            }
-        }
-        row.lengths = Some(values);
-        let std = |i| std_of(Quantity::Length(i));
-        let stds: Vec<_> = (0..robot.cables.len()).map(std).collect::<Result<_, _>>()?;
-        row.length_std = stds.into_iter().map(|std| std.unwrap_or(0.0)).collect();
-        if row.length_std.contains(&0.0) {
-            let exact = Noise::exact(Quantity::Length(0));
-            let noisy = row.length_std.iter().any(|std| *std > 0.0);
-            row.length_std.iter_mut().filter(|std| noisy && **std == 0.0).for_each(|std| *std = exact);
+    row.rotation = cells.rotation()?;
+    if row.rotation.is_some() {
+        for quantity in Axis::ALL.map(Quantity::Rotation) {
+            row.readings.push(cells.reading(quantity, 0.0)?);
         }
     }
-    // Orientation
-    let quaternion: Vec<_> = (0..4).filter_map(|k| find(Column::Quaternion(k), false)).collect();
-    match quaternion[..] {
-        [] => {}
-        [(w, named), (x, _), (y, _), (z, _)] => {
-            let rotation = rotation_in_order([w, x, y, z])
-                .map_err(|error| cell_error(named, &w.to_string(), &error.to_string()))?;
-            row.rotation = Some(rotation);
-            for axis in Axis::ALL {
-                let quantity = Quantity::Rotation(axis);
-                let std = std_of(quantity)?.unwrap_or(Noise::exact(quantity));
-                row.readings.push(Reading { quantity, value: 0.0, std });
-            }
-        }
-        _ => {
-            let reason = "a part of qw, qx, qy, qz is empty: expected all or none".to_owned();
-            return Err(CalibrationError::Incomplete { line, reason });
-        }
-    }
-    // Everything else
-    for (named, value) in columns.iter().zip(&values) {
-        let (Column::Reading(quantity), Some(value), false) = (named.column, value, named.is_std) else {
-            continue;
-        };
-        let far = FARTHEST * crate::unknowns::size(robot);
-        let is_length =
-            matches!(quantity, Quantity::Position(_) | Quantity::Marker(..) | Quantity::Displacement(_));
-        if is_length && (value - anywhere(robot, quantity)).abs() > far {
-            let expected = format!("a place in m; the robot is {:.3} m wide", far / FARTHEST);
-            return Err(cell_error(named, &value.to_string(), &expected));
-        }
-        if matches!(quantity, Quantity::Angle(_)) && value.abs() > std::f64::consts::TAU {
-            return Err(cell_error(named, &value.to_string(), "an angle of at most a full turn"));
-        }
-        if !matches!(quantity, Quantity::Length(_)) {
-            let std = std_of(quantity)?.unwrap_or(Noise::exact(quantity));
-            row.readings.push(Reading { quantity, value: *value, std });
-        }
-    }
-    // Covariances: those of the row, then those of all rows
-    for (named, value) in columns.iter().zip(&values) {
-        if let (Column::Covariance(one, other), Some(value)) = (named.column, value) {
-            row.covariances.push((one, other, *value));
-        }
-    }
-    for (one, other, value) in &noise.covariances {
-        let is_same = |of: &(Quantity, Quantity, f64)| (of.0, of.1) == (*one, *other);
-        if !row.covariances.iter().any(is_same) {
-            row.covariances.push((*one, *other, *value));
-        }
-    }
-    if !row.is_covariance_valid() {
-        let reason = "the covariances make no positive definite matrix with the standard deviations: \
-                      expected each below the product of its two";
-        return Err(CalibrationError::Incomplete { line, reason: reason.to_owned() });
-    }
+    cells.add_other_readings(&mut row)?;
+    cells.add_covariances(&mut row)?;
     Ok(row)
+}
+
+/// The cells of a row.
+struct Cells<'a> {
+    line: usize,
+    columns: &'a [Named],
+    /// Value of each column, SI units.
+    values: Vec<Option<f64>>,
+    robot: &'a Robot,
+    noise: &'a Stated,
+}
+
+impl Cells<'_> {
+    /// The value of a column, or of its standard deviation, with the column.
+    fn find(&self, column: Column, is_std: bool) -> Option<(f64, &Named)> {
+        let found = self.columns.iter().position(|named| named.column == column && named.is_std == is_std)?;
+        Some((self.values[found]?, &self.columns[found]))
+    }
+
+    fn value(&self, column: Column) -> Option<f64> {
+        self.find(column, false).map(|(value, _)| value)
+    }
+
+    /// The columns that have a value in this row.
+    fn given(&self) -> impl Iterator<Item = (&Named, f64)> {
+        self.columns.iter().zip(&self.values).filter_map(|(named, value)| Some((named, (*value)?)))
+    }
+
+    fn refused(&self, named: &Named, value: f64, expected: impl Into<String>) -> CalibrationError {
+        CalibrationError::Cell {
+            line: self.line,
+            column: named.name.clone(),
+            value: value.to_string(),
+            expected: expected.into(),
+        }
+    }
+
+    fn incomplete(&self, reason: impl Into<String>) -> CalibrationError {
+        CalibrationError::Incomplete { line: self.line, reason: reason.into() }
+    }
+
+    /// Standard deviation of a quantity: that of the row, else that of all rows, if either is stated.
+    fn std_of(&self, quantity: Quantity) -> Result<Option<f64>, CalibrationError> {
+        match self.find(Column::Reading(quantity), true) {
+            Some((std, _)) if is_std(std) => Ok(Some(std)),
+            Some((std, named)) => Err(self.refused(named, std, STD_EXPECTED)),
+            None => Ok(self.noise.stds.of(quantity)),
+        }
+    }
+
+    fn reading(&self, quantity: Quantity, value: f64) -> Result<Reading, CalibrationError> {
+        let std = self.std_of(quantity)?.unwrap_or(Noise::exact(quantity));
+        Ok(Reading { quantity, value, std })
+    }
+
+    fn load(&self) -> Load {
+        let of = |column| self.value(column).unwrap_or(0.0);
+        let mut load = Load::payload(of(Column::Payload));
+        for k in 0..3 {
+            load.wrench.force[k] = of(Column::Wrench(k));
+            load.wrench.moment[k] = of(Column::Wrench(3 + k));
+        }
+        load
+    }
+
+    fn mass(&self) -> Result<Option<f64>, CalibrationError> {
+        match self.find(Column::Mass, false) {
+            Some((mass, named)) if mass <= 0.0 => Err(self.refused(named, mass, "a mass above zero [kg]")),
+            found => Ok(found.map(|(mass, _)| mass)),
+        }
+    }
+
+    /// The lengths of all cables, if they are measured.
+    fn lengths(&self) -> Result<Option<Vec<f64>>, CalibrationError> {
+        let cell = |i| self.find(Column::Reading(Quantity::Length(i)), false);
+        let cells: Vec<_> = (0..self.robot.cables.len()).map(cell).collect();
+        if cells.iter().all(Option::is_none) {
+            return Ok(None);
+        }
+        let size = size(self.robot);
+        let checked = |(i, cell): (usize, Option<(f64, &Named)>)| match cell {
+            None => {
+                Err(self.incomplete(format!("column l{}_m is empty: expected all lengths, or none", i + 1)))
+            }
+            Some((value, named)) if value.abs() > LONGEST * size => {
+                Err(self.refused(named, value, format!("a length in m; the robot is {size:.3} m wide")))
+            }
+            Some((value, _)) => Ok(value),
+        };
+        cells.into_iter().enumerate().map(checked).collect::<Result<_, _>>().map(Some)
+    }
+
+    /// Standard deviations of all lengths, zero where they are exact. Where some have noise, the exact ones
+    /// have hardly any.
+    fn length_stds(&self) -> Result<Vec<f64>, CalibrationError> {
+        let std = |i| Ok(self.std_of(Quantity::Length(i))?.unwrap_or(0.0));
+        let mut stds: Vec<f64> =
+            (0..self.robot.cables.len()).map(std).collect::<Result<_, CalibrationError>>()?;
+        if stds.iter().any(|std| *std > 0.0) {
+            let exact = Noise::exact(Quantity::Length(0));
+            stds.iter_mut().filter(|std| **std == 0.0).for_each(|std| *std = exact);
+        }
+        Ok(stds)
+    }
+
+    /// The orientation by its quaternion.
+    fn rotation(&self) -> Result<Option<Rotation3<f64>>, CalibrationError> {
+        let cells: Vec<_> = (0..4).filter_map(|k| self.find(Column::Quaternion(k), false)).collect();
+        match cells[..] {
+            [] => Ok(None),
+            [(w, named), (x, _), (y, _), (z, _)] => rotation_in_order([w, x, y, z])
+                .map(Some)
+                .map_err(|error| self.refused(named, w, error.to_string())),
+            _ => Err(self.incomplete("a part of qw, qx, qy, qz is empty: expected all or none")),
+        }
+    }
+
+    /// What is measured besides lengths and quaternions.
+    fn add_other_readings(&self, row: &mut Row) -> Result<(), CalibrationError> {
+        let size = size(self.robot);
+        for (named, value) in self.given() {
+            let Column::Reading(quantity) = named.column else { continue };
+            if named.is_std || matches!(quantity, Quantity::Length(_)) {
+                continue;
+            }
+            let is_length =
+                matches!(quantity, Quantity::Position(_) | Quantity::Marker(..) | Quantity::Displacement(_));
+            if is_length && (value - anywhere(self.robot, quantity)).abs() > FARTHEST * size {
+                let expected = format!("a place in m; the robot is {size:.3} m wide");
+                return Err(self.refused(named, value, expected));
+            }
+            if matches!(quantity, Quantity::Angle(_)) && value.abs() > std::f64::consts::TAU {
+                return Err(self.refused(named, value, "an angle of at most a full turn"));
+            }
+            row.readings.push(self.reading(quantity, value)?);
+        }
+        Ok(())
+    }
+
+    /// The covariances of the row, then those of all rows.
+    fn add_covariances(&self, row: &mut Row) -> Result<(), CalibrationError> {
+        for (named, value) in self.given() {
+            if let Column::Covariance(one, other) = named.column {
+                row.covariances.push((one, other, value));
+            }
+        }
+        for (one, other, value) in &self.noise.covariances {
+            if !row.covariances.iter().any(|of| (of.0, of.1) == (*one, *other)) {
+                row.covariances.push((*one, *other, *value));
+            }
+        }
+        if row.is_covariance_valid() {
+            return Ok(());
+        }
+        Err(self.incomplete(
+            "the covariances make no positive definite matrix with the standard deviations: expected each \
+             below the product of its two",
+        ))
+    }
 }
 
 /// Lengths of so many widths of a robot must be in another unit.

@@ -22,12 +22,7 @@ pub(crate) fn write(robot: &Robot, pose: &Pose) -> Result<Exported, ExchangeErro
     if robot.cables.iter().any(|cable| cable.properties.law.is_some()) {
         notes.push("elastic laws of cables have no place: K is EA of their moduli".to_owned());
     }
-    let (about_center, assumed) = inertia(robot);
-    if assumed {
-        notes.push(
-            "the inertia is that of a ball as large as the platform: the robot file has none".to_owned(),
-        );
-    }
+    let about_center = inertia(robot, &mut notes);
     let joint = match robot.plane {
         None => "SPATIAL_EULER_XYZ",
         Some(Plane::Xy) => "PLANAR_XY",

@@ -7,7 +7,7 @@
 
 use crate::error::ExchangeError;
 use crate::write::scene::{Exported, check_plain, escaped, inertia, unplaced, words};
-use cdpr_robot::{Pose, Robot, UnitQuaternion};
+use cdpr_robot::{Matrix3, Pose, Robot, UnitQuaternion};
 use cdpr_statics::{Load, inverse};
 use std::fmt::Write;
 
@@ -24,29 +24,33 @@ pub(crate) fn write(robot: &Robot, pose: &Pose) -> Result<Exported, ExchangeErro
             "MuJoCo's tendons are straight and have no weight: {weight:.3} kg of cables are left out"
         ));
     }
-    let (about_center, assumed) = inertia(robot);
-    if assumed {
-        notes.push(
-            "the inertia is that of a ball as large as the platform: the robot file has none".to_owned(),
-        );
-    }
-
-    let platform = &robot.platform;
-    let q = UnitQuaternion::from_rotation_matrix(&pose.rotation);
-    let quaternion = format!("{:?} {:?} {:?} {:?}", q.w, q.i, q.j, q.k);
-    let [xx, yy, zz] = [0, 1, 2].map(|i| about_center[(i, i)]);
-    let [xy, xz, yz] = [(0, 1), (0, 2), (1, 2)].map(|place| about_center[place]);
-    let size = robot.platform_size().max(0.01);
-    let mut text = format!(
+    let inertia = inertia(robot, &mut notes);
+    let text = format!(
         r#"<mujoco model="{name}">
   <compiler angle="radian"/>
   <option gravity="{gravity}" timestep="0.0005" integrator="implicitfast"/>
   <worldbody>
+{sites}{platform}  </worldbody>
+  <tendon>
+{tendons}  </tendon>
+  <custom>
+{custom}  </custom>
+</mujoco>
 "#,
         name = escaped(&robot.name),
         gravity = words(&robot.gravity.vector()),
+        sites = exits_and_ground(robot),
+        platform = platform(robot, pose, &inertia),
+        tendons = tendons(robot, &lengths),
+        custom = custom(robot),
     );
-    // Writing to a string cannot fail.
+    Ok(Exported { files: vec![(".xml", text)], notes })
+}
+
+// Writing to a string cannot fail.
+
+fn exits_and_ground(robot: &Robot) -> String {
+    let mut text = String::new();
     for (i, cable) in robot.cables.iter().enumerate() {
         let _ = writeln!(text, "    <site name=\"exit_{}\" pos=\"{}\"/>", i + 1, words(&cable.exit_point));
     }
@@ -56,24 +60,39 @@ pub(crate) fn write(robot: &Robot, pose: &Pose) -> Result<Exported, ExchangeErro
             "    <geom name=\"ground\" type=\"plane\" pos=\"0 0 {ground:?}\" size=\"0 0 1\"/>"
         );
     }
-    let _ = writeln!(
-        text,
-        "    <body name=\"platform\" pos=\"{}\" quat=\"{quaternion}\">
-      <freejoint name=\"platform\"/>
-      <inertial pos=\"{}\" mass=\"{:?}\" fullinertia=\"{xx:?} {yy:?} {zz:?} {xy:?} {xz:?} {yz:?}\"/>
-      <geom type=\"sphere\" pos=\"{}\" size=\"{:?}\" contype=\"0\" conaffinity=\"0\" mass=\"0\"/>",
-        words(&pose.position),
-        words(&platform.center_of_mass),
-        platform.mass,
-        words(&platform.center_of_mass),
-        0.2 * size,
+    text
+}
+
+/// The platform with its anchor points.
+fn platform(robot: &Robot, pose: &Pose, inertia: &Matrix3<f64>) -> String {
+    let q = UnitQuaternion::from_rotation_matrix(&pose.rotation);
+    let [xx, yy, zz] = [0, 1, 2].map(|i| inertia[(i, i)]);
+    let [xy, xz, yz] = [(0, 1), (0, 2), (1, 2)].map(|place| inertia[place]);
+    let mut text = format!(
+        r#"    <body name="platform" pos="{position}" quat="{:?} {:?} {:?} {:?}">
+      <freejoint name="platform"/>
+      <inertial pos="{center}" mass="{mass:?}" fullinertia="{xx:?} {yy:?} {zz:?} {xy:?} {xz:?} {yz:?}"/>
+      <geom type="sphere" pos="{center}" size="{size:?}" contype="0" conaffinity="0" mass="0"/>
+"#,
+        q.w,
+        q.i,
+        q.j,
+        q.k,
+        position = words(&pose.position),
+        center = words(&robot.platform.center_of_mass),
+        mass = robot.platform.mass,
+        size = 0.2 * robot.platform_size().max(0.01),
     );
     for (i, cable) in robot.cables.iter().enumerate() {
         let _ =
             writeln!(text, "      <site name=\"anchor_{}\" pos=\"{}\"/>", i + 1, words(&cable.anchor_point));
     }
-    text += "    </body>\n  </worldbody>\n  <tendon>\n";
-    for (i, (cable, length)) in robot.cables.iter().zip(&lengths).enumerate() {
+    text + "    </body>\n"
+}
+
+fn tendons(robot: &Robot, lengths: &[f64]) -> String {
+    let mut text = String::new();
+    for (i, (cable, length)) in robot.cables.iter().zip(lengths).enumerate() {
         let number = i + 1;
         let stiffness = cable.properties.axial_stiffness() / length;
         let _ = writeln!(
@@ -84,7 +103,12 @@ pub(crate) fn write(robot: &Robot, pose: &Pose) -> Result<Exported, ExchangeErro
     </spatial>"
         );
     }
-    text += "  </tendon>\n  <custom>\n";
+    text
+}
+
+/// What has no other place.
+fn custom(robot: &Robot) -> String {
+    let mut text = String::new();
     if let Some(source) = &robot.provenance.source {
         let _ = writeln!(text, "    <text name=\"source\" data=\"{}\"/>", escaped(source));
     }
@@ -104,6 +128,5 @@ pub(crate) fn write(robot: &Robot, pose: &Pose) -> Result<Exported, ExchangeErro
             limits.max,
         );
     }
-    text += "  </custom>\n</mujoco>\n";
-    Ok(Exported { files: vec![(".xml", text)], notes })
+    text
 }

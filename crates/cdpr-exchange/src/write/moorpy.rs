@@ -3,10 +3,9 @@
 
 use crate::error::ExchangeError;
 use crate::write::scene::{Exported, check_plain, inertia, unplaced, words};
-use cdpr_robot::{Pose, Robot};
+use cdpr_robot::{Matrix3, Pose, Robot, RobotCable, Vector3};
 use cdpr_statics::{Load, inverse};
 use std::f64::consts::PI;
-use std::fmt::Write;
 
 pub(crate) fn write(robot: &Robot, pose: &Pose) -> Result<Exported, ExchangeError> {
     check_plain(robot)?;
@@ -16,7 +15,6 @@ pub(crate) fn write(robot: &Robot, pose: &Pose) -> Result<Exported, ExchangeErro
         return Err(ExchangeError::NoPlace { field: "gravity".to_owned(), value });
     }
     let lengths = inverse(robot, pose, &Load::none())?.lengths;
-    let (about_center, assumed) = inertia(robot);
     let mut notes = unplaced(robot);
     if robot.ground_z.is_some() {
         notes.push("the height of the ground (ground_z) has no place".to_owned());
@@ -26,80 +24,80 @@ pub(crate) fn write(robot: &Robot, pose: &Pose) -> Result<Exported, ExchangeErro
          have no place"
             .to_owned(),
     );
-    if assumed {
-        notes.push(
-            "the inertia is that of a ball as large as the platform: the robot file has none".to_owned(),
-        );
-    }
-    // MoorPy rotates a body by Rz(yaw) Ry(pitch) Rx(roll).
-    let (roll, pitch, yaw) = pose.rotation.euler_angles();
-    let c = robot.platform.center_of_mass;
-    let [xx, yy, zz] = [0, 1, 2].map(|i| about_center[(i, i)]);
-    let mut text = String::from(
+    let inertia = inertia(robot, &mut notes);
+    let lowest = robot.cables.iter().map(|cable| cable.exit_point.z).fold(pose.position.z, f64::min);
+    let text = format!(
         "--------------------- MoorDyn v2 input file, in air ---------------------
 ---------------------- LINE TYPES ---------------------------------------
 TypeName Diam Mass/m EA BA/-zeta EI Cd Ca CdAx CaAx
 (name) (m) (kg/m) (N) (N-s/-) (N-m^2) (-) (-) (-) (-)
-",
-    );
-    // Writing to a string cannot fail.
-    for (i, cable) in robot.cables.iter().enumerate() {
-        let p = &cable.properties;
-        let diameter = p.diameter.unwrap_or_else(|| (4.0 * p.section / PI).sqrt());
-        let _ = writeln!(
-            text,
-            "cable{} {diameter:?} {:?} {:?} 0 0 0 0 0 0",
-            i + 1,
-            p.linear_density,
-            p.axial_stiffness()
-        );
-    }
-    let _ = write!(
-        text,
-        "---------------------- BODIES -------------------------------------------
+{line_types}\
+---------------------- BODIES -------------------------------------------
 ID Attachment X0 Y0 Z0 r0 p0 y0 Mass CG I Volume CdA Ca
 (#) (-) (m) (m) (m) (deg) (deg) (deg) (kg) (m) (kg-m^2) (m^3) (m^2) (-)
-1 Free {} {:?} {:?} {:?} {:?} {:?}|{:?}|{:?} {xx:?}|{yy:?}|{zz:?} 0 0 0
+{body}
 ---------------------- POINTS -------------------------------------------
 ID Attachment X Y Z Mass Volume CdA Ca
 (#) (-) (m) (m) (m) (kg) (m^3) (m^2) (-)
-",
-        words(&pose.position),
-        roll.to_degrees(),
-        pitch.to_degrees(),
-        yaw.to_degrees(),
-        robot.platform.mass,
-        c.x,
-        c.y,
-        c.z
-    );
-    let count = robot.cables.len();
-    for (i, cable) in robot.cables.iter().enumerate() {
-        let _ = writeln!(text, "{} Fixed {} 0 0 0 0", i + 1, words(&cable.exit_point));
-    }
-    for (i, cable) in robot.cables.iter().enumerate() {
-        let _ = writeln!(text, "{} Body1 {} 0 0 0 0", count + i + 1, words(&cable.anchor_point));
-    }
-    text += "---------------------- LINES --------------------------------------------
+{points}\
+---------------------- LINES --------------------------------------------
 ID LineType AttachA AttachB UnstrLen NumSegs Outputs
 (#) (name) (#) (#) (m) (-) (-)
-";
-    for (i, length) in lengths.iter().enumerate() {
-        let _ = writeln!(text, "{} cable{} {} {} {length:?} 20 -", i + 1, i + 1, i + 1, count + i + 1);
-    }
-    let lowest = robot.cables.iter().map(|cable| cable.exit_point.z).fold(pose.position.z, f64::min);
-    let _ = write!(
-        text,
-        "---------------------- OPTIONS ------------------------------------------
-{:?} g
+{lines}\
+---------------------- OPTIONS ------------------------------------------
+{gravity:?} g
 0 rho
-{:?} depth
+{depth:?} depth
 rk4 tScheme
 1e-4 dtM
 ---------------------- need this line -----------------------------------
 ",
-        down.norm(),
-        1000.0 - lowest,
+        line_types = line_types(robot),
+        body = body(robot, pose, &inertia),
+        points = points(robot),
+        lines = lines(&lengths),
+        gravity = down.norm(),
+        depth = 1000.0 - lowest,
     );
     Ok(Exported { files: vec![(".txt", text)], notes })
+}
+
+fn line_types(robot: &Robot) -> String {
+    let row = |(i, cable): (usize, &RobotCable)| {
+        let p = &cable.properties;
+        let diameter = p.diameter.unwrap_or_else(|| (4.0 * p.section / PI).sqrt());
+        let (number, stiffness) = (i + 1, p.axial_stiffness());
+        format!("cable{number} {diameter:?} {:?} {stiffness:?} 0 0 0 0 0 0\n", p.linear_density)
+    };
+    robot.cables.iter().enumerate().map(row).collect()
+}
+
+fn body(robot: &Robot, pose: &Pose, inertia: &Matrix3<f64>) -> String {
+    // MoorPy rotates a body by Rz(yaw) Ry(pitch) Rx(roll).
+    let (roll, pitch, yaw) = pose.rotation.euler_angles();
+    let [roll, pitch, yaw] = [roll, pitch, yaw].map(f64::to_degrees);
+    let (position, mass, c) = (words(&pose.position), robot.platform.mass, robot.platform.center_of_mass);
+    let [xx, yy, zz] = [0, 1, 2].map(|i| inertia[(i, i)]);
+    format!(
+        "1 Free {position} {roll:?} {pitch:?} {yaw:?} {mass:?} {:?}|{:?}|{:?} {xx:?}|{yy:?}|{zz:?} 0 0 0",
+        c.x, c.y, c.z
+    )
+}
+
+/// All exit points, then all anchor points.
+fn points(robot: &Robot) -> String {
+    let exits = robot.cables.iter().map(|cable| ("Fixed", cable.exit_point));
+    let points = exits.chain(robot.cables.iter().map(|cable| ("Body1", cable.anchor_point)));
+    let row = |(i, (of, place)): (usize, (&str, Vector3<f64>))| {
+        format!("{} {of} {} 0 0 0 0\n", i + 1, words(&place))
+    };
+    points.enumerate().map(row).collect()
+}
+
+fn lines(lengths: &[f64]) -> String {
+    let row = |(i, length): (usize, &f64)| {
+        let (number, anchor) = (i + 1, lengths.len() + i + 1);
+        format!("{number} cable{number} {number} {anchor} {length:?} 20 -\n")
+    };
+    lengths.iter().enumerate().map(row).collect()
 }

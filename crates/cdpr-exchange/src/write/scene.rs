@@ -12,12 +12,16 @@ pub struct Exported {
     pub notes: Vec<String>,
 }
 
-/// Inertia about the centre of mass [kg m²], and whether it was assumed: that of a ball as large as the
-/// platform.
-pub(crate) fn inertia(robot: &Robot) -> (Matrix3<f64>, bool) {
-    let radius = robot.platform_size().max(0.01);
-    let of_ball = || Matrix3::identity() * (0.4 * robot.platform.mass * radius * radius);
-    (robot.platform.inertia.unwrap_or_else(of_ball), robot.platform.inertia.is_none())
+/// Inertia about the centre of mass [kg m²]: that of a ball as large as the platform where it is not known,
+/// which is noted.
+pub(crate) fn inertia(robot: &Robot, notes: &mut Vec<String>) -> Matrix3<f64> {
+    robot.platform.inertia.unwrap_or_else(|| {
+        notes.push(
+            "the inertia is that of a ball as large as the platform: the robot file has none".to_owned(),
+        );
+        let radius = robot.platform_size().max(0.01);
+        Matrix3::identity() * (0.4 * robot.platform.mass * radius * radius)
+    })
 }
 
 /// Refuses what only cables between points in space can be written without.

@@ -81,8 +81,8 @@ class Analysis(Table):
 
     effect = Column("half.effect", "Mean output of the upper half of an input's values less that of the lower half.")
     student = Column("half.student", "Student's t of the effect, for independent rows.")
-    standardised = Column("standardised", "Standardised regression coefficients (SRC).")
-    rank_standardised = Column("rank_standardised", "Standardised regression coefficients of ranks (SRRC).")
+    standardized = Column("standardized", "Standardized regression coefficients (SRC).")
+    rank_standardized = Column("rank_standardized", "Standardized regression coefficients of ranks (SRRC).")
     first = Column("first.value", "First-order Sobol' indices by ranks, or by levels where these are few.")
     first_interval = Interval("first", "Intervals of these, (k, 2).")
     expansion_first = Column(

@@ -1,4 +1,4 @@
-//! Classes of answers: constant fields, which `pickle` carries to other processes and `repr` summarises.
+//! Classes of answers: constant fields, which `pickle` carries to other processes and `repr` summarizes.
 
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
@@ -62,7 +62,7 @@ pub(crate) fn fields<'py>(answer: &Bound<'py, PyAny>, names: &[&str]) -> PyResul
     PyTuple::new(answer.py(), values)
 }
 
-/// Summarises an answer: `<cdpr.Deflection displacement (40, 3), rms (40,), ..., reasons [40]>`.
+/// Summarizes an answer: `<cdpr.Deflection displacement (40, 3), rms (40,), ..., reasons [40]>`.
 ///
 /// Numbers, and vectors of up to three of a single case, show their values, other arrays their shapes, lists
 /// their lengths; fields that are None are left out, and right derivatives, which

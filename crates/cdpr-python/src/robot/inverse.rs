@@ -1,6 +1,6 @@
 //! `Robot.inverse`: the unstrained lengths that hold a pose.
 
-use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each, run};
+use crate::convert::{Answer, Cases, Columns, Loads, Numbers, Rows, answer, each, run};
 use crate::robot::Robot;
 use crate::robot::direct::numbers_of_limits;
 use cdpr_robot::{Coordinate, Pose, RobotError};
@@ -128,6 +128,60 @@ fn others_of(
     }
 }
 
+impl InverseSolution {
+    /// The answers to all cases, of a path or with free coordinates.
+    fn of(
+        py: Python,
+        robot: &cdpr_robot::Robot,
+        cases: Cases,
+        outcomes: &[Result<Solved, StaticsError>],
+        [is_path, is_free]: [bool; 2],
+    ) -> Answer<Self> {
+        let others = others_of(py, robot, outcomes, cases.single, is_free)?;
+        let all = Columns::new(py, cases, outcomes)?;
+        let cables = robot.cables.len();
+        let jump = is_path.then(|| all.array(false, &[], |found, out: &mut [bool]| out[0] = found.jump));
+        Ok(Self {
+            lengths: all.numbers(&[cables], |found, out| out.copy_from_slice(&found.lengths))?,
+            tensions: all.numbers(&[cables], |found, out| out.copy_from_slice(&found.tensions))?,
+            exit_tensions: all.numbers(&[cables], |found, out| {
+                let Solved { equilibrium, lengths, .. } = found;
+                out.copy_from_slice(&equilibrium.exit_tensions(robot, lengths));
+            })?,
+            out_of_limits: all.array(0, &[cables], |found, out: &mut [i8]| {
+                let Solved { equilibrium, lengths, .. } = found;
+                numbers_of_limits(&out_of_limits(robot, lengths, &[equilibrium]), out);
+            })?,
+            cable_forces: all.pairs(cables, |found| &found.equilibrium.cable_forces)?,
+            active: all.array(0, &[cables], |found, out: &mut [i8]| {
+                for (out, bound) in out.iter_mut().zip(&found.active) {
+                    *out = match bound {
+                        Some(Bound::Min) => -1,
+                        Some(Bound::Max) => 1,
+                        None => 0,
+                    };
+                }
+            })?,
+            residual: all
+                .vector(|Solved { residual, .. }| [residual.closure, residual.force, residual.moment])?,
+            iterations: all.array(0, &[], |found, out: &mut [i64]| out[0] = found.iterations as i64)?,
+            jump: jump.transpose()?.unwrap_or_else(|| py.None()),
+            pose: all.numbers(&[7], |found, out| {
+                let Pose { position, .. } = found.equilibrium.pose;
+                out[..3].copy_from_slice(position.as_slice());
+                out[3..].copy_from_slice(&found.equilibrium.pose.quaternion());
+            })?,
+            stable: match is_free {
+                true => all.array(false, &[], |found, out: &mut [bool]| out[0] = found.stable)?,
+                false => py.None(),
+            },
+            others,
+            reasons: all.reasons(),
+            kinds: all.kinds(),
+        })
+    }
+}
+
 #[pymethods]
 impl Robot {
     /// Computes the unstrained lengths that hold the platform at a pose under its weight and a load.
@@ -193,46 +247,6 @@ impl Robot {
                 Ok(Solved::from(PathSolution { solution, jump: false }))
             })?
         };
-        let others = others_of(py, robot, &outcomes, cases.single, !free.is_empty())?;
-        let all = Columns::new(py, cases, &outcomes)?;
-        let jump = path.then(|| all.array(false, &[], |found, out: &mut [bool]| out[0] = found.jump));
-        Ok(InverseSolution {
-            lengths: all.numbers(&[cables], |found, out| out.copy_from_slice(&found.lengths))?,
-            tensions: all.numbers(&[cables], |found, out| out.copy_from_slice(&found.tensions))?,
-            exit_tensions: all.numbers(&[cables], |found, out| {
-                let Solved { equilibrium, lengths, .. } = found;
-                out.copy_from_slice(&equilibrium.exit_tensions(robot, lengths));
-            })?,
-            out_of_limits: all.array(0, &[cables], |found, out: &mut [i8]| {
-                let Solved { equilibrium, lengths, .. } = found;
-                numbers_of_limits(&out_of_limits(robot, lengths, &[equilibrium]), out);
-            })?,
-            cable_forces: all.pairs(cables, |found| &found.equilibrium.cable_forces)?,
-            active: all.array(0, &[cables], |found, out: &mut [i8]| {
-                for (out, bound) in out.iter_mut().zip(&found.active) {
-                    *out = match bound {
-                        Some(Bound::Min) => -1,
-                        Some(Bound::Max) => 1,
-                        None => 0,
-                    };
-                }
-            })?,
-            residual: all
-                .vector(|Solved { residual, .. }| [residual.closure, residual.force, residual.moment])?,
-            iterations: all.array(0, &[], |found, out: &mut [i64]| out[0] = found.iterations as i64)?,
-            jump: jump.transpose()?.unwrap_or_else(|| py.None()),
-            pose: all.numbers(&[7], |found, out| {
-                let Pose { position, .. } = found.equilibrium.pose;
-                out[..3].copy_from_slice(position.as_slice());
-                out[3..].copy_from_slice(&found.equilibrium.pose.quaternion());
-            })?,
-            stable: match free.is_empty() {
-                true => py.None(),
-                false => all.array(false, &[], |found, out: &mut [bool]| out[0] = found.stable)?,
-            },
-            others,
-            reasons: all.reasons(),
-            kinds: all.kinds(),
-        })
+        InverseSolution::of(py, robot, cases, &outcomes, [path, !free.is_empty()])
     }
 }

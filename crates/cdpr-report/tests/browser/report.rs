@@ -26,13 +26,34 @@ fn the_report_is_whole_quiet_and_turns_in_a_browser() {
     let file = write_report(&folder, "caroca", &results);
     let mut page = Page::open(chromium());
 
+    is_whole_in_each_width_and_scheme(&mut page, &folder, &file);
+    page.surround(1400, "light");
+    page.show(&file);
+    turns_by_mouse_and_keys(&mut page);
+    stretches_the_sag(&mut page);
+
+    page.evaluate("document.querySelector('[data-surface=surface_E_rho] [data-show=map]').click()");
+    assert_eq!(page.evaluate("document.getElementById('plot-surface_E_rho').hidden"), true);
+    let map = "document.querySelector('[data-surface=surface_E_rho] .map svg') \
+        .getBoundingClientRect().height > 100";
+    assert_eq!(page.evaluate(map), true);
+    assert_eq!(page.complaints(&file), [""; 0]);
+
+    let other = write_report(&folder, "cogiro", &common::cogiro());
+    page.events.clear();
+    page.show(&other);
+    page.photograph(&folder, "cogiro-1400-light");
+    assert_eq!(page.complaints(&other), [""; 0]);
+}
+
+fn is_whole_in_each_width_and_scheme(page: &mut Page, folder: &Path, file: &Path) {
     for (width, scheme) in [(1400, "light"), (1400, "dark"), (400, "dark"), (400, "light")] {
         page.surround(width, scheme);
         // Opened in the light or in the dark, the other comes while it is open.
         if (width == 1400) == (scheme == "light") {
-            page.show(&file);
+            page.show(file);
         }
-        page.photograph(&folder, &format!("caroca-{width}-{scheme}"));
+        page.photograph(folder, &format!("caroca-{width}-{scheme}"));
         let sizes = page.evaluate(
             "[...document.querySelectorAll('figure')].map((figure) => [figure.id, \
              ...['.drawing:not([hidden]) svg', '.plot:not([hidden])'] \
@@ -50,9 +71,9 @@ fn the_report_is_whole_quiet_and_turns_in_a_browser() {
         let dark = page.evaluate("getComputedStyle(document.body).backgroundColor") != "rgb(255, 255, 255)";
         assert_eq!(dark, scheme == "dark");
     }
+}
 
-    page.surround(1400, "light");
-    page.show(&file);
+fn turns_by_mouse_and_keys(page: &mut Page) {
     page.evaluate(
         "document.getElementById('plot-robot').scrollIntoView({behavior: 'instant', block: 'center'})",
     );
@@ -75,13 +96,16 @@ fn the_report_is_whole_quiet_and_turns_in_a_browser() {
         (length(&turned) / length(&before) - 1.0).abs() < 0.02,
         "turned, not zoomed: {before} to {turned}"
     );
-
-    // Keys turn it, too; controls redraw it and say what they stretch.
+    // Keys turn it, too.
     page.evaluate(
         "document.getElementById('plot-robot') \
          .dispatchEvent(new KeyboardEvent('keydown', { key: 'ArrowLeft' }))",
     );
     page.wait_for(&format!("JSON.stringify({EYE}) !== '{turned}'"));
+}
+
+/// The control of the sag redraws the robot and says what it stretches.
+fn stretches_the_sag(page: &mut Page) {
     let heights = "document.getElementById('plot-robot').data \
         .find((trace) => trace.line?.colorscale).z.reduce((sum, z) => sum + z, 0)";
     let stretched = page.evaluate(heights).as_f64().unwrap();
@@ -94,19 +118,6 @@ fn the_report_is_whole_quiet_and_turns_in_a_browser() {
         "the true sag is less than the stretched one"
     );
     assert_eq!(page.evaluate("document.getElementById('sag-times').textContent"), "\u{d7}1 (true)");
-
-    page.evaluate("document.querySelector('[data-surface=surface_E_rho] [data-show=map]').click()");
-    assert_eq!(page.evaluate("document.getElementById('plot-surface_E_rho').hidden"), true);
-    let map = "document.querySelector('[data-surface=surface_E_rho] .map svg') \
-        .getBoundingClientRect().height > 100";
-    assert_eq!(page.evaluate(map), true);
-    assert_eq!(page.complaints(&file), [""; 0]);
-
-    let other = write_report(&folder, "cogiro", &common::cogiro());
-    page.events.clear();
-    page.show(&other);
-    page.photograph(&folder, "cogiro-1400-light");
-    assert_eq!(page.complaints(&other), [""; 0]);
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Tables of deviations: a row for each robot, a column for each of its parameters.
 
 use crate::error::RobotError;
-use crate::parameter::ParameterLayout;
+use crate::parameter::layout::ParameterLayout;
 use std::borrow::Cow;
 use std::slice::{ChunksExact, ChunksExactMut};
 

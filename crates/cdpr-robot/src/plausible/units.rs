@@ -37,11 +37,7 @@ impl Robot {
         if let Some((i, cable)) = farthest.filter(|cable| far(cable) > WIDEST) {
             return Err(RobotError::invalid(
                 format!("cables[{i}].exit_point"),
-                format!(
-                    "{:?}, {:.0} m from that of cable 1",
-                    cable.exit_point.as_slice(),
-                    far(&(i, cable))
-                ),
+                format!("{:?}, {:.0} m from that of cable 1", cable.exit_point.as_slice(), far(&(i, cable))),
                 format!("coordinates in m, less than {WIDEST} m apart: from mm, divide by 1000"),
             ));
         }

@@ -55,7 +55,7 @@ impl QuaternionError {
     /// What would be right.
     pub fn expected(&self) -> String {
         match self {
-            Self::Undefined { .. } => "one that can be normalised".to_owned(),
+            Self::Undefined { .. } => "one that can be normalized".to_owned(),
             Self::Length { given, length } => {
                 format!("the length 1, such as {}", words(&given.map(|component| component / length)))
             }

@@ -72,9 +72,16 @@ pub(crate) fn table(studies: u64, part: &str) -> Result<(), SensitivityError> {
 
 /// The studies of a function.
 fn plan<'a>(function: &'a Function, exact: &'a Exact) -> Vec<Study<'a>> {
+    [of_blocks(function, exact), of_fits(function, exact), of_tables(function, exact)]
+        .into_iter()
+        .flatten()
+        .collect()
+}
+
+/// Measures with designs of their own.
+fn of_blocks<'a>(function: &'a Function, exact: &'a Exact) -> Vec<Study<'a>> {
     let inputs = || function.inputs.clone();
     let k = function.inputs.len();
-    let many = k > 10;
     let mut all = Vec::new();
     for (blocks, names) in [(64, ["Sobol' S, 64", "Sobol' T, 64"]), (256, ["Sobol' S, 256", "Sobol' T, 256"])]
     {
@@ -89,13 +96,6 @@ fn plan<'a>(function: &'a Function, exact: &'a Exact) -> Vec<Study<'a>> {
             }),
         });
     }
-    all.push(Study {
-        runs: 256,
-        measures: vec![("S by ranks", &exact.first)],
-        has_interval: true,
-        is_dear: false,
-        of_seed: Box::new(move |seed| Ok(vec![rank_indices(&random(function, 256, seed)?, 0.95, seed)?])),
-    });
     all.push(Study {
         runs: 256 * (k + 1),
         measures: vec![("Shapley", &exact.shapley)],
@@ -114,12 +114,38 @@ fn plan<'a>(function: &'a Function, exact: &'a Exact) -> Vec<Study<'a>> {
         is_dear: k > 20,
         of_seed: Box::new(move |seed| Ok(vec![trajectories(function, 64, seed)?])),
     });
+    if is_smooth(function) {
+        all.push(Study {
+            runs: 256,
+            measures: vec![("bounds of T", &exact.total)],
+            has_interval: true,
+            is_dear: k > 10,
+            of_seed: Box::new(move |seed| {
+                let design = SobolDesign::scrambled(inputs(), 256, seed)?;
+                let found = brackets(&design, &slopes(&design, function)?, 0.95, seed)?;
+                let between = |of: &Bracket| Estimate {
+                    value: 0.5 * (of.total_lower.value + of.total_upper.value),
+                    low: of.total_lower.low,
+                    high: of.total_upper.high,
+                };
+                Ok(vec![found.iter().map(between).collect()])
+            }),
+        });
+    }
+    all
+}
+
+/// Measures by a model that is fitted to few observations.
+fn of_fits<'a>(function: &'a Function, exact: &'a Exact) -> Vec<Study<'a>> {
+    let inputs = || function.inputs.clone();
+    let k = function.inputs.len();
+    let mut all = Vec::new();
     if k <= 20 {
         all.push(Study {
             runs: 256,
             measures: vec![("expansion S", &exact.first), ("expansion T", &exact.total)],
             has_interval: false,
-            is_dear: many,
+            is_dear: k > 10,
             of_seed: Box::new(move |seed| {
                 let design = LatinHypercube::new(inputs(), 256, seed)?;
                 let outputs = observe(&design, function.model)?;
@@ -143,6 +169,19 @@ fn plan<'a>(function: &'a Function, exact: &'a Exact) -> Vec<Study<'a>> {
             Ok(vec![found.inputs.iter().map(|of| point(of.share)).collect()])
         }),
     });
+    all
+}
+
+/// Measures of a table of independent rows.
+fn of_tables<'a>(function: &'a Function, exact: &'a Exact) -> Vec<Study<'a>> {
+    let mut all = Vec::new();
+    all.push(Study {
+        runs: 256,
+        measures: vec![("S by ranks", &exact.first)],
+        has_interval: true,
+        is_dear: false,
+        of_seed: Box::new(move |seed| Ok(vec![rank_indices(&random(function, 256, seed)?, 0.95, seed)?])),
+    });
     for (rows, name) in [(256, "delta, 256"), (1024, "delta, 1024"), (4096, "delta, 4096")] {
         all.push(Study {
             runs: rows,
@@ -160,7 +199,7 @@ fn plan<'a>(function: &'a Function, exact: &'a Exact) -> Vec<Study<'a>> {
         runs: 256,
         measures: vec![("PAWN", &exact.tables.pawn), ("HSIC R2", &exact.tables.r_squared)],
         has_interval: false,
-        is_dear: many,
+        is_dear: function.inputs.len() > 10,
         of_seed: Box::new(move |seed| {
             let data = random(function, 256, seed)?;
             let dependent = dependence(&data, Rows { most: 256, seed })?;
@@ -170,24 +209,6 @@ fn plan<'a>(function: &'a Function, exact: &'a Exact) -> Vec<Study<'a>> {
             ])
         }),
     });
-    if is_smooth(function) {
-        all.push(Study {
-            runs: 256,
-            measures: vec![("bounds of T", &exact.total)],
-            has_interval: true,
-            is_dear: many,
-            of_seed: Box::new(move |seed| {
-                let design = SobolDesign::scrambled(inputs(), 256, seed)?;
-                let found = brackets(&design, &slopes(&design, function)?, 0.95, seed)?;
-                let between = |of: &Bracket| Estimate {
-                    value: 0.5 * (of.total_lower.value + of.total_upper.value),
-                    low: of.total_lower.low,
-                    high: of.total_upper.high,
-                };
-                Ok(vec![found.iter().map(between).collect()])
-            }),
-        });
-    }
     all
 }
 

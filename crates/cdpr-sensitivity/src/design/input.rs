@@ -8,7 +8,7 @@
 //! equal mass:  x = c + h (k_min + floor(u n)),      n = k_max - k_min + 1 levels      (In2)
 //! ```
 //!
-//! (In1) is the "discretisation step" of Tables 3 and 4 of the paper (Baklouti, Caro, Courteille, 2017).
+//! (In1) is the "discretization step" of Tables 3 and 4 of the paper (Baklouti, Caro, Courteille, 2017).
 //! Where the step divides the range, the two end levels of a uniform law have half the weight of the others.
 //! (In2) gives each level of a uniform law the same weight.
 

@@ -110,10 +110,10 @@ pub struct InputAnalysis {
     pub half: Option<Half>,
     /// Mean outputs of the levels of an input of words.
     pub levels: Vec<LevelMean>,
-    /// Standardised coefficient of values.
-    pub standardised: Option<f64>,
-    /// Standardised coefficient of ranks.
-    pub rank_standardised: Option<f64>,
+    /// Standardized coefficient of values.
+    pub standardized: Option<f64>,
+    /// Standardized coefficient of ranks.
+    pub rank_standardized: Option<f64>,
     /// First-order Sobol' index by ranks, or by levels where these are few.
     pub first: Option<Estimate>,
     /// Shares of the variance by the polynomial model, if it explains at least half of it.

@@ -16,7 +16,7 @@
 //! - (BW2): E. Borgonovo, A. Figalli, E. Plischke, G. Savaré, *Global sensitivity analysis via optimal
 //!   transport*, Manage. Sci. (2024), section 5. The law of total variance, `Σ = E Σ_x + Cov m_x`, gives the
 //!   second form. ι is 0 if neither the mean nor the covariance depends on the input, 1 if the input alone
-//!   decides the output. (BW3) is half of the generalised first-order Sobol' index
+//!   decides the output. (BW3) is half of the generalized first-order Sobol' index
 //!   ([`crate::vector_sobol_indices`]); the rest is what the input changes in the spread of the vector.
 //! - (BW4): the rows are cut into parts of equal size in the order of the input. The covariance within a part
 //!   is that of the residuals of a line, with C and c sums of products of deviations: what the input itself

@@ -23,7 +23,7 @@ use statrs::distribution::{ChiSquared, ContinuousCDF};
 use crate::design::observation::Observed;
 use crate::given::data::Kind;
 use crate::given::levels::codes;
-use crate::measure::regression::{ranks, standardised};
+use crate::measure::regression::{ranks, standardized};
 use crate::sample::random::stream;
 
 /// What a condition is about.
@@ -173,7 +173,7 @@ fn has_order(values: &[f64]) -> bool {
 fn order_p(values: &[f64]) -> f64 {
     let n = values.len();
     let lags = 10.min(n / 5);
-    let Some(scores) = standardised(ranks(values)).filter(|_| lags > 0) else { return 1.0 };
+    let Some(scores) = standardized(ranks(values)).filter(|_| lags > 0) else { return 1.0 };
     let r = |lag: usize| {
         scores.iter().zip(&scores[lag..]).map(|(one, other)| one * other).sum::<f64>() / (n as f64 - 1.0)
     };

@@ -17,7 +17,7 @@ use crate::given::pawn;
 use crate::given::rank;
 use crate::given::verdict::sequence::coordinates;
 use crate::given::verdict::{Doubt, Table, Verdict};
-use crate::measure::regression::{self, Of, ranks, standardised};
+use crate::measure::regression::{self, Of, ranks, standardized};
 use crate::sample::interval::Estimate;
 use crate::sample::random::{derived_seed, stream};
 use crate::sample::summary::check_varies;
@@ -127,8 +127,8 @@ impl<'a> Work<'a> {
                 levels: words.map_or(vec![], |i| {
                     levels::of_labels(data.labels(number), &observed.columns[i], &observed.outputs)
                 }),
-                standardised: place.and_then(|i| of_values.as_ref()?.1[i]),
-                rank_standardised: place.and_then(|i| of_ranks.as_ref()?.1[i]),
+                standardized: place.and_then(|i| of_values.as_ref()?.1[i]),
+                rank_standardized: place.and_then(|i| of_ranks.as_ref()?.1[i]),
                 first: place.and_then(|i| first[i]),
                 shares: place.and_then(|i| expansion?.shares(i)),
                 dependence: place.and_then(|i| Some(dependence.as_ref()?[i])),
@@ -186,14 +186,14 @@ impl<'a> Work<'a> {
         let outputs = self.observed.outputs.clone();
         let observed = Observed { columns, outputs, failed: self.observed.failed };
         let found = regression::of_observed(&names, observed, of)?;
-        let coefficient = |place: Option<usize>| Some(found.inputs[place?].standardised);
+        let coefficient = |place: Option<usize>| Some(found.inputs[place?].standardized);
         Ok((found.r_squared, places.into_iter().map(coefficient).collect()))
     }
 
     /// The pair of numbers of the largest rank correlation.
     pub(crate) fn most_correlated(&self) -> Option<CorrelatedPair> {
         let scores = |(column, kind): (&Vec<f64>, &Kind)| {
-            standardised(ranks(column)).filter(|_| *kind == Kind::Numbers)
+            standardized(ranks(column)).filter(|_| *kind == Kind::Numbers)
         };
         let columns: Vec<Option<Vec<f64>>> = self.drawn.columns.iter().zip(&self.kinds).map(scores).collect();
         let mut largest: Option<([usize; 2], f64)> = None;

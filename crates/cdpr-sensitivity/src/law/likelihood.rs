@@ -1,6 +1,6 @@
 //! Maximum-likelihood estimates of laws of a location and a scale.
 //!
-//! Let z be the standardised values and t = a z - b, with a = 1 / scale and b = location / scale, and let -h
+//! Let z be the standardized values and t = a z - b, with a = 1 / scale and b = location / scale, and let -h
 //! be the logarithm of the standard density. Then
 //!
 //! ```text

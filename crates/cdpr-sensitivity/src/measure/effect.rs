@@ -17,7 +17,7 @@
 //! **t on a Sobol' design does not show significance.** Student's test assumes independent observations, but
 //! the points of the sequence are balanced. Inputs without any effect have a mean t of √(2/π) = 0.80 on
 //! random points. On 2000 Sobol' points it is 0.14 in the linear model of 62 inputs of `tests/effect.rs`. The
-//! interval (Ef3) over independent randomisations holds on both. Each replicate gives one effect e, and the R
+//! interval (Ef3) over independent randomizations holds on both. Each replicate gives one effect e, and the R
 //! effects are independent of each other (A. B. Owen, *Monte Carlo theory, methods and examples*, 2013,
 //! section 17).
 //!
@@ -90,7 +90,7 @@ pub struct EffectInterval {
 /// A replicate of a design and its outputs.
 #[derive(Debug, Clone)]
 pub struct Replicate<D> {
-    /// The design, under a randomisation of its own.
+    /// The design, under a randomization of its own.
     pub design: D,
     /// One output per row, `None` where the observation has failed.
     pub outputs: Vec<Option<f64>>,
@@ -178,7 +178,7 @@ fn check_replicates<D: IndependentSample>(designs: &[&D]) -> Result<(), Sensitiv
     for (index, design) in designs.iter().enumerate() {
         let wrong = |expected| Err(SensitivityError::NotAReplicate { index, expected });
         let Some(seed) = design.seed() else {
-            return wrong("a randomised design");
+            return wrong("a randomized design");
         };
         if !seeds.insert(seed) {
             return wrong("a seed that no other replicate has");

@@ -1,4 +1,4 @@
-//! Linear least squares by Householder's QR factorisation, and eigenvectors of symmetric matrices. No other
+//! Linear least squares by Householder's QR factorization, and eigenvectors of symmetric matrices. No other
 //! module of this crate names faer. Without the feature `faer` the reflections are formed here, column by
 //! column; results agree up to rounding. Eigenvectors need the feature.
 //!

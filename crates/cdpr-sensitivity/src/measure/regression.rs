@@ -1,6 +1,6 @@
 //! Regression coefficients as measures of sensitivity.
 //!
-//! With the values (or ranks) of inputs and output standardised to mean 0 and deviation 1,
+//! With the values (or ranks) of inputs and output standardized to mean 0 and deviation 1,
 //!
 //! ```text
 //! y = Σ β_i x_i + r,   least Σ r²                                         (Re1)
@@ -8,7 +8,7 @@
 //! p_i = β_i / √(β_i² + Σ r² g_ii),   g = (Xᵀ X)⁻¹                         (Re3)
 //! ```
 //!
-//! - β (Re1) is the standardised regression coefficient (SRC; SRRC for ranks). For independent inputs the
+//! - β (Re1) is the standardized regression coefficient (SRC; SRRC for ranks). For independent inputs the
 //!   squares β² add up to R², apart from the correlations within the sample, and are the shares of the
 //!   variance of a linear model: A. Saltelli, K. Chan, E. M. Scott, *Sensitivity analysis* (2000), section
 //!   6.6.2.
@@ -34,15 +34,15 @@ use crate::sample::summary::Spread;
 pub struct Coefficient {
     /// Name of the input.
     pub input: String,
-    /// Standardised coefficient β (Re1).
-    pub standardised: f64,
+    /// Standardized coefficient β (Re1).
+    pub standardized: f64,
     /// Square β² of the coefficient.
     pub share: f64,
     /// Partial correlation p (Re3). It is 0 for an input without influence in an exactly linear model.
     pub partial: f64,
 }
 
-/// Linear model of standardised values or ranks.
+/// Linear model of standardized values or ranks.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct Regression {
@@ -86,7 +86,7 @@ pub fn rank_regression<D: JointSample>(
 /// Spearman's rank correlation of two lists of equal length, or `None` if the values of one are constant.
 #[must_use]
 pub fn rank_correlation(one: &[f64], other: &[f64]) -> Option<f64> {
-    let (one, other) = (standardised(ranks(one))?, standardised(ranks(other))?);
+    let (one, other) = (standardized(ranks(one))?, standardized(ranks(other))?);
     let products: f64 = one.iter().zip(&other).map(|(x, y)| x * y).sum();
     Some(products / (one.len() as f64 - 1.0))
 }
@@ -119,17 +119,17 @@ pub(crate) fn of_observed(
         Of::Ranks => ranks(&values),
     };
     let collinear = |i: usize| SensitivityError::Collinear { input: names[i].to_owned() };
-    let standard = |(i, values)| standardised(transform(values)).ok_or_else(|| collinear(i));
+    let standard = |(i, values)| standardized(transform(values)).ok_or_else(|| collinear(i));
     let columns: Vec<_> = observed.columns.into_iter().enumerate().map(standard).collect::<Result<_, _>>()?;
     let (n, value) = (observed.outputs.len(), observed.outputs[0]);
-    let y = standardised(transform(observed.outputs))
+    let y = standardized(transform(observed.outputs))
         .ok_or(SensitivityError::ConstantSample { value, count: n })?;
     let fit = least_squares(&columns, &y).map_err(collinear)?;
     let coefficient = |((name, &beta), gram): ((&&str, &f64), &f64)| {
         let scale = (beta * beta + fit.residual_squares * gram).sqrt();
         Coefficient {
             input: (*name).to_owned(),
-            standardised: beta,
+            standardized: beta,
             share: beta * beta,
             partial: if scale > 0.0 { beta / scale } else { 0.0 },
         }
@@ -142,8 +142,8 @@ pub(crate) fn of_observed(
     })
 }
 
-/// Standardises values to mean 0 and deviation 1. Constant values give `None`.
-pub(crate) fn standardised(mut values: Vec<f64>) -> Option<Vec<f64>> {
+/// Standardizes values to mean 0 and deviation 1. Constant values give `None`.
+pub(crate) fn standardized(mut values: Vec<f64>) -> Option<Vec<f64>> {
     let spread = Spread::of(&values);
     let std = spread.std();
     for value in &mut values {

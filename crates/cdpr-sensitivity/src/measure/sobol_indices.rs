@@ -64,6 +64,8 @@
 //! only. The indices describe the model where a, b and `ab_i` do not fail. If failures depend on the inputs,
 //! no estimator can recover the rest.
 
+mod sums;
+
 use std::collections::BTreeMap;
 
 use rand::RngExt;
@@ -71,9 +73,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::design::SampleDesign;
 use crate::design::observation::check_outputs;
-use crate::design::saltelli::{Order, SaltelliDesign};
+use crate::design::saltelli::SaltelliDesign;
 use crate::error::{SensitivityError, check_length, check_level, check_range};
-use crate::measure::linear_part::{Line, Lines};
+use crate::measure::linear_part::Lines;
+use crate::measure::sobol_indices::sums::{Sums, pairs};
 use crate::parallel::*;
 use crate::sample::interval::Estimate;
 use crate::sample::random::{Bootstrap, stream};
@@ -123,7 +126,7 @@ pub struct SobolIndices {
     pub reliable: bool,
     /// Indices, one per input in the order of the design.
     pub inputs: Vec<SobolIndex>,
-    /// Indices, one per pair (1, 2), (1, 3), .. The list is empty for [`Order::First`].
+    /// Indices, one per pair (1, 2), (1, 3), .. The list is empty for [`crate::Order::First`].
     pub pairs: Vec<PairIndex>,
 }
 
@@ -199,174 +202,133 @@ fn indices(
 ) -> Result<SobolIndices, SensitivityError> {
     check_level(level)?;
     check_range("resamples", bootstrap.resamples as u64, 2, u64::MAX)?;
-    let (size, count) = (design.block_points(), design.blocks());
-    let estimates = |number: usize| !design.is_scrambled() || design.replicate_of(number).is_none();
-    let varies = |outputs: &&[Option<f64>]| {
-        let ends = (0..count).filter(|number| estimates(*number));
-        let ends = ends.flat_map(|number| [outputs[number * size], outputs[(number + 1) * size - 1]]);
-        let ends: Vec<f64> = ends.flatten().collect();
-        check_range("observed outputs", ends.len() as u64, 2, u64::MAX)?;
-        check_varies(&ends)
-    };
-    // One component that varies suffices.
-    let checks: Vec<Result<(), SensitivityError>> = components.iter().map(varies).collect();
-    if let Some(Err(error)) = checks.iter().find(|check| check.is_ok()).or(checks.first()) {
-        return Err(error.clone());
-    }
-    let mean = |outputs: &&[Option<f64>]| {
-        let observed = outputs.iter().flatten();
-        observed.clone().sum::<f64>() / observed.count() as f64
-    };
-    let means: Vec<f64> = components.iter().map(mean).collect();
-    let k = design.groups().len();
-    let lines = Lines::of(design, components)?;
-    // Sums of the estimate and of the units that show its error: the replicates, or single blocks.
-    let mut estimate = Sums::default();
-    let mut units: BTreeMap<usize, Sums> = BTreeMap::new();
-    for number in 0..count {
-        let mut terms = Sums { components: components.len(), ..Sums::default() };
-        for (component, (outputs, mean)) in components.iter().zip(&means).enumerate() {
-            let block = &outputs[number * size..(number + 1) * size];
-            terms.observe(block, *mean, component, design, lines.at(number, component));
-        }
-        if estimates(number) {
-            estimate.add(1, &terms);
-        }
-        let unit = if design.is_scrambled() { design.replicate_of(number) } else { Some(number) };
-        if let Some(unit) = unit {
-            units.entry(unit).or_default().add(1, &terms);
-        }
-    }
-    let units: Vec<Sums> = units.into_values().collect();
-    let mut pool = Sums::default();
-    units.iter().for_each(|unit| pool.add(1, unit));
-    let behind = |i: usize| match design.is_scrambled() {
-        true => 2 * estimate.count(i).min(pool.count(i)),
-        false => estimate.count(i),
-    };
+    check_components(design, components)?;
+    let summed = Summed::of(design, components)?;
     for (i, group) in design.groups().iter().enumerate() {
-        let least = SobolIndices::MIN_BLOCKS as u64;
-        check_range("blocks without a failure", behind(i) as u64, least, u64::MAX).map_err(|source| {
+        let (behind, least) = (summed.blocks(i) as u64, SobolIndices::MIN_BLOCKS as u64);
+        check_range("blocks without a failure", behind, least, u64::MAX).map_err(|source| {
             SensitivityError::InvalidInput { name: group.name.clone(), source: Box::new(source) }
         })?;
     }
-    let ((variance, values), (_, pooled)) = (estimate.quotients(), pool.quotients());
-    let resampled: Vec<Vec<f64>> = (0..bootstrap.resamples)
-        .into_par_iter()
-        .map(|resample| {
-            let mut sums = Sums::default();
-            for (unit, times) in units.iter().zip(multiplicities(units.len(), bootstrap.seed, resample)) {
-                sums.add(times, unit);
-            }
-            sums.quotients()
-        })
-        // Drawn units whose outputs a and b are constant up to rounding have no indices.
-        .filter(|(resampled, _)| *resampled > 1e-12 * variance)
-        .map(|(_, indices)| indices)
-        .collect();
-    check_range("resamples with a variance", resampled.len() as u64, 2, u64::MAX)?;
-    let interval = |(index, &value): (usize, &f64)| {
-        let of_index = resampled.iter().map(|indices| indices[index]);
-        let of_resamples: Vec<f64> = of_index.filter(|value| value.is_finite()).collect();
-        let resolution = 1.0 / estimate.count(index) as f64;
-        let bias = (value - pooled[index]).powi(2) / SaltelliDesign::REPLICATES as f64;
-        Ok(Estimate::of_resamples(value, &of_resamples, bias, units.len(), level)?.at_least(resolution))
-    };
-    let estimates: Vec<Estimate> = values.par_iter().enumerate().map(interval).collect::<Result<_, _>>()?;
-
+    let (variance, estimates) = summed.estimates(bootstrap, level)?;
+    let k = design.groups().len();
     let name = |i: usize| design.groups()[i].name.clone();
     let outputs = components[0];
     let (of_inputs, of_pairs) = estimates.split_at(2 * k);
-    let input =
-        |i| SobolIndex { input: name(i), blocks: behind(i), first: of_inputs[i], total: of_inputs[k + i] };
+    let input = |i| SobolIndex {
+        input: name(i),
+        blocks: summed.blocks(i),
+        first: of_inputs[i],
+        total: of_inputs[k + i],
+    };
     let pair = |((i, j), &second)| PairIndex { inputs: [name(i), name(j)], second };
+    let is_reliable = |i| summed.blocks(i) >= SobolIndices::RELIABLE_BLOCKS;
     Ok(SobolIndices {
-        blocks: count,
-        failed_blocks: outputs.chunks(size).filter(|block| block.contains(&None)).count(),
+        blocks: design.blocks(),
+        failed_blocks: outputs.chunks(design.block_points()).filter(|block| block.contains(&None)).count(),
         failed: outputs.iter().filter(|output| output.is_none()).count(),
         variance,
         level,
-        reliable: design.is_scrambled() && (0..k).all(|i| behind(i) >= SobolIndices::RELIABLE_BLOCKS),
+        reliable: design.is_scrambled() && (0..k).all(is_reliable),
         inputs: (0..k).map(input).collect(),
         pairs: pairs(k).zip(of_pairs).map(pair).collect(),
     })
 }
 
-/// Pairs i < j of k inputs.
-fn pairs(k: usize) -> impl Iterator<Item = (usize, usize)> {
-    (0..k).flat_map(move |i| (i + 1..k).map(move |j| (i, j)))
+/// Whether a block belongs to the sequence of the estimate.
+fn is_of_estimate(design: &SaltelliDesign, number: usize) -> bool {
+    !design.is_scrambled() || design.replicate_of(number).is_none()
 }
 
-/// Counts and sums of the terms that (Si1) to (Si4) average.
-#[derive(Default)]
-struct Sums {
-    components: usize,
-    /// The two of V for each component, then those of all `S_i`, `T_i`, `S_ij`.
-    terms: Vec<[f64; 2]>,
+/// Refuses outputs of which no component varies.
+fn check_components(design: &SaltelliDesign, components: &[&[Option<f64>]]) -> Result<(), SensitivityError> {
+    let size = design.block_points();
+    let varies = |outputs: &&[Option<f64>]| {
+        let ends = (0..design.blocks()).filter(|number| is_of_estimate(design, *number));
+        let ends = ends.flat_map(|number| [outputs[number * size], outputs[(number + 1) * size - 1]]);
+        let ends: Vec<f64> = ends.flatten().collect();
+        check_range("observed outputs", ends.len() as u64, 2, u64::MAX)?;
+        check_varies(&ends)
+    };
+    let checks: Vec<Result<(), SensitivityError>> = components.iter().map(varies).collect();
+    match checks.iter().find(|check| check.is_ok()).or(checks.first()) {
+        Some(Err(error)) => Err(error.clone()),
+        _ => Ok(()),
+    }
 }
 
-impl Sums {
-    /// Adds the terms of one component of a block. Those that need a failed output are left out.
-    fn observe(
-        &mut self,
-        block: &[Option<f64>],
-        mean: f64,
-        component: usize,
-        design: &SaltelliDesign,
-        line: Option<Line>,
-    ) {
-        let k = design.groups().len();
-        let of_line = line.as_ref().map_or_else(|| vec![0.0; block.len()], |line| line.values(block.len()));
-        let rest = block.iter().zip(of_line).map(|(output, of_line)| Some((*output)? - mean - of_line));
-        let rest: Vec<Option<f64>> = rest.collect();
-        let known = |i: usize| line.as_ref().map_or(0.0, |line| line.variance(i));
-        let (a, b) = (rest[0], rest[rest.len() - 1]);
-        let ab = &rest[1..=k];
-        let first: Vec<Option<f64>> = ab.iter().map(|ab| Some(b? * ((*ab)? - a?))).collect();
-        let total = ab.iter().map(|ab| Some(0.5 * (a? - (*ab)?).powi(2)));
-        let mut terms: Vec<Option<f64>> = first.iter().copied().chain(total).collect();
-        for (index, term) in terms.iter_mut().enumerate() {
-            *term = term.map(|term| term + known(index % k));
-        }
-        if design.order() == Order::Second {
-            let ba = &rest[k + 1..=2 * k];
-            let second = |(i, j): (usize, usize)| Some(ba[i]? * ab[j]? - a? * b? - first[i]? - first[j]?);
-            terms.extend(pairs(k).map(second));
-        }
-        let moments = 2 * self.components;
-        self.terms.resize(moments + terms.len(), [0.0; 2]);
-        let known: f64 = (0..k).map(known).sum();
-        for x in [a, b].into_iter().flatten() {
-            for (moment, value) in self.terms[2 * component..].iter_mut().zip([x, x * x + known]) {
-                *moment = [moment[0] + 1.0, moment[1] + value];
+/// Sums of the estimate and of the units that show its error: the replicates, or single blocks.
+struct Summed {
+    is_scrambled: bool,
+    estimate: Sums,
+    units: Vec<Sums>,
+    /// All units together.
+    pool: Sums,
+}
+
+impl Summed {
+    fn of(design: &SaltelliDesign, components: &[&[Option<f64>]]) -> Result<Self, SensitivityError> {
+        let mean = |outputs: &&[Option<f64>]| {
+            let observed = outputs.iter().flatten();
+            observed.clone().sum::<f64>() / observed.count() as f64
+        };
+        let means: Vec<f64> = components.iter().map(mean).collect();
+        let lines = Lines::of(design, components)?;
+        let (size, is_scrambled) = (design.block_points(), design.is_scrambled());
+        let (mut estimate, mut pool) = (Sums::default(), Sums::default());
+        let mut units: BTreeMap<usize, Sums> = BTreeMap::new();
+        for number in 0..design.blocks() {
+            let mut terms = Sums::of(components.len());
+            for (component, (outputs, mean)) in components.iter().zip(&means).enumerate() {
+                let block = &outputs[number * size..(number + 1) * size];
+                terms.observe(block, *mean, component, design, lines.at(number, component));
+            }
+            if is_of_estimate(design, number) {
+                estimate.add(1, &terms);
+            }
+            let unit = if is_scrambled { design.replicate_of(number) } else { Some(number) };
+            if let Some(unit) = unit {
+                units.entry(unit).or_default().add(1, &terms);
             }
         }
-        for (sum, term) in self.terms[moments..].iter_mut().zip(terms) {
-            // All components of an observation fail together.
-            *sum = term.map_or([0.0; 2], |term| [1.0, sum[1] + term]);
-        }
+        let units: Vec<Sums> = units.into_values().collect();
+        units.iter().for_each(|unit| pool.add(1, unit));
+        Ok(Self { is_scrambled, estimate, units, pool })
     }
 
-    /// Adds the sums of others `times` times.
-    fn add(&mut self, times: u32, other: &Self) {
-        self.components = other.components;
-        self.terms.resize(other.terms.len(), [0.0; 2]);
-        for (sum, term) in self.terms.iter_mut().flatten().zip(other.terms.iter().flatten()) {
-            *sum += f64::from(times) * term;
-        }
+    /// [`SobolIndex::blocks`] of input or group i.
+    fn blocks(&self, i: usize) -> usize {
+        let of_estimate = self.estimate.count(i);
+        if self.is_scrambled { 2 * of_estimate.min(self.pool.count(i)) } else { of_estimate }
     }
 
-    /// Number of blocks behind an index.
-    fn count(&self, index: usize) -> usize {
-        self.terms[2 * self.components + index][0] as usize
-    }
-
-    /// V and the indices. An index without terms is NaN.
-    fn quotients(&self) -> (f64, Vec<f64>) {
-        let mean = |[n, sum]: &[f64; 2]| sum / n;
-        let (moments, terms) = self.terms.split_at(2 * self.components);
-        let variance: f64 = moments.chunks(2).map(|of| mean(&of[1]) - mean(&of[0]).powi(2)).sum();
-        (variance, terms.iter().map(|term| mean(term) / variance).collect())
+    /// V, and the indices with their intervals (Si5).
+    fn estimates(&self, bootstrap: Bootstrap, level: f64) -> Result<(f64, Vec<Estimate>), SensitivityError> {
+        let units = &self.units;
+        let ((variance, values), (_, pooled)) = (self.estimate.quotients(), self.pool.quotients());
+        let resampled: Vec<Vec<f64>> = (0..bootstrap.resamples)
+            .into_par_iter()
+            .map(|resample| {
+                let mut sums = Sums::default();
+                for (unit, times) in units.iter().zip(multiplicities(units.len(), bootstrap.seed, resample)) {
+                    sums.add(times, unit);
+                }
+                sums.quotients()
+            })
+            // Drawn units whose outputs a and b are constant up to rounding have no indices.
+            .filter(|(resampled, _)| *resampled > 1e-12 * variance)
+            .map(|(_, indices)| indices)
+            .collect();
+        check_range("resamples with a variance", resampled.len() as u64, 2, u64::MAX)?;
+        let interval = |(index, &value): (usize, &f64)| {
+            let of_index = resampled.iter().map(|indices| indices[index]);
+            let of_resamples: Vec<f64> = of_index.filter(|value| value.is_finite()).collect();
+            let resolution = 1.0 / self.estimate.count(index) as f64;
+            let bias = (value - pooled[index]).powi(2) / SaltelliDesign::REPLICATES as f64;
+            Ok(Estimate::of_resamples(value, &of_resamples, bias, units.len(), level)?.at_least(resolution))
+        };
+        let estimates = values.par_iter().enumerate().map(interval).collect::<Result<_, _>>()?;
+        Ok((variance, estimates))
     }
 }
 

@@ -22,7 +22,7 @@ struct ReferenceRegression {
 
 #[derive(serde::Deserialize)]
 struct ReferenceCoefficients {
-    standardised: Vec<f64>,
+    standardized: Vec<f64>,
     partial: Vec<f64>,
     r_squared: f64,
 }
@@ -44,7 +44,7 @@ fn coefficients_are_those_of_numpy() {
     ] {
         assert_abs_diff_eq!(found.r_squared, expected.r_squared, epsilon = 1e-13);
         for (i, coefficient) in found.inputs.iter().enumerate() {
-            assert_abs_diff_eq!(coefficient.standardised, expected.standardised[i], epsilon = 1e-13);
+            assert_abs_diff_eq!(coefficient.standardized, expected.standardized[i], epsilon = 1e-13);
             assert_abs_diff_eq!(coefficient.partial, expected.partial[i], epsilon = 1e-13);
         }
     }
@@ -60,7 +60,7 @@ fn squares_are_the_shares_of_a_linear_model() {
     {
         // The columns of a Latin hypercube are correlated by about 1 / √4096.
         assert_abs_diff_eq!(coefficient.share, share, epsilon = 0.02);
-        assert_eq!(coefficient.share, coefficient.standardised.powi(2));
+        assert_eq!(coefficient.share, coefficient.standardized.powi(2));
         // An exact fit but for rounding: 1e-15 of an inert input may correlate as it likes.
         if share > 0.0 {
             assert_abs_diff_eq!(coefficient.partial, partial, epsilon = 1e-12);
@@ -87,12 +87,12 @@ fn correlated_inputs_have_the_coefficients_of_their_model() {
     let design = Correlated::new(sobol, &[vec![1.0, 0.8], vec![0.8, 1.0]]).unwrap();
     let found = of_model(&design, |x| x[0] + x[1]);
     for coefficient in &found.inputs {
-        assert_abs_diff_eq!(coefficient.standardised, 3.6_f64.sqrt().recip(), epsilon = 0.005);
+        assert_abs_diff_eq!(coefficient.standardized, 3.6_f64.sqrt().recip(), epsilon = 0.005);
     }
     assert_relative_eq!(found.r_squared, 1.0, epsilon = 1e-12);
     // An input that acts through its correlation alone has no coefficient of its own.
     let found = of_model(&design, |x| x[0]);
-    assert_abs_diff_eq!(found.inputs[1].standardised, 0.0, epsilon = 1e-12);
+    assert_abs_diff_eq!(found.inputs[1].standardized, 0.0, epsilon = 1e-12);
 }
 
 #[test]

@@ -262,6 +262,14 @@ impl CableDerivatives {
         of_vector
     }
 
+    /// The derivatives of the force with which the cable pulls on its guide, in the place of those of F_i.
+    pub(crate) fn of_pull(&self, robot: &Robot, pose: &Pose, i: usize, at: &Catenary) -> Self {
+        if at.is_limp() {
+            return self.clone();
+        }
+        Self::of_vector(robot, pose, i, &SpannedCable::of(robot, pose, i, at).leave_force_slopes(at))
+    }
+
     /// A vector that acts on the cable, in the place of -F_i.
     fn of_vector(robot: &Robot, pose: &Pose, i: usize, slopes: &HeldSlopes) -> Self {
         Self {

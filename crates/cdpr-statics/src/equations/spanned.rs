@@ -5,17 +5,18 @@
 //! the cable hangs in a plane that does not contain the entry point: its azimuth is that with which the cable
 //! meets its anchor point across the plane, for the force and length that it has.
 
+mod alone;
+mod slopes;
+mod stiffness;
+
 use crate::equations::cable::{CablePlane, LinearizedCable, Span, between};
 use crate::problem::DirectProblem;
-use crate::state::Equilibrium;
 use cdpr_cable::kernel::{Response, closure_of_limp, response};
-use cdpr_cable::{
-    CableError, Catenary, ElasticLaw, Guide, HeldCable, HeldSlopes, HeldSpatialCable, SpatialCable,
-    SpatialResponse, SpatialSlopes, end_force, end_force_near, spatial_end_force,
-};
+use cdpr_cable::{Catenary, ElasticLaw, Guide, SpatialCable, SpatialResponse};
 use cdpr_number::Real;
 use cdpr_number::vector::{dot, wrench};
 use cdpr_robot::{Matrix3, Pose, Robot, Vector2, Vector3};
+pub(crate) use stiffness::{SpannedStiffness, Turned};
 
 /// A cable with a force that need not fit its two points.
 pub(crate) struct SpannedCable<'a, T> {
@@ -157,221 +158,6 @@ impl<'a> SpannedCable<'a, f64> {
         let (span, answer) = answer(catenary, Span::new(r), r, || catenary.response());
         Self { anchor_arm, span, force: catenary.force.into(), answer, level }
     }
-
-    /// The misclosure in space of a cable over a tilted axis [m], in the level frame.
-    fn open(&self) -> Vector3<f64> {
-        self.span.plane.lift(self.misclosure()).into()
-    }
-
-    /// The cable linearised about its force; `None` for a slack cable without weight, which resists nothing.
-    #[inline(always)]
-    pub(crate) fn linearized(&self) -> Option<SpannedStiffness<'a>> {
-        match &self.answer {
-            Answer::Planar(response) if self.level.is_none() => {
-                Some(SpannedStiffness::Level(LinearizedCable::new(&self.span, self.force, response)))
-            }
-            _ => self.turned(),
-        }
-    }
-
-    #[cold]
-    fn turned(&self) -> Option<SpannedStiffness<'a>> {
-        let (plane, level) = (self.span.plane, self.level);
-        let (predicted, stiffness) = match &self.answer {
-            Answer::Planar(response) => {
-                let planar = LinearizedCable::new(&self.span, self.force, response);
-                (plane.lift(planar.predicted).into(), planar.stiffness_in_space().into())
-            }
-            Answer::Spatial(spatial) => {
-                let stiffness = spatial.flexibility.try_inverse().unwrap_or_else(Matrix3::zeros);
-                let predicted = Vector3::from(plane.lift(self.force)) + stiffness * self.open();
-                (predicted, 0.5 * (stiffness + stiffness.transpose()))
-            }
-            Answer::Limp(_) => return None,
-        };
-        let leaves = matches!(self.answer, Answer::Spatial(_));
-        Some(SpannedStiffness::Turned(Box::new(Turned { plane, predicted, stiffness, leaves, level })))
-    }
-
-    /// Skew part of the stiffness in space [N/m], in the base frame, besides the symmetric one of
-    /// [`SpannedStiffness::stiffness`]: of a cable over a guide, whose flexibility is not quite symmetric
-    /// (C22).
-    pub(crate) fn skew_stiffness(&self, catenary: &Catenary) -> Option<Matrix3<f64>> {
-        catenary.cable.guide?;
-        let skew = match &self.answer {
-            Answer::Planar(response) => {
-                let asymmetry = catenary.asymmetry();
-                let determinant = response.determinant + asymmetry * asymmetry;
-                let forwards = Vector3::from(self.span.plane.lift([1.0, 0.0]));
-                let up = Vector3::z();
-                (up * forwards.transpose() - forwards * up.transpose()) * (asymmetry / determinant)
-            }
-            Answer::Spatial(spatial) => {
-                let stiffness = spatial.flexibility.try_inverse()?;
-                0.5 * (stiffness - stiffness.transpose())
-            }
-            Answer::Limp(_) => return None,
-        };
-        Some(self.based_matrix(&skew))
-    }
-
-    /// The position of the free end of the cable per unstrained length at constant force [m/m], in the base
-    /// frame; zero for a slack cable without weight.
-    pub(crate) fn end_per_length(&self) -> Vector3<f64> {
-        let slope = match &self.answer {
-            Answer::Planar(response) => self.span.plane.lift(response.end_per_length),
-            Answer::Spatial(spatial) => spatial.end_per_length.into(),
-            Answer::Limp(_) => [0.0; 3],
-        };
-        self.based(slope.into())
-    }
-
-    /// How the free end of the cable moves with what the cable and its guide are, at constant force and
-    /// length, in the base frame.
-    pub(crate) fn end_slopes(&self, catenary: &Catenary<'a>) -> SpatialSlopes {
-        if let Some(cable) = self.over_a_pulley(catenary) {
-            let SpatialSlopes { per_weight, per_stiffness, per_lead, per_radius, per_axis } = cable.slopes();
-            return SpatialSlopes {
-                per_weight: self.based(per_weight),
-                per_stiffness: self.based(per_stiffness),
-                per_lead: self.based(per_lead),
-                per_radius: self.based(per_radius),
-                per_axis: self.based_matrix(&per_axis),
-            };
-        }
-        let lift = |end: Vector2<f64>| self.based(self.span.plane.lift(end.into()).into());
-        let per_lead = catenary.end_per_guide().map_or_else(Vector3::zeros, |[lead, _]| lift(lead));
-        SpatialSlopes {
-            per_weight: lift(catenary.end_per_weight()),
-            per_stiffness: lift(catenary.end_per_stiffness()),
-            per_lead,
-            per_radius: Vector3::zeros(),
-            per_axis: Matrix3::zeros(),
-        }
-    }
-
-    /// Second derivatives of the force on the cable, which must fit its points, between its held ends, in the
-    /// base frame; `end` [m] leads from its exit to its anchor point in the level frame.
-    pub(crate) fn tension_slopes(&self, catenary: &Catenary<'a>, end: Vector3<f64>) -> HeldSlopes {
-        if let Some(cable) = self.over_a_pulley(catenary) {
-            return self.based_slopes(&HeldSpatialCable::of(cable, end).tension_slopes());
-        }
-        let held = HeldCable::of(*catenary, self.span.end.into());
-        let slopes = held.tension_slopes();
-        let lift = |v: Vector2<f64>| self.based(self.span.plane.lift(v.into()).into());
-        let (forwards, up) = (lift(Vector2::x()), lift(Vector2::y()));
-        let across = up.cross(&forwards);
-        // v_x/h
-        let lateral = 1.0 / (self.span.chord() * held.tension_slope());
-        let [per_h, per_z] = slopes.per_end.map(lift);
-        HeldSlopes {
-            value: lift(slopes.force_per_tension),
-            per_actuation: lift(slopes.per_tension),
-            per_end: per_h * forwards.transpose()
-                + per_z * up.transpose()
-                + across * across.transpose() * lateral,
-            per_weight: lift(slopes.per_weight),
-            per_stiffness: lift(slopes.per_stiffness),
-            per_lead: lift(slopes.per_guide[0]),
-            per_radius: Vector3::zeros(),
-            per_axis: Matrix3::zeros(),
-        }
-    }
-
-    /// The force K3 d on the cable by which it answers to the unit motion `d` of its anchor point, with its
-    /// derivatives between held ends, in the base frame.
-    pub(crate) fn stiffness_slopes(&self, catenary: &Catenary<'a>, d: Vector3<f64>) -> HeldSlopes {
-        let d = to_level(self.level, d.into()).into();
-        self.based_slopes(&self.in_space(catenary).stiffness_slopes(d))
-    }
-
-    /// The cable in space, in the level frame, if it runs over a pulley: only there do derivatives leave its
-    /// plane.
-    fn over_a_pulley(&self, catenary: &Catenary<'a>) -> Option<SpatialCable<'a>> {
-        catenary.cable.guide.filter(|guide| guide.radius > 0.0)?;
-        Some(self.in_space(catenary))
-    }
-
-    /// The cable in space, in the level frame.
-    fn in_space(&self, catenary: &Catenary<'a>) -> SpatialCable<'a> {
-        let Catenary { cable, unstrained_length, .. } = *catenary;
-        SpatialCable { cable, unstrained_length, force: self.span.plane.lift(self.force).into() }
-    }
-
-    fn based_slopes(&self, slopes: &HeldSlopes) -> HeldSlopes {
-        HeldSlopes {
-            value: self.based(slopes.value),
-            per_actuation: self.based(slopes.per_actuation),
-            per_end: self.based_matrix(&slopes.per_end),
-            per_weight: self.based(slopes.per_weight),
-            per_stiffness: self.based(slopes.per_stiffness),
-            per_lead: self.based(slopes.per_lead),
-            per_radius: self.based(slopes.per_radius),
-            per_axis: self.based_matrix(&slopes.per_axis),
-        }
-    }
-
-    fn based(&self, v: Vector3<f64>) -> Vector3<f64> {
-        to_base(self.level, v.into()).into()
-    }
-
-    fn based_matrix(&self, matrix: &Matrix3<f64>) -> Matrix3<f64> {
-        self.level.map_or(*matrix, |level| level.transpose() * matrix * level)
-    }
-}
-
-/// The stiffness of a cable in space, with the force on which it bears.
-pub(crate) enum SpannedStiffness<'a> {
-    /// In the vertical plane of its span, on a level base.
-    Level(LinearizedCable<f64>),
-    /// Any other.
-    Turned(Box<Turned<'a>>),
-}
-
-/// A cable in the level frame, and the way to the base frame.
-pub(crate) struct Turned<'a> {
-    pub(crate) plane: CablePlane<f64>,
-    /// Force on the cable at A [N].
-    predicted: Vector3<f64>,
-    /// Symmetric part of the stiffness [N/m].
-    stiffness: Matrix3<f64>,
-    /// Whether the plane depends on the force.
-    leaves: bool,
-    level: Option<&'a Matrix3<f64>>,
-}
-
-impl SpannedStiffness<'_> {
-    /// Stiffness K3 [N/m] in the base frame, equation (S3): a symmetric matrix.
-    #[inline(always)]
-    pub(crate) fn stiffness(&self) -> [[f64; 3]; 3] {
-        match self {
-            Self::Level(cable) => cable.stiffness_in_space(),
-            Self::Turned(cable) => cable.stiffness(),
-        }
-    }
-
-    /// The force on the platform that the cable would have if it fitted its points [N].
-    #[inline(always)]
-    pub(crate) fn predicted(&self) -> [f64; 3] {
-        match self {
-            Self::Level(cable) => cable.plane.force_on_platform(cable.predicted),
-            Self::Turned(cable) => to_base(cable.level, (-cable.predicted).into()),
-        }
-    }
-}
-
-impl Turned<'_> {
-    #[cold]
-    fn stiffness(&self) -> [[f64; 3]; 3] {
-        self.level.map_or(self.stiffness, |level| level.transpose() * self.stiffness * level).into()
-    }
-
-    /// The force (fx, fz) on the cable [N] after a displacement of A in space [m].
-    #[cold]
-    pub(crate) fn force_after(&self, displacement: [f64; 3]) -> [f64; 2] {
-        let force = self.predicted + self.stiffness * Vector3::from(to_level(self.level, displacement));
-        if self.leaves { [force.xy().norm(), force.z] } else { self.plane.project(force.into()) }
-    }
 }
 
 impl<'a, T: Real> SpannedCable<'a, T> {
@@ -459,73 +245,5 @@ impl<'a> DirectProblem<'a> {
     #[inline]
     pub(crate) fn span(&self, pose: &Pose, i: usize) -> Span<f64> {
         Span::new(end(self.robot, pose, i).into())
-    }
-
-    /// The force (fx, fz) [N] of cable i in its own equilibrium at a pose, searched from a force at a pose
-    /// nearby.
-    pub(crate) fn force_at(
-        &self,
-        pose: &Pose,
-        i: usize,
-        near: Option<(&Pose, &Vector2<f64>)>,
-    ) -> Result<Vector2<f64>, CableError> {
-        let mut catenary = self.catenary(i, near.map_or_else(Vector2::zeros, |(_, force)| *force));
-        if catenary.cable.leaves_its_plane() {
-            return self.spatial_force_at(pose, i, near);
-        }
-        let span = self.span(pose, i);
-        let Some((before, force)) = near else {
-            return Ok(end_force(&catenary.cable, self.lengths[i], span.end.into())?.catenary.force);
-        };
-        let way = Vector2::from(span.end) - Vector2::from(self.span(before, i).end);
-        let predicted = force + catenary.in_plane_stiffness() * way;
-        if (0.3 * force.x..3.0 * force.x).contains(&predicted.x) {
-            catenary.force = predicted;
-        }
-        Ok(end_force_near(&catenary, span.end.into())?.catenary.force)
-    }
-
-    #[cold]
-    fn spatial_force_at(
-        &self,
-        pose: &Pose,
-        i: usize,
-        near: Option<(&Pose, &Vector2<f64>)>,
-    ) -> Result<Vector2<f64>, CableError> {
-        let near = near.map(|(pose, force)| {
-            let near = SpannedCable::of(self.robot, pose, i, &self.catenary(i, *force));
-            near.span.plane.lift(near.force).into()
-        });
-        let force = spatial_end_force(&self.cable(i), self.lengths[i], end(self.robot, pose, i), near)?.force;
-        Ok(Vector2::new(force.xy().norm(), force.z))
-    }
-
-    /// Cable i in its vertical plane, with the force (fx, fz) [N] at a pose.
-    #[inline]
-    pub(crate) fn catenary_at(&self, pose: &Pose, i: usize, force: Vector2<f64>) -> Catenary<'a> {
-        in_its_plane(self.robot, pose, i, self.catenary(i, force))
-    }
-}
-
-/// Cable i of a robot at a pose, its pulley seen in the plane that it hangs in.
-#[inline]
-fn in_its_plane<'a>(robot: &Robot, pose: &Pose, i: usize, catenary: Catenary<'a>) -> Catenary<'a> {
-    if !catenary.cable.leaves_its_plane() {
-        return catenary;
-    }
-    let plane = SpannedCable::of(robot, pose, i, &catenary).span.plane;
-    Catenary { cable: catenary.cable.turned(plane.azimuth), ..catenary }
-}
-
-impl Equilibrium {
-    /// Tension of every cable at its exit point [N], for the robot and unstrained lengths [m] that it is an
-    /// equilibrium of; over a pulley where the cable leaves it.
-    pub fn exit_tensions(&self, robot: &Robot, lengths: &[f64]) -> Vec<f64> {
-        let each = self.cable_forces.iter().zip(lengths).enumerate();
-        each.map(|(i, (force, length))| {
-            let catenary = Catenary { cable: robot.cable(i), unstrained_length: *length, force: *force };
-            in_its_plane(robot, &self.pose, i, catenary).exit_tension()
-        })
-        .collect()
     }
 }

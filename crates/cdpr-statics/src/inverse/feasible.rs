@@ -1,8 +1,8 @@
 //! From where the inverse model is searched, and when a pose is called infeasible.
 //!
-//! The first start is the optimum of the straight-cable problem: directions along the chords, and where no
-//! tensions balance the wrench in these directions, those that come nearest. Where the search from there
-//! fails, the residual of the balance itself is made least, by steps
+//! The first start is the optimum of the straight-cable problem, by `start`: directions along the chords, and
+//! where no tensions balance the wrench in these directions, those that come nearest. Where the search from
+//! there fails, the residual of the balance itself is made least, by steps
 //!
 //! ```text
 //! minimise  |J d + F|² + sum (max(F·w_i'', 0) + η/σ_i²) d_i²   within the limits,          (I4)
@@ -23,19 +23,20 @@
 //! the next start; where none has, no other start is needed.
 //!
 //! A pose is infeasible if a direction y exists in which no cable can pull enough:
-//! `min y·w_i(t_i)` over the limits of each cable, summed over all, exceeds `-y·w_ex`. The least residual
-//! has that direction, if one exists and the cables are nearly straight. Bounds by the weight of each cable
-//! prove most of it; where they do not, bounds by tangents on a grid of each cable's chord forces do, as far
-//! as `y·w_i` does not turn from convex to concave between two of them. Then no other start is tried. Where
-//! straight cables leave a residual, this is asked first; beside a pose that was refused it is asked from the
-//! tensions that came nearest there.
+//! `min y·w_i(t_i)` over the limits of each cable, summed over all, exceeds `-y·w_ex`. Of straight cables
+//! Clarabel's certificate is such a direction; of nearly straight ones the least residual has it, too, if one
+//! exists. Both are tried. Bounds by the weight of each cable prove most of it; where they do not, bounds by
+//! tangents on a grid of each cable's chord forces do, as far as `y·w_i` does not turn from convex to concave
+//! between two of them. Then no other start is tried. Where straight cables have no balance, the proof is
+//! tried first; next to a pose that was refused it is tried from the tensions that came nearest there.
 
-use super::optimum::{ELASTICITY, Optimum, Point};
+use super::optimum::{Optimum, Point};
 use super::question::Question;
+use super::start::{Goal, Start};
 use crate::error::{Blocked, StaticsError};
 use cdpr_cable::CableError;
-use cdpr_robot::{Matrix6xX, TensionLimits, Vector3, Vector6};
-use cdpr_tension::{Bound, BoxProblem, BoxSolution, BoxUnknown, bounded_least_squares};
+use cdpr_robot::{Matrix6xX, TensionLimits, Vector6};
+use cdpr_tension::{Bound, BoxUnknown, bounded_least_squares};
 
 /// A residual below this, relative to wrench and tensions, balances.
 pub(super) const BALANCED: f64 = 1e-8;
@@ -56,10 +57,10 @@ const MUCH: f64 = 0.4;
 /// The optimum: of cables that sag little from the first start that leads to one, else the best of all
 /// starts.
 pub(super) fn search<'a>(question: &Question<'a>) -> Result<Optimum<'a>, StaticsError> {
-    let (straight, residue) = straight(question);
-    let first = Point::new(question, &straight)?;
+    let Start { tensions, residue, certificate, .. } = question.straight(&Goal::Nearest);
+    let first = Point::new(question, &tensions)?;
     if residue > CLEAR_RESIDUE
-        && let Some(refusal) = refused(question, &first)
+        && let Some(refusal) = refused(question, &first, certificate.as_ref())
     {
         return Err(refusal);
     }
@@ -83,7 +84,7 @@ pub(super) fn search<'a>(question: &Question<'a>) -> Result<Optimum<'a>, Statics
             }
         } else if best.is_none() && (k == 0 || point.residue() < nearest.residue()) {
             nearest = point;
-            if nearest.residue() > BALANCED && nearest.refutes() {
+            if nearest.residue() > BALANCED && nearest.is_refuted(certificate.as_ref()) {
                 return Err(nearest.refusal(question, k + 2, iterations, true));
             }
         }
@@ -97,40 +98,21 @@ pub(super) fn search<'a>(question: &Question<'a>) -> Result<Optimum<'a>, Statics
     }
 }
 
-/// The refusal of a pose that the least residual near `start` proves to be infeasible.
-pub(super) fn refused<'a>(question: &Question<'a>, start: &Point<'a>) -> Option<StaticsError> {
+/// The refusal of a pose that a certificate of straight cables, or the least residual near `start`, proves to
+/// be infeasible.
+pub(super) fn refused<'a>(
+    question: &Question<'a>,
+    start: &Point<'a>,
+    certificate: Option<&Vector6<f64>>,
+) -> Option<StaticsError> {
     let mut point = start.clone();
-    let refuted = !point.balance(LEAST_GAIN) && point.refutes();
+    let refuted = !point.balance(LEAST_GAIN) && point.is_refuted(certificate);
     refuted.then(|| point.refusal(question, 1, point.iterations, true))
 }
 
 /// Whether tensions within the limits that hold the pose are found from those of straight cables alone.
 pub(super) fn holds(question: &Question) -> Result<bool, StaticsError> {
-    Ok(Point::new(question, &straight(question).0)?.balance(CLEAR_GAIN))
-}
-
-/// Tensions of the optimum for cables along their chords, or the nearest to a balance, and the residual that
-/// they leave, relative to wrench and tensions.
-pub(super) fn straight(question: &Question) -> (Vec<f64>, f64) {
-    let (robot, pose) = (question.robot, question.pose);
-    let pulls: Vec<Vector3<f64>> = (0..question.cables()).map(|i| -robot.span(pose, i).normalize()).collect();
-    let mut matrix = robot.wrench_matrix(pose, &pulls);
-    matrix.fixed_rows_mut::<3>(3).unscale_mut(question.arm);
-    let freedoms = robot.freedoms();
-    let each = matrix.column_iter().zip(&question.reference).zip(&question.limits);
-    let unknowns: Vec<BoxUnknown> = each
-        .map(|((column, reference), limits)| BoxUnknown {
-            gradient: -reference,
-            curvature: 1.0,
-            column: freedoms.of_vector(&column.into()),
-            bounds: [limits.min, limits.max],
-        })
-        .collect();
-    let (residual, multipliers) = (question.external, Vector6::zeros());
-    let program = BoxProblem { unknowns: &unknowns, residual, elasticity: ELASTICITY, multipliers };
-    let BoxSolution { values, multipliers, .. } = program.solve();
-    let size = question.external.norm() + values.iter().sum::<f64>();
-    (values, ELASTICITY * multipliers.norm() / size)
+    Ok(Point::new(question, &question.straight(&Goal::Nearest).tensions)?.balance(CLEAR_GAIN))
 }
 
 /// The first start, a balance from there, and those of [`starts`].
@@ -281,18 +263,24 @@ impl<'a> Point<'a> {
         }))
     }
 
-    /// Whether no tensions within the limits balance the wrench in the direction of the residual.
-    pub(super) fn refutes(&mut self) -> bool {
-        let direction = self.residual().normalize();
+    /// Whether no tensions within the limits balance the wrench: along the certificate of straight cables, or in
+    /// the direction of the residual.
+    fn is_refuted(&mut self, certificate: Option<&Vector6<f64>>) -> bool {
+        certificate.is_some_and(|direction| self.is_refuted_along(direction))
+            || self.is_refuted_along(&self.residual().normalize())
+    }
+
+    /// Whether no tensions within the limits balance the wrench along a direction, by more than rounding.
+    pub(super) fn is_refuted_along(&mut self, direction: &Vector6<f64>) -> bool {
         let clear = 1e-9 * self.size();
         let along = direction.dot(&self.external);
-        let bounds = self.strands.iter().map(|strand| strand.bound_along(&direction, self.arm));
+        let bounds = self.strands.iter().map(|strand| strand.bound_along(direction, self.arm));
         if bounds.sum::<Option<f64>>().is_some_and(|least| along + least > clear) {
             return true;
         }
         let mut least = along;
         for strand in &mut self.strands {
-            match strand.least_along(&direction, self.arm) {
+            match strand.least_along(direction, self.arm) {
                 Ok(value) => least += value,
                 Err(_) => return false,
             }

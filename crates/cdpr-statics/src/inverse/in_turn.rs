@@ -36,7 +36,7 @@ impl<'a> InTurn<'a> {
     pub(crate) fn refusal(&mut self, pose: &Pose) -> Option<StaticsError> {
         let nearest = self.nearest.as_ref()?;
         let question = Question::of_whole_pose(self.robot, pose, self.load, None).ok()?;
-        let refusal = refused(&question, &Point::new(&question, nearest).ok()?)?;
+        let refusal = refused(&question, &Point::new(&question, nearest).ok()?, None)?;
         self.keep(&refusal);
         Some(refusal)
     }

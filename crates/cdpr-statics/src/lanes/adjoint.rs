@@ -22,92 +22,32 @@
 
 mod answer;
 mod cable;
+mod tensions;
 
 use crate::equations::LinearizedCable;
 use crate::lanes::adjoint::answer::Answer;
 pub(crate) use crate::lanes::adjoint::cable::GuideSlopes;
-use crate::lanes::adjoint::cable::{CableSlopes, TensionSlopes, torque};
-use crate::lanes::cable::LaneCable;
-use crate::lanes::chain::Keep;
+use crate::lanes::adjoint::cable::{CableSlopes, torque};
+use crate::lanes::chain::Trace;
 use crate::lanes::chain::shared::Shared;
-use crate::lanes::freedoms::{hold, hold_matrix};
 use crate::lanes::load::PlatformLoad;
-use crate::lanes::newton::{LinearizedPlatform, Robots};
+use crate::lanes::platform::{LinearizedPlatform, Robots};
 use crate::lanes::skew::{Skew, SkewCable};
 use cdpr_number::Number;
-use cdpr_number::dense::{Lanes2, Lanes3, Lanes6, SymmetricFactors, halves, replace};
+use cdpr_number::dense::{Lanes3, Lanes6, halves};
 use cdpr_number::lanes::{Lanes, Mask, Simd, WithSimd};
-use cdpr_number::vector::{cross, dot, wrench};
-use cdpr_number::{six, three};
-use cdpr_robot::CableEnd;
-
-/// Two tensions that differ by a smaller share may be the same.
-const SAME: f64 = 1e-9;
-
-/// A multiplier of a bound below this share of the greatest tension may be rounding, as in `derivatives`.
-const NO_MULTIPLIER: f64 = 1e-7;
-
-/// A pivot below this share of its diagonal element is nearly lost in rounding.
-const NEARLY_SINGULAR: f64 = 1e-8;
+use cdpr_number::three;
+use cdpr_number::vector::{cross, dot};
 
 /// A deflection below this share of the longest cable has no direction, as in `derivatives`.
 const NO_DEFLECTION: f64 = 1e-12;
 
-/// What an observation keeps for its adjoint.
+/// What the adjoint needs of an observation.
 pub(crate) struct Record<'a, S: Simd> {
-    offsets: Vec<Lanes<S>>,
-    optimum: Vec<Chosen<'a, S>>,
-    multipliers: Lanes6<S>,
-    /// The robots with their cables wound, at rest without and with the load.
-    states: Vec<Robots<'a, S>>,
-}
-
-/// A cable with the tension of the inverse model.
-struct Chosen<'a, S: Simd> {
-    cable: LaneCable<'a, S>,
-    /// Least and greatest tension [N].
-    limits: Lanes2<S>,
-    /// Whether its tension is at either limit.
-    sides: [Mask<S>; 2],
-}
-
-impl<'a, S: Simd> Record<'a, S> {
-    #[inline(always)]
-    pub(crate) fn new(offsets: Vec<Lanes<S>>, multipliers: Lanes6<S>) -> Self {
-        Self { offsets, optimum: Vec::new(), multipliers, states: Vec::with_capacity(3) }
-    }
-}
-
-impl<'a, S: Simd> Keep<'a, S> for Record<'a, S> {
-    #[inline(always)]
-    fn chosen(
-        &mut self,
-        i: usize,
-        cable: &LaneCable<'a, S>,
-        limits: &Lanes2<S>,
-        sides: [Mask<S>; 2],
-        last: Mask<S>,
-    ) {
-        let Some(before) = self.optimum.get_mut(i) else {
-            return self.optimum.push(Chosen { cable: cable.clone(), limits: *limits, sides });
-        };
-        let old = &mut before.cable;
-        old.length.replace(cable.length, last);
-        replace(&mut old.force, &cable.force, last);
-        for (old, new) in before.sides.iter_mut().zip(sides) {
-            *old = (last & new) | (!last & *old);
-        }
-    }
-
-    #[inline(always)]
-    fn multipliers(&mut self, multipliers: &Lanes6<S>) {
-        self.multipliers = *multipliers;
-    }
-
-    #[inline(always)]
-    fn state(&mut self, robots: &Robots<'a, S>) {
-        self.states.push(robots.clone());
-    }
+    /// Offset of the set-point of each cable [N].
+    pub(crate) offsets: Vec<Lanes<S>>,
+    pub(crate) multipliers: Lanes6<S>,
+    pub(crate) trace: Trace<'a, S>,
 }
 
 /// Derivatives of |dp| in the level frame, one robot in each lane.
@@ -177,8 +117,8 @@ fn adjoint_of<S: Simd>(
     payload: &PlatformLoad<S>,
     shared: &Shared,
 ) -> Option<Adjoint<S>> {
-    let [wound, unloaded, loaded] = record.states.as_slice() else { return None };
-    let zero = wound.weight.all(0.0);
+    let [placed, unloaded, loaded] = record.trace.states.as_slice() else { return None };
+    let zero = placed.weight.all(0.0);
     let square = dot(displacement, displacement);
     let least = NO_DEFLECTION * shared.scale.size;
     let rms_inv = square.sqrt().recip();
@@ -191,31 +131,33 @@ fn adjoint_of<S: Simd>(
         guide: GuideSlopes::none(zero),
     };
     let mut found = Adjoint {
-        cables: vec![none; wound.cables.len()],
+        cables: vec![none; placed.cables.len()],
         weight: zero,
         center: [zero; 3],
         turn: [zero; 3],
         heavier: [zero; 3],
         decided: zero.all(least * least).less_or_equal(square),
     };
-    let mut lengths = vec![zero; wound.cables.len()];
+    let mut lengths = vec![zero; placed.cables.len()];
     let own = PlatformLoad::weight(unloaded.weight);
     let load = payload.on(unloaded.weight);
     let back = three!(|k| -(displacement[k] * rms_inv));
     let arm = shared.scale.characteristic_length;
-    found.at_rest(unloaded, &own, &back, &mut lengths, arm);
-    found.at_rest(loaded, &load, &three!(|k| -back[k]), &mut lengths, arm);
+    // One body of code for both equilibria.
+    for (robots, load, sign) in [(unloaded, &own, 1.0), (loaded, &load, -1.0)] {
+        found.at_rest(robots, load, &three!(|k| back[k] * sign), &mut lengths, arm);
+    }
     // From here on the slopes by the set-points.
-    for ((cable, found_cable), slope) in wound.cables.iter().zip(&mut found.cables).zip(&mut lengths) {
-        let span = cable.span(&wound.position);
+    for ((cable, found_cable), slope) in placed.cables.iter().zip(&mut found.cables).zip(&mut lengths) {
+        let span = cable.span(&placed.position);
         let (slopes, per_tension) = Answer::of(cable).of_length(&span.plane, *slope);
         *slope = per_tension;
-        found_cable.add(&slopes, &wound.frame, &slopes.span);
-        let r = three!(|k| wound.position[k] + cable.anchor_arm[k] - cable.exit_point[k]);
+        found_cable.add(&slopes, &placed.frame, &slopes.span);
+        let r = three!(|k| placed.position[k] + cable.anchor_arm[k] - cable.exit_point[k]);
         add(&mut found.turn, &torque(&[zero; 3], &[zero; 3], &r, &slopes.span));
     }
-    found.of_tensions(record, wound, &lengths, shared);
-    found.turn_axes(wound);
+    found.of_tensions(record, placed, &lengths, shared);
+    found.turn_axes(placed);
     Some(found)
 }
 
@@ -327,94 +269,6 @@ impl<S: Simd> Adjoint<S> {
         self.add_weight(robots, load.weight, &twist);
     }
 
-    /// Adds the slopes of `sum a_i d(set-point_i)`, equation (L11).
-    #[inline(always)]
-    fn of_tensions(
-        &mut self,
-        record: &Record<'_, S>,
-        wound: &Robots<'_, S>,
-        per_set_point: &[Lanes<S>],
-        shared: &Shared,
-    ) {
-        let zero = wound.weight.all(0.0);
-        let (translation, rotation) = halves(&record.multipliers);
-        let mut cables = Vec::with_capacity(per_set_point.len());
-        let mut matrix = [[zero; 6]; 6];
-        let mut right = [zero; 6];
-        let mut largest = zero;
-        for Chosen { cable, .. } in &record.optimum {
-            largest = largest.max(dot(&cable.force, &cable.force).sqrt());
-        }
-        for (i, Chosen { cable, limits, sides }) in record.optimum.iter().enumerate() {
-            let choice = &shared.choices[i];
-            let span = cable.span(&wound.position);
-            let slopes = TensionSlopes::of(cable, &span);
-            let swung = cross(&rotation, &cable.anchor_arm);
-            let motion = three!(|k| translation[k] + swung[k]);
-            let tension = dot(&cable.force, &cable.force).sqrt();
-            // ρ_i, without the bound's multiplier
-            let slope = tension + -choice.reference - dot(&slopes.force_per_tension, &motion);
-            let on_bound = sides[0] | sides[1];
-            let kept = !slope.abs().less_or_equal(largest * NO_MULTIPLIER);
-            let set_point = SetPoint::new(tension, record.offsets[i], *limits, *sides);
-            // A least tension that the span demands moves with it: the scalar models have its derivatives.
-            let demanded = !limits[0].less_or_equal(zero.all(choice.limits.min));
-            let free = !demanded | (set_point.follows & !sides[0]);
-            self.decided = self.decided & set_point.decided & (kept | !on_bound) & free;
-            if let (CableEnd::Exit, Some(guided)) = (choice.max_at, &cable.guided) {
-                // The scalar models have no derivatives of the limit at a leave point that moves.
-                self.decided = self.decided & (!(set_point.over | sides[1]) | guided.fixed());
-            }
-            let a = per_set_point[i];
-            self.cables[i].offset += set_point.offset.select(a, zero);
-            let by_tension = set_point.follows.select(a, zero);
-            // -c_i
-            let column = hold(wound.freedoms, wrench(&cable.anchor_arm, &slopes.force_per_tension));
-            let curvature = -dot(&slopes.curvature, &motion) + 1.0;
-            let curvature_inv = on_bound.select(zero, curvature.recip());
-            for row in 0..6 {
-                let share = column[row] * curvature_inv;
-                right[row] -= share * by_tension;
-                for other in row..6 {
-                    matrix[row][other] += share * column[other];
-                }
-            }
-            let by_bound = set_point.over.select(a, zero);
-            cables.push((span, slopes, motion, column, curvature_inv, by_tension, by_bound));
-        }
-        hold_matrix(wound.freedoms, &mut matrix, zero + 1.0);
-        let factored = SymmetricFactors::new(matrix);
-        // Free cables that do not span all wrenches make this matrix singular.
-        let diagonal = six!(|k| matrix[k][k]);
-        self.decided = self.decided & factored.is_regular(&diagonal, NEARLY_SINGULAR);
-        let balanced = factored.solve(&right);
-        let (moved, turned) = halves(&balanced);
-        for (i, (span, slopes, motion, column, curvature_inv, by_tension, mut by_bound)) in
-            cables.into_iter().enumerate()
-        {
-            let Chosen { cable, sides, .. } = &record.optimum[i];
-            let swung = cross(&turned, &cable.anchor_arm);
-            let twisted = three!(|k| moved[k] + swung[k]);
-            // a_i - c_i·η
-            let left = by_tension + dot(&column, &balanced);
-            let share = left * curvature_inv;
-            by_bound += sides[1].select(left, zero);
-            let mut own = slopes.slopes(&twisted, &motion, share);
-            own.add_bound(cable, &span.end[1], &shared.choices[i], by_bound);
-            let force = span.plane.lift(cable.force);
-            let r = three!(|k| wound.position[k] + cable.anchor_arm[k] - cable.exit_point[k]);
-            add(&mut self.turn, &torque(&force, &twisted, &r, &own.span));
-            let shared_motion = three!(|k| motion[k] * share);
-            add(&mut self.turn, &cross(&slopes.force_per_tension, &shared_motion));
-            // η_r·(ds x f) and α f_t·(λ_r x ds)
-            let (swings, follows) = (cross(&force, &turned), cross(&slopes.force_per_tension, &rotation));
-            let arm = three!(|k| swings[k] + follows[k] * share);
-            let anchor = three!(|k| own.span[k] + arm[k]);
-            self.cables[i].add(&own, &wound.frame, &anchor);
-        }
-        self.add_weight(wound, wound.weight, &six!(|k| -balanced[k]));
-    }
-
     /// Adds to the derivatives by turns of gravity that the axes k of pulleys stay: by `-k x`(that by k).
     #[inline(always)]
     fn turn_axes(&mut self, robots: &Robots<'_, S>) {
@@ -427,41 +281,4 @@ impl<S: Simd> Adjoint<S> {
             }
         }
     }
-}
-
-/// What a set-point follows.
-struct SetPoint<S: Simd> {
-    /// The tension of the inverse model.
-    follows: Mask<S>,
-    /// Its offset, as it falls.
-    offset: Mask<S>,
-    /// The greatest tension.
-    over: Mask<S>,
-    /// Whether left and right derivatives are known to be the same, but those by the offset of a cable on its
-    /// bound.
-    decided: Mask<S>,
-}
-
-impl<S: Simd> SetPoint<S> {
-    #[inline(always)]
-    fn new(tension: Lanes<S>, offset: Lanes<S>, limits: [Lanes<S>; 2], sides: [Mask<S>; 2]) -> Self {
-        let wanted = tension + offset;
-        let [least, greatest] = limits;
-        let at = [same(wanted, least), same(wanted, greatest)];
-        let under = !at[0] & wanted.less_or_equal(least);
-        let over = !at[1] & greatest.less_or_equal(wanted);
-        let [low, high] = sides;
-        let resting = [same(tension, least) & !low, same(tension, greatest) & !high];
-        Self {
-            follows: !(under | over),
-            offset: !(under | over | at[0]),
-            over,
-            decided: !(resting[0] | resting[1] | (at[0] & !low) | (at[1] & !high)),
-        }
-    }
-}
-
-#[inline(always)]
-fn same<S: Simd>(one: Lanes<S>, other: Lanes<S>) -> Mask<S> {
-    (one - other).abs().less_or_equal(one.max(other) * SAME)
 }

@@ -3,7 +3,7 @@
 
 use crate::direct::{KEPT, MAX_CORRECTION, SAME_POSE};
 use crate::lanes::load::PlatformLoad;
-use crate::lanes::newton::{LinearizedPlatform, Robots, Scale, Steps};
+use crate::lanes::platform::{LinearizedPlatform, Robots, Scale, Steps};
 use cdpr_number::Number;
 use cdpr_number::dense::{SymmetricFactors, halves};
 use cdpr_number::lanes::{Lanes, Mask, Simd};

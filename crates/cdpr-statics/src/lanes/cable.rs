@@ -11,10 +11,7 @@
 
 use crate::equations::{LinearizedCable, Span, between};
 use crate::state::Equilibrium;
-use cdpr_cable::kernel::{
-    LaneEnd, LaneGuide, LaneSegment, LaneWay, LeavePoint, Response, lane_end, lane_law_end, lane_law_energy,
-    lane_law_response, lane_law_strain, lane_law_stretch, lane_response,
-};
+use cdpr_cable::kernel::{GuideTerms, LaneEnd, LawSegment, LeavePoint, Material, Response, Way};
 use cdpr_cable::{Catenary, MAX_STRAIN};
 use cdpr_number::Number;
 use cdpr_number::dense::{Lanes2, Lanes3, replace};
@@ -25,7 +22,7 @@ use cdpr_robot::{Robot, Vector2};
 #[derive(Clone)]
 pub(crate) struct LaneCable<'a, S: Simd> {
     /// Segments of the elastic law, the same in all lanes; none of a linear cable.
-    pub(crate) law: &'a [LaneSegment],
+    pub(crate) law: &'a [LawSegment],
     /// Weight per length [N/m].
     pub(crate) weight_per_length: Lanes<S>,
     /// 1/EA [1/N].
@@ -95,10 +92,13 @@ impl Shape<f64> {
 /// A guide, and the cable that was given to it.
 #[derive(Clone)]
 pub(crate) struct Guided<S: Simd> {
-    pub(crate) guide: LaneGuide<Lanes<S>>,
+    pub(crate) guide: GuideTerms<Lanes<S>>,
     /// Unstrained length L, lead and arc included [m].
     pub(crate) whole_length: Lanes<S>,
 }
+
+/// Lanes leave cables with q² above this, which hang folded, to the scalar models.
+pub(crate) const FOLDED: f64 = 1.0 - 1e-6;
 
 /// Horizontal distance of a cable's end from its leave point, in radii of its wheel, within which a slack
 /// cable may hang from either side of the wheel.
@@ -154,20 +154,16 @@ impl<S: Simd> Guided<S> {
     }
 
     #[inline(always)]
-    pub(crate) fn way(&self, cable: &LaneCable<'_, S>) -> LaneWay<Lanes<S>> {
+    pub(crate) fn way(&self, cable: &LaneCable<'_, S>) -> Way<Lanes<S>> {
         let leave = self.leave_point(cable);
-        let flexibility = cable.axial_flexibility;
-        let stretch = match cable.law {
-            [] => [leave.tension * flexibility + 1.0, flexibility],
-            law => lane_law_stretch(law, flexibility, leave.tension),
-        };
+        let stretch = cable.material().stretch(leave.tension);
         self.guide.way(cable.weight_per_length, cable.length, leave, stretch)
     }
 
-    /// Linearises the whole cable of this guide in the lanes that are `going`, with the end of (L12).
+    /// Linearizes the whole cable of this guide in the lanes that are `going`, with the end of (L12).
     #[cold]
     #[inline(never)]
-    pub(crate) fn linearise(
+    pub(crate) fn linearize(
         &self,
         cable: &LaneCable<'_, S>,
         span: &Span<Lanes<S>>,
@@ -175,7 +171,7 @@ impl<S: Simd> Guided<S> {
         free: &mut FreeLength<S>,
         going: Mask<S>,
     ) {
-        cable.length.apart(Linearise { guided: self, cable, span: *span, linearized, free, going });
+        cable.length.apart(Linearize { guided: self, cable, span: *span, linearized, free, going });
     }
 
     /// The lanes in which the cable ends within [`BESIDE_WHEEL`] radii of its leave point, with the platform
@@ -195,7 +191,7 @@ impl<S: Simd> Guided<S> {
     }
 }
 
-struct Linearise<'a, 'b, S: Simd> {
+struct Linearize<'a, 'b, S: Simd> {
     guided: &'a Guided<S>,
     cable: &'a LaneCable<'b, S>,
     span: Span<Lanes<S>>,
@@ -204,7 +200,7 @@ struct Linearise<'a, 'b, S: Simd> {
     going: Mask<S>,
 }
 
-impl<S: Simd> WithSimd for Linearise<'_, '_, S> {
+impl<S: Simd> WithSimd for Linearize<'_, '_, S> {
     type Output = ();
 
     #[inline(always)]
@@ -252,7 +248,7 @@ impl<S: Simd> WithSimd for WholeEnd<'_, '_, S> {
 }
 
 #[inline(always)]
-fn moved<S: Simd>([x, z]: Lanes2<S>, way: &LaneWay<Lanes<S>>, missing: Lanes<S>) -> Lanes2<S> {
+fn moved<S: Simd>([x, z]: Lanes2<S>, way: &Way<Lanes<S>>, missing: Lanes<S>) -> Lanes2<S> {
     [x + way.end_per_length[0] * missing, z + way.end_per_length[1] * missing]
 }
 
@@ -266,25 +262,26 @@ impl<S: Simd> LaneCable<'_, S> {
         }
     }
 
+    #[inline(always)]
+    pub(crate) fn material(&self) -> Material<'_, Lanes<S>> {
+        let Self { law, weight_per_length, axial_flexibility, .. } = *self;
+        Material { law, weight_per_length, axial_flexibility }
+    }
+
     /// The end of the part beyond the guide.
     #[inline(always)]
     pub(crate) fn end(&self) -> LaneEnd<Lanes<S>> {
-        let Self { law, weight_per_length, axial_flexibility, length, force, .. } = *self;
-        match law {
-            [] => lane_end(weight_per_length, axial_flexibility, length, force),
-            law => {
-                length.apart(LawEnd(LawCable { law, weight_per_length, axial_flexibility, length, force }))
-            }
+        let (material, length, force) = (self.material(), self.length, self.force);
+        match material.law {
+            [] => material.end(length, force),
+            _ => length.apart(LawEnd(material, length, force)),
         }
     }
 
     /// Strain at a tension [N].
     #[inline(always)]
     pub(crate) fn strain(&self, tension: Lanes<S>) -> Lanes<S> {
-        match self.law {
-            [] => tension * self.axial_flexibility,
-            law => lane_law_strain(law, self.axial_flexibility, tension),
-        }
+        self.material().strain(tension)
     }
 
     /// The lanes in which this tension at the platform [N] may strain the cable beyond [`MAX_STRAIN`] at one
@@ -298,10 +295,7 @@ impl<S: Simd> LaneCable<'_, S> {
     /// The integral of the strain over the tension up to `tension`, both in newtons.
     #[inline(always)]
     pub(crate) fn energy(&self, tension: Lanes<S>) -> Lanes<S> {
-        match self.law {
-            [] => tension * tension * self.axial_flexibility * 0.5,
-            law => lane_law_energy(law, self.axial_flexibility, tension),
-        }
+        self.material().energy(tension)
     }
 
     /// Takes a shape over `span`.
@@ -380,16 +374,10 @@ impl<S: Simd> LaneCable<'_, S> {
     /// How the part beyond the guide answers.
     #[inline(always)]
     pub(crate) fn response(&self) -> Response<Lanes<S>> {
-        let Self { law, weight_per_length, axial_flexibility, length, force, .. } = *self;
-        match law {
-            [] => lane_response(weight_per_length, axial_flexibility, length, force),
-            law => length.apart(LawResponse(LawCable {
-                law,
-                weight_per_length,
-                axial_flexibility,
-                length,
-                force,
-            })),
+        let (material, length, force) = (self.material(), self.length, self.force);
+        match material.law {
+            [] => material.response(length, force),
+            _ => length.apart(LawResponse(material, length, force)),
         }
     }
 }
@@ -400,27 +388,19 @@ const SINH_SQUARES: [f64; 6] = [2.0 / 467_775.0, 2.0 / 14_175.0, 1.0 / 315.0, 2.
 /// u up to which [`SINH_SQUARES`] gives S² to a hundredth.
 const STEEPEST: f64 = 2.5;
 
-/// A cable with a law. It is evaluated in functions of their own: most robots have linear cables, and their
-/// code is faster without it.
-struct LawCable<'a, S: Simd> {
-    law: &'a [LaneSegment],
-    weight_per_length: Lanes<S>,
-    axial_flexibility: Lanes<S>,
-    length: Lanes<S>,
-    force: Lanes2<S>,
-}
+/// A cable with a law: its material, its length, and the force at A. It is evaluated in functions of their own:
+/// most robots have linear cables, and their code is faster without it.
+struct LawResponse<'a, S: Simd>(Material<'a, Lanes<S>>, Lanes<S>, Lanes2<S>);
 
-struct LawResponse<'a, S: Simd>(LawCable<'a, S>);
-
-struct LawEnd<'a, S: Simd>(LawCable<'a, S>);
+struct LawEnd<'a, S: Simd>(Material<'a, Lanes<S>>, Lanes<S>, Lanes2<S>);
 
 impl<S: Simd> WithSimd for LawResponse<'_, S> {
     type Output = Response<Lanes<S>>;
 
     #[inline(always)]
     fn with_simd<Same: Simd>(self, _: Same) -> Self::Output {
-        let LawCable { law, weight_per_length, axial_flexibility, length, force } = self.0;
-        lane_law_response(law, weight_per_length, axial_flexibility, length, force)
+        let Self(material, length, force) = self;
+        material.response(length, force)
     }
 }
 
@@ -429,8 +409,8 @@ impl<S: Simd> WithSimd for LawEnd<'_, S> {
 
     #[inline(always)]
     fn with_simd<Same: Simd>(self, _: Same) -> Self::Output {
-        let LawCable { law, weight_per_length, axial_flexibility, length, force } = self.0;
-        lane_law_end(law, weight_per_length, axial_flexibility, length, force)
+        let Self(material, length, force) = self;
+        material.end(length, force)
     }
 }
 

@@ -272,7 +272,7 @@ impl<S: Simd> Leaving<'_, '_, S> {
         let mut held = HeldCable::plain(cable, &span, response);
         let mut ends = EndSlopes::plain(response);
         let ([_, xz, zz], [ex, ez]) = (response.flexibility, response.end_per_length);
-        let wound = guided.guide.signed_radius;
+        let wound = guided.guide.signed_radius();
         let per_turn = wound / (ex * tx + ez * tz);
         let falling = cable.weight_per_length * tx * tension_inv;
         let whole = (per_turn * falling + 1.0).recip();

@@ -16,7 +16,7 @@ mod slopes;
 
 use crate::error::StaticsError;
 use crate::inverse::{Branch, FreeBranch, HeldPose, InverseSolution, refuse_offsets};
-use crate::lanes::chain::{Outcome, observe};
+use crate::lanes::chain::{Outcome, Stage, observe};
 use crate::lanes::level::LevelFrame;
 use crate::lanes::observer::rows::{Nominal, Rows};
 use crate::lanes::reason::ScalarReason;
@@ -221,45 +221,35 @@ impl WithSimd for Batch<'_> {
             let count = rows.len() / parameters;
             let rows = Rows::new(simd, rows, layout);
             let (mut start, level, valid) = rows.robots(robot, pose, load, nominal);
-            let outcome = observe(&mut start, &nominal.shared, None);
-            let answers = read(&outcome, level.as_ref(), valid, nominal.no_tensions());
+            let (outcome, _) = observe(&mut start, &nominal.shared, false);
+            let answers = read(&outcome, level.as_ref(), valid, nominal);
             found.extend(answers.into_iter().take(count));
         }
         found
     }
 }
 
-/// The observation in each lane, or the first link that failed; robots are `sound`, and their axes `upright`.
+/// The observation in each lane, or why it was left; the parameters of robots are `sound`, and their axes
+/// `upright`.
 #[inline(always)]
 fn read<S: Simd>(
     outcome: &Outcome<S>,
     level: Option<&LevelFrame<S>>,
     [sound, upright]: [Mask<S>; 2],
-    [no_tensions, none_to_take]: [ScalarReason; 2],
+    nominal: &Nominal,
 ) -> [Result<Observation, ScalarReason>; MAX_LANES] {
-    let [converged, unfolded, held, standing, answered] = outcome.passed;
-    let links = [
-        (sound, ScalarReason::InvalidRobot),
-        (upright, ScalarReason::Pulleys),
-        (converged, no_tensions),
-        (unfolded, none_to_take),
-        (held, ScalarReason::Lengths),
-        (standing, ScalarReason::Unloaded),
-        (answered, ScalarReason::Loaded),
-    ];
-    let mut first = outcome.displacement[0].all(links.len() as f64);
-    for (i, (passed, _)) in links.iter().enumerate().rev() {
-        first = passed.select(first, first.all(i as f64));
-    }
-    let first_failed = first.to_array();
+    let mut failures = outcome.failures;
+    failures.add(Stage::Parameters, sound);
+    failures.add(Stage::Axes, upright);
+    let failed = failures.of_lanes();
     let displacement = match level {
         None => outcome.displacement,
         Some(level) => level.to_base(&outcome.displacement),
     };
     let displacement = three!(|k| displacement[k].to_array());
     let (unloaded, loaded) = (outcome.unloaded.norms(), outcome.loaded.norms());
-    from_fn(|lane| match links.get(first_failed[lane] as usize) {
-        Some((_, why)) => Err(*why),
+    from_fn(|lane| match failed[lane] {
+        Some(stage) => Err(nominal.why(stage)),
         None => Ok(Observation {
             displacement: Vector3::from_fn(|k, _| displacement[k][lane]),
             unloaded: unloaded[lane],

@@ -18,13 +18,14 @@ use crate::error::StaticsError;
 use crate::inverse::free_solutions;
 use crate::inverse::{InTurn, InverseSolution, inverse_at, refuse_offsets, rest};
 use crate::lanes::cable::Shape;
+use crate::lanes::chain::lengths::FindLengths;
 use crate::lanes::chain::minimum::is_least;
 use crate::lanes::chain::shared::Shared;
-use crate::lanes::chain::{Distribute, Distributed, Keep, SAGGING, Wind};
+use crate::lanes::chain::tensions::{CableTension, Distribute, Distributed, SAGGING};
 use crate::lanes::freedoms::hold;
 use crate::lanes::held::HeldCable;
 use crate::lanes::load::PlatformLoad;
-use crate::lanes::newton::{LinearizedPlatform, Robots};
+use crate::lanes::platform::{LinearizedPlatform, Robots};
 use crate::lanes::poses::placed::{PlacedRobot, each};
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load, Residual, Wanted, WantedPose};
@@ -298,15 +299,6 @@ struct InLanes<'a, S> {
     asked: &'a [Asked<'a>],
 }
 
-/// The limits of the tensions [N].
-struct Limits<S: Simd>(SmallVec<[Lanes2<S>; 8]>);
-
-impl<S: Simd> Keep<'_, S> for Limits<S> {
-    fn limits(&mut self, limits: &[Lanes2<S>]) {
-        self.0.extend_from_slice(limits);
-    }
-}
-
 impl<S: Simd> InLanes<'_, S> {
     #[inline(always)]
     fn answers(&self) -> Vec<Option<Answer>> {
@@ -318,18 +310,18 @@ impl<S: Simd> InLanes<'_, S> {
         let external = hold(robots.freedoms, whole.wrench(&robots.center));
         let mut multipliers = six!(|k| self.each(&|asked| asked.near.multipliers[k]));
         let mut set_points = vec![zero; spans.len()];
-        let mut limits = Limits(SmallVec::new());
-        let Distributed { converged, sound, demanded } = zero.apart(Distribute {
+        let Distributed { converged, sound, cables } = zero.apart(Distribute {
             robots: &mut robots,
             external: &external,
             multipliers: &mut multipliers,
             offsets: &mut set_points,
             spans: &spans,
             shared,
-            keep: Some(&mut limits),
         });
+        let (demanded, limits): (Vec<_>, Vec<_>) =
+            cables.iter().map(|CableTension { demanded, limits, .. }| (*demanded, *limits)).unzip();
         let mut platform = LinearizedPlatform::new(zero, spans.len());
-        let held = zero.apart(Wind {
+        let held = zero.apart(FindLengths {
             robots: &mut robots,
             platform: &mut platform,
             set_points: &set_points,
@@ -337,7 +329,6 @@ impl<S: Simd> InLanes<'_, S> {
             demanded: &demanded,
             shared,
         });
-        let Limits(limits) = limits;
         let found = converged & sound & held;
         let found = found & self.is_least(&robots, &spans, &multipliers, &limits);
         self.read(found, &robots, &spans, &multipliers, &set_points, &limits)

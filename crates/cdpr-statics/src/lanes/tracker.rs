@@ -4,7 +4,7 @@ use crate::direct::{DirectSolution, DirectStart, direct, follow_change};
 use crate::error::StaticsError;
 use crate::lanes::cable::LaneCable;
 use crate::lanes::load::PlatformLoad;
-use crate::lanes::newton::{Layout, LinearizedPlatform, Robots, Scale};
+use crate::lanes::platform::{Layout, LinearizedPlatform, Robots, Scale};
 use crate::lanes::reason::ScalarReason;
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load, Residual, rounding_of_closure};
@@ -126,7 +126,7 @@ impl WithSimd for Update<'_, '_> {
         let size = problem.size();
         let rounding = rounding_of_closure(size, tracker.equilibrium.pose.position.norm() + tracker.farthest);
         let scale = Scale { size, characteristic_length: problem.characteristic_length(), rounding };
-        robots.linearise(&load, &mut linearized, everywhere);
+        robots.linearize(&load, &mut linearized, everywhere);
         let (found, left) = robots.settle(&load, &mut linearized, &scale, everywhere);
         if !found.any() {
             return false;
@@ -134,7 +134,7 @@ impl WithSimd for Update<'_, '_> {
         if !linearized.steps.end_near_prediction(&scale).any() {
             let before = tracker.in_lanes(simd, &tracker.lengths);
             let mut platform = LinearizedPlatform::new(zero, before.cables.len());
-            before.linearise(&tracker.load_in_lanes(&before, &tracker.load), &mut platform, everywhere);
+            before.linearize(&tracker.load_in_lanes(&before, &tracker.load), &mut platform, everywhere);
             if !robots.on_branch(&load, &linearized, &platform.factored, &scale, everywhere).any() {
                 return false;
             }

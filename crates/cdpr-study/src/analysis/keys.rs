@@ -1,5 +1,5 @@
 //! Names in files that carry the unit of the output: `rms_mm`, `mean_mm`, ... of deflections, `frequency_hz`,
-//! `mean_hz`, ... of frequencies. Results are serialised under the names that deflections have; here they
+//! `mean_hz`, ... of frequencies. Results are serialized under the names that deflections have; here they
 //! take those of other outputs, and back.
 
 use crate::file::output::Output;
@@ -33,7 +33,7 @@ pub(crate) enum To {
     Memory,
 }
 
-/// Serialises the results of the parts of a study under the names of files.
+/// Serializes the results of the parts of a study under the names of files.
 pub(crate) fn in_file<T: Serialize, S: Serializer>(studies: &T, serializer: S) -> Result<S::Ok, S::Error> {
     let mut studies = serde_json::to_value(studies).map_err(Error::custom)?;
     To::File.studies(&mut studies);

@@ -17,7 +17,7 @@ pub struct InputMeasures {
     pub signed_effect: Option<f64>,
     /// Share of the variance to first order, from exact derivatives at the nominal robot.
     pub derivative_share: Option<f64>,
-    /// Squared standardised regression coefficient.
+    /// Squared standardized regression coefficient.
     pub regression_share: Option<f64>,
     /// The same of ranks.
     pub rank_regression_share: Option<f64>,

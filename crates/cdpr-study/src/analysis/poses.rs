@@ -63,7 +63,7 @@ pub struct PoseRow {
     pub reason: Option<String>,
 }
 
-/// Summary of all poses of a sampling, serialised into `summary.json`. `NAME.csv` beside it has a row for
+/// Summary of all poses of a sampling, serialized into `summary.json`. `NAME.csv` beside it has a row for
 /// each pose.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -109,7 +109,7 @@ pub struct PosesResult {
     pub rows: Vec<PoseRow>,
 }
 
-/// Makes the missing observations of a sampling at several poses and summarises them.
+/// Makes the missing observations of a sampling at several poses and summarizes them.
 ///
 /// `observe`, such as [`crate::observe`], makes the observations of one pose. A pose at which the nominal
 /// robot has no feasible tensions is a row with the reason.

@@ -22,10 +22,11 @@
 //! a relative (h / R)². All observations are of the stepped inputs.
 
 use crate::analysis::measures::{GroupMeasures, InputMeasures, MEASURES, Measure, Quantity, SubspaceSummary};
-use crate::analysis::methods::{Found, METHODS, MethodSummary, Needs, Run};
+use crate::analysis::methods::run::{Found, MethodSummary, Run};
+use crate::analysis::methods::{METHODS, Needs};
 use crate::error::StudyError;
 use crate::file::output::VectorOutput;
-use crate::file::study_file::SensitivitySpec;
+use crate::file::sensitivity_spec::SensitivitySpec;
 use crate::model::study::Sampling;
 use crate::observe::observation::{Session, Tally};
 use cdpr_sensitivity::rank_correlation;
@@ -33,7 +34,7 @@ use indexmap::IndexMap;
 use serde::{Deserialize, Serialize};
 use std::time::Instant;
 
-/// Measures of all inputs of a sampling; serialised into `summary.json`.
+/// Measures of all inputs of a sampling; serialized into `summary.json`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SensitivitySummary {
     /// Values of the measures for each input, in the order of the parameter vector.

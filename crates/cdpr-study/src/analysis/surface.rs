@@ -22,7 +22,7 @@ pub struct SurfaceResult<E = StaticsError> {
     pub values: Vec<Result<f64, E>>,
 }
 
-/// Results of one surface; serialised into `summary.json`.
+/// Results of one surface; serialized into `summary.json`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SurfaceSummary {
     /// Title.
@@ -92,7 +92,7 @@ impl SurfaceResult {
 }
 
 impl SurfaceSummary {
-    /// Summarises a surface.
+    /// Summarizes a surface.
     pub fn new(surface: &Surface, result: &SurfaceResult) -> Self {
         let succeeded = || result.values.iter().filter_map(|value| value.as_ref().ok().copied());
         let failed = count_failed(

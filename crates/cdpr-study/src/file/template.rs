@@ -107,28 +107,7 @@ pub fn template(
 ) -> Result<String, StudyError> {
     let free = free_coordinates(robot, free)?;
     let payload = payload.unwrap_or_else(|| two_digits(0.1 * robot.platform.mass));
-    let held = |position: &[f64; 3]| rest(robot, *position, payload, &free);
-    let load = Load::payload(payload);
-    // Any robot with enough cables is held with small errors.
-    let tolerances = |(pose, tension): &(Pose, f64)| match &free[..] {
-        [] => Some(Tolerances::usual(robot, *tension)),
-        free => Tolerances::held(robot, *tension, pose, &load, free),
-    };
-    let given = match position {
-        Some(position) => Some(held(&position).map_err(|error| {
-            let expected = format!("a position that the robot holds with {payload} kg: {error}");
-            StudyError::setting("position", format!("{position:?}"), expected)
-        })?),
-        None => None,
-    };
-    let others = candidates(robot, !free.is_empty()).into_iter().filter_map(|place| held(&place).ok());
-    let tried = given.into_iter().chain(others.take(if position.is_none() { FEW } else { 0 }));
-    let Some(((pose, _), tolerances)) = with_tolerances(robot, tried, tolerances) else {
-        let expected =
-            "x,y,z [m], because the robot holds none of the positions tried between its exit points";
-        return Err(StudyError::setting("position", "missing", expected));
-    };
-    let pose = &pose;
+    let (pose, tolerances) = placed(robot, position, payload, &free)?;
     let Size { observations, replicates, has_sensitivity, axis } = Size::of(robot);
     let sensitivity = if has_sensitivity {
         format!(
@@ -143,13 +122,12 @@ pub fn template(
         String::new()
     };
     let source = source(&tolerances);
-    let pose = described(pose, !free.is_empty());
+    let pose = described(&pose, !free.is_empty());
     let names: Vec<_> = free.iter().map(|name| format!("\"{name}\"")).collect();
     let free =
         if free.is_empty() { String::new() } else { format!("\n      \"free\": [{}],", names.join(", ")) };
-    let quoted = |text: &str| serde_json::Value::from(text).to_string();
-    let [name, robot_path] =
-        [format!("Static deflection of {}", robot.name), robot_path.to_owned()].map(|text| quoted(&text));
+    let [name, robot_path] = [format!("Static deflection of {}", robot.name), robot_path.to_owned()]
+        .map(|text| serde_json::Value::from(text).to_string());
     Ok(format!(
         r#"{{
   "format": "cdpr-study/1",
@@ -188,6 +166,38 @@ pub fn template(
         widest_e = tolerances.half("youngs_modulus"),
         widest_m = tolerances.half("mass"),
     ))
+}
+
+/// The pose of a template with tolerances that it bears: at this position, or between the exit points.
+fn placed(
+    robot: &Robot,
+    position: Option<[f64; 3]>,
+    payload: f64,
+    free: &[Coordinate],
+) -> Result<(Pose, Tolerances), StudyError> {
+    let held = |position: &[f64; 3]| rest(robot, *position, payload, free);
+    let given = match position {
+        Some(position) => vec![held(&position).map_err(|error| {
+            let expected = format!("a position that the robot holds with {payload} kg: {error}");
+            StudyError::setting("position", format!("{position:?}"), expected)
+        })?],
+        None => Vec::new(),
+    };
+    let others = candidates(robot, !free.is_empty()).into_iter().filter_map(|place| held(&place).ok());
+    let tried = given.into_iter().chain(others.take(if position.is_none() { FEW } else { 0 }));
+    let load = Load::payload(payload);
+    // Any robot with enough cables is held with small errors.
+    let tolerances = |(pose, tension): &(Pose, f64)| match free {
+        [] => Some(Tolerances::usual(robot, *tension)),
+        free => Tolerances::held(robot, *tension, pose, &load, free),
+    };
+    with_tolerances(robot, tried, tolerances).map(|((pose, _), tolerances)| (pose, tolerances)).ok_or_else(
+        || {
+            let expected =
+                "x,y,z [m], because the robot holds none of the positions tried between its exit points";
+            StudyError::setting("position", "missing", expected)
+        },
+    )
 }
 
 /// Writes the text of [`template`] to a new file; `text` gets the path by which the file names the robot

@@ -12,7 +12,7 @@ use tempfile::{Builder, NamedTempFile};
 const UNFINISHED: [&str; 2] = [".cdpr-", ".tmp"];
 
 /// A file that takes its name when it is finished. An unfinished one leaves nothing behind, unless the
-/// process is killed. It is locked while it is written: other processes recognise leftovers by the missing
+/// process is killed. It is locked while it is written: other processes recognize leftovers by the missing
 /// lock.
 pub(crate) struct AtomicFile {
     path: PathBuf,

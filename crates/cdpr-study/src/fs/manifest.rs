@@ -4,6 +4,7 @@
 
 use crate::error::StudyError;
 use crate::fs::atomic::write_atomic;
+use crate::fs::disk;
 use crate::fs::input::{open, read_bytes, read_text, text_of};
 use crate::kind::InputKind;
 use crate::names::{BLOCKS_NAME, LOCK_NAME, MANIFEST_NAME};
@@ -278,6 +279,18 @@ pub(crate) fn entries(folder: &Path) -> Result<Vec<(PathBuf, std::fs::FileType)>
     }
     entries.sort_by(|one, other| one.0.cmp(&other.0));
     Ok(entries)
+}
+
+/// Makes a folder, or takes one that is no link.
+///
+/// # Errors
+/// [`StudyError::Link`], [`StudyError::Write`].
+pub(crate) fn make_plain_folder(path: &Path) -> Result<(), StudyError> {
+    if !is_plain_folder(path)? {
+        disk::make_folder(path).map_err(|source| StudyError::Write { path: path.to_owned(), source })?;
+        is_plain_folder(path)?;
+    }
+    Ok(())
 }
 
 #[cfg(test)]

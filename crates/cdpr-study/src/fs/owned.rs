@@ -5,36 +5,20 @@
 //! removed, and no link is ever followed. A file that was changed after the run that wrote it belongs to the
 //! user, too, unless the results are to be overwritten.
 
+pub(crate) mod write;
+
 use crate::error::StudyError;
-use crate::fs::atomic::{AtomicFile, is_unfinished, remove_unfinished};
+use crate::fs::atomic::{is_unfinished, remove_unfinished};
 use crate::fs::disk;
 use crate::fs::files::check_folder;
-use crate::fs::finite::FiniteCells;
+use crate::fs::lock::{Access, Lock};
 use crate::fs::manifest::{Manifest, ResultsOf, digest, entries, is_plain_file, is_plain_folder};
 use crate::fs::single::IfExists;
 use crate::names::LOCK_NAME;
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs::File;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use std::time::{Duration, Instant};
-
-/// How long a process waits for another one that begins or ends a share of the same study.
-const PATIENCE: Duration = Duration::from_secs(10);
-
-/// How long it waits before it looks again.
-const LOOK_AGAIN: Duration = Duration::from_millis(2);
-
-/// Who else may write into a folder at the same time.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Access {
-    /// Nobody.
-    Alone,
-    /// Processes that make other blocks of the same study.
-    Shared,
-}
 
 /// A folder of results that this process may write into, until this value is dropped.
 #[derive(Debug)]
@@ -61,18 +45,6 @@ impl Drop for ResultsFolder {
     }
 }
 
-/// The file of a lock. It is unlocked when it is dropped, even if a process that was started meanwhile has
-/// inherited it.
-#[derive(Debug)]
-pub(crate) struct Lock(File);
-
-impl Drop for Lock {
-    fn drop(&mut self) {
-        // The system unlocks it in any case when the last process has closed it.
-        let _ = self.0.unlock();
-    }
-}
-
 #[derive(Debug)]
 struct State {
     manifest: Manifest,
@@ -84,43 +56,6 @@ struct State {
     overwrites: bool,
     /// Files of this run, with the digests of those that are finished.
     written: BTreeMap<String, Option<String>>,
-}
-
-/// A file of a folder of results, being written.
-pub(crate) struct ResultFile {
-    name: String,
-    file: AtomicFile,
-    hasher: blake3::Hasher,
-    state: Arc<Mutex<State>>,
-}
-
-impl ResultFile {
-    /// The error of a failure to write to the file.
-    pub(crate) fn unwritten(&self, source: std::io::Error) -> StudyError {
-        self.file.unwritten(source)
-    }
-
-    /// Gives the file its name. It is on the disk when this returns.
-    ///
-    /// # Errors
-    /// [`StudyError::Write`].
-    pub(crate) fn finish(self) -> Result<PathBuf, StudyError> {
-        let path = self.file.finish()?;
-        held(&self.state).written.insert(self.name, Some(self.hasher.finalize().to_string()));
-        Ok(path)
-    }
-}
-
-impl Write for ResultFile {
-    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
-        let written = self.file.write(bytes)?;
-        self.hasher.update(&bytes[..written]);
-        Ok(written)
-    }
-
-    fn flush(&mut self) -> std::io::Result<()> {
-        self.file.flush()
-    }
 }
 
 impl ResultsFolder {
@@ -169,12 +104,7 @@ impl ResultsFolder {
         known(path, of, &writes)?;
         let made = access == Access::Alone && path.symlink_metadata().is_err();
         check_folder(path)?;
-        let lock_path = path.join(LOCK_NAME);
-        is_plain_file(&lock_path)?;
-        let lock = disk::open_lock(&lock_path)
-            .map_err(|source| StudyError::Write { path: lock_path.clone(), source })?;
-        let lock = Lock(lock);
-        let alone = take_lock(path, &lock.0, access)?;
+        let (lock, alone) = Lock::take(path, access)?;
         let manifest = known(path, of, &writes)?;
         let listed = manifest.is_some();
         let manifest = manifest.unwrap_or_else(|| Manifest::new(of));
@@ -202,19 +132,8 @@ impl ResultsFolder {
     }
 
     fn take_again(&self, access: Access) -> Result<(), StudyError> {
-        let write = |source| StudyError::Write { path: self.path.join(LOCK_NAME), source };
-        self.lock.0.unlock().map_err(write)?;
-        let clock = Instant::now();
-        while !disk::lock(&self.lock.0, &self.path.join(LOCK_NAME), access == Access::Shared)
-            .map_err(write)?
-        {
-            if clock.elapsed() > PATIENCE {
-                return Err(StudyError::FolderBusy { folder: self.path.clone() });
-            }
-            std::thread::sleep(LOOK_AGAIN);
-        }
+        self.lock.take_again(&self.path, access)?;
         self.state().alone = access == Access::Alone;
-        // In between, it was anybody's.
         match Manifest::read(&self.path)? {
             Some(found) if found.study == self.state().manifest.study => Ok(()),
             _ => Err(StudyError::FolderBusy { folder: self.path.clone() }),
@@ -295,33 +214,6 @@ impl ResultsFolder {
         state.manifest.write(&self.path)
     }
 
-    /// Begins a file of this name, in place of one that a run has written.
-    ///
-    /// # Errors
-    /// As [`ResultsFolder::claim`].
-    pub(crate) fn create(&self, name: &str) -> Result<ResultFile, StudyError> {
-        self.claim([name.to_owned()])?;
-        if let Some((folder, _)) = name.split_once('/') {
-            make_plain_folder(&self.path.join(folder))?;
-        }
-        self.state().written.insert(name.to_owned(), None);
-        let file = AtomicFile::new(self.path.join(name))?;
-        let (name, hasher) = (name.to_owned(), blake3::Hasher::new());
-        Ok(ResultFile { name, file, hasher, state: self.state.clone() })
-    }
-
-    /// Writes a file that is whole and on the disk when this returns.
-    ///
-    /// # Errors
-    /// As [`ResultsFolder::claim`].
-    pub fn write(&self, name: &str, text: &[u8]) -> Result<PathBuf, StudyError> {
-        let mut file = self.create(name)?;
-        match file.write_all(text) {
-            Ok(()) => file.finish(),
-            Err(source) => Err(file.unwritten(source)),
-        }
-    }
-
     /// Gives the list the digests of the files that this run has written so far.
     ///
     /// # Errors
@@ -331,14 +223,6 @@ impl ResultsFolder {
         let written = state.written.clone();
         state.manifest.files.extend(written);
         state.manifest.write(&self.path)
-    }
-
-    /// Writes a value as indented JSON.
-    ///
-    /// # Errors
-    /// As [`ResultsFolder::claim`].
-    pub fn write_json(&self, name: &str, value: &impl Serialize) -> Result<PathBuf, StudyError> {
-        self.write(name, self.json(name, value)?.as_bytes())
     }
 
     /// Writes the summary of all results as indented JSON, the last file of a run. Before that, what earlier
@@ -380,49 +264,6 @@ impl ResultsFolder {
             }
         }
         self.write(name, text.as_bytes())
-    }
-
-    fn json(&self, name: &str, value: &impl Serialize) -> Result<String, StudyError> {
-        match serde_json::to_string_pretty(value) {
-            Ok(text) => Ok(text + "\n"),
-            Err(error) => Err(StudyError::Write { path: self.path.join(name), source: error.into() }),
-        }
-    }
-
-    /// Writes a table as CSV whose columns are the fields of its rows.
-    ///
-    /// # Errors
-    /// As [`ResultsFolder::claim`].
-    pub fn write_rows<T: Serialize>(&self, name: &str, rows: &[T]) -> Result<PathBuf, StudyError> {
-        self.write_table(name, |table| rows.iter().try_for_each(|row| table.serialize(row)))
-    }
-
-    /// Writes a table as CSV from its header and its rows of text.
-    ///
-    /// # Errors
-    /// As [`ResultsFolder::claim`].
-    pub fn write_csv(
-        &self,
-        name: &str,
-        header: Vec<String>,
-        mut rows: impl Iterator<Item = Vec<String>>,
-    ) -> Result<PathBuf, StudyError> {
-        self.write_table(name, |table| {
-            table.write_record(header)?;
-            rows.try_for_each(|row| table.write_record(row))
-        })
-    }
-
-    fn write_table(
-        &self,
-        name: &str,
-        write: impl FnOnce(&mut csv::Writer<FiniteCells<ResultFile>>) -> Result<(), csv::Error>,
-    ) -> Result<PathBuf, StudyError> {
-        let mut table = csv::Writer::from_writer(FiniteCells::new(self.create(name)?));
-        let unwritten = |source| StudyError::Write { path: self.path.join(name), source };
-        write(&mut table).map_err(|error| unwritten(error.into()))?;
-        let cells = table.into_inner().map_err(|error| unwritten(error.into_error()))?;
-        cells.into_inner().map_err(unwritten)?.finish()
     }
 
     /// Removes a file that a run has written, if it exists. Its name stays in the list.
@@ -550,60 +391,4 @@ fn known(path: &Path, of: ResultsOf, writes: &impl Fn(&str) -> bool) -> Result<O
         Some(path) => Err(StudyError::NoResults { path }),
         None => Ok(manifest),
     }
-}
-
-/// Takes the lock of a folder, and returns whether alone. One that asks for a share waits a little for others
-/// that begin theirs.
-fn take_lock(folder: &Path, lock: &File, access: Access) -> Result<bool, StudyError> {
-    let path = folder.join(LOCK_NAME);
-    let locked = |shared| {
-        disk::lock(lock, &path, shared).map_err(|source| StudyError::Write { path: path.clone(), source })
-    };
-    let clock = Instant::now();
-    loop {
-        if locked(false)? {
-            return Ok(true);
-        }
-        if access == Access::Shared && locked(true)? {
-            return Ok(false);
-        }
-        if access == Access::Alone || clock.elapsed() > PATIENCE {
-            return Err(StudyError::FolderBusy { folder: folder.to_owned() });
-        }
-        std::thread::sleep(LOOK_AGAIN);
-    }
-}
-
-/// Waits for nobody, and lets nobody write into a folder of results until the value is dropped. A folder that
-/// nobody can write into, or of an earlier version, has no lock.
-///
-/// # Errors
-/// [`StudyError::FolderBusy`] where a process writes into it, [`StudyError::Link`] for a lock that no run has
-/// made.
-pub(crate) fn hold_still(folder: &Path) -> Result<Option<Lock>, StudyError> {
-    let path = folder.join(LOCK_NAME);
-    if folder.is_file() {
-        return Err(StudyError::NoFolder { path: folder.to_owned() });
-    }
-    if !is_plain_file(&path)? {
-        return Ok(None);
-    }
-    let Ok(lock) = File::open(&path).map(Lock) else { return Ok(None) };
-    match disk::lock(&lock.0, &path, true) {
-        Ok(true) => Ok(Some(lock)),
-        Ok(false) => Err(StudyError::FolderBusy { folder: folder.to_owned() }),
-        Err(source) => Err(StudyError::Read { path, source }),
-    }
-}
-
-/// Makes a folder, or takes one that is no link.
-///
-/// # Errors
-/// [`StudyError::Link`], [`StudyError::Write`].
-pub(crate) fn make_plain_folder(path: &Path) -> Result<(), StudyError> {
-    if !is_plain_folder(path)? {
-        disk::make_folder(path).map_err(|source| StudyError::Write { path: path.to_owned(), source })?;
-        is_plain_folder(path)?;
-    }
-    Ok(())
 }

@@ -2,8 +2,8 @@
 
 use crate::error::StudyError;
 use crate::fs::input::read_table;
+use crate::fs::lock::hold_still;
 use crate::fs::manifest::check_unchanged;
-use crate::fs::owned::hold_still;
 use crate::given::columns::{GivenTable, invalid};
 use crate::kind::InputKind;
 use std::path::{Path, PathBuf};

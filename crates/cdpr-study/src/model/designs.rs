@@ -4,7 +4,8 @@
 
 use crate::error::StudyError;
 use crate::file::output::Recorded;
-use crate::file::study_file::{SamplingSpec, SensitivitySpec};
+use crate::file::sensitivity_spec::SensitivitySpec;
+use crate::file::study_file::SamplingSpec;
 use crate::model::study::{Sampling, Study};
 use cdpr_sensitivity::{
     Correlated, Group, MorrisDesign, Order, RandomDesign, SaltelliDesign, SampleDesign, SensitivityError,

@@ -1,4 +1,4 @@
-//! The hashes by which a study and its blocks are recognised.
+//! The hashes by which a study and its blocks are recognized.
 
 use crate::error::StudyError;
 use crate::file::output::Output;

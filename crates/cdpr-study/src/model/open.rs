@@ -2,7 +2,8 @@
 
 use crate::error::StudyError;
 use crate::file::output::{Output, VectorOutput};
-use crate::file::study_file::{STUDY_FORMAT, SamplingSpec, SensitivitySpec, Statistic, StudyFile};
+use crate::file::sensitivity_spec::SensitivitySpec;
+use crate::file::study_file::{STUDY_FORMAT, SamplingSpec, Statistic, StudyFile};
 use crate::file::value::Value;
 use crate::fs::files::open_robot_from;
 use crate::fs::input::{other_kind, read_text};
@@ -136,6 +137,27 @@ impl Study {
 
     fn validate(&self) -> Result<(), StudyError> {
         let file = &self.file;
+        self.check_settings()?;
+        self.check_names()?;
+        self.check_output()?;
+        for (name, model) in &file.error_models {
+            self.error_model(name, model, &[])?;
+        }
+        for (name, spec) in &file.samplings {
+            self.check_free(&format!("samplings.{name}"), &spec.free)?;
+            self.check_sampling(name, spec)?;
+        }
+        for (name, spec) in &file.surfaces {
+            self.check_free(&format!("surfaces.{name}"), &spec.free)?;
+            self.surface_axes(name, spec)?;
+            self.nominal(name)?;
+        }
+        self.check_comparison()
+    }
+
+    /// Values that need no other ones.
+    fn check_settings(&self) -> Result<(), StudyError> {
+        let file = &self.file;
         if file.format != STUDY_FORMAT {
             return Err(self.invalid("format", &file.format, STUDY_FORMAT));
         }
@@ -159,67 +181,34 @@ impl Study {
             let expected = format!("1 to {MOST_RESAMPLES}");
             return Err(self.invalid("bootstrap_resamples", file.bootstrap_resamples, &expected));
         }
-        if let Some((field, value, expected)) = file.sensitivity.as_ref().and_then(SensitivitySpec::invalid) {
-            return Err(self.invalid(&format!("sensitivity.{field}"), value, &expected));
-        }
-        if file.samplings.is_empty() && file.surfaces.is_empty() {
-            return Err(self.invalid("samplings", "empty", "at least one sampling or surface"));
-        }
-        for name in file.samplings.keys().chain(file.surfaces.keys()) {
-            let plain = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
-            if name.len() > LONGEST_NAME {
-                let expected = format!("at most {LONGEST_NAME} characters: they name files");
-                return Err(self.invalid("samplings", format!("{} characters", name.len()), &expected));
+        match file.sensitivity.as_ref().and_then(SensitivitySpec::invalid) {
+            Some((field, value, expected)) => {
+                Err(self.invalid(&format!("sensitivity.{field}"), value, &expected))
             }
-            if name.is_empty() || !name.chars().all(plain) {
-                return Err(self.invalid(
-                    "samplings",
-                    name,
-                    "names of letters, digits, `_` and `-`: they name files",
-                ));
-            }
+            None => Ok(()),
         }
-        if let Some(name) = file.surfaces.keys().find(|name| file.samplings.contains_key(*name)) {
-            return Err(self.invalid(&format!("surfaces.{name}"), name, "a name that no sampling has"));
-        }
-        self.check_output()?;
-        self.check_names()?;
-        for (name, model) in &file.error_models {
-            self.error_model(name, model, &[])?;
-        }
-        for (name, spec) in &file.samplings {
-            self.check_free(&format!("samplings.{name}"), &spec.free)?;
-            self.check_sampling(name, spec)?;
-        }
-        for (name, spec) in &file.surfaces {
-            self.check_free(&format!("surfaces.{name}"), &spec.free)?;
-            self.surface_axes(name, spec)?;
-            self.nominal(name)?;
-        }
+    }
+
+    /// Published figures are of parts of the study that have them.
+    fn check_comparison(&self) -> Result<(), StudyError> {
+        let file = &self.file;
         for (i, row) in file.comparison.iter().enumerate() {
+            let field = |name: &str| format!("comparison[{i}].{name}");
+            let is_surface = file.surfaces.contains_key(&row.study);
             let at_one_pose = file.samplings.get(&row.study).is_some_and(|spec| spec.pose.is_some());
-            if !at_one_pose && !file.surfaces.contains_key(&row.study) {
-                let field = format!("comparison[{i}].study");
+            if !at_one_pose && !is_surface {
                 let expected = "the name of a sampling at one pose, or of a surface";
-                return Err(self.invalid(&field, &row.study, expected));
+                return Err(self.invalid(&field("study"), &row.study, expected));
             }
             let of_surface = matches!(row.statistic, Statistic::Min | Statistic::Max | Statistic::Spread);
-            if file.surfaces.contains_key(&row.study) && !of_surface {
-                let field = format!("comparison[{i}].statistic");
-                return Err(self.invalid(
-                    &field,
-                    format!("{:?}", row.statistic),
-                    "min, max or spread for a surface",
-                ));
+            if is_surface && !of_surface {
+                let (value, expected) = (format!("{:?}", row.statistic), "min, max or spread for a surface");
+                return Err(self.invalid(&field("statistic"), value, expected));
             }
-            if matches!(row.paper, Value::Number(_)) && !(row.last_digit.is_finite() && row.last_digit > 0.0)
-            {
-                let field = format!("comparison[{i}].last_digit");
-                return Err(self.invalid(
-                    &field,
-                    row.last_digit,
-                    "the last printed digit of the number, such as 0.01",
-                ));
+            let is_digit = row.last_digit.is_finite() && row.last_digit > 0.0;
+            if matches!(row.paper, Value::Number(_)) && !is_digit {
+                let expected = "the last printed digit of the number, such as 0.01";
+                return Err(self.invalid(&field("last_digit"), row.last_digit, expected));
             }
         }
         Ok(())
@@ -267,12 +256,29 @@ impl Study {
         Err(self.invalid(&format!("{field}.free"), format!("[{}]", names.join(", ")), &expected))
     }
 
-    /// No part of the study is called as tables or figures of another one, or of all.
+    /// There is a part of the study, and the names of all can be those of files: none is called as tables or
+    /// figures of another one, or of all.
     pub(crate) fn check_names(&self) -> Result<(), StudyError> {
-        let samplings = self.file.samplings.keys().map(|name| ("samplings", name));
-        let surfaces = self.file.surfaces.keys().map(|name| ("surfaces", name));
+        let file = &self.file;
+        if file.samplings.is_empty() && file.surfaces.is_empty() {
+            return Err(self.invalid("samplings", "empty", "at least one sampling or surface"));
+        }
+        let samplings = file.samplings.keys().map(|name| ("samplings", name));
+        let surfaces = file.surfaces.keys().map(|name| ("surfaces", name));
         for (kind, name) in samplings.chain(surfaces) {
-            if let Some(writer) = self.file.other_writer(name) {
+            let plain = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
+            if name.len() > LONGEST_NAME {
+                let expected = format!("at most {LONGEST_NAME} characters: they name files");
+                return Err(self.invalid(kind, format!("{} characters", name.len()), &expected));
+            }
+            if name.is_empty() || !name.chars().all(plain) {
+                let expected = "names of letters, digits, `_` and `-`: they name files";
+                return Err(self.invalid(kind, name, expected));
+            }
+            if kind == "surfaces" && file.samplings.contains_key(name) {
+                return Err(self.invalid(&format!("surfaces.{name}"), name, "a name that no sampling has"));
+            }
+            if let Some(writer) = file.other_writer(name) {
                 let expected = format!("another name: {writer} would write over its files");
                 return Err(self.invalid(&format!("{kind}.{name}"), name, &expected));
             }
@@ -308,8 +314,7 @@ impl Study {
         }
         if name == BLOCKS_NAME {
             let expected = "another name for a sampling at several poses: the folder of its tables would be \
-             that of \
-                            the blocks";
+                            that of the blocks";
             return Err(self.invalid("samplings", name, expected));
         }
         let design = self.design(name, spec, &[])?.2;

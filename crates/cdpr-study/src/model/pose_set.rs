@@ -1,5 +1,5 @@
 //! Samplings at several poses. Each pose is a sampling of its own, `NAME/0000`, `NAME/0001`, ..., with blocks
-//! and a table of its own; [`crate::PosesSummary`] summarises them.
+//! and a table of its own; [`crate::PosesSummary`] summarizes them.
 
 use crate::error::StudyError;
 use crate::file::study_file::{PoseSpec, PosesSpec, SamplingSpec};

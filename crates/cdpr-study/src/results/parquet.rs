@@ -2,7 +2,8 @@
 //! metadata.
 
 use crate::error::StudyError;
-use crate::fs::owned::{ResultFile, ResultsFolder};
+use crate::fs::owned::ResultsFolder;
+use crate::fs::owned::write::ResultFile;
 use crate::model::observed::{Observed, status};
 use crate::model::study::Sampling;
 use crate::observe::observation::Part;

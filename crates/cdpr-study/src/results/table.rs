@@ -2,7 +2,8 @@
 //! from its nominal value, the columns of the output, status and reason.
 
 use crate::error::StudyError;
-use crate::fs::owned::{ResultFile, ResultsFolder};
+use crate::fs::owned::ResultsFolder;
+use crate::fs::owned::write::ResultFile;
 use crate::model::observed::status;
 use crate::model::study::Sampling;
 use crate::observe::observation::Part;

@@ -5,8 +5,10 @@
 use crate::error::StudyError;
 use crate::file::study_file::StudyFile;
 use crate::fs::input::{read_bytes, read_text};
+use crate::fs::lock::Access;
+use crate::fs::manifest::make_plain_folder;
 use crate::fs::manifest::{Manifest, ResultsOf, digest, is_plain_folder, read};
-use crate::fs::owned::{Access, ResultsFolder, make_plain_folder};
+use crate::fs::owned::ResultsFolder;
 use crate::kind::InputKind;
 use crate::model::study::Study;
 use crate::names::{BLOCKS_NAME, ROBOT_NAME, STUDY_NAME};

@@ -61,7 +61,7 @@ class SaltelliDesign(Design):
     def vector_indices(
         self, outputs: ArrayLike, *, level: float = 0.95, resamples: int = 1000, seed: int = 0
     ) -> SobolIndices:
-        """Estimates generalised Sobol' indices of one output of several components in a common unit, (n, m).
+        """Estimates generalized Sobol' indices of one output of several components in a common unit, (n, m).
 
         They are shares of the trace of its covariance, such as of a displacement (dx, dy, dz).
         """

@@ -41,11 +41,11 @@ class EffectIntervals(Table):
 
 
 class Regression(Table):
-    """Linear model of standardised values, or of their ranks."""
+    """Linear model of standardized values, or of their ranks."""
 
-    _drawn, _shown = ("standardised",), ("r_squared",)
+    _drawn, _shown = ("standardized",), ("r_squared",)
 
-    standardised = Column("standardised", "Standardised coefficients (SRC; SRRC of ranks), (k,).")
+    standardized = Column("standardized", "Standardized coefficients (SRC; SRRC of ranks), (k,).")
     share = Column("share", "Squares of these: shares of the variance if the model is linear, (k,).")
     partial = Column("partial", "Partial correlations (PCC; PRCC of ranks), (k,).")
     r_squared = Value("r_squared", "Share of the variance that the linear model explains.")
@@ -178,7 +178,7 @@ class WassersteinBures(Table):
 
     index = Column("index.value", "Index of Wasserstein and Bures, 0 to 1, (k,).")
     index_interval = Interval("index", "Intervals of these, (k, 2).")
-    means = Column("means.value", "Part of it by the means: half of the generalised S, (k,).")
+    means = Column("means.value", "Part of it by the means: half of the generalized S, (k,).")
     means_interval = Interval("means", "Intervals of these, (k, 2).")
 
 

@@ -6,7 +6,7 @@
 //!
 //! ```text
 //! j = argmax |x_j · r| / |x_j|                                            (Pu1)
-//! r ← r - (q · r) q,   q = x_j less its projections on Q, normalised      (Pu2)
+//! r ← r - (q · r) q,   q = x_j less its projections on Q, normalized      (Pu2)
 //! H_i = Q_i Q_iᵀ,   e_i = (1 - H_i)⁻¹ r_i                                 (Pu3)
 //! ε = mean(e_i²) / Var y · N / (N - P) · (1 + tr (Xᵀ X)⁻¹)                (Pu4)
 //! |x_j · r| / |x_j| ≤ √(2 ln p) |r| / √(N - P)                            (Pu5)

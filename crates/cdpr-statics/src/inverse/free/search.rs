@@ -7,12 +7,13 @@
 
 use crate::error::StaticsError;
 use crate::inverse::HeldPose;
-use crate::inverse::feasible::straight;
 use crate::inverse::held::{Row, Strand};
+use crate::inverse::optimum::ELASTICITY;
 use crate::inverse::question::Question;
 use crate::rest_fault::RestFault;
 use crate::state::Load;
 use cdpr_robot::{Coordinate, Plane, Pose, Robot, Rotation3, Vector3, Vector6};
+use cdpr_tension::{BoxProblem, BoxUnknown};
 use nalgebra::{DMatrix, DVector};
 
 /// Iterations for the singular values of a matrix; a few for each of them are usual.
@@ -180,10 +181,24 @@ impl<'a> Search<'a> {
         slopes.iter().all(|slope| slope.is_finite()).then_some(slopes)
     }
 
-    /// Chord forces of the straight cables that hold the pose best within their limits [N].
+    /// Chord forces of the straight cables that hold the pose best within their limits [N]: fewer cables than
+    /// free motions balance the wrench at few poses only.
     pub(super) fn straight_forces(&self, changes: &[f64]) -> Vec<f64> {
         let pose = self.pose(changes);
-        straight(&self.question_at(&pose)).0.into_iter().map(|t| t.max(self.least_force())).collect()
+        let question = self.question_at(&pose);
+        let matrix = question.straight_matrix();
+        let each = matrix.column_iter().zip(&question.reference).zip(&question.limits);
+        let unknowns: Vec<BoxUnknown> = each
+            .map(|((column, reference), limits)| BoxUnknown {
+                gradient: -reference,
+                curvature: 1.0,
+                column: question.robot.freedoms().of_vector(&column.into()),
+                bounds: [limits.min, limits.max],
+            })
+            .collect();
+        let (residual, multipliers) = (question.external, Vector6::zeros());
+        let program = BoxProblem { unknowns: &unknowns, residual, elasticity: ELASTICITY, multipliers };
+        program.solve().values.into_iter().map(|t| t.max(self.least_force())).collect()
     }
 
     /// The least chord force that a search starts from [N].

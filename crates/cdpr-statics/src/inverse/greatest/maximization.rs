@@ -14,10 +14,11 @@
 //! no step within the limits gains anything.
 
 use crate::error::StaticsError;
-use crate::inverse::feasible::{BALANCED, search, straight};
+use crate::inverse::feasible::{BALANCED, search};
 use crate::inverse::held::Strand;
 use crate::inverse::optimum::{ELASTICITY, Optimum, Point};
 use crate::inverse::question::Question;
+use crate::inverse::start::{Goal, Start};
 use cdpr_robot::{TensionLimits, Vector6};
 use cdpr_tension::{BoxProblem, BoxUnknown, LinearProgram, LinearSolution};
 
@@ -103,12 +104,18 @@ impl Maximization {
         question: &Question<'a>,
         own: &Question<'a>,
     ) -> Result<Maximum<'a>, StaticsError> {
-        let (mut point, found) = self.climb(question, &straight(question).0)?;
+        let goal = self.drawn.as_ref().map_or(Goal::Wrench(&self.direction), |drawn| Goal::Margin(drawn));
+        let Start { tensions, value, certificate, .. } = question.straight(&goal);
+        let (mut point, found) = self.climb(question, &tensions, value.unwrap_or(0.0))?;
         if let Some(found) = found {
             return Ok(found);
         }
         // What refutes a balance at z = 0 refutes one at any z, unless z pulls the other way.
-        if point.residual().dot(&self.direction) >= 0.0 && point.residue() > BALANCED && point.refutes() {
+        let pulls_away =
+            |y: &Vector6<f64>| y.dot(&self.direction) * self.range[1] >= -ROUNDING * point.size();
+        let directions = [certificate, Some(point.residual().normalize())].into_iter().flatten();
+        let directions: Vec<_> = directions.filter(pulls_away).collect();
+        if point.residue() > BALANCED && directions.iter().any(|y| point.is_refuted_along(y)) {
             return Err(point.refusal(question, 1, point.iterations, true));
         }
         // Far from a balance within wide limits, another start is not worth its time.
@@ -116,17 +123,19 @@ impl Maximization {
             return Err(point.refusal(question, 1, point.iterations, false));
         }
         let Optimum { tensions, iterations, stationarity, .. } = search(own)?;
-        let (_, found) = self.climb(question, &tensions)?;
+        let (_, found) = self.climb(question, &tensions, 0.0)?;
         found.ok_or(StaticsError::InverseNotConverged { iterations, stationarity })
     }
 
-    /// Climbs from some tensions [N]; returns where it ends, and the maximum if it is one.
+    /// Climbs from some tensions and z [N]; returns where it ends, and the maximum if it is one.
     fn climb<'a>(
         &self,
         question: &Question<'a>,
         tensions: &[f64],
+        z: f64,
     ) -> Result<(Point<'a>, Option<Maximum<'a>>), StaticsError> {
-        let mut at = Iterate { point: Point::new(question, tensions)?, z: self.range[0].max(0.0) };
+        let mut at =
+            Iterate { point: Point::new(question, tensions)?, z: z.clamp(self.range[0], self.range[1]) };
         let mut trust = Trust { region: REGION, cost: LEAST_COST, penalty: 0.0 };
         let mut stalled = 0;
         for iterations in 1..=MAX_ITERATIONS {

@@ -23,10 +23,7 @@
 //! ```
 
 use crate::lanes::cable::{Guided, LaneCable};
-use cdpr_cable::kernel::{
-    LaneEndSlopes, LaneGuide, LaneSegment, Response, lane_end, lane_law_end, lane_law_response,
-    lane_law_stretch, lane_response,
-};
+use cdpr_cable::kernel::{GuideTerms, GuidedEndSlopes, Material, Response, SwivelAxis};
 use cdpr_number::dense::Lanes3;
 use cdpr_number::lanes::{Lanes, Simd, WithSimd};
 use cdpr_number::vector::dot;
@@ -48,7 +45,7 @@ pub(super) struct Answer<T> {
 pub(super) struct GuideAnswer<T> {
     /// a [m/N].
     asymmetry: T,
-    pub(super) end: LaneEndSlopes<T>,
+    pub(super) end: GuidedEndSlopes<T>,
 }
 
 impl<T: Lanewise> GuideAnswer<T> {
@@ -59,11 +56,11 @@ impl<T: Lanewise> GuideAnswer<T> {
     }
 }
 
-/// A cable to be evaluated: law, weight per length, axial flexibility and length, force at A.
+/// A cable to be evaluated: its material, its length and the force at A.
 #[derive(Clone, Copy)]
 struct Question<'a, T> {
-    law: &'a [LaneSegment],
-    numbers: [T; 3],
+    material: Material<'a, T>,
+    length: T,
     force: [T; 2],
 }
 
@@ -72,17 +69,15 @@ impl<T: Lanewise> WithSimd for Question<'_, T> {
 
     #[inline(always)]
     fn with_simd<Same: Simd>(self, _: Same) -> Self::Output {
-        let Self { law, numbers: [w, flexibility, length], force } = self;
-        let response = match law {
-            [] => lane_response(w, flexibility, length, force),
-            law => lane_law_response(law, w, flexibility, length, force),
+        let Self { material, length, force } = self;
+        let response = material.response(length, force);
+        let material = Material {
+            law: material.law,
+            weight_per_length: Dual::<_, 2>::input(material.weight_per_length, 0),
+            axial_flexibility: Dual::input(material.axial_flexibility, 1),
         };
-        let (w, flexibility) = (Dual::<_, 2>::input(w, 0), Dual::input(flexibility, 1));
-        let (length, force) = (Dual::constant(length), [Dual::constant(force[0]), Dual::constant(force[1])]);
-        let [x, z] = match law {
-            [] => lane_end(w, flexibility, length, force).end,
-            law => lane_law_end(law, w, flexibility, length, force).end,
-        };
+        let force = [Dual::constant(force[0]), Dual::constant(force[1])];
+        let [x, z] = material.end(Dual::constant(length), force).end;
         Answer {
             response,
             per_weight: [x.slopes[0], z.slopes[0]],
@@ -96,8 +91,7 @@ impl<S: Simd> Answer<Lanes<S>> {
     /// The answer of a cable to the force and the length that it has.
     #[inline(always)]
     pub(super) fn of(cable: &LaneCable<'_, S>) -> Self {
-        let numbers = [cable.weight_per_length, cable.axial_flexibility, cable.length];
-        let question = Question { law: cable.law, numbers, force: cable.force };
+        let question = Question { material: cable.material(), length: cable.length, force: cable.force };
         match &cable.guided {
             None => cable.length.apart(question),
             Some(guided) => over_guide(guided.guide, question, cable.length),
@@ -126,21 +120,22 @@ impl<S: Simd> Answer<Dual<Lanes<S>, 1>> {
             Some(guided) => first_over_guide(guided, cable),
         };
         let along = |value, slope| Dual { value, slopes: [slope] };
-        let numbers = [
-            Dual::constant(cable.weight_per_length),
-            Dual::constant(cable.axial_flexibility),
-            along(cable.length, longer),
-        ];
+        let material = Material {
+            law: cable.law,
+            weight_per_length: Dual::constant(cable.weight_per_length),
+            axial_flexibility: Dual::constant(cable.axial_flexibility),
+        };
         let force = [along(cable.force[0], x), along(cable.force[1], z)];
-        let question = Question { law: cable.law, numbers, force };
+        let question = Question { material, length: along(cable.length, longer), force };
         match &cable.guided {
             None => cable.length.apart(question),
             Some(guided) => {
-                let LaneGuide { lead, radius, signed_radius } = guided.guide;
-                let guide = LaneGuide {
+                let GuideTerms { lead, radius, .. } = guided.guide;
+                let signed_radius = guided.guide.signed_radius();
+                let guide = GuideTerms {
                     lead: Dual::constant(lead),
                     radius: Dual::constant(radius),
-                    signed_radius: Dual::constant(signed_radius),
+                    axis: SwivelAxis::Vertical(Dual::constant(signed_radius)),
                 };
                 over_guide(guide, question, cable.length)
             }
@@ -153,7 +148,7 @@ impl<S: Simd> Answer<Dual<Lanes<S>, 1>> {
 #[cold]
 #[inline(never)]
 fn over_guide<S: Simd, T: Lanewise>(
-    guide: LaneGuide<T>,
+    guide: GuideTerms<T>,
     question: Question<'_, T>,
     lanes: Lanes<S>,
 ) -> Answer<T> {
@@ -161,7 +156,7 @@ fn over_guide<S: Simd, T: Lanewise>(
 }
 
 struct OverGuide<'a, T> {
-    guide: LaneGuide<T>,
+    guide: GuideTerms<T>,
     question: Question<'a, T>,
 }
 
@@ -171,15 +166,16 @@ impl<T: Lanewise> WithSimd for OverGuide<'_, T> {
     #[inline(always)]
     fn with_simd<Same: Simd>(self, same: Same) -> Answer<T> {
         let Self { guide, question } = self;
-        let Question { law, numbers: [w, flexibility, free], force } = question;
+        let Question { material, length: free, force } = question;
+        let w = material.weight_per_length;
         let beyond = question.with_simd(same);
         let leave = guide.leave_point(w, free, force);
-        let stretch = match law {
-            [] => [leave.tension * flexibility + 1.0, flexibility],
-            law => lane_law_stretch(law, flexibility, leave.tension),
-        };
-        let way = guide.way(w, free, leave, stretch);
-        let end = guide.end_slopes(&way, [flexibility, free], [beyond.per_weight, beyond.per_flexibility]);
+        let way = guide.way(w, free, leave, material.stretch(leave.tension));
+        let end = guide.end_slopes(
+            &way,
+            [material.axial_flexibility, free],
+            [beyond.per_weight, beyond.per_flexibility],
+        );
         let (response, asymmetry) = (way.response(force[0], &beyond.response), way.asymmetry());
         let determinant = response.determinant + asymmetry * asymmetry;
         Answer {

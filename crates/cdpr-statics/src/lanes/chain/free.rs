@@ -22,14 +22,15 @@
 
 use crate::equations::Span;
 use crate::inverse::{BESIDE, NEARLY_ROUNDING};
+use crate::lanes::cable::FOLDED;
 use crate::lanes::chain::limits::limits_at;
 use crate::lanes::chain::shared::{LAST_DISTRIBUTION, MAX_DISTRIBUTIONS, Shared};
 use crate::lanes::freedoms::hold;
 use crate::lanes::held::HeldCable;
 use crate::lanes::load::PlatformLoad;
-use crate::lanes::newton::{LinearizedPlatform, Robots, rotate};
+use crate::lanes::newton::rotate;
+use crate::lanes::platform::{LinearizedPlatform, Robots};
 use cdpr_cable::MAX_STRAIN;
-use cdpr_cable::kernel::FOLDED;
 use cdpr_number::Number;
 use cdpr_number::dense::{Lanes3, Lanes6, add, solve_columns};
 use cdpr_number::lanes::{Lanes, Mask, Simd, WithSimd};
@@ -282,7 +283,7 @@ impl<S: Simd> Rest<'_, '_, S> {
         let mut platform = LinearizedPlatform::new(zero, robots.cables.len());
         platform.follow_guides(robots);
         let own = PlatformLoad::weight(robots.weight);
-        robots.linearise(&own, &mut platform, zero.less_or_equal(zero));
+        robots.linearize(&own, &mut platform, zero.less_or_equal(zero));
         platform.is_stable()
     }
 }

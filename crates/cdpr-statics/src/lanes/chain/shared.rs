@@ -1,9 +1,9 @@
 //! What all robots of a batch share.
 
 use crate::lanes::cable::Shape;
-use crate::lanes::newton::Scale;
+use crate::lanes::platform::Scale;
 use cdpr_cable::PiecewiseLaw;
-use cdpr_cable::kernel::LaneSegment;
+use cdpr_cable::kernel::LawSegment;
 use cdpr_robot::{CableEnd, Robot, RobotCable, TensionLimits};
 
 /// A change of tensions that are still to be offset below this, relative to the longest cable or the sum of
@@ -74,8 +74,8 @@ impl Shared {
     }
 }
 
-/// Segments of the elastic law of each cable; none of a linear one.
-pub(crate) fn laws(robot: &Robot) -> Vec<Vec<LaneSegment>> {
-    let law = |cable: &RobotCable| cable.properties.law.as_ref().map(PiecewiseLaw::lane_segments);
-    robot.cables.iter().map(|cable| law(cable).unwrap_or_default()).collect()
+/// Segments of the elastic law of a cable; none of a linear one.
+#[inline]
+pub(crate) fn law(cable: &RobotCable) -> &[LawSegment] {
+    cable.properties.law.as_ref().map_or(&[], PiecewiseLaw::terms)
 }

@@ -2,9 +2,8 @@
 
 use super::{Batch, Observation, Observed, Observer, read};
 use crate::error::StaticsError;
-use crate::lanes::chain::{Keep, observe};
+use crate::lanes::chain::observe;
 use crate::lanes::level::LevelFrame;
-use crate::lanes::newton::Robots;
 use crate::lanes::observer::rows::Rows;
 use crate::lanes::reason::ScalarReason;
 use cdpr_number::dense::Lanes3;
@@ -58,13 +57,9 @@ impl WithSimd for MotionBatch<'_> {
             let rows = Rows::new(simd, rows, layout);
             let (mut start, level, valid) = rows.robots(robot, pose, load, nominal);
             start.robots.frame.extend(rows.frame(pose, level.as_ref()));
-            let mut frames = Frames { before: SmallVec::new(), last: SmallVec::new() };
-            let outcome = observe(&mut start, &nominal.shared, Some(&mut frames));
-            let [unloaded, loaded] = [&frames.before, &frames.last].map(|of| in_base(of, level.as_ref()));
-            let answers = read(&outcome, level.as_ref(), valid, nominal.no_tensions())
-                .into_iter()
-                .enumerate()
-                .take(count);
+            let (outcome, _) = observe(&mut start, &nominal.shared, false);
+            let [unloaded, loaded] = outcome.frames.each_ref().map(|of| in_base(of, level.as_ref()));
+            let answers = read(&outcome, level.as_ref(), valid, nominal).into_iter().enumerate().take(count);
             found.extend(answers.map(|(lane, answer)| {
                 let at = |frame: &Columns| {
                     let rotation = Matrix3::from_fn(|row, column| frame[column][row][lane]);
@@ -75,19 +70,6 @@ impl WithSimd for MotionBatch<'_> {
             }));
         }
         found
-    }
-}
-
-/// The platform frames of the last state of a chain and of the one before it, by their columns.
-struct Frames<S: Simd> {
-    before: SmallVec<[Lanes3<S>; 3]>,
-    last: SmallVec<[Lanes3<S>; 3]>,
-}
-
-impl<'a, S: Simd> Keep<'a, S> for Frames<S> {
-    #[inline(always)]
-    fn state(&mut self, robots: &Robots<'a, S>) {
-        self.before = std::mem::replace(&mut self.last, robots.frame.clone());
     }
 }
 

@@ -3,17 +3,17 @@
 use crate::equations::Ends;
 use crate::inverse::HeldPose;
 use crate::lanes::cable::{Guided, LaneCable, Shape};
-use crate::lanes::chain::ChainStart;
 use crate::lanes::chain::free::FreeMotion;
-use crate::lanes::chain::shared::{Choice, Shared, laws};
+use crate::lanes::chain::shared::{Choice, Shared, law};
+use crate::lanes::chain::{ChainStart, Stage};
 use crate::lanes::freedoms::hold;
 use crate::lanes::level::LevelFrame;
 use crate::lanes::load::PlatformLoad;
-use crate::lanes::newton::{Layout, Robots, Scale};
+use crate::lanes::platform::{Layout, Robots, Scale};
 use crate::lanes::reason::ScalarReason;
 use crate::problem::DirectProblem;
 use crate::state::{Load, rounding_of_closure};
-use cdpr_cable::kernel::{LaneGuide, LaneSegment};
+use cdpr_cable::kernel::{GuideTerms, SwivelAxis};
 use cdpr_number::Number;
 use cdpr_number::dense::{Frame, rotated};
 use cdpr_number::lanes::{Lanes, MAX_LANES, Mask, Simd};
@@ -33,8 +33,6 @@ pub(crate) struct Nominal {
     multipliers: Vector6<f64>,
     /// The free coordinates in the order of [`Coordinate::ALL`].
     pub(crate) free: Vec<Coordinate>,
-    /// Segments of the elastic law of each cable; none of a linear one.
-    laws: Vec<Vec<LaneSegment>>,
     pub(crate) shared: Shared,
 }
 
@@ -72,14 +70,20 @@ impl Nominal {
         };
         let mut free = free.to_vec();
         free.sort_unstable();
-        Ok(Self { multipliers, free, laws: laws(robot), shared })
+        Ok(Self { multipliers, free, shared })
     }
 
-    /// Why a lane is left that finds no tensions, and one that must not take them.
-    pub(crate) fn no_tensions(&self) -> [ScalarReason; 2] {
-        match self.free.is_empty() {
-            true => [ScalarReason::Tensions, ScalarReason::Folded],
-            false => [ScalarReason::FreeCoordinates; 2],
+    /// Why a lane is left that fails at a stage.
+    pub(crate) fn why(&self, stage: Stage) -> ScalarReason {
+        match stage {
+            Stage::Parameters => ScalarReason::InvalidRobot,
+            Stage::Axes => ScalarReason::Pulleys,
+            Stage::Tensions | Stage::Limits if !self.free.is_empty() => ScalarReason::FreeCoordinates,
+            Stage::Tensions => ScalarReason::Tensions,
+            Stage::Limits => ScalarReason::Folded,
+            Stage::Lengths => ScalarReason::Lengths,
+            Stage::Unloaded => ScalarReason::Unloaded,
+            Stage::Loaded => ScalarReason::Loaded,
         }
     }
 }
@@ -131,7 +135,7 @@ impl<'a, S: Simd> Rows<'a, S> {
     #[inline(always)]
     pub(crate) fn robots<'n>(
         &self,
-        robot: &Robot,
+        robot: &'n Robot,
         pose: &Pose,
         load: &Load,
         nominal: &'n Nominal,
@@ -176,7 +180,7 @@ impl<'a, S: Simd> Rows<'a, S> {
                 & offset.less_or_equal(offset);
             start.offsets.push(offset);
             start.robots.cables.push(LaneCable {
-                law: &nominal.laws[i],
+                law: law(cable),
                 weight_per_length: density * gravity,
                 axial_flexibility: (modulus * cable.properties.section).recip(),
                 exit_point: self.point(layout.exit_point(i), &cable.exit_point),
@@ -240,10 +244,10 @@ impl<'a, S: Simd> Rows<'a, S> {
         i: usize,
         cable: &RobotCable,
         level: Option<&LevelFrame<S>>,
-    ) -> (LaneGuide<Lanes<S>>, Mask<S>, Mask<S>) {
+    ) -> (GuideTerms<Lanes<S>>, Mask<S>, Mask<S>) {
         let zero = self.all(0.0);
         let lead = self.further(Parameter::Lead(i), cable.lead);
-        let mut guide = LaneGuide { lead, radius: zero, signed_radius: zero };
+        let mut guide = GuideTerms { lead, radius: zero, axis: SwivelAxis::Vertical(zero) };
         let mut vertical = zero.less_or_equal(zero);
         if let Some(Pulley { radius, axis }) = cable.pulley {
             let radius = self.further(Parameter::PulleyRadius(i), radius);
@@ -260,7 +264,8 @@ impl<'a, S: Simd> Rows<'a, S> {
             }
             vertical = vertical | radius.less_or_equal(zero);
             let upwards = zero.less_or_equal(z);
-            guide = LaneGuide { radius, signed_radius: upwards.select(radius, -radius), ..guide };
+            let axis = SwivelAxis::Vertical(upwards.select(radius, -radius));
+            guide = GuideTerms { radius, axis, ..guide };
         }
         (guide, zero.less_or_equal(guide.lead) & zero.less_or_equal(guide.radius), vertical)
     }

@@ -6,8 +6,8 @@ use crate::error::StaticsError;
 use crate::lanes::adjoint::{Adjoint, GuideSlopes, Record, adjoint};
 use crate::lanes::chain::observe;
 use crate::lanes::level::LevelFrame;
-use crate::lanes::newton::Robots;
 use crate::lanes::observer::rows::Rows;
+use crate::lanes::platform::Robots;
 use crate::lanes::reason::ScalarReason;
 use crate::state::WantedPose;
 use cdpr_number::Number;
@@ -77,15 +77,16 @@ impl WithSimd for SlopesBatch<'_> {
             start.robots.frame.extend(rows.frame(pose, level.as_ref()));
             let payload = start.payload.clone();
             let rolling = rows.rolling(robot, &start.robots);
-            let mut record = Record::new(start.offsets.clone(), start.multipliers);
-            let outcome = observe(&mut start, &nominal.shared, Some(&mut record));
+            let offsets = start.offsets.clone();
+            let (outcome, trace) = observe(&mut start, &nominal.shared, true);
+            let record = Record { offsets, multipliers: start.multipliers, trace };
             let adjoint = adjoint(&record, &outcome.displacement, &payload, &nominal.shared);
             let mut decided = [false; MAX_LANES];
             if let Some(adjoint) = &adjoint {
                 decided = (adjoint.decided & rolling).to_array();
                 rows.write_slopes(robot, adjoint, level.as_ref(), &mut slopes);
             }
-            let answers = read(&outcome, level.as_ref(), valid, nominal.no_tensions());
+            let answers = read(&outcome, level.as_ref(), valid, nominal);
             for (lane, answer) in answers.into_iter().enumerate().take(count) {
                 found.push(match answer {
                     Ok(_) if !decided[lane] => Err(ScalarReason::Derivatives),

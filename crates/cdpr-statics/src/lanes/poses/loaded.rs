@@ -1,7 +1,7 @@
 //! What a load does to one robot at many poses with the lengths kept, one pose in each lane.
 //!
 //! From the cables that the inverse model wound, both equilibria follow by Newton's method of
-//! `lanes/newton.rs`. The stiffness K of the loaded platform is linearised at the second one. Its least
+//! `lanes/newton.rs`. The stiffness K of the loaded platform is linearized at the second one. Its least
 //! eigenvalue in (dp, ℓ dφ) is the stiffness of the softest motion, as [`crate::Stability`] has it, and
 //! that of `K v = (2π f)² M v` with the mass matrix of (V1) gives the lowest natural frequency. What a lane
 //! does not decide is left to the scalar models.
@@ -10,10 +10,9 @@ use crate::derivatives::derivatives_from;
 use crate::error::StaticsError;
 use crate::inverse::InverseSolution;
 use crate::lanes::adjoint::adjoint;
-use crate::lanes::chain::Keep;
 use crate::lanes::freedoms::{hold, hold_matrix};
 use crate::lanes::load::PlatformLoad;
-use crate::lanes::newton::{LaneResidual, LinearizedPlatform, Robots};
+use crate::lanes::platform::{LaneResidual, LinearizedPlatform, Robots};
 use crate::lanes::poses::placed::{PlacedRobot, each};
 use crate::lanes::poses::slopes::{Nominal, SlopesOfLanes};
 use crate::lanes::reason::ScalarReason;
@@ -250,17 +249,17 @@ impl<S: Simd> InLanes<'_, S> {
         let mut platform = LinearizedPlatform::new(zero, robots.cables.len());
         platform.follow_guides(&robots);
         let mut carried = PlatformLoad::weight(robots.weight);
-        robots.linearise(&carried, &mut platform, everywhere);
+        robots.linearize(&carried, &mut platform, everywhere);
         let unloaded = self.settled(&mut robots, &mut platform, &carried, everywhere);
         if let Some(record) = &mut record {
-            record.state(&robots);
+            record.trace.states.push(robots.clone());
         }
         let (stood, stiffness) = (robots.position, platform.factored);
         let (mut loaded, mut payload) = (None, PlatformLoad::weight(zero));
         if *load != Load::none() {
             let weight = self.all(load.payload * placed.robot.gravity.magnitude());
             let added = PlatformLoad::new(weight, &placed.wrench_to_level(&load.wrench));
-            // The first step follows the linearisation at hand.
+            // The first step follows the linearization at hand.
             let wrench = hold(robots.freedoms, added.wrench(&robots.center));
             platform.gradient = six!(|k| platform.gradient[k] - wrench[k]);
             carried = added.on(carried.weight);
@@ -273,7 +272,7 @@ impl<S: Simd> InLanes<'_, S> {
         let displacement = three!(|k| robots.position[k] - stood[k]);
         let slopes = match (&mut record, self.slopes) {
             (Some(record), Some(nominal)) => {
-                record.state(&robots);
+                record.trace.states.push(robots.clone());
                 adjoint(record, &displacement, &payload, &nominal.shared)
                     .map(|adjoint| nominal.slopes_of(simd, &robots, &adjoint))
             }
@@ -319,7 +318,7 @@ impl<S: Simd> InLanes<'_, S> {
         robots
     }
 
-    /// Newton's method from a linearisation, in the lanes `alive`.
+    /// Newton's method from a linearization, in the lanes `alive`.
     #[inline(always)]
     fn settled(
         &self,

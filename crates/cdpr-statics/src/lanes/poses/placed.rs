@@ -1,11 +1,11 @@
 //! One robot at several poses, one in each lane, in its level frame.
 
 use crate::lanes::cable::{Guided, LaneCable, Shape};
-use crate::lanes::chain::shared::{Choice, Shared, laws};
-use crate::lanes::newton::{Layout, Robots, Scale};
+use crate::lanes::chain::shared::{Choice, Shared, law};
+use crate::lanes::platform::{Layout, Robots, Scale};
 use crate::lanes::reason::ScalarReason;
 use crate::state::{Load, rounding_of_closure};
-use cdpr_cable::kernel::{LaneGuide, LaneSegment};
+use cdpr_cable::kernel::{GuideTerms, SwivelAxis};
 use cdpr_number::Number;
 use cdpr_number::dense::{Frame, rotated};
 use cdpr_number::lanes::{Lanes, MAX_LANES, Simd};
@@ -20,7 +20,6 @@ const NARROWER: f64 = 0.01;
 /// A robot whose poses fill the lanes.
 pub(crate) struct PlacedRobot<'a> {
     pub(crate) robot: &'a Robot,
-    laws: Vec<Vec<LaneSegment>>,
     /// Lengths that positions are compared with, at any pose.
     pub(crate) scale: Scale,
 }
@@ -41,7 +40,7 @@ impl<'a> PlacedRobot<'a> {
             // stiffness, and those of slack cables end at the bound: a fifth of it.
             rounding: rounding_of_closure(0.1 * size, farthest),
         };
-        Some(Self { robot, laws: laws(robot), scale })
+        Some(Self { robot, scale })
     }
 
     /// What its poses under `load` share, from whatever shape their cables begin.
@@ -93,7 +92,7 @@ impl<'a> PlacedRobot<'a> {
     /// force nor length yet. Lanes without a pose of their own repeat the last one.
     #[inline(always)]
     pub(crate) fn at<S: Simd>(&self, simd: S, poses: &[&Pose]) -> (Robots<'_, S>, Frame<S>) {
-        let Self { robot, ref laws, .. } = *self;
+        let Self { robot, .. } = *self;
         let all = |value: f64| Lanes::splat(simd, value);
         let point = |v: Vector3<f64>| three!(|k| all(v[k]));
         let mut positions = [Vector3::zeros(); MAX_LANES];
@@ -116,15 +115,15 @@ impl<'a> PlacedRobot<'a> {
             frame: SmallVec::new(),
             weight: all(robot.platform.mass * gravity),
         };
-        for (i, cable) in robot.cables.iter().enumerate() {
+        for cable in &robot.cables {
             let properties = &cable.properties;
-            let guide = cable.guide(robot.gravity.level()).map(|guide| LaneGuide {
+            let guide = cable.guide(robot.gravity.level()).map(|guide| GuideTerms {
                 lead: all(guide.lead),
                 radius: all(guide.radius),
-                signed_radius: all(guide.radius * guide.entry.axis()[2]),
+                axis: SwivelAxis::Vertical(all(guide.radius * guide.entry.axis()[2])),
             });
             robots.cables.push(LaneCable {
-                law: &laws[i],
+                law: law(cable),
                 weight_per_length: all(properties.linear_density * gravity),
                 axial_flexibility: all(properties.axial_stiffness()).recip(),
                 exit_point: point(self.to_level(cable.exit_point)),

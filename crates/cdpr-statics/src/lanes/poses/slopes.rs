@@ -2,11 +2,12 @@
 
 use crate::inverse::InverseSolution;
 use crate::lanes::adjoint::{Adjoint, Record};
-use crate::lanes::chain::Keep;
+use crate::lanes::chain::Trace;
 use crate::lanes::chain::shared::Shared;
+use crate::lanes::chain::tensions::CableTension;
 use crate::lanes::level::LevelFrame;
-use crate::lanes::newton::Robots;
 use crate::lanes::observer::rows::Rows;
+use crate::lanes::platform::Robots;
 use crate::lanes::poses::placed::{PlacedRobot, each};
 use crate::state::Load;
 use cdpr_number::lanes::{Lanes, MAX_LANES, Simd};
@@ -49,13 +50,13 @@ impl<'a> Nominal<'a> {
         let multipliers: SmallVec<[Vector6<f64>; MAX_LANES]> =
             wanted.iter().map(|wanted| placed.both(PlacedRobot::to_level, &wanted.multipliers)).collect();
         let multipliers = six!(|k| each(simd, &multipliers, &|of| of[k]));
-        let mut record = Record::new(vec![zero; robots.cables.len()], multipliers);
+        let mut tensions = Vec::with_capacity(robots.cables.len());
         for (i, (cable, choice)) in robots.cables.iter().zip(&self.shared.choices).enumerate() {
             let at = |bound: Bound| {
                 let is_there = each(simd, wanted, &|of| f64::from(u8::from(of.active[i] == Some(bound))));
                 zero.all(0.5).less_or_equal(is_there)
             };
-            let sides = [at(Bound::Min), at(Bound::Max)];
+            let at_limits = [at(Bound::Min), at(Bound::Max)];
             // A least tension that the span demands is that of the cable.
             let least = |of: &&InverseSolution| {
                 let min = choice.limits.min;
@@ -68,10 +69,10 @@ impl<'a> Nominal<'a> {
                 _ => f64::MAX,
             };
             let limits = [each(simd, wanted, &least), each(simd, wanted, &greatest)];
-            record.chosen(i, cable, &limits, sides, zero.less_or_equal(zero));
+            tensions.push(CableTension { at_limits, ..CableTension::within(cable, limits) });
         }
-        record.state(robots);
-        record
+        let trace = Trace { tensions, states: vec![robots.clone()] };
+        Record { offsets: vec![zero; robots.cables.len()], multipliers, trace }
     }
 
     /// The slopes by all parameters, and the lanes in which they are known.

@@ -1,0 +1,90 @@
+//! The lengths that give the tensions of set-points at the wanted pose, one robot in each lane.
+
+use crate::equations::{LinearizedCable, Span};
+use crate::lanes::cable::FOLDED;
+use crate::lanes::chain::shared::Shared;
+use crate::lanes::held::HeldCable;
+use crate::lanes::platform::{LinearizedPlatform, Robots};
+use cdpr_number::Number;
+use cdpr_number::lanes::{Lanes, Mask, Simd, WithSimd};
+
+/// A change of lengths and forces below this, relative to the longest cable or the sum of tensions, is the
+/// last one at the wanted pose.
+const LAST_CHANGE: f64 = 1e-7;
+
+/// The same for a change of a cable's force, relative to its own tension, which may be a small part of the
+/// sum. What is left of it is of second order: for a cable near its least tension 1e-12 of its length.
+const LAST_OWN_CHANGE: f64 = 1e-6;
+
+/// Iterations for the length of a cable at its set-point.
+const MAX_ITERATIONS: usize = 8;
+
+/// Lengths that give the tensions `set_points` at the wanted pose, and the cables linearized there: the lanes
+/// where all were found. All callers share one function for each vector unit.
+pub(crate) struct FindLengths<'b, 'a, S: Simd> {
+    pub(crate) robots: &'b mut Robots<'a, S>,
+    pub(crate) platform: &'b mut LinearizedPlatform<S>,
+    pub(crate) set_points: &'b [Lanes<S>],
+    pub(crate) spans: &'b [Span<Lanes<S>>],
+    /// For each cable the lanes where the least tension of its span is known.
+    pub(crate) demanded: &'b [Mask<S>],
+    pub(crate) shared: &'b Shared,
+}
+
+impl<S: Simd> WithSimd for FindLengths<'_, '_, S> {
+    type Output = Mask<S>;
+
+    #[inline(always)]
+    fn with_simd<Same: Simd>(self, _: Same) -> Mask<S> {
+        find_lengths(self)
+    }
+}
+
+#[inline(always)]
+fn find_lengths<S: Simd>(task: FindLengths<'_, '_, S>) -> Mask<S> {
+    let FindLengths { robots, platform, set_points, spans, demanded, shared } = task;
+    let zero = robots.weight.all(0.0);
+    let compared = [shared.tension, shared.scale.size];
+    let mut all = zero.less_or_equal(zero);
+    platform.follow_guides(robots);
+    let cables = robots.cables.iter_mut().zip(&mut platform.cables);
+    for (i, ((span, set_point), (cable, linearized))) in spans.iter().zip(set_points).zip(cables).enumerate()
+    {
+        let (mut going, mut taut) = (all, all);
+        for _ in 0..MAX_ITERATIONS {
+            let held = match &cable.guided {
+                None => {
+                    let response = cable.response();
+                    linearized.replace(&LinearizedCable::new(span, cable.force, &response), going);
+                    HeldCable::plain(cable, span, &response)
+                }
+                Some(guided) => HeldCable::leaving(guided, cable, span),
+            };
+            let folds = zero.all(FOLDED).less_or_equal(held.slackness);
+            taut = (!going & taut) | (going & held.is_taut(cable, demanded[i]) & !folds);
+            let fx = cable.force[0];
+            let inverse = (fx * held.tension_slope).recip();
+            let d = (*set_point - held.closed) * fx * inverse;
+            // What a step leaves grows with its curvature over its slope.
+            let own = d.abs() + held.closing[0].abs() * held.flatness * held.tension_slope;
+            let own = own * inverse * (LAST_CHANGE / LAST_OWN_CHANGE);
+            let moved = held.change(cable, d, going, compared).max(own);
+            going = going & !moved.less_or_equal(zero.all(LAST_CHANGE));
+            if !going.any() {
+                break;
+            }
+        }
+        cable.keep_length();
+        if let Some(guided) = &cable.guided {
+            let everywhere = zero.less_or_equal(zero);
+            guided.linearize(cable, span, linearized, &mut platform.free[i], everywhere);
+        }
+        // The last change closes the cable to rounding.
+        linearized.predicted = cable.force;
+        // A root with a cable of negative length is invalid.
+        all = all & !going & taut & zero.less_or_equal(cable.length) & zero.less_or_equal(cable.force[0]);
+        let [fx, fz] = cable.force;
+        all = all & !cable.may_be_overstrained((fx * fx + fz * fz).sqrt());
+    }
+    all
+}
