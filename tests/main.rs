@@ -5,3 +5,4 @@
 mod caroca_study;
 mod data_files;
 mod layers;
+mod names;

@@ -10,19 +10,23 @@
 //! ```
 //!
 //! With the tensions *distributed anew* they are the best that the limits allow, see
-//! [`cdpr_statics::greatest_payload`] and [`cdpr_statics::tension_margin`]; both are concave in the wrench if
-//! the cables are straight, so that the corners of a box stand for all of it (Bouchard, Gosselin, Moore, *On
-//! the ability of a cable-driven robot to generate a prescribed set of wrenches*, J. Mechanisms Robotics 2,
-//! 2010). With the *lengths kept* that hold the pose under the platform's own weight, the tensions are those
-//! of the direct model. The payload then is the one at which the first limit is reached, or the platform
-//! falls, while it grows from zero.
+//! [`cdpr_statics::capacity::greatest_payload`] and [`cdpr_statics::capacity::tension_margin`]; both are
+//! concave in the wrench if the cables are straight, so that the corners of a box stand for all of it
+//! (Bouchard, Gosselin, Moore, *On the ability of a cable-driven robot to generate a prescribed set of
+//! wrenches*, J. Mechanisms Robotics 2, 2010). With the *lengths kept* that hold the pose under the
+//! platform's own weight, the tensions are those of the direct model. The payload then is the one at which
+//! the first limit is reached, or the platform falls, while it grows from zero.
 
 mod rising;
 
 use cdpr_robot::{Coordinate, Pose, Robot, Wrench, decimal};
+use cdpr_statics::capacity::{Blocking, Greatest, greatest_payload, tension_margin};
+use cdpr_statics::continuation::follow_load;
+use cdpr_statics::free_coordinates::rest_near;
+use cdpr_statics::limits::Limit;
 use cdpr_statics::{
-    Blocking, DirectProblem, DirectSolution, Equilibrium, Greatest, HeldPose, Limit, Load, MAX_STRAIN, Start,
-    StaticsError, direct, follow_load, greatest_payload, held_at, rest_near, tension_margin,
+    DirectProblem, DirectSolution, DirectStart, Equilibrium, HeldPose, InverseSolution, Load, MAX_STRAIN,
+    StaticsError, WantedPose, direct, inverse,
 };
 use rising::{Rising, nearest};
 use std::fmt;
@@ -37,7 +41,7 @@ pub struct WrenchSet {
 impl WrenchSet {
     /// These wrenches [N, N m]; without any the zero wrench.
     pub fn of(wrenches: Vec<Wrench>) -> Self {
-        if wrenches.is_empty() { Self { wrenches: vec![Wrench::zero()] } } else { Self { wrenches } }
+        if wrenches.is_empty() { Self { wrenches: vec![Wrench::none()] } } else { Self { wrenches } }
     }
 
     /// The corners of a box about each of the wrenches, of these half widths [N, N m].
@@ -143,17 +147,18 @@ pub enum Block {
 /// What the cables can carry at a pose besides the platform.
 ///
 /// Margins are those under the whole `load`; payloads are found beside its wrench, in place of its payload.
-/// The wrenches of `set` add to the load. A robot with fewer cables than free motions has the `free`
-/// coordinates found under each load, if the tensions are distributed anew.
-pub fn capacity_at(
+/// The wrenches of `set` add to the load. Free coordinates are found under each load, if the tensions are
+/// distributed anew.
+pub fn capacity_at<'a>(
     robot: &Robot,
-    pose: &Pose,
+    wanted: impl Into<WantedPose<'a>>,
     load: &Load,
     set: &WrenchSet,
-    free: &[Coordinate],
 ) -> Capacity {
-    let wound_up = held_at(robot, pose, &Load::none(), free);
-    capacity_of(robot, pose, load, set, free, wound_up.as_ref().map_err(Clone::clone))
+    let wanted = wanted.into();
+    let wound_up = inverse(robot, wanted, &Load::none());
+    let WantedPose { pose, free, .. } = wanted;
+    capacity_of(robot, &pose, load, set, free, wound_up.as_ref().map_err(Clone::clone))
 }
 
 /// [`capacity_at`] at a pose that the winches hold so under the platform's own weight.
@@ -163,11 +168,11 @@ pub(crate) fn capacity_of(
     load: &Load,
     set: &WrenchSet,
     free: &[Coordinate],
-    wound_up: Result<&HeldPose, StaticsError>,
+    wound_up: Result<&InverseSolution, StaticsError>,
 ) -> Capacity {
     let set = set.shifted(load.wrench);
     let loaded = |payload: f64, wrench: &Wrench| Load { payload, wrench: *wrench };
-    let first = wound_up.map(|HeldPose { lengths, equilibrium }| Rest {
+    let first = wound_up.map(|InverseSolution { lengths, equilibrium, .. }| Rest {
         lengths: lengths.clone(),
         equilibrium: equilibrium.clone(),
         stands: None,
@@ -180,7 +185,8 @@ pub(crate) fn capacity_of(
     // Lengths that are kept hold no unstable pose.
     let unloaded = first.clone().and_then(|Rest { lengths, equilibrium, .. }| {
         let none = Load::none();
-        let found = DirectProblem::new(robot, &lengths, &none)?.direct_held(Start::Near(&equilibrium))?;
+        let found =
+            DirectProblem::new(robot, &lengths, &none)?.direct_held(DirectStart::Near(&equilibrium))?;
         Ok(Rest { lengths, equilibrium, stands: Some((none, found)) })
     });
     let anew = |load: &Load, near: &Rest| rest_on(robot, near, load, free);
@@ -249,7 +255,7 @@ impl Rest {
         let Self { lengths, equilibrium, stands } = self;
         let found = match stands {
             Some((own, from)) => follow_load(robot, lengths, (own, from), load)?,
-            None => direct(robot, lengths, load, Start::Near(equilibrium))?,
+            None => direct(robot, lengths, load, DirectStart::Near(equilibrium))?,
         };
         let equilibrium = found.equilibrium.clone();
         Ok(Self { lengths: lengths.clone(), equilibrium, stands: Some((*load, found)) })

@@ -16,8 +16,8 @@
 mod hull;
 
 use crate::clearance::hull::{Separation, way_to_hull};
-use cdpr_robot::{Coordinate, Pose, Robot, Vector3};
-use cdpr_statics::{DirectProblem, Equilibrium, HeldPose, Load, StaticsError, held_at};
+use cdpr_robot::{Pose, Robot, Vector3};
+use cdpr_statics::{DirectProblem, Equilibrium, Load, StaticsError, WantedPose, inverse};
 
 /// The least distances at a pose.
 #[derive(Clone, Debug, PartialEq)]
@@ -77,19 +77,17 @@ pub fn clearance_at(
     Ok(clearance)
 }
 
-/// The distances of the cables that bear `load` at a pose, with the tensions distributed anew; with fewer
-/// cables than free motions the `free` coordinates are found.
+/// The distances of the cables that bear `load` at a wanted pose, with the tensions distributed anew.
 ///
 /// # Errors
-/// Those of [`held_at`].
-pub fn clearance_under(
+/// Those of [`inverse`].
+pub fn clearance_under<'a>(
     robot: &Robot,
-    pose: &Pose,
+    wanted: impl Into<WantedPose<'a>>,
     load: &Load,
-    free: &[Coordinate],
 ) -> Result<Clearance, StaticsError> {
-    let HeldPose { lengths, equilibrium } = held_at(robot, pose, load, free)?;
-    clearance_at(robot, &lengths, &equilibrium)
+    let found = inverse(robot, wanted.into(), load)?;
+    clearance_at(robot, &found.lengths, &found.equilibrium)
 }
 
 /// Intervals of a cable between the points of its curve.

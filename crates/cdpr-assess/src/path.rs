@@ -12,9 +12,9 @@
 //! with the mean of both squares where left and right derivatives differ.
 
 use cdpr_robot::{Pose, Robot};
+use cdpr_statics::vibration::CableFrequency;
 use cdpr_statics::{
-    CableFrequency, Deflection, Derivatives, DirectProblem, InversePath, Load, StaticsError, deflection_from,
-    derivatives,
+    Deflection, Derivatives, DirectProblem, InversePath, Load, StaticsError, deflection_from, derivatives,
 };
 use cdpr_study::{ErrorModel, StudyError};
 use serde::Serialize;
@@ -87,7 +87,7 @@ impl<'a> Path<'a> {
     /// an answer.
     pub fn solve(&mut self, pose: &Pose) -> Result<PathPose, StaticsError> {
         let Self { robot, load, .. } = *self;
-        let found = self.lengths.solve(pose, &Load::none(), None)?;
+        let found = self.lengths.solve(pose, &Load::none())?;
         let wanted = found.solution;
         let deflection = deflection_from(robot, wanted.lengths, &load, &wanted.equilibrium)?;
         let Deflection { lengths, unloaded, loaded } = &deflection;
@@ -109,7 +109,7 @@ impl<'a> Path<'a> {
 
 impl Bands {
     fn new(robot: &Robot, pose: &Pose, load: &Load, model: &ErrorModel, lengths: &[f64]) -> Option<Self> {
-        let left = derivatives(robot, pose, &vec![0.0; lengths.len()], load).ok()?;
+        let left = derivatives(robot, pose, load).ok()?;
         let near = |(a, b): (&f64, &f64)| (a - b).abs() <= SAME_BRANCH * b;
         if !left.deflection.lengths.iter().zip(lengths).all(near) {
             return None;

@@ -19,7 +19,8 @@ use crate::error::AssessError;
 use cdpr_robot::{Pose, Robot, Vector3, Vector6};
 use cdpr_sensitivity::{RandomDesign, SampleDesign};
 use cdpr_statics::{
-    DirectMethod, DirectProblem, DirectSolution, Load, Residual, Start, StaticsError, direct, held_at,
+    DirectMethod, DirectProblem, DirectSolution, DirectStart, Load, Residual, StaticsError, WantedPose,
+    direct, inverse,
 };
 use cdpr_study::StudyError;
 use rayon::prelude::*;
@@ -291,10 +292,10 @@ fn draw(
     let angle = if protocol.free.is_empty() { angle } else { 0.0 };
     let pose = moved(robot, &Pose::at(place.x, place.y, place.z), Vector3::zeros(), angle * axis);
     let refuse = |refusal| Box::new(RefusedPose { draw: index, pose, refusal });
-    let held =
-        held_at(robot, &pose, &Load::none(), &protocol.free).map_err(|e| refuse(Refusal::Infeasible(e)))?;
+    let held = inverse(robot, WantedPose::at(&pose).free(&protocol.free), &Load::none())
+        .map_err(|e| refuse(Refusal::Infeasible(e)))?;
     let found = DirectProblem::new(robot, &held.lengths, &Load::none())
-        .and_then(|problem| problem.direct_any(Start::Near(&held.equilibrium)))
+        .and_then(|problem| problem.direct_any(DirectStart::Near(&held.equilibrium)))
         .map_err(|error| refuse(Refusal::Unanswered(error)))?;
     // Only the stability of the equilibrium at the true pose matters, not what the direct model does from
     // there.
@@ -325,7 +326,7 @@ fn solve(robot: &Robot, held: &HeldPose, start_offset: usize, offset: &StartOffs
     let [away, about] = held.directions;
     let start = moved(robot, &held.pose, offset.distance * away, offset.angle * about);
     let clock = Instant::now();
-    let found = direct(robot, &held.lengths, &Load::none(), Start::Pose(&start));
+    let found = direct(robot, &held.lengths, &Load::none(), DirectStart::Pose(&start));
     let microseconds = 1e6 * clock.elapsed().as_secs_f64();
     Solve {
         draw: held.draw,

@@ -94,7 +94,7 @@ pub fn tilt_at(
         return Err(invalid("accuracy", accuracy.to_string(), "a positive angle"));
     }
     if !is_held(robot, pose, load)? {
-        inverse(robot, pose, load, None)?;
+        inverse(robot, pose, load)?;
     }
     let towards = |azimuth: f64| {
         // What cannot be answered is not held.

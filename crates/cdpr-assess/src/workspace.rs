@@ -17,15 +17,15 @@ use crate::tilt::tilt_at;
 use crate::workspace::question::{TiltDirections, Way, Workspace, check};
 use crate::workspace::results::{Anew, Dominant, Held, WorkspacePose};
 use cdpr_robot::{Axis, Pose, Vector3};
+use cdpr_statics::batch::{LoadedPose, PoseSlopes, loaded_poses};
 use cdpr_statics::{
-    Deflection, DirectProblem, HeldPose, InverseSolution, Load, LoadedPose, PoseSlopes, Start, StaticsError,
-    deflection_free, derivatives_free, held_at, inverse, inverse_all, is_held, loaded_poses,
-    loaded_poses_slopes,
+    Deflection, DirectProblem, DirectStart, InverseSolution, Load, StaticsError, WantedPose, deflection,
+    derivatives, inverse, is_held,
 };
 use cdpr_study::{Grid, StudyError};
 use rayon::prelude::*;
 
-/// Positions that are computed together are a multiple of this: the poses of a block of [`inverse_all`].
+/// Positions that are computed together are a multiple of this: the poses of a block of [`inverse`].
 const BLOCK: usize = 64;
 
 /// Parts that a large map is cut into. The answers depend on them in the last digits, but not on the
@@ -66,13 +66,10 @@ pub fn compute_workspace(
             let loaded = loaded.get(k).map(|found| found.as_ref().map_err(Clone::clone));
             let anew = loaded.clone().filter(|_| has_load).map(|found| Anew::of(workspace, found?));
             let capacity = further.capacity.zip(unloaded.get(k)).map(|(set, found)| {
-                let found = found.as_ref().map(|wound_up| &wound_up.held).map_err(Clone::clone);
-                Box::new(capacity_of(robot, pose, &load, set, free, found))
+                Box::new(capacity_of(robot, pose, &load, set, free, found.as_ref().map_err(Clone::clone)))
             });
             let clearance = loaded.filter(|_| further.distances).map(|found| {
-                let near =
-                    |WoundUp { held, .. }: &WoundUp| clearance_at(robot, &held.lengths, &held.equilibrium);
-                Box::new(found.and_then(near))
+                Box::new(found.and_then(|found| clearance_at(robot, &found.lengths, &found.equilibrium)))
             });
             let tilt = further.tilt.map(|TiltDirections { count, accuracy }| {
                 Box::new(tilt_at(robot, pose, &load, count, accuracy))
@@ -108,7 +105,7 @@ fn outcomes(workspace: &Workspace, poses: &[Pose]) -> Vec<Result<Held, StaticsEr
     if !free.is_empty() {
         return poses.par_iter().map(|pose| held_free(workspace, pose)).collect();
     }
-    let wanted = inverse_all(robot, poses, &Load::none());
+    let wanted = inverse(robot, poses, &Load::none());
     // No answer depends on those beside it.
     wanted.par_chunks(BLOCK).flat_map_iter(|wanted| loaded_from(workspace, wanted)).collect()
 }
@@ -122,7 +119,7 @@ fn loaded_from(
     let answered: Vec<_> = wanted.iter().filter_map(|wanted| wanted.as_ref().ok()).collect();
     let held: Vec<Result<Held, StaticsError>> = match tolerances {
         None => {
-            let loaded = loaded_poses(robot, &answered, load).into_iter();
+            let loaded = loaded_poses::<LoadedPose>(robot, &answered, load).into_iter();
             loaded.map(|loaded| Ok(Held::new(robot, loaded?, None))).collect()
         }
         Some(model) => {
@@ -130,7 +127,7 @@ fn loaded_from(
                 let PoseSlopes { loaded, rms } = found?;
                 Ok(Held::new(robot, loaded, rms.and_then(|slopes| Dominant::of(&slopes, model))))
             };
-            loaded_poses_slopes(robot, &answered, load).into_iter().map(with_slopes).collect()
+            loaded_poses::<PoseSlopes>(robot, &answered, load).into_iter().map(with_slopes).collect()
         }
     };
     let mut held = held.into_iter();
@@ -141,46 +138,35 @@ fn loaded_from(
     wanted.iter().filter_map(one).collect()
 }
 
-/// A pose as the winches hold it.
-struct WoundUp {
-    held: HeldPose,
-    /// At the platform [N].
-    tensions: Vec<f64>,
-}
-
 /// How the winches hold poses that follow each other under a load.
-fn wound_up(workspace: &Workspace, poses: &[Pose], load: &Load) -> Vec<Result<WoundUp, StaticsError>> {
+fn wound_up(
+    workspace: &Workspace,
+    poses: &[Pose],
+    load: &Load,
+) -> Vec<Result<InverseSolution, StaticsError>> {
     let Workspace { robot, free, .. } = *workspace;
     if free.is_empty() {
-        let of = |InverseSolution { lengths, equilibrium, tensions, .. }| WoundUp {
-            held: HeldPose { lengths, equilibrium },
-            tensions,
-        };
-        return inverse_all(robot, poses, load).into_iter().map(|found| found.map(of)).collect();
+        return inverse(robot, poses, load);
     }
-    let of = |pose: &Pose| {
-        let held = held_at(robot, pose, load, free)?;
-        let tensions = held.equilibrium.tensions();
-        Ok(WoundUp { held, tensions })
-    };
-    poses.par_iter().map(of).collect()
+    poses.par_iter().map(|pose| inverse(robot, WantedPose::at(pose).free(free), load)).collect()
 }
 
-impl WoundUp {
-    /// The tensions, if the pose does not turn over: free coordinates are found whether it does or not.
-    fn tensions_at_rest(&self, workspace: &Workspace) -> Result<&[f64], StaticsError> {
-        let Workspace { robot, ref load, free, .. } = *workspace;
-        if !free.is_empty() {
-            let HeldPose { lengths, equilibrium } = &self.held;
-            DirectProblem::new(robot, lengths, load)?.direct_held(Start::Near(equilibrium))?;
-        }
-        Ok(&self.tensions)
+/// The tensions, if the pose does not turn over: free coordinates are found whether it does or not.
+fn tensions_at_rest<'a>(
+    workspace: &Workspace,
+    wound_up: &'a InverseSolution,
+) -> Result<&'a [f64], StaticsError> {
+    let Workspace { robot, ref load, free, .. } = *workspace;
+    if !free.is_empty() {
+        let InverseSolution { lengths, equilibrium, .. } = wound_up;
+        DirectProblem::new(robot, lengths, load)?.direct_held(DirectStart::Near(equilibrium))?;
     }
+    Ok(&wound_up.tensions)
 }
 
 impl Anew {
-    fn of(workspace: &Workspace, wound_up: &WoundUp) -> Result<Self, StaticsError> {
-        let [least_tension, greatest_tension] = range(wound_up.tensions_at_rest(workspace)?);
+    fn of(workspace: &Workspace, wound_up: &InverseSolution) -> Result<Self, StaticsError> {
+        let [least_tension, greatest_tension] = range(tensions_at_rest(workspace, wound_up)?);
         Ok(Self { least_tension, greatest_tension })
     }
 }
@@ -207,14 +193,13 @@ pub fn workspace_boundary(
             (Way::Anew, []) => has_tensions(&pose, load),
             (Way::Kept, []) if !has_tensions(&pose, &Load::none()) => false,
             (Way::Kept, []) => {
-                loaded_from(workspace, &[inverse(robot, &pose, &Load::none(), None)]).into_iter().all(within)
+                loaded_from(workspace, &[inverse(robot, &pose, &Load::none())]).into_iter().all(within)
             }
             (Way::Kept, _) => within(held_free(workspace, &pose)),
             // Free coordinates are found whatever the limits are.
             (Way::Anew, _) => wound_up(workspace, &[pose], load).into_iter().flatten().any(|found| {
                 let within = |(i, t): (usize, &f64)| *t <= robot.limits(i).max && *t >= robot.limits(i).min;
-                found
-                    .tensions_at_rest(workspace)
+                tensions_at_rest(workspace, &found)
                     .is_ok_and(|tensions| tensions.iter().enumerate().all(within))
             }),
         }
@@ -225,15 +210,14 @@ pub fn workspace_boundary(
 /// A pose with free coordinates, with the lengths kept.
 fn held_free(workspace: &Workspace, pose: &Pose) -> Result<Held, StaticsError> {
     let Workspace { robot, ref load, tolerances, free, .. } = *workspace;
-    let offsets = vec![0.0; robot.cables.len()];
     let alone = |deflection: &Deflection, dominant| {
         Held::new(robot, LoadedPose::of(robot, load, deflection), dominant)
     };
-    let deflected = || deflection_free(robot, pose, &offsets, load, free);
+    let deflected = || deflection(robot, WantedPose::at(pose).free(free), load);
     let Some(model) = tolerances else {
         return Ok(alone(&deflected()?, None));
     };
-    match derivatives_free(robot, pose, &offsets, load, free) {
+    match derivatives(robot, WantedPose::at(pose).free(free), load) {
         Ok(found) => {
             let dominant = found.rms().ok().and_then(|slopes| Dominant::of(&slopes, model));
             Ok(alone(&found.deflection, dominant))

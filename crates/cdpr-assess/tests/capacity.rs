@@ -3,7 +3,9 @@
 
 use cdpr_assess::{Block, WrenchSet, capacity_at, clearance_at};
 use cdpr_robot::{Coordinate, Pose, Robot, Rotation3, Vector3, Vector6, Wrench};
-use cdpr_statics::{Limit, Load, StaticsError, deflection, inverse, inverse_free};
+use cdpr_statics::free_coordinates::free_solutions;
+use cdpr_statics::limits::Limit;
+use cdpr_statics::{Load, StaticsError, WantedPose, deflection, inverse};
 use serde_json::Value;
 
 fn cogiro() -> Robot {
@@ -37,8 +39,8 @@ fn of_weightless_cables_the_figures_are_those_of_the_linear_program() {
     assert_eq!((poses.len(), boxed.wrenches().len()), (20, 64));
     let mut worst = [0.0_f64; 3];
     for (pose, row) in &poses {
-        let found = capacity_at(&robot, pose, &Load::none(), &alone, &[]);
-        let margin = capacity_at(&robot, pose, &Load::none(), &boxed, &[]).margin_anew;
+        let found = capacity_at(&robot, pose, &Load::none(), &alone);
+        let margin = capacity_at(&robot, pose, &Load::none(), &boxed).margin_anew;
         let figures = [found.payload_anew, found.margin_anew, margin];
         let names = ["straight_payload", "straight_margin", "straight_box_margin"];
         for ((figure, name), worst) in figures.into_iter().zip(names).zip(&mut worst) {
@@ -56,13 +58,13 @@ fn of_sagging_cables_payload_and_distances_are_those_of_an_independent_program()
     let robot = cogiro();
     let (mut payloads, mut distances) = (0.0_f64, 0.0_f64);
     for (pose, row) in &poses {
-        let found = capacity_at(&robot, pose, &Load::none(), &WrenchSet::of(Vec::new()), &[]);
+        let found = capacity_at(&robot, pose, &Load::none(), &WrenchSet::of(Vec::new()));
         let exact = row["payload"].as_f64().unwrap();
         let payload = found.payload_anew.unwrap().value;
         payloads = payloads.max((payload / exact - 1.0).abs());
         assert!(payload < row["straight_payload"].as_f64().unwrap());
 
-        let held = inverse(&robot, pose, &Load::none(), None).unwrap();
+        let held = inverse(&robot, pose, &Load::none()).unwrap();
         let row = &row["distances"];
         for (tension, exact) in held.tensions.iter().zip(row["tensions"].as_array().unwrap()) {
             assert!((tension / exact.as_f64().unwrap() - 1.0).abs() < 1e-6);
@@ -83,9 +85,9 @@ fn of_sagging_cables_payload_and_distances_are_those_of_an_independent_program()
 fn with_the_lengths_kept_the_payload_ends_where_a_tension_reaches_its_limit() {
     let ipanema = Robot::from_json(include_str!("../../../data/robots/ipanema-3.json")).unwrap();
     for (robot, pose) in [(cogiro(), Pose::at(0.5, -0.3, 1.5)), (ipanema, Pose::at(0.2, 0.1, 1.3))] {
-        let found = capacity_at(&robot, &pose, &Load::none(), &WrenchSet::of(Vec::new()), &[]);
+        let found = capacity_at(&robot, &pose, &Load::none(), &WrenchSet::of(Vec::new()));
         let tensions = |payload: f64| {
-            let found = deflection(&robot, &pose, &[0.0; 8], &Load::payload(payload)).unwrap();
+            let found = deflection(&robot, &pose, &Load::payload(payload)).unwrap();
             found.loaded.equilibrium.tensions()
         };
         for figure in [found.payload_kept.as_ref(), found.payload_kept_slack.as_ref()] {
@@ -110,13 +112,19 @@ fn with_free_coordinates_the_payload_ends_where_a_tension_reaches_its_limit() {
     let free = [Coordinate::Roll, Coordinate::Pitch];
     let set = WrenchSet::of(Vec::new());
     for pose in [Pose::at(0.5, 0.3, 2.0), Pose::at(0.4, 0.2, 1.5)] {
-        let found = capacity_at(&robot, &pose, &Load::none(), &set, &free).payload_anew.unwrap();
+        let found =
+            capacity_at(&robot, WantedPose::at(&pose).free(&free), &Load::none(), &set).payload_anew.unwrap();
         let [Block::Limit { cable, limit: Limit::Max, value, .. }] = found.blocking[..] else {
             panic!("{found:?}")
         };
         println!("{} kg, {}", found.value, found.blocked_by());
         assert!(found.value > 3.0 * robot.platform.mass);
-        let rests = inverse_free(&robot, &pose, &Load::payload(found.value * (1.0 - 1e-9)), &free).unwrap();
+        let rests = free_solutions(
+            &robot,
+            WantedPose::at(&pose).free(&free),
+            &Load::payload(found.value * (1.0 - 1e-9)),
+        )
+        .unwrap();
         assert!((rests.first.tensions[cable] / value - 1.0).abs() < 1e-6, "{found:?}");
     }
 }
@@ -126,17 +134,17 @@ fn a_payload_that_is_rounding_is_zero() {
     // The greatest tension of a cable is what it has already.
     let pose = Pose::at(0.3, 0.2, 1.5);
     let mut robot = cogiro();
-    let held = inverse(&robot, &pose, &Load::none(), None).unwrap();
+    let held = inverse(&robot, &pose, &Load::none()).unwrap();
     let steepest = held.tensions.iter().copied().fold(0.0, f64::max);
     for cable in &mut robot.cables {
         cable.tension_limits.max = Some(steepest);
     }
-    let found = capacity_at(&robot, &pose, &Load::none(), &WrenchSet::of(Vec::new()), &[]);
+    let found = capacity_at(&robot, &pose, &Load::none(), &WrenchSet::of(Vec::new()));
     assert_eq!(found.payload_kept.unwrap().value, 0.0);
     // So is the least one of a cable.
     let ipanema = Robot::from_json(include_str!("../../../data/robots/ipanema-3.json")).unwrap();
     let pose = Pose::at(0.2, 0.1, 1.3);
-    let found = capacity_at(&ipanema, &pose, &Load::none(), &WrenchSet::of(Vec::new()), &[]);
+    let found = capacity_at(&ipanema, &pose, &Load::none(), &WrenchSet::of(Vec::new()));
     assert_eq!(found.payload_kept.unwrap().value, 0.0);
 }
 
@@ -146,15 +154,16 @@ fn few_cables_points_and_planes_have_a_capacity_or_say_why_not() {
     few.cables = [1, 3, 5, 7].map(|i| few.cables[i].clone()).to_vec();
     let set = WrenchSet::of(Vec::new());
     let pose = Pose::at(0.3, 0.2, 2.0);
-    let refused = capacity_at(&few, &pose, &Load::none(), &set, &[]).payload_anew.unwrap_err();
+    let refused = capacity_at(&few, &pose, &Load::none(), &set).payload_anew.unwrap_err();
     assert!(matches!(refused, StaticsError::FreeCoordinates { cables: 4, .. }));
     let free = [Coordinate::Roll, Coordinate::Yaw];
-    let found = capacity_at(&few, &pose, &Load::none(), &set, &free);
+    let found = capacity_at(&few, WantedPose::at(&pose).free(&free), &Load::none(), &set);
     // No stable solution has this pose.
     assert!(matches!(found.payload_kept, Err(StaticsError::Unstable { .. })));
     let payload = found.payload_anew.unwrap();
     let Block::Limit { cable, limit: Limit::Max, value, .. } = payload.blocking[0] else { panic!() };
-    let rests = inverse_free(&few, &pose, &Load::payload(payload.value), &free).unwrap();
+    let rests =
+        free_solutions(&few, WantedPose::at(&pose).free(&free), &Load::payload(payload.value)).unwrap();
     let mut rests = [rests.first].into_iter().chain(rests.others);
     assert!(rests.any(|rest| (rest.tensions[cable] / value - 1.0).abs() < 1e-7), "{payload:?}");
 
@@ -162,9 +171,9 @@ fn few_cables_points_and_planes_have_a_capacity_or_say_why_not() {
     point.cables = [0, 2, 4, 6].map(|i| point.cables[i].clone()).to_vec();
     point.cables.iter_mut().for_each(|cable| cable.anchor_point = Vector3::zeros());
     point.platform.point = true;
-    let found = capacity_at(&point, &pose, &Load::none(), &set, &[]);
+    let found = capacity_at(&point, &pose, &Load::none(), &set);
     assert!(found.payload_anew.unwrap().value > 100.0 && found.margin_anew.unwrap().value > 0.0);
-    let held = inverse(&point, &pose, &Load::none(), None).unwrap();
+    let held = inverse(&point, &pose, &Load::none()).unwrap();
     let clearance = clearance_at(&point, &held.lengths, &held.equilibrium).unwrap();
     assert_eq!((clearance.cables, clearance.platform), (None, None));
 }

@@ -2,7 +2,7 @@
 
 use cdpr_assess::{Further, Workspace, compute_workspace};
 use cdpr_robot::{Coordinate, Parameter, Robot, Rotation3};
-use cdpr_statics::{Load, StaticsError, deflection_free, held_at};
+use cdpr_statics::{Load, StaticsError, WantedPose, deflection, inverse};
 use cdpr_study::{ErrorModel, Grid, GridAxis};
 
 #[test]
@@ -24,11 +24,14 @@ fn a_robot_with_four_cables_has_a_workspace_of_its_held_coordinates() {
     assert_eq!(poses.len(), 8);
     for found in &poses {
         let held = found.outcome.as_ref().unwrap();
-        let exact = deflection_free(&robot, &found.pose, &[0.0; 4], &workspace.load, &free).unwrap();
+        let exact = deflection(&robot, WantedPose::at(&found.pose).free(&free), &workspace.load).unwrap();
         assert_eq!(held.displacement, exact.displacement());
         assert_eq!(held.least_stiffness, exact.loaded.stability.least_stiffness());
         assert!(held.lowest_frequency.unwrap() > 0.0 && held.dominant.is_some());
-        let anew = held_at(&robot, &found.pose, &workspace.load, &free).unwrap().equilibrium.tensions();
+        let anew = inverse(&robot, WantedPose::at(&found.pose).free(&free), &workspace.load)
+            .unwrap()
+            .equilibrium
+            .tensions();
         let range = found.anew.clone().unwrap().unwrap();
         assert!(anew.contains(&range.least_tension) && anew.contains(&range.greatest_tension));
     }

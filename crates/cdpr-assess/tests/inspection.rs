@@ -2,7 +2,7 @@
 
 use cdpr_assess::{Severity, doubtful_rest, inspect};
 use cdpr_robot::{Gravity, Pose, Pulley, Robot, Vector3};
-use cdpr_statics::{Load, Start, direct, inverse, rough_pose};
+use cdpr_statics::{DirectStart, Load, direct, inverse, rough_pose};
 
 fn about_gravity(gravity: impl Into<Gravity>) -> Vec<(Severity, String)> {
     let mut robot = Robot::from_json(include_str!("../../../data/robots/caroca.json")).unwrap();
@@ -65,7 +65,7 @@ fn named(name: &str) -> Robot {
 /// Value and reason of the question about where a robot rests with these lengths.
 fn asked_of_rest(robot: &Robot, lengths: &[f64], load: &Load) -> Option<String> {
     let start = rough_pose(robot, lengths);
-    let found = direct(robot, lengths, load, Start::Pose(&start)).unwrap();
+    let found = direct(robot, lengths, load, DirectStart::Pose(&start)).unwrap();
     let doubt = doubtful_rest(robot, "the equilibrium", (lengths, load), &found, &start.rotation)?;
     Some(format!("{} {}", doubt.value, doubt.why))
 }
@@ -74,7 +74,7 @@ fn asked_of_rest(robot: &Robot, lengths: &[f64], load: &Load) -> Option<String> 
 fn lengths_of_another_robot_are_questioned_where_the_platform_rests_and_its_own_are_not() {
     let held = |name: &str, pose: Pose| {
         let robot = named(name);
-        let lengths = inverse(&robot, &pose, &Load::none(), None).unwrap().lengths;
+        let lengths = inverse(&robot, &pose, &Load::none()).unwrap().lengths;
         for load in [Load::none(), Load::payload(0.2 * robot.platform.mass)] {
             assert_eq!(asked_of_rest(&robot, &lengths, &load), None, "{name}");
         }
@@ -100,14 +100,14 @@ fn lengths_of_another_robot_are_questioned_where_the_platform_rests_and_its_own_
 fn a_platform_below_the_ground_or_turned_over_is_questioned() {
     let mut robot = named("caroca");
     let wanted = Pose::at(0.0, 0.0, 0.6);
-    let lengths = inverse(&robot, &wanted, &Load::none(), None).unwrap().lengths;
+    let lengths = inverse(&robot, &wanted, &Load::none()).unwrap().lengths;
     assert_eq!(asked_of_rest(&robot, &lengths, &Load::none()), None);
     robot.ground_z = Some(0.5);
     let asked = asked_of_rest(&robot, &lengths, &Load::none()).unwrap();
     assert!(asked.contains("below the ground, ground_z = 0.5 m"), "{asked}");
     robot.ground_z = None;
     // From a start that is turned over itself.
-    let found = direct(&robot, &lengths, &Load::none(), Start::Pose(&wanted)).unwrap();
+    let found = direct(&robot, &lengths, &Load::none(), DirectStart::Pose(&wanted)).unwrap();
     let start = cdpr_robot::Rotation3::from_euler_angles(3.0, 0.0, 0.0);
     let given = (&lengths[..], &Load::none());
     let asked = doubtful_rest(&robot, "it", given, &found, &start).unwrap();

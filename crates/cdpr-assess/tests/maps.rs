@@ -2,10 +2,9 @@
 
 use cdpr_assess::{Further, Workspace, WorkspacePose, compute_workspace};
 use cdpr_robot::{Matrix3, Parameter, Plane, Robot, Rotation3, Vector3, Wrench};
-use cdpr_statics::{
-    DirectProblem, Load, OutOfLimits, StaticsError, deflection, derivatives_from, inverse, inverse_all,
-    loaded_poses, loaded_poses_slopes, out_of_limits,
-};
+use cdpr_statics::batch::{LoadedPose, PoseSlopes, loaded_poses};
+use cdpr_statics::limits::{OutOfLimits, out_of_limits};
+use cdpr_statics::{DirectProblem, Load, StaticsError, deflection, derivatives, inverse};
 use cdpr_study::{Grid, GridAxis};
 
 /// A robot, a box of x, y and z with numbers of points, and a load.
@@ -155,9 +154,9 @@ fn a_map_says_of_each_position_what_the_scalar_models_say() {
         println!("{name}: {held} of {} positions held", poses.len());
         assert!(held > 10);
         let list: Vec<_> = poses.iter().map(|pose| pose.pose).collect();
-        let wanted: Vec<_> = inverse_all(&robot, &list, &Load::none()).into_iter().flatten().collect();
+        let wanted: Vec<_> = inverse(&robot, &list, &Load::none()).into_iter().flatten().collect();
         let in_lanes = wanted.iter().filter(|wanted| wanted.iterations == 0).count();
-        let loaded = loaded_poses(&robot, &wanted.iter().collect::<Vec<_>>(), &load);
+        let loaded = loaded_poses::<LoadedPose>(&robot, &wanted.iter().collect::<Vec<_>>(), &load);
         let settled = loaded.into_iter().flatten().filter(|loaded| loaded.scalar.is_none()).count();
         println!("in lanes: {in_lanes} inverse, {settled} loaded of {}", wanted.len());
         assert!(in_lanes > 0 && 2 * settled > wanted.len());
@@ -173,7 +172,7 @@ fn derivatives_over_poses_are_those_of_the_scalar_models() {
         let workspace = workspace(&robot, axes, load);
         let poses = compute_workspace(&workspace, &|| (), &|| false).unwrap();
         let list: Vec<_> = poses.iter().map(|pose| pose.pose).collect();
-        let wanted: Vec<_> = inverse_all(&robot, &list, &Load::none()).into_iter().flatten().collect();
+        let wanted: Vec<_> = inverse(&robot, &list, &Load::none()).into_iter().flatten().collect();
         let parameters = Parameter::of(&robot);
         let size = robot.platform_size();
         let range = |parameter: &Parameter| match parameter {
@@ -188,8 +187,8 @@ fn derivatives_over_poses_are_those_of_the_scalar_models() {
         let ranges: Vec<f64> = parameters.iter().map(range).collect();
         let (mut in_lanes, mut worst, mut compared) = (0, 0.0_f64, 0);
         let references: Vec<_> = wanted.iter().collect();
-        for (wanted, found) in wanted.iter().zip(loaded_poses_slopes(&robot, &references, &load)) {
-            let alone = derivatives_from(&robot, &wanted.equilibrium.pose, &load, wanted.clone());
+        for (wanted, found) in wanted.iter().zip(loaded_poses::<PoseSlopes>(&robot, &references, &load)) {
+            let alone = derivatives(&robot, &wanted.equilibrium.pose, &load);
             let (found, alone) = match (found, alone) {
                 (Ok(found), Ok(alone)) => (found, alone),
                 (Ok(found), Err(StaticsError::NoDerivative { .. })) => {
@@ -233,7 +232,6 @@ fn threads_change_no_bit_of_a_map() {
 
 /// What differs, if anything does.
 fn check(robot: &Robot, load: &Load, found: &WorkspacePose) -> Result<(), String> {
-    let offsets = vec![0.0; robot.cables.len()];
     let same = |what: &str, one: f64, other: f64| {
         let is_same = (one - other).abs() <= SAME * other.abs();
         if is_same { Ok(()) } else { Err(format!("{what}: {one} for {other}")) }
@@ -242,7 +240,7 @@ fn check(robot: &Robot, load: &Load, found: &WorkspacePose) -> Result<(), String
         let (one, other) = (one.map(StaticsError::kind), other.map(StaticsError::kind));
         if one == other { Ok(()) } else { Err(format!("{what}: {one:?} for {other:?}")) }
     };
-    let anew = (*load != Load::none()).then(|| inverse(robot, &found.pose, load, None));
+    let anew = (*load != Load::none()).then(|| inverse(robot, &found.pose, load));
     failures(
         "anew",
         found.anew.as_ref().and_then(|anew| anew.as_ref().err()),
@@ -260,7 +258,7 @@ fn check(robot: &Robot, load: &Load, found: &WorkspacePose) -> Result<(), String
             anew.tensions.iter().copied().fold(0.0, f64::max),
         )?;
     }
-    let kept = deflection(robot, &found.pose, &offsets, load);
+    let kept = deflection(robot, &found.pose, load);
     failures("kept", found.outcome.as_ref().err(), kept.as_ref().err())?;
     let (Ok(held), Ok(kept)) = (&found.outcome, kept) else { return Ok(()) };
     let both = [&kept.unloaded, &kept.loaded];

@@ -34,9 +34,9 @@ use crate::campaign::{Noise, STD_EXPECTED, is_std};
 use crate::error::CalibrationError;
 use crate::solve::{Svd, triangle};
 use cdpr_robot::{Coordinate, Parameter, Pose, Robot, Vector3};
+use cdpr_statics::{DirectProblem, Load, WantedPose, derivatives};
 #[cfg(doc)]
-use cdpr_statics::derivatives;
-use cdpr_statics::{DirectProblem, Load, derivatives_free};
+use cdpr_statics::{WantedPose, derivatives};
 use nalgebra::{DMatrix, DVector};
 
 /// What is measured at every pose, with the standard deviation of its noise.
@@ -191,8 +191,7 @@ impl Calibration {
     /// # Errors
     /// Those of [`derivatives`].
     pub fn add_work(&mut self, pose: &Pose, load: &Load, of: AtWork) -> Result<(), CalibrationError> {
-        let offsets = vec![0.0; self.robot.cables.len()];
-        let found = derivatives_free(&self.robot, pose, &offsets, load, &self.free)?;
+        let found = derivatives(&self.robot, WantedPose::at(pose).free(&self.free), load)?;
         let rows = match of {
             AtWork::Deflection => found.displacement(),
             AtWork::Position => {
@@ -260,7 +259,7 @@ impl Calibration {
         measurements: &[Measurement],
     ) -> Result<(), CalibrationError> {
         let n = self.robot.cables.len();
-        let nominal = derivatives_free(&self.robot, pose, &vec![0.0; n], load, &self.free)?;
+        let nominal = derivatives(&self.robot, WantedPose::at(pose).free(&self.free), load)?;
         let lengths = &nominal.deflection.lengths;
         let problem = DirectProblem::new(&self.robot, lengths, load)?;
         let held = problem.derivatives(&nominal.deflection.loaded.equilibrium)?;

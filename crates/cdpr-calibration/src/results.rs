@@ -86,7 +86,7 @@ impl Fit {
         let mut sum = (0.0, 0);
         for (pose, lengths) in self.poses.iter().zip(lengths) {
             let problem = DirectProblem::new(robot, lengths, &Load::none()).ok()?;
-            let found = problem.direct(cdpr_statics::Start::Pose(pose)).ok()?;
+            let found = problem.direct(cdpr_statics::DirectStart::Pose(pose)).ok()?;
             let slopes = problem.derivatives(&found.equilibrium).ok()?.pose;
             for k in 0..3 {
                 let row = slopes.row(k).columns(0, count).into_owned();

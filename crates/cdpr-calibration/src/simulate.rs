@@ -4,9 +4,9 @@ use crate::campaign::{Noise, Quantity, Reading, Row};
 use crate::error::CalibrationError;
 use crate::sensor_error::{SensorError, check_each_once};
 use cdpr_robot::{Axis, CableEnd, Coordinate, Pose, Robot, Rotation3, TiltAxis, Vector3};
-use cdpr_statics::{
-    DirectProblem, DirectSolution, FreeSolution, Load, Start, StaticsError, follow_load, inverse_free,
-};
+use cdpr_statics::continuation::follow_load;
+use cdpr_statics::free_coordinates::{FreeSolution, free_solutions};
+use cdpr_statics::{DirectProblem, DirectSolution, DirectStart, Load, StaticsError, WantedPose};
 use cdpr_study::ErrorModel;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -73,7 +73,10 @@ pub fn simulate(of: &Simulated) -> Result<Vec<Row>, CalibrationError> {
     let mut rows = Vec::new();
     for (k, wanted) in of.poses.iter().enumerate() {
         // The winches are set without the load.
-        let Ok(commanded) = inverse_free(of.nominal, wanted, &Load::none(), of.free) else { continue };
+        let Ok(commanded) = free_solutions(of.nominal, WantedPose::at(wanted).free(of.free), &Load::none())
+        else {
+            continue;
+        };
         rows.push(measured(of, &truth, k, &commanded.first).map_err(CalibrationError::row(k + 1))?);
     }
     Ok(rows)
@@ -104,7 +107,7 @@ fn rests(
     near: &Pose,
     load: &Load,
 ) -> Result<[DirectSolution; 2], StaticsError> {
-    let unloaded = DirectProblem::new(robot, lengths, &Load::none())?.direct(Start::Pose(near))?;
+    let unloaded = DirectProblem::new(robot, lengths, &Load::none())?.direct(DirectStart::Pose(near))?;
     let loaded = follow_load(robot, lengths, (&Load::none(), &unloaded), load)?;
     Ok([unloaded, loaded])
 }

@@ -2,7 +2,8 @@
 
 use cdpr_calibration::{Noise, Simulated};
 use cdpr_robot::{CableEnd, Coordinate, Parameter, Pose, Robot, Vector3};
-use cdpr_statics::{Load, inverse_free};
+use cdpr_statics::free_coordinates::free_solutions;
+use cdpr_statics::{Load, WantedPose};
 use cdpr_study::ErrorModel;
 
 pub(crate) fn caroca() -> Robot {
@@ -82,7 +83,7 @@ impl Case {
         };
         // A cable without weight that becomes slack tells nothing about its length.
         let is_taut = |pose: &Pose| {
-            let held = || inverse_free(&self.robot, pose, &Load::none(), &self.free);
+            let held = || free_solutions(&self.robot, WantedPose::at(pose).free(&self.free), &Load::none());
             let least = 0.05 * self.robot.weight(pose, 0.0).force.norm();
             self.free.is_empty() || held().is_ok_and(|held| held.first.tensions.iter().all(|t| *t > least))
         };

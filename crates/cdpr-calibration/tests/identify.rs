@@ -3,7 +3,7 @@
 use crate::common::caroca;
 use cdpr_calibration::{Calibration, Combination, Identifiability, Measurement, ParameterValue};
 use cdpr_robot::{Parameter, Pose, Rotation3, Vector3};
-use cdpr_statics::{Load, Start, direct, inverse};
+use cdpr_statics::{DirectStart, Load, direct, inverse};
 
 const NOISE: Measurement = Measurement::Pose { position: 1e-4, rotation: 1e-4 };
 
@@ -103,8 +103,8 @@ fn a_change_along_a_combination_shows_as_its_signal_says() {
         let change = 1e-3;
         let mut squares = 0.0;
         for pose in poses() {
-            let lengths = inverse(&robot, &pose, &Load::none(), None).unwrap().lengths;
-            let nominal = direct(&robot, &lengths, &load, Start::Pose(&pose)).unwrap().equilibrium;
+            let lengths = inverse(&robot, &pose, &Load::none()).unwrap().lengths;
+            let nominal = direct(&robot, &lengths, &load, DirectStart::Pose(&pose)).unwrap().equilibrium;
             let stands = |sign: f64| {
                 let mut deviations = vec![0.0; all.len()];
                 for ParameterValue { parameter, value } in &combination.weights {
@@ -112,7 +112,7 @@ fn a_change_along_a_combination_shows_as_its_signal_says() {
                     deviations[index] = sign * change * value * uncertainties[index];
                 }
                 let moved = robot.perturbed(&deviations).unwrap().robot;
-                direct(&moved, &lengths, &load, Start::Near(&nominal)).unwrap().equilibrium.pose
+                direct(&moved, &lengths, &load, DirectStart::Near(&nominal)).unwrap().equilibrium.pose
             };
             squares += (stands(-1.0).motion_to(&stands(1.0)) / (2.0 * change * 1e-4)).norm_squared();
         }

@@ -51,7 +51,7 @@ fn a_simulated_platform_is_what_the_unloaded_one_becomes() {
     let robot = suspended();
     for share in [0.5, 0.92] {
         let row = &read_under(load(share)).unwrap()[0];
-        let wanted = deflection(&robot, &pose(), &[0.0; 8], &load(share)).unwrap();
+        let wanted = deflection(&robot, &pose(), &load(share)).unwrap();
         let read =
             |of: fn(Axis) -> Quantity| Vector3::from(Axis::ALL.map(|axis| row.value(of(axis)).unwrap()));
         let apart = read(Quantity::Displacement) - wanted.displacement();

@@ -6,7 +6,9 @@ use crate::output::{Ending, table};
 use cdpr_cable::SLACK_BELOW_OWN_WEIGHTS;
 pub(crate) use cdpr_robot::decimal;
 use cdpr_robot::{CableEnd, Pose, Robot, counted};
-use cdpr_statics::{Bound, CableFrequency, DirectSolution, Equilibrium, Mode, Stability};
+use cdpr_statics::stiffness::Mode;
+use cdpr_statics::vibration::CableFrequency;
+use cdpr_statics::{Bound, DirectSolution, Equilibrium, Stability};
 use serde::Serialize;
 
 /// Residuals of the equations at a solution.
@@ -45,13 +47,13 @@ pub(crate) struct OutOfLimits {
     /// The limit [N].
     value: f64,
     #[serde(skip)]
-    found: cdpr_statics::OutOfLimits,
+    found: cdpr_statics::limits::OutOfLimits,
 }
 
 impl OutOfLimits {
     /// Those of an answer of these unstrained lengths [m], over all its equilibria.
     pub(crate) fn all(robot: &Robot, lengths: &[f64], equilibria: &[&Equilibrium]) -> Vec<Self> {
-        let one = |found: cdpr_statics::OutOfLimits| Self {
+        let one = |found: cdpr_statics::limits::OutOfLimits| Self {
             cable: found.cable + 1,
             end: found.end,
             tension: found.tension,
@@ -59,7 +61,7 @@ impl OutOfLimits {
             value: found.value,
             found,
         };
-        cdpr_statics::out_of_limits(robot, lengths, equilibria).into_iter().map(one).collect()
+        cdpr_statics::limits::out_of_limits(robot, lengths, equilibria).into_iter().map(one).collect()
     }
 
     pub(crate) fn print(list: &[Self]) {

@@ -2,7 +2,7 @@
 
 use crate::common::{cdpr, data, data_path, data_text, text};
 use cdpr_robot::{Coordinate, Pose, Robot, Vector3};
-use cdpr_statics::{Load, derivatives, derivatives_free};
+use cdpr_statics::{Load, WantedPose, derivatives};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::Output;
@@ -30,7 +30,7 @@ fn json_holds_the_numbers_of_the_library() {
         assert_eq!(keys, [&lists[..], &["without", "unit"]].concat());
         assert!(json["without"][0].as_str().unwrap().contains("platform.inertia"));
         assert_eq!(json["unit"], "per SI unit of the parameter");
-        let exact = derivatives(&robot, &pose, &[0.0; 8], &Load::payload(50.0)).unwrap();
+        let exact = derivatives(&robot, &pose, &Load::payload(50.0)).unwrap();
         let (rms, displacement) = (exact.rms().unwrap(), exact.displacement());
         let lists: Vec<_> = lists.iter().map(|key| json[key].as_array().unwrap()).collect();
         let (_, stiffness) = exact.least_stiffness(&robot, &Load::payload(50.0)).unwrap();
@@ -53,7 +53,7 @@ fn json_holds_the_numbers_of_the_library() {
 fn a_platform_with_inertia_has_derivatives_of_its_frequency() {
     let (name, pose, load) = ("robots/cogiro.json", Pose::at(1.0, 0.5, 2.0), Load::payload(50.0));
     let robot = Robot::from_json(&data_text(name)).unwrap();
-    let (_, slopes) = derivatives(&robot, &pose, &[0.0; 8], &load).unwrap().frequency(&robot, &load).unwrap();
+    let (_, slopes) = derivatives(&robot, &pose, &load).unwrap().frequency(&robot, &load).unwrap();
     let at = ["--pose", "1,0.5,2", "--payload", "50"];
     let output = run(&data(name), &[&at[..], &["--format", "json"]].concat());
     let json: Value = serde_json::from_slice(&output.stdout).unwrap();
@@ -72,7 +72,7 @@ fn a_parameter_with_two_sides_has_both_in_json_table_and_csv() {
     let ipanema = data("reference/robots/ipanema.json");
     let output = run(&ipanema, &[&load[..], &["--format", "json"]].concat());
     let json: Value = serde_json::from_slice(&output.stdout).unwrap();
-    let left = derivatives(&robot, &Pose::at(0.2, 0.1, 1.0), &[0.0; 8], &Load::payload(2.0)).unwrap();
+    let left = derivatives(&robot, &Pose::at(0.2, 0.1, 1.0), &Load::payload(2.0)).unwrap();
     let right = left.right();
     let one_sided = json["one_sided"].as_array().unwrap();
     assert!(!one_sided.is_empty() && one_sided.len() == left.one_sided.len());
@@ -177,7 +177,7 @@ fn derivatives_of_a_robot_with_four_cables_need_and_take_free_coordinates() {
     let of = Robot::from_json(&data_text("robots/four-cables.json")).unwrap();
     let free = [Coordinate::Roll, Coordinate::Pitch];
     let (pose, load) = (Pose::at(0.5, 0.3, 2.0), Load::payload(5.0));
-    let exact = derivatives_free(&of, &pose, &[0.0; 4], &load, &free).unwrap();
+    let exact = derivatives(&of, WantedPose::at(&pose).free(&free), &load).unwrap();
     for (j, rms) in exact.rms().unwrap().iter().take(exact.inputs.parameters.len()).enumerate() {
         assert_eq!(found["rms_mm"][j].as_f64(), Some(1e3 * rms));
     }

@@ -5,7 +5,8 @@
 use crate::common::{answered, cdpr, data_path, data_text, text};
 use crate::equilibria::{self, number, vector};
 use cdpr_robot::{Pose, Robot, UnitQuaternion, Vector3, Wrench};
-use cdpr_statics::{DirectProblem, Load, Start, deflection, direct, inverse, modes_at};
+use cdpr_statics::vibration::modes_at;
+use cdpr_statics::{DirectProblem, DirectStart, Load, deflection, direct, inverse};
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
@@ -93,7 +94,7 @@ fn the_inverse_model_prints_the_library_s_numbers_to_the_last_bit() {
     let found = answer(&arguments);
     let pose = Pose::with_quaternion(Vector3::new(0.5, -0.3, 1.5), [0.99, 0.0, 0.05, 0.1]).unwrap();
     let wrench = Wrench { force: Vector3::new(10.0, 0.0, -20.0), moment: Vector3::new(0.0, 3.0, 0.0) };
-    let exact = inverse(&caroca(), &pose, &Load { payload: 20.0, wrench }, None).unwrap();
+    let exact = inverse(&caroca(), &pose, &Load { payload: 20.0, wrench }).unwrap();
     assert_eq!(numbers(&found["lengths"]), exact.lengths);
     assert_eq!(numbers(&found["tensions"]), exact.tensions);
     for (force, exact) in
@@ -167,7 +168,7 @@ fn values_in_another_unit_get_a_question_instead_of_an_answer() {
     );
 
     let robot = data_path("robots/caroca.json");
-    let held = inverse(&caroca(), &Pose::at(0.3, 0.2, 1.4), &Load::none(), None).unwrap();
+    let held = inverse(&caroca(), &Pose::at(0.3, 0.2, 1.4), &Load::none()).unwrap();
     let in_mm: Vec<f64> = held.lengths.iter().map(|length| (1000.0 * length).round()).collect();
     let question = text(cdpr(&["direct", &robot, "--lengths", &joined(&in_mm)]).stderr);
     assert!(question.contains("expected lengths in m for a robot that is 8.062 m wide: "), "{question}");
@@ -182,7 +183,7 @@ fn a_case_without_answer_keeps_its_place_among_the_others() {
     let folder = TempDir::new().unwrap();
     let path = folder.path().join("cases.json");
     let robot = data_path("robots/caroca.json");
-    let held = inverse(&caroca(), &Pose::at(0.3, 0.2, 1.4), &Load::none(), None).unwrap();
+    let held = inverse(&caroca(), &Pose::at(0.3, 0.2, 1.4), &Load::none()).unwrap();
     let case = |lengths: &[f64], mass: f64| json!({ "lengths": lengths, "mass": mass });
     let short = [1.0; 8];
     let cases = json!([
@@ -206,7 +207,7 @@ fn a_case_without_answer_keeps_its_place_among_the_others() {
     let mut heavier = caroca();
     heavier.platform.mass = 230.0;
     let exact =
-        direct(&heavier, &held.lengths, &Load::none(), Start::Pose(&Pose::at(0.3, 0.2, 1.4))).unwrap();
+        direct(&heavier, &held.lengths, &Load::none(), DirectStart::Pose(&Pose::at(0.3, 0.2, 1.4))).unwrap();
     let apart = vector(&found[3]["position"]) - exact.equilibrium.pose.position;
     assert!(apart.norm() < 1e-12, "{apart}");
     let text = text(cdpr(&["direct", &robot, "--from", path.to_str().unwrap()]).stdout);
@@ -218,7 +219,7 @@ fn the_deflection_is_that_of_the_paper_s_nominal_robot() {
     let robot = data_path("robots/caroca.json");
     let arguments = ["deflection", &robot, "--pose", "0,0,1.75", "--payload", "50"];
     let found = answer(&arguments);
-    let exact = deflection(&caroca(), &Pose::at(0.0, 0.0, 1.75), &[0.0; 8], &Load::payload(50.0)).unwrap();
+    let exact = deflection(&caroca(), &Pose::at(0.0, 0.0, 1.75), &Load::payload(50.0)).unwrap();
     assert_eq!(number(&found["rms_mm"]), 1e3 * exact.rms());
     assert_eq!(numbers(&found["deflection_mm"]), (1e3 * exact.displacement()).as_slice());
     assert_eq!(numbers(&found["loaded"]["tensions"]), exact.loaded.equilibrium.tensions());
@@ -232,7 +233,7 @@ fn the_stiffness_predicts_the_displacement_under_a_small_force() {
     let found = answer(&arguments);
     let rows: Vec<Vec<f64>> = found["stiffness"].as_array().unwrap().iter().map(numbers).collect();
     let pose = Pose::at(0.4, 0.2, 1.5);
-    let held = inverse(&caroca(), &pose, &Load::none(), None).unwrap();
+    let held = inverse(&caroca(), &pose, &Load::none()).unwrap();
     let robot = caroca();
     let problem = DirectProblem::new(&robot, &held.lengths, &Load::none()).unwrap();
     let linearization = problem.linearize(&held.equilibrium).unwrap();
@@ -275,11 +276,11 @@ fn natural_frequencies_are_those_of_the_library_by_pose_and_by_lengths() {
     let file = data_path("robots/cogiro.json");
     let robot = Robot::from_json(&data_text("robots/cogiro.json")).unwrap();
     let pose = Pose::at(0.5, 0.2, 2.0);
-    let modes = modes_at(&robot, &pose, &Load::none(), &[]).unwrap().modes;
+    let modes = modes_at(&robot, &pose, &Load::none()).unwrap().modes;
     let expected: Vec<_> = modes.iter().map(|mode| mode.frequency).collect();
     let at_pose = answer(&["modes", &file, "--pose", "0.5,0.2,2"]);
     assert_eq!(numbers(&at_pose["frequencies_hz"]), expected);
-    let lengths = joined(&inverse(&robot, &pose, &Load::none(), None).unwrap().lengths);
+    let lengths = joined(&inverse(&robot, &pose, &Load::none()).unwrap().lengths);
     let by_lengths = answer(&["modes", &file, "--lengths", &lengths, "--start", "0,0,2.5"]);
     for (one, other) in numbers(&by_lengths["frequencies_hz"]).into_iter().zip(&expected) {
         assert!(close(one, *other, 1e-9));

@@ -98,7 +98,7 @@ fn every_robot_of_the_library_comes_back_from_caspr() {
 fn moorpy_has_the_lengths_of_the_inverse_model() {
     let (robot, pose) = (robot("cogiro"), Pose::at(0.0, 0.0, 2.0));
     let text = &export(&robot, &pose, Target::Moorpy).unwrap().files[0].1;
-    let lengths = cdpr_statics::inverse(&robot, &pose, &cdpr_statics::Load::none(), None).unwrap().lengths;
+    let lengths = cdpr_statics::inverse(&robot, &pose, &cdpr_statics::Load::none()).unwrap().lengths;
     let lines = text.split("(-) (-)\n").last().unwrap().lines().take(8);
     let written: Vec<f64> = lines.map(|line| line.split(' ').nth(4).unwrap().parse().unwrap()).collect();
     assert_eq!(written, lengths);

@@ -32,7 +32,7 @@ fn a_planar_robot_of_caspr_needs_the_inertia_about_its_normal_alone() {
     assert_eq!(questions(&found), [""; 0]);
     // A rotation in the plane has the frequency that Izz alone decides.
     let pose = Pose::at(0.1, 0.0, 0.0);
-    assert!(inverse(robot, &pose, &Load::none(), None).is_ok());
+    assert!(inverse(robot, &pose, &Load::none()).is_ok());
 }
 
 #[test]
@@ -70,7 +70,7 @@ fn the_joint_of_caspr_moves_from_the_location_of_its_parent() {
     // With the cable of 2 mm that the trial took: 1.2308 m where the location is dropped.
     let options = ImportOptions { cable: Some(catalogue("steel-2mm")), ..ImportOptions::default() };
     let robot = case("caspr-parent-offset", "plate", &options).robot;
-    let lengths = inverse(&robot, &pose, &Load::none(), None).unwrap().lengths;
+    let lengths = inverse(&robot, &pose, &Load::none()).unwrap().lengths;
     assert!((lengths[0] - 1.2050).abs() < 5e-5 && (lengths[2] - 1.2050).abs() < 5e-5, "{lengths:?}");
     let said = notes(&found, NoteKind::Assumed).join("\n");
     assert!(said.contains("the origin of the base frame is the joint's, (0, 0.25, 0) m"), "{said}");

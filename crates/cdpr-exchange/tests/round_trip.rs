@@ -33,7 +33,7 @@ fn rest(robot: &Robot) -> Option<Pose> {
     [0.5, 0.4, 0.6, 0.3, 0.7, 0.2].into_iter().find_map(|share| {
         let position = Vector3::new(middle.x, middle.y, share * high);
         let pose = Pose { position, rotation: Rotation3::from_euler_angles(0.02, -0.01, 0.03) };
-        inverse(robot, &pose, &Load::none(), None).ok().map(|_| pose)
+        inverse(robot, &pose, &Load::none()).ok().map(|_| pose)
     })
 }
 
@@ -98,7 +98,7 @@ fn robots_of_the_library_come_back_from_moorpy_with_stiffness_and_weight() {
             }
         }
         let [ours, theirs] =
-            [&again, &robot].map(|robot| inverse(robot, &pose, &Load::none(), None).unwrap().lengths);
+            [&again, &robot].map(|robot| inverse(robot, &pose, &Load::none()).unwrap().lengths);
         // Lengths depend on weight and stiffness of the cables, not on how EA is divided.
         if robot.cables.iter().all(|cable| cable.tension_limits == Default::default())
             && robot.tension_reference.is_none()

@@ -10,7 +10,8 @@ use cdpr_assess::{
 };
 use cdpr_cable::{Measured, Phase, SecantModulus, Specimen};
 use cdpr_robot::{Pose, plausible};
-use cdpr_statics::{CycleStep, HysteresisLaw, LoadCycle, Unloading, load_cycle};
+use cdpr_statics::WantedPose;
+use cdpr_statics::hysteresis::{CycleStep, HysteresisLaw, LoadCycle, Unloading, load_cycle};
 use cdpr_study::{CableLaw, IfExists, Study, elastic_laws, open_law, open_record, open_robot_in_any_unit};
 use pyo3::prelude::*;
 use serde_json::{Value, json};
@@ -186,7 +187,7 @@ pub(crate) fn hysteresis(
             Raised::Input(format!("no cable of the robot has a law: {expected}"))
         })?,
     };
-    let cycle = run(py, |_| load_cycle(robot, &laws, &pose, &free, payload, steps))??;
+    let cycle = run(py, |_| load_cycle(robot, WantedPose::at(&pose).free(&free), &laws, payload, steps))??;
     to_json(&followed(&cycle))
 }
 

@@ -18,8 +18,8 @@ pub(crate) mod workspace;
 
 use crate::convert::{Answer, Numbers, Raised, components, guarded, json_text, question};
 use cdpr_robot::{
-    CableEnd, CableProperties, Parameter, Platform, Provenance, RobotCable, TensionDistribution, TensionLimits,
-    Vector3, plausible,
+    CableEnd, CableProperties, Parameter, Platform, Provenance, RobotCable, TensionDistribution,
+    TensionLimits, Vector3, plausible,
 };
 use cdpr_study::open_robot;
 use numpy::{PyArray1, PyArray2};

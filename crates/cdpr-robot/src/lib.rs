@@ -23,7 +23,6 @@
 //! The crate does no input or output: it reads and writes text in memory.
 
 mod axis;
-mod deviations;
 mod error;
 mod format;
 mod freedoms;
@@ -42,7 +41,6 @@ mod wrench;
 pub use axis::Axis;
 pub use cdpr_cable::{PiecewiseLaw, Segment};
 pub use cdpr_cable::{counted, short, shortened};
-pub use deviations::Deviations;
 pub use error::RobotError;
 pub use format::cable_file::{CABLE_FORMAT, CatalogueCable, cable_schema};
 pub use format::library;
@@ -54,6 +52,7 @@ pub use law::LawSegment;
 pub use limits::{CableEnd, NamedReference, OwnLimits, TensionDistribution, TensionLimits, TensionReference};
 pub use nalgebra::{Matrix3, Matrix6xX, Rotation3, UnitQuaternion, Vector2, Vector3, Vector6};
 pub use number::{decimal, rounded};
+pub use parameter::deviations::Deviations;
 pub use parameter::layout::ParameterLayout;
 pub use parameter::perturbed::{Perturbed, deviations};
 pub use parameter::{Parameter, TiltAxis};

@@ -14,6 +14,7 @@
 //!
 //! of the nominal robot, first by the angle about u and then by the one about v: nominally both are zero.
 
+pub(crate) mod deviations;
 pub(crate) mod layout;
 pub(crate) mod perturbed;
 

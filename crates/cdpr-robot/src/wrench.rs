@@ -14,7 +14,7 @@ pub struct Wrench {
 impl Wrench {
     /// The zero wrench.
     #[inline]
-    pub fn zero() -> Self {
+    pub fn none() -> Self {
         Self { force: Vector3::zeros(), moment: Vector3::zeros() }
     }
 

@@ -7,7 +7,8 @@
 mod problems;
 
 use cdpr_robot::{Coordinate, Parameter, Pose, Pulley, Robot, Vector3};
-use cdpr_statics::{Load, Observation, ObservationSlopes, Observer};
+use cdpr_statics::batch::{Observation, ObservationSlopes};
+use cdpr_statics::{Load, Observer, WantedPose};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use problems::common::{alone, observed, robots};
 use problems::{caroca, counted, ring, settings};
@@ -114,7 +115,7 @@ fn observation(criterion: &mut Criterion) {
     }
     for (robot, pose, free) in on_four_cables() {
         let load = Load::payload(0.1 * robot.platform.mass);
-        let observer = Observer::with_free(&robot, &pose, &load, &free).unwrap();
+        let observer = Observer::new(&robot, WantedPose::at(&pose).free(&free), &load).unwrap();
         let rows: Vec<f64> = shares(&robot, BATCH).iter().map(|deviation| 0.1 * deviation).collect();
         let found = observed::<Observation>(&observer, &rows);
         assert!(found.iter().all(|found| found.as_ref().unwrap().scalar.is_none()), "{}", robot.name);

@@ -5,9 +5,8 @@
 mod problems;
 
 use cdpr_robot::{Pose, Pulley, Robot, Vector3};
-use cdpr_statics::{
-    DirectProblem, Load, Setting, Start, Tracker, deflection, derivatives, direct, follow, inverse,
-};
+use cdpr_statics::continuation::{Setting, follow};
+use cdpr_statics::{DirectProblem, DirectStart, Load, Tracker, deflection, derivatives, direct, inverse};
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use problems::{caroca, counted, ring, settings};
 use std::hint::black_box;
@@ -16,17 +15,17 @@ fn inverse_model(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("inverse");
     let robot = caroca();
     for (name, pose) in [("symmetric", Pose::at(0.0, 0.0, 1.75)), ("corner", Pose::at(3.2, 1.7, 3.0))] {
-        let solution = inverse(&robot, &pose, &Load::none(), None).unwrap();
+        let solution = inverse(&robot, &pose, &Load::none()).unwrap();
         assert!(solution.residual.force < 1e-9);
         group.bench_function(name, |b| {
-            b.iter(|| counted(|| inverse(black_box(&robot), black_box(&pose), &Load::none(), None)));
+            b.iter(|| counted(|| inverse(black_box(&robot), black_box(&pose), &Load::none())));
         });
     }
     for (name, axis) in pulleys() {
         let (robot, pose) = (led(axis), Pose::at(0.0, 0.0, 1.75));
-        assert!(inverse(&robot, &pose, &Load::none(), None).unwrap().residual.force < 1e-9);
+        assert!(inverse(&robot, &pose, &Load::none()).unwrap().residual.force < 1e-9);
         group.bench_function(BenchmarkId::new("pulleys", name), |b| {
-            b.iter(|| counted(|| inverse(black_box(&robot), black_box(&pose), &Load::none(), None)));
+            b.iter(|| counted(|| inverse(black_box(&robot), black_box(&pose), &Load::none())));
         });
     }
     group.finish();
@@ -50,15 +49,15 @@ fn direct_model(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("direct");
     let robot = caroca();
     let pose = Pose::at(0.4, -0.3, 1.75);
-    let wanted = inverse(&robot, &pose, &Load::none(), None).unwrap();
+    let wanted = inverse(&robot, &pose, &Load::none()).unwrap();
     let slack: Vec<f64> =
         wanted.lengths.iter().enumerate().map(|(i, l)| if i % 4 == 1 { l + 0.3 } else { *l }).collect();
     let far = pose.moved(Vector3::new(0.3, 0.2, -0.3), Vector3::new(0.15, -0.1, 0.15));
     // 50 kg added; 0.5 m and 0.25 rad away; two cables slack.
     let cases = [
-        ("near", &wanted.lengths, Load::payload(50.0), Start::Near(&wanted.equilibrium)),
-        ("far", &wanted.lengths, Load::none(), Start::Pose(&far)),
-        ("slack", &slack, Load::none(), Start::Pose(&pose)),
+        ("near", &wanted.lengths, Load::payload(50.0), DirectStart::Near(&wanted.equilibrium)),
+        ("far", &wanted.lengths, Load::none(), DirectStart::Pose(&far)),
+        ("slack", &slack, Load::none(), DirectStart::Pose(&pose)),
     ];
     for (name, lengths, load, start) in cases {
         let found = direct(&robot, lengths, &load, start).unwrap();
@@ -68,8 +67,8 @@ fn direct_model(criterion: &mut Criterion) {
         });
     }
     let lawful = Robot::from_json(include_str!("../../../data/robots/caroca-law.json")).unwrap();
-    let wound = inverse(&lawful, &pose, &Load::none(), None).unwrap();
-    let (load, near) = (Load::payload(50.0), Start::Near(&wound.equilibrium));
+    let wound = inverse(&lawful, &pose, &Load::none()).unwrap();
+    let (load, near) = (Load::payload(50.0), DirectStart::Near(&wound.equilibrium));
     assert!(direct(&lawful, &wound.lengths, &load, near).unwrap().report.residual.force < 1e-8);
     group.bench_function("law", |b| {
         b.iter(|| counted(|| direct(black_box(&lawful), black_box(&wound.lengths), &load, near)));
@@ -78,8 +77,8 @@ fn direct_model(criterion: &mut Criterion) {
         let robot = ring(n);
         let pose = Pose::at(0.1, 0.2, 1.5);
         let lengths: Vec<f64> = (0..n).map(|i| 0.9999 * robot.span(&pose, i).norm()).collect();
-        let start = direct(&robot, &lengths, &Load::none(), Start::Pose(&pose)).unwrap();
-        let near = Start::Near(&start.equilibrium);
+        let start = direct(&robot, &lengths, &Load::none(), DirectStart::Pose(&pose)).unwrap();
+        let near = DirectStart::Near(&start.equilibrium);
         let load = Load::payload(5.0);
         assert!(direct(&robot, &lengths, &load, near).unwrap().report.residual.force < 1e-8);
         group.bench_function(BenchmarkId::new("cables", n), |b| {
@@ -93,12 +92,13 @@ fn direct_model(criterion: &mut Criterion) {
 fn tracking(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("direct");
     let robot = caroca();
-    let wanted = inverse(&robot, &Pose::at(0.4, -0.3, 1.75), &Load::none(), None).unwrap();
+    let wanted = inverse(&robot, &Pose::at(0.4, -0.3, 1.75), &Load::none()).unwrap();
     let load = Load::payload(50.0);
     let wound: Vec<f64> =
         wanted.lengths.iter().enumerate().map(|(i, l)| l + 1e-3 * (i as f64).sin()).collect();
     let mut tracker = Tracker::new(&robot, &wanted.lengths, &load, &wanted.equilibrium).unwrap();
-    let expected = direct(&robot, &wound, &load, Start::Near(&wanted.equilibrium)).unwrap().equilibrium.pose;
+    let expected =
+        direct(&robot, &wound, &load, DirectStart::Near(&wanted.equilibrium)).unwrap().equilibrium.pose;
     let found = tracker.update(&wound, &load).unwrap().pose;
     assert!((found.position - expected.position).norm() < 1e-12);
     let mut there = false;
@@ -116,9 +116,9 @@ fn proofs_and_searches(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("direct");
     let robot = caroca();
     let pose = Pose::at(0.4, -0.3, 1.75);
-    let wanted = inverse(&robot, &pose, &Load::none(), None).unwrap();
+    let wanted = inverse(&robot, &pose, &Load::none()).unwrap();
     let load = Load::payload(50.0);
-    let found = direct(&robot, &wanted.lengths, &load, Start::Near(&wanted.equilibrium)).unwrap();
+    let found = direct(&robot, &wanted.lengths, &load, DirectStart::Near(&wanted.equilibrium)).unwrap();
     let proof = DirectProblem::new(&robot, &wanted.lengths, &load).unwrap().certify(&found).unwrap();
     assert!(proof.position < 1e-12 && proof.is_stable());
     group.bench_function("certify", |b| {
@@ -134,9 +134,9 @@ fn proofs_and_searches(criterion: &mut Criterion) {
     });
     let from = Setting { lengths: wanted.lengths.clone(), load: Load::none() };
     let to = Setting { lengths: wanted.lengths.clone(), load };
-    assert_eq!(follow(&robot, &from, &to, Start::Near(&wanted.equilibrium)).unwrap().lost, None);
+    assert_eq!(follow(&robot, &from, &to, DirectStart::Near(&wanted.equilibrium)).unwrap().lost, None);
     group.bench_function("follow", |b| {
-        b.iter(|| counted(|| follow(black_box(&robot), &from, &to, Start::Near(&wanted.equilibrium))));
+        b.iter(|| counted(|| follow(black_box(&robot), &from, &to, DirectStart::Near(&wanted.equilibrium))));
     });
     group.finish();
 }
@@ -147,10 +147,10 @@ fn whole_deflection(criterion: &mut Criterion) {
     for (name, pose, expected_mm) in
         [("symmetric", Pose::at(0.0, 0.0, 1.75), 1.33125), ("corner", Pose::at(3.2, 1.7, 3.0), 0.82186)]
     {
-        let found = deflection(&robot, &pose, &[0.0; 8], &load).unwrap();
+        let found = deflection(&robot, &pose, &load).unwrap();
         assert!((1e3 * found.rms() - expected_mm).abs() < 1e-4);
         group.bench_function(name, |b| {
-            b.iter(|| counted(|| deflection(black_box(&robot), black_box(&pose), &[0.0; 8], &load)));
+            b.iter(|| counted(|| deflection(black_box(&robot), black_box(&pose), &load)));
         });
         group.bench_function(BenchmarkId::new("tangent", name), |b| {
             let (lengths, unloaded) = (&found.lengths, &found.unloaded.equilibrium);
@@ -161,10 +161,10 @@ fn whole_deflection(criterion: &mut Criterion) {
     }
     for (name, axis) in pulleys() {
         let (robot, pose) = (led(axis), Pose::at(0.0, 0.0, 1.75));
-        let found = deflection(&robot, &pose, &[0.0; 8], &load).unwrap();
+        let found = deflection(&robot, &pose, &load).unwrap();
         assert!(found.loaded.report.residual.force < 1e-8);
         group.bench_function(BenchmarkId::new("pulleys", name), |b| {
-            b.iter(|| counted(|| deflection(black_box(&robot), black_box(&pose), &[0.0; 8], &load)));
+            b.iter(|| counted(|| deflection(black_box(&robot), black_box(&pose), &load)));
         });
     }
     group.finish();
@@ -177,10 +177,10 @@ fn exact_derivatives(criterion: &mut Criterion) {
     for (name, pose, expected) in
         [("symmetric", Pose::at(0.0, 0.0, 1.75), -0.012889), ("corner", Pose::at(3.2, 1.7, 3.0), -0.007163)]
     {
-        let found = derivatives(&robot, &pose, &[0.0; 8], &load).unwrap();
+        let found = derivatives(&robot, &pose, &load).unwrap();
         assert!((1e12 * found.rms().unwrap()[2] - expected).abs() < 1e-6);
         group.bench_function(name, |b| {
-            b.iter(|| counted(|| derivatives(black_box(&robot), black_box(&pose), &[0.0; 8], &load)));
+            b.iter(|| counted(|| derivatives(black_box(&robot), black_box(&pose), &load)));
         });
     }
     group.finish();

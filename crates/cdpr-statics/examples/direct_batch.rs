@@ -7,7 +7,7 @@
 #![allow(clippy::print_stdout)]
 
 use cdpr_robot::{Pose, Robot, Vector3};
-use cdpr_statics::{Load, Start, StaticsError, direct, inverse};
+use cdpr_statics::{DirectStart, Load, StaticsError, direct, inverse};
 use rayon::prelude::*;
 use std::time::Instant;
 
@@ -21,7 +21,7 @@ fn main() -> Result<(), StaticsError> {
             let pose =
                 Pose::at(2.0 * share(k, 0.754_877_666_246_692_7), share(k, 0.569_840_290_998_053_2), z);
             let start = pose.moved(Vector3::repeat(0.01), Vector3::zeros());
-            Ok((inverse(&robot, &pose, &Load::none(), None)?.lengths, start))
+            Ok((inverse(&robot, &pose, &Load::none())?.lengths, start))
         })
         .collect::<Result<_, StaticsError>>()?;
     let mut times: Vec<f64> = Vec::new();
@@ -29,7 +29,7 @@ fn main() -> Result<(), StaticsError> {
         let clock = Instant::now();
         let found = cases
             .par_iter()
-            .map(|(lengths, start)| direct(&robot, lengths, &Load::none(), Start::Pose(start)))
+            .map(|(lengths, start)| direct(&robot, lengths, &Load::none(), DirectStart::Pose(start)))
             .collect::<Result<Vec<_>, _>>()?;
         // What an answer of the Python package has, too.
         let softest: Vec<f64> =

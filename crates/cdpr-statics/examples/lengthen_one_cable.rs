@@ -4,19 +4,19 @@
 #![allow(clippy::print_stdout)]
 
 use cdpr_robot::{Pose, Robot};
-use cdpr_statics::{Load, Start, direct, inverse};
+use cdpr_statics::{DirectStart, Load, direct, inverse};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let robot = Robot::from_json(include_str!("../../../data/robots/caroca.json"))?;
     let pose = Pose::at(0.0, 0.0, 1.75);
     let load = Load::payload(50.0);
-    let wanted = inverse(&robot, &pose, &load, None)?;
+    let wanted = inverse(&robot, &pose, &load)?;
     let mut lengths = wanted.lengths;
     let mut equilibrium = wanted.equilibrium;
     println!("{:>10} {:>24} {:>10} {:>13}  slack", "added", "moved [mm]", "T2 [N]", "residual [N]");
     for added in [0.0, 1e-4, 1e-3, 3e-3, 1e-2, 3e-2, 1e-1, 3e-1] {
         lengths[1] += added;
-        let found = direct(&robot, &lengths, &load, Start::Near(&equilibrium))?;
+        let found = direct(&robot, &lengths, &load, DirectStart::Near(&equilibrium))?;
         let moved = 1e3 * (found.equilibrium.pose.position - pose.position);
         let slack: Vec<usize> = found.report.slack.iter().map(|i| i + 1).collect();
         println!(

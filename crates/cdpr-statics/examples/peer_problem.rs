@@ -21,8 +21,9 @@
 //! ```
 
 use cdpr_robot::{CableEnd, Deviations, Parameter, Pose, Robot};
+use cdpr_statics::batch::Observation;
 use cdpr_statics::{
-    InverseSolution, Load, Observation, Observer, Start, Tracker, deflection, direct, inverse,
+    DirectStart, InverseSolution, Load, Observer, Tracker, WantedPose, deflection, direct, inverse,
 };
 use serde_json::{Value, json};
 use std::hint::black_box;
@@ -72,11 +73,11 @@ fn case(robot: &Robot, listed: &Value, pose: usize) -> Result<Value, Error> {
         return Err("the peers know limits at the platform alone, and least-norm tensions".into());
     }
 
-    let hold = || inverse(black_box(robot), &pose, &Load::none(), None);
+    let hold = || inverse(black_box(robot), &pose, &Load::none());
     let wanted = hold()?;
     let inverse_us = median((0..REPEATS).map(|_| microseconds(hold)).collect());
     let start = &wanted.equilibrium;
-    let solve = || direct(black_box(robot), black_box(&wanted.lengths), &load, Start::Near(start));
+    let solve = || direct(black_box(robot), black_box(&wanted.lengths), &load, DirectStart::Near(start));
     let loaded = solve()?;
     let direct_us = median((0..REPEATS).map(|_| microseconds(solve)).collect());
     // The tracker begins where the platform rests without the payload; every second solve takes it back
@@ -100,10 +101,14 @@ fn case(robot: &Robot, listed: &Value, pose: usize) -> Result<Value, Error> {
     for deviation in &deviations {
         let observe = || -> Result<[f64; 3], Error> {
             let perturbed = robot.perturbed(black_box(deviation))?;
-            let deflection = deflection(&perturbed.robot, &pose, &perturbed.tension_offsets, &load)?;
+            let deflection = deflection(
+                &perturbed.robot,
+                WantedPose::at(&pose).tension_offsets(&perturbed.tension_offsets),
+                &load,
+            )?;
             Ok(deflection.displacement().into())
         };
-        let held = inverse(&robot.perturbed(deviation)?.robot, &pose, &Load::none(), None)?;
+        let held = inverse(&robot.perturbed(deviation)?.robot, &pose, &Load::none())?;
         at_limits.push(on_limits(&held, robot)?);
         displacements.push(observe()?);
         times.extend((0..REPEATS).map(|_| microseconds(observe)));

@@ -59,13 +59,14 @@ mod winding;
 
 #[cfg(doc)]
 use crate::equations::ABOVE_LEAST;
-use crate::equations::{CableDerivatives, Inputs, Partials, Pins, Reading, read, solve};
+pub use crate::equations::Inputs;
+use crate::equations::{CableDerivatives, Partials, Pins, Reading, read, solve};
 use crate::error::StaticsError;
 use crate::inverse::{Branch, InverseSolution, require_smooth};
 use crate::loading::{Deflection, Wound, deflection_from, wind, wind_free, wind_from, wind_near};
 use crate::problem::DirectProblem;
-use crate::state::{Equilibrium, Load};
-use cdpr_robot::{CableEnd, Coordinate, Matrix6xX, Pose, Robot, Vector3};
+use crate::state::{Equilibrium, Load, Wanted, WantedPose, one_by_one};
+use cdpr_robot::{CableEnd, Matrix6xX, Pose, Robot, Vector3};
 use nalgebra::{DMatrix, Matrix3xX};
 pub use optimum::AtBound;
 use rest::Rest;
@@ -115,26 +116,19 @@ pub struct EquilibriumDerivatives {
     pub tensions: DMatrix<f64>,
 }
 
-/// Share of each parameter in the variance of |dp|, to first order and for independent parameters.
-#[derive(Clone, Debug, PartialEq)]
-pub struct VarianceBudget {
-    /// Share of each parameter, 0 to 1, in the order of [`Inputs::parameters`]; they add up to 1, or are zero
-    /// where nothing varies.
-    pub shares: Vec<f64>,
-    /// Predicted standard deviation of |dp| [m].
-    pub std: f64,
-}
-
-/// The deflection at a wanted pose as [`crate::deflection`] gives it, with its derivatives.
+/// The deflection at a wanted pose, or at each of many, as [`crate::deflection`] gives it, with its
+/// derivatives.
 ///
-/// Where a bound is left on one side of an input, left and right derivatives differ: [`OneSided`].
+/// Where a bound is left on one side of an input, left and right derivatives differ: [`OneSided`]. With free
+/// coordinates set-points do not come from a distribution of tensions but from the rest of the platform, and
+/// no derivative has two sides.
 ///
 /// ```
 /// use cdpr_robot::{Parameter, Pose, Robot};
 /// use cdpr_statics::{Load, derivatives};
 ///
 /// let robot = Robot::from_json(include_str!("../../../data/robots/caroca.json"))?;
-/// let found = derivatives(&robot, &Pose::at(0.0, 0.0, 1.75), &[0.0; 8], &Load::payload(50.0))?;
+/// let found = derivatives(&robot, &Pose::at(0.0, 0.0, 1.75), &Load::payload(50.0))?;
 /// let modulus = found.inputs.column(Parameter::YoungsModulus);
 /// let rms = found.rms()?; // [m per SI unit]
 /// assert!(modulus.is_some_and(|column| (1e12 * rms[column] + 0.01289).abs() < 1e-5)); // [mm/GPa]
@@ -143,15 +137,21 @@ pub struct VarianceBudget {
 ///
 /// # Errors
 /// Those of [`crate::deflection`]; [`StaticsError::NoDerivative`] where an equilibrium or the tension
-/// distribution is at the border of its existence; [`StaticsError::Invalid`] for the least 1-norm and
-/// infinity-norm of the tensions, which jump from pose to pose.
-pub fn derivatives(
+/// distribution is at the border of its existence, and with free coordinates for an offset set-point that a
+/// limit keeps; [`StaticsError::Invalid`] for the least 1-norm and infinity-norm of the tensions, which jump
+/// from pose to pose.
+pub fn derivatives<W: Wanted>(
     robot: &Robot,
-    pose: &Pose,
-    tension_offsets: &[f64],
+    wanted: W,
     load: &Load,
-) -> Result<Derivatives, StaticsError> {
-    of_wound(robot, pose, tension_offsets, load, &wind(robot, pose, tension_offsets)?)
+) -> W::Answers<Result<Derivatives, StaticsError>> {
+    one_by_one(wanted, |wanted| {
+        let offsets = wanted.offsets_of(robot);
+        if !wanted.free.is_empty() {
+            return with_free(robot, wanted, &offsets, load);
+        }
+        of_wound(robot, wanted, &offsets, load, &wind(robot, wanted, &offsets)?)
+    })
 }
 
 /// [`derivatives`] without offsets, with the answer of the inverse model under the platform's own weight at
@@ -159,7 +159,7 @@ pub fn derivatives(
 ///
 /// # Errors
 /// As [`derivatives`].
-pub fn derivatives_from(
+pub(crate) fn derivatives_from(
     robot: &Robot,
     pose: &Pose,
     load: &Load,
@@ -167,7 +167,7 @@ pub fn derivatives_from(
 ) -> Result<Derivatives, StaticsError> {
     let offsets = vec![0.0; robot.cables.len()];
     let wound = wind_from(robot, pose, &offsets, wanted)?;
-    of_wound(robot, pose, &offsets, load, &wound)
+    of_wound(robot, &WantedPose::at(pose), &offsets, load, &wound)
 }
 
 /// [`derivatives`] of a robot that differs a little from the one whose inverse model is known.
@@ -181,45 +181,38 @@ pub(crate) fn derivatives_near(
     tension_offsets: &[f64],
     load: &Load,
 ) -> Result<Derivatives, StaticsError> {
-    of_wound(robot, pose, tension_offsets, load, &wind_near(branch, robot, pose, tension_offsets)?)
+    let wound = wind_near(branch, robot, pose, tension_offsets)?;
+    of_wound(robot, &WantedPose::at(pose), tension_offsets, load, &wound)
 }
 
 /// The derivatives of the deflection of cables that are wound.
 fn of_wound(
     robot: &Robot,
-    pose: &Pose,
+    wanted: &WantedPose,
     tension_offsets: &[f64],
     load: &Load,
     wound: &Wound,
 ) -> Result<Derivatives, StaticsError> {
     require_smooth(robot)?;
     let deflection = deflection_from(robot, wound.lengths.clone(), load, &wound.held)?;
-    let winding = Winding { robot, pose, inputs: Inputs::of(robot), wound };
+    let WantedPose { pose, tension_reference, .. } = wanted;
+    let winding = Winding { robot, pose, reference: *tension_reference, inputs: Inputs::of(robot), wound };
     let set_points = winding.set_points(tension_offsets)?;
     let lengths = winding.lengths(&set_points.rows)?;
     of_lengths(robot, load, deflection, winding.inputs, set_points, lengths)
 }
 
-/// As [`derivatives`], for a robot with fewer cables than free motions: the `free` coordinates of the pose
-/// are found. Set-points do not come from a distribution of tensions but from the rest of the platform, and
-/// no derivative has two sides.
-///
-/// # Errors
-/// Those of [`crate::deflection_free`]; [`StaticsError::NoDerivative`] as for [`derivatives`], and for an
-/// offset set-point that a limit keeps.
-pub fn derivatives_free(
+/// The derivatives of the deflection of a robot with free coordinates.
+fn with_free(
     robot: &Robot,
-    pose: &Pose,
+    wanted: &WantedPose,
     tension_offsets: &[f64],
     load: &Load,
-    free: &[Coordinate],
 ) -> Result<Derivatives, StaticsError> {
-    if free.is_empty() {
-        return derivatives(robot, pose, tension_offsets, load);
-    }
-    let (unmoved, wound) = wind_free(robot, pose, tension_offsets, free)?;
+    let (unmoved, wound) = wind_free(robot, wanted, tension_offsets)?;
     let deflection = deflection_from(robot, wound.lengths.clone(), load, &wound.equilibrium)?;
     let inputs = Inputs::of(robot);
+    let WantedPose { pose, free, .. } = wanted;
     let rest = Rest { robot, wanted: pose, free, inputs: &inputs, unmoved: &unmoved, wound: &wound };
     let (rows, lengths) = rest.slopes(tension_offsets)?;
     of_lengths(robot, load, deflection, inputs, SetPoints { rows, one_sided: Vec::new() }, lengths)
@@ -342,22 +335,6 @@ impl Derivatives {
         let Deflection { loaded: found, lengths, .. } = &self.deflection;
         let (length_slopes, pose_slopes) = (&self.lengths, &self.loaded.pose);
         AtRest { robot, load, inputs: &self.inputs, found, lengths, length_slopes, pose_slopes }
-    }
-
-    /// Variance of |dp| from that of each parameter (squared SI units), to first order:
-    /// `sum (d|dp|/dθ_j)² var_j`, with the mean of both squares where left and right derivative differ.
-    ///
-    /// # Errors
-    /// [`StaticsError::Invalid`] unless there is one finite variance, not negative, for each parameter; as
-    /// [`Derivatives::rms`].
-    pub fn variance_budget(&self, variances: &[f64]) -> Result<VarianceBudget, StaticsError> {
-        self.inputs.check("variances", variances)?;
-        let (left, right) = (self.rms()?, self.right().rms()?);
-        let squares = left.iter().zip(&right).map(|(left, right)| 0.5 * (left * left + right * right));
-        let parts: Vec<f64> = squares.zip(variances).map(|(square, variance)| square * variance).collect();
-        let variance: f64 = parts.iter().sum();
-        let share = |part: &f64| if variance > 0.0 { part / variance } else { 0.0 };
-        Ok(VarianceBudget { shares: parts.iter().map(share).collect(), std: variance.sqrt() })
     }
 }
 

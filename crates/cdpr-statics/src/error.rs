@@ -1,6 +1,6 @@
 //! Errors of the models.
 
-use crate::rest_fault::RestFault;
+pub use crate::rest_fault::RestFault;
 use crate::state::Residual;
 use cdpr_cable::CableError;
 use cdpr_robot::{Pose, RobotError, counted, decimal, short, shortened};

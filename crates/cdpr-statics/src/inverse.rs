@@ -42,16 +42,15 @@ use crate::equations::ABOVE_LEAST;
 use crate::equations::Ends;
 use crate::error::StaticsError;
 use crate::problem::DirectProblem;
-use crate::state::{Equilibrium, Load, Residual};
+use crate::state::{Equilibrium, Load, Residual, WantedPose};
 use branch::Answered;
 use cdpr_cable::Catenary;
 use cdpr_robot::{Pose, Robot, Vector6};
 use cdpr_tension::Bound;
 use feasible::{holds, search};
 pub(crate) use free::{BESIDE, FreeBranch};
-pub use free::{
-    FreeSolution, FreeSolutions, LONGEST, held_at, inverse_free, inverse_free_with_loops, rest_near,
-};
+pub use free::{FreeSolution, FreeSolutions, LONGEST, free_solutions, rest_near};
+pub(crate) use free::{held_at, rest};
 pub use greatest::{Blocking, Greatest, greatest_payload, tension_margin};
 pub(crate) use in_turn::InTurn;
 pub use limits::limits_at;
@@ -62,6 +61,9 @@ use optimum::Optimum;
 use question::Question;
 
 /// Unstrained lengths that hold a pose in balance.
+///
+/// With free coordinates the balance leaves no choice of the tensions: no bound is active, and multipliers
+/// and `stationarity` are zero.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InverseSolution {
     /// Unstrained length of every cable [m].
@@ -75,7 +77,8 @@ pub struct InverseSolution {
     pub multipliers: Vector6<f64>,
     /// The pose with the cables' forces.
     pub equilibrium: Equilibrium,
-    /// Iterations of Newton's method, of all starts, or linear programs; zero where [`crate::inverse_all`] found it in lanes.
+    /// Iterations of Newton's method, of all starts, or linear programs; zero for one of many poses that was
+    /// found in lanes.
     pub iterations: usize,
     /// What is left of (I2) in the worst cable, or what a norm would gain to first order [N].
     pub stationarity: f64,
@@ -83,22 +86,11 @@ pub struct InverseSolution {
     pub residual: Residual,
 }
 
-/// The unstrained lengths with which the platform rests at `pose` under its weight and `load`.
-///
-/// Within their limits the tensions are as near as possible to `reference` [N], one for each cable; with `None`
-/// they are those of the robot's distribution: the nearest to its own reference, which is zero unless it is
-/// stated, or those of a least norm.
+/// [`crate::inverse`] at a whole pose.
 ///
 /// # Errors
-/// - [`StaticsError::NoTensions`] where no tensions within the limits were found that hold the pose.
-/// - [`StaticsError::Overstrained`] where the tensions strain a cable by more than the models hold for.
-/// - [`StaticsError::ExitLimit`] where the limits of a cable contradict each other at this pose.
-/// - [`StaticsError::Cable`] where a cable's own weight demands more than the greatest tension.
-/// - [`StaticsError::Invalid`] for a pose, load or reference that is not finite, or a reference of another
-///   number of cables.
-/// - [`StaticsError::FreeCoordinates`] for a robot with fewer cables than free motions.
-/// - [`StaticsError::InverseNotConverged`] where tensions hold the pose but their optimum was not found.
-pub fn inverse(
+/// Those of [`crate::inverse`].
+pub(crate) fn inverse_at(
     robot: &Robot,
     pose: &Pose,
     load: &Load,
@@ -111,11 +103,11 @@ pub fn inverse(
 /// Whether tensions within the limits hold the platform at `pose` under its weight and `load`, as far as the
 /// search from the tensions of straight cables tells.
 ///
-/// A yes is certain. A no comes much sooner than from [`inverse`], which tries other starts before it calls
-/// a pose infeasible: cables that sag may hold a pose with tensions far from those of straight ones.
+/// A yes is certain. A no comes much sooner than from [`crate::inverse`], which tries other starts before it
+/// calls a pose infeasible: cables that sag may hold a pose with tensions far from those of straight ones.
 ///
 /// # Errors
-/// Those of [`inverse`] but [`StaticsError::NoTensions`] and [`StaticsError::InverseNotConverged`].
+/// Those of [`crate::inverse`] but [`StaticsError::NoTensions`] and [`StaticsError::InverseNotConverged`].
 pub fn is_held(robot: &Robot, pose: &Pose, load: &Load) -> Result<bool, StaticsError> {
     let question = Question::of_whole_pose(robot, pose, load, None)?;
     let limits = question.limits.iter().enumerate();
@@ -131,7 +123,7 @@ pub fn is_held(robot: &Robot, pose: &Pose, load: &Load) -> Result<bool, StaticsE
 /// (I1) may have several local minima. While pose, load and reference go straight from one question to the
 /// next, a strict local minimum moves along a curve, its branch, until it ceases to be a minimum or to exist.
 /// The branch is followed, so that lengths are continuous, also where another branch becomes better. Only
-/// where it ends is the next pose answered as by [`inverse`]; this is a jump.
+/// where it ends is the next pose answered as by [`crate::inverse`]; this is a jump.
 ///
 /// ```
 /// use cdpr_robot::{Pose, Robot};
@@ -140,7 +132,7 @@ pub fn is_held(robot: &Robot, pose: &Pose, load: &Load) -> Result<bool, StaticsE
 /// let robot = Robot::from_json(include_str!("../../../data/robots/caroca.json"))?;
 /// let mut path = InversePath::new(&robot);
 /// for k in 0..=10 {
-///     let found = path.solve(&Pose::at(0.1 * f64::from(k), 0.0, 1.75), &Load::none(), None)?;
+///     let found = path.solve(Pose::at(0.1 * f64::from(k), 0.0, 1.75), &Load::none())?;
 ///     assert!(!found.jump && found.solution.lengths.len() == 8);
 /// }
 /// # Ok::<(), cdpr_statics::StaticsError>(())
@@ -166,22 +158,30 @@ impl<'a> InversePath<'a> {
         Self { robot, last: None }
     }
 
-    /// The lengths at the next pose; the arguments are those of [`inverse`], by which the first pose is
-    /// answered.
+    /// The lengths at the next pose; the first one is answered as by [`crate::inverse`].
     ///
     /// # Errors
-    /// Those of [`inverse`], and [`StaticsError::Invalid`] for a distribution that jumps from pose to pose. The path
-    /// then goes on from the last pose that has an answer.
-    pub fn solve(
+    /// Those of [`crate::inverse`], and [`StaticsError::Invalid`] for free coordinates, which a path does not
+    /// take, and for a distribution that jumps from pose to pose. The path then goes on from the last pose that
+    /// has an answer.
+    pub fn solve<'w>(
         &mut self,
-        pose: &Pose,
+        wanted: impl Into<WantedPose<'w>>,
         load: &Load,
-        reference: Option<&[f64]>,
     ) -> Result<PathSolution, StaticsError> {
-        if reference.is_none() {
+        let WantedPose { pose, free, tension_reference, .. } = refuse_offsets(wanted.into())?;
+        if !free.is_empty() {
+            let expected = "none: a path prescribes whole poses";
+            return Err(StaticsError::invalid(
+                "free".to_owned(),
+                format!("a list of {}", free.len()),
+                expected,
+            ));
+        }
+        if tension_reference.is_none() {
             require_smooth(self.robot)?;
         }
-        let question = Question::of_whole_pose(self.robot, pose, load, reference)?;
+        let question = Question::of_whole_pose(self.robot, &pose, load, tension_reference)?;
         let followed = self.last.as_ref().and_then(|last| last.followed(&question));
         let jump = self.last.is_some() && followed.is_none();
         let optimum = followed.map_or_else(|| search(&question), Ok)?;
@@ -197,10 +197,10 @@ impl<'a> InversePath<'a> {
 pub(crate) struct Branch(Answered);
 
 impl Branch {
-    /// The inverse model of `robot` at `pose` under its own weight, as [`inverse`] answers it.
+    /// The inverse model of `robot` at `pose` under its own weight, as [`crate::inverse`] answers it.
     ///
     /// # Errors
-    /// Those of [`inverse`].
+    /// Those of [`crate::inverse`].
     pub(crate) fn of(robot: &Robot, pose: &Pose) -> Result<(InverseSolution, Self), StaticsError> {
         let none = Load::none();
         let question = Question::of_whole_pose(robot, pose, &none, None)?;
@@ -210,16 +210,34 @@ impl Branch {
     }
 
     /// The inverse model of a robot that differs a little: the local minimum of (I1) to which Newton's method
-    /// leads from this one, or else the one that [`inverse`] finds.
+    /// leads from this one, or else the one that [`crate::inverse`] finds.
     ///
     /// # Errors
-    /// Those of [`inverse`].
+    /// Those of [`crate::inverse`].
     pub(crate) fn nearby(&self, robot: &Robot, pose: &Pose) -> Result<InverseSolution, StaticsError> {
         let none = Load::none();
         let question = Question::of_whole_pose(robot, pose, &none, None)?;
         let near = self.0.corrected(&question, &mut 0).or_else(|| self.0.optimised(&question));
         let optimum = near.map_or_else(|| search(&question), |point| Ok(point.optimum()))?;
         InverseSolution::new(&question, optimum)
+    }
+}
+
+/// A wanted pose without offsets.
+///
+/// # Errors
+/// [`StaticsError::Invalid`] for offsets: they are of set-points, which this model does not set.
+pub(crate) fn refuse_offsets(wanted: WantedPose) -> Result<WantedPose, StaticsError> {
+    match wanted.tension_offsets {
+        [] => Ok(wanted),
+        given => {
+            let expected = "none here: deflections, their derivatives and `wound_lengths` take them";
+            Err(StaticsError::invalid(
+                "tension_offsets".to_owned(),
+                format!("a list of {}", given.len()),
+                expected,
+            ))
+        }
     }
 }
 

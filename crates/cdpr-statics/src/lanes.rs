@@ -18,6 +18,6 @@ mod skew;
 mod tracker;
 
 pub use observer::{Observation, ObservationMotion, ObservationSlopes, Observed, Observer};
-pub use poses::{LoadedPose, PoseSlopes, inverse_all, loaded_poses, loaded_poses_slopes};
+pub use poses::{Loaded, LoadedPose, PoseSlopes, inverse, loaded_poses};
 pub use reason::ScalarReason;
 pub use tracker::Tracker;

@@ -1,22 +1,28 @@
 //! Elasto-statics of cable-driven parallel robots with sagging, elastic cables.
 //!
+//! Functions take the robot, the pose that is wanted, and the load, in this order. A pose is a
+//! [`cdpr_robot::Pose`], or a [`WantedPose`] where coordinates are free, tensions preferred or set-points
+//! offset; [`inverse`], [`deflection`] and [`derivatives()`] take a slice of poses, too.
+//!
 //! | question | function |
 //! |---|---|
-//! | which unstrained lengths hold a pose (IEGM)? | [`inverse`] |
+//! | which unstrained lengths hold a pose, or each of many (IEGM)? | [`inverse`] |
 //! | and those of a path, without jumps where there need be none? | [`InversePath`] |
-//! | and with fewer cables than free motions (n < m)? | [`inverse_free`] |
-//! | what can be carried there, how far are the limits of tension? | [`greatest_payload`], [`tension_margin`] |
+//! | where else does it rest with fewer cables than free motions (n < m)? | [`free_coordinates`] |
+//! | what can be carried there, how far are the limits of tension? | [`capacity`] |
+//! | which tensions are out of their limits? | [`limits`] |
 //! | where does the platform stand for given lengths and load (DEGM)? | [`direct`] |
 //! | and for the next lengths and load, in a microsecond or two? | [`Tracker`] |
 //! | is it stable, and how far is it from becoming unstable? | [`DirectSolution::stability`] |
 //! | how exact is that, with a proof? | [`DirectProblem::certify`] |
-//! | where else could it stand? | [`DirectProblem::direct_all`], [`DirectProblem::direct_any`] |
-//! | where does it go while lengths or loads change, and where does it jump? | [`follow`] |
-//! | how far does a load displace it, Eq. (4)? | [`deflection`], [`deflections`] |
-//! | where does it end after a load cycle, on cables that dissipate energy? | [`load_cycle`] |
-//! | and with a million other values of the parameters? | [`Observer`] |
-//! | which parameter changes lengths, tensions, poses and deflection, and by how much? | [`derivatives`] |
-//! | how stiff is it, how do lengths and loads move it? | [`stiffness_at`], [`DirectProblem::linearize`] |
+//! | where else could it stand? | [`multistart`], [`DirectProblem::direct_any`] |
+//! | where does it go while lengths or loads change, and where does it jump? | [`continuation`] |
+//! | how far does a load displace it, Eq. (4)? | [`deflection`] |
+//! | where does it end after a load cycle, on cables that dissipate energy? | [`hysteresis`] |
+//! | and with a million other values of the parameters, at a million poses? | [`Observer`], [`batch`] |
+//! | which parameter changes lengths, tensions, poses and deflection, and by how much? | [`derivatives()`] |
+//! | how stiff is it, how do lengths and loads move it? | [`stiffness`] |
+//! | how does it vibrate? | [`vibration`] |
 //!
 //! The equations are Eq. (1) to (4) of Baklouti, Caro, Courteille, *Sensitivity Analysis of the
 //! Elasto-Geometrical Model of Cable-Driven Parallel Robots* (CableCon 2017), with Irvine's catenary of crate
@@ -29,7 +35,7 @@
 //!
 //! let robot = Robot::from_json(include_str!("../../../data/robots/caroca.json"))?;
 //! let pose = Pose::at(0.0, 0.0, 1.75);
-//! let deflection = deflection(&robot, &pose, &[0.0; 8], &Load::payload(50.0))?;
+//! let deflection = deflection(&robot, &pose, &Load::payload(50.0))?;
 //! assert!((1e3 * deflection.rms() - 1.33125).abs() < 1e-4); // [mm]
 //! assert!(deflection.loaded.report.residual.force < 1e-8); // [N]
 //!
@@ -44,10 +50,10 @@
 
 mod certificate;
 mod dense;
-mod derivatives;
+pub mod derivatives;
 mod direct;
 mod equations;
-mod error;
+pub mod error;
 mod inverse;
 mod lanes;
 mod loading;
@@ -57,36 +63,69 @@ mod rest_fault;
 mod state;
 
 pub use certificate::Certificate;
-pub use derivatives::{
-    AtBound, Derivatives, EquilibriumDerivatives, ForceDerivatives, OneSided, VarianceBudget, derivatives,
-    derivatives_free, derivatives_from,
-};
-pub use direct::{
-    DirectMethod, DirectSolution, Equilibria, Found, Loss, LossKind, Mode, Path, PathStep, Report, Setting,
-    Stability, Start, Starts, direct, follow_load, rough_pose,
-};
-pub use equations::{CableShape, Inputs, Linearization};
-pub use error::{Blocked, BranchEnd, StaticsError};
-pub use inverse::{
-    Blocking, FreeSolution, FreeSolutions, Greatest, HeldPose, InversePath, InverseSolution, LONGEST,
-    PathSolution, greatest_payload, held_at, inverse, inverse_free, inverse_free_with_loops, is_held,
-    lengths_for_tensions, limits_at, rest_near, tension_margin,
-};
-pub use lanes::{
-    LoadedPose, Observation, ObservationMotion, ObservationSlopes, Observed, Observer, PoseSlopes,
-    ScalarReason, Tracker, inverse_all, loaded_poses, loaded_poses_slopes,
-};
-pub use loading::{
-    CableFrequency, CycleStep, Deflection, HysteresisLaw, LoadCycle, NaturalMode, PoseDeflections, PoseModes,
-    PoseStiffness, Unloading, deflection, deflection_free, deflection_from, deflections, follow, load_cycle,
-    modes_at, stiffness_at, wound_lengths,
-};
-pub use out_of_limits::{Limit, OutOfLimits, out_of_limits, tensions_out_of_limits};
+pub use derivatives::{Derivatives, derivatives};
+pub use direct::{DirectMethod, DirectReport, DirectSolution, DirectStart, Stability, direct, rough_pose};
+pub use error::StaticsError;
+pub use inverse::{HeldPose, InversePath, InverseSolution, PathSolution, is_held, lengths_for_tensions};
+pub use lanes::{Observer, Tracker, inverse};
+pub use loading::{Deflection, deflection, deflection_from, wound_lengths};
 pub use problem::{DirectProblem, check_lengths};
-pub use rest_fault::RestFault;
-pub use state::{Equilibrium, Load, Residual};
+pub use state::{Equilibrium, Load, Residual, Wanted, WantedPose};
 
 pub use cdpr_cable::MAX_STRAIN;
 pub use cdpr_robot::{Matrix6xX, Vector2, Vector3, Vector6};
 pub use cdpr_tension::Bound;
 pub use nalgebra::{DMatrix, Matrix3xX, Matrix6};
+
+/// Many robots and many poses at a time, in the lanes of the vector unit: what [`Observer`] observes, and
+/// poses under a load.
+pub mod batch {
+    pub use crate::lanes::{
+        Loaded, LoadedPose, Observation, ObservationMotion, ObservationSlopes, Observed, PoseSlopes,
+        ScalarReason, loaded_poses,
+    };
+}
+
+/// What can be carried at a pose, and how far the limits of tension are.
+pub mod capacity {
+    pub use crate::inverse::{Blocking, Greatest, greatest_payload, tension_margin};
+}
+
+/// Equilibria that are followed while lengths or loads change, up to where they are lost.
+pub mod continuation {
+    pub use crate::direct::{Loss, LossKind, Path, PathStep, Setting, follow_load};
+    pub use crate::loading::follow;
+}
+
+/// Where a platform rests that has fewer cables than free motions.
+pub mod free_coordinates {
+    pub use crate::inverse::{FreeSolution, FreeSolutions, LONGEST, free_solutions, rest_near};
+}
+
+/// Load cycles on cables that dissipate energy.
+pub mod hysteresis {
+    pub use crate::loading::{CycleStep, HysteresisLaw, LoadCycle, Unloading, load_cycle};
+}
+
+/// Limits of the tensions at a pose, and the tensions that pass them.
+pub mod limits {
+    pub use crate::inverse::limits_at;
+    pub use crate::out_of_limits::{Limit, OutOfLimits, out_of_limits, tensions_out_of_limits};
+}
+
+/// Equilibria from many starts.
+pub mod multistart {
+    pub use crate::direct::{Equilibria, Found, Starts};
+}
+
+/// How lengths and loads move the platform, and along which motion it is softest.
+pub mod stiffness {
+    pub use crate::direct::Mode;
+    pub use crate::equations::{CableShape, Linearization};
+    pub use crate::loading::{PoseStiffness, stiffness_at};
+}
+
+/// Natural motions of the platform and of the cables.
+pub mod vibration {
+    pub use crate::loading::{CableFrequency, NaturalMode, PoseModes, modes_at};
+}

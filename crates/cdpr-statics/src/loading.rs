@@ -6,9 +6,7 @@ mod hysteresis;
 mod modes;
 mod stiffness;
 
-pub use deflection::{
-    Deflection, PoseDeflections, deflection, deflection_free, deflection_from, deflections, wound_lengths,
-};
+pub use deflection::{Deflection, deflection, deflection_from, wound_lengths};
 pub(crate) use deflection::{
     Wound, deflection_beside, deflection_near, wind, wind_free, wind_from, wind_near,
 };

@@ -9,12 +9,12 @@ use cdpr_robot::{Robot, RobotCable, Vector2};
 ///
 /// ```
 /// use cdpr_robot::{Pose, Robot};
-/// use cdpr_statics::{DirectProblem, Load, Start, inverse};
+/// use cdpr_statics::{DirectProblem, DirectStart, Load, inverse};
 ///
 /// let robot = Robot::from_json(include_str!("../../../data/robots/caroca.json"))?;
-/// let wanted = inverse(&robot, &Pose::at(0.0, 0.0, 1.75), &Load::none(), None)?;
+/// let wanted = inverse(&robot, &Pose::at(0.0, 0.0, 1.75), &Load::none())?;
 /// let problem = DirectProblem::new(&robot, &wanted.lengths, &Load::payload(50.0))?;
-/// let found = problem.direct(Start::Near(&wanted.equilibrium))?;
+/// let found = problem.direct(DirectStart::Near(&wanted.equilibrium))?;
 /// assert!(problem.certify(&found)?.position < 1e-12); // [m]
 /// let stiffness = problem.linearize(&found.equilibrium)?.symmetric_stiffness();
 /// assert!(stiffness.symmetric_eigenvalues().min() > 0.0);

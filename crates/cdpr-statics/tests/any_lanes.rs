@@ -6,7 +6,8 @@ use cdpr_robot::{
     CableEnd, CableProperties, OwnLimits, Parameter, Plane, Platform, Pose, Pulley, Robot, RobotCable,
     Rotation3, TensionLimits, TensionReference, Vector3,
 };
-use cdpr_statics::{Load, Observation, ObservationSlopes, Observer, ScalarReason, deflection, inverse};
+use cdpr_statics::batch::{Observation, ObservationSlopes, ScalarReason};
+use cdpr_statics::{Load, Observer, WantedPose, deflection, inverse};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
@@ -103,7 +104,7 @@ pub(crate) fn case(seed: u64) -> Option<Case> {
         position: in_cube(rng) * (0.2 * size),
         rotation: Rotation3::new(in_cube(rng) * rng.random_range(0.0..0.3)),
     };
-    let tensions = inverse(&robot, &pose, &Load::none(), None).ok()?.tensions;
+    let tensions = inverse(&robot, &pose, &Load::none()).ok()?.tensions;
     // Limits close to the tensions of some cables, on both sides of them.
     for (cable, tension) in robot.cables.iter_mut().zip(&tensions) {
         let near = tension * rng.random_range(0.9..1.1);
@@ -177,7 +178,8 @@ fn lead(robot: &mut Robot, size: f64, rng: &mut ChaCha8Rng) -> bool {
 /// Distance [m] of an observation from that of the scalar models without the nominal robot's help.
 fn anew(robot: &Robot, pose: &Pose, load: &Load, row: &[f64], found: &Observation) -> f64 {
     let perturbed = robot.perturbed(row).unwrap();
-    let anew = deflection(&perturbed.robot, pose, &perturbed.tension_offsets, load);
+    let anew =
+        deflection(&perturbed.robot, WantedPose::at(pose).tension_offsets(&perturbed.tension_offsets), load);
     anew.map_or(f64::INFINITY, |anew| (anew.displacement() - found.displacement).norm())
 }
 
@@ -189,10 +191,11 @@ const KINDS: [(&str, f64); 3] =
 /// then, and the lanes another one.
 fn turns_over(robot: &Robot, pose: &Pose, load: &Load, row: &[f64]) -> bool {
     let perturbed = robot.perturbed(row).unwrap();
-    deflection(&perturbed.robot, pose, &perturbed.tension_offsets, load).is_ok_and(|found| {
-        let poses = [*pose, found.unloaded.equilibrium.pose, found.loaded.equilibrium.pose];
-        poses.windows(2).any(|pair| pair[0].rotation.angle_to(&pair[1].rotation) > 0.5)
-    })
+    deflection(&perturbed.robot, WantedPose::at(pose).tension_offsets(&perturbed.tension_offsets), load)
+        .is_ok_and(|found| {
+            let poses = [*pose, found.unloaded.equilibrium.pose, found.loaded.equilibrium.pose];
+            poses.windows(2).any(|pair| pair[0].rotation.angle_to(&pair[1].rotation) > 0.5)
+        })
 }
 
 /// What became of each perturbed robot, with the distance between both answers, and the kind of robot.

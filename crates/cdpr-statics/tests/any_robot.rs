@@ -6,7 +6,7 @@ use cdpr_robot::{
     CableEnd, CableProperties, Plane, Platform, Pose, Pulley, Robot, RobotCable, Rotation3, TensionLimits,
     Vector3, Wrench,
 };
-use cdpr_statics::{DirectProblem, Load, Start, StaticsError, direct};
+use cdpr_statics::{DirectProblem, DirectStart, Load, StaticsError, direct};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
@@ -95,7 +95,7 @@ fn case(seed: u64) -> Case {
         let moment = direction(rng) * weight * platform * 0.1 * f64::from(u8::from(rng.random_bool(0.3)));
         Wrench { force, moment }
     } else {
-        Wrench::zero()
+        Wrench::none()
     };
     let payload = if rng.random_bool(0.5) { mass * rng.random_range(0.0..0.5) } else { 0.0 };
     Case { robot, lengths, load: Load { payload, wrench }, start }
@@ -169,7 +169,7 @@ fn outcome(case: &Case, certified: bool) -> (String, Option<String>) {
     let Case { robot, lengths, load, start } = case;
     let weight = (robot.platform.mass + load.payload) * robot.gravity.magnitude();
     let size = lengths.iter().copied().fold(0.0, f64::max);
-    match direct(robot, lengths, load, Start::Pose(start)) {
+    match direct(robot, lengths, load, DirectStart::Pose(start)) {
         Ok(found) => {
             let residual = found.report.residual;
             assert!(
@@ -228,7 +228,7 @@ fn any_robot_as_it_is_built_finds_an_equilibrium_or_says_truly_why_not() {
 fn outcome_as_built(case: &Case) -> &'static str {
     let Case { robot, lengths, load, start } = case;
     let name = &robot.name;
-    match direct(robot, lengths, load, Start::Pose(start)) {
+    match direct(robot, lengths, load, DirectStart::Pose(start)) {
         Ok(found) => {
             let weight = (robot.platform.mass + load.payload) * robot.gravity.magnitude();
             let (size, residual) = (lengths.iter().copied().fold(0.0, f64::max), found.report.residual);

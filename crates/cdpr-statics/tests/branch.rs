@@ -2,9 +2,11 @@
 
 use crate::common::{alone, caroca, cogiro, ipanema, observed, stadium, suspended};
 use cdpr_robot::{ParameterLayout, Platform, Pose, Pulley, Robot, RobotCable, Rotation3, Vector3, Wrench};
+use cdpr_statics::batch::{LoadedPose, Observation, loaded_poses};
+use cdpr_statics::continuation::follow_load;
 use cdpr_statics::{
-    DirectMethod, DirectProblem, DirectSolution, InverseSolution, Load, Observation, Observer, Start,
-    StaticsError, deflection, deflection_from, follow_load, inverse, loaded_poses,
+    DirectMethod, DirectProblem, DirectSolution, DirectStart, InverseSolution, Load, Observer, StaticsError,
+    deflection, deflection_from, inverse,
 };
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -34,7 +36,7 @@ fn crept(
         let next = f64::min(share + step, 1.0);
         let load = at(next);
         let problem = DirectProblem::new(robot, lengths, &load).unwrap();
-        let found = problem.direct_any(Start::Near(&now.equilibrium)).ok();
+        let found = problem.direct_any(DirectStart::Near(&now.equilibrium)).ok();
         match found.filter(|found| found.stability.is_stable() && away(robot, size, &now, found) < 1e-3) {
             Some(found) => {
                 (share, now) = (next, found);
@@ -81,7 +83,7 @@ fn drawn_pose(rng: &mut ChaCha8Rng, robot: &Robot, centre: &Pose) -> InverseSolu
     loop {
         let mut draw = |most: f64| Vector3::from_fn(|_, _| most * rng.random_range(-1.0..1.0));
         let pose = centre.moved(draw(reach), draw(0.1));
-        if let Ok(wound) = inverse(robot, &pose, &Load::none(), None) {
+        if let Ok(wound) = inverse(robot, &pose, &Load::none()) {
             return wound;
         }
     }
@@ -97,7 +99,7 @@ fn a_deflection_is_that_of_fine_steps_or_ends_where_they_end() {
             let load = drawn_load(&mut rng, &robot, most);
             let found = deflection_from(&robot, wound.lengths.clone(), &load, &wound.equilibrium);
             let problem = DirectProblem::new(&robot, &wound.lengths, &Load::none()).unwrap();
-            let unloaded = problem.direct_held(Start::Near(&wound.equilibrium)).unwrap();
+            let unloaded = problem.direct_held(DirectStart::Near(&wound.equilibrium)).unwrap();
             match (found, crept(&robot, &wound.lengths, &unloaded, &load)) {
                 (Ok(found), Ok(crept)) => {
                     let apart = away(&robot, 1.0, &found.loaded, &crept);
@@ -127,7 +129,7 @@ fn a_platform_that_falls_on_the_way_says_at_which_share_of_the_load_and_where_to
     let pose = Pose { position: Vector3::new(0.6, -0.4, 1.6), rotation };
     let under = |s: f64| {
         let wrench = Wrench { force: Vector3::zeros(), moment: s * Vector3::new(400.0, -300.0, 100.0) };
-        deflection(&robot, &pose, &[0.0; 8], &Load { payload: 2.0 * s, wrench })
+        deflection(&robot, &pose, &Load { payload: 2.0 * s, wrench })
     };
     let before = under(0.92).unwrap();
     assert!((1e3 * before.displacement() - Vector3::new(-11.8, 43.9, 79.7)).norm() < 0.1);
@@ -183,7 +185,7 @@ fn a_post_that_buckles_leans_more_and_more_and_has_not_fallen() {
     let none = Load::none();
     let upright = Pose::at(0.0, 0.0, 0.0);
     let problem = DirectProblem::new(&robot, &lengths, &none).unwrap();
-    let unloaded = problem.direct_held(Start::Pose(&upright)).unwrap();
+    let unloaded = problem.direct_held(DirectStart::Pose(&upright)).unwrap();
     let lean = |payload: f64| {
         let found = follow_load(&robot, &lengths, (&none, &unloaded), &Load::payload(payload)).unwrap();
         assert!(found.stability.is_stable());
@@ -200,7 +202,7 @@ fn a_post_whose_cables_become_slack_as_it_leans_falls() {
     let (robot, lengths) = post(2e-3);
     let none = Load::none();
     let problem = DirectProblem::new(&robot, &lengths, &none).unwrap();
-    let unloaded = problem.direct_held(Start::Pose(&Pose::at(0.0, 0.0, 0.0))).unwrap();
+    let unloaded = problem.direct_held(DirectStart::Pose(&Pose::at(0.0, 0.0, 0.0))).unwrap();
     let under = |payload: f64| follow_load(&robot, &lengths, (&none, &unloaded), &Load::payload(payload));
     assert!(under(400.0).is_ok());
     for payload in [500.0, 2000.0] {
@@ -220,7 +222,7 @@ fn maps_and_observations_end_with_the_branch() {
     let wanted: Vec<_> = wanted.iter().collect();
     let load = Load::wrench(Wrench { force: Vector3::zeros(), moment: Vector3::new(600.0, -400.0, 0.0) });
     let (mut held, mut ended) = (0, 0);
-    for (wound, found) in wanted.iter().zip(loaded_poses(&robot, &wanted, &load)) {
+    for (wound, found) in wanted.iter().zip(loaded_poses::<LoadedPose>(&robot, &wanted, &load)) {
         let scalar = deflection_from(&robot, wound.lengths.clone(), &load, &wound.equilibrium);
         match (&scalar, &found) {
             (Ok(alone), Ok(found)) => {
@@ -257,7 +259,7 @@ fn ordinary_loads_stay_in_lanes() {
         let mut rng = ChaCha8Rng::seed_from_u64(5);
         let wanted: Vec<_> = (0..50).map(|_| drawn_pose(&mut rng, &robot, &pose)).collect();
         let wanted: Vec<_> = wanted.iter().collect();
-        let found = loaded_poses(&robot, &wanted, &Load::payload(0.5 * robot.platform.mass));
+        let found = loaded_poses::<LoadedPose>(&robot, &wanted, &Load::payload(0.5 * robot.platform.mass));
         let left = found.iter().filter(|found| found.as_ref().is_ok_and(|f| f.scalar.is_some())).count();
         assert_eq!(left, 0, "{}", robot.name);
     }

@@ -1,7 +1,8 @@
 //! Robots of several tests.
 
 use cdpr_robot::{Deviations, Plane, Pose, Robot, RobotCable, Vector3};
-use cdpr_statics::{Observed, Observer, StaticsError};
+use cdpr_statics::batch::Observed;
+use cdpr_statics::{Observer, StaticsError};
 
 /// Observes rows of deviations, one after the other, in lanes.
 pub(crate) fn observed<T: Observed>(observer: &Observer, rows: &[f64]) -> Vec<Result<T, StaticsError>> {

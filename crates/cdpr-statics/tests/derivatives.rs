@@ -6,9 +6,11 @@ use cdpr_robot::{
     CableEnd, Parameter, Platform, Pose, Robot, RobotCable, Rotation3, TensionLimits, TensionReference,
     Vector3, Vector6, Wrench,
 };
+use cdpr_statics::derivatives::EquilibriumDerivatives;
+use cdpr_statics::limits::limits_at;
 use cdpr_statics::{
-    Deflection, Derivatives, EquilibriumDerivatives, HeldPose, Load, StaticsError, deflection_from,
-    derivatives, inverse, lengths_for_tensions, limits_at,
+    Deflection, Derivatives, HeldPose, Load, StaticsError, WantedPose, deflection_from, derivatives, inverse,
+    lengths_for_tensions,
 };
 use nalgebra::DVector;
 use rand::{RngExt, SeedableRng};
@@ -84,7 +86,7 @@ impl Case {
 
     /// As the library computes it, from an equilibrium nearby.
     pub(crate) fn outputs(&self, about: &Deflection) -> Result<(Outputs, Vec<Regime>), StaticsError> {
-        let wanted = inverse(&self.robot, &self.pose, &Load::none(), None)?;
+        let wanted = inverse(&self.robot, &self.pose, &Load::none())?;
         let limits = limits_at(&self.robot, &self.pose)?;
         let set_points = cdpr_tension::offset(&wanted.tensions, &self.offsets, &limits);
         let HeldPose { lengths, equilibrium: held } =
@@ -175,7 +177,8 @@ fn extrapolated(values: &[DVector<f64>; 6], h: f64, rounding: f64) -> (DVector<f
 
 /// Checks all columns of a case.
 fn check(case: &Case) -> Result<Found, StaticsError> {
-    let exact = derivatives(&case.robot, &case.pose, &case.offsets, &case.load)?;
+    let exact =
+        derivatives(&case.robot, WantedPose::at(&case.pose).tension_offsets(&case.offsets), &case.load)?;
     let about = &exact.deflection;
     let (values_of, regime) = case.outputs(about)?;
     let mut found = Found {
@@ -384,7 +387,7 @@ pub(crate) fn random_case(seed: u64) -> Case {
     let pose = Pose::at(0.0, 0.0, 1.5).moved(within(1.5), within(0.1));
     let force = mass * within(1.0);
     let moment = 0.1 * mass * within(1.0);
-    let wrench = if seed.is_multiple_of(2) { Wrench::zero() } else { Wrench { force, moment } };
+    let wrench = if seed.is_multiple_of(2) { Wrench::none() } else { Wrench { force, moment } };
     let payload = mass * rng.random_range(0.05..0.5);
     let offset = [0.0, 0.1, 1.0][seed as usize % 3] * mass;
     let offsets = (0..n).map(|_| offset * rng.random_range(-1.0..1.0)).collect();
@@ -430,7 +433,7 @@ fn derivatives_follow_the_limits_of_single_cables_and_exit_points_and_the_prefer
     let mut all = Vec::new();
     for (mut robot, pose, reference) in robots.into_iter().chain(tilted) {
         robot.tension_reference = Some(TensionReference::All(reference));
-        let free = inverse(&robot, &pose, &Load::none(), None).unwrap();
+        let free = inverse(&robot, &pose, &Load::none()).unwrap();
         let exits = free.equilibrium.exit_tensions(&robot, &free.lengths);
         let order = |sign: f64| {
             (0..exits.len()).max_by(|a, b| (sign * exits[*a]).total_cmp(&(sign * exits[*b]))).unwrap()

@@ -2,9 +2,11 @@
 
 use crate::common::{alone, caroca, observed};
 use cdpr_robot::{Parameter, PiecewiseLaw, Pose, Robot, Segment, UnitQuaternion, Vector3, deviations};
+use cdpr_statics::batch::Observation;
+use cdpr_statics::continuation::{Setting, follow};
 use cdpr_statics::{
-    DirectProblem, Load, Observation, Observer, Setting, Start, StaticsError, Tracker, deflection,
-    derivatives, direct, follow, inverse,
+    DirectProblem, DirectStart, Load, Observer, StaticsError, Tracker, WantedPose, deflection, derivatives,
+    direct, inverse,
 };
 
 /// A law from the tension at which each of its segments begins and its stiffness over the cable's.
@@ -43,8 +45,7 @@ fn poses() -> [Pose; 2] {
 fn pieces_of_the_same_modulus_are_the_linear_robot() {
     let (linear, pieces) = (caroca(), with(&[(0.0, 1.0), (300.0, 1.0), (570.0, 1.0), (700.0, 1.0)]));
     for pose in poses() {
-        let [a, b] = [&linear, &pieces]
-            .map(|robot| deflection(robot, &pose, &[0.0; 8], &Load::payload(50.0)).unwrap());
+        let [a, b] = [&linear, &pieces].map(|robot| deflection(robot, &pose, &Load::payload(50.0)).unwrap());
         for (one, other) in a.lengths.iter().zip(&b.lengths) {
             assert!((one - other).abs() < 1e-12);
         }
@@ -56,12 +57,13 @@ fn pieces_of_the_same_modulus_are_the_linear_robot() {
 fn the_direct_model_finds_the_pose_of_the_inverse_model() {
     for robot in [loading(), kinked()] {
         for pose in poses() {
-            let wanted = inverse(&robot, &pose, &Load::payload(50.0), None).unwrap();
+            let wanted = inverse(&robot, &pose, &Load::payload(50.0)).unwrap();
             let off = Pose {
                 position: pose.position + Vector3::new(0.1, -0.2, 0.15),
                 rotation: UnitQuaternion::from_euler_angles(0.1, -0.05, 0.2).to_rotation_matrix(),
             };
-            let found = direct(&robot, &wanted.lengths, &Load::payload(50.0), Start::Pose(&off)).unwrap();
+            let found =
+                direct(&robot, &wanted.lengths, &Load::payload(50.0), DirectStart::Pose(&off)).unwrap();
             assert!((found.equilibrium.pose.position - pose.position).norm() < 1e-11);
             assert!(found.stability.is_stable() && found.report.residual.force < 1e-8);
             for (one, other) in found.equilibrium.tensions().iter().zip(&wanted.tensions) {
@@ -76,7 +78,7 @@ fn derivatives_are_those_of_differences() {
     let load = Load::payload(50.0);
     for robot in [loading(), kinked()] {
         let pose = Pose::at(0.7, -0.4, 1.5);
-        let exact = derivatives(&robot, &pose, &[0.0; 8], &load).unwrap();
+        let exact = derivatives(&robot, &pose, &load).unwrap();
         let displacement = exact.displacement();
         for (name, step) in [
             ("youngs_modulus", 1e7),
@@ -87,7 +89,13 @@ fn derivatives_are_those_of_differences() {
         ] {
             let at = |h: f64| {
                 let perturbed = robot.perturbed(&deviations(&robot, &[(name, h)]).unwrap()).unwrap();
-                deflection(&perturbed.robot, &pose, &perturbed.tension_offsets, &load).unwrap().displacement()
+                deflection(
+                    &perturbed.robot,
+                    WantedPose::at(&pose).tension_offsets(&perturbed.tension_offsets),
+                    &load,
+                )
+                .unwrap()
+                .displacement()
             };
             let slope = (at(step) - at(-step)) / (2.0 * step);
             let parameter: Parameter = name.parse().unwrap();
@@ -112,7 +120,7 @@ fn a_deviation_of_the_modulus_scales_the_whole_law() {
 #[test]
 fn the_stiffness_is_that_of_small_loads() {
     let (robot, pose) = (loading(), Pose::at(0.0, 0.0, 1.75));
-    let gone = deflection(&robot, &pose, &[0.0; 8], &Load::payload(0.1)).unwrap();
+    let gone = deflection(&robot, &pose, &Load::payload(0.1)).unwrap();
     let predicted = gone.small_displacement(&robot, &Load::payload(0.1)).unwrap();
     assert!((gone.displacement() - predicted).norm() < 1e-3 * predicted.norm());
     let linearization = DirectProblem::new(&robot, &gone.lengths, &Load::none())
@@ -125,11 +133,11 @@ fn the_stiffness_is_that_of_small_loads() {
 #[test]
 fn lanes_and_certificates_never_take_such_a_cable_for_a_linear_one() {
     let (robot, pose, load) = (kinked(), Pose::at(0.0, 0.0, 1.75), Load::payload(50.0));
-    let wanted = deflection(&robot, &pose, &[0.0; 8], &load).unwrap();
+    let wanted = deflection(&robot, &pose, &load).unwrap();
     let observed = observed::<Observation>(&Observer::new(&robot, &pose, &load).unwrap(), &[0.0; 62]);
     let displacement = observed[0].as_ref().unwrap().displacement;
     assert!((displacement - wanted.displacement()).norm() < 1e-12);
-    let linear = deflection(&caroca(), &pose, &[0.0; 8], &load).unwrap();
+    let linear = deflection(&caroca(), &pose, &load).unwrap();
     assert!((wanted.displacement() - linear.displacement()).norm() > 1e-4);
     let mut tracker =
         Tracker::new(&robot, &wanted.lengths, &Load::none(), &wanted.unloaded.equilibrium).unwrap();
@@ -138,7 +146,7 @@ fn lanes_and_certificates_never_take_such_a_cable_for_a_linear_one() {
     let refused = DirectProblem::new(&robot, &wanted.lengths, &load).unwrap().certify(&wanted.loaded);
     assert!(matches!(refused, Err(StaticsError::NotCertified { .. })));
     let [from, to] = [Load::none(), load].map(|load| Setting { lengths: wanted.lengths.clone(), load });
-    let path = follow(&robot, &from, &to, Start::Near(&wanted.unloaded.equilibrium)).unwrap();
+    let path = follow(&robot, &from, &to, DirectStart::Near(&wanted.unloaded.equilibrium)).unwrap();
     let end = &path.steps.last().unwrap().solution.equilibrium;
     assert!(
         path.lost.is_none() && (end.pose.position - wanted.loaded.equilibrium.pose.position).norm() < 1e-11
@@ -177,14 +185,14 @@ fn a_weightless_cable_is_slack_up_to_its_length_at_rest() {
         properties.law = Some(PiecewiseLaw::new(at_rest, &[Segment { tension: 0.0, ratio: 1.0 }]).unwrap());
     }
     let pose = Pose::at(0.0, 0.0, 1.75);
-    let mut lengths = inverse(&robot, &pose, &Load::none(), None).unwrap().lengths;
+    let mut lengths = inverse(&robot, &pose, &Load::none()).unwrap().lengths;
     lengths[3] *= 1.1;
-    let loose = direct(&robot, &lengths, &Load::none(), Start::Pose(&pose)).unwrap();
+    let loose = direct(&robot, &lengths, &Load::none(), DirectStart::Pose(&pose)).unwrap();
     let chord = robot.span(&loose.equilibrium.pose, 3).norm();
     assert_eq!(loose.report.slack, [3]);
     // Its points are farther apart than its unstrained length, and nearer than its length without tension.
     lengths[3] = chord / (1.0 + 0.5 * strain);
-    let found = direct(&robot, &lengths, &Load::none(), Start::Near(&loose.equilibrium)).unwrap();
+    let found = direct(&robot, &lengths, &Load::none(), DirectStart::Near(&loose.equilibrium)).unwrap();
     let chord = robot.span(&found.equilibrium.pose, 3).norm();
     assert!(lengths[3] < chord && chord < lengths[3] * (1.0 + strain), "{} {chord}", lengths[3]);
     assert_eq!(found.equilibrium.tensions()[3], 0.0);

@@ -3,7 +3,8 @@
 use crate::common::{caroca, cogiro, stadium};
 use crate::pulleys::{led, tilted};
 use cdpr_robot::{CableEnd, Parameter, Pose, Robot, Vector3, Wrench};
-use cdpr_statics::{DirectProblem, Equilibrium, ForceDerivatives, Load, Start, deflection};
+use cdpr_statics::derivatives::ForceDerivatives;
+use cdpr_statics::{DirectProblem, DirectStart, Equilibrium, Load, deflection};
 use nalgebra::DVector;
 
 const ENDS: [CableEnd; 2] = [CableEnd::Anchor, CableEnd::Exit];
@@ -20,8 +21,7 @@ impl AtRest {
     fn at(robot: Robot, pose: Pose) -> Self {
         let wrench = Wrench { force: Vector3::new(40.0, -30.0, 10.0), moment: Vector3::zeros() };
         let load = Load { payload: 0.1 * robot.platform.mass, wrench };
-        let offsets = vec![0.0; robot.cables.len()];
-        let found = deflection(&robot, &pose, &offsets, &load).unwrap();
+        let found = deflection(&robot, &pose, &load).unwrap();
         Self { robot, load, lengths: found.lengths, equilibrium: found.loaded.equilibrium }
     }
 
@@ -37,7 +37,7 @@ impl AtRest {
             lengths[column - parameters - 7] += step;
         }
         let problem = DirectProblem::new(&robot, &lengths, &self.load).unwrap();
-        let found = problem.direct(Start::Near(&self.equilibrium)).unwrap().equilibrium;
+        let found = problem.direct(DirectStart::Near(&self.equilibrium)).unwrap().equilibrium;
         column_of(&problem.force_derivatives(&found, end).unwrap())
     }
 }

@@ -9,8 +9,10 @@ use cdpr_robot::{
     CableEnd, CableProperties, Coordinate, Parameter, Plane, Platform, Pose, Robot, RobotCable, Rotation3,
     TensionLimits, Vector3, Vector6, Wrench,
 };
+use cdpr_statics::free_coordinates::free_solutions;
+use cdpr_statics::stiffness::Mode;
 use cdpr_statics::{
-    DirectProblem, DirectSolution, Load, Mode, Start, StaticsError, direct, inverse, inverse_free, rough_pose,
+    DirectProblem, DirectSolution, DirectStart, Load, StaticsError, WantedPose, direct, inverse, rough_pose,
 };
 use nalgebra::Matrix6;
 use rand::{RngExt, SeedableRng};
@@ -51,7 +53,7 @@ fn equilibria_on_few_cables_match_arithmetic_of_20_digits() {
             rows => Pose { position: vector(&case["start_position"]), rotation: rotation(rows) },
         };
         let problem = DirectProblem::new(&robot, &lengths, &load).unwrap();
-        let found = problem.direct_any(Start::Pose(&start)).unwrap();
+        let found = problem.direct_any(DirectStart::Pose(&start)).unwrap();
         let mut motion = expected.motion_to(&found.equilibrium.pose);
         // A neutral motion may be any.
         for Mode { translation, rotation, .. } in found.stability.neutral() {
@@ -78,7 +80,7 @@ fn equilibria_on_few_cables_match_arithmetic_of_20_digits() {
         assert_eq!(found.stability.is_stable(), stable, "{line}");
         assert_eq!(found.stability.neutral().len(), usize::from(kind == "one"), "{line}");
         // A search by descent ends at a stable equilibrium, wherever that is.
-        assert!(problem.direct(Start::Pose(&start)).unwrap().stability.is_stable(), "{line}");
+        assert!(problem.direct(DirectStart::Pose(&start)).unwrap().stability.is_stable(), "{line}");
     }
 }
 
@@ -113,7 +115,7 @@ fn point(mass: f64) -> Platform {
 }
 
 pub(crate) fn solve(robot: &Robot, lengths: &[f64], start: &Pose) -> DirectSolution {
-    let solution = direct(robot, lengths, &Load::none(), Start::Pose(start)).unwrap();
+    let solution = direct(robot, lengths, &Load::none(), DirectStart::Pose(start)).unwrap();
     assert!(solution.stability.is_stable());
     solution
 }
@@ -152,7 +154,7 @@ fn a_point_mass_on_three_strings_hangs_where_three_springs_hold_it() {
     let expected = Vector6::new(2.0 / horizontal, 0.0, 3.0 / vertical, 0.0, 0.0, 0.0);
     assert!((displacement - expected).norm() < 1e-9 * expected.norm(), "{displacement}");
     // Three cables for three freedoms: the inverse model has one answer.
-    let held = inverse(&robot, &Pose::at(0.0, 0.0, 0.0), &Load::none(), None).unwrap();
+    let held = inverse(&robot, &Pose::at(0.0, 0.0, 0.0), &Load::none()).unwrap();
     assert!(held.lengths.iter().all(|l| (l / length - 1.0).abs() < 1e-12));
     assert!(held.residual.force < 1e-10 && held.residual.moment == 0.0);
     assert_eq!(held.multipliers.fixed_rows::<3>(3).norm(), 0.0);
@@ -170,7 +172,7 @@ fn a_planar_robot_is_the_spatial_one_whose_other_motions_are_held() {
     let planar =
         |count: usize| Robot { plane: Some(Plane::Xz), ..suspended(&points[..count], &rope, platform) };
     let start = Pose::at(0.2, 0.0, 1.0).moved(Vector3::zeros(), Vector3::new(0.0, 0.1, 0.0));
-    let held = inverse(&planar(3), &start, &Load::none(), None).unwrap();
+    let held = inverse(&planar(3), &start, &Load::none()).unwrap();
     assert!(held.residual.force < 1e-10 && held.residual.moment < 1e-10);
     for count in [2, 3] {
         let robot = planar(count);
@@ -185,7 +187,8 @@ fn a_planar_robot_is_the_spatial_one_whose_other_motions_are_held() {
         assert!(residual.force < 1e-9 && residual.moment < 1e-9, "{residual:?}");
         // Held out of it, it stays there under any load.
         let push = Wrench { force: Vector3::new(0.0, 90.0, 0.0), moment: Vector3::new(7.0, 0.0, 9.0) };
-        let pushed = direct(&robot, lengths, &Load::wrench(push), Start::Near(&found.equilibrium)).unwrap();
+        let pushed =
+            direct(&robot, lengths, &Load::wrench(push), DirectStart::Near(&found.equilibrium)).unwrap();
         assert!(found.equilibrium.pose.motion_to(&pushed.equilibrium.pose).norm() < 1e-12);
         if count == 3 {
             assert!(start.motion_to(&found.equilibrium.pose).norm() < 1e-9);
@@ -258,7 +261,7 @@ fn slack_cables_without_weight_and_a_platform_without_weight_have_no_pose() {
     let points = [[[-1.0, 0.0, 2.0], [-0.1, 0.0, 0.0]], [[1.0, 0.0, 2.0], [0.1, 0.0, 0.0]]];
     let robot = Robot { gravity: 0.0.into(), ..suspended(&points, &string(), platform) };
     let start = Pose::at(0.0, 0.0, 1.0);
-    let error = direct(&robot, &[4.0, 4.0], &Load::none(), Start::Pose(&start)).unwrap_err();
+    let error = direct(&robot, &[4.0, 4.0], &Load::none(), DirectStart::Pose(&start)).unwrap_err();
     assert!(matches!(error, StaticsError::Indifferent { .. }), "{error}");
 }
 
@@ -306,7 +309,7 @@ fn random_robots_on_few_cables_rest_and_are_found_again_from_some_of_their_coord
         tried += 1;
         let line = format!("seed {seed}: {}", robot.name);
         let problem = DirectProblem::new(&robot, &lengths, &Load::none()).unwrap();
-        let found = match problem.direct(Start::Pose(&start)) {
+        let found = match problem.direct(DirectStart::Pose(&start)) {
             Ok(found) => found,
             Err(error) => {
                 // A cable that carries all the others' load is too short for it.
@@ -327,7 +330,7 @@ fn random_robots_on_few_cables_rest_and_are_found_again_from_some_of_their_coord
             if robot.plane.is_some() { Vector3::new(push, 0.0, push) } else { Vector3::repeat(push) },
             Vector3::zeros(),
         );
-        let back = problem.direct(Start::Pose(&nudged)).unwrap();
+        let back = problem.direct(DirectStart::Pose(&nudged)).unwrap();
         let motion = pose.motion_to(&back.equilibrium.pose);
         let left = found.stability.neutral().iter().map(|mode| mode.translation.norm()).fold(0.0, f64::max);
         assert!(motion.norm() < 1e-7 * problem_size(&lengths) || left > 0.0, "{line}: {motion}");
@@ -372,7 +375,7 @@ fn random_robots_on_few_cables_rest_and_are_found_again_from_some_of_their_coord
             true => wanted.moved(Vector3::new(0.0, 0.0, 0.02 * problem_size(&lengths)), Vector3::zeros()),
             false => wanted,
         };
-        let solutions = inverse_free(&robot, &wanted, &Load::none(), &free);
+        let solutions = free_solutions(&robot, WantedPose::at(&wanted).free(&free), &Load::none());
         let all =
             solutions.iter().flat_map(|solutions| [&solutions.first].into_iter().chain(&solutions.others));
         let nearest = all.map(|one| {
@@ -412,7 +415,7 @@ fn derivatives_of_few_cables_are_those_of_differences() {
     {
         let lengths: Vec<f64> = (0..robot.cables.len()).map(|i| robot.span(&start, i).norm()).collect();
         let problem = DirectProblem::new(&robot, &lengths, &Load::none()).unwrap();
-        let found = problem.direct(Start::Pose(&start)).unwrap();
+        let found = problem.direct(DirectStart::Pose(&start)).unwrap();
         let exact = problem.derivatives(&found.equilibrium).unwrap();
         let length = found.stability.characteristic_length();
         for (column, parameter) in Parameter::of(&robot).iter().enumerate() {
@@ -428,7 +431,7 @@ fn derivatives_of_few_cables_are_those_of_differences() {
                 let mut deviations = vec![0.0; Parameter::of(&robot).len()];
                 deviations[column] = change;
                 let moved = robot.perturbed(&deviations).unwrap().robot;
-                let near = Start::Near(&found.equilibrium);
+                let near = DirectStart::Near(&found.equilibrium);
                 let solution = direct(&moved, &lengths, &Load::none(), near).unwrap();
                 let mut motion = found.equilibrium.pose.motion_to(&solution.equilibrium.pose);
                 // What is pinned is not compared: neutral motions.

@@ -2,10 +2,10 @@
 
 use crate::equilibria::number;
 use cdpr_robot::{Coordinate, Pose, Robot, Rotation3, Vector3};
-use cdpr_statics::{
-    DirectProblem, FreeSolution, FreeSolutions, LONGEST, Limit, Load, RestFault, StaticsError, held_at,
-    inverse_free, inverse_free_with_loops, out_of_limits,
-};
+use cdpr_statics::error::RestFault;
+use cdpr_statics::free_coordinates::{FreeSolution, FreeSolutions, LONGEST, free_solutions};
+use cdpr_statics::limits::{Limit, out_of_limits};
+use cdpr_statics::{DirectProblem, Load, StaticsError, WantedPose, inverse};
 use serde_json::Value;
 
 const FREE: [Coordinate; 2] = [Coordinate::Roll, Coordinate::Pitch];
@@ -16,7 +16,10 @@ fn four_cables() -> Robot {
 
 #[test]
 fn the_taut_root_within_the_limits_is_taken() {
-    let found = inverse_free(&four_cables(), &Pose::at(0.5, 0.3, 2.0), &Load::none(), &FREE).unwrap().first;
+    let found =
+        free_solutions(&four_cables(), WantedPose::at(&Pose::at(0.5, 0.3, 2.0)).free(&FREE), &Load::none())
+            .unwrap()
+            .first;
     let (roll, pitch, _) = found.equilibrium.pose.rotation.euler_angles();
     for (angle, expected) in [(roll, 3.075547), (pitch, -1.224933)] {
         assert!((angle.to_degrees() - expected).abs() < 1e-6, "{roll} {pitch}");
@@ -36,7 +39,8 @@ fn a_grid_has_roots_within_the_limits_where_taut_cables_have_them() {
     for x in [0.3, 0.4, 0.5, 0.6] {
         for y in [0.2, 0.3, 0.4] {
             for z in [1.5, 2.0, 2.5] {
-                let found = inverse_free(&robot, &Pose::at(x, y, z), &Load::none(), &FREE);
+                let found =
+                    free_solutions(&robot, WantedPose::at(&Pose::at(x, y, z)).free(&FREE), &Load::none());
                 let exists = !((y == 0.2 && x >= 0.5) || (y == 0.3 && x == 0.6));
                 assert_eq!(found.is_ok(), exists, "{x}, {y}, {z}");
                 match found {
@@ -54,12 +58,13 @@ fn a_loop_is_an_answer_only_where_it_is_asked_for() {
     let robot = Robot::from_json(include_str!("../../../data/reference/robots/four-crossed-cables.json"));
     let robot = robot.unwrap();
     for pose in [Pose::at(0.9, 0.9, 0.2), Pose::at(0.0, 0.0, 2.0)] {
-        match inverse_free(&robot, &pose, &Load::none(), &FREE) {
+        match free_solutions(&robot, WantedPose::at(&pose).free(&FREE), &Load::none()) {
             Ok(found) => assert_sound(&robot, &found.first),
             Err(StaticsError::NoRest { nearest, .. }) => println!("{nearest}"),
             Err(other) => panic!("{other}"),
         }
-        let found = inverse_free_with_loops(&robot, &pose, &Load::none(), &FREE).unwrap();
+        let found =
+            free_solutions(&robot, WantedPose::at(&pose).free(&FREE).with_loops(), &Load::none()).unwrap();
         let mut all = [&found.first].into_iter().chain(&found.others);
         assert!(all.any(|one| !one.loops(&robot).is_empty()), "{:?}", found.first.lengths);
     }
@@ -68,7 +73,8 @@ fn a_loop_is_an_answer_only_where_it_is_asked_for() {
 #[test]
 fn a_stable_root_near_other_ones_is_found() {
     let pose = Pose::at(-0.52, 0.05, 3.28);
-    let found = inverse_free(&four_cables(), &pose, &Load::none(), &FREE).unwrap().first;
+    let found =
+        free_solutions(&four_cables(), WantedPose::at(&pose).free(&FREE), &Load::none()).unwrap().first;
     assert!(found.stability.is_stable());
     assert_sound(&four_cables(), &found);
     for (tension, expected) in found.tensions.iter().zip([126.0, 836.0, 28.0, 836.0]) {
@@ -80,7 +86,8 @@ fn a_stable_root_near_other_ones_is_found() {
 fn a_refusal_names_the_cable_and_its_limit() {
     let mut robot = four_cables();
     robot.tension_limits.min = 80.0;
-    let error = inverse_free(&robot, &Pose::at(0.5, 0.3, 2.0), &Load::none(), &FREE).unwrap_err();
+    let error = free_solutions(&robot, WantedPose::at(&Pose::at(0.5, 0.3, 2.0)).free(&FREE), &Load::none())
+        .unwrap_err();
     let StaticsError::NoRest { nearest: RestFault::Limit(passed), .. } = &error else { panic!("{error}") };
     assert_eq!((passed.cable, passed.limit, passed.value), (3, Limit::Min, 80.0));
     let text = error.to_string();
@@ -94,7 +101,7 @@ fn no_anchor_point_and_no_cable_is_below_the_ground() {
     let on = |ground_z: f64, heavy: f64| {
         let mut robot = Robot { ground_z: Some(ground_z), ..four_cables() };
         robot.cables.iter_mut().for_each(|cable| cable.properties.linear_density *= heavy);
-        inverse_free(&robot, &pose, &Load::none(), &FREE)
+        free_solutions(&robot, WantedPose::at(&pose).free(&FREE), &Load::none())
     };
     assert!(on(2.0, 1.0).is_ok());
     let error = on(2.25, 1.0).unwrap_err();
@@ -120,12 +127,12 @@ fn no_anchor_point_and_no_cable_is_below_the_ground() {
             let all = (0..4).map(of_cable);
             all.fold((f64::INFINITY, f64::INFINITY), |(a, b), (c, d)| (a.min(c), b.min(d)))
         };
-        let found = inverse_free(&robot, &pose, &Load::none(), &FREE).unwrap().first;
+        let found = free_solutions(&robot, WantedPose::at(&pose).free(&FREE), &Load::none()).unwrap().first;
         let (hanging, anchor) = lowest(&found);
         assert!(hanging < anchor - 0.01, "{hanging} {anchor}");
         let above = |ground: f64| {
             let robot = Robot { ground_z: Some(ground), ..robot.clone() };
-            inverse_free(&robot, &pose, &Load::none(), &FREE)
+            free_solutions(&robot, WantedPose::at(&pose).free(&FREE), &Load::none())
         };
         assert_eq!(above(hanging - 0.005).unwrap().first, found);
         match above(hanging + 0.005) {
@@ -222,7 +229,7 @@ fn tally(case: &Value) -> Tally {
         tally.poses += 1;
         let given = numbers(pose);
         let wanted = pose_of(&robot, &given);
-        let answer = inverse_free(&robot, &wanted, &Load::none(), &free);
+        let answer = free_solutions(&robot, WantedPose::at(&wanted).free(&free), &Load::none());
         let expected: Vec<(Pose, i8)> = roots
             .as_array()
             .unwrap()
@@ -264,7 +271,7 @@ fn tally(case: &Value) -> Tally {
         }
         // What commands and studies start from is sound, too.
         if index % 10 == 0 {
-            let held = held_at(&robot, &wanted, &Load::none(), &free).unwrap();
+            let held = inverse(&robot, WantedPose::at(&wanted).free(&free), &Load::none()).unwrap();
             let passed = out_of_limits(&robot, &held.lengths, &[&held.equilibrium]);
             assert!(passed.iter().all(|one| !matches!(one.limit, Limit::Min | Limit::Max)), "{passed:?}");
         }

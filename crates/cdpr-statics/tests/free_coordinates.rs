@@ -9,9 +9,12 @@ use cdpr_robot::{
     CableProperties, Coordinate, Matrix3, Parameter, Plane, Platform, Pose, Robot, Rotation3, Vector3,
     Vector6, Wrench,
 };
+use cdpr_statics::free_coordinates::{FreeSolution, FreeSolutions, free_solutions};
+use cdpr_statics::stiffness::stiffness_at;
+use cdpr_statics::vibration::modes_at;
 use cdpr_statics::{
-    Deflection, DirectProblem, DirectSolution, FreeSolution, FreeSolutions, Load, Start, StaticsError,
-    deflection_free, derivatives_free, held_at, inverse, inverse_free, modes_at, stiffness_at,
+    Deflection, DirectProblem, DirectSolution, DirectStart, Load, StaticsError, WantedPose, deflection,
+    derivatives, inverse,
 };
 use nalgebra::DVector;
 use serde_json::Value;
@@ -28,7 +31,8 @@ fn lengths_and_free_coordinates_match_arithmetic_of_20_digits() {
             position: vector(&case["start_position"]),
             rotation: Rotation3::from_euler_angles(roll, pitch, yaw),
         };
-        let FreeSolutions { first, others } = inverse_free(&robot, &wanted, &load(&case), &free).unwrap();
+        let FreeSolutions { first, others } =
+            free_solutions(&robot, WantedPose::at(&wanted).free(&free), &load(&case)).unwrap();
         let expected = pose(&case);
         let away = |one: &FreeSolution| expected.motion_to(&one.equilibrium.pose).norm();
         let all = [&first].into_iter().chain(&others);
@@ -56,7 +60,7 @@ fn lengths_and_free_coordinates_match_arithmetic_of_20_digits() {
         // Every other is a solution, too: the direct model stays there.
         for other in &others {
             let problem = DirectProblem::new(&robot, &other.lengths, &load(&case)).unwrap();
-            let again = problem.direct_any(Start::Near(&other.equilibrium)).unwrap();
+            let again = problem.direct_any(DirectStart::Near(&other.equilibrium)).unwrap();
             let motion = other.equilibrium.pose.motion_to(&again.equilibrium.pose).norm();
             assert!(motion < 1e-9 && again.stability.is_stable() == other.stability.is_stable(), "{line}");
             let (roll, pitch, yaw) = other.equilibrium.pose.rotation.euler_angles();
@@ -83,13 +87,14 @@ fn a_pendulum_hangs_below_its_exit_point_or_stands_above_its_anchor() {
     let wanted = Pose::at(1.2, 1.9, 1.0).moved(Vector3::zeros(), Vector3::new(0.2, -0.1, 0.0));
     use Coordinate::{Pitch, Roll, X, Y, Yaw};
     let free = [X, Y, Roll, Pitch, Yaw];
-    let FreeSolutions { first, .. } = inverse_free(&robot, &wanted, &Load::none(), &free).unwrap();
+    let FreeSolutions { first, .. } =
+        free_solutions(&robot, WantedPose::at(&wanted).free(&free), &Load::none()).unwrap();
     assert!(first.stability.is_stable() && first.stability.neutral().len() == 1);
     let position = first.equilibrium.pose.position;
     assert!((position - Vector3::new(1.0, 2.0, 1.0)).norm() < 1e-9, "{position}");
     assert!((first.tensions[0] - 5.0 * 9.81).abs() < 1e-9 && first.residual.force < 1e-9);
     // Two frequencies of a double pendulum, about each horizontal axis, with that of the yaw zero.
-    let modes = modes_at(&robot, &wanted, &Load::none(), &free).unwrap().modes;
+    let modes = modes_at(&robot, WantedPose::at(&wanted).free(&free), &Load::none()).unwrap().modes;
     let frequencies: Vec<f64> = modes.iter().map(|mode| mode.frequency).collect();
     assert_eq!((frequencies.len(), frequencies[0]), (6, 0.0));
     // M q'' + K q = 0 in the angle of the string, times its length l, and that of the platform:
@@ -116,7 +121,7 @@ fn two_cables_hold_a_planar_platform_at_a_place_and_its_tilt_follows() {
     let robot = Robot { plane: Some(Plane::Xz), ..suspended(&points, &rope, platform) };
     let wanted = Pose::at(0.5, 0.0, 1.5);
     let FreeSolutions { first, .. } =
-        inverse_free(&robot, &wanted, &Load::none(), &[Coordinate::Pitch]).unwrap();
+        free_solutions(&robot, WantedPose::at(&wanted).free(&[Coordinate::Pitch]), &Load::none()).unwrap();
     let pose = &first.equilibrium.pose;
     assert_eq!(pose.position, wanted.position);
     let turn = wanted.motion_to(pose);
@@ -125,16 +130,19 @@ fn two_cables_hold_a_planar_platform_at_a_place_and_its_tilt_follows() {
     assert!(pose.motion_to(&again.equilibrium.pose).norm() < 1e-9);
     // Its mirror image is the mirror image.
     let mirrored = Pose::at(-0.5, 0.0, 1.5);
-    let mirrored = inverse_free(&robot, &mirrored, &Load::none(), &[Coordinate::Pitch]).unwrap().first;
+    let mirrored =
+        free_solutions(&robot, WantedPose::at(&mirrored).free(&[Coordinate::Pitch]), &Load::none())
+            .unwrap()
+            .first;
     let [a, b] = [&first.lengths, &mirrored.lengths];
     assert!((a[0] - b[1]).abs() < 1e-10 && (a[1] - b[0]).abs() < 1e-10, "{a:?} {b:?}");
     // A load swings it about, which the linearisation predicts.
     let load = Load::wrench(Wrench { force: Vector3::new(1e-3, 0.0, 0.0), moment: Vector3::zeros() });
     let free = [Coordinate::Pitch];
-    let moved = deflection_free(&robot, &wanted, &[0.0; 2], &load, &free).unwrap();
+    let moved = deflection(&robot, WantedPose::at(&wanted).free(&free), &load).unwrap();
     let predicted = moved.small_displacement(&robot, &load).unwrap();
     assert!((moved.displacement() - predicted).norm() < 1e-3 * predicted.norm(), "{predicted}");
-    let stiffness = stiffness_at(&robot, &wanted, &Load::none(), &free).unwrap();
+    let stiffness = stiffness_at(&robot, WantedPose::at(&wanted).free(&free), &Load::none()).unwrap();
     assert!(stiffness.stability.is_stable() && stiffness.stability.eigenvalues().len() == 3);
 }
 
@@ -148,10 +156,12 @@ fn four_cables_of_cogiro_hold_chosen_coordinates() {
     // Its upper cables cross and turn the platform by about 70 degrees: where the yaw is given, or
     // the roll, they do not hold it.
     for free in [[Roll, Pitch], [Yaw, Pitch]] {
-        let error = inverse_free(&robot, &wanted, &Load::payload(20.0), &free).unwrap_err();
+        let error =
+            free_solutions(&robot, WantedPose::at(&wanted).free(&free), &Load::payload(20.0)).unwrap_err();
         assert!(matches!(error, StaticsError::NoRest { .. }), "{error}");
     }
-    let found = inverse_free(&robot, &wanted, &Load::payload(20.0), &[Yaw, Roll]).unwrap();
+    let found =
+        free_solutions(&robot, WantedPose::at(&wanted).free(&[Yaw, Roll]), &Load::payload(20.0)).unwrap();
     assert!(found.first.stability.is_stable());
     for one in [&found.first].into_iter().chain(&found.others) {
         assert!(one.residual.force < 1e-7 && one.residual.closure < 1e-12, "{:?}", one.residual);
@@ -159,17 +169,21 @@ fn four_cables_of_cogiro_hold_chosen_coordinates() {
     }
     // Level it rests nowhere at this height.
     let free = [Coordinate::X, Coordinate::Y];
-    let error = inverse_free(&robot, &wanted, &Load::payload(20.0), &free).unwrap_err();
+    let error =
+        free_solutions(&robot, WantedPose::at(&wanted).free(&free), &Load::payload(20.0)).unwrap_err();
     assert!(matches!(error, StaticsError::NoRest { starts: 182, .. }), "{error}");
-    let names = |free: &[Coordinate]| inverse_free(&robot, &wanted, &Load::none(), free).unwrap_err();
-    let error = inverse(&robot, &wanted, &Load::none(), None).unwrap_err();
+    let names = |free: &[Coordinate]| {
+        free_solutions(&robot, WantedPose::at(&wanted).free(free), &Load::none()).unwrap_err()
+    };
+    let error = inverse(&robot, &wanted, &Load::none()).unwrap_err();
     assert_eq!(error.kind(), "free_coordinates");
     assert!(error.to_string().contains("leave 2 coordinates"), "{error}");
     assert_eq!(names(&[Coordinate::Roll]).kind(), "free_coordinates");
     assert!(names(&[Coordinate::Roll; 2]).to_string().contains("each coordinate once"));
     let point = Robot { platform: Platform { point: true, ..robot.platform }, ..robot.clone() };
     let point = Robot { cables: robot.cables[..2].to_vec(), ..point };
-    let error = inverse_free(&point, &wanted, &Load::none(), &[Coordinate::Yaw]).unwrap_err();
+    let error =
+        free_solutions(&point, WantedPose::at(&wanted).free(&[Coordinate::Yaw]), &Load::none()).unwrap_err();
     assert!(error.to_string().contains("not held"), "{error}");
 }
 
@@ -182,8 +196,8 @@ fn outputs(
     free: &[Coordinate],
     about: &Deflection,
 ) -> Vec<DVector<f64>> {
-    let found = deflection_free(robot, pose, offsets, load, free).unwrap();
-    let rest = deflection_free(robot, pose, &vec![0.0; offsets.len()], load, free).unwrap();
+    let found = deflection(robot, WantedPose::at(pose).free(free).tension_offsets(offsets), load).unwrap();
+    let rest = deflection(robot, WantedPose::at(pose).free(free), load).unwrap();
     let set_points = rest.unloaded.equilibrium.tensions().into_iter().zip(offsets).map(|(t, dt)| t + dt);
     let motion = |from: &DirectSolution, to: &DirectSolution| {
         DVector::from_column_slice(from.equilibrium.pose.motion_to(&to.equilibrium.pose).as_slice())
@@ -236,11 +250,16 @@ fn derivatives_with_free_coordinates_are_central_differences() {
         let load = Load::payload(payload);
         // Beside a rest of the platform the search is short.
         let turn = if robot.plane.is_some() { Vector3::zeros() } else { Vector3::new(4e-3, -6e-3, 3e-3) };
-        let rest = held_at(&robot, &pose, &Load::none(), &free).unwrap().equilibrium.pose;
+        let rest =
+            inverse(&robot, WantedPose::at(&pose).free(&free), &Load::none()).unwrap().equilibrium.pose;
         let pose = rest.moved(Vector3::zeros(), turn);
-        let found = derivatives_free(&robot, &pose, &offsets, &load, &free).unwrap();
+        let found =
+            derivatives(&robot, WantedPose::at(&pose).free(&free).tension_offsets(&offsets), &load).unwrap();
         let about = &found.deflection;
-        assert_eq!(*about, deflection_free(&robot, &pose, &offsets, &load, &free).unwrap());
+        assert_eq!(
+            *about,
+            deflection(&robot, WantedPose::at(&pose).free(&free).tension_offsets(&offsets), &load).unwrap()
+        );
         let rms = found.rms().unwrap();
         let parameters = Parameter::of(&robot);
         for column in 0..found.inputs.count() {
@@ -308,9 +327,13 @@ fn an_offset_that_a_limit_keeps_has_no_derivative_with_free_coordinates() {
     four.cables = [1, 3, 5, 7].map(|i| four.cables[i].clone()).to_vec();
     let free = [Coordinate::Roll, Coordinate::Yaw];
     let wanted = Pose::at(1.0, -0.3, 2.0);
-    let found = derivatives_free(&four, &wanted, &[-1e4, 0.0, 0.0, 0.0], &Load::payload(20.0), &free);
+    let found = derivatives(
+        &four,
+        WantedPose::at(&wanted).free(&free).tension_offsets(&[-1e4, 0.0, 0.0, 0.0]),
+        &Load::payload(20.0),
+    );
     assert_eq!(found.unwrap_err().kind(), "no_derivative");
-    let found = derivatives_free(&four, &wanted, &[0.0; 4], &Load::payload(20.0), &free[..1]);
+    let found = derivatives(&four, WantedPose::at(&wanted).free(&free[..1]), &Load::payload(20.0));
     assert_eq!(found.unwrap_err().kind(), "free_coordinates");
 }
 
@@ -332,7 +355,11 @@ fn a_search_in_which_a_force_vanishes_ends() {
         position: Vector3::new(1.793502340224425, -0.3698671657541377, -0.06522360935803889),
         rotation: turn,
     };
-    match inverse_free(&grab, &pose, &Load::none(), &[Coordinate::Roll, Coordinate::Pitch]) {
+    match free_solutions(
+        &grab,
+        WantedPose::at(&pose).free(&[Coordinate::Roll, Coordinate::Pitch]),
+        &Load::none(),
+    ) {
         Ok(FreeSolutions { first, others }) => {
             assert!(others.iter().chain([&first]).all(|found| found.residual.force < 1e-9));
         }
@@ -346,17 +373,24 @@ fn a_rest_with_free_coordinates_is_followed_to_many_times_its_load() {
     let robot = Robot::from_json(&std::fs::read_to_string(path).unwrap()).unwrap();
     let free = [Coordinate::Roll, Coordinate::Pitch];
     for pose in [Pose::at(0.5, 0.3, 2.0), Pose::at(0.3, 0.2, 1.5), Pose::at(0.6, 0.4, 2.5)] {
-        let Ok(unloaded) = cdpr_statics::held_at(&robot, &pose, &Load::none(), &free) else { continue };
+        let Ok(unloaded) = cdpr_statics::inverse(&robot, WantedPose::at(&pose).free(&free), &Load::none())
+        else {
+            continue;
+        };
         for times in [3.0, 10.0, 30.0, 100.0] {
             let load = Load::payload(times * robot.platform.mass);
-            let at_once = cdpr_statics::rest_near(&robot, &unloaded.equilibrium, &load, &free).unwrap();
-            let mut stepwise = unloaded.clone();
+            let at_once =
+                cdpr_statics::free_coordinates::rest_near(&robot, &unloaded.equilibrium, &load, &free)
+                    .unwrap();
+            let mut stepwise = unloaded.equilibrium.clone();
             for step in 1..=20 {
                 let share = f64::from(step) / 20.0;
                 let load = Load::payload(((1.0 + times).powf(share) - 1.0) * robot.platform.mass);
-                stepwise = cdpr_statics::rest_near(&robot, &stepwise.equilibrium, &load, &free).unwrap();
+                let rest =
+                    cdpr_statics::free_coordinates::rest_near(&robot, &stepwise, &load, &free).unwrap();
+                stepwise = rest.equilibrium;
             }
-            let apart = at_once.equilibrium.pose.motion_to(&stepwise.equilibrium.pose).norm();
+            let apart = at_once.equilibrium.pose.motion_to(&stepwise.pose).norm();
             assert!(apart < 1e-7, "{times} times the load at {:?}: {apart}", pose.position);
         }
     }
@@ -371,8 +405,8 @@ fn a_rest_with_infinitely_many_tensions_next_to_it_is_refused() {
     let free = [Coordinate::X, Coordinate::Y];
     for wanted in [Pose::at(0.0, 0.0, 2.0), Pose::at(0.17, -0.09, 2.0), Pose::at(0.3, 0.0, 1.0)] {
         for error in [
-            inverse_free(&robot, &wanted, &Load::none(), &free).unwrap_err(),
-            held_at(&robot, &wanted, &Load::none(), &free).unwrap_err(),
+            free_solutions(&robot, WantedPose::at(&wanted).free(&free), &Load::none()).unwrap_err(),
+            inverse(&robot, WantedPose::at(&wanted).free(&free), &Load::none()).unwrap_err(),
         ] {
             let StaticsError::NotUnique { tensions: [one, other], .. } = error else { panic!("{error}") };
             assert!((one / other - 1.0).abs() > 0.02, "{one} {other}");
@@ -381,7 +415,8 @@ fn a_rest_with_infinitely_many_tensions_next_to_it_is_refused() {
     }
     // With the roll or the yaw free the sixth equation determines something.
     let free = [Coordinate::Roll, Coordinate::Pitch];
-    let found = inverse_free(&robot, &Pose::at(0.5, 0.3, 2.0), &Load::none(), &free).unwrap();
+    let found =
+        free_solutions(&robot, WantedPose::at(&Pose::at(0.5, 0.3, 2.0)).free(&free), &Load::none()).unwrap();
     assert!(found.first.stability.is_stable());
 }
 
@@ -392,10 +427,13 @@ fn a_platform_on_one_cable_hangs_at_every_height() {
     let robot = suspended(&[[[1.0, 2.0, 5.0], [0.0, 0.0, 0.3]]], &string(), platform);
     use Coordinate::{Pitch, Roll, X, Y, Yaw, Z};
     // At a height that is given its turn about the vertical is neutral, and its length is one.
-    let found = inverse_free(&robot, &wanted, &Load::none(), &[X, Y, Roll, Pitch, Yaw]).unwrap();
+    let found =
+        free_solutions(&robot, WantedPose::at(&wanted).free(&[X, Y, Roll, Pitch, Yaw]), &Load::none())
+            .unwrap();
     assert_eq!(found.first.stability.neutral().len(), 1);
     // With the yaw given and the height free, every length is right.
-    let error = inverse_free(&robot, &wanted, &Load::none(), &[X, Y, Z, Roll, Pitch]).unwrap_err();
+    let error = free_solutions(&robot, WantedPose::at(&wanted).free(&[X, Y, Z, Roll, Pitch]), &Load::none())
+        .unwrap_err();
     let StaticsError::NotUnique { lengths: [one, other], .. } = error else { panic!("{error}") };
     assert!((one - other).abs() > 0.01, "{one} {other}");
 }

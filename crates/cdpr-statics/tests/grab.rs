@@ -3,7 +3,9 @@
 
 use crate::equilibria::{number, vector};
 use cdpr_robot::{Coordinate, Pose, Robot, Rotation3, Vector3};
-use cdpr_statics::{DirectProblem, Load, RestFault, Start, StaticsError, deflection_free, inverse_free};
+use cdpr_statics::error::RestFault;
+use cdpr_statics::free_coordinates::free_solutions;
+use cdpr_statics::{DirectProblem, DirectStart, Load, StaticsError, WantedPose, deflection};
 use serde_json::Value;
 
 fn grab() -> Robot {
@@ -32,7 +34,7 @@ fn lengths(robot: &Robot, pose: &Pose) -> Vec<f64> {
 fn found(robot: &Robot, lengths: &[f64], start: &Pose) -> (Pose, [f64; 2]) {
     let load = Load::none();
     let problem = DirectProblem::new(robot, lengths, &load).unwrap();
-    let held = problem.direct(Start::Pose(start)).unwrap();
+    let held = problem.direct(DirectStart::Pose(start)).unwrap();
     let modes = problem.modes(&held.equilibrium).unwrap();
     (held.equilibrium.pose, [modes[0].frequency, modes[1].frequency])
 }
@@ -135,16 +137,16 @@ fn a_pose_that_is_held_upside_down_alone_is_refused() {
     let (robot, free) = (grab(), [Coordinate::Roll, Coordinate::Pitch]);
     let at = |x, y| Pose::at(x, y, -0.92);
     let load = Load::payload(0.5);
-    let near_the_middle = deflection_free(&robot, &at(1.36, 0.06), &[0.0; 4], &load, &free).unwrap();
+    let near_the_middle = deflection(&robot, WantedPose::at(&at(1.36, 0.06)).free(&free), &load).unwrap();
     assert!(near_the_middle.unloaded.stability.is_stable());
     // The only solutions from 49 x 32 starts have the platform turned over.
     for (x, y) in [(0.1, 0.48), (0.52, -0.78), (1.36, 0.48), (1.78, -1.2)] {
-        let only = inverse_free(&robot, &at(x, y), &Load::none(), &free).unwrap_err();
+        let only = free_solutions(&robot, WantedPose::at(&at(x, y)).free(&free), &Load::none()).unwrap_err();
         let StaticsError::NoRest { nearest: RestFault::TurnedOver { angle, .. }, .. } = only else {
             panic!("{only}")
         };
         assert!(angle > 2.0, "{x}, {y}: {angle}");
-        let error = deflection_free(&robot, &at(x, y), &[0.0; 4], &load, &free).unwrap_err();
+        let error = deflection(&robot, WantedPose::at(&at(x, y)).free(&free), &load).unwrap_err();
         assert_eq!(error, only);
     }
 }

@@ -3,9 +3,9 @@
 use crate::common::{alone, caroca, cogiro, observed};
 use crate::pulleys::{led, tilted, turned};
 use cdpr_robot::{Matrix3, PiecewiseLaw, Pose, Robot, Rotation3, Vector3, Wrench};
-use cdpr_statics::{
-    Load, Observation, Observer, PoseModes, Start, Tracker, derivatives, direct, inverse, modes_at,
-};
+use cdpr_statics::batch::Observation;
+use cdpr_statics::vibration::{PoseModes, modes_at};
+use cdpr_statics::{DirectStart, Load, Observer, Tracker, derivatives, direct, inverse};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -69,13 +69,13 @@ fn close(found: &[f64], expected: &[f64], relative: f64, what: &str) {
 fn natural_frequencies_and_tensions_do_not_depend_on_the_base_frame() {
     for (mut robot, pose) in robots() {
         robot.platform.inertia = Some(Matrix3::from_diagonal(&Vector3::new(4.0, 5.0, 6.0)));
-        let level = modes_at(&robot, &pose, &load(), &[]).unwrap();
+        let level = modes_at(&robot, &pose, &load()).unwrap();
         let frequencies =
             |found: &PoseModes| found.modes.iter().map(|mode| mode.frequency).collect::<Vec<_>>();
         for rotation in rotations() {
             let what = format!("{} {:?}", robot.name, rotation.scaled_axis().as_slice());
             let (other, at) = (turned(&robot, &rotation), turned_pose(&pose, &rotation));
-            let found = modes_at(&other, &at, &turned_load(&load(), &rotation), &[]).unwrap();
+            let found = modes_at(&other, &at, &turned_load(&load(), &rotation)).unwrap();
             close(&found.equilibrium.tensions(), &level.equilibrium.tensions(), 1e-9, &what);
             close(&frequencies(&found), &frequencies(&level), 1e-8, &what);
         }
@@ -87,9 +87,9 @@ fn a_turned_robot_is_found_from_its_lengths_from_a_pose_nearby() {
     for (robot, pose) in robots() {
         for rotation in rotations() {
             let (robot, pose) = (turned(&robot, &rotation), turned_pose(&pose, &rotation));
-            let wanted = inverse(&robot, &pose, &Load::none(), None).unwrap();
+            let wanted = inverse(&robot, &pose, &Load::none()).unwrap();
             let start = pose.moved(Vector3::new(0.2, -0.1, 0.1), Vector3::new(0.1, 0.2, -0.1));
-            let found = direct(&robot, &wanted.lengths, &Load::none(), Start::Pose(&start)).unwrap();
+            let found = direct(&robot, &wanted.lengths, &Load::none(), DirectStart::Pose(&start)).unwrap();
             let motion = pose.motion_to(&found.equilibrium.pose);
             assert!(motion.norm() < 1e-9, "{}: {motion}", robot.name);
         }
@@ -100,11 +100,10 @@ fn a_turned_robot_is_found_from_its_lengths_from_a_pose_nearby() {
 fn derivatives_turn_with_the_robot() {
     for (robot, pose) in robots() {
         let load = Load { wrench: Wrench { moment: Vector3::zeros(), ..load().wrench }, ..load() };
-        let n = robot.cables.len();
-        let level = derivatives(&robot, &pose, &vec![0.0; n], &load).unwrap();
+        let level = derivatives(&robot, &pose, &load).unwrap();
         let rotation = rotations().pop().unwrap();
         let (other, at) = (turned(&robot, &rotation), turned_pose(&pose, &rotation));
-        let found = derivatives(&other, &at, &vec![0.0; n], &turned_load(&load, &rotation)).unwrap();
+        let found = derivatives(&other, &at, &turned_load(&load, &rotation)).unwrap();
         let (level_rms, rms) = (level.rms().unwrap(), found.rms().unwrap());
         // What has no direction of the base frame.
         for (column, parameter) in level.inputs.parameters.iter().enumerate() {
@@ -170,7 +169,7 @@ fn a_turned_robot_is_tracked_as_the_level_one() {
     let level = caroca();
     for rotation in rotations() {
         let other = turned(&level, &rotation);
-        let start = inverse(&level, &Pose::at(-1.0, 0.0, 1.5), &Load::none(), None).unwrap();
+        let start = inverse(&level, &Pose::at(-1.0, 0.0, 1.5), &Load::none()).unwrap();
         let mut tracker = Tracker::new(&level, &start.lengths, &Load::none(), &start.equilibrium).unwrap();
         let mut begin = start.equilibrium.clone();
         begin.pose = turned_pose(&begin.pose, &rotation);

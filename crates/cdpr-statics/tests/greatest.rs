@@ -1,9 +1,9 @@
 //! The greatest payload and the margin of tensions are where the inverse model ends.
 
 use cdpr_robot::{Pose, Robot, Vector3, Wrench};
-use cdpr_statics::{
-    Limit, Load, MAX_STRAIN, StaticsError, greatest_payload, inverse, is_held, tension_margin,
-};
+use cdpr_statics::capacity::{greatest_payload, tension_margin};
+use cdpr_statics::limits::Limit;
+use cdpr_statics::{Load, MAX_STRAIN, StaticsError, inverse, is_held};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use std::time::Instant;
@@ -31,7 +31,7 @@ fn the_inverse_model_holds_the_greatest_payload_and_no_more() {
         let pose = Pose::at(x, y, z).moved(Vector3::zeros(), Vector3::new(0.02, -0.01, 0.03));
         let wrench = Wrench { force: Vector3::new(20.0, -10.0, 5.0), moment: Vector3::new(1.0, 2.0, -3.0) };
         let found = greatest_payload(&robot, &pose, &wrench).unwrap();
-        let holds = |payload| inverse(&robot, &pose, &Load { payload, wrench }, None).is_ok();
+        let holds = |payload| inverse(&robot, &pose, &Load { payload, wrench }).is_ok();
         println!("{name}: {} kg in {} programs, {:?}", found.value, found.iterations, found.blocking);
         assert!(holds(found.value * (1.0 - 1e-7)) && !holds(found.value * (1.0 + 1e-6)), "{name}");
         let largest = found.tensions.iter().fold(0.0, |a: f64, t| a.max(*t));
@@ -46,7 +46,7 @@ fn the_limits_can_be_drawn_in_by_the_margin_and_no_more() {
         let robot = robot(name);
         let pose = Pose::at(x, y, z);
         let found = tension_margin(&robot, &pose, &Load::payload(3.0)).unwrap();
-        let holds = |margin| inverse(&drawn_in(&robot, margin), &pose, &Load::payload(3.0), None).is_ok();
+        let holds = |margin| inverse(&drawn_in(&robot, margin), &pose, &Load::payload(3.0)).is_ok();
         println!("{name}: {} N in {} programs, {:?}", found.value, found.iterations, found.blocking);
         let size = 1e-7 * robot.limits(0).max;
         assert!(holds(found.value - size) && !holds(found.value + 10.0 * size), "{name}");
@@ -82,8 +82,8 @@ fn drawn_in(robot: &Robot, margin: f64) -> Robot {
 
 /// What is wrong about the greatest payload at a pose that is held, if anything is.
 fn payload_fault(robot: &Robot, pose: &Pose) -> Option<String> {
-    let holds = |payload| inverse(robot, pose, &Load::payload(payload), None).is_ok();
-    let found = match greatest_payload(robot, pose, &Wrench::zero()) {
+    let holds = |payload| inverse(robot, pose, &Load::payload(payload)).is_ok();
+    let found = match greatest_payload(robot, pose, &Wrench::none()) {
         Ok(found) => found,
         Err(error) => return Some(error.to_string()),
     };
@@ -97,7 +97,7 @@ fn payload_fault(robot: &Robot, pose: &Pose) -> Option<String> {
 
 /// What is wrong about the margin at a pose that is held, if anything is.
 fn margin_fault(robot: &Robot, pose: &Pose) -> Option<String> {
-    let holds = |margin| inverse(&drawn_in(robot, margin), pose, &Load::none(), None).is_ok();
+    let holds = |margin| inverse(&drawn_in(robot, margin), pose, &Load::none()).is_ok();
     let found = match tension_margin(robot, pose, &Load::none()) {
         Ok(found) => found,
         Err(error) => return Some(error.to_string()),
@@ -114,7 +114,7 @@ fn payloads_and_margins_are_found_wherever_the_platform_is_held() {
     let mut faults = Vec::new();
     for name in ["caroca", "cogiro", "copacabana-handling", "ipanema-3", "expo2015-lucia"] {
         let robot = robot(name);
-        let held = |pose: &Pose| inverse(&robot, pose, &Load::none(), None).is_ok();
+        let held = |pose: &Pose| inverse(&robot, pose, &Load::none()).is_ok();
         let poses: Vec<_> = poses(&robot, cases).into_iter().filter(held).collect();
         assert!(poses.len() >= 10, "{name}: {} poses are held", poses.len());
         for pose in &poses {
@@ -136,24 +136,24 @@ fn the_greatest_payload_strains_no_cable_too_much() {
     }
     let largest = robot.limits(0).max / robot.cables[0].properties.axial_stiffness();
     assert!(largest > 1.5 * MAX_STRAIN, "{largest}");
-    let found = greatest_payload(&robot, &pose, &Wrench::zero()).unwrap();
+    let found = greatest_payload(&robot, &pose, &Wrench::none()).unwrap();
     let tensions = found.equilibrium.exit_tensions(&robot, &found.lengths);
     let strains = tensions.iter().enumerate().map(|(i, tension)| robot.cable(i).strain(*tension));
     let greatest = strains.fold(0.0, f64::max);
     assert!(greatest <= MAX_STRAIN && greatest > (1.0 - 1e-6) * MAX_STRAIN, "{greatest}");
     let strained: Vec<_> = found.blocking.iter().filter(|block| block.limit == Limit::Strain).collect();
     assert!(!strained.is_empty() && found.value > 0.0, "{:?}", found.blocking);
-    let beyond = inverse(&robot, &pose, &Load::payload(1.01 * found.value), None).unwrap_err();
+    let beyond = inverse(&robot, &pose, &Load::payload(1.01 * found.value)).unwrap_err();
     assert_eq!(beyond.kind(), "cable_overstrained");
     // Stronger cables carry the limit of tension.
-    assert!(greatest_payload(&self::robot("cogiro"), &pose, &Wrench::zero()).unwrap().value > found.value);
+    assert!(greatest_payload(&self::robot("cogiro"), &pose, &Wrench::none()).unwrap().value > found.value);
 }
 
 #[test]
 fn what_a_limit_gives_is_the_slope_of_the_payload() {
     let robot = robot("cogiro");
     let pose = Pose::at(1.0, 0.5, 2.0);
-    let at = |robot: &Robot| greatest_payload(robot, &pose, &Wrench::zero()).unwrap();
+    let at = |robot: &Robot| greatest_payload(robot, &pose, &Wrench::none()).unwrap();
     let found = at(&robot);
     assert_eq!(found.blocking.len(), 3);
     for block in &found.blocking {
@@ -176,7 +176,7 @@ fn what_a_limit_gives_is_the_slope_of_the_payload() {
 #[test]
 fn a_pose_that_no_pull_can_hold_is_refused() {
     let robot = robot("cogiro");
-    let error = greatest_payload(&robot, &Pose::at(12.0, 0.0, 2.0), &Wrench::zero()).unwrap_err();
+    let error = greatest_payload(&robot, &Pose::at(12.0, 0.0, 2.0), &Wrench::none()).unwrap_err();
     assert!(matches!(error, StaticsError::NoTensions { .. }), "{error}");
 }
 
@@ -194,7 +194,7 @@ fn whether_a_pose_is_held_is_what_the_inverse_model_finds() {
             let quick = is_held(&robot, &pose, &load).unwrap_or(false);
             times[0] += clock.elapsed().as_secs_f64();
             let clock = Instant::now();
-            let held = match inverse(&robot, &pose, &load, None) {
+            let held = match inverse(&robot, &pose, &load) {
                 Ok(_) | Err(StaticsError::InverseNotConverged { .. }) => true,
                 Err(_) => false,
             };

@@ -3,7 +3,9 @@
 use crate::common::ipanema;
 use crate::drawn::{Drawn, drawn};
 use cdpr_robot::{Pose, Robot, TensionLimits, UnitQuaternion, Vector3, Wrench};
-use cdpr_statics::{Bound, DirectProblem, Load, Start, StaticsError, inverse, lengths_for_tensions};
+use cdpr_statics::{
+    Bound, DirectProblem, DirectStart, Load, StaticsError, WantedPose, inverse, lengths_for_tensions,
+};
 use nalgebra::Quaternion;
 use rayon::prelude::*;
 use serde_json::Value;
@@ -30,7 +32,8 @@ fn the_inverse_model_is_that_of_an_independent_program_with_40_digits() {
         let wrench =
             Wrench { force: vector(&case["external_force"]), moment: vector(&case["external_moment"]) };
         let reference = numbers(&case["reference_tensions"]);
-        let found = inverse(&robot, &pose, &Load::wrench(wrench), Some(&reference));
+        let found =
+            inverse(&robot, WantedPose::at(&pose).tension_reference(&reference), &Load::wrench(wrench));
         if case["infeasible"] == true {
             let refused = matches!(found, Err(StaticsError::NoTensions { refuted: true, .. }));
             assert!(refused, "{kind}: {found:?}");
@@ -68,7 +71,7 @@ fn a_pose_that_tensions_hold_is_never_refused() {
             let Some(Drawn { robot, pose, load, tensions }) = drawn(seed) else {
                 return ("not drawn", seed, String::new());
             };
-            let found = match inverse(&robot, &pose, &load, None) {
+            let found = match inverse(&robot, &pose, &load) {
                 Ok(found) => found,
                 Err(error) => return (error.kind(), seed, error.to_string()),
             };
@@ -96,7 +99,7 @@ fn a_pose_that_tensions_hold_is_never_refused() {
             // Every tenth pose is found again from its lengths, where it is stable.
             let problem = DirectProblem::new(&robot, &found.lengths, &load).unwrap();
             if seed % 10 == 0
-                && let Ok(again) = problem.direct_any(Start::Near(&found.equilibrium))
+                && let Ok(again) = problem.direct_any(DirectStart::Near(&found.equilibrium))
                 && again.stability.is_stable()
             {
                 let motion = pose.motion_to(&again.equilibrium.pose).norm();
@@ -137,7 +140,7 @@ fn no_norm_is_above_the_best_that_an_independent_solver_finds() {
         let Drawn { robot, pose, load, tensions } = drawn(seed).unwrap();
         let (drawn_norm, least, starts, held) = (row[1], row[2], row[4], row[5]);
         assert!((norm(&tensions) / drawn_norm - 1.0).abs() < 1e-12, "seed {seed} is another robot there");
-        let ours = match inverse(&robot, &pose, &load, None) {
+        let ours = match inverse(&robot, &pose, &load) {
             Ok(found) => norm(&found.tensions) / least - 1.0,
             Err(error) => panic!("seed {seed}: {error}"),
         };
@@ -181,7 +184,7 @@ fn a_light_platform_between_prestressed_cables_is_held() {
     robot.tension_limits = TensionLimits { min: 1e3, max: 4e3 };
     for mass in [10.0, 1.0, 0.1, 1e-8] {
         robot.platform.mass = mass;
-        let held = inverse(&robot, &Pose::at(0.1, 0.1, 1.0), &Load::none(), None).unwrap();
+        let held = inverse(&robot, &Pose::at(0.1, 0.1, 1.0), &Load::none()).unwrap();
         assert!(held.residual.force < 1e-9 && held.stationarity < 1e-9, "{mass}: {held:?}");
         assert!(held.tensions.iter().all(|t| (1e3..=4e3).contains(t)), "{held:?}");
     }
@@ -191,7 +194,7 @@ fn a_light_platform_between_prestressed_cables_is_held() {
 fn a_robot_without_gravity_is_held_by_its_prestress_alone() {
     let mut robot = ipanema();
     robot.gravity = (0.0).into();
-    let held = inverse(&robot, &Pose::at(0.1, -0.2, 1.2), &Load::none(), None).unwrap();
+    let held = inverse(&robot, &Pose::at(0.1, -0.2, 1.2), &Load::none()).unwrap();
     assert!(held.residual.force < 1e-11 && held.active.contains(&Some(Bound::Min)), "{held:?}");
 }
 
@@ -208,10 +211,10 @@ fn a_pose_of_deficient_rank_is_held_where_the_load_lies_in_its_plane() {
         cable.exit_point.z += 0.1 * i as f64;
     }
     let pose = Pose::at(0.3, 0.0, 1.5);
-    let held = inverse(&robot, &pose, &Load::none(), None).unwrap();
+    let held = inverse(&robot, &pose, &Load::none()).unwrap();
     assert!(held.residual.force < 1e-9 && held.residual.moment < 1e-9, "{:?}", held.residual);
     // Nothing resists a force out of the plane.
     let across = Wrench { force: Vector3::new(0.0, 10.0, 0.0), moment: Vector3::zeros() };
-    let refused = inverse(&robot, &pose, &Load::wrench(across), None);
+    let refused = inverse(&robot, &pose, &Load::wrench(across));
     assert!(matches!(refused, Err(StaticsError::NoTensions { rank_deficient: true, .. })), "{refused:?}");
 }

@@ -40,3 +40,4 @@ mod tangent;
 mod tensions;
 mod tracker;
 mod vector_units;
+mod wanted;

@@ -3,8 +3,8 @@
 use crate::common::{caroca, cogiro, ring};
 use cdpr_robot::{Platform, Pose, Robot, Rotation3, TensionLimits, Vector3, Wrench};
 use cdpr_statics::{
-    DirectMethod, DirectProblem, Equilibrium, HeldPose, Load, Start, StaticsError, deflection, deflections,
-    direct, inverse, lengths_for_tensions,
+    DirectMethod, DirectProblem, DirectStart, Equilibrium, HeldPose, Load, StaticsError, WantedPose,
+    deflection, derivatives, direct, inverse, lengths_for_tensions,
 };
 use proptest::prelude::*;
 
@@ -26,7 +26,7 @@ fn moment(x: f64, y: f64, z: f64) -> Wrench {
 #[test]
 fn nominal_deflections_of_caroca() {
     let robot = caroca();
-    let rms = |pose| 1e3 * deflection(&robot, &pose, &[0.0; 8], &Load::payload(50.0)).unwrap().rms();
+    let rms = |pose: Pose| 1e3 * deflection(&robot, &pose, &Load::payload(50.0)).unwrap().rms();
     assert!((rms(Pose::at(0.0, 0.0, 1.75)) - 1.33125).abs() < 1e-4);
     assert!((rms(Pose::at(3.2, 1.7, 3.0)) - 0.821_858_8).abs() < 2e-6);
 }
@@ -34,7 +34,7 @@ fn nominal_deflections_of_caroca() {
 #[test]
 fn a_symmetric_platform_sinks_straight_down_and_opposite_cables_share_the_load() {
     let robot = caroca();
-    let found = deflection(&robot, &Pose::at(0.0, 0.0, 1.75), &[0.0; 8], &Load::payload(50.0)).unwrap();
+    let found = deflection(&robot, &Pose::at(0.0, 0.0, 1.75), &Load::payload(50.0)).unwrap();
     let dp = found.displacement();
     assert!(dp.z < 0.0 && dp.xy().norm() < 1e-12);
     for tensions in [found.unloaded.equilibrium.tensions(), found.loaded.equilibrium.tensions()] {
@@ -49,7 +49,7 @@ fn the_stiffness_at_the_unloaded_pose_predicts_more_than_the_deflection() {
     // The load tightens the cables, which then sag less and give less.
     for (pose, expected) in [(Pose::at(0.0, 0.0, 1.75), 1.33640), (Pose::at(3.2, 1.7, 3.0), 0.85871)] {
         let load = Load::payload(50.0);
-        let exact = deflection(&robot, &pose, &[0.0; 8], &load).unwrap();
+        let exact = deflection(&robot, &pose, &load).unwrap();
         let small = exact.small_displacement(&robot, &load).unwrap();
         println!(
             "{:?}: exact {:.5} mm, small {:.5} mm",
@@ -61,30 +61,32 @@ fn the_stiffness_at_the_unloaded_pose_predicts_more_than_the_deflection() {
         assert!((1e3 * small.norm() - expected).abs() < 1e-5);
         // For a small load both agree.
         let gram = Load::payload(1e-3);
-        let exact = deflection(&robot, &pose, &[0.0; 8], &gram).unwrap();
+        let exact = deflection(&robot, &pose, &gram).unwrap();
         let small = exact.small_displacement(&robot, &gram).unwrap();
         assert!((small - exact.displacement()).norm() < 1e-4 * exact.rms());
     }
 }
 
 #[test]
-fn a_set_of_poses_and_loads_is_a_table_in_which_one_bad_pose_spoils_no_other() {
+fn one_bad_pose_of_many_spoils_no_other() {
     let robot = caroca();
-    let poses = [Pose::at(0.0, 0.0, 1.75), Pose::at(0.0, 0.0, 9.0), Pose::at(1.0, 0.5, 2.0)];
-    let loads = [Load::none(), Load::payload(50.0), Load::wrench(moment(10.0, 0.0, 5.0))];
-    let table = deflections(&robot, &poses, &loads);
-    assert!(matches!(&table[1], Err(error) if error.kind() == "infeasible_tension"));
-    for j in [0, 2] {
-        let row = table[j].as_ref().unwrap();
-        assert!(row[0].as_ref().unwrap().rms() < 1e-12);
-        let alone = deflection(&robot, &poses[j], &[0.0; 8], &loads[1]).unwrap();
-        assert!((row[1].as_ref().unwrap().displacement() - alone.displacement()).norm() < 1e-11);
+    let poses = vec![Pose::at(0.0, 0.0, 1.75), Pose::at(0.0, 0.0, 9.0), Pose::at(1.0, 0.5, 2.0)];
+    for load in [Load::none(), Load::payload(50.0), Load::wrench(moment(10.0, 0.0, 5.0))] {
+        let found = deflection(&robot, &poses, &load);
+        let slopes = derivatives(&robot, &poses, &load);
+        for (j, pose) in poses.iter().enumerate() {
+            assert_eq!(found[j], deflection(&robot, pose, &load));
+            assert_eq!(slopes[j], derivatives(&robot, pose, &load));
+        }
+        assert!(matches!(&found[1], Err(error) if error.kind() == "infeasible_tension"));
+        assert!(found[0].is_ok() && found[2].is_ok());
     }
+    assert!(deflection(&robot, &poses, &Load::none())[0].as_ref().unwrap().rms() < 1e-12);
 }
 
 #[test]
 fn a_pose_above_the_frame_is_refused_with_what_stays_open() {
-    let error = inverse(&caroca(), &Pose::at(0.0, 0.0, 5.0), &Load::none(), None).unwrap_err();
+    let error = inverse(&caroca(), &Pose::at(0.0, 0.0, 5.0), &Load::none()).unwrap_err();
     let text = error.to_string();
     assert!(
         text.starts_with(
@@ -98,10 +100,10 @@ fn a_pose_above_the_frame_is_refused_with_what_stays_open() {
 fn invalid_inputs_are_named() {
     let robot = caroca();
     let pose = Pose::at(0.0, 0.0, 1.75);
-    let lengths = inverse(&robot, &pose, &Load::none(), None).unwrap().lengths;
+    let lengths = inverse(&robot, &pose, &Load::none()).unwrap().lengths;
     let text = |result: Result<_, StaticsError>| result.unwrap_err().to_string();
     let solve = |lengths: &[f64], load: &Load, start: &Pose| {
-        direct(&robot, lengths, load, Start::Pose(start)).map(|_| ())
+        direct(&robot, lengths, load, DirectStart::Pose(start)).map(|_| ())
     };
     assert_eq!(
         text(solve(&lengths[..7], &Load::none(), &pose)),
@@ -143,7 +145,7 @@ fn poses_are_held_where_a_cable_carries_less_than_its_own_weight_or_rests_on_a_l
         robot.tension_limits.min = min;
         let share = |k: usize| (i * k % 300) as f64 / 300.0;
         let pose = Pose::at(6.4 * share(1) - 3.2, 3.4 * share(7) - 1.7, 0.3 + 2.7 * share(53));
-        let wanted = match inverse(&robot, &pose, &Load::none(), None) {
+        let wanted = match inverse(&robot, &pose, &Load::none()) {
             Ok(wanted) => wanted,
             Err(error) => {
                 assert_eq!(error.kind(), "infeasible_tension", "{error}");
@@ -155,7 +157,8 @@ fn poses_are_held_where_a_cable_carries_less_than_its_own_weight_or_rests_on_a_l
         hang_loosely += usize::from(cables.any(loose));
         at_bound += usize::from(wanted.active.iter().any(Option::is_some));
         assert!(wanted.residual.force < 1e-7, "{:?}", wanted.residual);
-        let found = direct(&robot, &wanted.lengths, &Load::none(), Start::Near(&wanted.equilibrium)).unwrap();
+        let found =
+            direct(&robot, &wanted.lengths, &Load::none(), DirectStart::Near(&wanted.equilibrium)).unwrap();
         assert!(pose.motion_to(&found.equilibrium.pose).norm() < 1e-8);
     }
     assert!(hang_loosely > 0 && at_bound > 10, "{hang_loosely} {at_bound}");
@@ -175,15 +178,16 @@ fn a_cable_that_carries_many_times_its_weight_is_not_slack_however_long_it_is() 
         cables.join(", ")
     ));
     let robot = robot.unwrap();
-    let wanted = inverse(&robot, &Pose::at(0.0, 0.0, 14.0), &Load::none(), None).unwrap();
-    let found = direct(&robot, &wanted.lengths, &Load::none(), Start::Near(&wanted.equilibrium)).unwrap();
+    let wanted = inverse(&robot, &Pose::at(0.0, 0.0, 14.0), &Load::none()).unwrap();
+    let found =
+        direct(&robot, &wanted.lengths, &Load::none(), DirectStart::Near(&wanted.equilibrium)).unwrap();
     println!("tensions {:?}", wanted.tensions);
     assert_eq!(found.report.longer_than_chord, [0, 1, 2, 3]);
     assert!(found.report.slack.is_empty(), "{:?}", found.report);
     // Fifteen metres more of one of them let it hang.
     let mut lengths = wanted.lengths.clone();
     lengths[0] += 15.0;
-    let found = direct(&robot, &lengths, &Load::none(), Start::Near(&wanted.equilibrium)).unwrap();
+    let found = direct(&robot, &lengths, &Load::none(), DirectStart::Near(&wanted.equilibrium)).unwrap();
     assert_eq!(found.report.slack, [0], "{:?}", found.equilibrium.tensions());
 }
 
@@ -192,10 +196,10 @@ fn a_slack_cable_without_weight_is_the_limit_of_a_light_one() {
     let solve = |density: f64| {
         let mut robot = caroca();
         robot.cables.iter_mut().for_each(|cable| cable.properties.linear_density = density);
-        let wanted = inverse(&robot, &Pose::at(0.0, 0.0, 1.75), &Load::none(), None).unwrap();
+        let wanted = inverse(&robot, &Pose::at(0.0, 0.0, 1.75), &Load::none()).unwrap();
         let mut lengths = wanted.lengths;
         lengths[0] *= 1.05;
-        let found = direct(&robot, &lengths, &Load::none(), Start::Near(&wanted.equilibrium)).unwrap();
+        let found = direct(&robot, &lengths, &Load::none(), DirectStart::Near(&wanted.equilibrium)).unwrap();
         assert!(found.report.slack.contains(&0));
         let linearization = DirectProblem::new(&robot, &lengths, &Load::none())
             .unwrap()
@@ -216,7 +220,7 @@ fn a_greatest_tension_below_what_a_cable_weighs_is_refused() {
     let mut robot = caroca();
     robot.tension_limits = TensionLimits { min: 0.5, max: 4.5 };
     robot.platform.mass = 0.55;
-    let error = inverse(&robot, &Pose::at(3.2, 1.7, 3.0), &Load::none(), None).unwrap_err();
+    let error = inverse(&robot, &Pose::at(3.2, 1.7, 3.0), &Load::none()).unwrap_err();
     assert!(error.kind() == "tension_too_small", "{error}");
 }
 
@@ -224,7 +228,12 @@ fn a_greatest_tension_below_what_a_cable_weighs_is_refused() {
 fn an_offset_that_is_no_number_is_named() {
     let mut offsets = [0.0; 8];
     offsets[2] = f64::NAN;
-    let error = deflection(&caroca(), &Pose::at(0.0, 0.0, 1.75), &offsets, &Load::payload(50.0)).unwrap_err();
+    let error = deflection(
+        &caroca(),
+        WantedPose::at(&Pose::at(0.0, 0.0, 1.75)).tension_offsets(&offsets),
+        &Load::payload(50.0),
+    )
+    .unwrap_err();
     assert_eq!(error.to_string(), "tension_offsets[2] is NaN: expected a finite offset [N]");
 }
 
@@ -247,7 +256,7 @@ proptest! {
         let top = robot.cables[0].exit_point;
         let pose = Pose::at(x * top.x, y * top.y, z * top.z).moved(Vector3::zeros(), turn.into());
         let load = Load::payload(payload);
-        let wanted = inverse(&robot, &pose, &load, None);
+        let wanted = inverse(&robot, &pose, &load);
         prop_assume!(wanted.is_ok());
         let wanted = wanted.unwrap();
         let forces = wanted.tensions.iter().sum::<f64>();
@@ -255,10 +264,10 @@ proptest! {
         prop_assert!(wanted.residual.closure < 1e-13 * top.norm(), "{:?}", wanted.residual);
         let start = pose.moved(
             Vector3::new(away[0], away[1], away[2]), Vector3::new(away[3], away[4], away[5]));
-        for start in [Start::Near(&wanted.equilibrium), Start::Pose(&start)] {
+        for start in [DirectStart::Near(&wanted.equilibrium), DirectStart::Pose(&start)] {
             let found = direct(&robot, &wanted.lengths, &load, start).unwrap();
             // A cable that is longer than its chord lets several equilibria exist side by side.
-            if matches!(start, Start::Near(_)) || found.report.longer_than_chord.is_empty() {
+            if matches!(start, DirectStart::Near(_)) || found.report.longer_than_chord.is_empty() {
                 assert_same_pose(&found.equilibrium.pose, &pose, 1e-9, 1e-9)?;
             }
         }
@@ -273,7 +282,7 @@ proptest! {
         robot.validate().unwrap();
         let start = Pose::at(0.2, -0.1, 1.5).moved(Vector3::zeros(), Vector3::new(0.0, 0.0, turn));
         let lengths: Vec<f64> = (0..n).map(|i| robot.span(&start, i).norm() * (1.0 + slack[i])).collect();
-        let found = direct(&robot, &lengths, &Load::none(), Start::Pose(&start)).unwrap();
+        let found = direct(&robot, &lengths, &Load::none(), DirectStart::Pose(&start)).unwrap();
         let weight = mass * 9.81;
         prop_assert!(found.report.residual.force < 1e-8 * weight, "{:?}", found.report);
         prop_assert!(found.report.residual.closure < 1e-12);
@@ -290,9 +299,9 @@ proptest! {
     ) {
         let robot = drum(n, &jitter, mass);
         let pose = Pose::at(x, y, 1.5).moved(Vector3::zeros(), Vector3::new(0.0, 0.0, turn));
-        match inverse(&robot, &pose, &Load::none(), None) {
+        match inverse(&robot, &pose, &Load::none()) {
             Ok(wanted) => {
-                let near = Start::Near(&wanted.equilibrium);
+                let near = DirectStart::Near(&wanted.equilibrium);
                 let found = direct(&robot, &wanted.lengths, &Load::none(), near).unwrap();
                 // A pose of six cables may be an unstable equilibrium: then another one is found, and said
                 // so.
@@ -321,8 +330,8 @@ proptest! {
         let (force, moment) = (Vector3::new(20.0, -30.0, -200.0), Vector3::new(5.0, 3.0, -8.0));
         let wrench = Wrench { force, moment };
         let turned_wrench = Wrench { force: turn * wrench.force, moment: turn * wrench.moment };
-        let here = deflection(&robot, &pose, &[0.0; 8], &Load::wrench(wrench)).unwrap();
-        let there = deflection(&turned, &turned_pose, &[0.0; 8], &Load::wrench(turned_wrench)).unwrap();
+        let here = deflection(&robot, &pose, &Load::wrench(wrench)).unwrap();
+        let there = deflection(&turned, &turned_pose, &Load::wrench(turned_wrench)).unwrap();
         prop_assert!((turn * here.displacement() - there.displacement()).norm() < 1e-12);
     }
 
@@ -339,8 +348,8 @@ proptest! {
         }
         let force = Vector3::new(30.0, fy, -400.0);
         let load = |force| Load::wrench(Wrench { force, moment: Vector3::zeros() });
-        let here = deflection(&robot, &Pose::at(x, y, 1.5), &[0.0; 8], &load(force)).unwrap();
-        let there = deflection(&mirrored, &Pose::at(-x, y, 1.5), &[0.0; 8], &load(mirror(&force))).unwrap();
+        let here = deflection(&robot, &Pose::at(x, y, 1.5), &load(force)).unwrap();
+        let there = deflection(&mirrored, &Pose::at(-x, y, 1.5), &load(mirror(&force))).unwrap();
         prop_assert!((mirror(&here.displacement()) - there.displacement()).norm() < 1e-12);
     }
 
@@ -351,11 +360,11 @@ proptest! {
     ) {
         let robot = caroca();
         let load = Load::payload(payload);
-        let wanted = inverse(&robot, &Pose::at(x, y, z), &load, None);
+        let wanted = inverse(&robot, &Pose::at(x, y, z), &load);
         prop_assume!(wanted.is_ok());
         let wanted = wanted.unwrap();
         let solve = |lengths: &[f64], load: &Load| {
-            direct(&robot, lengths, load, Start::Near(&wanted.equilibrium)).unwrap().equilibrium.pose
+            direct(&robot, lengths, load, DirectStart::Near(&wanted.equilibrium)).unwrap().equilibrium.pose
         };
         let pose = solve(&wanted.lengths, &load);
         let problem = DirectProblem::new(&robot, &wanted.lengths, &load).unwrap();
@@ -392,9 +401,9 @@ proptest! {
 #[test]
 fn the_start_is_not_returned_as_an_answer() {
     let robot = caroca();
-    let lengths = inverse(&robot, &Pose::at(0.0, 0.0, 1.75), &Load::none(), None).unwrap().lengths;
+    let lengths = inverse(&robot, &Pose::at(0.0, 0.0, 1.75), &Load::none()).unwrap().lengths;
     let start = Pose::at(1.0, 0.7, 0.9).moved(Vector3::zeros(), Vector3::new(0.2, 0.1, -0.2));
-    let found = direct(&robot, &lengths, &Load::none(), Start::Pose(&start)).unwrap();
+    let found = direct(&robot, &lengths, &Load::none(), DirectStart::Pose(&start)).unwrap();
     assert!(start.motion_to(&found.equilibrium.pose).norm() > 0.5);
     assert!(found.report.residual.force < 1e-8);
 }
@@ -402,9 +411,9 @@ fn the_start_is_not_returned_as_an_answer() {
 #[test]
 fn forces_that_do_not_fit_the_robot_are_refused_as_a_start() {
     let robot = caroca();
-    let wanted = inverse(&robot, &Pose::at(0.0, 0.0, 1.75), &Load::none(), None).unwrap();
+    let wanted = inverse(&robot, &Pose::at(0.0, 0.0, 1.75), &Load::none()).unwrap();
     let short = Equilibrium { pose: wanted.equilibrium.pose, cable_forces: Vec::new() };
-    let error = direct(&robot, &wanted.lengths, &Load::none(), Start::Near(&short)).unwrap_err();
+    let error = direct(&robot, &wanted.lengths, &Load::none(), DirectStart::Near(&short)).unwrap_err();
     assert_eq!(
         error.to_string(),
         "start.cable_forces is a list of 0: expected one force for each of the 8 cables"

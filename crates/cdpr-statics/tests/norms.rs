@@ -1,9 +1,7 @@
 //! The least 1-norm and infinity-norm of the tensions of sagging cables.
 
 use cdpr_robot::{Pose, Robot, TensionDistribution, TensionReference, Vector3};
-use cdpr_statics::{
-    InversePath, Load, Observer, StaticsError, deflection, derivatives, inverse, inverse_all,
-};
+use cdpr_statics::{InversePath, Load, Observer, StaticsError, WantedPose, deflection, derivatives, inverse};
 use serde_json::Value;
 
 fn robot(name: &str) -> Robot {
@@ -44,7 +42,7 @@ fn the_least_norms_are_those_of_scipy() {
         let pose = Pose { position, rotation: cdpr_robot::Rotation3::from_euler_angles(roll, pitch, yaw) };
         let robot = robot(row["robot"].as_str().unwrap());
         for (k, (distribution, norm)) in NORMS.into_iter().enumerate() {
-            let found = inverse(&choosing(&robot, distribution), &pose, &Load::none(), None).unwrap();
+            let found = inverse(&choosing(&robot, distribution), &pose, &Load::none()).unwrap();
             let (value, expected) = (norm(&found.tensions), number(&row["sagging"][k]));
             worst = worst.max((value / expected - 1.0).abs());
             println!("{} {position:?} {distribution:?}: {value} N, SciPy {expected} N", row["robot"]);
@@ -75,14 +73,14 @@ fn no_tensions_that_come_near_to_less_have_less() {
         let robot = robot(name);
         let (pose, load) = (Pose::at(x, y, z), Load::payload(2.0));
         for (distribution, norm) in NORMS {
-            let found = match inverse(&choosing(&robot, distribution), &pose, &load, None) {
+            let found = match inverse(&choosing(&robot, distribution), &pose, &load) {
                 Ok(found) => found,
                 Err(StaticsError::FreeCoordinates { .. }) if name == "four-cables.json" => continue,
                 Err(error) => panic!("{name} {distribution:?}: {error}"),
             };
             let least = norm(&found.tensions);
             println!("{name} {distribution:?}: {least} N in {} programs", found.iterations);
-            let limits = cdpr_statics::limits_at(&robot, &pose).unwrap();
+            let limits = cdpr_statics::limits::limits_at(&robot, &pose).unwrap();
             assert!(found.tensions.iter().zip(&limits).all(|(t, limits)| *t <= limits.max), "{name}");
             assert!(found.residual.force < 1e-9 * sum(&found.tensions), "{name}: {:?}", found.residual);
             for share in [0.999, 0.9, 0.5] {
@@ -90,7 +88,7 @@ fn no_tensions_that_come_near_to_less_have_less() {
                     TensionDistribution::LeastOneNorm => found.tensions.iter().map(|t| share * t).collect(),
                     _ => found.tensions.iter().map(|t| t.min(share * least)).collect(),
                 };
-                let other = inverse(&robot, &pose, &load, Some(&less)).unwrap();
+                let other = inverse(&robot, WantedPose::at(&pose).tension_reference(&less), &load).unwrap();
                 let value = norm(&other.tensions);
                 assert!(value > least * (1.0 - 1e-8), "{name} {distribution:?}: {value} N, {least} N");
             }
@@ -102,21 +100,21 @@ fn no_tensions_that_come_near_to_less_have_less() {
 fn the_least_two_norm_is_the_nearest_to_zero() {
     let (pose, load) = (Pose::at(0.5, 0.2, 2.0), Load::payload(10.0));
     let robot = robot("caroca.json");
-    let nearest = inverse(&robot, &pose, &load, None).unwrap();
+    let nearest = inverse(&robot, &pose, &load).unwrap();
     let two = choosing(&robot, TensionDistribution::LeastTwoNorm);
-    assert_eq!(inverse(&two, &pose, &load, None).unwrap(), nearest);
+    assert_eq!(inverse(&two, &pose, &load).unwrap(), nearest);
 }
 
 #[test]
 fn a_deflection_begins_with_the_tensions_that_are_chosen() {
     let pose = Pose::at(0.5, 0.2, 2.0);
     let even = choosing(&robot("caroca.json"), TensionDistribution::LeastInfinityNorm);
-    let wanted = inverse(&even, &pose, &Load::none(), None).unwrap();
-    let found = deflection(&even, &pose, &[0.0; 8], &Load::payload(50.0)).unwrap();
+    let wanted = inverse(&even, &pose, &Load::none()).unwrap();
+    let found = deflection(&even, &pose, &Load::payload(50.0)).unwrap();
     for (one, other) in found.unloaded.equilibrium.tensions().iter().zip(&wanted.tensions) {
         assert!((one - other).abs() < 1e-9 * other, "{one} {other}");
     }
-    let all = inverse_all(&even, &[pose], &Load::none()).remove(0).unwrap();
+    let all = inverse(&even, &[pose], &Load::none()).remove(0).unwrap();
     assert_eq!(all.tensions, wanted.tensions);
 }
 
@@ -125,7 +123,7 @@ fn tensions_that_cannot_hold_the_pose_are_refused_as_by_the_inverse_model() {
     let (pose, load) = (Pose::at(0.0, 0.0, 1.75), Load::payload(1e5));
     let robot = robot("caroca.json");
     for (distribution, _) in NORMS {
-        let refusal = inverse(&choosing(&robot, distribution), &pose, &load, None).unwrap_err();
+        let refusal = inverse(&choosing(&robot, distribution), &pose, &load).unwrap_err();
         assert!(matches!(refusal, StaticsError::NoTensions { refuted: true, .. }), "{refusal}");
     }
 }
@@ -136,9 +134,9 @@ fn what_follows_smooth_tensions_refuses_norms_that_jump_and_names_the_field() {
     for (distribution, _) in NORMS {
         let even = choosing(&robot("caroca.json"), distribution);
         let refusals = [
-            derivatives(&even, &pose, &[0.0; 8], &load).map(|_| ()).unwrap_err(),
+            derivatives(&even, &pose, &load).map(|_| ()).unwrap_err(),
             Observer::new(&even, &pose, &load).map(|_| ()).unwrap_err(),
-            InversePath::new(&even).solve(&pose, &load, None).map(|_| ()).unwrap_err(),
+            InversePath::new(&even).solve(&pose, &load).map(|_| ()).unwrap_err(),
         ];
         for refusal in refusals {
             assert!(
@@ -146,7 +144,11 @@ fn what_follows_smooth_tensions_refuses_norms_that_jump_and_names_the_field() {
                 "{refusal}"
             );
         }
-        assert!(InversePath::new(&even).solve(&pose, &load, Some(&[900.0; 8])).is_ok());
+        assert!(
+            InversePath::new(&even)
+                .solve(WantedPose::at(&pose).tension_reference(&[900.0; 8]), &load)
+                .is_ok()
+        );
     }
 }
 

@@ -6,7 +6,8 @@ use crate::free_coordinates::with_few_cables;
 use crate::observer::{compared, rows_by_size};
 use cdpr_cable::{PiecewiseLaw, Segment};
 use cdpr_robot::{Coordinate, Parameter, Pose, Pulley, Robot, Rotation3, TensionLimits, Vector3, library};
-use cdpr_statics::{Load, Observation, ObservationMotion, Observer, ScalarReason, deflection_free, held_at};
+use cdpr_statics::batch::{Observation, ObservationMotion, ScalarReason};
+use cdpr_statics::{Load, Observer, WantedPose, deflection, inverse};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
@@ -65,7 +66,7 @@ fn longest(robot: &Robot, pose: &Pose) -> f64 {
 fn left(Few { robot, pose, free }: &Few) -> usize {
     let load = Load::payload(0.1 * robot.platform.mass);
     let rows = rows_by_size(robot, pose, 200, 0.1, 11);
-    let observer = Observer::with_free(robot, pose, &load, free).unwrap();
+    let observer = Observer::new(robot, WantedPose::at(pose).free(free), &load).unwrap();
     // Platforms on few cables are soft.
     let (left, failed) = compared(robot, &observer, &rows, 1e-12 * longest(robot, pose));
     println!("{}: {left} of 200 left to the scalar models, {failed} failed there", robot.name);
@@ -121,8 +122,9 @@ fn an_answer_has_the_free_coordinates_of_a_search_from_the_nominal_robots() {
     for Few { robot, pose, free } in robots() {
         let load = Load::payload(0.1 * robot.platform.mass);
         let rows = rows_by_size(&robot, &pose, 20, 0.1, 12);
-        let observer = Observer::with_free(&robot, &pose, &load, &free).unwrap();
-        let wanted = held_at(&robot, &pose, &Load::none(), &free).unwrap().equilibrium.pose;
+        let observer = Observer::new(&robot, WantedPose::at(&pose).free(&free), &load).unwrap();
+        let wanted =
+            inverse(&robot, WantedPose::at(&pose).free(&free), &Load::none()).unwrap().equilibrium.pose;
         assert_eq!(observer.pose(), &wanted);
         let longest = longest(&robot, &pose);
         let motions = observed::<ObservationMotion>(&observer, &rows);
@@ -134,7 +136,9 @@ fn an_answer_has_the_free_coordinates_of_a_search_from_the_nominal_robots() {
             let (found, moved) = (found.unwrap(), moved.unwrap());
             let perturbed = robot.perturbed(row).unwrap();
             let (robot, offsets) = (&perturbed.robot, &perturbed.tension_offsets);
-            let alone = deflection_free(robot, &wanted, offsets, &load, &free).unwrap();
+            let alone =
+                deflection(robot, WantedPose::at(&wanted).free(&free).tension_offsets(offsets), &load)
+                    .unwrap();
             let error = (found.displacement - alone.displacement()).norm();
             assert!(error < 1e-11 * longest, "{}: {error:e} m", robot.name);
             assert_eq!(moved.observation, found);
@@ -156,20 +160,24 @@ fn what_lanes_do_not_know_is_left_with_its_reason() {
     let load = Load::payload(9.0);
     let width = Parameter::of(&robot).len();
     let why = |robot: &Robot, free: &[Coordinate], row: &[f64]| {
-        let found = observed::<Observation>(&Observer::with_free(robot, &pose, &load, free).unwrap(), row);
+        let found = observed::<Observation>(
+            &Observer::new(robot, WantedPose::at(&pose).free(free), &load).unwrap(),
+            row,
+        );
         found[0].as_ref().unwrap().scalar
     };
     assert_eq!(why(&robot, &free, &vec![0.0; width]), None);
     // A centre of mass with which the platform turns by more than a solution beside the nominal one may.
     let centre = Parameter::of(&robot).iter().position(|one| matches!(one, Parameter::CenterOfMass(_)));
-    let wanted = held_at(&robot, &pose, &Load::none(), &free).unwrap().equilibrium.pose;
+    let wanted = inverse(&robot, WantedPose::at(&pose).free(&free), &Load::none()).unwrap().equilibrium.pose;
     let shifted = |k: i32| {
         let mut row = vec![0.0; width];
         row[centre.unwrap()] = 0.02 * f64::from(k);
         row
     };
     let turns = |row: &Vec<f64>| {
-        let found = held_at(&robot.perturbed(row).unwrap().robot, &wanted, &Load::none(), &free);
+        let found =
+            inverse(&robot.perturbed(row).unwrap().robot, WantedPose::at(&wanted).free(&free), &Load::none());
         found.is_ok_and(|found| wanted.rotation.angle_to(&found.equilibrium.pose.rotation) > 0.0301)
     };
     let row = (1..20).map(shifted).find(turns).unwrap();
@@ -177,7 +185,7 @@ fn what_lanes_do_not_know_is_left_with_its_reason() {
     // Limits within which four cables do not carry the platform: every rest is beyond them.
     let mut limited = robot.clone();
     limited.tension_limits.max = 0.2 * robot.platform.mass * robot.gravity.magnitude();
-    let error = Observer::with_free(&limited, &pose, &load, &free).unwrap_err();
+    let error = Observer::new(&limited, WantedPose::at(&pose).free(&free), &load).unwrap_err();
     assert_eq!(error.kind(), "infeasible_tension");
     // The ground, where it is so near that lanes cannot tell, and where the base may be tilted.
     let lowest = robot.cables.iter().map(|cable| (wanted.position + wanted.rotation * cable.anchor_point).z);
@@ -187,7 +195,10 @@ fn what_lanes_do_not_know_is_left_with_its_reason() {
     let up = Parameter::of(&robot).iter().position(|one| matches!(one, Parameter::AnchorPoint(..)));
     let mut row = vec![0.0; width];
     row[up.unwrap() + 2] = -0.2;
-    let found = observed::<Observation>(&Observer::with_free(&grounded, &pose, &load, &free).unwrap(), &row);
+    let found = observed::<Observation>(
+        &Observer::new(&grounded, WantedPose::at(&pose).free(&free), &load).unwrap(),
+        &row,
+    );
     assert!(found[0].is_err() || found[0].as_ref().unwrap().scalar == Some(ScalarReason::FreeCoordinates));
     grounded.gravity = Vector3::new(0.0, 0.0, -9.81).into();
     let row = vec![0.0; Parameter::of(&grounded).len()];
@@ -195,11 +206,11 @@ fn what_lanes_do_not_know_is_left_with_its_reason() {
     // A plane is one of the base frame, which gravity as a vector may tilt.
     let [(mut planar, at, free, payload), ..] = with_few_cables();
     planar.gravity = Vector3::new(0.0, 0.0, -9.81).into();
-    let observer = Observer::with_free(&planar, &at, &Load::payload(payload), &free).unwrap();
+    let observer = Observer::new(&planar, WantedPose::at(&at).free(&free), &Load::payload(payload)).unwrap();
     let found = observed::<Observation>(&observer, &vec![0.0; Parameter::of(&planar).len()]);
     assert_eq!(found[0].as_ref().unwrap().scalar, Some(ScalarReason::FewCables));
     // Names are checked.
-    let error = Observer::with_free(&robot, &pose, &load, &[Yaw]).unwrap_err();
+    let error = Observer::new(&robot, WantedPose::at(&pose).free(&[Yaw]), &load).unwrap_err();
     assert_eq!(error.kind(), "free_coordinates");
 }
 
@@ -228,13 +239,13 @@ fn outcomes(seed: u64) -> Vec<(String, f64)> {
     let weight = robot.platform.mass * robot.gravity.magnitude();
     robot.tension_limits = TensionLimits { min: 1e-4 * weight, max: 1e2 * weight };
     robot.cables.iter_mut().for_each(|cable| cable.tension_limits = Default::default());
-    let observer = match Observer::with_free(&robot, &pose, &load, &free) {
+    let observer = match Observer::new(&robot, WantedPose::at(&pose).free(&free), &load) {
         Ok(observer) => observer,
         Err(error) => return vec![(format!("nominal: {}", error.kind()), 0.0)],
     };
     let longest = longest(&robot, &pose);
     let rows = rows_by_size(&robot, &pose, 8, 0.1, seed);
-    let outcome = |(row, found): (&[f64], &Result<cdpr_statics::Observation, _>)| match found {
+    let outcome = |(row, found): (&[f64], &Result<cdpr_statics::batch::Observation, _>)| match found {
         Err(error) => (format!("failed: {}", cdpr_statics::StaticsError::kind(error)), 0.0),
         Ok(found) => match (found.scalar, alone::<Observation>(&observer, row)) {
             (Some(why), _) => (format!("scalar: {}", why.name()), 0.0),

@@ -3,7 +3,8 @@
 use crate::any_lanes::case;
 use crate::common::{alone, observed, robots};
 use cdpr_robot::{Parameter, Pose, Robot, Vector3};
-use cdpr_statics::{Load, Observation, ObservationMotion, Observer};
+use cdpr_statics::batch::{Observation, ObservationMotion};
+use cdpr_statics::{Load, Observer};
 use rayon::prelude::*;
 
 /// Random robots.

@@ -4,7 +4,8 @@ use crate::any_lanes::{Case, case};
 use crate::common::{alone, caroca, observed, points_and_planar, robots};
 use cdpr_cable::{PiecewiseLaw, Segment};
 use cdpr_robot::{CableEnd, Parameter, Pose, Pulley, Robot, Vector3, library};
-use cdpr_statics::{Load, Observation, ObservationSlopes, Observer, ScalarReason};
+use cdpr_statics::batch::{Observation, ObservationSlopes, ScalarReason};
+use cdpr_statics::{Load, Observer};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
@@ -33,7 +34,7 @@ fn compare(robot: &Robot, pose: &Pose, load: &Load, rows: &[f64]) -> Vec<(&'stat
     let observed = observed::<Observation>(&observer, rows);
     assert_eq!(found.len(), observed.len());
     let outcome = |((row, observed), found): ((&[f64], _), &Result<_, _>)| {
-        let (observed, found): (&Result<_, _>, &cdpr_statics::ObservationSlopes) = match found {
+        let (observed, found): (&Result<_, _>, &cdpr_statics::batch::ObservationSlopes) = match found {
             Ok(found) => (observed, found),
             Err(error) => return (cdpr_statics::StaticsError::kind(error), 0.0),
         };
@@ -226,7 +227,7 @@ fn a_greatest_tension_at_the_exit_point_has_slopes_in_lanes_but_for_pulleys() {
             let pulley = Pulley { radius: 0.1, axis: Vector3::z() };
             (cable.pulley, cable.lead) = (pulleys.then_some(pulley), 1.0);
         }
-        let free = cdpr_statics::inverse(&robot, &pose, &Load::none(), None).unwrap();
+        let free = cdpr_statics::inverse(&robot, &pose, &Load::none()).unwrap();
         let tightest =
             (0..free.tensions.len()).max_by(|a, b| free.tensions[*a].total_cmp(&free.tensions[*b])).unwrap();
         let own = &mut robot.cables[tightest].tension_limits;

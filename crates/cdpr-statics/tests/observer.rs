@@ -5,9 +5,8 @@ use cdpr_robot::{
     CableEnd, Deviations, Parameter, ParameterLayout, Pose, Pulley, Robot, RobotError, TensionReference,
     Vector3, library,
 };
-use cdpr_statics::{
-    Load, Observation, ObservationMotion, ObservationSlopes, Observer, Residual, ScalarReason, StaticsError,
-};
+use cdpr_statics::batch::{Observation, ObservationMotion, ObservationSlopes, ScalarReason};
+use cdpr_statics::{Load, Observer, Residual, StaticsError};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use std::collections::BTreeMap;
@@ -108,7 +107,7 @@ fn lanes_prefer_the_same_tensions_and_keep_the_same_limits() {
         assert_eq!(differ.count(), 300, "{}", robot.name);
         // Limits that some of the perturbed robots reach by their offsets, and some do not.
         robot.tension_reference = Some(TensionReference::All(reference));
-        let free = cdpr_statics::inverse(&robot, &pose, &Load::none(), None).unwrap();
+        let free = cdpr_statics::inverse(&robot, &pose, &Load::none()).unwrap();
         let tightest =
             (0..free.tensions.len()).max_by(|a, b| free.tensions[*a].total_cmp(&free.tensions[*b])).unwrap();
         for end in [CableEnd::Anchor, CableEnd::Exit] {
@@ -202,7 +201,7 @@ fn robots_of_the_library_stay_in_the_lanes_wherever_they_stand() {
         };
         let poses: Vec<Pose> = (0..200)
             .map(|_| Pose { position: position(), ..Pose::at(0.0, 0.0, 0.0) })
-            .filter(|pose| cdpr_statics::inverse(&robot, pose, &Load::none(), None).is_ok())
+            .filter(|pose| cdpr_statics::inverse(&robot, pose, &Load::none()).is_ok())
             .take(20)
             .collect();
         let (mut left, mut failed, mut reasons) = (0, 0, BTreeMap::<&str, usize>::new());
@@ -286,7 +285,7 @@ fn a_greatest_tension_at_the_leave_point_of_a_pulley_is_kept_in_lanes() {
         }
         let load = Load::payload(0.2 * robot.platform.mass);
         let rows = rows(&robot, 200, 0.5, 5);
-        let free = cdpr_statics::inverse(&robot, &pose, &Load::none(), None).unwrap();
+        let free = cdpr_statics::inverse(&robot, &pose, &Load::none()).unwrap();
         let tightest =
             (0..free.tensions.len()).max_by(|a, b| free.tensions[*a].total_cmp(&free.tensions[*b])).unwrap();
         let own = &mut robot.cables[tightest].tension_limits;

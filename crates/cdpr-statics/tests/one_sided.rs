@@ -3,7 +3,8 @@
 use crate::common::robots;
 use crate::derivatives::{Case, column};
 use cdpr_robot::{Parameter, ParameterLayout};
-use cdpr_statics::{AtBound, Bound, Derivatives, InverseSolution, Load, derivatives, inverse};
+use cdpr_statics::derivatives::AtBound;
+use cdpr_statics::{Bound, Derivatives, InverseSolution, Load, WantedPose, derivatives, inverse};
 use nalgebra::DVector;
 use std::collections::BTreeMap;
 
@@ -42,7 +43,9 @@ fn one_sided(case: &Case, exact: &Derivatives, input: usize, sign: f64) -> Vec<O
 
 /// Checks every input on both sides; returns the names of the one-sided parameters with their cables.
 fn check(title: &str, case: &Case) -> BTreeMap<String, Vec<AtBound>> {
-    let exact = derivatives(&case.robot, &case.pose, &case.offsets, &case.load).unwrap();
+    let exact =
+        derivatives(&case.robot, WantedPose::at(&case.pose).tension_offsets(&case.offsets), &case.load)
+            .unwrap();
     let right = exact.right();
     let (names, _) = case.outputs(&exact.deflection).unwrap();
     let (mut compared, mut worst) = (0, 0.0_f64);
@@ -85,9 +88,9 @@ fn check(title: &str, case: &Case) -> BTreeMap<String, Vec<AtBound>> {
 /// Each robot at its pose, with the tensions of the inverse model for low limits, and the cable of the least
 /// tension that rests on no limit.
 fn cases() -> Vec<(Case, Vec<f64>, usize)> {
-    let case = |(mut robot, pose): (cdpr_robot::Robot, _)| {
+    let case = |(mut robot, pose): (cdpr_robot::Robot, cdpr_robot::Pose)| {
         robot.tension_limits.min *= 0.1;
-        let InverseSolution { tensions, active, .. } = inverse(&robot, &pose, &Load::none(), None).unwrap();
+        let InverseSolution { tensions, active, .. } = inverse(&robot, &pose, &Load::none()).unwrap();
         let free = (0..tensions.len()).filter(|i| active[*i].is_none());
         let least = free.min_by(|i, j| tensions[*i].total_cmp(&tensions[*j])).unwrap();
         let load = Load::payload(0.2 * robot.platform.mass);
@@ -112,13 +115,15 @@ fn an_offset_of_a_cable_on_its_least_tension_acts_when_it_grows() {
             continue;
         }
         case.robot.tension_limits.min = 1.01 * tensions[least];
-        let active = inverse(&case.robot, &case.pose, &Load::none(), None).unwrap().active;
+        let active = inverse(&case.robot, &case.pose, &Load::none()).unwrap().active;
         let found = check("on its least tension", &case);
         assert!(offsets_of_cables_at_bounds(&found));
         assert_eq!(found.len(), active.iter().flatten().count());
         robots += 1;
 
-        let exact = derivatives(&case.robot, &case.pose, &case.offsets, &case.load).unwrap();
+        let exact =
+            derivatives(&case.robot, WantedPose::at(&case.pose).tension_offsets(&case.offsets), &case.load)
+                .unwrap();
         let cable = active.iter().position(Option::is_some).unwrap();
         let dt = ParameterLayout::of(&case.robot).tension_offset(cable);
         assert_eq!(exact.lengths.column(dt).amax(), 0.0);
@@ -141,7 +146,12 @@ fn where_a_bound_is_reached_without_a_multiplier_every_input_has_two_sides() {
         // With two cables on their least tension and one that reaches its greatest five are left, which
         // decide nothing.
         if on_limit {
-            let refused = derivatives(&case.robot, &case.pose, &case.offsets, &case.load).unwrap_err();
+            let refused = derivatives(
+                &case.robot,
+                WantedPose::at(&case.pose).tension_offsets(&case.offsets),
+                &case.load,
+            )
+            .unwrap_err();
             assert_eq!(refused.kind(), "no_derivative");
             continue;
         }

@@ -3,7 +3,7 @@
 use crate::common::{caroca, cogiro};
 use crate::drawn::{Drawn, drawn};
 use cdpr_robot::{Pose, Robot, Vector3};
-use cdpr_statics::{InversePath, Load, PathSolution, StaticsError, inverse};
+use cdpr_statics::{InversePath, Load, PathSolution, StaticsError, WantedPose, inverse};
 
 fn robot(text: &str) -> Robot {
     Robot::from_json(text).unwrap()
@@ -17,7 +17,7 @@ type Answer = Result<PathSolution, StaticsError>;
 
 fn along(robot: &Robot, poses: &[Pose], load: &Load) -> Vec<Answer> {
     let mut path = InversePath::new(robot);
-    poses.iter().map(|pose| path.solve(pose, load, None)).collect()
+    poses.iter().map(|pose| path.solve(pose, load)).collect()
 }
 
 /// Poses on a line, `steps` steps apart.
@@ -105,7 +105,7 @@ fn a_path_goes_on_after_a_pose_that_is_not_held() {
     let answers = along(&robot, &poses, &Load::none());
     assert!(matches!(answers[1], Err(StaticsError::NoTensions { .. })));
     let last = answers[2].as_ref().unwrap();
-    let alone = inverse(&robot, &poses[2], &Load::none(), None).unwrap();
+    let alone = inverse(&robot, &poses[2], &Load::none()).unwrap();
     assert!(!last.jump);
     for (a, b) in last.solution.lengths.iter().zip(&alone.lengths) {
         assert!((a - b).abs() < 1e-12 * a);
@@ -121,8 +121,8 @@ fn a_path_leads_through_rotations_loads_and_references() {
         let pose = Pose::at(1.0, -0.5, 1.5).moved(Vector3::zeros(), Vector3::new(0.0, 0.1, 0.2) * share);
         let load = Load::payload(100.0 * share);
         let reference = vec![300.0 * share; 8];
-        let found = path.solve(&pose, &load, Some(&reference)).unwrap();
-        let alone = inverse(&robot, &pose, &load, Some(&reference)).unwrap();
+        let found = path.solve(WantedPose::at(&pose).tension_reference(&reference), &load).unwrap();
+        let alone = inverse(&robot, WantedPose::at(&pose).tension_reference(&reference), &load).unwrap();
         assert!(!found.jump && found.solution.residual.force < 1e-9);
         for (a, b) in found.solution.tensions.iter().zip(&alone.tensions) {
             assert!((a - b).abs() < 1e-9 * alone.tensions.iter().sum::<f64>(), "{k}: {a} {b}");

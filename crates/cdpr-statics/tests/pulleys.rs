@@ -8,7 +8,8 @@ use cdpr_robot::{
     CableEnd, CableProperties, Platform, Pose, Pulley, Robot, RobotCable, Rotation3, TensionLimits, Vector3,
     Wrench,
 };
-use cdpr_statics::{DirectProblem, Load, Start, deflection, direct, inverse, stiffness_at};
+use cdpr_statics::stiffness::stiffness_at;
+use cdpr_statics::{DirectProblem, DirectStart, Load, WantedPose, deflection, direct, inverse};
 use nalgebra::Matrix6;
 use serde_json::Value;
 
@@ -55,7 +56,7 @@ fn equilibria_over_pulleys_match_arithmetic_of_20_digits() {
         let start =
             Pose { position: vector(&case["start_position"]), rotation: rotation(&case["start_rotation"]) };
         let expected = Pose { position: vector(&case["position"]), rotation: rotation(&case["rotation"]) };
-        let solution = direct(&robot, &lengths, &load, Start::Pose(&start)).unwrap();
+        let solution = direct(&robot, &lengths, &load, DirectStart::Pose(&start)).unwrap();
         let motion = expected.motion_to(&solution.equilibrium.pose);
         let (position, angle) = (motion.fixed_rows::<3>(0).norm(), motion.fixed_rows::<3>(3).norm());
         let of_cables = |name: &str| -> Vec<f64> {
@@ -80,7 +81,7 @@ fn equilibria_over_pulleys_match_arithmetic_of_20_digits() {
         assert!(solution.stability.is_stable());
         // The inverse model asks for those very tensions and finds those lengths.
         let pose = solution.equilibrium.pose;
-        let held = inverse(&robot, &pose, &load, Some(&tensions)).unwrap();
+        let held = inverse(&robot, WantedPose::at(&pose).tension_reference(&tensions), &load).unwrap();
         for (i, (found, length)) in held.lengths.iter().zip(&lengths).enumerate() {
             assert!((found - length).abs() < 1e-9 * length, "{line}: length {i} {found} {length}");
         }
@@ -135,8 +136,8 @@ fn nothing_depends_on_the_base_frame() {
         let moment = Vector3::new(3.0, -2.0, 1.0);
         let wrench = Wrench { force: Vector3::new(20.0, 10.0, -5.0), moment };
         let load = Load { payload: 10.0, wrench };
-        let expected = deflection(&robot, &pose, &vec![0.0; robot.cables.len()], &load).unwrap();
-        let stiffness = stiffness_at(&robot, &pose, &load, &[]).unwrap();
+        let expected = deflection(&robot, &pose, &load).unwrap();
+        let stiffness = stiffness_at(&robot, &pose, &load).unwrap();
         for rotation in [
             Rotation3::from_euler_angles(0.02, -0.03, 0.5),
             Rotation3::from_euler_angles(1.2, 0.3, -2.0),
@@ -147,7 +148,7 @@ fn nothing_depends_on_the_base_frame() {
                 |pose: &Pose| Pose { position: rotation * pose.position, rotation: rotation * pose.rotation };
             let wrench = Wrench { force: rotation * wrench.force, moment: rotation * wrench.moment };
             let load = Load { wrench, ..load };
-            let found = deflection(&other, &at(&pose), &vec![0.0; robot.cables.len()], &load).unwrap();
+            let found = deflection(&other, &at(&pose), &load).unwrap();
             for (one, two) in expected.lengths.iter().zip(&found.lengths) {
                 assert!((one - two).abs() < 1e-11 * one, "{}: {one} {two}", robot.name);
             }
@@ -156,7 +157,7 @@ fn nothing_depends_on_the_base_frame() {
                 assert!(off < 1e-10 * robot.platform_size(), "{}: {off:e}", robot.name);
             }
             // The stiffness turns with the base.
-            let two = stiffness_at(&other, &at(&pose), &load, &[]).unwrap();
+            let two = stiffness_at(&other, &at(&pose), &load).unwrap();
             let mut turn = Matrix6::zeros();
             for block in [0, 3] {
                 turn.fixed_view_mut::<3, 3>(block, block).copy_from(rotation.matrix());
@@ -180,7 +181,7 @@ fn pulleys_and_leads_of_caroca_deflect_as_an_independent_program_says() {
     for ([x, y, z], radius, expected) in cases {
         for (lead, expected) in [0.0, 1.0, 3.0].into_iter().zip(expected) {
             let robot = led(caroca(), radius, lead);
-            let found = deflection(&robot, &Pose::at(x, y, z), &[0.0; 8], &Load::payload(50.0)).unwrap();
+            let found = deflection(&robot, &Pose::at(x, y, z), &Load::payload(50.0)).unwrap();
             let found = 1e3 * found.displacement().norm();
             // Printed to a micrometre, from tensions that differ by a few tenths of a newton.
             assert!(
@@ -195,10 +196,10 @@ fn pulleys_and_leads_of_caroca_deflect_as_an_independent_program_says() {
 fn a_robot_with_pulleys_is_found_again_from_its_lengths() {
     for (robot, pose) in [(caroca(), Pose::at(1.2, -0.7, 2.0)), (cogiro(), Pose::at(-1.0, 2.0, 2.0))] {
         let robot = led(robot, 0.06, 2.5);
-        let held = inverse(&robot, &pose, &Load::none(), None).unwrap();
+        let held = inverse(&robot, &pose, &Load::none()).unwrap();
         assert!(held.stationarity < 1e-9);
         let start = pose.moved(Vector3::new(0.3, -0.2, 0.1), Vector3::new(0.05, 0.1, -0.1));
-        let found = direct(&robot, &held.lengths, &Load::none(), Start::Pose(&start)).unwrap();
+        let found = direct(&robot, &held.lengths, &Load::none(), DirectStart::Pose(&start)).unwrap();
         assert!(pose.motion_to(&found.equilibrium.pose).norm() < 1e-11);
     }
 }
@@ -207,8 +208,7 @@ fn a_robot_with_pulleys_is_found_again_from_its_lengths() {
 fn no_radius_and_no_lead_change_no_bit() {
     let pose = Pose::at(1.2, -0.7, 2.0);
     let (plain, led) = (caroca(), led(caroca(), 0.0, 0.0));
-    let [a, b] =
-        [&plain, &led].map(|robot| deflection(robot, &pose, &[0.0; 8], &Load::payload(50.0)).unwrap());
+    let [a, b] = [&plain, &led].map(|robot| deflection(robot, &pose, &Load::payload(50.0)).unwrap());
     assert_eq!(a.displacement(), b.displacement());
     assert_eq!(a.lengths, b.lengths);
 }

@@ -2,7 +2,7 @@
 
 use crate::equilibria::{number, robot, vector};
 use cdpr_robot::{Matrix3, Pose, Rotation3, Vector3, Wrench};
-use cdpr_statics::{DirectProblem, Load, Start, direct};
+use cdpr_statics::{DirectProblem, DirectStart, Load, direct};
 use serde_json::Value;
 
 pub(crate) fn rotation(value: &Value) -> Rotation3<f64> {
@@ -23,7 +23,7 @@ fn equilibria_match_40_digit_arithmetic() {
         let start =
             Pose { position: vector(&case["start_position"]), rotation: rotation(&case["start_rotation"]) };
         let expected = Pose { position: vector(&case["position"]), rotation: rotation(&case["rotation"]) };
-        let solution = match direct(&robot, &lengths, &Load::wrench(wrench), Start::Pose(&start)) {
+        let solution = match direct(&robot, &lengths, &Load::wrench(wrench), DirectStart::Pose(&start)) {
             Ok(solution) => solution,
             Err(error) => {
                 failures.push(format!("{}: {error}", robot.name));

@@ -7,7 +7,7 @@ use cdpr_robot::{
     CableProperties, Coordinate, Matrix3, Parameter, Platform, Pose, Robot, RobotCable, Vector3, Vector6,
 };
 use cdpr_statics::{
-    Derivatives, DirectProblem, Load, StaticsError, deflection_free, derivatives_free, held_at,
+    Derivatives, DirectProblem, Load, StaticsError, WantedPose, deflection, derivatives, inverse,
 };
 
 /// A robot with the inertia of a ball of the size of its platform, unless it has one.
@@ -34,8 +34,7 @@ impl Case {
     }
 
     fn derivatives(&self) -> Result<Derivatives, StaticsError> {
-        let offsets = vec![0.0; self.robot.cables.len()];
-        derivatives_free(&self.robot, &self.pose, &offsets, &Load::payload(self.payload), &self.free)
+        derivatives(&self.robot, WantedPose::at(&self.pose).free(&self.free), &Load::payload(self.payload))
     }
 
     /// Frequency [Hz] and stiffness [N/m] in (dp, `length` dφ), if one input is moved.
@@ -51,7 +50,12 @@ impl Case {
         let moved = self.robot.perturbed(&deviations).unwrap();
         let load = Load::payload(payload);
         let pose = self.pose.moved(motion.fixed_rows::<3>(0).into(), motion.fixed_rows::<3>(3).into());
-        let found = deflection_free(&moved.robot, &pose, &moved.tension_offsets, &load, &self.free).unwrap();
+        let found = deflection(
+            &moved.robot,
+            WantedPose::at(&pose).free(&self.free).tension_offsets(&moved.tension_offsets),
+            &load,
+        )
+        .unwrap();
         let problem = DirectProblem::new(&moved.robot, &found.lengths, &load).unwrap();
         let frequency = problem.lowest_frequency(&found.loaded.equilibrium).unwrap();
         let problem = problem.with_characteristic_length(length);
@@ -153,7 +157,8 @@ fn they_change_over_pulleys_and_on_a_base_that_is_not_level_as_differences_say()
 fn they_change_with_few_cables_as_differences_say() {
     for (robot, pose, free, payload) in with_few_cables() {
         // Beside a rest of the platform the search is short.
-        let rest = held_at(&robot, &pose, &Load::none(), &free).unwrap().equilibrium.pose;
+        let rest =
+            inverse(&robot, WantedPose::at(&pose).free(&free), &Load::none()).unwrap().equilibrium.pose;
         let (compared, _) = check(&Case { free, ..Case::of(robot, rest, payload) });
         assert!(compared >= 30, "{compared}");
     }

@@ -3,15 +3,19 @@
 use crate::common::{caroca, cogiro, observed};
 use cdpr_cable::MAX_STRAIN;
 use cdpr_robot::{ParameterLayout, Pose, Pulley, Robot, Vector3, Wrench};
+use cdpr_statics::batch::{LoadedPose, Observation, loaded_poses};
+use cdpr_statics::capacity::{greatest_payload, tension_margin};
+use cdpr_statics::free_coordinates::free_solutions;
+use cdpr_statics::stiffness::stiffness_at;
+use cdpr_statics::vibration::modes_at;
 use cdpr_statics::{
-    InversePath, Load, Observation, Observer, Start, StaticsError, Tracker, deflection, derivatives, direct,
-    greatest_payload, held_at, inverse, inverse_all, inverse_free, is_held, loaded_poses, modes_at,
-    stiffness_at, tension_margin,
+    DirectStart, InversePath, Load, Observer, StaticsError, Tracker, deflection, derivatives, direct,
+    inverse, is_held,
 };
 
 /// Cables so soft that the tensions of a pose strain them by a multiple of what the models hold for.
 fn soft(mut robot: Robot, pose: &Pose, times: f64) -> Robot {
-    let found = inverse(&robot, pose, &Load::none(), None).unwrap();
+    let found = inverse(&robot, pose, &Load::none()).unwrap();
     let greatest = found.tensions.iter().copied().fold(0.0, f64::max);
     for cable in &mut robot.cables {
         cable.properties.youngs_modulus *=
@@ -42,15 +46,15 @@ fn no_model_answers_beyond_the_strain_that_it_holds_for() {
             let deviations = vec![0.0; 3 * ParameterLayout::of(robot).count()];
             let mut path = InversePath::new(robot);
             kinds(vec![
-                ("inverse", inverse(robot, &pose, &none, None).err()),
-                ("a path", path.solve(&pose, &none, None).err()),
-                ("at rest", held_at(robot, &pose, &none, &[]).err()),
-                ("free coordinates", inverse_free(robot, &pose, &none, &[]).err()),
-                ("a map", inverse_all(robot, &[pose; 3], &none).remove(2).err()),
-                ("deflection", deflection(robot, &pose, &[0.0; 8], &load).err()),
-                ("derivatives", derivatives(robot, &pose, &[0.0; 8], &load).err()),
-                ("stiffness", stiffness_at(robot, &pose, &none, &[]).err()),
-                ("modes", modes_at(robot, &pose, &none, &[]).err()),
+                ("inverse", inverse(robot, &pose, &none).err()),
+                ("a path", path.solve(&pose, &none).err()),
+                ("at rest", inverse(robot, &pose, &none).err()),
+                ("free coordinates", free_solutions(robot, &pose, &none).err()),
+                ("a map", inverse(robot, &[pose; 3], &none).remove(2).err()),
+                ("deflection", deflection(robot, &pose, &load).err()),
+                ("derivatives", derivatives(robot, &pose, &load).err()),
+                ("stiffness", stiffness_at(robot, &pose, &none).err()),
+                ("modes", modes_at(robot, &pose, &none).err()),
                 ("an observation", observed::<Observation>(&observer, &deviations).remove(1).err()),
             ]);
             assert_eq!(is_held(robot, &pose, &none), Ok(false));
@@ -62,18 +66,21 @@ fn no_model_answers_beyond_the_strain_that_it_holds_for() {
 fn an_answer_just_within_the_strain_stands() {
     let pose = Pose::at(0.4, -0.3, 1.6);
     let robot = &soft(caroca(), &pose, 0.9);
-    let found = inverse(robot, &pose, &Load::none(), None).unwrap();
+    let found = inverse(robot, &pose, &Load::none()).unwrap();
     let tensions = found.equilibrium.exit_tensions(robot, &found.lengths);
     let strains = tensions.iter().enumerate().map(|(i, tension)| robot.cable(i).strain(*tension));
     let greatest = strains.fold(0.0, f64::max);
     assert!(greatest > 0.08 && greatest < MAX_STRAIN, "{greatest}");
     assert_eq!(is_held(robot, &pose, &Load::none()), Ok(true));
-    assert!(loaded_poses(robot, &[&found], &Load::none())[0].is_ok());
+    assert!(loaded_poses::<LoadedPose>(robot, &[&found], &Load::none())[0].is_ok());
     // More load strains more.
     let load = Load::payload(200.0);
-    let start = Start::Near(&found.equilibrium);
+    let start = DirectStart::Near(&found.equilibrium);
     assert_eq!(direct(robot, &found.lengths, &load, start).unwrap_err().kind(), "cable_overstrained");
-    assert_eq!(loaded_poses(robot, &[&found], &load).remove(0).unwrap_err().kind(), "cable_overstrained");
+    assert_eq!(
+        loaded_poses::<LoadedPose>(robot, &[&found], &load).remove(0).unwrap_err().kind(),
+        "cable_overstrained"
+    );
     let mut tracker = Tracker::new(robot, &found.lengths, &Load::none(), &found.equilibrium).unwrap();
     assert_eq!(tracker.update(&found.lengths, &load).unwrap_err().kind(), "cable_overstrained");
 }
@@ -83,7 +90,7 @@ fn payloads_and_margins_with_tensions_distributed_anew_have_the_same_bound() {
     let pose = Pose::at(1.0, -0.5, 2.0);
     let robot = soft(cogiro(), &pose, 0.9);
     for found in
-        [greatest_payload(&robot, &pose, &Wrench::zero()), tension_margin(&robot, &pose, &Load::none())]
+        [greatest_payload(&robot, &pose, &Wrench::none()), tension_margin(&robot, &pose, &Load::none())]
     {
         let found = found.unwrap();
         let tensions = found.equilibrium.exit_tensions(&robot, &found.lengths);
@@ -91,5 +98,5 @@ fn payloads_and_margins_with_tensions_distributed_anew_have_the_same_bound() {
     }
     // Where the platform's own weight strains cables too much, nothing is carried.
     let robot = soft(cogiro(), &pose, 1.1);
-    assert_eq!(greatest_payload(&robot, &pose, &Wrench::zero()).unwrap_err().kind(), "cable_overstrained");
+    assert_eq!(greatest_payload(&robot, &pose, &Wrench::none()).unwrap_err().kind(), "cable_overstrained");
 }

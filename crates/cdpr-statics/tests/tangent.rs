@@ -3,7 +3,8 @@
 use crate::common::robots;
 use cdpr_cable::end_force;
 use cdpr_robot::{Pose, Robot, Vector2, Vector3, Vector6, Wrench};
-use cdpr_statics::{DirectProblem, Load, Start, inverse, stiffness_at};
+use cdpr_statics::stiffness::stiffness_at;
+use cdpr_statics::{DirectProblem, DirectStart, Load, inverse};
 use nalgebra::Matrix6;
 
 /// The wrench on the platform at a pose, of the cables with these lengths, the weight and the load.
@@ -30,8 +31,8 @@ fn the_stiffness_is_the_derivative_of_the_balance_under_a_moment() {
             let moment = share * force * size * Vector3::new(1.0, -0.6, 0.8);
             let wrench = Wrench { force: share * force * Vector3::new(0.3, 0.5, -1.0), moment };
             let load = Load { payload: 0.1 * robot.platform.mass, wrench };
-            let found = stiffness_at(&robot, &pose, &load, &[]).unwrap();
-            let lengths = inverse(&robot, &pose, &load, None).unwrap().lengths;
+            let found = stiffness_at(&robot, &pose, &load).unwrap();
+            let lengths = inverse(&robot, &pose, &load).unwrap().lengths;
             // Differences of fourth order.
             let step = 1e-4 * size;
             let column = |j: usize| {
@@ -70,7 +71,7 @@ fn the_stiffness_is_the_derivative_of_the_balance_under_a_moment() {
 
             // Displacements under a small wrench are those of the true tangent.
             let problem = DirectProblem::new(&robot, &lengths, &load).unwrap();
-            let held = problem.direct_any(Start::Pose(&pose)).unwrap();
+            let held = problem.direct_any(DirectStart::Pose(&pose)).unwrap();
             let linearization = problem.linearize(&held.equilibrium).unwrap();
             let motion = Vector6::new(1.0, -2.0, 0.5, 0.3 / size, 0.2 / size, -0.4 / size);
             let wrench = Wrench::from_vector(&(found.matrix * motion));

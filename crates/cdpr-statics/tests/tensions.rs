@@ -3,9 +3,11 @@
 use crate::common::{caroca, cogiro, fast, ipanema, stadium};
 use crate::pulleys::led;
 use cdpr_robot::{CableEnd, Pose, Robot, TensionReference};
+use cdpr_statics::hysteresis::{HysteresisLaw, load_cycle};
+use cdpr_statics::limits::{Limit, OutOfLimits, limits_at, out_of_limits};
+use cdpr_statics::stiffness::stiffness_at;
 use cdpr_statics::{
-    Bound, HysteresisLaw, InverseSolution, Limit, Load, OutOfLimits, StaticsError, deflection, inverse,
-    limits_at, load_cycle, out_of_limits, stiffness_at, wound_lengths,
+    Bound, InverseSolution, Load, StaticsError, WantedPose, deflection, inverse, wound_lengths,
 };
 
 /// Robots of every kind at a pose that they hold, with a tension above those of least norm.
@@ -21,7 +23,7 @@ fn robots() -> Vec<(Robot, Pose, f64)> {
 }
 
 fn held(robot: &Robot, pose: &Pose) -> InverseSolution {
-    let found = inverse(robot, pose, &Load::none(), None).unwrap();
+    let found = inverse(robot, pose, &Load::none()).unwrap();
     let largest = found.tensions.iter().copied().fold(0.0, f64::max);
     assert!(found.stationarity < 1e-9 * largest && found.residual.force < 1e-9 * largest, "{found:?}");
     found
@@ -48,7 +50,10 @@ fn tensions_come_nearer_to_those_that_the_robot_prefers() {
             robot.tension_reference = Some(preferred);
             let reference = robot.reference();
             let found = held(&robot, &pose);
-            assert_eq!(found, inverse(&robot, &pose, &Load::none(), Some(&reference)).unwrap());
+            assert_eq!(
+                found,
+                inverse(&robot, WantedPose::at(&pose).tension_reference(&reference), &Load::none()).unwrap()
+            );
             let (before, after) =
                 (distance(&least_norm.tensions, &reference), distance(&found.tensions, &reference));
             assert!(after < before, "{}: {before} N, now {after} N", robot.name);
@@ -56,7 +61,8 @@ fn tensions_come_nearer_to_those_that_the_robot_prefers() {
             assert!(moved > 0.01 * distance(&least_norm.tensions, &zeros), "{}: {moved} N", robot.name);
             assert!(distance(&found.tensions, &zeros) > distance(&least_norm.tensions, &zeros));
             // A reference of the call takes the place of the robot's.
-            let again = inverse(&robot, &pose, &Load::none(), Some(&zeros)).unwrap();
+            let again =
+                inverse(&robot, WantedPose::at(&pose).tension_reference(&zeros), &Load::none()).unwrap();
             assert_eq!(again.tensions, least_norm.tensions);
         }
         let middle = 0.5 * (robot.tension_limits.min + robot.tension_limits.max);
@@ -79,16 +85,13 @@ fn all_models_start_from_the_tensions_that_the_robot_prefers() {
             assert!(error < 1e-7, "{}: {name} {error:e}", robot.name);
         };
         let load = Load::payload(0.1 * robot.platform.mass);
-        same(
-            &deflection(&robot, &pose, &vec![0.0; n], &load).unwrap().unloaded.equilibrium.tensions(),
-            "deflection",
-        );
-        same(&stiffness_at(&robot, &pose, &Load::none(), &[]).unwrap().equilibrium.tensions(), "stiffness");
-        let lengths = wound_lengths(&robot, &pose, &vec![0.0; n], &[]).unwrap();
+        same(&deflection(&robot, &pose, &load).unwrap().unloaded.equilibrium.tensions(), "deflection");
+        same(&stiffness_at(&robot, &pose, &Load::none()).unwrap().equilibrium.tensions(), "stiffness");
+        let lengths = wound_lengths(&robot, &pose).unwrap();
         assert!(distance(&lengths, &found.lengths) < 1e-9 * found.lengths[0], "{}", robot.name);
         if let Some(law) = robot.cables[0].properties.law.clone() {
             let laws = vec![HysteresisLaw::elastic(law); n];
-            let cycle = load_cycle(&robot, &laws, &pose, &[], 50.0, 2).unwrap();
+            let cycle = load_cycle(&robot, &pose, &laws, 50.0, 2).unwrap();
             same(&cycle.loading[0].solution.equilibrium.tensions(), "load cycle");
         }
     }
@@ -117,14 +120,14 @@ fn a_cable_keeps_its_own_limits_and_the_others_keep_the_robots() {
         // Set-points are kept within them, too.
         let mut offsets = vec![0.0; robot.cables.len()];
         (offsets[high], offsets[low]) = (0.5 * max, -0.5 * min);
-        let unmoved = wound_lengths(&robot, &pose, &vec![0.0; offsets.len()], &[]).unwrap();
-        let wound = wound_lengths(&robot, &pose, &offsets, &[]).unwrap();
+        let unmoved = wound_lengths(&robot, &pose).unwrap();
+        let wound = wound_lengths(&robot, WantedPose::at(&pose).tension_offsets(&offsets)).unwrap();
         assert!(distance(&wound, &unmoved) < 1e-12 * wound[0], "{}", robot.name);
         // No pose is held by limits that leave no choice.
         robot.cables[high].tension_limits.max = Some(robot.tension_limits.min * 1.01);
         let tight = TensionReference::All(tension);
         robot.tension_reference = Some(tight);
-        match inverse(&robot, &pose, &Load::none(), None) {
+        match inverse(&robot, &pose, &Load::none()) {
             Ok(found) => assert!(found.tensions[high] <= robot.tension_limits.min * 1.01, "{}", robot.name),
             Err(error) => {
                 assert!(["infeasible_tension", "tension_too_small"].contains(&error.kind()), "{error}");
@@ -180,7 +183,7 @@ fn a_telescope_is_refused_for_its_towers_though_its_platform_would_bear_it() {
         (exit * (1.0 - 1e-6), CableEnd::Exit, false),
     ] {
         (robot.tension_limits.max, robot.max_at) = (max, end);
-        let found = inverse(&robot, &pose, &Load::none(), None);
+        let found = inverse(&robot, &pose, &Load::none());
         assert_eq!(found.is_ok(), feasible, "{max} {end:?}: {found:?}");
         if let Err(error) = found {
             assert_eq!(error.kind(), "infeasible_tension");
@@ -188,7 +191,7 @@ fn a_telescope_is_refused_for_its_towers_though_its_platform_would_bear_it() {
     }
     // The towers bear less than the weight of the cable below them.
     (robot.tension_limits.max, robot.tension_limits.min) = (21e3, 20e3);
-    match inverse(&robot, &pose, &Load::none(), None) {
+    match inverse(&robot, &pose, &Load::none()) {
         Err(StaticsError::ExitLimit { index: 0, exit, depth, max, min }) => {
             assert_eq!((exit, min), (21e3, 20e3));
             assert!((depth - 140.0).abs() < 1e-9 && (max - (21e3 + weight)).abs() < 20.0, "{max}");

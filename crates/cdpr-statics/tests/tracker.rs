@@ -2,7 +2,7 @@
 
 use crate::common::{caroca, ring, suspended};
 use cdpr_robot::{Pose, Robot, Rotation3, Vector3, Wrench};
-use cdpr_statics::{Load, Start, StaticsError, Tracker, direct, inverse};
+use cdpr_statics::{DirectStart, Load, StaticsError, Tracker, direct, inverse};
 use std::hint::black_box;
 
 /// Lengths along a path through the workspace, with loads that come and go.
@@ -12,7 +12,7 @@ fn path(robot: &Robot, steps: usize) -> Vec<(Vec<f64>, Load)> {
             let s = k as f64 / steps as f64;
             let turn = 0.1 * (6.0 * s).sin() * Vector3::new(0.3, 0.5, 1.0);
             let pose = Pose::at(2.0 * s - 1.0, 0.8 * (5.0 * s).sin(), 1.5 + s).moved(Vector3::zeros(), turn);
-            let lengths = inverse(robot, &pose, &Load::none(), None).unwrap().lengths;
+            let lengths = inverse(robot, &pose, &Load::none()).unwrap().lengths;
             let mut load = Load::payload(if k % 50 < 25 { 0.0 } else { 50.0 });
             load.wrench.force = Vector3::new(20.0 * (40.0 * s).sin(), 0.0, 0.0);
             (lengths, load)
@@ -24,11 +24,11 @@ fn path(robot: &Robot, steps: usize) -> Vec<(Vec<f64>, Load)> {
 fn a_path_is_that_of_the_direct_model() {
     let robot = caroca();
     let path = path(&robot, 500);
-    let start = inverse(&robot, &Pose::at(-1.0, 0.0, 1.5), &Load::none(), None).unwrap().equilibrium;
+    let start = inverse(&robot, &Pose::at(-1.0, 0.0, 1.5), &Load::none()).unwrap().equilibrium;
     let mut tracker = Tracker::new(&robot, &path[0].0, &path[0].1, &start).unwrap();
     for (lengths, load) in &path {
         let before = tracker.equilibrium().clone();
-        let expected = direct(&robot, lengths, load, Start::Near(&before)).unwrap().equilibrium;
+        let expected = direct(&robot, lengths, load, DirectStart::Near(&before)).unwrap().equilibrium;
         let found = tracker.update(lengths, load).unwrap();
         let motion = found.pose.motion_to(&expected.pose);
         assert!(motion.norm() < 1e-12, "{motion}");
@@ -46,7 +46,7 @@ fn a_path_is_that_of_the_direct_model() {
 fn nothing_is_allocated_on_the_way() {
     let robot = caroca();
     let path = path(&robot, 200);
-    let start = inverse(&robot, &Pose::at(-1.0, 0.0, 1.5), &Load::none(), None).unwrap().equilibrium;
+    let start = inverse(&robot, &Pose::at(-1.0, 0.0, 1.5), &Load::none()).unwrap().equilibrium;
     let mut tracker = Tracker::new(&robot, &path[0].0, &path[0].1, &start).unwrap();
     let allocated = allocation_counter::measure(|| {
         for (lengths, load) in &path {
@@ -64,8 +64,8 @@ fn any_number_of_cables_fills_the_lanes() {
         let pose = Pose::at(0.1, 0.2, 1.5);
         let lengths: Vec<f64> = (0..n).map(|i| 0.9999 * robot.span(&pose, i).norm()).collect();
         let wound: Vec<f64> = lengths.iter().enumerate().map(|(i, l)| l + 2e-4 * (i as f64).sin()).collect();
-        let start = direct(&robot, &lengths, &Load::none(), Start::Pose(&pose)).unwrap().equilibrium;
-        let expected = direct(&robot, &wound, &Load::none(), Start::Near(&start)).unwrap().equilibrium;
+        let start = direct(&robot, &lengths, &Load::none(), DirectStart::Pose(&pose)).unwrap().equilibrium;
+        let expected = direct(&robot, &wound, &Load::none(), DirectStart::Near(&start)).unwrap().equilibrium;
         let mut tracker = Tracker::new(&robot, &lengths, &Load::none(), &start).unwrap();
         let allocated = allocation_counter::measure(|| {
             assert!(tracker.update(&wound, &Load::none()).is_ok());
@@ -82,7 +82,7 @@ fn any_number_of_cables_fills_the_lanes() {
 #[test]
 fn slack_cables_and_moments_are_those_of_the_direct_model() {
     let robot = caroca();
-    let wanted = inverse(&robot, &Pose::at(0.4, -0.3, 1.75), &Load::none(), None).unwrap();
+    let wanted = inverse(&robot, &Pose::at(0.4, -0.3, 1.75), &Load::none()).unwrap();
     let mut tracker = Tracker::new(&robot, &wanted.lengths, &Load::none(), &wanted.equilibrium).unwrap();
     let mut slack = wanted.lengths.clone();
     slack[1] += 0.05;
@@ -92,7 +92,7 @@ fn slack_cables_and_moments_are_those_of_the_direct_model() {
         [(&slack, Load::none()), (&slack, moment), (&wanted.lengths, moment), (&wanted.lengths, Load::none())]
     {
         let before = tracker.equilibrium().clone();
-        let expected = direct(&robot, lengths, &load, Start::Near(&before)).unwrap().equilibrium.pose;
+        let expected = direct(&robot, lengths, &load, DirectStart::Near(&before)).unwrap().equilibrium.pose;
         let found = tracker.update(lengths, &load).unwrap().pose;
         assert!(found.motion_to(&expected).norm() < 1e-11);
     }
@@ -102,7 +102,7 @@ fn slack_cables_and_moments_are_those_of_the_direct_model() {
 #[test]
 fn what_is_no_input_leaves_the_equilibrium_at_hand() {
     let robot = caroca();
-    let wanted = inverse(&robot, &Pose::at(0.0, 0.0, 1.75), &Load::none(), None).unwrap();
+    let wanted = inverse(&robot, &Pose::at(0.0, 0.0, 1.75), &Load::none()).unwrap();
     let mut tracker = Tracker::new(&robot, &wanted.lengths, &Load::none(), &wanted.equilibrium).unwrap();
     let before = tracker.equilibrium().clone();
     let mut lengths = wanted.lengths.clone();
@@ -129,7 +129,7 @@ fn a_platform_that_falls_is_an_error_and_not_a_step() {
         payload: 2.0 * s,
         wrench: Wrench { force: Vector3::zeros(), moment: s * Vector3::new(400.0, -300.0, 100.0) },
     };
-    let wanted = inverse(&robot, &pose, &Load::none(), None).unwrap();
+    let wanted = inverse(&robot, &pose, &Load::none()).unwrap();
     let mut tracker = Tracker::new(&robot, &wanted.lengths, &Load::none(), &wanted.equilibrium).unwrap();
     for s in [0.3, 0.6, 0.9] {
         tracker.update(&wanted.lengths, &under(s)).unwrap();

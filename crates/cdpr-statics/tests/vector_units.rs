@@ -3,10 +3,10 @@
 use crate::common::{caroca, cogiro, observed};
 use cdpr_number::lanes::Unit;
 use cdpr_robot::{Coordinate, Parameter, Pose, Pulley, Robot, Vector3};
-use cdpr_statics::{
-    InverseSolution, Load, Observation, ObservationMotion, ObservationSlopes, Observer, StaticsError,
-    Tracker, inverse, inverse_all, loaded_poses, loaded_poses_slopes,
+use cdpr_statics::batch::{
+    LoadedPose, Observation, ObservationMotion, ObservationSlopes, PoseSlopes, loaded_poses,
 };
+use cdpr_statics::{InverseSolution, Load, Observer, StaticsError, Tracker, WantedPose, inverse};
 use std::fmt::Debug;
 
 /// The result of `task`, which must be the same on all vector units.
@@ -79,7 +79,7 @@ fn the_vector_unit_changes_no_bit_of_robots_with_free_coordinates() {
             _ => 0.0003,
         });
         let deviations = sawtooth(&half.collect::<Vec<_>>());
-        let observer = Observer::with_free(&robot, &pose, &Load::payload(9.0), &free).unwrap();
+        let observer = Observer::new(&robot, WantedPose::at(&pose).free(&free), &Load::payload(9.0)).unwrap();
         observe(&observer, &deviations, 9);
     }
 }
@@ -91,22 +91,22 @@ fn neither_vector_unit_nor_neighbours_change_a_bit_of_a_pose() {
     let load = Load::payload(50.0);
     let poses: Vec<_> = (0..21).map(|k| Pose::at(0.4 * f64::from(k) - 4.0, 0.4, 1.6)).collect();
     let wanted: Vec<InverseSolution> =
-        poses.iter().map(|pose| inverse(&robot, pose, &Load::none(), None).unwrap()).collect();
+        poses.iter().map(|pose| inverse(&robot, pose, &Load::none()).unwrap()).collect();
     let wanted: Vec<_> = wanted.iter().collect();
-    let found = on_all_units(|| loaded_poses(&robot, &wanted, &load));
-    assert_eq!(found[3..], loaded_poses(&robot, &wanted[3..], &load));
+    let found = on_all_units(|| loaded_poses::<LoadedPose>(&robot, &wanted, &load));
+    assert_eq!(found[3..], loaded_poses::<LoadedPose>(&robot, &wanted[3..], &load));
     let in_lanes = |found: &&Result<_, StaticsError>| {
-        let found: &Result<cdpr_statics::LoadedPose, _> = found;
+        let found: &Result<cdpr_statics::batch::LoadedPose, _> = found;
         found.as_ref().is_ok_and(|found| found.scalar.is_none())
     };
     assert!(found.iter().filter(in_lanes).count() > 15);
-    on_all_units(|| loaded_poses_slopes(&robot, &wanted, &load));
+    on_all_units(|| loaded_poses::<PoseSlopes>(&robot, &wanted, &load));
 }
 
 #[test]
 fn the_vector_unit_changes_no_bit_of_the_inverse_model() {
     let poses: Vec<_> = (0..21).map(|k| Pose::at(0.9 + 0.03 * f64::from(k), 0.4, 1.6)).collect();
-    let found = on_all_units(|| inverse_all(&cogiro(), &poses, &Load::payload(50.0)));
+    let found = on_all_units(|| inverse(&cogiro(), &poses, &Load::payload(50.0)));
     assert!(found.iter().all(Result::is_ok));
 }
 
@@ -114,7 +114,7 @@ fn the_vector_unit_changes_no_bit_of_the_inverse_model() {
 fn a_tracker_has_the_same_pose_on_any_unit_but_for_the_order_of_sums() {
     let robot = caroca();
     let pose = Pose::at(0.1, 0.2, 1.75);
-    let wanted = inverse(&robot, &pose, &Load::none(), None).unwrap();
+    let wanted = inverse(&robot, &pose, &Load::none()).unwrap();
     let mut tracker = Tracker::new(&robot, &wanted.lengths, &Load::none(), &wanted.equilibrium).unwrap();
     let mut found = Vec::new();
     for unit in Unit::all() {
@@ -130,7 +130,7 @@ fn a_tracker_has_the_same_pose_on_any_unit_but_for_the_order_of_sums() {
 #[test]
 fn no_load_moves_nothing() {
     let robot = caroca();
-    let wanted = inverse(&robot, &Pose::at(0.0, 0.0, 1.75), &Load::none(), None).unwrap();
-    let none = loaded_poses(&robot, &[&wanted], &Load::none()).remove(0).unwrap();
+    let wanted = inverse(&robot, &Pose::at(0.0, 0.0, 1.75), &Load::none()).unwrap();
+    let none = loaded_poses::<LoadedPose>(&robot, &[&wanted], &Load::none()).remove(0).unwrap();
     assert_eq!((none.scalar, none.displacement), (None, Vector3::zeros()));
 }

@@ -12,7 +12,8 @@ use cdpr_sensitivity::{
     Bootstrap, Expansion, Order, SaltelliDesign, SampleDesign, SensitivityError, Shares, Slopes, SobolDesign,
     Truncation, expansion, gradient_expansion, sobol_indices,
 };
-use cdpr_statics::{Observation, ObservationSlopes, Observer};
+use cdpr_statics::Observer;
+use cdpr_statics::batch::{Observation, ObservationSlopes};
 use cdpr_study::{Sampling, Study, observe_rows, open_robot, template};
 use std::error::Error;
 use std::path::Path;

@@ -2,7 +2,7 @@
 
 use cdpr_robot::Robot;
 use cdpr_sensitivity::Law;
-use cdpr_statics::Unloading;
+use cdpr_statics::hysteresis::Unloading;
 use cdpr_study::{CableLaw, Session, Study, StudyError, analyse, observe, open_law};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};

@@ -2,9 +2,11 @@
 
 use cdpr_robot::{Deviations, Parameter, ParameterLayout, Pose};
 use cdpr_sensitivity::SampleDesign;
+use cdpr_statics::free_coordinates::free_solutions;
+use cdpr_statics::stiffness::stiffness_at;
+use cdpr_statics::vibration::modes_at;
 use cdpr_statics::{
-    DirectProblem, Load, Start, StaticsError, deflection_free, inverse, inverse_free, modes_at, stiffness_at,
-    wound_lengths,
+    DirectProblem, DirectStart, Load, StaticsError, WantedPose, deflection, inverse, wound_lengths,
 };
 use cdpr_study::{
     InputMeasures, Measured, Output, Sampling, SensitivitySpec, SensitivitySummary, Session, Study,
@@ -87,9 +89,11 @@ fn a_frequency_and_a_stiffness_are_those_of_the_deflected_robot() {
                 let deviating = study.robot.perturbed(deviations).unwrap();
                 let offsets = &deviating.tension_offsets;
                 assert!(offsets.iter().all(|offset| *offset != 0.0));
-                let lengths = wound_lengths(&deviating.robot, &sampling.pose, offsets, &[]).unwrap();
+                let lengths =
+                    wound_lengths(&deviating.robot, WantedPose::at(&sampling.pose).tension_offsets(offsets))
+                        .unwrap();
                 let problem = DirectProblem::new(&deviating.robot, &lengths, &sampling.load).unwrap();
-                let rest = problem.direct(Start::Pose(&sampling.pose)).unwrap();
+                let rest = problem.direct(DirectStart::Pose(&sampling.pose)).unwrap();
                 // Rotations are measured by a length of the nominal robot: one that deviates changes nothing.
                 let nominal = problem.with_characteristic_length(study.robot.platform_size());
                 let expected = match output {
@@ -106,7 +110,7 @@ fn a_frequency_and_a_stiffness_are_those_of_the_deflected_robot() {
 fn the_nominal_stiffness_without_offsets_is_nearly_that_of_the_wanted_pose() {
     for study in of_two_robots("stiffness") {
         let sampling = study.sampling("point").unwrap();
-        let at_pose = stiffness_at(&study.robot, &sampling.pose, &sampling.load, &[]).unwrap();
+        let at_pose = stiffness_at(&study.robot, &sampling.pose, &sampling.load).unwrap();
         // The payload moves the platform by a millimetre, and the tensions of another distribution hold it.
         same(sampling.nominal_value, at_pose.stability.least_stiffness(), 0.2);
         let values: Vec<f64> = observed(&sampling).iter().map(|(_, measured)| measured.value()).collect();
@@ -121,11 +125,11 @@ fn a_position_error_is_where_the_direct_model_puts_the_robot_with_nominal_length
         study.file.error_models["all"].shift_remove("dt");
         let sampling = study.sampling("point").unwrap();
         assert_eq!(sampling.nominal_value, 0.0);
-        let lengths = inverse(&study.robot, &sampling.pose, &Load::none(), None).unwrap().lengths;
+        let lengths = inverse(&study.robot, &sampling.pose, &Load::none()).unwrap().lengths;
         for (deviations, measured) in observed(&sampling).iter().step_by(7) {
             let deviating = study.robot.perturbed(deviations).unwrap().robot;
             let problem = DirectProblem::new(&deviating, &lengths, &Load::none()).unwrap();
-            let rest = problem.direct(Start::Pose(&sampling.pose)).unwrap().equilibrium.pose;
+            let rest = problem.direct(DirectStart::Pose(&sampling.pose)).unwrap().equilibrium.pose;
             let away = 1e3 * (rest.position - sampling.pose.position).norm();
             assert!((measured.value() - away).abs() < 1e-6, "{} and not {away}", measured.value());
             assert!(away > 0.1);
@@ -316,12 +320,19 @@ fn a_robot_with_four_cables_keeps_the_held_coordinates_and_finds_the_others() {
         for (deviations, measured) in observed(&sampling).iter().step_by(9) {
             let deviating = study.robot.perturbed(deviations).unwrap();
             // A search through all solutions, from the level pose.
-            let rest = inverse_free(&deviating.robot, &sampling.pose, &Load::none(), free).unwrap().first;
+            let rest =
+                free_solutions(&deviating.robot, WantedPose::at(&sampling.pose).free(free), &Load::none())
+                    .unwrap()
+                    .first;
             let held = rest.equilibrium.pose;
             assert!((held.position - sampling.pose.position).norm() < 1e-12);
             tilted = tilted.max(held.rotation.angle_to(&sampling.pose.rotation));
             let offsets = &deviating.tension_offsets;
-            let expected = deflection_free(&deviating.robot, &sampling.pose, offsets, &sampling.load, free);
+            let expected = deflection(
+                &deviating.robot,
+                WantedPose::at(&sampling.pose).free(free).tension_offsets(offsets),
+                &sampling.load,
+            );
             let difference = measured.value() - 1e3 * expected.unwrap().rms();
             assert!(difference.abs() < 1e-7 * measured.value().max(1.0), "{difference} mm");
         }
@@ -334,7 +345,8 @@ fn the_frequency_of_a_robot_with_four_cables_is_that_of_its_free_motion() {
     let [_, study] = of_four_cables("frequency");
     let sampling = study.sampling("point").unwrap();
     let free = &study.file.samplings["point"].free;
-    let modes = modes_at(&study.robot, &sampling.pose, &Load::none(), free).unwrap().modes;
+    let modes =
+        modes_at(&study.robot, WantedPose::at(&sampling.pose).free(free), &Load::none()).unwrap().modes;
     // A tenth of a kilogram at the centre of mass of one kilogram.
     same(sampling.nominal_value, modes[0].frequency, 0.1);
     assert!((0.5..2.0).contains(&sampling.nominal_value), "{}", sampling.nominal_value);

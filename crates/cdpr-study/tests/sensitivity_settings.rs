@@ -98,7 +98,7 @@ fn a_study_says_which_samplings_the_scalar_models_observe_and_how_long() {
     assert!(names.contains(&"mechanical"), "{names:?}");
     for sampling in &slow {
         assert_eq!(sampling.observations, study.observations(&sampling.name).unwrap());
-        assert!(sampling.reason == cdpr_statics::ScalarReason::Pulleys && sampling.seconds > 0.0);
+        assert!(sampling.reason == cdpr_statics::batch::ScalarReason::Pulleys && sampling.seconds > 0.0);
         assert!(sampling.to_string().contains("pulleys with vertical axes only"), "{sampling}");
     }
 }

@@ -2,7 +2,7 @@
 
 use cdpr_cable::Phase;
 use cdpr_robot::{Pose, Robot, Vector3};
-use cdpr_statics::{DirectSolution, Equilibrium, InverseSolution, Load, Residual, Start, direct, inverse};
+use cdpr_statics::{DirectSolution, DirectStart, Equilibrium, InverseSolution, Load, Residual, direct, inverse};
 use cdpr_study::{Study, read_record};
 use serde_json::Value;
 use std::path::Path;
@@ -27,13 +27,13 @@ pub fn robot(text: &str) {
     }
     let exits: Vector3<f64> = robot.cables.iter().map(|cable| cable.exit_point / n as f64).sum();
     let pose = Pose::at(exits.x, exits.y, exits.z);
-    match inverse(&robot, &pose, &Load::none(), None) {
+    match inverse(&robot, &pose, &Load::none()) {
         Ok(InverseSolution { lengths, tensions, equilibrium, residual, .. }) => {
             finite("lengths", &lengths);
             finite("tensions", &tensions);
             finite_equilibrium(&equilibrium, &residual);
             assert_eq!((lengths.len(), tensions.len()), (n, n));
-            match direct(&robot, &lengths, &Load::none(), Start::Near(&equilibrium)) {
+            match direct(&robot, &lengths, &Load::none(), DirectStart::Near(&equilibrium)) {
                 Ok(DirectSolution { equilibrium, report, .. }) => {
                     finite_equilibrium(&equilibrium, &report.residual);
                 }

@@ -2,7 +2,8 @@
 
 use super::{Block, Rest};
 use cdpr_robot::{CableEnd, Robot};
-use cdpr_statics::{Limit, MAX_STRAIN, StaticsError};
+use cdpr_statics::limits::Limit;
+use cdpr_statics::{MAX_STRAIN, StaticsError};
 
 /// A limit and the way to it.
 #[derive(Clone, Copy)]

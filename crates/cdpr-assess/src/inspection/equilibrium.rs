@@ -2,7 +2,8 @@
 //! some of its cables alone. Lengths of another robot, or in another order, lead there.
 
 use cdpr_robot::{Doubt, Pose, Robot, Rotation3, Vector3, frame, short};
-use cdpr_statics::{DirectSolution, Limit, Load, out_of_limits};
+use cdpr_statics::limits::{Limit, out_of_limits};
+use cdpr_statics::{DirectSolution, Load};
 use std::f64::consts::FRAC_PI_2;
 
 /// Turn from the start beyond which a platform is turned over, or its cables are twisted [rad].

@@ -4,7 +4,7 @@
 use super::{Findings, Severity};
 use crate::clearance::HangingCables;
 use cdpr_robot::{Pose, Robot, frame};
-use cdpr_statics::{DirectProblem, InverseSolution, Load, Start, inverse};
+use cdpr_statics::{DirectProblem, DirectStart, InverseSolution, Load, inverse};
 
 /// Weight of the cables, as a share of the platform's weight, beyond which sag shapes the robot.
 const CABLE_WEIGHT: f64 = 0.5;
@@ -59,7 +59,7 @@ impl Findings<'_> {
             );
         }
         let held = DirectProblem::new(robot, &solution.lengths, &Load::none())
-            .and_then(|problem| problem.direct_any(Start::Near(&solution.equilibrium)));
+            .and_then(|problem| problem.direct_any(DirectStart::Near(&solution.equilibrium)));
         if !are_doubtful && held.is_ok_and(|held| !held.stability.is_stable()) {
             self.add(
                 Severity::Warning,
@@ -142,7 +142,7 @@ pub(super) fn held(robot: &Robot) -> Option<(Pose, InverseSolution)> {
         let offset = 0.05 * size * f64::from((k + 1) / 2) * if k % 2 == 0 { 1.0 } else { -1.0 };
         let z = Some(middle + offset).filter(|z| *z >= floor)?;
         let pose = Pose::at(0.5 * (x_low + x_high), 0.5 * (y_low + y_high), z);
-        inverse(robot, &pose, &Load::none(), None).ok().map(|solution| (pose, solution))
+        inverse(robot, &pose, &Load::none()).ok().map(|solution| (pose, solution))
     })
 }
 

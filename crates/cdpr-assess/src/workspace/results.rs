@@ -4,7 +4,10 @@ use crate::capacity::Capacity;
 use crate::clearance::Clearance;
 use crate::tilt::Tilt;
 use cdpr_robot::{Pose, Robot, Vector3};
-use cdpr_statics::{CableFrequency, Limit, LoadedPose, OutOfLimits, StaticsError, tensions_out_of_limits};
+use cdpr_statics::StaticsError;
+use cdpr_statics::batch::LoadedPose;
+use cdpr_statics::limits::{Limit, OutOfLimits, tensions_out_of_limits};
+use cdpr_statics::vibration::CableFrequency;
 use cdpr_study::ErrorModel;
 
 /// A position and its results.

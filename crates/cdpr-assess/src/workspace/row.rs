@@ -4,7 +4,8 @@ use crate::capacity::{Capacity, Figure};
 use crate::clearance::CableDistance;
 use crate::workspace::question::Workspace;
 use crate::workspace::results::{Dominant, HELD, WorkspacePose};
-use cdpr_statics::{Load, OutOfLimits, StaticsError};
+use cdpr_statics::limits::OutOfLimits;
+use cdpr_statics::{Load, StaticsError};
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
 /// A row of `workspace.csv`, and an element of each column of `workspace.json`: positions [m], deflection

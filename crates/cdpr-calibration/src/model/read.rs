@@ -6,7 +6,8 @@ use crate::sensor_error::SensorError;
 use cdpr_robot::{
     Axis, CableEnd, Coordinate, Matrix6xX, Pose, Rotation3, TiltAxis, UnitQuaternion, Vector3, Vector6,
 };
-use cdpr_statics::{DirectProblem, Equilibrium, ForceDerivatives, StaticsError};
+use cdpr_statics::derivatives::ForceDerivatives;
+use cdpr_statics::{DirectProblem, Equilibrium, StaticsError};
 use nalgebra::{Matrix3, RowDVector};
 
 /// A row at a state, with the derivatives of the models there.

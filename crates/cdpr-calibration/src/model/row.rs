@@ -11,7 +11,7 @@ use crate::model::{Model, RowAt, RowState};
 use crate::sensor_error::SensorError;
 use cdpr_robot::{Axis, CableEnd, Pose, Robot, Rotation3, UnitQuaternion, Vector3};
 use cdpr_statics::{
-    DirectProblem, Equilibrium, HeldPose, Load, Start, StaticsError, inverse, lengths_for_tensions,
+    DirectProblem, DirectStart, Equilibrium, HeldPose, Load, StaticsError, inverse, lengths_for_tensions,
     rough_pose,
 };
 use nalgebra::DVector;
@@ -64,7 +64,7 @@ impl Model<'_> {
         let robot = self.deviating(x).map_err(CalibrationError::row(row.line))?;
         let state = self.unplaced(row, &robot)?;
         let lengths = self.lengths(&state, x);
-        let placed = |near: &Pose| self.placed(row, &robot, state.clone(), &lengths, Start::Pose(near));
+        let placed = |near: &Pose| self.placed(row, &robot, state.clone(), &lengths, DirectStart::Pose(near));
         let measured = self.pose_in_base(row).and_then(|near| placed(&near).ok());
         measured
             .map_or_else(|| placed(&self.rough(&robot, &lengths)), Ok)
@@ -91,7 +91,7 @@ impl Model<'_> {
         let tensions: Option<Vec<f64>> = (0..robot.cables.len()).map(measured).collect();
         let tensions = match tensions {
             Some(tensions) => tensions,
-            None => inverse(&robot, near, &self.load(row, &robot), None).map_err(&at)?.tensions,
+            None => inverse(&robot, near, &self.load(row, &robot)).map_err(&at)?.tensions,
         };
         let held = lengths_for_tensions(&robot, near, &tensions).map_err(&at)?;
         self.rested(row, &robot, x, state, held).map_err(&at)
@@ -136,9 +136,9 @@ impl Model<'_> {
         robot: &Robot,
         mut state: RowState,
         lengths: &[f64],
-        start: Start,
+        start: DirectStart,
     ) -> Result<RowState, StaticsError> {
-        let rest = |load: &Load, start: Start| {
+        let rest = |load: &Load, start: DirectStart| {
             let problem = DirectProblem::new(robot, lengths, load)?;
             problem.direct(start).map(|found| found.equilibrium)
         };
@@ -146,7 +146,7 @@ impl Model<'_> {
         if let Some(before) = &state.unloaded {
             let load = self.without_load(row, robot);
             let is_new = before.cable_forces.is_empty();
-            let near = if is_new { Start::Pose(&state.loaded.pose) } else { Start::Near(before) };
+            let near = if is_new { DirectStart::Pose(&state.loaded.pose) } else { DirectStart::Near(before) };
             state.unloaded = Some(rest(&load, near)?);
         }
         Ok(state)
@@ -166,7 +166,7 @@ impl Model<'_> {
             let stretch = 1.0 + self.of(SensorError::DrumScale, i, x);
             state.errors[i] = state.read[i] - self.of(SensorError::LengthOffset, i, x) - stretch * length;
         }
-        self.placed(row, robot, state, &held.lengths, Start::Near(&held.equilibrium))
+        self.placed(row, robot, state, &held.lengths, DirectStart::Near(&held.equilibrium))
     }
 
     /// The pose that is measured, level where only the position is.
@@ -193,7 +193,7 @@ impl Model<'_> {
         let state = self.unplaced(row, &robot)?;
         let lengths = self.lengths(&state, x);
         let start = self.rough(&robot, &lengths);
-        let state = self.placed(row, &robot, state, &lengths, Start::Pose(&start)).map_err(&at)?;
+        let state = self.placed(row, &robot, state, &lengths, DirectStart::Pose(&start)).map_err(&at)?;
         Ok(*state.pose())
     }
 
@@ -224,7 +224,7 @@ impl Model<'_> {
     ) -> Result<RowState, StaticsError> {
         let state = RowState { errors, ..from.clone() };
         let lengths = self.lengths(&state, &at.shared.x);
-        self.placed(at.row, at.robot, state, &lengths, Start::Near(&from.loaded))
+        self.placed(at.row, at.robot, state, &lengths, DirectStart::Near(&from.loaded))
     }
 
     /// Follows a row to other unknowns by a predicted change of its pose (dp, dφ) and of its tensions; cables
@@ -271,7 +271,7 @@ impl Model<'_> {
 /// tensions carry its weight together.
 pub(crate) fn held_lengths(robot: &Robot, pose: &Pose) -> Result<Vec<f64>, StaticsError> {
     if robot.is_fully_actuated() {
-        return inverse(robot, pose, &Load::none(), None).map(|held| held.lengths);
+        return inverse(robot, pose, &Load::none()).map(|held| held.lengths);
     }
     let n = robot.cables.len();
     let each = robot.weight(pose, 0.0).force.norm() / n as f64;

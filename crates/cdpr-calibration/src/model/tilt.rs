@@ -2,7 +2,7 @@
 
 use crate::model::Model;
 use cdpr_robot::{Parameter, Pulley, Robot, Rotation3, TiltAxis, Vector3};
-use cdpr_statics::ForceDerivatives;
+use cdpr_statics::derivatives::ForceDerivatives;
 use nalgebra::{Dim, Dyn, Matrix, StorageMut};
 
 impl Model<'_> {

@@ -3,7 +3,7 @@
 use crate::fitted::Fit;
 use crate::model::row::held_lengths;
 use cdpr_robot::{Pose, Robot};
-use cdpr_statics::{DirectProblem, Load, Start};
+use cdpr_statics::{DirectProblem, DirectStart, Load};
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 use serde::Serialize;
@@ -31,7 +31,7 @@ const POINTS: usize = 9;
 fn std_at(robot: &Robot, pose: &Pose, covariance: &DMatrix<f64>) -> Option<f64> {
     let lengths = held_lengths(robot, pose).ok()?;
     let problem = DirectProblem::new(robot, &lengths, &Load::none()).ok()?;
-    let found = problem.direct(Start::Pose(pose)).ok()?;
+    let found = problem.direct(DirectStart::Pose(pose)).ok()?;
     let slopes = problem.derivatives(&found.equilibrium).ok()?.pose;
     let position = slopes.view((0, 0), (3, covariance.nrows()));
     Some(((position * covariance * position.transpose()).trace() / 3.0).max(0.0).sqrt())

@@ -12,7 +12,8 @@ use cdpr_assess::{
     clearance_under, tilt_at,
 };
 use cdpr_robot::{Pose, Robot};
-use cdpr_statics::{Load, StaticsError, tension_margin};
+use cdpr_statics::capacity::tension_margin;
+use cdpr_statics::{Load, StaticsError, WantedPose};
 use serde::Serialize;
 
 /// The robot, its poses, and the wrenches.
@@ -37,12 +38,12 @@ pub(crate) fn run(Settings { at, free, set, tilt }: &Settings) -> Result<Ending,
     let (load, set) = (at.load.load(), set.set()?);
     questions::about_wrenches(&at.robot()?, set.wrenches());
     let solve = |robot: &Robot, pose: &_| {
-        let found = capacity_at(robot, pose, &load, &set, &free.free);
+        let found = capacity_at(robot, WantedPose::at(pose).free(&free.free), &load, &set);
         // Whatever else fails, fails with it.
         if let (Err(error), Err(_)) = (&found.payload_kept, &found.margin_anew) {
             return Err(error.clone());
         }
-        let clearance = clearance_under(robot, pose, &load, &free.free).ok();
+        let clearance = clearance_under(robot, WantedPose::at(pose).free(&free.free), &load).ok();
         let tilted = |count: &u16| tilt_at(robot, pose, &load, (*count).into(), TILT_ACCURACY.to_radians());
         let tilt = tilt.as_ref().map(tilted).transpose()?;
         let ends = tilt.iter().flat_map(|tilt| &tilt.directions);

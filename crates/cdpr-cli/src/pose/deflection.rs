@@ -5,13 +5,13 @@ use crate::error::ProgramError;
 use crate::output::Ending;
 use crate::pose::at_pose::{RobotAtFreePose, Row, cells, numbered};
 use cdpr_robot::{Robot, Vector3};
-use cdpr_statics::{Deflection, deflection_free};
+use cdpr_statics::{Deflection, WantedPose, deflection};
 use serde::Serialize;
 
 pub(crate) fn run(RobotAtFreePose { at, free }: &RobotAtFreePose) -> Result<Ending, ProgramError> {
     let load = at.load.some_load()?;
     let solve = |robot: &Robot, pose: &_| {
-        let found = deflection_free(robot, pose, &vec![0.0; robot.cables.len()], &load, &free.free)?;
+        let found = deflection(robot, WantedPose::at(pose).free(&free.free), &load)?;
         Ok(Answer::new(robot, &found))
     };
     at.answer(solve, Answer::print)

@@ -6,7 +6,8 @@ use crate::error::ProgramError;
 use crate::output::{Ending, table};
 use crate::pose::at_pose::{RobotAtFreePose, Row, cells};
 use cdpr_robot::{Parameter, Robot};
-use cdpr_statics::{Derivatives, DirectProblem, Load, OneSided, StaticsError, derivatives_free};
+use cdpr_statics::derivatives::OneSided;
+use cdpr_statics::{Derivatives, DirectProblem, Load, StaticsError, WantedPose, derivatives};
 use cdpr_study::ErrorModel;
 use indexmap::IndexMap;
 use serde::Serialize;
@@ -28,8 +29,7 @@ pub(crate) fn run(
     let model = errors.model(&robot)?;
     model.as_ref().map(|model| model.check(&robot)).transpose()?;
     let solve = |robot: &Robot, pose: &_| {
-        let offsets = vec![0.0; robot.cables.len()];
-        let found = derivatives_free(robot, pose, &offsets, &load, &free.free)?;
+        let found = derivatives(robot, WantedPose::at(pose).free(&free.free), &load)?;
         let mut slopes = Slopes::new(robot, &load, &found)?;
         slopes.uncertainty = model.as_ref().map(|model| Uncertainty::new(model, &found)).transpose()?;
         Ok(slopes)

@@ -10,7 +10,7 @@ use crate::pose::at_pose::Failure;
 use crate::poses::{self, Angles};
 use crate::questions;
 use cdpr_robot::{Pose, Robot, Vector3, Wrench, from_json, plausible};
-use cdpr_statics::{Certificate, DirectProblem, Load, Start, StaticsError, check_lengths, rough_pose};
+use cdpr_statics::{Certificate, DirectProblem, DirectStart, Load, StaticsError, check_lengths, rough_pose};
 use cdpr_study::{InputKind, StudyError, other_kind, read_text};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -36,7 +36,7 @@ pub(crate) struct Settings {
     /// Mass added at the platform's centre of mass [kg].
     #[arg(long, value_parser = arguments::mass, allow_hyphen_values = true)]
     payload: Option<f64>,
-    /// Start of the search: x,y,z [m], or x,y,z,qw,qx,qy,qz.
+    /// DirectStart of the search: x,y,z [m], or x,y,z,qw,qx,qy,qz.
     ///
     /// If left out, the search starts where straight cables would hold a point.
     #[arg(long, value_parser = poses::pose, allow_hyphen_values = true)]
@@ -220,7 +220,7 @@ fn solve(robot: &Robot, case: &Case, name: &str, prove: bool) -> Result<Answer, 
     }
     check_lengths(&robot, &case.lengths)?;
     let problem = DirectProblem::new(&robot, &case.lengths, &load)?;
-    let solution = problem.direct(Start::Pose(&start))?;
+    let solution = problem.direct(DirectStart::Pose(&start))?;
     questions::about_rest(&robot, name, (&case.lengths, &load), &solution, &start);
     let certificate = (prove || case.certify).then(|| problem.certify(&solution).into());
     Ok(Answer { found: Found::new(&robot, &case.lengths, &solution), certificate })

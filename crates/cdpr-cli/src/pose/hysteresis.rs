@@ -10,7 +10,8 @@ use crate::poses::{self, Angles};
 use crate::questions;
 use cdpr_report::{Cycle, CycleBranch, cycle};
 use cdpr_robot::{Pose, Robot};
-use cdpr_statics::{CycleStep, HysteresisLaw, Load, LoadCycle, StaticsError, Unloading, load_cycle};
+use cdpr_statics::hysteresis::{CycleStep, HysteresisLaw, LoadCycle, Unloading, load_cycle};
+use cdpr_statics::{Load, StaticsError, WantedPose};
 use cdpr_study::{CableLaw, elastic_laws, open_law, open_record};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -98,7 +99,15 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     let pose = settings.angles.of(&settings.pose)?;
     questions::about_pose(&robot, "--pose", &pose);
     questions::about_load(&robot, &Load::payload(settings.payload));
-    let cycle = || load_cycle(&robot, &laws, &pose, &settings.free.free, settings.payload, settings.steps);
+    let cycle = || {
+        load_cycle(
+            &robot,
+            WantedPose::at(&pose).free(&settings.free.free),
+            &laws,
+            settings.payload,
+            settings.steps,
+        )
+    };
     let cycle = match patiently("following the load", cycle) {
         Err(error @ StaticsError::BranchEnds(_)) => return print_fall(settings.format, &robot, &pose, error),
         cycle => cycle?,

@@ -6,10 +6,10 @@ use crate::error::ProgramError;
 use crate::output::Ending;
 use crate::pose::at_pose::{RobotAtPose, Row, cells, numbered};
 use crate::poses::{COLUMNS, pose_numbers};
-use cdpr_robot::Robot;
+use cdpr_robot::{Pose, Robot};
+use cdpr_statics::free_coordinates::{FreeSolution, FreeSolutions, free_solutions};
 use cdpr_statics::{
-    DirectProblem, FreeSolution, FreeSolutions, InversePath, InverseSolution, Load, Stability, StaticsError,
-    inverse, inverse_free, inverse_free_with_loops,
+    DirectProblem, InversePath, InverseSolution, Load, Stability, StaticsError, WantedPose, inverse,
 };
 use serde::Serialize;
 
@@ -37,16 +37,18 @@ pub(crate) fn run(Settings { at, free, path, loops }: &Settings) -> Result<Endin
         let robot = at.robot()?;
         let mut path = InversePath::new(&robot);
         return at.answer_in_order(&robot, |pose| {
-            let found = path.solve(pose, &load, None)?;
+            let found = path.solve(pose, &load)?;
             Ok(OnPath { jump: found.jump, answer: Answer::new(&robot, &load, &found.solution)? })
         });
     }
     if !free.free.is_empty() {
-        let model = if *loops { inverse_free_with_loops } else { inverse_free };
-        let solve = |robot: &Robot, pose: &_| Ok(Rest::new(robot, &model(robot, pose, &load, &free.free)?));
+        let solve = |robot: &Robot, pose: &Pose| {
+            let wanted = WantedPose { free: &free.free, loops: *loops, ..pose.into() };
+            Ok(Rest::new(robot, &free_solutions(robot, wanted, &load)?))
+        };
         return at.answer(solve, Rest::print);
     }
-    let solve = |robot: &Robot, pose: &_| Answer::new(robot, &load, &inverse(robot, pose, &load, None)?);
+    let solve = |robot: &Robot, pose: &_| Answer::new(robot, &load, &inverse(robot, pose, &load)?);
     at.answer(solve, Answer::print)
 }
 

@@ -8,7 +8,8 @@ use crate::pose::at_pose::{RobotAtPose, Row, cells, numbered};
 use crate::poses;
 use crate::questions;
 use cdpr_robot::{Pose, Robot, shown};
-use cdpr_statics::{DirectProblem, PoseModes, Start, StaticsError, modes_at, rough_pose};
+use cdpr_statics::vibration::{PoseModes, modes_at};
+use cdpr_statics::{DirectProblem, DirectStart, StaticsError, WantedPose, rough_pose};
 use serde::Serialize;
 
 /// A robot at a pose or with lengths, and a load.
@@ -21,7 +22,7 @@ pub(crate) struct Settings {
     /// Unstrained lengths of the cables in place of a pose, in the order of the file: l1,..,ln [m].
     #[arg(long, group = "where", value_parser = arguments::list, allow_hyphen_values = true)]
     lengths: Option<arguments::List>,
-    /// Start of the search for the pose of the lengths: x,y,z [m], or x,y,z,qw,qx,qy,qz.
+    /// DirectStart of the search for the pose of the lengths: x,y,z [m], or x,y,z,qw,qx,qy,qz.
     ///
     /// If left out, the search starts where straight cables would hold a point.
     #[arg(long, value_parser = poses::pose, requires = "lengths", allow_hyphen_values = true)]
@@ -32,8 +33,9 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     let Settings { at, free, lengths, start } = settings;
     let load = at.load.load();
     let Some(arguments::List(lengths)) = lengths else {
-        let solve =
-            |robot: &Robot, pose: &Pose| Ok(Answer::new(robot, &modes_at(robot, pose, &load, &free.free)?));
+        let solve = |robot: &Robot, pose: &Pose| {
+            Ok(Answer::new(robot, &modes_at(robot, WantedPose::at(pose).free(&free.free), &load)?))
+        };
         return at.answer(solve, Answer::print);
     };
     let robot = at.robot()?;
@@ -41,7 +43,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     let solve = || -> Result<_, StaticsError> {
         let problem = DirectProblem::new(&robot, lengths, &load)?;
         let start = start.unwrap_or_else(|| rough_pose(&robot, lengths));
-        let found = problem.direct(Start::Pose(&start))?;
+        let found = problem.direct(DirectStart::Pose(&start))?;
         questions::about_rest(&robot, "the equilibrium", (lengths, &load), &found, &start);
         PoseModes::new(&problem, found.equilibrium)
     };

@@ -5,13 +5,15 @@ use crate::error::ProgramError;
 use crate::output::{Ending, table};
 use crate::pose::at_pose::{RobotAtFreePose, Row, cells};
 use cdpr_robot::Robot;
-use cdpr_statics::{PoseStiffness, stiffness_at};
+use cdpr_statics::WantedPose;
+use cdpr_statics::stiffness::{PoseStiffness, stiffness_at};
 use serde::Serialize;
 
 pub(crate) fn run(RobotAtFreePose { at, free }: &RobotAtFreePose) -> Result<Ending, ProgramError> {
     let load = at.load.load();
-    let solve =
-        |robot: &Robot, pose: &_| Ok(Answer::new(robot, &stiffness_at(robot, pose, &load, &free.free)?));
+    let solve = |robot: &Robot, pose: &_| {
+        Ok(Answer::new(robot, &stiffness_at(robot, WantedPose::at(pose).free(&free.free), &load)?))
+    };
     at.answer(solve, Answer::print)
 }
 

@@ -15,7 +15,7 @@ pub(crate) fn write(robot: &Robot, pose: &Pose) -> Result<Exported, ExchangeErro
     check_plain(robot)?;
     let mut straight = robot.clone();
     straight.cables.iter_mut().for_each(|cable| cable.properties.linear_density = 0.0);
-    let lengths = inverse(&straight, pose, &Load::none(), None)?.lengths;
+    let lengths = inverse(&straight, pose, &Load::none())?.lengths;
     let mut notes = unplaced(robot);
     let weight: f64 =
         robot.cables.iter().zip(&lengths).map(|(cable, l)| cable.properties.linear_density * l).sum();

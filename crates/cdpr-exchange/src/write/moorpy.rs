@@ -14,7 +14,7 @@ pub(crate) fn write(robot: &Robot, pose: &Pose) -> Result<Exported, ExchangeErro
         let value = format!("{:?}", down.as_slice());
         return Err(ExchangeError::NoPlace { field: "gravity".to_owned(), value });
     }
-    let lengths = inverse(robot, pose, &Load::none(), None)?.lengths;
+    let lengths = inverse(robot, pose, &Load::none())?.lengths;
     let mut notes = unplaced(robot);
     if robot.ground_z.is_some() {
         notes.push("the height of the ground (ground_z) has no place".to_owned());

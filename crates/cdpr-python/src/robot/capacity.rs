@@ -5,7 +5,7 @@ use crate::robot::Robot;
 use crate::robot::inverse::coordinates;
 use cdpr_assess::{Clearance, Figure, Tilt, WrenchSet, capacity_at, clearance_under, tilt_at};
 use cdpr_robot::{Vector6, Wrench};
-use cdpr_statics::StaticsError;
+use cdpr_statics::{StaticsError, WantedPose};
 use pyo3::prelude::*;
 
 answer! {
@@ -97,14 +97,14 @@ impl Robot {
         let set = wrenches.as_ref().map(wrench_set).transpose()?.unwrap_or_else(|| WrenchSet::of(Vec::new()));
         let outcomes = each(py, cases.count, |case| {
             let (pose, load) = (poses.pose(case)?, loads.load(case)?);
-            let found = capacity_at(&self.robot, &pose, &load, &set, &free);
+            let found = capacity_at(&self.robot, WantedPose::at(&pose).free(&free), &load, &set);
             // Whatever else fails, fails with it.
             if let (Err(error), Err(_)) = (&found.payload_kept, &found.margin_anew) {
                 return Err(error.clone());
             }
             let tilted = || tilt_at(&self.robot, &pose, &load, tilt, TILT_ACCURACY);
             Ok(Found {
-                clearance: clearance_under(&self.robot, &pose, &load, &free).ok(),
+                clearance: clearance_under(&self.robot, WantedPose::at(&pose).free(&free), &load).ok(),
                 tilt: (tilt > 0).then(tilted).transpose()?,
                 figures: [
                     found.payload_anew,

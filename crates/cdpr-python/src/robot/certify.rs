@@ -3,7 +3,9 @@
 use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each, question};
 use crate::robot::Robot;
 use cdpr_robot::plausible;
-use cdpr_statics::{Certificate as Proof, DirectProblem, Start, StaticsError, check_lengths, rough_pose};
+use cdpr_statics::{
+    Certificate as Proof, DirectProblem, DirectStart, StaticsError, check_lengths, rough_pose,
+};
 use pyo3::prelude::*;
 
 answer! {
@@ -63,7 +65,7 @@ impl Robot {
                 None => rough_pose(robot, lengths),
             };
             let problem = DirectProblem::new(robot, lengths, &load)?;
-            let solution = problem.direct(Start::Pose(&start))?;
+            let solution = problem.direct(DirectStart::Pose(&start))?;
             let mut pose = [0.0; 7];
             pose[..3].copy_from_slice(solution.equilibrium.pose.position.as_slice());
             pose[3..].copy_from_slice(&solution.equilibrium.pose.quaternion());

@@ -5,7 +5,7 @@ use crate::robot::Robot;
 use crate::robot::direct::{DirectSolution, Found};
 use crate::robot::inverse::coordinates;
 use cdpr_robot::Vector6;
-use cdpr_statics::{StaticsError, deflection_free};
+use cdpr_statics::{StaticsError, WantedPose, deflection};
 use pyo3::prelude::*;
 
 answer! {
@@ -93,10 +93,13 @@ impl Robot {
             .transpose()?;
         let cases = loads.cases([&poses].into_iter().chain(&offsets))?;
         let robot = &self.robot;
-        let none = vec![0.0; cables];
         let outcomes: Vec<Result<Given, StaticsError>> = each(py, cases.count, |case| {
-            let offsets = offsets.as_ref().map_or(none.as_slice(), |offsets| offsets.row(case));
-            let found = deflection_free(robot, &poses.pose(case)?, offsets, &loads.load(case)?, &free)?;
+            let offsets = offsets.as_ref().map_or(&[][..], |offsets| offsets.row(case));
+            let found = deflection(
+                robot,
+                WantedPose::at(&poses.pose(case)?).free(&free).tension_offsets(offsets),
+                &loads.load(case)?,
+            )?;
             Ok(Given::new(robot, found))
         })?;
         let all = Columns::new(py, cases, &outcomes)?;

@@ -5,7 +5,7 @@ use crate::robot::Robot;
 use crate::robot::deflection::{Deflection, Given};
 use crate::robot::inverse::coordinates;
 use cdpr_robot::{Parameter, Pose};
-use cdpr_statics::{Load, StaticsError, derivatives_free};
+use cdpr_statics::{Load, StaticsError, WantedPose, derivatives};
 use pyo3::prelude::*;
 
 answer! {
@@ -135,10 +135,9 @@ impl Robot {
         let cases = loads.cases([&poses])?;
         let robot = &self.robot;
         let cables = robot.cables.len();
-        let no_offsets = vec![0.0; cables];
         let outcomes: Vec<Result<Sides, StaticsError>> = each(py, cases.count, |case| {
             let (pose, load) = (poses.pose(case)?, loads.load(case)?);
-            let found = derivatives_free(robot, &pose, &no_offsets, &load, &free)?;
+            let found = derivatives(robot, WantedPose::at(&pose).free(&free), &load)?;
             Ok(Sides {
                 left: Slopes::new(robot, &load, &found)?,
                 right: Slopes::new(robot, &load, &found.right())?,

@@ -4,9 +4,8 @@ use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each, questi
 use crate::robot::Robot;
 use cdpr_assess::doubtful_rest;
 use cdpr_robot::{Rotation3, plausible};
-use cdpr_statics::{
-    Limit, OutOfLimits, Start, StaticsError, check_lengths, direct, out_of_limits, rough_pose,
-};
+use cdpr_statics::limits::{Limit, OutOfLimits, out_of_limits};
+use cdpr_statics::{DirectStart, StaticsError, check_lengths, direct, rough_pose};
 use pyo3::prelude::*;
 
 answer! {
@@ -125,7 +124,7 @@ impl Robot {
                 Some(start) => start.pose(case)?,
                 None => rough_pose(robot, lengths),
             };
-            let solution = direct(robot, lengths, &loads.load(case)?, Start::Pose(&start))?;
+            let solution = direct(robot, lengths, &loads.load(case)?, DirectStart::Pose(&start))?;
             Ok(Found::new(robot, lengths, solution))
         };
         let outcomes = each(py, cases.count, one)?;

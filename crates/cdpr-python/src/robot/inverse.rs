@@ -4,9 +4,11 @@ use crate::convert::{Answer, Cases, Columns, Loads, Numbers, Rows, answer, each,
 use crate::robot::Robot;
 use crate::robot::direct::numbers_of_limits;
 use cdpr_robot::{Coordinate, Pose, RobotError};
+use cdpr_statics::free_coordinates::{FreeSolution, FreeSolutions, free_solutions};
+use cdpr_statics::limits::out_of_limits;
 use cdpr_statics::{
-    Bound, Equilibrium, FreeSolution, FreeSolutions, InversePath, InverseSolution as InverseModel,
-    PathSolution, Residual, StaticsError, inverse, inverse_free, out_of_limits,
+    Bound, Equilibrium, InversePath, InverseSolution as InverseModel, PathSolution, Residual, StaticsError,
+    WantedPose, inverse,
 };
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
@@ -224,23 +226,24 @@ impl Robot {
         let cases = loads.cases([&poses].into_iter().chain(&reference))?;
         let robot = &self.robot;
         let of_case = |case: usize| -> Result<_, StaticsError> {
-            let reference = reference.as_ref().map(|reference| reference.row(case));
-            Ok((poses.pose(case)?, loads.load(case)?, reference))
+            let tension_reference = reference.as_ref().map(|reference| reference.row(case));
+            let pose = poses.pose(case)?;
+            Ok((WantedPose { tension_reference, free: &free, ..pose.into() }, loads.load(case)?))
         };
         let outcomes: Vec<Result<Solved, StaticsError>> = if path {
             let mut path = InversePath::new(robot);
             let mut one = |case| {
-                let (pose, load, reference) = of_case(case)?;
-                path.solve(&pose, &load, reference).map(Solved::from)
+                let (wanted, load) = of_case(case)?;
+                path.solve(wanted, &load).map(Solved::from)
             };
             run(py, |stop| (0..cases.count).take_while(|_| !stop.load(Relaxed)).map(&mut one).collect())?
         } else {
             each(py, cases.count, |case| {
-                let (pose, load, reference) = of_case(case)?;
+                let (wanted, load) = of_case(case)?;
                 if !free.is_empty() {
-                    return inverse_free(robot, &pose, &load, &free).map(Solved::from);
+                    return free_solutions(robot, wanted, &load).map(Solved::from);
                 }
-                let solution = inverse(robot, &pose, &load, reference)?;
+                let solution = inverse(robot, wanted, &load)?;
                 Ok(Solved::from(PathSolution { solution, jump: false }))
             })?
         };

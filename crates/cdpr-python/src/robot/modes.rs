@@ -4,7 +4,8 @@ use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each};
 use crate::robot::Robot;
 use crate::robot::inverse::coordinates;
 use cdpr_robot::Vector3;
-use cdpr_statics::{NaturalMode, PoseModes, modes_at};
+use cdpr_statics::WantedPose;
+use cdpr_statics::vibration::{NaturalMode, PoseModes, modes_at};
 use pyo3::prelude::*;
 
 answer! {
@@ -62,7 +63,7 @@ impl Robot {
         let loads = Loads::new(force.as_ref(), moment.as_ref(), payload.as_ref(), &self.robot)?;
         let cases = loads.cases([&poses])?;
         let outcomes = each(py, cases.count, |case| {
-            modes_at(&self.robot, &poses.pose(case)?, &loads.load(case)?, &free)
+            modes_at(&self.robot, WantedPose::at(&poses.pose(case)?).free(&free), &loads.load(case)?)
         })?;
         let all = Columns::new(py, cases, &outcomes)?;
         let count = self.robot.freedoms().count();

@@ -4,7 +4,8 @@ use crate::convert::{Answer, Cases, Columns, Loads, Numbers, Raised, Rows, answe
 use crate::robot::Robot;
 use crate::robot::inverse::coordinates;
 use cdpr_robot::{Deviations, ParameterLayout, Vector3};
-use cdpr_statics::{Observation, Observer, StaticsError};
+use cdpr_statics::batch::Observation;
+use cdpr_statics::{Observer, StaticsError, WantedPose};
 use pyo3::prelude::*;
 use rayon::prelude::*;
 use std::sync::atomic::Ordering;
@@ -67,7 +68,7 @@ impl Robot {
         let deviations = Deviations::new(&layout, rows.width(), rows.all())?;
         let cases = Cases::of(&[&rows])?;
         let (wanted, load) = (pose.pose(0)?, loads.load(0)?);
-        let lanes = Observer::with_free(&self.robot, &wanted, &load, &free)?;
+        let lanes = Observer::new(&self.robot, WantedPose::at(&wanted).free(&free), &load)?;
         let outcomes = run(py, |stop| {
             let part = |part: Deviations| -> Vec<Result<Vector3<f64>, StaticsError>> {
                 if stop.load(Ordering::Relaxed) {

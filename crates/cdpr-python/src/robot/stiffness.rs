@@ -4,7 +4,8 @@ use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each};
 use crate::robot::Robot;
 use crate::robot::inverse::coordinates;
 use cdpr_robot::Vector3;
-use cdpr_statics::{Mode, PoseStiffness, StaticsError, stiffness_at};
+use cdpr_statics::stiffness::{Mode, PoseStiffness, stiffness_at};
+use cdpr_statics::{StaticsError, WantedPose};
 use pyo3::prelude::*;
 
 answer! {
@@ -77,7 +78,11 @@ impl Robot {
         let loads = Loads::new(force.as_ref(), moment.as_ref(), payload.as_ref(), &self.robot)?;
         let cases = loads.cases([&poses])?;
         let outcomes = each(py, cases.count, |case| {
-            let stiffness = stiffness_at(&self.robot, &poses.pose(case)?, &loads.load(case)?, &free)?;
+            let stiffness = stiffness_at(
+                &self.robot,
+                WantedPose::at(&poses.pose(case)?).free(&free),
+                &loads.load(case)?,
+            )?;
             let (modes, least_stiffness) =
                 (stiffness.stability.modes(), stiffness.stability.least_stiffness());
             Ok::<_, StaticsError>(Found { stiffness, modes, least_stiffness })

@@ -65,6 +65,8 @@ impl Bounds {
 pub(super) struct Winding<'a> {
     pub(super) robot: &'a Robot,
     pub(super) pose: &'a Pose,
+    /// Tensions that are preferred [N]; `None` for the robot's own.
+    pub(super) reference: Option<&'a [f64]>,
     pub(super) inputs: Inputs,
     pub(super) wound: &'a Wound,
 }
@@ -150,7 +152,7 @@ impl Winding<'_> {
             bounds: rows,
             freedoms,
         };
-        let reference = self.robot.reference();
+        let reference = self.reference.map_or_else(|| self.robot.reference(), <[f64]>::to_vec);
         let largest = tensions.iter().copied().fold(0.0, f64::max);
         let undecided = (0..tensions.len()).filter_map(|cable| {
             let bound = bound(cable)?;

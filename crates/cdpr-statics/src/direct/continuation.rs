@@ -11,7 +11,7 @@
 
 use crate::direct::near::{is_near_prediction, keeps_stiffness, motion};
 use crate::direct::newton::newton;
-use crate::direct::solution::{DirectMethod, DirectSolution, Report, descend, solution};
+use crate::direct::solution::{DirectMethod, DirectReport, DirectSolution, descend, solution};
 use crate::error::{BranchEnd, StaticsError};
 use crate::problem::DirectProblem;
 use crate::state::Load;
@@ -130,7 +130,8 @@ pub(crate) fn follow_change(
     let iterations = steps[1..].iter().map(|step| step.solution.report.iterations).sum();
     match (steps.pop(), lost) {
         (Some(PathStep { mut solution, .. }), None) => {
-            solution.report = Report { method: DirectMethod::Continuation, iterations, ..solution.report };
+            solution.report =
+                DirectReport { method: DirectMethod::Continuation, iterations, ..solution.report };
             Ok(solution)
         }
         (_, Some(lost)) => Err(lost.into_error(iterations, begin.lengths == end.lengths)),

@@ -1,6 +1,6 @@
 //! Equilibria from a set of starts (multistart).
 
-use crate::direct::search::Start;
+use crate::direct::search::DirectStart;
 use crate::direct::solution::DirectSolution;
 use crate::error::StaticsError;
 use crate::problem::DirectProblem;
@@ -92,10 +92,10 @@ impl DirectProblem<'_> {
         let mut equilibria = Equilibria { found: Vec::new(), failed: Vec::new() };
         for index in 0..starts.count {
             let start = starts.pose(index);
-            let any = self.direct_any(Start::Pose(&start));
+            let any = self.direct_any(DirectStart::Pose(&start));
             // What Newton's method found may stand uphill.
             if any.as_ref().is_ok_and(|solution| !solution.stability.is_stable()) {
-                equilibria.add(self, self.direct(Start::Pose(&start)));
+                equilibria.add(self, self.direct(DirectStart::Pose(&start)));
             }
             equilibria.add(self, any);
         }

@@ -2,7 +2,7 @@
 
 use crate::direct::continuation::{Loss, LossKind, Path, Setting, follow_from};
 use crate::direct::newton::newton;
-use crate::direct::solution::{DirectMethod, DirectSolution, Report, descend, solution};
+use crate::direct::solution::{DirectMethod, DirectReport, DirectSolution, descend, solution};
 use crate::direct::stability::Stability;
 use crate::equations::{cables_at, to_base};
 use crate::error::StaticsError;
@@ -12,7 +12,7 @@ use cdpr_robot::{Matrix3, Pose, Robot, Rotation3, Vector3, Wrench};
 
 /// Where the search starts.
 #[derive(Clone, Copy, Debug)]
-pub enum Start<'a> {
+pub enum DirectStart<'a> {
     /// At a pose; the cables are first brought into equilibrium there.
     Pose(&'a Pose),
     /// At a pose with cable forces that need not fit it: an equilibrium nearby.
@@ -29,7 +29,7 @@ pub fn direct(
     robot: &Robot,
     lengths: &[f64],
     load: &Load,
-    start: Start,
+    start: DirectStart,
 ) -> Result<DirectSolution, StaticsError> {
     DirectProblem::new(robot, lengths, load)?.direct(start)
 }
@@ -49,7 +49,7 @@ impl DirectProblem<'_> {
     ///   it disappears while the moment is raised.
     /// - [`StaticsError::DirectNotConverged`] with the last pose.
     /// - [`StaticsError::Robot`] where the search fails because a value of the robot is invalid.
-    pub fn direct(&self, start: Start) -> Result<DirectSolution, StaticsError> {
+    pub fn direct(&self, start: DirectStart) -> Result<DirectSolution, StaticsError> {
         search(self, start, Stability::is_stable)
     }
 
@@ -60,7 +60,7 @@ impl DirectProblem<'_> {
     ///
     /// # Errors
     /// As [`DirectProblem::direct`].
-    pub fn direct_any(&self, start: Start) -> Result<DirectSolution, StaticsError> {
+    pub fn direct_any(&self, start: DirectStart) -> Result<DirectSolution, StaticsError> {
         search(self, start, |_| true)
     }
 
@@ -69,7 +69,7 @@ impl DirectProblem<'_> {
     ///
     /// # Errors
     /// [`StaticsError::Unstable`], and those of [`DirectProblem::direct`].
-    pub fn direct_held(&self, start: Start) -> Result<DirectSolution, StaticsError> {
+    pub fn direct_held(&self, start: DirectStart) -> Result<DirectSolution, StaticsError> {
         let found = self.direct_any(start)?;
         if found.stability.is_stable() {
             return Ok(found);
@@ -112,7 +112,7 @@ pub fn rough_pose(robot: &Robot, lengths: &[f64]) -> Pose {
 
 fn search(
     problem: &DirectProblem,
-    start: Start,
+    start: DirectStart,
     accepted: impl Fn(&Stability) -> bool,
 ) -> Result<DirectSolution, StaticsError> {
     let start = checked(problem, start)?;
@@ -127,14 +127,14 @@ fn search(
 }
 
 /// The start as an equilibrium to be found, validated.
-fn checked(problem: &DirectProblem, start: Start) -> Result<Equilibrium, StaticsError> {
+fn checked(problem: &DirectProblem, start: DirectStart) -> Result<Equilibrium, StaticsError> {
     match start {
-        Start::Pose(pose) if pose.is_finite() => cables_at(problem, pose),
-        Start::Pose(pose) => {
+        DirectStart::Pose(pose) if pose.is_finite() => cables_at(problem, pose),
+        DirectStart::Pose(pose) => {
             let position = format!("{:?}", pose.position.as_slice());
             Err(StaticsError::invalid("start".to_owned(), position, "a finite pose"))
         }
-        Start::Near(equilibrium) => {
+        DirectStart::Near(equilibrium) => {
             problem.check("start", equilibrium)?;
             Ok(equilibrium.clone())
         }
@@ -165,7 +165,8 @@ fn settle(problem: &DirectProblem, pose: &Pose) -> Result<DirectSolution, Static
     match (steps.pop(), lost) {
         (Some(last), None) => {
             let mut solution = last.solution;
-            solution.report = Report { method: DirectMethod::Continuation, iterations, ..solution.report };
+            solution.report =
+                DirectReport { method: DirectMethod::Continuation, iterations, ..solution.report };
             Ok(solution)
         }
         (_, Some(Loss { kind: LossKind::Overstrained, after: Err(error), .. })) => Err(error),

@@ -45,7 +45,7 @@ impl FromStr for DirectMethod {
 
 /// How an answer was found and how good it is.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Report {
+pub struct DirectReport {
     /// The method that found it.
     pub method: DirectMethod,
     /// Iterations made by that method.
@@ -66,7 +66,7 @@ pub struct DirectSolution {
     /// Pose and cable forces.
     pub equilibrium: Equilibrium,
     /// How it was found, with residuals.
-    pub report: Report,
+    pub report: DirectReport,
     /// Whether it is stable, and how far it is from becoming unstable.
     pub stability: Stability,
 }
@@ -95,7 +95,7 @@ pub(crate) fn solution(
             longer_than_chord.push(i);
         }
     }
-    let report = Report { method, iterations, residual, slack, longer_than_chord };
+    let report = DirectReport { method, iterations, residual, slack, longer_than_chord };
     Ok(DirectSolution { equilibrium, report, stability })
 }
 

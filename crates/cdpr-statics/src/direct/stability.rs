@@ -149,13 +149,6 @@ impl Stability {
         }
     }
 
-    /// Number of independent directions in which the platform would move away: of negative eigenvalues.
-    pub fn unstable_directions(&self) -> usize {
-        let negative = self.eigenvalues().iter().filter(|value| **value < 0.0).count();
-        // At the border of stability rounding decides: the answer agrees with `is_stable`.
-        if self.stable { 0 } else { negative.max(1) }
-    }
-
     /// Characteristic length ℓ that makes rotations comparable with translations [m].
     ///
     /// It is the root mean square distance of the anchor points from P, or a thousandth of the longest cable

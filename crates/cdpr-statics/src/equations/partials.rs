@@ -84,18 +84,6 @@ impl Inputs {
     pub(crate) fn zeros(&self, rows: usize) -> DMatrix<f64> {
         DMatrix::from_vec(rows, self.count(), vec![0.0; rows * self.count()])
     }
-
-    /// Checks that there is one finite value, not negative, for each parameter.
-    pub(crate) fn check(&self, field: &str, values: &[f64]) -> Result<(), StaticsError> {
-        let count = self.parameters.len();
-        let (index, value) = match values.iter().position(|value| !(value.is_finite() && *value >= 0.0)) {
-            _ if values.len() != count => (String::new(), format!("a list of {}", values.len())),
-            Some(i) => (format!("[{i}]"), values[i].to_string()),
-            None => return Ok(()),
-        };
-        let expected = format!("a finite number, zero or more, for each of the {count} parameters");
-        Err(StaticsError::invalid(format!("{field}{index}"), value, expected))
-    }
 }
 
 /// Wrench [F; s x F] about P of a force F at the arm s.

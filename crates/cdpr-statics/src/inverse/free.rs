@@ -23,13 +23,13 @@ mod straight;
 mod unique;
 
 use super::question::Question;
-use super::{HeldPose, inverse};
+use super::{HeldPose, inverse_at, refuse_offsets};
 use crate::error::StaticsError;
 use crate::out_of_limits::out_of_limits;
 use crate::problem::DirectProblem;
-use crate::state::Load;
+use crate::state::{Load, WantedPose};
 use cdpr_cable::LONGEST_TAUT;
-use cdpr_robot::{Coordinate, Pose, Robot};
+use cdpr_robot::{Coordinate, Robot};
 pub(crate) use nearby::FreeBranch;
 pub use nearby::rest_near;
 use roots::Roots;
@@ -38,68 +38,51 @@ pub use solution::{FreeSolution, FreeSolutions};
 pub use sound::LONGEST;
 use sound::{Loops, longest};
 
-/// The unstrained lengths with which the platform rests under its weight and `load` at a pose whose
-/// coordinates are those of `pose` except for the `free` ones.
+/// All lengths that were found with which the platform rests under its weight and `load` at a pose whose free
+/// coordinates start from those of the wanted one.
 ///
-/// The free coordinates start from `pose`. A robot with n cables for m free motions has m - n of them; with a
-/// cable for every free motion there are no free coordinates, and the answer is that of [`inverse`]. No cable
-/// is longer than [`LONGEST`] chords, and none is below [`Robot::ground_z`].
+/// A robot with n cables for m free motions has m - n free coordinates; with a cable for every free motion
+/// there are none, and the one solution is that of [`crate::inverse`]. No cable is longer than [`LONGEST`]
+/// chords, unless loops are wanted, and none is below [`Robot::ground_z`].
 ///
 /// ```
-/// use cdpr_robot::{Coordinate, Pose, Robot};
-/// use cdpr_statics::{Load, inverse_free};
+/// use cdpr_robot::{Coordinate, Robot};
+/// use cdpr_statics::{Load, WantedPose};
+/// use cdpr_statics::free_coordinates::free_solutions;
 ///
 /// let mut robot = Robot::from_json(include_str!("../../../../data/robots/cogiro.json"))?;
 /// robot.cables = [1, 3, 5, 7].map(|i| robot.cables[i].clone()).to_vec();
-/// let free = [Coordinate::Roll, Coordinate::Yaw];
-/// let found = inverse_free(&robot, &Pose::at(1.0, -0.3, 2.0), &Load::none(), &free)?.first;
+/// let wanted = WantedPose::at(&Pose::at(1.0, -0.3, 2.0)).free(&[Coordinate::Roll, Coordinate::Yaw]);
+/// let found = free_solutions(&robot, wanted, &Load::none())?.first;
 /// assert!(found.stability.is_stable() && found.residual.force < 1e-8);
 /// assert_eq!(found.equilibrium.pose.position.z, 2.0);
 /// # Ok::<(), cdpr_statics::StaticsError>(())
 /// ```
 ///
 /// # Errors
-/// - [`StaticsError::FreeCoordinates`] where `free` has not m - n names.
+/// - [`StaticsError::FreeCoordinates`] where the free coordinates are not m - n.
 /// - [`StaticsError::NoRest`] where no such solution was found; it says what the nearest one lacks.
 /// - [`StaticsError::NotUnique`] where infinitely many lengths or tensions hold the platform.
-/// - [`StaticsError::Invalid`] for a coordinate that is named twice or held, and a pose or load that is not
-///   finite.
-pub fn inverse_free(
+/// - [`StaticsError::Invalid`] for a coordinate that is named twice or held, for a pose or load that is not
+///   finite, and for offsets of tension set-points.
+pub fn free_solutions<'a>(
     robot: &Robot,
-    pose: &Pose,
+    wanted: impl Into<WantedPose<'a>>,
     load: &Load,
-    free: &[Coordinate],
 ) -> Result<FreeSolutions, StaticsError> {
-    solutions(robot, pose, load, free, Loops::Refused)
+    solutions(robot, &refuse_offsets(wanted.into())?, load)
 }
 
-/// [`inverse_free`] among cables of any length: a loop that hangs on its ends may hold a platform, too.
-///
-/// # Errors
-/// Those of [`inverse_free`].
-pub fn inverse_free_with_loops(
-    robot: &Robot,
-    pose: &Pose,
-    load: &Load,
-    free: &[Coordinate],
-) -> Result<FreeSolutions, StaticsError> {
-    solutions(robot, pose, load, free, Loops::Allowed)
-}
-
-fn solutions(
-    robot: &Robot,
-    pose: &Pose,
-    load: &Load,
-    free: &[Coordinate],
-    loops: Loops,
-) -> Result<FreeSolutions, StaticsError> {
+fn solutions(robot: &Robot, wanted: &WantedPose, load: &Load) -> Result<FreeSolutions, StaticsError> {
+    let WantedPose { pose, free, loops, tension_reference, .. } = wanted;
     check_free(robot, free)?;
     if free.is_empty() {
-        let found = inverse(robot, pose, load, None)?;
+        let found = inverse_at(robot, pose, load, *tension_reference)?;
         let first = FreeSolution::new(robot, load, found.lengths, found.equilibrium, found.iterations)?;
         return Ok(FreeSolutions { first, others: Vec::new() });
     }
     let search = Search::new(robot, pose, load, free)?;
+    let loops = if *loops { Loops::Allowed } else { Loops::Refused };
     let found = Roots::new(&search, loops).all()?;
     let FreeSolution { lengths, equilibrium, .. } = &found.first;
     DirectProblem::new(robot, lengths, load)?.check_strains(equilibrium)?;
@@ -163,28 +146,30 @@ impl Search<'_> {
     }
 }
 
-/// Unstrained lengths that hold the platform at a pose whose `free` coordinates are found: those of
-/// [`inverse_free`], or of [`inverse`] where there is a cable for every free motion. A stable solution close
-/// to the given pose is taken without a search for others.
+/// Unstrained lengths that hold the platform where its free coordinates are found: those of
+/// [`free_solutions`]. A stable solution close to the given pose is taken without a search for others.
 ///
 /// # Errors
-/// Those of [`inverse_free`].
-pub fn held_at(
-    robot: &Robot,
-    pose: &Pose,
-    load: &Load,
-    free: &[Coordinate],
-) -> Result<HeldPose, StaticsError> {
-    if free.is_empty() {
-        let found = inverse(robot, pose, load, None)?;
+/// Those of [`free_solutions`].
+pub(crate) fn rest(robot: &Robot, wanted: &WantedPose, load: &Load) -> Result<FreeSolution, StaticsError> {
+    check_free(robot, wanted.free)?;
+    let found = match Search::new(robot, &wanted.pose, load, wanted.free)?.beside()? {
+        Some(found) => found,
+        None => solutions(robot, wanted, load)?.first,
+    };
+    DirectProblem::new(robot, &found.lengths, load)?.check_strains(&found.equilibrium)?;
+    Ok(found)
+}
+
+/// The lengths of [`crate::inverse`].
+///
+/// # Errors
+/// Those of [`crate::inverse`].
+pub(crate) fn held_at(robot: &Robot, wanted: &WantedPose, load: &Load) -> Result<HeldPose, StaticsError> {
+    if wanted.free.is_empty() {
+        let found = inverse_at(robot, &wanted.pose, load, wanted.tension_reference)?;
         return Ok(HeldPose { lengths: found.lengths, equilibrium: found.equilibrium });
     }
-    check_free(robot, free)?;
-    let search = Search::new(robot, pose, load, free)?;
-    let FreeSolution { lengths, equilibrium, .. } = match search.beside()? {
-        Some(found) => found,
-        None => solutions(robot, pose, load, free, Loops::Refused)?.first,
-    };
-    DirectProblem::new(robot, &lengths, load)?.check_strains(&equilibrium)?;
+    let FreeSolution { lengths, equilibrium, .. } = rest(robot, wanted, load)?;
     Ok(HeldPose { lengths, equilibrium })
 }

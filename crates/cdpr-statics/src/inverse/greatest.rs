@@ -72,7 +72,7 @@ pub struct Blocking {
 /// more.
 ///
 /// # Errors
-/// Those of [`super::inverse`]; [`StaticsError::NoTensions`] where no mass is held.
+/// Those of [`crate::inverse`]; [`StaticsError::NoTensions`] where no mass is held.
 pub fn greatest_payload(robot: &Robot, pose: &Pose, wrench: &Wrench) -> Result<Greatest, StaticsError> {
     let gravity = robot.gravity.magnitude();
     let load = Load::wrench(*wrench);
@@ -103,7 +103,7 @@ pub fn greatest_payload(robot: &Robot, pose: &Pose, wrench: &Wrench) -> Result<G
 /// Cables whose own weight demands more than their least tension rest on what it demands.
 ///
 /// # Errors
-/// Those of [`super::inverse`]; [`StaticsError::NoTensions`] where the load cannot be balanced by any pull of
+/// Those of [`crate::inverse`]; [`StaticsError::NoTensions`] where the load cannot be balanced by any pull of
 /// the cables, whatever their limits; [`StaticsError::InverseNotConverged`] where tensions hold the pose and
 /// their margin was not found.
 pub fn tension_margin(robot: &Robot, pose: &Pose, load: &Load) -> Result<Greatest, StaticsError> {
@@ -163,7 +163,7 @@ impl<'a> Bounded<'a> {
         if !self.strained.contains(&true) {
             return refusal;
         }
-        match super::inverse(robot, pose, load, None) {
+        match super::inverse_at(robot, pose, load, None) {
             Err(overstrained @ StaticsError::Overstrained { .. }) => overstrained,
             _ => refusal,
         }

@@ -6,7 +6,7 @@
 use super::feasible::refused;
 use super::optimum::Point;
 use super::question::Question;
-use super::{InverseSolution, inverse};
+use super::{InverseSolution, inverse_at};
 use crate::error::StaticsError;
 use crate::state::Load;
 use cdpr_robot::{Pose, Robot};
@@ -24,7 +24,7 @@ impl<'a> InTurn<'a> {
         Self { robot, load, nearest: None }
     }
 
-    /// The answer of [`inverse`] at the next pose.
+    /// The answer of [`crate::inverse`] at the next pose.
     pub(crate) fn answer(&mut self, pose: &Pose) -> Result<InverseSolution, StaticsError> {
         match self.refusal(pose) {
             Some(refusal) => Err(refusal),
@@ -41,10 +41,10 @@ impl<'a> InTurn<'a> {
         Some(refusal)
     }
 
-    /// The answer of [`inverse`] at a pose that is not refused.
+    /// The answer of [`crate::inverse`] at a pose that is not refused.
     pub(crate) fn solution(&mut self, pose: &Pose) -> Result<InverseSolution, StaticsError> {
         self.nearest = None;
-        inverse(self.robot, pose, self.load, None).inspect_err(|refusal| self.keep(refusal))
+        inverse_at(self.robot, pose, self.load, None).inspect_err(|refusal| self.keep(refusal))
     }
 
     /// The last pose is held, found by other means.

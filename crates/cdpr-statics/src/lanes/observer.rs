@@ -15,16 +15,16 @@ pub(crate) mod rows;
 mod slopes;
 
 use crate::error::StaticsError;
-use crate::inverse::{Branch, FreeBranch, HeldPose, InverseSolution, require_smooth};
+use crate::inverse::{Branch, FreeBranch, HeldPose, InverseSolution, refuse_offsets, require_smooth};
 use crate::lanes::chain::{Outcome, Stage, observe};
 use crate::lanes::level::LevelFrame;
 use crate::lanes::observer::rows::{Nominal, Rows};
 use crate::lanes::reason::ScalarReason;
 use crate::loading::{Deflection, deflection, deflection_beside, deflection_near};
-use crate::state::{Load, Residual};
+use crate::state::{Load, Residual, WantedPose};
 use cdpr_number::lanes::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
 use cdpr_number::three;
-use cdpr_robot::{Coordinate, Deviations, ParameterLayout, Pose, Robot, Vector3, Vector6};
+use cdpr_robot::{Deviations, ParameterLayout, Pose, Robot, Vector3, Vector6};
 pub use motions::ObservationMotion;
 pub use slopes::ObservationSlopes;
 use std::array::from_fn;
@@ -109,46 +109,44 @@ enum Wanted {
 }
 
 impl<'a> Observer<'a> {
-    /// An observer of `robot`, wanted at `pose` under its own weight and then loaded with `load`.
+    /// An observer of `robot` at a wanted pose under its own weight and then loaded with `load`.
+    ///
+    /// Free coordinates are found where the platform rests, those of deviating robots from those of the
+    /// nominal one.
     ///
     /// # Errors
-    /// [`StaticsError::Invalid`] for a load that is not finite and for a distribution of tensions that jumps from
-    /// pose to pose, [`StaticsError::Robot`] for an invalid robot.
-    pub fn new(robot: &'a Robot, pose: &Pose, load: &Load) -> Result<Self, StaticsError> {
-        robot.validate()?;
-        load.validate()?;
-        require_smooth(robot)?;
-        let (solution, branch) = Branch::of(robot, pose).ok().unzip();
-        let solution = solution.map(|InverseSolution { lengths, equilibrium, multipliers, .. }| {
-            (HeldPose { lengths, equilibrium }, multipliers)
-        });
-        let nominal = Nominal::new(robot, load, solution, &[]);
-        let layout = ParameterLayout::of(robot);
-        Ok(Self { robot, pose: *pose, load: *load, layout, wanted: Wanted::Pose(branch), nominal })
-    }
-
-    /// As [`Observer::new`], of a robot with fewer cables than free motions: the `free` coordinates of the
-    /// pose are found where the platform rests, those of deviating robots from those of the nominal one.
-    ///
-    /// # Errors
-    /// Those of [`Observer::new`] and of [`crate::held_at`].
-    pub fn with_free(
+    /// [`StaticsError::Invalid`] for a load that is not finite, for offsets, which are among the deviations,
+    /// for a tension reference, which is the robot's own, and for a distribution of tensions that jumps from
+    /// pose to pose; [`StaticsError::Robot`] for an invalid robot; with free coordinates those of
+    /// [`crate::inverse`].
+    pub fn new<'w>(
         robot: &'a Robot,
-        pose: &Pose,
+        wanted: impl Into<WantedPose<'w>>,
         load: &Load,
-        free: &[Coordinate],
     ) -> Result<Self, StaticsError> {
-        if free.is_empty() {
-            return Self::new(robot, pose, load);
+        let WantedPose { pose, free, tension_reference, .. } = refuse_offsets(wanted.into())?;
+        if let Some(given) = tension_reference {
+            let value = format!("a list of {}", given.len());
+            let expected = "none here: deviating robots have the reference of the robot";
+            return Err(StaticsError::invalid("tension_reference".to_owned(), value, expected));
         }
         robot.validate()?;
         load.validate()?;
-        let branch = FreeBranch::of(robot, pose, free)?;
-        let rest = branch.rest();
-        let pose = rest.equilibrium.pose;
-        let nominal = Nominal::new(robot, load, Some((rest.clone(), Vector6::zeros())), free);
+        let (pose, wanted, solution) = if free.is_empty() {
+            require_smooth(robot)?;
+            let (solution, branch) = Branch::of(robot, &pose).ok().unzip();
+            let solution = solution.map(|InverseSolution { lengths, equilibrium, multipliers, .. }| {
+                (HeldPose { lengths, equilibrium }, multipliers)
+            });
+            (pose, Wanted::Pose(branch), solution)
+        } else {
+            let branch = FreeBranch::of(robot, &pose, free)?;
+            let rest = branch.rest().clone();
+            (rest.equilibrium.pose, Wanted::Rest(branch), Some((rest, Vector6::zeros())))
+        };
+        let nominal = Nominal::new(robot, load, solution, free);
         let layout = ParameterLayout::of(robot);
-        Ok(Self { robot, pose, load: *load, layout, wanted: Wanted::Rest(branch), nominal })
+        Ok(Self { robot, pose, load: *load, layout, wanted, nominal })
     }
 
     /// The wanted pose; its free coordinates are those of the nominal robot.
@@ -194,7 +192,9 @@ impl<'a> Observer<'a> {
         let (robot, offsets) = (&perturbed.robot, &perturbed.tension_offsets);
         match &self.wanted {
             Wanted::Pose(Some(branch)) => deflection_near(branch, robot, &self.pose, offsets, &self.load),
-            Wanted::Pose(None) => deflection(robot, &self.pose, offsets, &self.load),
+            Wanted::Pose(None) => {
+                deflection(robot, WantedPose::at(&self.pose).tension_offsets(offsets), &self.load)
+            }
             Wanted::Rest(branch) => deflection_beside(branch, robot, offsets, &self.load),
         }
     }

@@ -14,7 +14,9 @@ mod slopes;
 
 use crate::equations::Span;
 use crate::error::StaticsError;
-use crate::inverse::{InTurn, InverseSolution};
+#[cfg(doc)]
+use crate::inverse::free_solutions;
+use crate::inverse::{InTurn, InverseSolution, inverse_at, refuse_offsets, rest};
 use crate::lanes::cable::Shape;
 use crate::lanes::chain::lengths::FindLengths;
 use crate::lanes::chain::minimum::is_least;
@@ -26,14 +28,14 @@ use crate::lanes::load::PlatformLoad;
 use crate::lanes::platform::{LinearizedPlatform, Robots};
 use crate::lanes::poses::placed::{PlacedRobot, each};
 use crate::problem::DirectProblem;
-use crate::state::{Equilibrium, Load, Residual};
+use crate::state::{Equilibrium, Load, Residual, Wanted, WantedPose};
 use cdpr_number::dense::{Lanes2, Lanes6};
 use cdpr_number::lanes::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
 use cdpr_number::six;
 use cdpr_number::vector::{dot, wrench};
 use cdpr_robot::{Pose, Robot, Vector2, Vector3, Vector6};
 use cdpr_tension::Bound;
-pub use loaded::{LoadedPose, PoseSlopes, loaded_poses, loaded_poses_slopes};
+pub use loaded::{Loaded, LoadedPose, PoseSlopes, loaded_poses};
 use smallvec::SmallVec;
 
 /// Poses that are cut into sequences together.
@@ -45,20 +47,65 @@ const SEQUENCES: usize = MAX_LANES;
 /// Greatest error of (I2) in a cable, relative to the sum of tensions.
 const STATIONARY: f64 = 1e-10;
 
-/// [`inverse`] at every pose, with the robot's own reference of the tensions.
+/// The unstrained lengths with which the platform rests at a wanted pose, or at each of many, under its
+/// weight and `load`.
 ///
-/// Poses that follow each other should be near each other, as along the lines of a grid: robots with a cable
-/// for each free motion, over pulleys with vertical axes or none, are then answered in the lanes of the
-/// vector unit, each from the pose before it, and all others one by one. An answer found in lanes counts no
+/// Within their limits the tensions are as near as possible to the reference that is wanted or that of the
+/// robot, which is zero unless it is stated: the least-norm tensions.
+///
+/// With fewer cables than free motions, the free coordinates are found: a stable solution close to the given
+/// pose is taken without a search for others, else the first one of [`free_solutions`].
+///
+/// **Many poses** should follow each other closely, as along the lines of a grid: robots with a cable for
+/// each free motion, over pulleys with vertical axes or none, are then answered in the lanes of the vector
+/// unit, each pose from the one before it, and all others one by one. An answer found in lanes counts no
 /// iterations. It depends on the poses before it in the same call, in the last digits; it does not depend on
-/// the vector unit.
+/// the vector unit. Where (I1) has several minima, the answer to one pose is the best that several starts
+/// lead to; one in lanes with a cable that sags is proved to be the least of all on a grid of its tensions.
 ///
-/// Where (I1) has several minima, [`inverse`] takes the best that several starts lead to. An answer in lanes
-/// with a cable that sags is proved to be the least of all on a grid of its tensions.
+/// ```
+/// use cdpr_robot::{Pose, Robot};
+/// use cdpr_statics::{Load, WantedPose, inverse};
+///
+/// let robot = Robot::from_json(include_str!("../../../../data/robots/caroca.json"))?;
+/// let pose = Pose::at(0.0, 0.0, 1.75);
+/// let least_norm = inverse(&robot, &pose, &Load::none())?;
+/// let wanted = WantedPose::at(&pose).tension_reference(&[900.0; 8]);
+/// assert!(inverse(&robot, wanted, &Load::none())?.tensions[0] > least_norm.tensions[0]);
+///
+/// let line: Vec<Pose> = (0..20).map(|k| Pose::at(0.05 * f64::from(k), 0.0, 1.75)).collect();
+/// assert!(inverse(&robot, &line, &Load::none()).iter().all(Result::is_ok));
+/// # Ok::<(), cdpr_statics::StaticsError>(())
+/// ```
 ///
 /// # Errors
-/// Those of [`inverse`], for each pose.
-pub fn inverse_all(robot: &Robot, poses: &[Pose], load: &Load) -> Vec<Result<InverseSolution, StaticsError>> {
+/// - [`StaticsError::NoTensions`] where no tensions within the limits were found that hold the pose.
+/// - [`StaticsError::Overstrained`] where the tensions strain a cable by more than the models hold for.
+/// - [`StaticsError::ExitLimit`] where the limits of a cable contradict each other at this pose.
+/// - [`StaticsError::Cable`] where a cable's own weight demands more than the greatest tension.
+/// - [`StaticsError::Invalid`] for a pose, load or reference that is not finite, a reference of another
+///   number of cables, and offsets of set-points.
+/// - [`StaticsError::FreeCoordinates`] for a robot with fewer cables than free motions, where not as many
+///   coordinates are free.
+/// - [`StaticsError::InverseNotConverged`] where tensions hold the pose but their optimum was not found.
+/// - Those of [`free_solutions`] where coordinates are free.
+pub fn inverse<W: Wanted>(
+    robot: &Robot,
+    wanted: W,
+    load: &Load,
+) -> W::Answers<Result<InverseSolution, StaticsError>> {
+    let one = |wanted: &WantedPose| {
+        let wanted = refuse_offsets(*wanted)?;
+        if wanted.free.is_empty() {
+            return inverse_at(robot, &wanted.pose, load, wanted.tension_reference);
+        }
+        rest(robot, &wanted, load).map(InverseSolution::from)
+    };
+    wanted.answers(one, |poses| inverse_all(robot, poses, load))
+}
+
+/// The inverse model at poses that follow each other.
+fn inverse_all(robot: &Robot, poses: &[Pose], load: &Load) -> Vec<Result<InverseSolution, StaticsError>> {
     match Setting::of(robot, load) {
         Some(setting) => {
             let mut ends = Vec::with_capacity(SEQUENCES);

@@ -1,6 +1,6 @@
 //! Direct solves one after the other, each from the equilibrium before, as in a control loop or a simulation.
 
-use crate::direct::{DirectSolution, Start, direct, follow_change};
+use crate::direct::{DirectSolution, DirectStart, direct, follow_change};
 use crate::error::StaticsError;
 use crate::lanes::cable::LaneCable;
 use crate::lanes::load::PlatformLoad;
@@ -19,7 +19,7 @@ use smallvec::SmallVec;
 /// use cdpr_statics::{Load, Tracker, inverse};
 ///
 /// let robot = Robot::from_json(include_str!("../../../../data/robots/caroca.json"))?;
-/// let wanted = inverse(&robot, &Pose::at(0.0, 0.0, 1.75), &Load::none(), None)?;
+/// let wanted = inverse(&robot, &Pose::at(0.0, 0.0, 1.75), &Load::none())?;
 /// let mut tracker = Tracker::new(&robot, &wanted.lengths, &Load::none(), &wanted.equilibrium)?;
 /// let mut lengths = wanted.lengths.clone();
 /// lengths[0] -= 1e-3;
@@ -53,7 +53,7 @@ impl<'a> Tracker<'a> {
         start: &Equilibrium,
     ) -> Result<Self, StaticsError> {
         robot.validate()?;
-        let solution = direct(robot, lengths, load, Start::Near(start))?;
+        let solution = direct(robot, lengths, load, DirectStart::Near(start))?;
         let farthest = robot.cables.iter().map(|cable| cable.exit_point.norm()).fold(0.0, f64::max);
         let in_lanes = robot.has_plain_cables() && ScalarReason::of_all(robot, &[]).is_none();
         let (equilibrium, residual) = (solution.equilibrium, solution.report.residual);
@@ -95,7 +95,7 @@ impl<'a> Tracker<'a> {
     }
 
     fn followed(&self, lengths: &[f64], load: &Load) -> Result<DirectSolution, StaticsError> {
-        let start = Start::Near(&self.equilibrium);
+        let start = DirectStart::Near(&self.equilibrium);
         let now = direct(self.robot, &self.lengths, &self.load, start)?;
         match follow_change(self.robot, ((&self.lengths, &self.load), &now), (lengths, load)) {
             Err(StaticsError::Overstrained { .. } | StaticsError::DirectNotConverged { .. }) => {

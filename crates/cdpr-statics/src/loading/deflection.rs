@@ -4,15 +4,15 @@
 //! of the tension set-points change those lengths. Then the direct model runs without and with the load, and
 //! the deflection is `dp = p_loaded - p_unloaded`.
 
-use crate::direct::{DirectSolution, Start, follow_load};
+use crate::direct::{DirectSolution, DirectStart, follow_load};
 use crate::equations::FORCES;
 use crate::error::StaticsError;
 use crate::inverse::{
-    Branch, FreeBranch, HeldPose, InverseSolution, held_at, inverse, lengths_for_tensions, limits_at,
+    Branch, FreeBranch, HeldPose, InverseSolution, held_at, inverse_at, lengths_for_tensions, limits_at,
 };
 use crate::problem::DirectProblem;
-use crate::state::{Equilibrium, Load, rounding_of_closure};
-use cdpr_robot::{Coordinate, Pose, Robot, TensionLimits, Vector3, Vector6, Wrench};
+use crate::state::{Equilibrium, Load, Wanted, WantedPose, one_by_one, rounding_of_closure};
+use cdpr_robot::{Pose, Robot, TensionLimits, Vector3, Vector6, Wrench};
 use cdpr_tension::offset;
 
 /// The platform without and with a load, on the same cable lengths.
@@ -84,19 +84,22 @@ pub(crate) struct Wound {
     pub(crate) held: Equilibrium,
 }
 
-/// Deflection under `load` at the wanted pose `pose`, with `tension_offsets` [N] added to the set-points of
-/// the inverse model and these kept within the limits.
+/// Deflection under `load` at a wanted pose or at each of many.
+///
+/// The inverse model sets the lengths for the wanted pose under the platform's own weight, with the offsets
+/// of the set-points. With free coordinates, set-points that are not offset are not kept within the limits.
 ///
 /// # Errors
-/// Those of the inverse model and of [`deflection_from`].
-pub fn deflection(
+/// Those of [`crate::inverse`] and of [`deflection_from`].
+pub fn deflection<W: Wanted>(
     robot: &Robot,
-    pose: &Pose,
-    tension_offsets: &[f64],
+    wanted: W,
     load: &Load,
-) -> Result<Deflection, StaticsError> {
-    let Wound { lengths, held, .. } = wind(robot, pose, tension_offsets)?;
-    deflection_from(robot, lengths, load, &held)
+) -> W::Answers<Result<Deflection, StaticsError>> {
+    one_by_one(wanted, |wanted| {
+        let HeldPose { lengths, equilibrium } = set_lengths(robot, wanted)?;
+        deflection_from(robot, lengths, load, &equilibrium)
+    })
 }
 
 /// [`deflection`] of a robot that differs a little from the one whose inverse model is known.
@@ -114,29 +117,10 @@ pub(crate) fn deflection_near(
     deflection_from(robot, lengths, load, &held)
 }
 
-/// As [`deflection`], for a robot with fewer cables than free motions: the `free` coordinates of the pose are
-/// found. Set-points that are not offset are not kept within the limits.
+/// [`deflection`] with free coordinates of a robot that differs a little from the one whose rest is known.
 ///
 /// # Errors
-/// Those of [`held_at`] and of [`deflection_from`].
-pub fn deflection_free(
-    robot: &Robot,
-    pose: &Pose,
-    tension_offsets: &[f64],
-    load: &Load,
-    free: &[Coordinate],
-) -> Result<Deflection, StaticsError> {
-    if free.is_empty() {
-        return deflection(robot, pose, tension_offsets, load);
-    }
-    let (_, HeldPose { lengths, equilibrium }) = wind_free(robot, pose, tension_offsets, free)?;
-    deflection_from(robot, lengths, load, &equilibrium)
-}
-
-/// [`deflection_free`] of a robot that differs a little from the one whose rest is known.
-///
-/// # Errors
-/// Those of [`deflection_free`].
+/// Those of [`deflection`].
 pub(crate) fn deflection_beside(
     branch: &FreeBranch,
     robot: &Robot,
@@ -148,15 +132,14 @@ pub(crate) fn deflection_beside(
     deflection_from(robot, lengths, load, &equilibrium)
 }
 
-/// The rest of a platform with `free` coordinates, without and with the offsets of tension set-points.
+/// The rest of a platform with free coordinates, without and with the offsets of tension set-points.
 pub(crate) fn wind_free(
     robot: &Robot,
-    pose: &Pose,
+    wanted: &WantedPose,
     tension_offsets: &[f64],
-    free: &[Coordinate],
 ) -> Result<(HeldPose, HeldPose), StaticsError> {
     check_offsets(robot, tension_offsets)?;
-    wind_rest(robot, tension_offsets, held_at(robot, pose, &Load::none(), free)?)
+    wind_rest(robot, tension_offsets, held_at(robot, wanted, &Load::none())?)
 }
 
 /// A rest without and with the offsets of tension set-points.
@@ -175,30 +158,37 @@ fn wind_rest(
     Ok((held, wound))
 }
 
-/// Unstrained lengths [m] that give offset tension set-points while the platform is held at `pose`, or, with
-/// fewer cables than free motions, where it rests with the `free` coordinates found.
+/// Unstrained lengths [m] that give offset tension set-points while the platform is held at a wanted pose,
+/// or, with free coordinates, where it rests.
 ///
-/// The set-points are the tensions of the inverse model under the platform's own weight plus
-/// `tension_offsets` [N], kept within the limits. Once released, the platform stands elsewhere.
+/// The set-points are the tensions of the inverse model under the platform's own weight plus the offsets,
+/// kept within the limits. Once released, the platform stands elsewhere.
 ///
 /// # Errors
-/// Those of the inverse model.
-pub fn wound_lengths(
-    robot: &Robot,
-    pose: &Pose,
-    tension_offsets: &[f64],
-    free: &[Coordinate],
-) -> Result<Vec<f64>, StaticsError> {
-    if free.is_empty() {
-        return Ok(wind(robot, pose, tension_offsets)?.lengths);
-    }
-    Ok(wind_free(robot, pose, tension_offsets, free)?.1.lengths)
+/// Those of [`crate::inverse`].
+pub fn wound_lengths<'a>(robot: &Robot, wanted: impl Into<WantedPose<'a>>) -> Result<Vec<f64>, StaticsError> {
+    Ok(set_lengths(robot, &wanted.into())?.lengths)
 }
 
-/// Winds the cables for `pose`.
-pub(crate) fn wind(robot: &Robot, pose: &Pose, tension_offsets: &[f64]) -> Result<Wound, StaticsError> {
+/// The lengths for a wanted pose, with its offsets.
+fn set_lengths(robot: &Robot, wanted: &WantedPose) -> Result<HeldPose, StaticsError> {
+    let offsets = wanted.offsets_of(robot);
+    if !wanted.free.is_empty() {
+        return Ok(wind_free(robot, wanted, &offsets)?.1);
+    }
+    let Wound { lengths, held, .. } = wind(robot, wanted, &offsets)?;
+    Ok(HeldPose { lengths, equilibrium: held })
+}
+
+/// Winds the cables for the whole of a wanted pose.
+pub(crate) fn wind(
+    robot: &Robot,
+    wanted: &WantedPose,
+    tension_offsets: &[f64],
+) -> Result<Wound, StaticsError> {
     check_offsets(robot, tension_offsets)?;
-    wind_from(robot, pose, tension_offsets, inverse(robot, pose, &Load::none(), None)?)
+    let WantedPose { pose, tension_reference, .. } = wanted;
+    wind_from(robot, pose, tension_offsets, inverse_at(robot, pose, &Load::none(), *tension_reference)?)
 }
 
 /// Winds the cables for `pose` of a robot that differs a little from the one whose inverse model is known.
@@ -247,27 +237,8 @@ pub fn deflection_from(
     load: &Load,
     start: &Equilibrium,
 ) -> Result<Deflection, StaticsError> {
-    let unloaded = DirectProblem::new(robot, &lengths, &Load::none())?.direct_held(Start::Near(start))?;
+    let unloaded =
+        DirectProblem::new(robot, &lengths, &Load::none())?.direct_held(DirectStart::Near(start))?;
     let loaded = follow_load(robot, &lengths, (&Load::none(), &unloaded), load)?;
     Ok(Deflection { lengths, unloaded, loaded })
-}
-
-/// Deflections of one pose under several loads, in the order of the loads.
-pub type PoseDeflections = Result<Vec<Result<Deflection, StaticsError>>, StaticsError>;
-
-/// Deflections dp_{j,k} of all poses j under all loads k, Eq. (4).
-///
-/// The inverse model runs once for each pose. A pose that cannot be held and a load that cannot be carried
-/// are failures of their own and do not end the others.
-pub fn deflections(robot: &Robot, poses: &[Pose], loads: &[Load]) -> Vec<PoseDeflections> {
-    poses
-        .iter()
-        .map(|pose| {
-            let wanted = inverse(robot, pose, &Load::none(), None)?;
-            Ok(loads
-                .iter()
-                .map(|load| deflection_from(robot, wanted.lengths.clone(), load, &wanted.equilibrium))
-                .collect())
-        })
-        .collect()
 }

@@ -1,6 +1,6 @@
 //! Following an equilibrium from one setting of lengths and load to another.
 
-use crate::direct::{Path, Setting, Start, direct, follow_from};
+use crate::direct::{DirectStart, Path, Setting, direct, follow_from};
 use crate::error::StaticsError;
 use crate::problem::DirectProblem;
 use cdpr_robot::Robot;
@@ -10,7 +10,7 @@ use cdpr_robot::Robot;
 /// # Errors
 /// Those of [`direct`] at the first setting. That the equilibrium is lost on the way is an answer, not an
 /// error.
-pub fn follow(robot: &Robot, from: &Setting, to: &Setting, start: Start) -> Result<Path, StaticsError> {
+pub fn follow(robot: &Robot, from: &Setting, to: &Setting, start: DirectStart) -> Result<Path, StaticsError> {
     DirectProblem::new(robot, &to.lengths, &to.load)?;
     let first = direct(robot, &from.lengths, &from.load, start)?;
     follow_from(robot, from, to, first)

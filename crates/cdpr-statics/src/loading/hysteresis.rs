@@ -19,13 +19,13 @@
 //! all tensions together do no work on a payload. Both sums agree to second order in how much the tension
 //! varies along a cable.
 
-use crate::direct::{DirectSolution, Start, follow_load};
+use crate::direct::{DirectSolution, DirectStart, follow_load};
 use crate::error::StaticsError;
-use crate::inverse::{HeldPose, held_at};
+use crate::inverse::{HeldPose, held_at, refuse_offsets};
 use crate::problem::DirectProblem;
-use crate::state::{Equilibrium, Load};
+use crate::state::{Equilibrium, Load, WantedPose};
 use cdpr_cable::{CableError, PiecewiseLaw, Segment};
-use cdpr_robot::{Coordinate, Pose, Robot, Vector3};
+use cdpr_robot::{Robot, Vector3};
 
 /// The loading and unloading curves of a cable, with strains in proportion to the robot's modulus.
 #[derive(Clone, Debug, PartialEq)]
@@ -129,23 +129,22 @@ impl HysteresisLaw {
 /// Greatest number of steps each way: their results are kept.
 const MOST_STEPS: usize = 100_000;
 
-/// The load cycle of a payload [kg] at a pose that the inverse model holds under the platform's own weight,
-/// in `steps` steps each way.
+/// The load cycle of a payload [kg] at a wanted pose that the inverse model holds under the platform's own
+/// weight, in `steps` steps each way.
 ///
-/// A robot with fewer cables than free motions rests where the `free` coordinates of the pose are found.
 /// There is one law for each cable; the laws of the robot's own cables are ignored.
 ///
 /// # Errors
 /// [`StaticsError::Invalid`] for a payload that is not positive, too few or too many steps, or another
 /// number of laws than of cables; those of the inverse and the direct model.
-pub fn load_cycle(
+pub fn load_cycle<'a>(
     robot: &Robot,
+    wanted: impl Into<WantedPose<'a>>,
     laws: &[HysteresisLaw],
-    pose: &Pose,
-    free: &[Coordinate],
     payload: f64,
     steps: usize,
 ) -> Result<LoadCycle, StaticsError> {
+    let wanted = refuse_offsets(wanted.into())?;
     let invalid = |field: &str, value: String, expected: &str| {
         Err(StaticsError::invalid(field.to_owned(), value, expected))
     };
@@ -160,11 +159,11 @@ pub fn load_cycle(
         return invalid("laws", format!("a list of {}", laws.len()), &format!("{n}, one a cable"));
     }
     let mut robot = with_laws(robot, laws.iter().map(|law| law.loading.clone()).collect());
-    let HeldPose { lengths, equilibrium: held } = held_at(&robot, pose, &Load::none(), free)?;
+    let HeldPose { lengths, equilibrium: held } = held_at(&robot, &wanted, &Load::none())?;
     let mut ways = Vec::with_capacity(2);
     let mut means = Vec::with_capacity(3);
     let mut energies = vec![0.0; n];
-    let first = DirectProblem::new(&robot, &lengths, &Load::none())?.direct_held(Start::Near(&held))?;
+    let first = DirectProblem::new(&robot, &lengths, &Load::none())?.direct_held(DirectStart::Near(&held))?;
     let mut here = CycleStep { payload: 0.0, solution: first };
     means.push(mean_tensions(&robot, &lengths, &here.solution.equilibrium)?);
     for up in [true, false] {

@@ -15,19 +15,19 @@
 //! vᵀ K v = sum vᵀ K_i v + vᵀ K_w v                                                               (V2)
 //! ```
 //!
-//! K is the symmetric part of the stiffness, [`crate::Linearization::symmetric_stiffness`].
+//! K is the symmetric part of the stiffness, [`crate::stiffness::Linearization::symmetric_stiffness`].
 //!
 //! These frequencies hold where the cables themselves vibrate much faster than the platform. The lowest
 //! frequency of each cable between ends at rest, (C29) of `cdpr_cable` with the mean of its end tensions, says
 //! whether they do: [`CableFrequency`].
 
-use crate::direct::{Stability, Start};
+use crate::direct::{DirectStart, Stability};
 use crate::equations::{Balance, SpannedCable};
 use crate::error::StaticsError;
-use crate::inverse::held_at;
+use crate::inverse::{held_at, refuse_offsets};
 use crate::problem::DirectProblem;
-use crate::state::{Equilibrium, Load};
-use cdpr_robot::{Coordinate, Matrix3, Pose, Robot, Vector3, Vector6};
+use crate::state::{Equilibrium, Load, WantedPose};
+use cdpr_robot::{Matrix3, Pose, Robot, Vector3, Vector6};
 use nalgebra::Matrix6;
 use std::f64::consts::TAU;
 
@@ -268,19 +268,17 @@ impl DirectProblem<'_> {
 /// Squares of frequencies below this share of the greatest one are rounding.
 const ROUNDING: f64 = 1e-12;
 
-/// The natural motions of a robot at a wanted pose under the platform's weight and `load`. With fewer cables
-/// than free motions the `free` coordinates of the pose are found.
+/// The natural motions of a robot at a wanted pose under the platform's weight and `load`.
 ///
 /// # Errors
-/// Those of [`held_at`], of [`DirectProblem::direct_any`] and of [`DirectProblem::modes`].
-pub fn modes_at(
+/// Those of [`crate::inverse`], of [`DirectProblem::direct_any`] and of [`DirectProblem::modes`].
+pub fn modes_at<'a>(
     robot: &Robot,
-    pose: &Pose,
+    wanted: impl Into<WantedPose<'a>>,
     load: &Load,
-    free: &[Coordinate],
 ) -> Result<PoseModes, StaticsError> {
-    let wanted = held_at(robot, pose, load, free)?;
+    let wanted = held_at(robot, &refuse_offsets(wanted.into())?, load)?;
     let problem = DirectProblem::new(robot, &wanted.lengths, load)?;
-    let held = problem.direct_any(Start::Near(&wanted.equilibrium))?;
+    let held = problem.direct_any(DirectStart::Near(&wanted.equilibrium))?;
     PoseModes::new(&problem, held.equilibrium)
 }

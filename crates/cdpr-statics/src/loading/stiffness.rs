@@ -1,18 +1,18 @@
 //! The Cartesian stiffness at a wanted pose.
 
-use crate::direct::{Stability, Start};
+use crate::direct::{DirectStart, Stability};
 use crate::error::StaticsError;
-use crate::inverse::held_at;
+use crate::inverse::{held_at, refuse_offsets};
 use crate::problem::DirectProblem;
-use crate::state::{Equilibrium, Load};
-use cdpr_robot::{Coordinate, Pose, Robot};
+use crate::state::{Equilibrium, Load, WantedPose};
+use cdpr_robot::Robot;
 use nalgebra::Matrix6;
 
 /// Stiffness of a robot at a pose that the inverse model holds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PoseStiffness {
     /// Stiffness K in (dp, dφ) [N/m, N/rad, N, N m/rad], the true tangent: see
-    /// [`crate::Linearization::stiffness`].
+    /// [`crate::stiffness::Linearization::stiffness`].
     pub matrix: Matrix6<f64>,
     /// Its symmetric part, which differs from it under a moment.
     pub symmetric_part: Matrix6<f64>,
@@ -25,19 +25,18 @@ pub struct PoseStiffness {
 }
 
 /// The Cartesian stiffness at a wanted pose under the platform's weight and `load`, be the equilibrium there
-/// stable or not. With fewer cables than free motions the `free` coordinates of the pose are found.
+/// stable or not.
 ///
 /// # Errors
-/// Those of [`held_at`] and of [`DirectProblem::direct_any`].
-pub fn stiffness_at(
+/// Those of [`crate::inverse`] and of [`DirectProblem::direct_any`].
+pub fn stiffness_at<'a>(
     robot: &Robot,
-    pose: &Pose,
+    wanted: impl Into<WantedPose<'a>>,
     load: &Load,
-    free: &[Coordinate],
 ) -> Result<PoseStiffness, StaticsError> {
-    let wanted = held_at(robot, pose, load, free)?;
+    let wanted = held_at(robot, &refuse_offsets(wanted.into())?, load)?;
     let problem = DirectProblem::new(robot, &wanted.lengths, load)?;
-    let held = problem.direct_any(Start::Near(&wanted.equilibrium))?;
+    let held = problem.direct_any(DirectStart::Near(&wanted.equilibrium))?;
     let linearization = problem.linearize(&held.equilibrium)?;
     Ok(PoseStiffness {
         matrix: *linearization.stiffness(),

@@ -14,7 +14,7 @@ pub struct Load {
 impl Load {
     /// No load: the platform carries its own weight only.
     pub fn none() -> Self {
-        Self { payload: 0.0, wrench: Wrench::zero() }
+        Self { payload: 0.0, wrench: Wrench::none() }
     }
 
     /// A mass [kg] added at the platform's centre of mass.

@@ -7,7 +7,7 @@ use crate::fs::atomic::write_new;
 use crate::fs::files::named_file;
 use cdpr_robot::library::ROBOTS;
 use cdpr_robot::{Coordinate, Parameter, Pose, Robot, Vector3, rounded};
-use cdpr_statics::{Load, deflection_free};
+use cdpr_statics::{Load, WantedPose, deflection};
 use std::path::Path;
 use tolerances::{Tolerances, two_digits};
 
@@ -309,8 +309,7 @@ fn rest(
     free: &[Coordinate],
 ) -> Result<(Pose, f64), cdpr_statics::StaticsError> {
     let [x, y, z] = position;
-    let offsets = vec![0.0; robot.cables.len()];
-    let found = deflection_free(robot, &Pose::at(x, y, z), &offsets, &Load::payload(payload), free)?;
+    let found = deflection(robot, WantedPose::at(&Pose::at(x, y, z)).free(free), &Load::payload(payload))?;
     let tensions = found.unloaded.equilibrium.tensions();
     let mean = tensions.iter().sum::<f64>() / tensions.len() as f64;
     // Only what is free has moved.

@@ -7,7 +7,7 @@ use crate::fs::input::{other_kind, read_text};
 use crate::kind::InputKind;
 use cdpr_cable::{CableError, Phase, PiecewiseLaw, Record, RecordError, TangentModulus};
 use cdpr_robot::{CableProperties, LawSegment, Robot, RobotCable, Segment, from_json};
-use cdpr_statics::{HysteresisLaw, Unloading};
+use cdpr_statics::hysteresis::{HysteresisLaw, Unloading};
 use std::path::Path;
 
 impl CableLaw {

@@ -59,7 +59,7 @@ impl Study {
     /// [`plausible::robot`].
     pub fn doubts(&self) -> Doubts {
         let (file, robot) = (&self.file, &self.robot);
-        let mut doubts = plausible::load(robot, file.payload, &Wrench::zero());
+        let mut doubts = plausible::load(robot, file.payload, &Wrench::none());
         let models = file
             .error_models
             .iter()

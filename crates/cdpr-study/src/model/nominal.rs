@@ -1,9 +1,8 @@
 //! The nominal robot at the poses of a study, solved once for each.
 
 use cdpr_robot::{Coordinate, Pose, Robot};
-use cdpr_statics::{
-    Deflection, DirectSolution, Load, OutOfLimits, StaticsError, deflection_free, out_of_limits,
-};
+use cdpr_statics::limits::{OutOfLimits, out_of_limits};
+use cdpr_statics::{Deflection, DirectSolution, Load, StaticsError, WantedPose, deflection};
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// Poses that are kept: those of single samplings and of surfaces, and the first ones of a sampling at
@@ -29,7 +28,7 @@ impl Nominals {
     /// The deflection of a robot without offsets of its tensions, with the `free` coordinates found.
     ///
     /// # Errors
-    /// As [`deflection_free`].
+    /// As [`cdpr_statics::deflection`].
     pub(crate) fn deflection(
         &self,
         robot: &Robot,
@@ -43,7 +42,7 @@ impl Nominals {
         if let Some(found) = known().iter().find(same) {
             return Ok(found.deflection.clone());
         }
-        let found = deflection_free(robot, pose, &vec![0.0; robot.cables.len()], load, free)?;
+        let found = deflection(robot, WantedPose::at(pose).free(free), load)?;
         let mut known = known();
         if known.len() < MOST {
             let (robot, free, deflection) = (robot.clone(), free.to_vec(), found.clone());

@@ -2,7 +2,8 @@
 
 use crate::file::output::{Output, Recorded};
 use cdpr_robot::{Vector3, Vector6};
-use cdpr_statics::{ScalarReason, StaticsError};
+use cdpr_statics::StaticsError;
+use cdpr_statics::batch::ScalarReason;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 

@@ -6,10 +6,10 @@ use crate::file::output::Output;
 use crate::model::error_model::ErrorModel;
 use crate::model::observed::{Measured, MeasuredQuantity};
 use cdpr_robot::{Coordinate, Deviations, Perturbed, Pose, Robot, Vector3, Vector6};
+use cdpr_statics::batch::{Observation, ObservationMotion, ObservationSlopes, ScalarReason};
 use cdpr_statics::{
-    Deflection, Derivatives, DirectProblem, Load, Matrix3xX, Observation, ObservationMotion,
-    ObservationSlopes, Observer, ScalarReason, Start, StaticsError, deflection_free, derivatives_free,
-    direct, wound_lengths,
+    Deflection, Derivatives, DirectProblem, DirectStart, Load, Matrix3xX, Observer, StaticsError, WantedPose,
+    deflection, derivatives, direct, wound_lengths,
 };
 use std::borrow::Cow;
 
@@ -39,10 +39,10 @@ pub(crate) struct Observing<'a> {
 
 impl<'a> OutputObserver<'a> {
     /// # Errors
-    /// Those of [`Observer::with_free`].
+    /// Those of [`Observer::new`].
     pub(crate) fn new(of: Observing<'a>, nominal: &Deflection) -> Result<Self, StaticsError> {
         let Observing { robot, pose, load, output, free } = of;
-        let lanes = Observer::with_free(robot, &pose, &load, free)?;
+        let lanes = Observer::new(robot, WantedPose::at(&pose).free(free), &load)?;
         Ok(Self { robot, pose: *lanes.pose(), load, output, free, nominal: nominal.clone(), lanes })
     }
 
@@ -122,15 +122,23 @@ impl<'a> OutputObserver<'a> {
     }
 
     fn deflection(&self, perturbed: &Perturbed) -> Result<Deflection, StaticsError> {
-        deflection_free(&perturbed.robot, &self.pose, &perturbed.tension_offsets, &self.load, self.free)
+        deflection(
+            &perturbed.robot,
+            WantedPose::at(&self.pose).free(self.free).tension_offsets(&perturbed.tension_offsets),
+            &self.load,
+        )
     }
 
     /// The deflection of a robot with its derivatives.
     ///
     /// # Errors
-    /// As [`derivatives_free`].
+    /// As [`cdpr_statics::derivatives`].
     pub fn derivatives(&self, perturbed: &Perturbed) -> Result<Derivatives, StaticsError> {
-        derivatives_free(&perturbed.robot, &self.pose, &perturbed.tension_offsets, &self.load, self.free)
+        derivatives(
+            &perturbed.robot,
+            WantedPose::at(&self.pose).free(self.free).tension_offsets(&perturbed.tension_offsets),
+            &self.load,
+        )
     }
 
     /// The output of a robot that is deflected by the load; not its position.
@@ -163,7 +171,7 @@ impl<'a> OutputObserver<'a> {
     fn moved(&self, perturbed: &Perturbed) -> Result<Vector6<f64>, StaticsError> {
         let rest = &self.nominal.unloaded.equilibrium;
         let lengths = self.lengths(perturbed)?;
-        let found = direct(&perturbed.robot, &lengths, &Load::none(), Start::Near(rest))?;
+        let found = direct(&perturbed.robot, &lengths, &Load::none(), DirectStart::Near(rest))?;
         Ok(rest.pose.motion_to(&found.equilibrium.pose))
     }
 
@@ -180,12 +188,17 @@ impl<'a> OutputObserver<'a> {
         let rest = &self.nominal.unloaded.equilibrium;
         let (none, lengths) = (Load::none(), self.lengths(perturbed)?);
         let problem = DirectProblem::new(&perturbed.robot, &lengths, &none)?;
-        let found = problem.direct(Start::Near(rest))?.equilibrium;
+        let found = problem.direct(DirectStart::Near(rest))?.equilibrium;
         let mut slopes: Matrix3xX<f64> = problem.derivatives(&found)?.pose.fixed_rows::<3>(0).into();
         if errors.has_offsets() {
             // Offsets act through the lengths alone, which are those of the nominal robot.
             let offsets = &perturbed.tension_offsets;
-            let wound = derivatives_free(self.robot, &self.pose, offsets, &self.load, self.free)?.lengths;
+            let wound = derivatives(
+                self.robot,
+                WantedPose::at(&self.pose).free(self.free).tension_offsets(offsets),
+                &self.load,
+            )?
+            .lengths;
             let moved = problem.linearize(&found)?.pose_per_length() * wound;
             let n = self.robot.cables.len();
             let first = errors.parameters() - n;
@@ -200,7 +213,8 @@ impl<'a> OutputObserver<'a> {
         if offsets.iter().all(|offset| *offset == 0.0) {
             return Ok(Cow::Borrowed(&self.nominal.lengths));
         }
-        wound_lengths(self.robot, &self.pose, offsets, self.free).map(Cow::Owned)
+        wound_lengths(self.robot, WantedPose::at(&self.pose).free(self.free).tension_offsets(offsets))
+            .map(Cow::Owned)
     }
 
     /// The outputs of any number of robots in their unit, and their derivatives with respect to the inputs of

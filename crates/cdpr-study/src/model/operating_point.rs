@@ -15,7 +15,8 @@ use crate::file::study_file::InputSpec;
 use crate::model::error_model::Wrong;
 use cdpr_robot::Robot;
 use cdpr_sensitivity::Law;
-use cdpr_statics::{Deflection, Unloading};
+use cdpr_statics::Deflection;
+use cdpr_statics::hysteresis::Unloading;
 use indexmap::IndexMap;
 
 /// Least and greatest secant modulus of all cables [Pa].

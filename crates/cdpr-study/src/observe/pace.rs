@@ -4,7 +4,7 @@ use crate::error::StudyError;
 use crate::model::study::Study;
 use crate::observe::observation::draw;
 use cdpr_sensitivity::SampleDesign;
-use cdpr_statics::ScalarReason;
+use cdpr_statics::batch::ScalarReason;
 use std::fmt;
 use std::time::Instant;
 

@@ -14,7 +14,7 @@
 use crate::file::output::{Output, Recorded};
 use crate::model::observed::{Failure, Measured, MeasuredQuantity, Observed};
 use cdpr_robot::{Vector3, Vector6};
-use cdpr_statics::ScalarReason;
+use cdpr_statics::batch::ScalarReason;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::ops::Range;

@@ -4,7 +4,8 @@ use crate::answers::failure::Failure;
 use crate::answers::state::State;
 use crate::question::Hold;
 use cdpr_robot::Robot;
-use cdpr_statics::{Deflection, Load, deflection_free, limits_at};
+use cdpr_statics::limits::limits_at;
+use cdpr_statics::{Deflection, Load, WantedPose, deflection};
 use serde::Serialize;
 
 /// The platform without and with the load.
@@ -28,8 +29,7 @@ pub(crate) struct Held {
 
 pub(crate) fn hold(robot: &Robot, given: &Hold) -> Result<Held, Failure> {
     let (pose, load) = (given.pose.pose()?, given.load.load());
-    let offsets = vec![0.0; robot.cables.len()];
-    let found = deflection_free(robot, &pose, &offsets, &load, &given.free)?;
+    let found = deflection(robot, WantedPose::at(&pose).free(&given.free), &load)?;
     let motion = found.unloaded.equilibrium.pose.motion_to(&found.loaded.equilibrium.pose);
     let limits = limits_at(robot, &found.unloaded.equilibrium.pose)?;
     let Deflection { lengths, unloaded, loaded } = &found;

@@ -4,7 +4,8 @@ use crate::answers::failure::Failure;
 use crate::answers::state::State;
 use crate::question::Follow;
 use cdpr_robot::Robot;
-use cdpr_statics::{DirectSolution, LossKind, Setting, Start, follow};
+use cdpr_statics::continuation::{LossKind, Setting, follow};
+use cdpr_statics::{DirectSolution, DirectStart};
 use serde::Serialize;
 
 /// The way between two settings.
@@ -40,7 +41,7 @@ pub(crate) fn wind(robot: &Robot, given: Follow) -> Result<Way, Failure> {
     let to = Setting { lengths: after, load: second.load() };
     let mut way = Way { state: None, path: Vec::new(), jumps: Vec::new(), reason: None };
     let start = start.pose()?;
-    let mut found = follow(robot, &from, &to, Start::Pose(&start))?;
+    let mut found = follow(robot, &from, &to, DirectStart::Pose(&start))?;
     // The share of the whole change at which the part that is followed begins.
     let mut begun = 0.0;
     loop {
@@ -76,7 +77,7 @@ pub(crate) fn wind(robot: &Robot, given: Follow) -> Result<Way, Failure> {
         }
         begun += (1.0 - begun) * (lost.share + BEYOND).min(1.0);
         from = beyond;
-        found = follow(robot, &from, &to, Start::Near(&landed.equilibrium))?;
+        found = follow(robot, &from, &to, DirectStart::Near(&landed.equilibrium))?;
     }
 }
 

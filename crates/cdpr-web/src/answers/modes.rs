@@ -4,7 +4,8 @@ use crate::answers::failure::Failure;
 use crate::answers::state::Motion;
 use crate::question::Motions;
 use cdpr_robot::Robot;
-use cdpr_statics::{CableFrequency, DirectProblem, NaturalMode, Start};
+use cdpr_statics::vibration::{CableFrequency, NaturalMode};
+use cdpr_statics::{DirectProblem, DirectStart};
 use serde::Serialize;
 
 /// How the platform moves about an equilibrium.
@@ -44,7 +45,7 @@ struct Natural {
 pub(crate) fn modes(robot: &Robot, given: &Motions) -> Result<Moves, Failure> {
     let (start, load) = (given.start.pose()?, given.load.load());
     let problem = DirectProblem::new(robot, &given.lengths, &load)?;
-    let found = problem.direct(Start::Pose(&start))?;
+    let found = problem.direct(DirectStart::Pose(&start))?;
     let (natural, reason) = match problem.modes(&found.equilibrium) {
         Ok(modes) => (modes, None),
         Err(error) => (Vec::new(), Some(error.to_string())),

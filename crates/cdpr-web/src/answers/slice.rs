@@ -3,7 +3,8 @@
 use crate::answers::failure::Failure;
 use crate::question::Slice;
 use cdpr_robot::{Pose, Robot, Vector3};
-use cdpr_statics::{Deflection, deflection_free, out_of_limits};
+use cdpr_statics::limits::out_of_limits;
+use cdpr_statics::{Deflection, WantedPose, deflection};
 use cdpr_study::free_along;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -66,15 +67,15 @@ fn place((least, greatest, count): (f64, f64, usize), k: usize) -> f64 {
 
 impl Cells {
     fn add(&mut self, robot: &Robot, pose: &Pose, given: &Slice) {
-        let offsets = vec![0.0; robot.cables.len()];
-        let found = deflection_free(robot, pose, &offsets, &given.load.load(), &given.free);
+        let found = deflection(robot, WantedPose::at(pose).free(&given.free), &given.load.load());
         let mut none = |kind: &str| *self.reasons.entry(kind.to_owned()).or_default() += 1;
         let held = match &found {
             Ok(found) => {
                 let Deflection { lengths, unloaded, loaded } = found;
                 let states = [&unloaded.equilibrium, &loaded.equilibrium];
                 let beyond = out_of_limits(robot, lengths, &states);
-                let within = !beyond.iter().any(|beyond| beyond.limit != cdpr_statics::Limit::MaxElsewhere);
+                let within =
+                    !beyond.iter().any(|beyond| beyond.limit != cdpr_statics::limits::Limit::MaxElsewhere);
                 if !within {
                     none("beyond_limits");
                 }

@@ -3,9 +3,9 @@
 use crate::answers::failure::Failure;
 use crate::question::PoseGiven;
 use cdpr_robot::{Robot, Vector3};
-use cdpr_statics::{
-    CableShape, DirectProblem, DirectSolution, Limit, Load, Mode, OutOfLimits, out_of_limits,
-};
+use cdpr_statics::limits::{Limit, OutOfLimits, out_of_limits};
+use cdpr_statics::stiffness::{CableShape, Mode};
+use cdpr_statics::{DirectProblem, DirectSolution, Load};
 use serde::Serialize;
 
 /// Points along the free cable.

@@ -15,7 +15,7 @@ use super::{check_free, held_at};
 use crate::error::StaticsError;
 use crate::inverse::HeldPose;
 use crate::rest_fault::RestFault;
-use crate::state::{Equilibrium, Load};
+use crate::state::{Equilibrium, Load, WantedPose};
 use cdpr_robot::{Coordinate, Pose, Robot};
 use nalgebra::{DMatrix, DVector};
 
@@ -44,14 +44,14 @@ struct Known {
 const MAX_STEPS: usize = 60;
 
 impl FreeBranch {
-    /// The rest of `robot` beside `pose`, as [`held_at`] finds it.
+    /// The rest of `robot` beside `pose`, as [`crate::inverse`] finds it.
     ///
     /// # Errors
-    /// Those of [`held_at`].
+    /// Those of [`crate::inverse`].
     pub(crate) fn of(robot: &Robot, pose: &Pose, free: &[Coordinate]) -> Result<Self, StaticsError> {
         check_free(robot, free)?;
         let none = Load::none();
-        let rest = held_at(robot, pose, &none, free)?;
+        let rest = held_at(robot, &WantedPose::at(pose).free(free), &none)?;
         let search = Search::new(robot, &rest.equilibrium.pose, &none, free)?;
         let start = search
             .known(chord_forces(robot, &rest.equilibrium))
@@ -70,10 +70,10 @@ impl FreeBranch {
     }
 
     /// The rest of a robot that differs a little: the one to which steps lead from this one, if it is stable,
-    /// within the limits of tension and close to it, or else that of [`held_at`].
+    /// within the limits of tension and close to it, or else that of [`crate::inverse`].
     ///
     /// # Errors
-    /// Those of [`held_at`].
+    /// Those of [`crate::inverse`].
     pub(crate) fn nearby(&self, robot: &Robot) -> Result<HeldPose, StaticsError> {
         let (pose, none) = (&self.rest.equilibrium.pose, Load::none());
         if let Some(known) = &self.start {
@@ -84,7 +84,7 @@ impl FreeBranch {
                 return Ok(HeldPose { lengths: found.lengths, equilibrium: found.equilibrium });
             }
         }
-        held_at(robot, pose, &none, &self.free)
+        held_at(robot, &WantedPose::at(pose).free(&self.free), &none)
     }
 }
 
@@ -93,7 +93,7 @@ impl FreeBranch {
 ///
 /// # Errors
 /// [`StaticsError::NoRest`] where the steps lead to none, to a loop or below the ground; those of
-/// [`super::inverse_free`] for invalid inputs.
+/// [`crate::free_coordinates::free_solutions`] for invalid inputs.
 pub fn rest_near(
     robot: &Robot,
     near: &Equilibrium,

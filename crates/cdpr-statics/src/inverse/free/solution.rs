@@ -2,9 +2,10 @@
 
 use crate::direct::Stability;
 use crate::error::StaticsError;
+use crate::inverse::InverseSolution;
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load, Residual};
-use cdpr_robot::Robot;
+use cdpr_robot::{Robot, Vector6};
 
 /// Lengths with which the platform rests where some coordinates are those of a wanted pose.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,6 +35,15 @@ pub struct FreeSolutions {
     /// The others, in the same order; those with tensions out of their limits and unstable ones that are turned
     /// over come last.
     pub others: Vec<FreeSolution>,
+}
+
+impl From<FreeSolution> for InverseSolution {
+    fn from(found: FreeSolution) -> Self {
+        let FreeSolution { lengths, tensions, equilibrium, residual, iterations, .. } = found;
+        let active = vec![None; lengths.len()];
+        let (multipliers, stationarity) = (Vector6::zeros(), 0.0);
+        Self { lengths, tensions, active, multipliers, equilibrium, iterations, stationarity, residual }
+    }
 }
 
 impl FreeSolution {

@@ -1,7 +1,7 @@
 //! Observations with the derivatives of |dp| by all parameters.
 
 use super::{Batch, Observation, Observed, Observer, Wanted, read};
-use crate::derivatives::{Derivatives, derivatives, derivatives_free, derivatives_near};
+use crate::derivatives::{Derivatives, derivatives, derivatives_near};
 use crate::error::StaticsError;
 use crate::lanes::adjoint::{Adjoint, GuideSlopes, Record, adjoint};
 use crate::lanes::chain::observe;
@@ -9,6 +9,7 @@ use crate::lanes::level::LevelFrame;
 use crate::lanes::observer::rows::Rows;
 use crate::lanes::platform::Robots;
 use crate::lanes::reason::ScalarReason;
+use crate::state::WantedPose;
 use cdpr_number::Number;
 use cdpr_number::lanes::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
 use cdpr_number::three;
@@ -38,10 +39,11 @@ impl Observed for ObservationSlopes {
         let Observer { robot, pose, load, layout, wanted, .. } = observer;
         let perturbed = robot.perturbed(deviations)?;
         let (robot, offsets) = (&perturbed.robot, &perturbed.tension_offsets);
+        let wanted_pose = WantedPose::at(pose).tension_offsets(offsets);
         let found = match wanted {
             Wanted::Pose(Some(branch)) => derivatives_near(branch, robot, pose, offsets, load)?,
-            Wanted::Pose(None) => derivatives(robot, pose, offsets, load)?,
-            Wanted::Rest(branch) => derivatives_free(robot, pose, offsets, load, branch.coordinates())?,
+            Wanted::Pose(None) => derivatives(robot, wanted_pose, load)?,
+            Wanted::Rest(branch) => derivatives(robot, wanted_pose.free(branch.coordinates()), load)?,
         };
         let rms = found.rms()?.into_iter().take(layout.count()).collect();
         let Derivatives { deflection, .. } = found;

@@ -82,44 +82,61 @@ pub struct PoseSlopes {
     pub rms: Option<Vec<f64>>,
 }
 
-/// What `load` does at every pose that the inverse model answered without it, the lengths kept: the figures
-/// of [`deflection_from`].
-///
-/// Robots with a cable for every free motion, over pulleys with vertical axes or none, are answered
-/// in the lanes of the vector unit. No answer depends on the others.
-///
-/// # Errors
-/// Those of [`deflection_from`], for each pose.
-pub fn loaded_poses(
-    robot: &Robot,
-    wanted: &[&InverseSolution],
-    load: &Load,
-) -> Vec<Result<LoadedPose, StaticsError>> {
-    let alone = |wanted: &InverseSolution, why| {
-        let deflection = deflection_from(robot, wanted.lengths.clone(), load, &wanted.equilibrium)?;
-        Ok(LoadedPose { scalar: Some(why), ..LoadedPose::of(robot, load, &deflection) })
-    };
-    let one = |(wanted, found): (&&InverseSolution, Result<PoseSlopes, _>)| match found {
-        Ok(found) => Ok(found.loaded),
-        Err(why) => alone(wanted, why),
-    };
-    wanted.iter().zip(in_lanes(robot, wanted, load, false)).map(one).collect()
+/// What is found of a robot at a pose with a load on it: [`LoadedPose`] or [`PoseSlopes`].
+pub trait Loaded: Sized {
+    /// Whether the derivatives are among it.
+    #[doc(hidden)]
+    const WITH_SLOPES: bool;
+
+    /// From what the lanes find.
+    #[doc(hidden)]
+    fn in_lanes(found: PoseSlopes) -> Self;
+
+    /// By the scalar models.
+    #[doc(hidden)]
+    fn by_scalar_models(
+        robot: &Robot,
+        wanted: &InverseSolution,
+        load: &Load,
+        why: ScalarReason,
+    ) -> Result<Self, StaticsError>;
 }
 
-/// As [`loaded_poses`], with the derivatives of |dp| by all parameters, where they exist.
-///
-/// # Errors
-/// Those of [`derivatives_from`] but [`StaticsError::NoDerivative`], for each pose.
-pub fn loaded_poses_slopes(
-    robot: &Robot,
-    wanted: &[&InverseSolution],
-    load: &Load,
-) -> Vec<Result<PoseSlopes, StaticsError>> {
-    let parameters = ParameterLayout::of(robot).count();
-    let alone = |wanted: &InverseSolution, why| {
+impl Loaded for LoadedPose {
+    const WITH_SLOPES: bool = false;
+
+    fn in_lanes(found: PoseSlopes) -> Self {
+        found.loaded
+    }
+
+    fn by_scalar_models(
+        robot: &Robot,
+        wanted: &InverseSolution,
+        load: &Load,
+        why: ScalarReason,
+    ) -> Result<Self, StaticsError> {
+        let deflection = deflection_from(robot, wanted.lengths.clone(), load, &wanted.equilibrium)?;
+        Ok(Self { scalar: Some(why), ..Self::of(robot, load, &deflection) })
+    }
+}
+
+impl Loaded for PoseSlopes {
+    const WITH_SLOPES: bool = true;
+
+    fn in_lanes(found: PoseSlopes) -> Self {
+        found
+    }
+
+    fn by_scalar_models(
+        robot: &Robot,
+        wanted: &InverseSolution,
+        load: &Load,
+        why: ScalarReason,
+    ) -> Result<Self, StaticsError> {
         let found = derivatives_from(robot, &wanted.equilibrium.pose, load, wanted.clone());
         let (deflection, rms) = match found {
             Ok(found) => {
+                let parameters = ParameterLayout::of(robot).count();
                 let rms = found.rms().ok().map(|slopes| slopes.into_iter().take(parameters).collect());
                 (found.deflection, rms)
             }
@@ -130,10 +147,29 @@ pub fn loaded_poses_slopes(
             Err(error) => return Err(error),
         };
         let loaded = LoadedPose { scalar: Some(why), ..LoadedPose::of(robot, load, &deflection) };
-        Ok(PoseSlopes { loaded, rms })
+        Ok(Self { loaded, rms })
+    }
+}
+
+/// What `load` does at every pose that the inverse model answered without it, the lengths kept: the figures
+/// of [`deflection_from`], and those of [`crate::derivatives`] where they exist.
+///
+/// Robots with a cable for every free motion, over pulleys with vertical axes or none, are answered
+/// in the lanes of the vector unit. No answer depends on the others.
+///
+/// # Errors
+/// Those of [`deflection_from`], for each pose.
+pub fn loaded_poses<T: Loaded>(
+    robot: &Robot,
+    wanted: &[&InverseSolution],
+    load: &Load,
+) -> Vec<Result<T, StaticsError>> {
+    let found = in_lanes(robot, wanted, load, T::WITH_SLOPES).into_iter();
+    let one = |(wanted, found): (&&InverseSolution, Result<_, _>)| match found {
+        Ok(found) => Ok(T::in_lanes(found)),
+        Err(why) => T::by_scalar_models(robot, wanted, load, why),
     };
-    let found = in_lanes(robot, wanted, load, true);
-    wanted.iter().zip(found).map(|(wanted, found)| found.or_else(|why| alone(wanted, why))).collect()
+    wanted.iter().zip(found).map(one).collect()
 }
 
 /// The answers of the lanes, with derivatives or without.

@@ -6,7 +6,7 @@
 //! for.
 
 use cdpr_robot::{Coordinate, Parameter, Pose, Robot};
-use cdpr_statics::{Load, deflection_free};
+use cdpr_statics::{Load, WantedPose, deflection};
 
 /// Shares of the usual tolerances that are tried.
 const SHARES: [f64; 5] = [1.0, 0.5, 0.2, 0.1, 0.05];
@@ -80,7 +80,12 @@ impl Tolerances {
         (0..CORNERS).all(|corner| {
             let deviations: Vec<f64> = (0..parameters.len()).map(|index| deviation(corner, index)).collect();
             robot.perturbed(&deviations).is_ok_and(|perturbed| {
-                deflection_free(&perturbed.robot, pose, &perturbed.tension_offsets, load, free).is_ok()
+                deflection(
+                    &perturbed.robot,
+                    WantedPose::at(pose).free(free).tension_offsets(&perturbed.tension_offsets),
+                    load,
+                )
+                .is_ok()
             })
         })
     }
