@@ -114,7 +114,7 @@ impl Case<'_> {
     }
 
     fn values(&self, design: &impl SampleDesign) -> Vec<Option<f64>> {
-        observe_rows(design, |rows| {
+        observe_rows(design, 0..design.points(), |rows| {
             let found = self.observer.observe_all(&self.sampling.errors.deviations(rows)).into_iter();
             found.map(|of| of.ok().map(|of| 1e3 * of.rms())).collect()
         })
@@ -126,7 +126,7 @@ impl Case<'_> {
             output: 1e3 * of.observation.rms(),
             gradient: errors.gradient(&of.rms).iter().map(|slope| 1e3 * slope).collect(),
         };
-        observe_rows(design, |rows| {
+        observe_rows(design, 0..design.points(), |rows| {
             let found = self.observer.observe_all_slopes(&errors.deviations(rows)).into_iter();
             found.map(|of| of.ok().map(in_mm)).collect()
         })

@@ -20,11 +20,13 @@ use crate::lanes::chain::{Outcome, observe};
 use crate::lanes::level::LevelFrame;
 use crate::lanes::observer::rows::{Nominal, Rows};
 use crate::lanes::reason::ScalarReason;
-use crate::loading::{Deflection, deflection, deflection_beside, deflection_near};
+use crate::loading::{
+    Deflection, deflection, deflection_beside, deflection_near, wind, wind_near, wind_rest,
+};
 use crate::state::{Load, Residual};
 use cdpr_number::lanes::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
 use cdpr_number::three;
-use cdpr_robot::{Coordinate, ParameterLayout, Pose, Robot, Vector3, Vector6};
+use cdpr_robot::{Coordinate, ParameterLayout, Perturbed, Pose, Robot, Vector3, Vector6};
 pub use motions::ObservationMotion;
 pub use slopes::ObservationSlopes;
 use std::array::from_fn;
@@ -130,7 +132,7 @@ impl<'a> Observer<'a> {
     /// # Errors
     /// [`StaticsError`] says why this robot has no deflection.
     pub fn observe(&self, deviations: &[f64]) -> Result<Observation, StaticsError> {
-        Ok(Observation::one_by_one(&self.deflection(deviations)?))
+        Ok(Observation::one_by_one(&self.deflection(&self.robot.perturbed(deviations)?)?))
     }
 
     /// Deflections of any number of robots: `deviations` has a row of all parameters for each, one after the
@@ -161,14 +163,31 @@ impl<'a> Observer<'a> {
         })
     }
 
-    fn deflection(&self, deviations: &[f64]) -> Result<Deflection, StaticsError> {
-        let perturbed = self.robot.perturbed(deviations)?;
+    /// Deflection of a robot that deviates from this one.
+    ///
+    /// # Errors
+    /// [`StaticsError`] says why this robot has no deflection.
+    pub fn deflection(&self, perturbed: &Perturbed) -> Result<Deflection, StaticsError> {
         let (robot, offsets) = (&perturbed.robot, &perturbed.tension_offsets);
         match &self.wanted {
             Wanted::Pose(Some(branch)) => deflection_near(branch, robot, &self.pose, offsets, &self.load),
             Wanted::Pose(None) => deflection(robot, &self.pose, offsets, &self.load),
             Wanted::Rest(branch) => deflection_beside(branch, robot, offsets, &self.load),
         }
+    }
+
+    /// Unstrained lengths [m] of the robot itself at the wanted pose, with `tension_offsets` [N] added to its
+    /// set-points, as [`crate::wound_lengths`] has them.
+    ///
+    /// # Errors
+    /// Those of the inverse model.
+    pub fn wound_lengths(&self, tension_offsets: &[f64]) -> Result<Vec<f64>, StaticsError> {
+        let robot = self.robot;
+        Ok(match &self.wanted {
+            Wanted::Pose(Some(branch)) => wind_near(branch, robot, &self.pose, tension_offsets)?.lengths,
+            Wanted::Pose(None) => wind(robot, &self.pose, tension_offsets)?.lengths,
+            Wanted::Rest(branch) => wind_rest(robot, tension_offsets, branch.rest().clone())?.1.lengths,
+        })
     }
 }
 

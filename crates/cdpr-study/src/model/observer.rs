@@ -8,8 +8,7 @@ use crate::model::observed::{Measured, MeasuredQuantity};
 use cdpr_robot::{Coordinate, ParameterLayout, Perturbed, Pose, Robot, Vector3, Vector6};
 use cdpr_statics::{
     Deflection, Derivatives, DirectProblem, Load, Matrix3xX, Observation, ObservationMotion,
-    ObservationSlopes, Observer, ScalarReason, Start, StaticsError, deflection_free, derivatives_free,
-    direct, wound_lengths,
+    ObservationSlopes, Observer, ScalarReason, Start, StaticsError, derivatives_free, direct,
 };
 use std::borrow::Cow;
 
@@ -80,7 +79,7 @@ impl<'a> OutputObserver<'a> {
             let perturbed = self.robot.perturbed(row)?;
             let quantity = match self.output {
                 Output::Position => MeasuredQuantity::Displacement(self.displaced(&perturbed)?),
-                _ => self.of_deflection(&perturbed.robot, &self.deflection(&perturbed)?)?.quantity,
+                _ => self.of_deflection(&perturbed.robot, &self.lanes.deflection(&perturbed)?)?.quantity,
             };
             Ok(Measured { quantity, scalar: Some(ScalarReason::Output) })
         };
@@ -104,7 +103,7 @@ impl<'a> OutputObserver<'a> {
             let perturbed = self.robot.perturbed(row)?;
             let motion = match self.output {
                 Output::Position => self.moved(&perturbed)?,
-                _ => self.deflection(&perturbed)?.motion(),
+                _ => self.lanes.deflection(&perturbed)?.motion(),
             };
             Ok(moved(motion, Some(ScalarReason::Output)))
         };
@@ -124,10 +123,6 @@ impl<'a> OutputObserver<'a> {
 
     fn layout(&self) -> ParameterLayout {
         ParameterLayout::of(self.robot)
-    }
-
-    fn deflection(&self, perturbed: &Perturbed) -> Result<Deflection, StaticsError> {
-        deflection_free(&perturbed.robot, &self.pose, &perturbed.tension_offsets, &self.load, self.free)
     }
 
     /// The deflection of a robot with its derivatives.
@@ -205,7 +200,7 @@ impl<'a> OutputObserver<'a> {
         if offsets.iter().all(|offset| *offset == 0.0) {
             return Ok(Cow::Borrowed(&self.nominal.lengths));
         }
-        wound_lengths(self.robot, &self.pose, offsets, self.free).map(Cow::Owned)
+        self.lanes.wound_lengths(offsets).map(Cow::Owned)
     }
 
     /// The outputs of any number of robots in their unit, and their derivatives with respect to the inputs of

@@ -42,7 +42,7 @@ impl Observer<'_> {
     /// # Errors
     /// Those of [`Observer::observe`].
     pub fn observe_motion(&self, deviations: &[f64]) -> Result<ObservationMotion, StaticsError> {
-        let found = self.deflection(deviations)?;
+        let found = self.deflection(&self.robot.perturbed(deviations)?)?;
         let rotation = found.motion().fixed_rows::<3>(3).into();
         Ok(ObservationMotion { observation: Observation::one_by_one(&found), rotation })
     }
