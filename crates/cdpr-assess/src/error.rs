@@ -23,13 +23,14 @@ pub enum AssessError {
     },
     /// Too many robots have no equilibrium for a quantile of their error to exist.
     #[error(
-        "no equilibrium at the wanted pose for {what}: expected tolerances under which robots hold it{}",
+        "no equilibrium at the wanted pose for {what}: expected tighter tolerances, or a pose that such robots \
+         hold{}",
         because(source.as_deref())
     )]
     Unobservable {
         /// The robots.
         what: String,
-        /// The reason, of a single robot.
+        /// The reason, of a single robot or of the first one.
         source: Option<Box<StaticsError>>,
     },
     /// The robot has feasible tensions at hardly any pose of a region.

@@ -14,57 +14,17 @@
 //! gives κ; κ and the limit give the admissible variance; this gives the cheapest s ([`allocate`]). A few
 //! rounds suffice. Independent draws then verify what the budget reaches.
 
+mod limit;
+
 use crate::error::AssessError;
 use cdpr_sensitivity::{
     Estimate, RandomDesign, SampleDesign, SensitivityError, SobolDesign, allocate, derived_seed,
 };
 use cdpr_statics::StaticsError;
-use cdpr_study::{Output, Sampling, StudyError, observe_rows};
-use indexmap::IndexMap;
+use cdpr_study::{Sampling, StudyError, observe_rows};
+pub use limit::{Limit, Limited};
 use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
-
-/// The error that is limited [mm].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Limited {
-    /// |dp| of the static deflection under the study's load.
-    Deflection,
-    /// Distance of P from the wanted pose, without the load, if the deviating robot is given the nominal
-    /// robot's lengths. These lengths include the offsets of tension set-points.
-    Position,
-}
-
-impl Limited {
-    /// The error that is limited: the one that is named, or else the output of the study.
-    fn of(named: Option<Self>, output: Output) -> Result<Self, StudyError> {
-        match (named, output) {
-            (Some(named), _) => Ok(named),
-            (None, Output::Deflection) => Ok(Self::Deflection),
-            (None, Output::Position) => Ok(Self::Position),
-            (None, Output::Frequency | Output::Stiffness) => {
-                let expected = "deflection or position, whose size a budget limits: name one of them";
-                Err(StudyError::setting("the study's output", output, expected))
-            }
-        }
-    }
-}
-
-/// The question that a budget answers.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Limit {
-    /// The error; `None` for the study's output.
-    pub of: Option<Limited>,
-    /// Its limit [mm].
-    pub limit_mm: f64,
-    /// Share of the robots that are to keep it, between 0 and 1.
-    pub quantile: f64,
-    /// Cost of each tolerance by the name of its entry, as it is now; halved it costs twice as much. 1 for
-    /// those left out.
-    pub costs: IndexMap<String, f64>,
-    /// Independent robots that the budget is verified with.
-    pub verified_with: usize,
-}
+use serde::Serialize;
 
 /// Which tolerances to tighten for a limit.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -125,8 +85,10 @@ const ROUND: usize = 1 << 12;
 const ROUNDS: usize = 40;
 /// The quantile meets the limit within this share of the difference between limit and least error.
 const SETTLED: f64 = 1e-3;
-/// Most robots for the verification, which keeps one number for each.
-const MOST_ROBOTS: usize = 1 << 24;
+/// Robots that are observed first.
+const FIRST: usize = 64;
+/// Confidence at which too many robots fail for the quantile.
+const CERTAIN: f64 = 1.0 - 1e-9;
 
 /// Finds the cheapest tightening of a sampling's tolerances by which `limit` is kept.
 ///
@@ -208,7 +170,7 @@ struct Model<'a> {
 
 impl<'a> Model<'a> {
     fn new(sampling: &'a Sampling<'a>, limit: &'a Limit) -> Result<Self, AssessError> {
-        check(limit)?;
+        limit.check()?;
         let of = Limited::of(limit.of, sampling.output())?;
         if sampling.correlation.is_some() {
             let expected = "none: the variance of correlated tolerances is not the sum of their parts (B1)";
@@ -283,34 +245,65 @@ impl<'a> Model<'a> {
     }
 
     /// Errors [mm] of the robots of a design under tightened tolerances, in ascending order; infinite for
-    /// robots without feasible tensions.
-    fn errors(&self, design: &impl SampleDesign, factors: &[f64]) -> Vec<f64> {
-        let inputs = self.inputs.len();
-        let errors_of = |rows: &mut [f64]| -> Vec<f64> {
-            for row in rows.chunks_exact_mut(inputs) {
-                for (value, (tolerance, mean)) in row.iter_mut().zip(&self.inputs) {
-                    *value = mean + factors[*tolerance] * (*value - mean);
-                }
-            }
-            let deviations = self.sampling.errors.deviations(rows);
-            let errors: Vec<Option<f64>> = match self.of {
-                Limited::Deflection => {
-                    let outcomes = self.sampling.observer.displacements(&deviations).into_iter();
-                    outcomes.map(|outcome| outcome.ok().map(|dp| dp.norm())).collect()
-                }
-                Limited::Position => deviations.rows().map(|row| self.away(row)).collect(),
-            };
-            errors.into_iter().map(|error| error.map_or(f64::INFINITY, |metres| 1e3 * metres)).collect()
-        };
-        let mut errors = observe_rows(design, errors_of);
+    /// robots without feasible tensions. The first robots are observed alone, so that tolerances under which
+    /// too many have none are refused early.
+    fn errors(&self, design: &impl SampleDesign, factors: &[f64]) -> Result<Vec<f64>, AssessError> {
+        let robots = design.points();
+        let mut errors: Vec<f64> = Vec::new();
+        while errors.len() < robots {
+            let next = errors.len()..robots.min(FIRST.max(4 * errors.len()));
+            errors.extend(observe_rows(design, next, |rows| {
+                let outcomes = self.outcomes(rows, factors).into_iter();
+                outcomes.map(|outcome| outcome.map_or(f64::INFINITY, |metres| 1e3 * metres)).collect()
+            }));
+            self.check_failed(&errors, design, factors)?;
+        }
         errors.par_sort_by(f64::total_cmp);
-        errors
+        Ok(errors)
+    }
+
+    /// The error of each robot [m]; rows of inputs are tightened in place.
+    fn outcomes(&self, rows: &mut [f64], factors: &[f64]) -> Vec<Result<f64, StaticsError>> {
+        for row in rows.chunks_exact_mut(self.inputs.len()) {
+            for (value, (tolerance, mean)) in row.iter_mut().zip(&self.inputs) {
+                *value = mean + factors[*tolerance] * (*value - mean);
+            }
+        }
+        let deviations = self.sampling.errors.deviations(rows);
+        match self.of {
+            Limited::Deflection => {
+                let outcomes = self.sampling.observer.displacements(&deviations).into_iter();
+                outcomes.map(|outcome| outcome.map(|dp| dp.norm())).collect()
+            }
+            Limited::Position => deviations.rows().map(|row| self.away(row)).collect(),
+        }
+    }
+
+    /// Refuses tolerances under which more robots than the quantile allows have certainly no error.
+    fn check_failed(
+        &self,
+        errors: &[f64],
+        design: &impl SampleDesign,
+        factors: &[f64],
+    ) -> Result<(), AssessError> {
+        let failed = errors.iter().filter(|error| error.is_infinite()).count();
+        let share = Estimate::of_share(failed, errors.len(), CERTAIN).map_err(|source| self.wrong(source))?;
+        if share.low <= 1.0 - self.limit.quantile {
+            return Ok(());
+        }
+        let what = format!("{failed} of {} robots with these tolerances", errors.len());
+        let first = errors.iter().position(|error| error.is_infinite());
+        let source = first.and_then(|first| {
+            let mut why = observe_rows(design, first..first + 1, |rows| self.outcomes(rows, factors));
+            why.pop()?.err().map(Box::new)
+        });
+        Err(AssessError::Unobservable { what, source })
     }
 
     /// Distance of P from the wanted pose [m].
-    fn away(&self, deviations: &[f64]) -> Option<f64> {
+    fn away(&self, deviations: &[f64]) -> Result<f64, StaticsError> {
         let Sampling { robot, observer, .. } = self.sampling;
-        Some(observer.displaced(&robot.perturbed(deviations).ok()?).ok()?.norm())
+        Ok(observer.displaced(&robot.perturbed(deviations)?)?.norm())
     }
 
     /// The quantile [mm] of a round. It uses the same points for all factors, so that it changes with the
@@ -318,7 +311,7 @@ impl<'a> Model<'a> {
     fn rounded_quantile(&self, factors: &[f64]) -> Result<f64, AssessError> {
         let (study, errors) = (self.sampling.study, &self.sampling.errors);
         let design = SobolDesign::scrambled(errors.inputs.clone(), ROUND, study.file.seed);
-        let ascending = self.errors(&design.map_err(|source| self.wrong(source))?, factors);
+        let ascending = self.errors(&design.map_err(|source| self.wrong(source))?, factors)?;
         self.estimate(&ascending).map(|quantile| quantile.value)
     }
 
@@ -327,7 +320,7 @@ impl<'a> Model<'a> {
         let file = &self.sampling.study.file;
         let (inputs, robots) = (self.sampling.errors.inputs.clone(), self.limit.verified_with);
         let design = RandomDesign::new(inputs, robots, derived_seed(file.seed, draw));
-        let ascending = self.errors(&design.map_err(|source| self.wrong(source))?, factors);
+        let ascending = self.errors(&design.map_err(|source| self.wrong(source))?, factors)?;
         let within = ascending.partition_point(|error| *error <= self.limit.limit_mm);
         Ok(Reached {
             quantile_mm: self.estimate(&ascending)?,
@@ -357,25 +350,5 @@ impl<'a> Model<'a> {
     fn wrong(&self, source: SensitivityError) -> StudyError {
         let field = format!("samplings.{}", self.sampling.name);
         StudyError::Statistics { path: self.sampling.study.path.clone(), field, source }
-    }
-}
-
-fn check(limit: &Limit) -> Result<(), StudyError> {
-    let Limit { limit_mm, quantile, verified_with, costs, .. } = limit;
-    if !(limit_mm.is_finite() && *limit_mm > 0.0) {
-        return Err(StudyError::setting("limit", limit_mm, "a positive finite number of millimetres"));
-    }
-    if !(*quantile > 0.0 && *quantile < 1.0) {
-        return Err(StudyError::setting("quantile", quantile, "a share of the robots between 0 and 1"));
-    }
-    if !(1..=MOST_ROBOTS).contains(verified_with) {
-        let expected = format!("1 to {MOST_ROBOTS} robots to verify the budget with");
-        return Err(StudyError::setting("observations", verified_with, expected));
-    }
-    match costs.iter().find(|(_, cost)| !(cost.is_finite() && **cost > 0.0)) {
-        Some((name, cost)) => {
-            Err(StudyError::setting(format!("costs.{name}"), cost, "a positive finite number"))
-        }
-        None => Ok(()),
     }
 }

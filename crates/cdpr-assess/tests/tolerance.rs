@@ -135,7 +135,7 @@ fn robots_that_hold_no_pose_are_beyond_the_limit() {
     assert!(found.now.within.value < 1.0 - share + 1e-12, "{:?}", found.now);
     let message = budget(0.999).unwrap_err().to_string();
     assert!(
-        message.starts_with("no equilibrium at the wanted pose for ") && message.contains(" of 4096 robots"),
+        message.starts_with("no equilibrium at the wanted pose for ") && message.contains(" of 64 robots"),
         "{message}"
     );
 }

@@ -69,6 +69,21 @@ fn a_refused_run_leaves_no_folder() {
         &["robustness", "--robot", "four-cables", "--poses", "1"],
         "free is []: expected 2 of x, y, z, roll, pitch, yaw",
     );
+    // Missing free coordinates are missing at every pose: no table of refusals is printed.
+    let poses = tempfile::NamedTempFile::new().unwrap();
+    std::fs::write(poses.path(), "x,y,z\n0.5,0.3,2\n0.4,0.2,2\n").unwrap();
+    let poses = poses.path().to_str().unwrap();
+    let noise = ["--noise", "position=1e-3,rotation=1e-3", "--uncertainty", "a=0.002"];
+    for (arguments, rest) in [
+        (&["path", "four-cables", "--poses", poses, "--payload", "5"][..], &[][..]),
+        (&["stiffness", "four-cables", "--poses", poses], &[]),
+        (&["calibration", "plan", "four-cables", "--poses", poses], &noise),
+    ] {
+        let output = cdpr_in(folder.path(), &[arguments, rest].concat());
+        let (message, code) = questions(&output);
+        assert_eq!(code, Some(1), "{arguments:?}: {message}");
+        assert!(output.stdout.is_empty() && message.contains("leave 2 coordinates"), "{message}");
+    }
     // A folder that was there stays.
     std::fs::create_dir(folder.path().join("mine")).unwrap();
     let out = ["workspace", "four-cables", "--plane", "z=2", "--free", "roll", "--out", "mine"];

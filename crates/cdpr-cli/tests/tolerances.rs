@@ -120,3 +120,28 @@ fn a_long_search_shows_its_time_on_a_terminal_after_a_second() {
     child.kill().unwrap();
     child.wait().unwrap();
 }
+
+#[test]
+fn tolerances_under_which_many_robots_with_few_cables_have_no_rest_are_refused_at_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let given = ["--robot", "four-cables", "--free", "roll,pitch", "--position", "0.5,0.3,2"];
+    let template = cdpr(&[&["study", "new"], &given[..]].concat());
+    let mut study: Value = serde_json::from_slice(&template.stdout).unwrap();
+    let errors = study["error_models"]["tolerances"].as_object_mut().unwrap();
+    for entry in ["a", "b", "cog"] {
+        let law = &mut errors[entry]["law"]["uniform"];
+        for end in ["min", "max"] {
+            law[end] = (10.0 * law[end].as_f64().unwrap()).into();
+        }
+    }
+    let path = folder.path().join("study.json");
+    std::fs::write(&path, study.to_string()).unwrap();
+    let output = cdpr(&["tolerances", path.to_str().unwrap(), "--sampling", "all", "--limit", "5"]);
+    let message = text(output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{message}");
+    // Of the first 64 of 4096 robots, 40 % have no rest.
+    assert!(message.contains("of 64 robots with these tolerances"), "{message}");
+    assert!(message.contains("expected tighter tolerances, or a pose"), "{message}");
+    // The first reason is that of a robot next to the nominal one: no other rest was looked for.
+    assert!(message.contains("no rest with these coordinates was found next to the known one"), "{message}");
+}

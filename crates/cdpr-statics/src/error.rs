@@ -70,7 +70,8 @@ pub enum StaticsError {
     #[error(
         "{cables} cables for {freedoms} free motions leave {} coordinates of the pose that cannot be chosen: \
          expected as many names in `free` (of x, y, z, roll, pitch, yaw), not {named}; the inverse model, \
-         deflection, derivatives, stiffness, modes, workspaces and studies take them",
+         deflection, derivatives, stiffness, modes, capacity, load cycles, workspaces, robustness, \
+         calibrations and studies take them",
         freedoms.saturating_sub(*cables)
     )]
     FreeCoordinates {
@@ -83,9 +84,12 @@ pub enum StaticsError {
     },
     /// No lengths and free coordinates within the limits were found with which the platform rests at the
     /// others.
-    #[error("no rest with these coordinates was found from {starts} starts: {nearest}")]
+    #[error(
+        "no rest with these coordinates was found {}: {nearest}",
+        if *starts == 1 { "next to the known one".to_owned() } else { format!("from {starts} starts") }
+    )]
     NoRest {
-        /// Starts that were tried.
+        /// Starts that were tried; 1 where only the rest that belongs to a known one is looked for.
         starts: usize,
         /// What the nearest attempt lacks.
         nearest: RestFault,

@@ -8,7 +8,7 @@ mod stiffness;
 
 pub use deflection::{Deflection, deflection, deflection_from, wound_lengths};
 pub(crate) use deflection::{
-    Wound, deflection_beside, deflection_near, wind, wind_free, wind_from, wind_near,
+    Wound, deflection_beside, deflection_near, wind, wind_free, wind_from, wind_near, wind_rest,
 };
 pub use follow::follow;
 pub use hysteresis::{CycleStep, HysteresisLaw, LoadCycle, Unloading, load_cycle};

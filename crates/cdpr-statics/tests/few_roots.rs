@@ -213,8 +213,8 @@ fn taut_solutions_are_found_where_an_independent_search_has_them() {
     println!("{poses} poses: {found} of {stable}, {same} the same; {listed} of {roots}; {refused} refused");
     assert!(poses == 2000 && stable > 800, "{poses} {stable}");
     assert_eq!(found, stable);
-    // The other solutions are those that the search has met.
-    assert!(10 * listed >= 9 * roots, "{listed} of {roots}");
+    // The other solutions are those that the search has met: all but one of 1988.
+    assert!(1000 * listed >= 999 * roots, "{listed} of {roots}");
 }
 
 fn tally(case: &Value) -> Tally {

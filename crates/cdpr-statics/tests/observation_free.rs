@@ -7,7 +7,9 @@ use crate::observer::{compared, rows_by_size};
 use cdpr_cable::{PiecewiseLaw, Segment};
 use cdpr_robot::{Coordinate, Parameter, Pose, Pulley, Robot, Rotation3, TensionLimits, Vector3, library};
 use cdpr_statics::batch::{Observation, ObservationMotion, ScalarReason};
-use cdpr_statics::{Load, Observer, WantedPose, deflection, inverse};
+use cdpr_statics::error::RestFault;
+use cdpr_statics::free_coordinates::free_solutions;
+use cdpr_statics::{Load, Observer, StaticsError, WantedPose, deflection, inverse};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
@@ -214,6 +216,45 @@ fn what_lanes_do_not_know_is_left_with_its_reason() {
     assert_eq!(error.kind(), "free_coordinates");
 }
 
+#[test]
+fn a_rest_that_leaves_its_limits_is_refused_without_a_search_for_others() {
+    let (robot, free) = (named("four-cables"), [Roll, Pitch]);
+    let load = Load::payload(6.0);
+    let observer =
+        Observer::new(&robot, WantedPose::at(&Pose::at(0.5, 0.3, 2.0)).free(&free), &load).unwrap();
+    let rest = *observer.pose();
+    let points: Vec<usize> = (0..Parameter::of(&robot).len())
+        .filter(|i| matches!(Parameter::of(&robot)[*i], Parameter::AnchorPoint(..)))
+        .collect();
+    let rng = &mut ChaCha8Rng::seed_from_u64(5);
+    let (mut refused, mut searched) = (BTreeMap::<&str, usize>::new(), 0);
+    for _ in 0..60 {
+        let mut row = vec![0.0; Parameter::of(&robot).len()];
+        points.iter().for_each(|i| row[*i] = rng.random_range(-2e-3..2e-3));
+        let fault = match alone::<Observation>(&observer, &row) {
+            Ok(_) => continue,
+            Err(StaticsError::NoRest { starts: 1, nearest: RestFault::Limit(_) }) => "limit",
+            Err(StaticsError::NoRest { starts: 1, nearest: RestFault::Pushing { .. } }) => "pushing",
+            Err(StaticsError::NoRest { starts: 1, nearest: RestFault::Residual { .. } }) => "lost",
+            Err(StaticsError::Unstable { .. }) => "unstable",
+            Err(_) => {
+                searched += 1;
+                continue;
+            }
+        };
+        *refused.entry(fault).or_default() += 1;
+        // A search from many starts finds no other next to it.
+        let perturbed = robot.perturbed(&row).unwrap().robot;
+        if let Ok(found) = free_solutions(&perturbed, WantedPose::at(&rest).free(&free), &Load::none()) {
+            let away = rest.rotation.angle_to(&found.first.equilibrium.pose.rotation);
+            assert!(away > 0.3 || !found.first.stability.is_stable(), "{fault}: {row:?}");
+        }
+    }
+    println!("{refused:?}, {searched} searched");
+    assert!(refused["pushing"] > 20, "{refused:?}");
+    assert!(searched <= 3, "{searched} were searched for: {refused:?}");
+}
+
 /// Random robots; `CDPR_CASES` takes the place of this number.
 const CASES: u64 = 300;
 
@@ -245,8 +286,8 @@ fn outcomes(seed: u64) -> Vec<(String, f64)> {
     };
     let longest = longest(&robot, &pose);
     let rows = rows_by_size(&robot, &pose, 8, 0.1, seed);
-    let outcome = |(row, found): (&[f64], &Result<cdpr_statics::batch::Observation, _>)| match found {
-        Err(error) => (format!("failed: {}", cdpr_statics::StaticsError::kind(error)), 0.0),
+    let outcome = |(row, found): (&[f64], &Result<Observation, _>)| match found {
+        Err(error) => (format!("failed: {}", StaticsError::kind(error)), 0.0),
         Ok(found) => match (found.scalar, alone::<Observation>(&observer, row)) {
             (Some(why), _) => (format!("scalar: {}", why.name()), 0.0),
             (None, Err(error)) => (format!("LANES ONLY: {}", error.kind()), 0.0),

@@ -115,7 +115,7 @@ impl Case<'_> {
     }
 
     fn values(&self, design: &impl SampleDesign) -> Vec<Option<f64>> {
-        observe_rows(design, |rows| {
+        observe_rows(design, 0..design.points(), |rows| {
             let deviations = self.sampling.errors.deviations(rows);
             let found = self.observer.observe::<Observation>(&deviations).into_iter();
             found.map(|of| of.ok().map(|of| 1e3 * of.rms())).collect()
@@ -128,7 +128,7 @@ impl Case<'_> {
             output: 1e3 * of.observation.rms(),
             gradient: errors.gradient(&of.rms).iter().map(|slope| 1e3 * slope).collect(),
         };
-        observe_rows(design, |rows| {
+        observe_rows(design, 0..design.points(), |rows| {
             let found = self.observer.observe(&errors.deviations(rows)).into_iter();
             found.map(|of| of.ok().map(in_mm)).collect()
         })

@@ -151,7 +151,7 @@ impl RobotAtPose {
         let pose = match (&self.pose, &self.poses) {
             (_, Some(path)) => {
                 let solve = |pose: &Pose, progress: &ProgressBar| {
-                    let answer = solve(&robot, pose).map_err(Failure::from);
+                    let answer = solve(&robot, pose);
                     progress.inc(1);
                     answer
                 };
@@ -192,7 +192,7 @@ impl RobotAtPose {
     ) -> Result<Ending, ProgramError> {
         let path = self.poses.as_ref().ok_or_else(|| ProgramError::Usage("expected --poses".to_owned()))?;
         let mut solve = |pose: &Pose, progress: &ProgressBar| {
-            let answer = solve(pose).map_err(Failure::from);
+            let answer = solve(pose);
             progress.inc(1);
             answer
         };
@@ -205,21 +205,19 @@ impl RobotAtPose {
         &self,
         robot: &Robot,
         path: &Path,
-        mut solve: impl FnMut(&[Pose], &ProgressBar) -> Vec<Result<T, Failure>>,
+        mut solve: impl FnMut(&[Pose], &ProgressBar) -> Vec<Result<T, StaticsError>>,
     ) -> Result<Ending, ProgramError> {
         let poses = pose_file(path)?;
         questions::about_poses(robot, "--poses", &poses);
         let columns = T::columns(robot);
-        if self.format == Format::Text {
-            let names = COLUMNS.iter().map(ToString::to_string);
-            print_record(
-                names.chain(["status".to_owned()]).chain(columns.clone()).chain(["reason".to_owned()]),
-            );
-        }
         let mut ending = Ending::Well;
         let progress = progress(poses.len(), "poses");
-        for chunk in poses.chunks(CHUNK) {
-            let answers = solve(chunk, &progress);
+        for (number, chunk) in poses.chunks(CHUNK).enumerate() {
+            let answers = solve(chunk, &progress).into_iter().map(at_one).collect::<Result<Vec<_>, _>>()?;
+            if number == 0 && self.format == Format::Text {
+                let names = COLUMNS.iter().map(ToString::to_string).chain(["status".to_owned()]);
+                print_record(names.chain(columns.clone()).chain(["reason".to_owned()]));
+            }
             for answer in &answers {
                 ending = ending.and(answer.as_ref().map_or(Ending::SomethingWrong, Row::ending));
             }
@@ -245,6 +243,14 @@ impl RobotAtPose {
             Format::Text => print_row(pose, answer, columns),
         }
         Ok(())
+    }
+}
+
+/// The answer at one of many poses. Free coordinates that are missing are missing at all of them.
+fn at_one<T>(answer: Result<T, StaticsError>) -> Result<Result<T, Failure>, StaticsError> {
+    match answer {
+        Err(error @ StaticsError::FreeCoordinates { .. }) => Err(error),
+        answer => Ok(answer.map_err(Failure::from)),
     }
 }
 

@@ -152,3 +152,29 @@ fn the_view_has_most_of_a_window_and_a_dark_page_is_printed_in_dark_on_white() {
     assert_eq!(page.evaluate(color), dark);
     assert_eq!(page.evaluate("document.querySelector('canvas.paper')"), Value::Null);
 }
+
+#[test]
+fn banners_leave_most_of_a_small_view_free_and_are_read_by_scrolling() {
+    let (mut page, _) = caroca();
+    // As many as a pose without tensions, a platform below the floor and old results have together.
+    let shown = "(() => { const list = document.querySelector('.banners'); \
+         for (let k = 0; k < 9; k++) { const one = document.createElement('div'); one.className = 'banner'; \
+         one.textContent = 'no tensions between 50 N and 15000.763 N hold the platform at this pose '.repeat(3); \
+         list.append(one); } \
+         const [picture, banners] = ['.picture', '.banners'].map((name) => \
+         document.querySelector(name).getBoundingClientRect()); \
+         const covered = Math.min(picture.bottom, banners.bottom) - Math.max(picture.top, banners.top); \
+         return { share: covered / picture.height, scrolls: list.scrollHeight > list.clientHeight }; })()";
+    // On a phone they stand below the view.
+    for (width, height, most, scrolls) in [(900, 500, 0.45, true), (420, 640, 0.0, false)] {
+        let window = json!({"width": width, "height": height, "deviceScaleFactor": 1, "mobile": false});
+        page.call("Emulation.setDeviceMetricsOverride", window);
+        page.wait_for(&format!(
+            "document.querySelector('.cdprx').classList.contains('phone') === {}",
+            !scrolls
+        ));
+        let shown = page.evaluate(shown);
+        assert!(shown["share"].as_f64().unwrap() <= most, "{width}: {shown}");
+        assert_eq!(shown["scrolls"], json!(scrolls), "{width}: {shown}");
+    }
+}

@@ -111,9 +111,29 @@ fn check_free(robot: &Robot, free: &[Coordinate]) -> Result<(), StaticsError> {
 /// taken for the nearest.
 pub(crate) const BESIDE: f64 = 0.03;
 
+/// What a solution next to given coordinates decides.
+enum Beside {
+    /// It is sound, taut, stable and so close that no other needs to be looked for.
+    Answer(Box<FreeSolution>),
+    /// It is as close, but out of limits, a loop, below the ground or unstable.
+    Refused(StaticsError),
+    /// Nothing: it is far away, or a cable of it is paid out far.
+    Open,
+}
+
+impl Beside {
+    /// The answer; `None` where nothing is decided.
+    fn answer(self) -> Result<Option<FreeSolution>, StaticsError> {
+        match self {
+            Self::Answer(found) => Ok(Some(*found)),
+            Self::Refused(error) => Err(error),
+            Self::Open => Ok(None),
+        }
+    }
+}
+
 impl Search<'_> {
-    /// The solution that the search leads to from the given coordinates, if it is stable, within the limits
-    /// of tension and so close that no other needs to be looked for.
+    /// The solution that the search leads to from the given coordinates, if it is an answer.
     fn beside(&self) -> Result<Option<FreeSolution>, StaticsError> {
         let changes = vec![0.0; self.free.len()];
         let chord_forces = self.straight_forces(&changes);
@@ -121,28 +141,34 @@ impl Search<'_> {
         else {
             return Ok(None);
         };
-        let found = self.accepted(point, iterations)?;
-        if found.is_some() {
-            self.check_unique(&unknowns)?;
-        }
-        Ok(found)
+        let Beside::Answer(found) = self.decided(point, iterations, BESIDE)? else { return Ok(None) };
+        self.check_unique(&unknowns)?;
+        Ok(Some(*found))
     }
 
-    /// A solution, if it is sound, taut, stable and so close to the given coordinates that no other needs to
-    /// be looked for.
-    fn accepted(&self, point: Point, iterations: usize) -> Result<Option<FreeSolution>, StaticsError> {
+    /// What a solution decides that is no farther than `reach` from the given coordinates.
+    fn decided(&self, point: Point, iterations: usize, reach: f64) -> Result<Beside, StaticsError> {
         let Question { robot, pose, load, .. } = self.question;
-        if self.distance(pose, &point.held.equilibrium.pose) > BESIDE
-            || Loops::Refused.fault(robot, &point.held).is_some()
-        {
-            return Ok(None);
+        if self.distance(pose, &point.held.equilibrium.pose) > reach {
+            return Ok(Beside::Open);
+        }
+        if let Some(nearest) = Loops::Refused.fault(robot, &point.held) {
+            return Ok(Beside::Refused(StaticsError::NoRest { starts: 1, nearest }));
         }
         let HeldPose { lengths, equilibrium } = point.held;
         let is_taut =
             longest(robot, &lengths, &equilibrium).is_some_and(|(_, chords)| chords <= LONGEST_TAUT);
+        let is_within = out_of_limits(robot, &lengths, &[&equilibrium]).is_empty();
+        if !(is_taut && is_within) {
+            return Ok(Beside::Open);
+        }
         let found = FreeSolution::new(robot, load, lengths, equilibrium, iterations)?;
-        let within = out_of_limits(robot, &found.lengths, &[&found.equilibrium]).is_empty();
-        Ok(Some(found).filter(|found| found.stability.is_stable() && is_taut && within))
+        if found.stability.is_stable() {
+            return Ok(Beside::Answer(Box::new(found)));
+        }
+        let least_stiffness = found.stability.least_stiffness();
+        let pose = Box::new(found.equilibrium.pose);
+        Ok(Beside::Refused(StaticsError::Unstable { pose, least_stiffness }))
     }
 }
 

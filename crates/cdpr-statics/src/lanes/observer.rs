@@ -20,11 +20,13 @@ use crate::lanes::chain::{Outcome, Stage, observe};
 use crate::lanes::level::LevelFrame;
 use crate::lanes::observer::rows::{Nominal, Rows};
 use crate::lanes::reason::ScalarReason;
-use crate::loading::{Deflection, deflection, deflection_beside, deflection_near};
+use crate::loading::{
+    Deflection, deflection, deflection_beside, deflection_near, wind, wind_near, wind_rest,
+};
 use crate::state::{Load, Residual, WantedPose};
 use cdpr_number::lanes::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
 use cdpr_number::three;
-use cdpr_robot::{Deviations, ParameterLayout, Pose, Robot, Vector3, Vector6};
+use cdpr_robot::{Deviations, ParameterLayout, Perturbed, Pose, Robot, Vector3, Vector6};
 pub use motions::ObservationMotion;
 pub use slopes::ObservationSlopes;
 use std::array::from_fn;
@@ -83,7 +85,7 @@ impl Observed for Observation {
         deviations: &[f64],
         why: ScalarReason,
     ) -> Result<Self, StaticsError> {
-        Ok(Self::of(&observer.deflection(deviations)?, why))
+        Ok(Self::of(&observer.deflection(&observer.robot.perturbed(deviations)?)?, why))
     }
 }
 
@@ -187,8 +189,11 @@ impl<'a> Observer<'a> {
         deviations.each(&self.layout, |rows| rows.map(observed))
     }
 
-    fn deflection(&self, deviations: &[f64]) -> Result<Deflection, StaticsError> {
-        let perturbed = self.robot.perturbed(deviations)?;
+    /// Deflection of a robot that deviates from this one.
+    ///
+    /// # Errors
+    /// [`StaticsError`] says why this robot has no deflection.
+    pub fn deflection(&self, perturbed: &Perturbed) -> Result<Deflection, StaticsError> {
         let (robot, offsets) = (&perturbed.robot, &perturbed.tension_offsets);
         match &self.wanted {
             Wanted::Pose(Some(branch)) => deflection_near(branch, robot, &self.pose, offsets, &self.load),
@@ -197,6 +202,20 @@ impl<'a> Observer<'a> {
             }
             Wanted::Rest(branch) => deflection_beside(branch, robot, offsets, &self.load),
         }
+    }
+
+    /// Unstrained lengths [m] of the robot itself at the wanted pose, with `tension_offsets` [N] added to its
+    /// set-points, as [`crate::wound_lengths`] has them.
+    ///
+    /// # Errors
+    /// Those of the inverse model.
+    pub fn wound_lengths(&self, tension_offsets: &[f64]) -> Result<Vec<f64>, StaticsError> {
+        let robot = self.robot;
+        Ok(match &self.wanted {
+            Wanted::Pose(Some(branch)) => wind_near(branch, robot, &self.pose, tension_offsets)?.lengths,
+            Wanted::Pose(None) => wind(robot, &WantedPose::at(&self.pose), tension_offsets)?.lengths,
+            Wanted::Rest(branch) => wind_rest(robot, tension_offsets, branch.rest().clone())?.1.lengths,
+        })
     }
 }
 

@@ -127,7 +127,6 @@ pub(crate) fn deflection_beside(
     tension_offsets: &[f64],
     load: &Load,
 ) -> Result<Deflection, StaticsError> {
-    check_offsets(robot, tension_offsets)?;
     let (_, HeldPose { lengths, equilibrium }) = wind_rest(robot, tension_offsets, branch.nearby(robot)?)?;
     deflection_from(robot, lengths, load, &equilibrium)
 }
@@ -138,16 +137,16 @@ pub(crate) fn wind_free(
     wanted: &WantedPose,
     tension_offsets: &[f64],
 ) -> Result<(HeldPose, HeldPose), StaticsError> {
-    check_offsets(robot, tension_offsets)?;
     wind_rest(robot, tension_offsets, held_at(robot, wanted, &Load::none())?)
 }
 
 /// A rest without and with the offsets of tension set-points.
-fn wind_rest(
+pub(crate) fn wind_rest(
     robot: &Robot,
     tension_offsets: &[f64],
     held: HeldPose,
 ) -> Result<(HeldPose, HeldPose), StaticsError> {
+    check_offsets(robot, tension_offsets)?;
     if tension_offsets.iter().all(|offset| *offset == 0.0) {
         return Ok((held.clone(), held));
     }

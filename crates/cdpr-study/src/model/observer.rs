@@ -9,7 +9,7 @@ use cdpr_robot::{Coordinate, Deviations, Perturbed, Pose, Robot, Vector3, Vector
 use cdpr_statics::batch::{Observation, ObservationMotion, ObservationSlopes, ScalarReason};
 use cdpr_statics::{
     Deflection, Derivatives, DirectProblem, DirectStart, Load, Matrix3xX, Observer, StaticsError, WantedPose,
-    deflection, derivatives, direct, wound_lengths,
+    derivatives, direct,
 };
 use std::borrow::Cow;
 
@@ -79,7 +79,7 @@ impl<'a> OutputObserver<'a> {
             let perturbed = self.robot.perturbed(row)?;
             let quantity = match self.output {
                 Output::Position => MeasuredQuantity::Displacement(self.displaced(&perturbed)?),
-                _ => self.of_deflection(&perturbed.robot, &self.deflection(&perturbed)?)?.quantity,
+                _ => self.of_deflection(&perturbed.robot, &self.lanes.deflection(&perturbed)?)?.quantity,
             };
             Ok(Measured { quantity, scalar: Some(ScalarReason::Output) })
         };
@@ -103,7 +103,7 @@ impl<'a> OutputObserver<'a> {
             let perturbed = self.robot.perturbed(row)?;
             let motion = match self.output {
                 Output::Position => self.moved(&perturbed)?,
-                _ => self.deflection(&perturbed)?.motion(),
+                _ => self.lanes.deflection(&perturbed)?.motion(),
             };
             Ok(moved(motion, Some(ScalarReason::Output)))
         };
@@ -119,14 +119,6 @@ impl<'a> OutputObserver<'a> {
     /// By which rotations are measured [m]: of the nominal robot, whatever robot is observed.
     fn characteristic_length(&self) -> f64 {
         self.nominal.loaded.stability.characteristic_length()
-    }
-
-    fn deflection(&self, perturbed: &Perturbed) -> Result<Deflection, StaticsError> {
-        deflection(
-            &perturbed.robot,
-            WantedPose::at(&self.pose).free(self.free).tension_offsets(&perturbed.tension_offsets),
-            &self.load,
-        )
     }
 
     /// The deflection of a robot with its derivatives.
@@ -213,8 +205,7 @@ impl<'a> OutputObserver<'a> {
         if offsets.iter().all(|offset| *offset == 0.0) {
             return Ok(Cow::Borrowed(&self.nominal.lengths));
         }
-        wound_lengths(self.robot, WantedPose::at(&self.pose).free(self.free).tension_offsets(offsets))
-            .map(Cow::Owned)
+        self.lanes.wound_lengths(offsets).map(Cow::Owned)
     }
 
     /// The outputs of any number of robots in their unit, and their derivatives with respect to the inputs of

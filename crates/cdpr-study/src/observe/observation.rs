@@ -195,15 +195,16 @@ pub(crate) fn observe_quantities(
     Ok(all)
 }
 
-/// The result of `observed` for each row of a design, computed in parallel for some consecutive rows at a
-/// time, in the order of the rows.
+/// The result of `observed` for each of these rows of a design, computed in parallel for some consecutive rows
+/// at a time, in the order of the rows.
 pub fn observe_rows<T: Send>(
     design: &impl SampleDesign,
+    rows: Range<usize>,
     observed: impl Fn(&mut [f64]) -> Vec<T> + Sync,
 ) -> Vec<T> {
-    let points = design.size();
-    let of_part = |part: usize| observed(&mut draw(design, part * PART..points.min((part + 1) * PART)));
-    (0..points.div_ceil(PART)).into_par_iter().flat_map_iter(of_part).collect()
+    let parts: Vec<usize> = rows.clone().step_by(PART).collect();
+    let of_part = |first: usize| observed(&mut draw(design, first..rows.end.min(first + PART)));
+    parts.into_par_iter().flat_map_iter(of_part).collect()
 }
 
 fn observe_design<T: Send>(

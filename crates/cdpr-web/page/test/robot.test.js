@@ -4,6 +4,8 @@ import { bodyPoints, exaggerated, floorOf, followed, groundOf, moved, ring } fro
 import { changedRobot, isChanged, ofStudy, scaled, shares, studyOf, unobserved, width } from "../robot.js";
 import { initial } from "../state.js";
 import { cellAt, mapFrame, mapScales } from "../charts/map.js";
+import { viridis } from "../charts/scale.js";
+import { cableStyle } from "../view/style.js";
 import { emptyCells, extreme, fill, plane, positionOf, rangeOf, rowOrder } from "../slices.js";
 
 const none = { modulus: 1, density: 1, reference: null, least: null, greatest: null };
@@ -262,4 +264,21 @@ test("a study in place of the template gives pose, payload and tolerances", () =
   assert.ok(Math.abs(found.start.pose[6] - Math.SQRT1_2) < 1e-15);
   const { position, rpy_deg, changes, observations } = initial({ name: "r", ...found });
   assert.deepEqual([position, rpy_deg, changes.reference, observations], [[1, 2, 3], [0, 0, 90], "mid", 256]);
+});
+
+test("a slack cable has the colour of its tension, and no dark edge", () => {
+  const options = { range: 600, faded: false, selected: false };
+  const [taut, slack] = [false, true].map((slack) => cableStyle({ tension: 506, slack, limit: null }, options));
+  assert.deepEqual(slack.color, viridis(506 / 600));
+  assert.deepEqual(taut.color, slack.color);
+  assert.deepEqual([taut.hasEdge, slack.hasEdge], [true, false]);
+  const weak = cableStyle({ tension: 3, slack: true, limit: "min" }, options);
+  assert.notDeepEqual(weak.color, slack.color);
+  assert.equal(weak.mark, "warn");
+  assert.equal(cableStyle({ tension: 3, slack: true, limit: "min" }, { ...options, selected: true }).mark, "ink");
+  assert.deepEqual(cableStyle({ tension: 3, slack: true, limit: "min" }, { ...options, faded: true }), {
+    color: null,
+    hasEdge: false,
+    mark: null,
+  });
 });

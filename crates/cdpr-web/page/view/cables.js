@@ -2,9 +2,9 @@
 // have their colour, too, without a dark edge.
 
 import { Color, SRGBColorSpace } from "three";
-import { viridis } from "../charts/scale.js";
 import { exaggerated, followed } from "../geometry.js";
 import { Segments } from "./segments.js";
+import { cableStyle } from "./style.js";
 
 export class Cables {
   /**
@@ -51,11 +51,10 @@ export class Cables {
     state.cables.forEach((cable, k) => {
       let points = exaggerated(cable.points, sag, cable.free);
       if (steps) points = followed(points, steps[k], cable.free);
-      const color = faded ? rgb(palette.slack) : linear(viridis(cable.tension / range));
-      this.lines.line(points, color);
-      if (!faded && !cable.slack) this.casing.line(points);
-      if (k === selected) this.marks.line(points, rgb(palette.ink));
-      else if (cable.limit && !faded) this.marks.line(points, rgb(palette.warn));
+      const { color, hasEdge, mark } = cableStyle(cable, { range, faded, selected: k === selected });
+      this.lines.line(points, color ? linear(color) : rgb(palette.slack));
+      if (hasEdge) this.casing.line(points);
+      if (mark) this.marks.line(points, rgb(palette[mark]));
       if (cable.wheel.length > 0) this.wheels.line([...cable.wheel, ...cable.wheel.slice(0, 3)]);
     });
     for (const part of [this.casing, this.marks, this.lines, this.wheels]) part.done();

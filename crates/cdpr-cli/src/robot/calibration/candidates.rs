@@ -50,8 +50,10 @@ pub(super) fn add(
         bar.inc(1);
         match calibration.add(&pose, load, measurements) {
             Ok(()) => poses.push(pose),
-            // Noise and payload are the same at all poses: an invalid one is no property of a pose.
-            Err(error) if error.kind() == "invalid_input" => return Err(error.into()),
+            // Noise, payload and free coordinates are the same at all poses: they are no property of a pose.
+            Err(error) if ["invalid_input", "free_coordinates"].contains(&error.kind()) => {
+                return Err(error.into());
+            }
             Err(error) => *refused.entry(error.kind()).or_insert(0) += 1,
         }
     }

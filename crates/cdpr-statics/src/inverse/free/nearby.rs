@@ -10,8 +10,9 @@
 //! so that no slope is computed anew as long as every step halves the residual at least.
 
 use super::search::{Outcome, Point, ROUNDING, SINGULAR_VALUES, SOLVED, Search, Unknowns};
+use super::solution::FreeSolution;
 use super::sound::Loops;
-use super::{check_free, held_at};
+use super::{BESIDE, Beside, check_free, held_at};
 use crate::error::StaticsError;
 use crate::inverse::HeldPose;
 use crate::rest_fault::RestFault;
@@ -27,6 +28,8 @@ pub(crate) struct FreeBranch {
     rest: HeldPose,
     /// Where steps start; `None` where the slopes have no inverse.
     start: Option<Known>,
+    /// Whether it is nearly that of straight cables, so that these show what becomes of it.
+    is_straight: bool,
 }
 
 /// What is known of a rest.
@@ -43,6 +46,13 @@ struct Known {
 /// Steps until a residual that is halved at least by each is rounding.
 const MAX_STEPS: usize = 60;
 
+/// A rest belongs to a known one where steps lead from that to it, no farther than this, in radians and
+/// relative to the longest span.
+const REACH: f64 = 0.3;
+
+/// Starts from which straight cables are solved before a rest is called lost.
+const STARTS: usize = 9;
+
 impl FreeBranch {
     /// The rest of `robot` beside `pose`, as [`crate::inverse`] finds it.
     ///
@@ -56,7 +66,8 @@ impl FreeBranch {
         let start = search
             .known(chord_forces(robot, &rest.equilibrium))
             .and_then(|near| Some(search.follow(near)?.1));
-        Ok(Self { free: free.to_vec(), rest, start })
+        let is_straight = search.is_straight();
+        Ok(Self { free: free.to_vec(), rest, start, is_straight })
     }
 
     /// Where the platform rests.
@@ -69,22 +80,25 @@ impl FreeBranch {
         &self.free
     }
 
-    /// The rest of a robot that differs a little: the one to which steps lead from this one, if it is stable,
-    /// within the limits of tension and close to it, or else that of [`crate::inverse`].
+    /// The rest of a robot that differs a little: the one that belongs to this one.
+    ///
+    /// Where that is out of limits, below the ground or unstable, where a cable would have to push, or where it
+    /// is lost, no other is looked for. Where the steps lead far away, or where cables that sag may hold the
+    /// platform otherwise, the rest is that of [`crate::inverse`].
     ///
     /// # Errors
-    /// Those of [`crate::inverse`].
+    /// [`StaticsError::NoRest`] and [`StaticsError::Unstable`] for such a rest; those of [`crate::inverse`].
     pub(crate) fn nearby(&self, robot: &Robot) -> Result<HeldPose, StaticsError> {
         let (pose, none) = (&self.rest.equilibrium.pose, Load::none());
-        if let Some(known) = &self.start {
-            let search = Search::new(robot, pose, &none, &self.free)?;
-            if let Some((point, _)) = search.follow(known.clone())
-                && let Some(found) = search.accepted(point, 0)?
-            {
-                return Ok(HeldPose { lengths: found.lengths, equilibrium: found.equilibrium });
-            }
+        let search = Search::new(robot, pose, &none, &self.free)?;
+        let found = match &self.start {
+            Some(known) => search.belonging(known.clone(), self.is_straight)?,
+            None => None,
+        };
+        match found {
+            Some(FreeSolution { lengths, equilibrium, .. }) => Ok(HeldPose { lengths, equilibrium }),
+            None => held_at(robot, &WantedPose::at(pose).free(&self.free), &none),
         }
-        held_at(robot, &WantedPose::at(pose).free(&self.free), &none)
     }
 }
 
@@ -128,6 +142,72 @@ fn chord_forces(robot: &Robot, equilibrium: &Equilibrium) -> Vec<f64> {
 }
 
 impl Search<'_> {
+    /// The rest that belongs to a known one; `None` where that is open.
+    ///
+    /// # Errors
+    /// [`StaticsError::NoRest`] and [`StaticsError::Unstable`] where it is refused or lost.
+    fn belonging(&self, known: Known, is_straight: bool) -> Result<Option<FreeSolution>, StaticsError> {
+        if let Some((point, _)) = self.follow(known) {
+            return self.decided(point, 0, REACH)?.answer();
+        }
+        let given = vec![0.0; self.free.len()];
+        let chord_forces = self.straight_forces(&given);
+        // Whether a rest next to the known one may be left, whether one may be farther away.
+        let (mut is_open, mut is_far, mut nearest) = (!is_straight, false, None);
+        match self.reached(Unknowns { changes: given, chord_forces })? {
+            Ok(Beside::Answer(found)) => return Ok(Some(*found)),
+            Ok(Beside::Refused(error)) => return Err(error),
+            Ok(Beside::Open) => is_far = true,
+            Err(left) => nearest = Some(left),
+        }
+        let starts = (0..if is_straight { STARTS } else { 0 }).map(|start| self.start(start, [REACH, REACH]));
+        for root in starts.filter_map(|start| self.straight_root(start)) {
+            let (cable, tension) = root.slackest();
+            if root.distance > REACH {
+                is_far |= self.may_sag(&root);
+                continue;
+            }
+            if self.may_sag(&root) {
+                match self.reached(root.unknowns(self.least_force()))? {
+                    Ok(Beside::Answer(found)) => return Ok(Some(*found)),
+                    Ok(Beside::Refused(error)) => return Err(error),
+                    Ok(Beside::Open) => is_open = true,
+                    Err(_) => is_open |= tension > 0.0,
+                }
+            }
+            let fault = RestFault::Pushing { cable, force: -tension };
+            let is_less = |old: &RestFault| (fault.order(), fault.extent()) < (old.order(), old.extent());
+            if tension < 0.0 && nearest.as_ref().is_none_or(is_less) {
+                nearest = Some(fault);
+            }
+        }
+        match nearest {
+            Some(RestFault::Residual { .. }) if is_far => Ok(None),
+            Some(nearest) if !is_open => Err(StaticsError::NoRest { starts: 1, nearest }),
+            _ => Ok(None),
+        }
+    }
+
+    /// What the solution decides to which the search leads, or what it leaves of the balance.
+    fn reached(&self, from: Unknowns) -> Result<Result<Beside, RestFault>, StaticsError> {
+        let (point, unknowns, iterations) = match self.descend(from) {
+            Outcome::Found(point, unknowns, iterations) => (point, unknowns, iterations),
+            Outcome::Stuck(point) => return Ok(Err(self.left(&point))),
+            Outcome::Lost => return Ok(Err(self.unbalanced())),
+        };
+        let decided = self.decided(point, iterations, REACH)?;
+        if matches!(decided, Beside::Answer(_)) {
+            self.check_unique(&unknowns)?;
+        }
+        Ok(Ok(decided))
+    }
+
+    /// Whether straight cables hold the platform next to the given coordinates.
+    fn is_straight(&self) -> bool {
+        let root = self.straight_root(vec![0.0; self.free.len()]);
+        root.is_some_and(|root| root.distance <= BESIDE && root.slackest().1 > 0.0)
+    }
+
     /// Chord forces [N] in proportion to the load, where this leaves less of the balance than the forces that
     /// hold another load.
     fn in_proportion(&self, chord_forces: Vec<f64>) -> Vec<f64> {

@@ -62,7 +62,7 @@ impl<'s, 'a> Roots<'s, 'a> {
     pub(super) fn all(mut self) -> Result<FreeSolutions, StaticsError> {
         self.starts += STRAIGHT_STARTS;
         let straight = self.search.straight_roots();
-        let followed = straight.iter().filter(|root| self.may_sag(root)).take(MOST_ROOTS);
+        let followed = straight.iter().filter(|root| self.search.may_sag(root)).take(MOST_ROOTS);
         let outcomes: Vec<Outcome> = followed.map(|root| self.sagging(root)).collect();
         for outcome in outcomes {
             self.add(outcome)?;
@@ -75,13 +75,6 @@ impl<'s, 'a> Roots<'s, 'a> {
             self.add(outcome)?;
         }
         self.chosen(&straight)
-    }
-
-    /// Whether the weight of the cables may make up for what pushes.
-    fn may_sag(&self, root: &StraightRoot) -> bool {
-        let (cable, tension) = root.slackest();
-        let Question { robot, .. } = self.search.question;
-        tension > -robot.cable(cable).weight_per_length * self.search.size
     }
 
     /// The solution of cables with weight that belongs to a root of straight ones.
@@ -193,6 +186,12 @@ impl<'s, 'a> Roots<'s, 'a> {
 }
 
 impl Search<'_> {
+    /// Whether the weight of the cables may make up for what pushes.
+    pub(super) fn may_sag(&self, root: &StraightRoot) -> bool {
+        let (cable, tension) = root.slackest();
+        tension > -self.question.robot.cable(cable).weight_per_length * self.size
+    }
+
     /// The solution to which a root of straight cables leads while their weight grows to its value; `None`
     /// where the branch ends before.
     fn raised(&self, start: Unknowns) -> Option<Outcome> {

@@ -118,10 +118,13 @@ impl<'a> Search<'a> {
     }
 
     /// Whether the pitch is beyond a right angle: the pose is then that of another roll, pitch and yaw, of which
-    /// those that are given have other values.
+    /// those that are given have other values. Where all three are free, none is given.
     pub(super) fn is_turned_about(&self, changes: &[f64]) -> bool {
         let [_, pitch, _] = self.angles(changes);
-        self.question.robot.plane.is_none() && self.free.contains(&Coordinate::Pitch) && pitch.cos() < 0.0
+        let free = |coordinate| self.free.contains(&coordinate);
+        let are_all_free = [Coordinate::Roll, Coordinate::Pitch, Coordinate::Yaw].into_iter().all(free);
+        let is_of_others = free(Coordinate::Pitch) && !are_all_free;
+        self.question.robot.plane.is_none() && is_of_others && pitch.cos() < 0.0
     }
 
     /// Motion (dp, dφ) of the platform per unit of a free coordinate.

@@ -22,7 +22,7 @@ pub(super) struct StraightRoot {
     /// Tensions; one that is negative pushes [N].
     pub(super) tensions: Vec<f64>,
     /// Distance of the pose from the given one, in radians and longest spans.
-    distance: f64,
+    pub(super) distance: f64,
     /// Whether a motion of the free coordinates changes nothing.
     is_neutral: bool,
 }
@@ -84,7 +84,7 @@ impl Search<'_> {
     }
 
     /// The root that steps lead to from these changes of the free coordinates.
-    fn straight_root(&self, mut changes: Vec<f64>) -> Option<StraightRoot> {
+    pub(super) fn straight_root(&self, mut changes: Vec<f64>) -> Option<StraightRoot> {
         let cables = self.question.cables();
         let mut tensions = self.least_squares(&changes);
         let mut at = self.straight_equations(&changes, &tensions);

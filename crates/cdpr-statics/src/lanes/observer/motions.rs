@@ -31,7 +31,7 @@ impl Observed for ObservationMotion {
         deviations: &[f64],
         why: ScalarReason,
     ) -> Result<Self, StaticsError> {
-        let found = observer.deflection(deviations)?;
+        let found = observer.deflection(&observer.robot.perturbed(deviations)?)?;
         let rotation = found.motion().fixed_rows::<3>(3).into();
         Ok(Self { observation: Observation::of(&found, why), rotation })
     }
