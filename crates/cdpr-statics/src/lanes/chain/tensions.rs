@@ -106,9 +106,8 @@ impl<S: Simd> CableTension<S> {
     fn keep(&mut self, cable: &LaneCable<'_, S>, at_limits: [Mask<S>; 2], last: Mask<S>) {
         self.length.replace(cable.length, last);
         replace(&mut self.force, &cable.force, last);
-        for k in 0..2 {
-            self.at_limits[k] = (last & at_limits[k]) | (!last & self.at_limits[k]);
-        }
+        let ([low, high], [was_low, was_high]) = (at_limits, self.at_limits);
+        self.at_limits = [(last & low) | (!last & was_low), (last & high) | (!last & was_high)];
     }
 }
 
