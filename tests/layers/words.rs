@@ -49,7 +49,7 @@ pub(crate) fn other_spellings(text: &str) -> Vec<&str> {
         let word = word.to_ascii_lowercase();
         let ends = |rest: &str| ENDS.iter().any(|end| rest.starts_with(end));
         let rest = |stem: &&str| word.split_once(*stem)?.1.strip_prefix(OTHER).filter(|rest| ends(rest));
-        STEMS.iter().any(|stem| rest(&stem).is_some())
+        STEMS.iter().any(|stem| rest(stem).is_some())
     };
     text.split(|sign: char| !sign.is_alphabetic()).filter(is_other).collect()
 }

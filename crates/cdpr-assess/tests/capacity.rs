@@ -85,7 +85,7 @@ fn of_sagging_cables_payload_and_distances_are_those_of_an_independent_program()
 fn with_the_lengths_kept_the_payload_ends_where_a_tension_reaches_its_limit() {
     let ipanema = Robot::from_json(include_str!("../../../data/robots/ipanema-3.json")).unwrap();
     for (robot, pose) in [(cogiro(), Pose::at(0.5, -0.3, 1.5)), (ipanema, Pose::at(0.2, 0.1, 1.3))] {
-        let found = capacity_at(&robot, &pose, &Load::none(), &WrenchSet::of(Vec::new()));
+        let found = capacity_at(&robot, pose, &Load::none(), &WrenchSet::of(Vec::new()));
         let tensions = |payload: f64| {
             let found = deflection(&robot, &pose, &Load::payload(payload)).unwrap();
             found.loaded.equilibrium.tensions()
@@ -139,12 +139,12 @@ fn a_payload_that_is_rounding_is_zero() {
     for cable in &mut robot.cables {
         cable.tension_limits.max = Some(steepest);
     }
-    let found = capacity_at(&robot, &pose, &Load::none(), &WrenchSet::of(Vec::new()));
+    let found = capacity_at(&robot, pose, &Load::none(), &WrenchSet::of(Vec::new()));
     assert_eq!(found.payload_kept.unwrap().value, 0.0);
     // So is the least one of a cable.
     let ipanema = Robot::from_json(include_str!("../../../data/robots/ipanema-3.json")).unwrap();
     let pose = Pose::at(0.2, 0.1, 1.3);
-    let found = capacity_at(&ipanema, &pose, &Load::none(), &WrenchSet::of(Vec::new()));
+    let found = capacity_at(&ipanema, pose, &Load::none(), &WrenchSet::of(Vec::new()));
     assert_eq!(found.payload_kept.unwrap().value, 0.0);
 }
 
@@ -154,7 +154,7 @@ fn few_cables_points_and_planes_have_a_capacity_or_say_why_not() {
     few.cables = [1, 3, 5, 7].map(|i| few.cables[i].clone()).to_vec();
     let set = WrenchSet::of(Vec::new());
     let pose = Pose::at(0.3, 0.2, 2.0);
-    let refused = capacity_at(&few, &pose, &Load::none(), &set).payload_anew.unwrap_err();
+    let refused = capacity_at(&few, pose, &Load::none(), &set).payload_anew.unwrap_err();
     assert!(matches!(refused, StaticsError::FreeCoordinates { cables: 4, .. }));
     let free = [Coordinate::Roll, Coordinate::Yaw];
     let found = capacity_at(&few, WantedPose::at(&pose).free(&free), &Load::none(), &set);
@@ -171,7 +171,7 @@ fn few_cables_points_and_planes_have_a_capacity_or_say_why_not() {
     point.cables = [0, 2, 4, 6].map(|i| point.cables[i].clone()).to_vec();
     point.cables.iter_mut().for_each(|cable| cable.anchor_point = Vector3::zeros());
     point.platform.point = true;
-    let found = capacity_at(&point, &pose, &Load::none(), &set);
+    let found = capacity_at(&point, pose, &Load::none(), &set);
     assert!(found.payload_anew.unwrap().value > 100.0 && found.margin_anew.unwrap().value > 0.0);
     let held = inverse(&point, &pose, &Load::none()).unwrap();
     let clearance = clearance_at(&point, &held.lengths, &held.equilibrium).unwrap();

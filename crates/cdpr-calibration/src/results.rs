@@ -190,7 +190,7 @@ impl Fit {
             difference: of.difference,
             standard_deviations: of.standardized(),
         };
-        self.outliers().iter().map(|of| summary(of)).collect()
+        self.outliers().iter().map(summary).collect()
     }
 
     fn by_sensor(&self, predicted: Option<&[Difference]>) -> BTreeMap<&'static str, SensorSummary> {

@@ -276,7 +276,7 @@ fn natural_frequencies_are_those_of_the_library_by_pose_and_by_lengths() {
     let file = data_path("robots/cogiro.json");
     let robot = Robot::from_json(&data_text("robots/cogiro.json")).unwrap();
     let pose = Pose::at(0.5, 0.2, 2.0);
-    let modes = modes_at(&robot, &pose, &Load::none()).unwrap().modes;
+    let modes = modes_at(&robot, pose, &Load::none()).unwrap().modes;
     let expected: Vec<_> = modes.iter().map(|mode| mode.frequency).collect();
     let at_pose = answer(&["modes", &file, "--pose", "0.5,0.2,2"]);
     assert_eq!(numbers(&at_pose["frequencies_hz"]), expected);

@@ -64,7 +64,7 @@ fn sawtooths(robot: &Robot, robots: usize, half_range: impl Fn(&Parameter) -> f6
 fn observation(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("observation");
     let (robot, load) = (caroca(), Load::payload(50.0));
-    let observer = Observer::new(&robot, &Pose::at(0.0, 0.0, 1.75), &load).unwrap();
+    let observer = Observer::new(&robot, Pose::at(0.0, 0.0, 1.75), &load).unwrap();
     let nominal = alone::<Observation>(&observer, &[0.0; 62]).unwrap();
     assert!((1e3 * nominal.rms() - 1.33125).abs() < 1e-4);
 
@@ -89,7 +89,7 @@ fn observation(criterion: &mut Criterion) {
     group.throughput(Throughput::Elements(BATCH as u64));
     for cables in [6, 8, 10, 12, 14, 16] {
         let robot = ring(cables);
-        let observer = Observer::new(&robot, &Pose::at(0.1, 0.2, 1.5), &load).unwrap();
+        let observer = Observer::new(&robot, Pose::at(0.1, 0.2, 1.5), &load).unwrap();
         let rows = deviations(&robot, BATCH);
         let found = observed::<Observation>(&observer, &rows);
         assert!(found.iter().all(|found| found.as_ref().is_ok_and(|found| found.loaded.force < 1e-8)));
@@ -100,7 +100,7 @@ fn observation(criterion: &mut Criterion) {
     let guided = robots().map(|(robot, pose)| (guided(robot), pose));
     for (robot, pose) in robots().into_iter().chain(guided) {
         let load = Load::payload(0.1 * robot.platform.mass);
-        let observer = Observer::new(&robot, &pose, &load).unwrap();
+        let observer = Observer::new(&robot, pose, &load).unwrap();
         let rows = shares(&robot, BATCH);
         assert!(observed::<Observation>(&observer, &rows).iter().all(Result::is_ok), "{}", robot.name);
         group.bench_function(BenchmarkId::new("robots", &robot.name), |b| {

@@ -114,7 +114,7 @@ fn case(robot: &Robot, listed: &Value, pose: usize) -> Result<Value, Error> {
         times.extend((0..REPEATS).map(|_| microseconds(observe)));
     }
 
-    let observer = Observer::new(robot, &pose, &load)?;
+    let observer = Observer::new(robot, pose, &load)?;
     let layout = observer.layout();
     let batch = Deviations::new(layout, parameters.len(), deviations.concat().repeat(BATCH))?;
     let together = || observer.observe::<Observation>(black_box(&batch));

@@ -207,7 +207,7 @@ fn outcomes(seed: u64) -> Vec<(String, f64, usize)> {
         true => usize::from((0..robot.cables.len()).any(|i| robot.cable(i).guide.is_some())),
         false => 2,
     };
-    let observer = Observer::new(&robot, &pose, &load).unwrap();
+    let observer = Observer::new(&robot, pose, &load).unwrap();
     let found = observed::<Observation>(&observer, &rows);
     let compared = |(row, found): (&[f64], &Result<_, _>)| {
         let found: &Observation = match found {
@@ -277,7 +277,7 @@ fn no_robot_depends_on_those_beside_it() {
     let cases = std::env::var("CDPR_CASES").map_or(CASES, |cases| cases.parse().unwrap());
     let compared = (0..cases).into_par_iter().map(|seed| {
         let Some(Case { robot, pose, load, rows, .. }) = case(seed) else { return 0 };
-        let observer = Observer::new(&robot, &pose, &load).unwrap();
+        let observer = Observer::new(&robot, pose, &load).unwrap();
         let together = observed::<Observation>(&observer, &rows);
         let slopes = observed::<ObservationSlopes>(&observer, &rows);
         let rows = rows.chunks(Parameter::of(&robot).len());

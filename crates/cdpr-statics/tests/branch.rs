@@ -235,7 +235,7 @@ fn maps_and_observations_end_with_the_branch() {
             }
             _ => panic!("{scalar:?} {found:?}"),
         }
-        let observer = Observer::new(&robot, &wound.equilibrium.pose, &load).unwrap();
+        let observer = Observer::new(&robot, wound.equilibrium.pose, &load).unwrap();
         let mut deviations = vec![0.0; ParameterLayout::of(&robot).count()];
         deviations[0] = 0.1;
         let observed = observed::<Observation>(&observer, &deviations).remove(0);

@@ -134,7 +134,7 @@ fn the_stiffness_is_that_of_small_loads() {
 fn lanes_and_certificates_never_take_such_a_cable_for_a_linear_one() {
     let (robot, pose, load) = (kinked(), Pose::at(0.0, 0.0, 1.75), Load::payload(50.0));
     let wanted = deflection(&robot, &pose, &load).unwrap();
-    let observed = observed::<Observation>(&Observer::new(&robot, &pose, &load).unwrap(), &[0.0; 62]);
+    let observed = observed::<Observation>(&Observer::new(&robot, pose, &load).unwrap(), &[0.0; 62]);
     let displacement = observed[0].as_ref().unwrap().displacement;
     assert!((displacement - wanted.displacement()).norm() < 1e-12);
     let linear = deflection(&caroca(), &pose, &load).unwrap();
@@ -163,7 +163,7 @@ fn cables_that_span_many_kinks_are_observed_in_lanes() {
         cable.properties.linear_density *= 2.0;
     }
     let (pose, load) = (Pose::at(0.7, -0.4, 1.5), Load::payload(50.0));
-    let observer = Observer::new(&robot, &pose, &load).unwrap();
+    let observer = Observer::new(&robot, pose, &load).unwrap();
     let mut row = [0.0; 62];
     for k in 0..5 {
         row[2] = 2e9 * f64::from(k);

@@ -69,13 +69,13 @@ fn close(found: &[f64], expected: &[f64], relative: f64, what: &str) {
 fn natural_frequencies_and_tensions_do_not_depend_on_the_base_frame() {
     for (mut robot, pose) in robots() {
         robot.platform.inertia = Some(Matrix3::from_diagonal(&Vector3::new(4.0, 5.0, 6.0)));
-        let level = modes_at(&robot, &pose, &load()).unwrap();
+        let level = modes_at(&robot, pose, &load()).unwrap();
         let frequencies =
             |found: &PoseModes| found.modes.iter().map(|mode| mode.frequency).collect::<Vec<_>>();
         for rotation in rotations() {
             let what = format!("{} {:?}", robot.name, rotation.scaled_axis().as_slice());
             let (other, at) = (turned(&robot, &rotation), turned_pose(&pose, &rotation));
-            let found = modes_at(&other, &at, &turned_load(&load(), &rotation)).unwrap();
+            let found = modes_at(&other, at, &turned_load(&load(), &rotation)).unwrap();
             close(&found.equilibrium.tensions(), &level.equilibrium.tensions(), 1e-9, &what);
             close(&frequencies(&found), &frequencies(&level), 1e-8, &what);
         }

@@ -20,7 +20,7 @@ fn with_inertia(robot: Robot, inertia: Matrix3<f64>) -> Robot {
 fn cogiro_says_that_its_cables_vibrate_less_than_twice_as_fast_as_its_platform() {
     // An independent program that gives the cables their mass finds 3.87 and 4.39 Hz around the 4.158 Hz of
     // cables without mass.
-    let found = modes_at(&cogiro(), &Pose::at(0.0, 0.0, 2.0), &Load::none()).unwrap();
+    let found = modes_at(&cogiro(), Pose::at(0.0, 0.0, 2.0), &Load::none()).unwrap();
     let (slowest, platform) = found.lowest();
     let (slowest, platform) = (slowest.unwrap(), platform.unwrap());
     println!("cables {:?} Hz, platform {platform} Hz", found.cable_frequencies);
@@ -31,7 +31,7 @@ fn cogiro_says_that_its_cables_vibrate_less_than_twice_as_fast_as_its_platform()
     for (density, expected) in [(0.0, None), (1e-5, Some(false))] {
         let mut robot = cogiro();
         robot.cables.iter_mut().for_each(|cable| cable.properties.linear_density = density);
-        let (slowest, platform) = modes_at(&robot, &Pose::at(0.0, 0.0, 2.0), &Load::none()).unwrap().lowest();
+        let (slowest, platform) = modes_at(&robot, Pose::at(0.0, 0.0, 2.0), &Load::none()).unwrap().lowest();
         assert_eq!(slowest.map(|cable| cable.is_near(platform.unwrap())), expected);
     }
 }
@@ -78,7 +78,7 @@ fn a_heavier_platform_moves_more_slowly_and_a_payload_is_mass_at_its_centre() {
     for robot in [caroca(), cogiro(), led(caroca(), 0.045, 3.0)] {
         let robot = with_inertia(robot, inertia);
         let pose = Pose::at(0.5, -0.3, 2.0);
-        let modes = |robot: &Robot, load: &Load| modes_at(robot, &pose, load).unwrap().modes;
+        let modes = |robot: &Robot, load: &Load| modes_at(robot, pose, load).unwrap().modes;
         let light = modes(&robot, &Load::none());
         assert!(light.windows(2).all(|pair| pair[0].frequency <= pair[1].frequency));
         let loaded = modes(&robot, &Load::payload(20.0));
@@ -95,14 +95,14 @@ fn a_heavier_platform_moves_more_slowly_and_a_payload_is_mass_at_its_centre() {
 
 #[test]
 fn a_robot_without_inertia_and_an_unstable_equilibrium_have_no_frequencies() {
-    let error = modes_at(&caroca(), &Pose::at(0.0, 0.0, 1.75), &Load::none()).unwrap_err().to_string();
+    let error = modes_at(&caroca(), Pose::at(0.0, 0.0, 1.75), &Load::none()).unwrap_err().to_string();
     assert!(error.contains("platform.inertia is missing"), "{error}");
 }
 
 #[test]
 fn the_modes_of_a_stability_make_up_the_stiffness() {
     for (robot, pose) in [(caroca(), Pose::at(0.3, -0.2, 1.75)), (cogiro(), Pose::at(2.0, 1.0, 1.5))] {
-        let found = stiffness_at(&robot, &pose, &Load::none()).unwrap();
+        let found = stiffness_at(&robot, pose, &Load::none()).unwrap();
         let length = found.stability.characteristic_length();
         let modes = found.stability.modes();
         let sum: Matrix6<f64> = modes

@@ -24,7 +24,9 @@ fn greatest(tensions: &[f64]) -> f64 {
     tensions.iter().copied().fold(0.0, f64::max)
 }
 
-const NORMS: [(TensionDistribution, fn(&[f64]) -> f64); 2] =
+type Norm = fn(&[f64]) -> f64;
+
+const NORMS: [(TensionDistribution, Norm); 2] =
     [(TensionDistribution::LeastOneNorm, sum), (TensionDistribution::LeastInfinityNorm, greatest)];
 
 #[test]
@@ -135,8 +137,8 @@ fn what_follows_smooth_tensions_refuses_norms_that_jump_and_names_the_field() {
         let even = choosing(&robot("caroca.json"), distribution);
         let refusals = [
             derivatives(&even, &pose, &load).map(|_| ()).unwrap_err(),
-            Observer::new(&even, &pose, &load).map(|_| ()).unwrap_err(),
-            InversePath::new(&even).solve(&pose, &load).map(|_| ()).unwrap_err(),
+            Observer::new(&even, pose, &load).map(|_| ()).unwrap_err(),
+            InversePath::new(&even).solve(pose, &load).map(|_| ()).unwrap_err(),
         ];
         for refusal in refusals {
             assert!(

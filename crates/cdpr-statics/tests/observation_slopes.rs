@@ -129,7 +129,7 @@ fn free_cables_that_do_not_span_all_wrenches_have_their_slopes_from_the_scalar_m
     let robot = Robot::from_json(library::named(library::ROBOTS, "ipanema-1").unwrap().text).unwrap();
     let none = vec![0.0; Parameter::of(&robot).len()];
     for height in [0.5, 1.0, 1.5] {
-        let observer = Observer::new(&robot, &Pose::at(0.0, 0.0, height), &Load::payload(2.5)).unwrap();
+        let observer = Observer::new(&robot, Pose::at(0.0, 0.0, height), &Load::payload(2.5)).unwrap();
         let found = observed::<ObservationSlopes>(&observer, &none).remove(0).unwrap();
         assert_eq!(found.observation.scalar, Some(ScalarReason::Derivatives));
         assert_eq!(found.rms, alone::<ObservationSlopes>(&observer, &none).unwrap().rms);
@@ -182,7 +182,7 @@ fn slopes_over_pulleys_and_behind_leads_are_differences_of_observations() {
         // Changes across a kink of a law are not smooth.
         robot.cables.iter_mut().for_each(|cable| cable.properties.law = None);
         let parameters = Parameter::of(&robot);
-        let observer = Observer::new(&robot, &pose, &load).unwrap();
+        let observer = Observer::new(&robot, pose, &load).unwrap();
         let found = observed::<ObservationSlopes>(&observer, &vec![0.0; parameters.len()]).remove(0).unwrap();
         assert_eq!(found.observation.scalar, None);
         let largest = rows(&robot, 101);

@@ -95,12 +95,12 @@ fn lanes_prefer_the_same_tensions_and_keep_the_same_limits() {
     for (mut robot, pose, reference) in robots {
         let load = Load::payload(0.2 * robot.platform.mass);
         let rows = rows(&robot, 300, 0.5, 3);
-        let least_norm = observed::<Observation>(&Observer::new(&robot, &pose, &load).unwrap(), &rows);
+        let least_norm = observed::<Observation>(&Observer::new(&robot, pose, &load).unwrap(), &rows);
         for preferred in [TensionReference::All(reference), TensionReference::MID] {
             robot.tension_reference = Some(preferred);
             assert_eq!(compare(&robot, &pose, &load, &rows), (0, 0), "{}", robot.name);
         }
-        let observed = observed::<Observation>(&Observer::new(&robot, &pose, &load).unwrap(), &rows);
+        let observed = observed::<Observation>(&Observer::new(&robot, pose, &load).unwrap(), &rows);
         let differ = observed.iter().zip(&least_norm).filter(|(a, b)| {
             (a.as_ref().unwrap().rms() - b.as_ref().unwrap().rms()).abs() > 1e-4 * b.as_ref().unwrap().rms()
         });
@@ -239,7 +239,7 @@ fn points_and_planar_platforms_stay_in_the_lanes() {
         load.wrench.force = Vector3::new(0.02, 0.03, -0.01) * weight;
         load.wrench.moment = Vector3::new(0.01, -0.02, 0.01) * (weight * robot.platform_size());
         let longest = (0..robot.cables.len()).map(|i| robot.span(&pose, i).norm()).fold(0.0, f64::max);
-        let observer = Observer::new(&robot, &pose, &load).unwrap();
+        let observer = Observer::new(&robot, pose, &load).unwrap();
         let (left, failed) = compared(&robot, &observer, &rows, 1e-13 * longest);
         println!("{}: {left} of 200 left to the scalar models, {failed} failed there", robot.name);
         assert!(left <= 2, "{}: {left}, {failed}", robot.name);
@@ -307,7 +307,7 @@ fn pulleys_whose_axes_tilt_are_left_to_the_scalar_models_alone() {
     let parameters = Parameter::of(&robot);
     let tilt = parameters.iter().position(|parameter| matches!(parameter, Parameter::Tilt(..))).unwrap();
     rows[4 * parameters.len() + tilt + 3] = 0.02;
-    let observer = Observer::new(&robot, &pose, &load).unwrap();
+    let observer = Observer::new(&robot, pose, &load).unwrap();
     let reasons = observed::<Observation>(&observer, &rows).into_iter().map(|found| found.unwrap().scalar);
     let expected = (0..9).map(|row| (row == 4).then_some(ScalarReason::Pulleys));
     assert!(reasons.eq(expected));
@@ -327,7 +327,7 @@ fn an_answer_depends_on_its_own_row_alone() {
     let robot = caroca();
     let rows = rows(&robot, 50, 2.0, 3);
     let pose = Pose::at(3.2, 1.7, 3.0);
-    let observer = Observer::new(&robot, &pose, &Load::payload(50.0)).unwrap();
+    let observer = Observer::new(&robot, pose, &Load::payload(50.0)).unwrap();
     let together = observed::<Observation>(&observer, &rows);
     for size in [1, 3, 8, 11] {
         let apart = rows.chunks(62 * size).flat_map(|rows| observed::<Observation>(&observer, rows));
@@ -344,7 +344,7 @@ fn a_row_that_is_no_robot_fails_alone_and_says_why() {
     rows[2 * 62 + 5] = f64::NAN;
     rows[3 * 62 + 60] = f64::INFINITY;
     rows[4 * 62 + 1] = -1.0;
-    let observer = Observer::new(&robot, &Pose::at(0.0, 0.0, 1.75), &Load::payload(50.0)).unwrap();
+    let observer = Observer::new(&robot, Pose::at(0.0, 0.0, 1.75), &Load::payload(50.0)).unwrap();
     let found = observed::<Observation>(&observer, &rows);
     let field = |i: usize| match &found[i] {
         Err(StaticsError::Robot(RobotError::Invalid { field, .. })) => field.as_str(),
@@ -366,7 +366,7 @@ fn a_table_for_robots_with_other_parameters_is_refused_and_no_row_is_observed() 
         cable.lead = if i < 7 { 3.0 } else { 0.0 };
     }
     let (pose, load) = (Pose::at(0.0, 0.0, 1.75), Load::payload(50.0));
-    let observer = Observer::new(&guided, &pose, &load).unwrap();
+    let observer = Observer::new(&guided, pose, &load).unwrap();
     let layout = ParameterLayout::of(&robot);
     // As many numbers as 62 robots with 93 parameters have.
     let table = Deviations::zeros(&layout, 93);
@@ -382,7 +382,7 @@ fn a_table_for_robots_with_other_parameters_is_refused_and_no_row_is_observed() 
     pulley.cables[0].pulley = guided.cables[0].pulley;
     leads.cables[..3].iter_mut().for_each(|cable| cable.lead = 3.0);
     let layout = ParameterLayout::of(&leads);
-    let found = Observer::new(&pulley, &pose, &load).unwrap().observe(&Deviations::zeros(&layout, 1));
+    let found = Observer::new(&pulley, pose, &load).unwrap().observe(&Deviations::zeros(&layout, 1));
     let found: &Result<Observation, _> = &found[0];
     let message = "column 63 of the deviations is lead1: expected r1, as the robot has it";
     assert_eq!(found.as_ref().unwrap_err().to_string(), message);
@@ -391,7 +391,7 @@ fn a_table_for_robots_with_other_parameters_is_refused_and_no_row_is_observed() 
 #[test]
 fn a_table_without_rows_has_no_observations() {
     let robot = caroca();
-    let observer = Observer::new(&robot, &Pose::at(0.0, 0.0, 1.75), &Load::payload(50.0)).unwrap();
+    let observer = Observer::new(&robot, Pose::at(0.0, 0.0, 1.75), &Load::payload(50.0)).unwrap();
     assert_eq!(observed::<Observation>(&observer, &[]), []);
 }
 

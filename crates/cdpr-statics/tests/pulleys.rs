@@ -137,7 +137,7 @@ fn nothing_depends_on_the_base_frame() {
         let wrench = Wrench { force: Vector3::new(20.0, 10.0, -5.0), moment };
         let load = Load { payload: 10.0, wrench };
         let expected = deflection(&robot, &pose, &load).unwrap();
-        let stiffness = stiffness_at(&robot, &pose, &load).unwrap();
+        let stiffness = stiffness_at(&robot, pose, &load).unwrap();
         for rotation in [
             Rotation3::from_euler_angles(0.02, -0.03, 0.5),
             Rotation3::from_euler_angles(1.2, 0.3, -2.0),
@@ -157,7 +157,7 @@ fn nothing_depends_on_the_base_frame() {
                 assert!(off < 1e-10 * robot.platform_size(), "{}: {off:e}", robot.name);
             }
             // The stiffness turns with the base.
-            let two = stiffness_at(&other, &at(&pose), &load).unwrap();
+            let two = stiffness_at(&other, at(&pose), &load).unwrap();
             let mut turn = Matrix6::zeros();
             for block in [0, 3] {
                 turn.fixed_view_mut::<3, 3>(block, block).copy_from(rotation.matrix());

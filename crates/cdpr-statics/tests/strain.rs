@@ -42,19 +42,19 @@ fn no_model_answers_beyond_the_strain_that_it_holds_for() {
                 }
             };
             let load = Load::payload(1.0);
-            let observer = Observer::new(robot, &pose, &load).unwrap();
+            let observer = Observer::new(robot, pose, &load).unwrap();
             let deviations = vec![0.0; 3 * ParameterLayout::of(robot).count()];
             let mut path = InversePath::new(robot);
             kinds(vec![
                 ("inverse", inverse(robot, &pose, &none).err()),
-                ("a path", path.solve(&pose, &none).err()),
+                ("a path", path.solve(pose, &none).err()),
                 ("at rest", inverse(robot, &pose, &none).err()),
-                ("free coordinates", free_solutions(robot, &pose, &none).err()),
+                ("free coordinates", free_solutions(robot, pose, &none).err()),
                 ("a map", inverse(robot, &[pose; 3], &none).remove(2).err()),
                 ("deflection", deflection(robot, &pose, &load).err()),
                 ("derivatives", derivatives(robot, &pose, &load).err()),
-                ("stiffness", stiffness_at(robot, &pose, &none).err()),
-                ("modes", modes_at(robot, &pose, &none).err()),
+                ("stiffness", stiffness_at(robot, pose, &none).err()),
+                ("modes", modes_at(robot, pose, &none).err()),
                 ("an observation", observed::<Observation>(&observer, &deviations).remove(1).err()),
             ]);
             assert_eq!(is_held(robot, &pose, &none), Ok(false));

@@ -31,7 +31,7 @@ fn the_stiffness_is_the_derivative_of_the_balance_under_a_moment() {
             let moment = share * force * size * Vector3::new(1.0, -0.6, 0.8);
             let wrench = Wrench { force: share * force * Vector3::new(0.3, 0.5, -1.0), moment };
             let load = Load { payload: 0.1 * robot.platform.mass, wrench };
-            let found = stiffness_at(&robot, &pose, &load).unwrap();
+            let found = stiffness_at(&robot, pose, &load).unwrap();
             let lengths = inverse(&robot, &pose, &load).unwrap().lengths;
             // Differences of fourth order.
             let step = 1e-4 * size;

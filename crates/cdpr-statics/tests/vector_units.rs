@@ -58,7 +58,7 @@ fn the_vector_unit_changes_no_bit_of_an_observation() {
         });
         let deviations = sawtooth(&half.collect::<Vec<_>>());
         for pose in [Pose::at(0.0, 0.0, 1.75), Pose::at(3.2, 1.7, 3.0)] {
-            observe(&Observer::new(&robot, &pose, &Load::payload(50.0)).unwrap(), &deviations, 9);
+            observe(&Observer::new(&robot, pose, &Load::payload(50.0)).unwrap(), &deviations, 9);
         }
     }
 }

@@ -45,7 +45,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let text = template(&open_robot(path)?, &format!("{name}.json"), None, None, &[])?;
         let study = Study::from_json(&text, path)?;
         let sampling = &study.sampling("all")?;
-        let observer = Observer::new(sampling.robot, &sampling.pose, &sampling.load)?;
+        let observer = Observer::new(sampling.robot, sampling.pose, &sampling.load)?;
         let case = Case { sampling, observer };
         let (exact, reference) = case.sobol()?;
         let cost = case.cost()?;

@@ -110,7 +110,7 @@ fn a_frequency_and_a_stiffness_are_those_of_the_deflected_robot() {
 fn the_nominal_stiffness_without_offsets_is_nearly_that_of_the_wanted_pose() {
     for study in of_two_robots("stiffness") {
         let sampling = study.sampling("point").unwrap();
-        let at_pose = stiffness_at(&study.robot, &sampling.pose, &sampling.load).unwrap();
+        let at_pose = stiffness_at(&study.robot, sampling.pose, &sampling.load).unwrap();
         // The payload moves the platform by a millimetre, and the tensions of another distribution hold it.
         same(sampling.nominal_value, at_pose.stability.least_stiffness(), 0.2);
         let values: Vec<f64> = observed(&sampling).iter().map(|(_, measured)| measured.value()).collect();
