@@ -35,8 +35,6 @@ use crate::error::CalibrationError;
 use crate::solve::{Svd, triangle};
 use cdpr_robot::{Coordinate, Parameter, Pose, Robot, Vector3};
 use cdpr_statics::{DirectProblem, Load, WantedPose, derivatives};
-#[cfg(doc)]
-use cdpr_statics::{WantedPose, derivatives};
 use nalgebra::{DMatrix, DVector};
 
 /// What is measured at every pose, with the standard deviation of its noise.
