@@ -23,9 +23,9 @@
 //! The derivatives of v_i are second derivatives of the catenary (`cdpr_cable::TensionSlope`).
 //!
 //! **Active bounds stay active** while their multipliers are not zero. On limits at the platform `dt_i = 0`.
-//! A cable whose weight demands more rests on the constant [`ABOVE_LEAST`] times the least tension over its
+//! A cable whose weight demands more rests on a constant, a = 1.001, times the least tension over its
 //! span. That least tension, a minimum over the length, changes as if the length at which it is taken were
-//! held: `dt_i = ABOVE_LEAST u·(-K3 dr + k_ρ dρ + k_E dE)` of that catenary. A greatest tension T0 at the
+//! held: `dt_i = a u·(-K3 dr + k_ρ dρ + k_E dE)` of that catenary. A greatest tension T0 at the
 //! exit point leaves t at the platform, which (C26) of `cdpr_cable` relates: `(1 + ε(t)) dt = w dz + z dw +
 //! (1/EA ∫ ε) dEA` with the integral over the tension from T0 to t.
 //!
@@ -57,8 +57,6 @@ mod rest;
 mod softest;
 mod winding;
 
-#[cfg(doc)]
-use crate::equations::ABOVE_LEAST;
 pub use crate::equations::Inputs;
 use crate::equations::{CableDerivatives, Partials, Pins, Reading, read, solve};
 use crate::error::StaticsError;
