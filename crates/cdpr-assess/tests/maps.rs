@@ -3,8 +3,9 @@
 use cdpr_assess::{Further, Workspace, WorkspacePose, compute_workspace};
 use cdpr_robot::{Matrix3, Parameter, Plane, Robot, Rotation3, Vector3, Wrench};
 use cdpr_statics::batch::{LoadedPose, PoseSlopes, loaded_poses};
+use cdpr_statics::derivatives::derivatives_from;
 use cdpr_statics::limits::{OutOfLimits, out_of_limits};
-use cdpr_statics::{DirectProblem, Load, StaticsError, deflection, derivatives, inverse};
+use cdpr_statics::{DirectProblem, Load, StaticsError, deflection, inverse};
 use cdpr_study::{Grid, GridAxis};
 
 /// A robot, a box of x, y and z with numbers of points, and a load.
@@ -188,7 +189,7 @@ fn derivatives_over_poses_are_those_of_the_scalar_models() {
         let (mut in_lanes, mut worst, mut compared) = (0, 0.0_f64, 0);
         let references: Vec<_> = wanted.iter().collect();
         for (wanted, found) in wanted.iter().zip(loaded_poses::<PoseSlopes>(&robot, &references, &load)) {
-            let alone = derivatives(&robot, &wanted.equilibrium.pose, &load);
+            let alone = derivatives_from(&robot, &wanted.equilibrium.pose, &load, wanted.clone());
             let (found, alone) = match (found, alone) {
                 (Ok(found), Ok(alone)) => (found, alone),
                 (Ok(found), Err(StaticsError::NoDerivative { .. })) => {

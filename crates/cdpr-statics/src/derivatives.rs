@@ -157,7 +157,7 @@ pub fn derivatives<W: Wanted>(
 ///
 /// # Errors
 /// As [`derivatives`].
-pub(crate) fn derivatives_from(
+pub fn derivatives_from(
     robot: &Robot,
     pose: &Pose,
     load: &Load,
