@@ -46,7 +46,7 @@ use sound::{Loops, longest};
 /// chords, unless loops are wanted, and none is below [`Robot::ground_z`].
 ///
 /// ```
-/// use cdpr_robot::{Coordinate, Robot};
+/// use cdpr_robot::{Coordinate, Pose, Robot};
 /// use cdpr_statics::{Load, WantedPose};
 /// use cdpr_statics::free_coordinates::free_solutions;
 ///
