@@ -54,8 +54,8 @@ fn functions<'a>(lines: &'a [&'a str]) -> impl Iterator<Item = (&'a str, usize)>
     })
 }
 
-/// The number of parameters of each function, receivers included. Those of a function that Python calls are the
-/// keywords of its arguments: they are not counted.
+/// The number of parameters of each function, receivers included. Those of a function that Python calls are
+/// the keywords of its arguments: they are not counted.
 #[derive(Default)]
 struct Parameters(Vec<(String, usize)>);
 

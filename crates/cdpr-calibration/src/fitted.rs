@@ -208,8 +208,8 @@ pub struct Fit {
     pub steps: usize,
     /// Whether the search ended at a minimum, and what shows that it is the least.
     pub status: FitStatus,
-    /// Distance to the minimum by the last linearization, in standard deviations: the root of what a step would
-    /// take from chi-square.
+    /// Distance to the minimum by the last linearization, in standard deviations: the root of what a step
+    /// would take from chi-square.
     pub distance: f64,
     /// Starts that were made, and how many of them ended at the least chi-square.
     pub starts: [usize; 2],

@@ -1,5 +1,5 @@
-//! Rows beyond the end of the branch of equilibria of the robot of the file: under their load its platform falls,
-//! that of the true robot does not.
+//! Rows beyond the end of the branch of equilibria of the robot of the file: under their load its platform
+//! falls, that of the true robot does not.
 
 use cdpr_calibration::{FitSettings, FitStatus, Noise, Row, Simulated, Unknowns, fit, simulate};
 use cdpr_robot::{CableEnd, Parameter, Pose, Robot, Rotation3, Vector3, Wrench};

@@ -267,8 +267,8 @@ impl Robot {
         self.cables[i].tension_limits.max_at.unwrap_or(self.max_at)
     }
 
-    /// Replaces the choice of tensions by what is given of it: a reference alone chooses the nearest to it, and a
-    /// norm alone drops the reference.
+    /// Replaces the choice of tensions by what is given of it: a reference alone chooses the nearest to it,
+    /// and a norm alone drops the reference.
     pub fn choose(&mut self, distribution: Option<TensionDistribution>, reference: Option<TensionReference>) {
         if let Some(distribution) = distribution {
             self.distribution = distribution;

@@ -30,8 +30,8 @@ impl Lu {
     }
 }
 
-/// `P A Pᵀ = L B Lᵀ` of a symmetric matrix that need not be definite, with blocks of one or two rows in B (J. R.
-/// Bunch, L. Kaufman, *Some stable methods for calculating inertia and solving symmetric linear systems*,
+/// `P A Pᵀ = L B Lᵀ` of a symmetric matrix that need not be definite, with blocks of one or two rows in B (J.
+/// R. Bunch, L. Kaufman, *Some stable methods for calculating inertia and solving symmetric linear systems*,
 /// Mathematics of Computation 31, 1977).
 pub(crate) struct Indefinite {
     factors: Lblt<f64>,

@@ -358,15 +358,16 @@ impl DirectProblem<'_> {
 pub struct ForceDerivatives {
     /// Derivatives of the pose: (dp, dφ) in the base frame, `R <- exp(dφ) R` [m, rad per unit].
     pub pose: Matrix6xX<f64>,
-    /// Force with which each cable pulls at that end, in the base frame [N]: on the platform, or on its guide.
+    /// Force with which each cable pulls at that end, in the base frame [N]: on the platform, or on its
+    /// guide.
     pub forces: Vec<Vector3<f64>>,
     /// Derivatives of these forces, rows 3i to 3i + 2 for cable i [N per unit].
     pub per_input: DMatrix<f64>,
 }
 
 impl DirectProblem<'_> {
-    /// Derivatives of an equilibrium, with those by the lengths and with the forces at an end of the cables as
-    /// vectors: what measurements of any kind are compared with.
+    /// Derivatives of an equilibrium, with those by the lengths and with the forces at an end of the cables
+    /// as vectors: what measurements of any kind are compared with.
     ///
     /// # Errors
     /// As [`DirectProblem::derivatives`].

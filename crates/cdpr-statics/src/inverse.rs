@@ -15,10 +15,10 @@
 //! t_i - r_i + λ·dw_i/dt_i = 0  on free cables,   >= 0 at min_i,   <= 0 at max_i                     (I2)
 //! ```
 //!
-//! r is zero, or what the robot prefers. A robot may choose the least 1-norm or infinity-norm instead, by `norm`.
-//! The limits of a cable are its own or the robot's; its least tension
-//! is at least [`ABOVE_LEAST`] times what its own weight demands over its span, and a greatest tension at its
-//! exit point is converted to the platform by `limits`.
+//! r is zero, or what the robot prefers. A robot may choose the least 1-norm or infinity-norm instead, by
+//! `norm`. The limits of a cable are its own or the robot's; its least tension is at least [`ABOVE_LEAST`]
+//! times what its own weight demands over its span, and a greatest tension at its exit point is converted to
+//! the platform by `limits`.
 //!
 //! The modules below solve it in the chord force σ_i of each cable (`cdpr_cable::HeldCable`), in which all
 //! derivatives are finite: `optimum` by Newton's method, `feasible` from several starts before a pose is
@@ -162,8 +162,8 @@ impl<'a> InversePath<'a> {
     ///
     /// # Errors
     /// Those of [`crate::inverse`], and [`StaticsError::Invalid`] for free coordinates, which a path does not
-    /// take, and for a distribution that jumps from pose to pose. The path then goes on from the last pose that
-    /// has an answer.
+    /// take, and for a distribution that jumps from pose to pose. The path then goes on from the last pose
+    /// that has an answer.
     pub fn solve<'w>(
         &mut self,
         wanted: impl Into<WantedPose<'w>>,

@@ -34,8 +34,8 @@ pub struct Distribution {
 /// Chooses among the tensions within limits that balance a wrench.
 ///
 /// # Errors
-/// [`TensionError::Infeasible`] with the nearest tensions and a proof, checked here; [`TensionError::Invalid`];
-/// [`TensionError::Solver`].
+/// [`TensionError::Infeasible`] with the nearest tensions and a proof, checked here;
+/// [`TensionError::Invalid`]; [`TensionError::Solver`].
 pub fn distribute(problem: &Problem, objective: Objective) -> Result<Distribution, TensionError> {
     problem.validate(&objective)?;
     if let Objective::Nearest(reference) = objective
@@ -229,8 +229,8 @@ fn infeasible(
 
 /// The tensions within the limits with the least residual wrench `|W t + w|`; 1 N counts as much as 1 N m.
 ///
-/// The residual `e = W t + w` takes part as further unknowns: the Hessian is one for e and zero for t, but for
-/// 1e-9 that makes the tensions unique.
+/// The residual `e = W t + w` takes part as further unknowns: the Hessian is one for e and zero for t, but
+/// for 1e-9 that makes the tensions unique.
 fn nearest(problem: &Problem) -> Result<Vec<f64>, TensionError> {
     const UNIQUE: f64 = 1e-9;
     let (m, n) = problem.wrench_matrix.shape();

@@ -19,8 +19,8 @@
 //! ```
 //!
 //! Everything else is a quadratic or linear program that Clarabel solves. Of the tensions nearest to a
-//! reference it finds the active bounds, and the optimality conditions of the cables F between theirs give the
-//! digits:
+//! reference it finds the active bounds, and the optimality conditions of the cables F between theirs give
+//! the digits:
 //!
 //! ```text
 //! t_i = t_ref,i - w_i·λ   for i in F,      W t + w = 0                                          (T3)
@@ -55,8 +55,9 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! [`BoxProblem`], [`LinearProgram`] and [`bounded_least_squares`] are the programs of single steps towards an
-//! equilibrium with sagging cables. They are solved many times for one pose, in a tenth of Clarabel's time.
+//! [`BoxProblem`], [`LinearProgram`] and [`bounded_least_squares`] are the programs of single steps towards
+//! an equilibrium with sagging cables. They are solved many times for one pose, in a tenth of Clarabel's
+//! time.
 
 mod box_problem;
 mod distribution;

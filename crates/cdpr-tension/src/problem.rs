@@ -25,8 +25,8 @@ pub enum Objective<'a> {
     LeastGreatest,
     /// The greatest multiple z of a wrench d that is balanced, too: `W t + w + z d = 0`, z >= 0.
     GreatestWrench(&'a DVector<f64>),
-    /// The greatest distance z of all tensions from limits of their own: `min_i + z <= t_i <= max_i - z`. It is
-    /// negative where these limits leave no balance.
+    /// The greatest distance z of all tensions from limits of their own: `min_i + z <= t_i <= max_i - z`. It
+    /// is negative where these limits leave no balance.
     GreatestMargin(&'a [TensionLimits]),
 }
 

@@ -58,8 +58,8 @@ fn least_norm_tensions_are_closed_form_in_the_middle_of_the_workspace() {
     assert!(optimality_error(&problem, &[0.0; 8], &solution) < 1e-12);
 }
 
-/// The value of an objective whose program is linear, by the simplex method; unknowns are the tensions, z, and
-/// slacks.
+/// The value of an objective whose program is linear, by the simplex method; unknowns are the tensions, z,
+/// and slacks.
 fn by_simplex(problem: &Problem, objective: Objective) -> f64 {
     let n = problem.limits.len();
     let slacks = if let Objective::LeastGreatest = objective { n } else { 2 * n };

@@ -59,8 +59,8 @@ impl<T: Real> Guided<T> {
     }
 }
 
-/// The way of a cable with an unstrained length `free` [m] beyond its leave point, which need not fit the whole
-/// one.
+/// The way of a cable with an unstrained length `free` [m] beyond its leave point, which need not fit the
+/// whole one.
 fn way<T: Real>(cable: &Cable, guide: &Guide, numbers: &Numbers<T>, free: T, force: [T; 2]) -> Way<T> {
     let Numbers { weight_per_length, lead, radius, axis, .. } = *numbers;
     let terms = GuideTerms { lead, radius, axis: guide.entry.swivel(radius, axis) };

@@ -219,8 +219,8 @@ impl<'a> SpatialCable<'a> {
         })
     }
 
-    /// A vector with its derivatives between held ends, from those at constant force and length that `of` returns
-    /// of the response, the force at the leave point and the stiffness. The inputs are what
+    /// A vector with its derivatives between held ends, from those at constant force and length that `of`
+    /// returns of the response, the force at the leave point and the stiffness. The inputs are what
     /// [`Numbers::with_inputs`] has, the length, and the force.
     fn between_held_ends(
         &self,

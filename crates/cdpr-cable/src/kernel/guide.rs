@@ -58,8 +58,9 @@
 //! dA/dd  = -1/(1 + ε) dA/dL,      dA/dr = u + m - (π - ψ)/(1 + ε) dA/dL                           (C24)
 //! ```
 //!
-//! If a vertical axis k turns by dκ within the plane, towards the cable, u turns by -k dκ and ψ by dκ; m stays
-//! normal to τ. If k turns across the plane, u and m turn with it by cos ψ/sin ψ and 1/sin ψ of its angle:
+//! If a vertical axis k turns by dκ within the plane, towards the cable, u turns by -k dκ and ψ by dκ; m
+//! stays normal to τ. If k turns across the plane, u and m turn with it by cos ψ/sin ψ and 1/sin ψ of its
+//! angle:
 //!
 //! ```text
 //! dA/dκ = -ρ e_z + r/(1 + ε) dA/dL  in the plane,      r (1 + cos ψ)/sin ψ = B_x/τ_x  across it  (C31)

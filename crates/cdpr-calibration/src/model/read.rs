@@ -112,8 +112,8 @@ impl Observed<'_> {
         Read { value: 0.0, models: RowDVector::zeros(self.motion().ncols()), sensors: Vec::new() }
     }
 
-    /// A coordinate of a vector [m] of the base frame as the tracker sees it, its derivative by the vector, and
-    /// those by the errors of the tracker.
+    /// A coordinate of a vector [m] of the base frame as the tracker sees it, its derivative by the vector,
+    /// and those by the errors of the tracker.
     fn seen(&self, vector: Vector3<f64>, axis: Axis) -> (f64, Vector3<f64>, Vec<(usize, f64)>) {
         let (frame, unit) = (self.at.shared.frame, Vector3::ith(axis.index(), 1.0));
         let (seen, scale) = (frame * vector, 1.0 + self.error(SensorError::FrameScale, 0));
@@ -122,8 +122,8 @@ impl Observed<'_> {
         (scale * seen.dot(&unit), frame.inverse() * unit * scale, sensors)
     }
 
-    /// A coordinate of a place on the platform in the frame of the tracker. `unknown` is the index of its first
-    /// coordinate, if it is sought.
+    /// A coordinate of a place on the platform in the frame of the tracker. `unknown` is the index of its
+    /// first coordinate, if it is sought.
     fn place(&self, place: Vector3<f64>, unknown: Option<usize>, axis: Axis) -> Read {
         let (pose, k) = (self.pose(), axis.index());
         let arm = pose.rotation * place;

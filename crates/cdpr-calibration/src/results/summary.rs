@@ -31,7 +31,8 @@ pub struct ParameterSummary {
 }
 
 impl ParameterSummary {
-    /// A parameter that has moved by this, with its standard deviations: after, by the data alone, and before.
+    /// A parameter that has moved by this, with its standard deviations: after, by the data alone, and
+    /// before.
     pub(super) fn new(
         before: f64,
         moved: f64,

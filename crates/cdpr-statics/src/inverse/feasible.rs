@@ -263,8 +263,8 @@ impl<'a> Point<'a> {
         }))
     }
 
-    /// Whether no tensions within the limits balance the wrench: along the certificate of straight cables, or in
-    /// the direction of the residual.
+    /// Whether no tensions within the limits balance the wrench: along the certificate of straight cables, or
+    /// in the direction of the residual.
     fn is_refuted(&mut self, certificate: Option<&Vector6<f64>>) -> bool {
         certificate.is_some_and(|direction| self.is_refuted_along(direction))
             || self.is_refuted_along(&self.residual().normalize())

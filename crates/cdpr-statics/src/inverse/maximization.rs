@@ -1,4 +1,5 @@
-//! The maximization (I7) by linear programs, and the least norms of the tensions, (I13), which are maxima, too.
+//! The maximization (I7) by linear programs, and the least norms of the tensions, (I13), which are maxima,
+//! too.
 //!
 //! Every iteration linearises the balance at the cables' chord forces and solves a linear program within a
 //! region about them. With the multipliers y of the balance in that program, steps are judged by
@@ -7,11 +8,11 @@
 //! m(σ, z) = z - M |F(σ, z)|_1,      M = 2 max |y|,      F = sum w_i + w_ex + z w_z                (I12)
 //! ```
 //!
-//! where |F|_1 includes by how much tensions pass limits that z draws closer, and what (I13) leaves. A greater M would allow only
-//! tiny steps along a balance that is curved. For the same reason a long step is followed by one back to the
-//! balance, a second-order correction. Where a step gains nothing, `newton` solves the conditions of a
-//! maximum with the limits that the program rests on. What is accepted as the maximum is one to first order:
-//! no step within the limits gains anything.
+//! where |F|_1 includes by how much tensions pass limits that z draws closer, and what (I13) leaves. A
+//! greater M would allow only tiny steps along a balance that is curved. For the same reason a long step is
+//! followed by one back to the balance, a second-order correction. Where a step gains nothing, `newton`
+//! solves the conditions of a maximum with the limits that the program rests on. What is accepted as the
+//! maximum is one to first order: no step within the limits gains anything.
 //!
 //! The least 1-norm and infinity-norm of the tensions are -z of
 //!
@@ -39,7 +40,8 @@ pub(super) enum Aim {
     Margin(Vec<TensionLimits>),
     /// The negative sum of all tensions, their least 1-norm.
     Sum,
-    /// The negative greatest tension, their least infinity-norm: limits of zero that z draws closer, and none below.
+    /// The negative greatest tension, their least infinity-norm: limits of zero that z draws closer, and none
+    /// below.
     Greatest(Vec<TensionLimits>),
 }
 

@@ -17,7 +17,8 @@ pub(super) struct StraightStart {
     pub(super) value: Option<f64>,
     /// |W t + w|, relative to wrench and tensions.
     pub(super) residue: f64,
-    /// The unit wrench, its moment divided by a length, along which straight cables cannot balance the wrench.
+    /// The unit wrench, its moment divided by a length, along which straight cables cannot balance the
+    /// wrench.
     pub(super) certificate: Option<Vector6<f64>>,
 }
 

@@ -388,8 +388,8 @@ const SINH_SQUARES: [f64; 6] = [2.0 / 467_775.0, 2.0 / 14_175.0, 1.0 / 315.0, 2.
 /// u up to which [`SINH_SQUARES`] gives S² to a hundredth.
 const STEEPEST: f64 = 2.5;
 
-/// A cable with a law: its material, its length, and the force at A. It is evaluated in functions of their own:
-/// most robots have linear cables, and their code is faster without it.
+/// A cable with a law: its material, its length, and the force at A. It is evaluated in functions of their
+/// own: most robots have linear cables, and their code is faster without it.
 struct LawResponse<'a, S: Simd>(Material<'a, Lanes<S>>, Lanes<S>, Lanes2<S>);
 
 struct LawEnd<'a, S: Simd>(Material<'a, Lanes<S>>, Lanes<S>, Lanes2<S>);

@@ -272,8 +272,8 @@ impl<S: Simd> Leaving<'_, '_, S> {
         let mut held = HeldCable::plain(cable, &span, response);
         let mut ends = EndSlopes::plain(response);
         let ([_, xz, zz], [ex, ez]) = (response.flexibility, response.end_per_length);
-        let wound = guided.guide.signed_radius();
-        let per_turn = wound / (ex * tx + ez * tz);
+        let signed = guided.guide.signed_radius();
+        let per_turn = signed / (ex * tx + ez * tz);
         let falling = cable.weight_per_length * tx * tension_inv;
         let whole = (per_turn * falling + 1.0).recip();
         let [dz, longer] = held.closing;
@@ -284,7 +284,7 @@ impl<S: Simd> Leaving<'_, '_, S> {
         }
         let turn = (tx * held.rise - tz) * tension_inv - falling * held.length_slope;
         held.length_slope += per_turn * whole * turn;
-        let bend = wound * whole * turn * turn / (tx * zz - tz * xz);
+        let bend = signed * whole * turn * turn / (tx * zz - tz * xz);
         let [_, uz] = response.direction;
         held.curvatures[0] -= uz * bend;
         held.curvatures[1] -= bend;

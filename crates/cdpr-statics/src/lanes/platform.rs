@@ -165,7 +165,7 @@ impl<S: Simd> Robots<'_, S> {
         }
     }
 
-    /// The upper triangle of the stiffness here (S5), with all cables linearized anew; one on the diagonal
+    /// The upper triangle of the stiffness here (S5), after linearizing all cables; one on the diagonal
     /// for motions that are held.
     #[inline(always)]
     pub(crate) fn stiffness(

@@ -89,8 +89,8 @@ impl Study {
     ///
     /// # Errors
     /// [`StudyError::Invalid`] for a negative tension or another number of them than of cables, and for a
-    /// distribution that jumps between observations; [`StudyError::Nominal`] for a pose that the nominal robot does
-    /// not hold.
+    /// distribution that jumps between observations; [`StudyError::Nominal`] for a pose that the nominal
+    /// robot does not hold.
     pub fn choose_tensions(
         &mut self,
         distribution: Option<TensionDistribution>,

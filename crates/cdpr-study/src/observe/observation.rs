@@ -195,8 +195,8 @@ pub(crate) fn observe_quantities(
     Ok(all)
 }
 
-/// The result of `observed` for each of these rows of a design, computed in parallel for some consecutive rows
-/// at a time, in the order of the rows.
+/// The result of `observed` for each of these rows of a design, computed in parallel for some consecutive
+/// rows at a time, in the order of the rows.
 pub fn observe_rows<T: Send>(
     design: &impl SampleDesign,
     rows: Range<usize>,

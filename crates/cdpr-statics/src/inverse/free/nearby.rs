@@ -82,9 +82,9 @@ impl FreeBranch {
 
     /// The rest of a robot that differs a little: the one that belongs to this one.
     ///
-    /// Where that is out of limits, below the ground or unstable, where a cable would have to push, or where it
-    /// is lost, no other is looked for. Where the steps lead far away, or where cables that sag may hold the
-    /// platform otherwise, the rest is that of [`crate::inverse`].
+    /// Where that is out of limits, below the ground or unstable, where a cable would have to push, or where
+    /// it is lost, no other is looked for. Where the steps lead far away, or where cables that sag may hold
+    /// the platform otherwise, the rest is that of [`crate::inverse`].
     ///
     /// # Errors
     /// [`StaticsError::NoRest`] and [`StaticsError::Unstable`] for such a rest; those of [`crate::inverse`].

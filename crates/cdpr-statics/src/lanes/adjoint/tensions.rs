@@ -40,7 +40,8 @@ struct Chosen<'a, S: Simd> {
 }
 
 impl<S: Simd> Adjoint<S> {
-    /// Adds the slopes of `sum a_i d(set-point_i)`, equation (L11); `placed` are the robots at the wanted pose.
+    /// Adds the slopes of `sum a_i d(set-point_i)`, equation (L11); `placed` are the robots at the wanted
+    /// pose.
     #[inline(always)]
     pub(super) fn of_tensions(
         &mut self,
@@ -120,8 +121,8 @@ impl<S: Simd> Adjoint<S> {
         }
     }
 
-    /// Adds the slopes of cable `i` with the motion η = `balanced` and the rotation of the multipliers; `high`
-    /// are the lanes where it is at its greatest tension.
+    /// Adds the slopes of cable `i` with the motion η = `balanced` and the rotation of the multipliers;
+    /// `high` are the lanes where it is at its greatest tension.
     #[inline(always)]
     fn add_chosen(
         &mut self,

@@ -1,9 +1,10 @@
-//! The tensions of the inverse model, one robot in each lane: nearest to their reference, within their limits,
-//! in balance at the wanted pose.
+//! The tensions of the inverse model, one robot in each lane: nearest to their reference, within their
+//! limits, in balance at the wanted pose.
 //!
 //! The shape of a cable is not solved for but takes part in the iteration. The unknown of a cable is its
 //! horizontal force fx, which at held ends is proportional to its chord force: all derivatives are finite,
-//! also at the least tension. With C the flexibility, `e = d(x, z)/dL` and c the misclosure at force and length,
+//! also at the least tension. With C the flexibility, `e = d(x, z)/dL` and c the misclosure at force and
+//! length,
 //!
 //! ```text
 //! C (0, dz) + e dL = c,      C (1, g) + e L' = 0                                                      (L1)
@@ -244,8 +245,8 @@ impl<'b, 'a, S: Simd> Search<'b, 'a, S> {
         balance
     }
 
-    /// Finds the least tensions that spans demand of the cables that come near them. Returns whether there are
-    /// any.
+    /// Finds the least tensions that spans demand of the cables that come near them. Returns whether there
+    /// are any.
     #[inline(always)]
     fn demand_least_tensions(&mut self) -> bool {
         let compared = self.compared();

@@ -25,7 +25,7 @@ pub(crate) struct PlacedRobot<'a> {
 }
 
 impl<'a> PlacedRobot<'a> {
-    /// `None` for a robot that is not one for the lanes, or whose distribution of tensions is none for them.
+    /// `None` where lanes lack the robot's mechanics, or the least norm of tensions that it chooses.
     pub(crate) fn of(robot: &'a Robot) -> Option<Self> {
         if !robot.distribution.is_smooth() || ScalarReason::of_all(robot, &[]).is_some() {
             return None;
