@@ -27,7 +27,7 @@ use crate::error::StaticsError;
 use crate::inverse::{held_at, refuse_offsets};
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load, WantedPose};
-use cdpr_robot::{Matrix3, Pose, Robot, Vector3, Vector6};
+use cdpr_robot::{Freedoms, Matrix3, Pose, Robot, Vector3, Vector6};
 use nalgebra::Matrix6;
 use std::f64::consts::TAU;
 
@@ -143,7 +143,8 @@ impl DirectProblem<'_> {
     pub fn modes(&self, equilibrium: &Equilibrium) -> Result<Vec<NaturalMode>, StaticsError> {
         self.check("equilibrium", equilibrium)?;
         let mass = self.mass_matrix(&equilibrium.pose)?;
-        let weight = Balance::of_load(self, &equilibrium.pose).symmetric_hessian();
+        let all = Freedoms::ALL;
+        let weight = Balance::of_load(self, &equilibrium.pose).symmetric_hessian(all);
         let cables: Vec<_> = equilibrium
             .cable_forces
             .iter()
@@ -152,9 +153,10 @@ impl DirectProblem<'_> {
                 let cable = SpannedCable::of(self.robot, &equilibrium.pose, i, &self.catenary(i, *force));
                 let mut own = Balance::nothing();
                 if let Some(linearized) = cable.linearized() {
-                    own.add_cable(&cable.anchor_arm, &cable.force_on_platform(), linearized.stiffness());
+                    let stiffness = linearized.stiffness().into();
+                    own.add_cable(&cable.anchor_arm, &cable.force_on_platform(), &stiffness);
                 }
-                own.symmetric_hessian()
+                own.symmetric_hessian(all)
             })
             .collect();
         let freedoms = self.robot.freedoms();

@@ -132,7 +132,7 @@ pub(crate) fn within_limits<S: Simd>(
 ) -> (Lanes6<S>, Mask<S>) {
     let zero = balance[0].all(0.0);
     let mut raised = [zero; 6];
-    let mut going = open;
+    let mut active = open;
     // Elsewhere steps end at no limit, and every one of them is the same again.
     for row in rows.iter_mut() {
         let [low, high] = row.beyond(row.wanted);
@@ -140,7 +140,7 @@ pub(crate) fn within_limits<S: Simd>(
     }
     for _ in 0..MAX_ITERATIONS {
         let (step, before) = newton(rows, balance);
-        let mut same = going;
+        let mut same = active;
         for row in rows.iter_mut() {
             row.raise(&step);
             let [low, high] = row.beyond(row.wanted - row.change);
@@ -148,22 +148,22 @@ pub(crate) fn within_limits<S: Simd>(
             same = same & !((low & !was_low) | (!low & was_low) | (high & !was_high) | (!high & was_high));
         }
         let share = search(rows, &step, balance, -dot(&before, &step), same);
-        let moving = going.select(share, zero);
+        let moving = active.select(share, zero);
         raised = six!(|k| raised[k] + step[k] * moving);
         for row in rows.iter_mut() {
             row.wanted -= row.change * moving;
             let [low, high] = row.beyond(row.wanted);
             row.sides = [
-                (going & !same & low) | (!(going & !same) & row.sides[0]),
-                (going & !same & high) | (!(going & !same) & row.sides[1]),
+                (active & !same & low) | (!(active & !same) & row.sides[0]),
+                (active & !same & high) | (!(active & !same) & row.sides[1]),
             ];
         }
-        going = going & !same;
-        if !going.any() {
+        active = active & !same;
+        if !active.any() {
             break;
         }
     }
-    (raised, open & !going)
+    (raised, open & !active)
 }
 
 /// The share of a step at which the dual is least along it: all of it in lanes that are `whole`.
