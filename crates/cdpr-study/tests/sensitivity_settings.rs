@@ -89,16 +89,15 @@ fn no_blocks_of_saltelli_leave_sobol_indices_out_and_few_are_refused() {
 fn a_study_says_which_samplings_the_scalar_models_observe_and_how_long() {
     let mut study = Study::open(path()).unwrap();
     assert_eq!(study.scalar_samplings().unwrap(), []);
-    for cable in &mut study.robot.cables {
-        cable.pulley =
-            Some(cdpr_robot::Pulley { radius: 0.045, axis: cdpr_robot::Vector3::new(0.1, 0.0, 0.99) });
-    }
+    // The plane of a planar robot is one of the base frame, which gravity as a vector may tilt.
+    study.robot.plane = Some(cdpr_robot::Plane::Xz);
+    study.robot.gravity = cdpr_robot::Vector3::new(0.0, 0.0, -9.81).into();
     let slow = study.scalar_samplings().unwrap();
     let names: Vec<_> = slow.iter().map(|sampling| sampling.name.as_str()).collect();
     assert!(names.contains(&"mechanical"), "{names:?}");
     for sampling in &slow {
         assert_eq!(sampling.observations, study.observations(&sampling.name).unwrap());
-        assert!(sampling.reason == cdpr_statics::batch::ScalarReason::Pulleys && sampling.seconds > 0.0);
-        assert!(sampling.to_string().contains("pulleys with vertical axes only"), "{sampling}");
+        assert!(sampling.reason == cdpr_statics::batch::ScalarReason::FewCables && sampling.seconds > 0.0);
+        assert!(sampling.to_string().contains("fewer cables than free motions"), "{sampling}");
     }
 }

@@ -31,7 +31,7 @@ impl<'a> SpannedCable<'a, f64> {
     }
 
     /// Skew part of the stiffness in space [N/m], in the base frame, besides the symmetric one of
-    /// [`SpannedStiffness::stiffness`]: of a cable over a guide, whose flexibility is not quite symmetric
+    /// [`LinearizedInSpace::stiffness`]: of a cable over a guide, whose flexibility is not quite symmetric
     /// (C22).
     pub(crate) fn skew_stiffness(&self, catenary: &Catenary) -> Option<Matrix3<f64>> {
         catenary.cable.guide?;
