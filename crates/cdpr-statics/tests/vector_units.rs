@@ -116,7 +116,9 @@ fn the_vector_unit_changes_no_bit_of_the_inverse_model() {
 fn the_vector_unit_changes_no_bit_of_the_direct_model_nor_of_a_tracker() {
     let grab = Robot::from_json(include_str!("../../../data/robots/grab.json")).unwrap();
     let pulleys = over_pulleys(caroca(), |i| i as f64);
-    for robot in [caroca(), cogiro(), pulleys] {
+    let mut tilted = pulleys.clone();
+    tilted.cables[2].pulley.as_mut().unwrap().axis = Vector3::new(0.1, 0.2, 1.0);
+    for robot in [caroca(), cogiro(), pulleys, tilted] {
         let pose = Pose::at(0.1, 0.2, 1.75);
         let wanted = inverse(&robot, &pose, &Load::none()).unwrap();
         let load = Load::payload(30.0);

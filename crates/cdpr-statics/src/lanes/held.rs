@@ -241,7 +241,7 @@ impl<S: Simd> HeldCable<S> {
         replace(&mut cable.force, &[fx + d, fz + rise], active);
         cable.length.replace(cable.length + longer, active);
         let mut force = d.abs() + rise.abs();
-        if let Some(guided) = &mut cable.guided {
+        if let Some(guided) = cable.guided.as_mut().filter(|guided| guided.is_tilted()) {
             let across = self.across[0] + self.across[1] * d;
             guided.swing(across / (fx + d), active);
             force += across.abs();

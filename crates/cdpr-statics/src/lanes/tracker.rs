@@ -32,6 +32,8 @@ pub struct Tracker<'a> {
     load: Load,
     equilibrium: Equilibrium,
     residual: Residual,
+    /// Whether the robot is one for the lanes.
+    in_lanes: bool,
 }
 
 impl<'a> Tracker<'a> {
@@ -48,7 +50,8 @@ impl<'a> Tracker<'a> {
         robot.validate()?;
         let solution = direct(robot, lengths, load, DirectStart::Near(start))?;
         let (equilibrium, residual) = (solution.equilibrium, solution.report.residual);
-        Ok(Self { robot, lengths: lengths.to_vec(), load: *load, equilibrium, residual })
+        let in_lanes = fits_lanes(robot);
+        Ok(Self { robot, lengths: lengths.to_vec(), load: *load, equilibrium, residual, in_lanes })
     }
 
     /// The current equilibrium.
@@ -74,7 +77,7 @@ impl<'a> Tracker<'a> {
     /// equilibrium is then the one before.
     pub fn update(&mut self, lengths: &[f64], load: &Load) -> Result<&Equilibrium, StaticsError> {
         let problem = DirectProblem::new(self.robot, lengths, load)?;
-        let found = fits_lanes(self.robot) && dispatch(Update { tracker: self, problem: &problem });
+        let found = self.in_lanes && dispatch(Update { tracker: self, problem: &problem });
         if !found {
             let solution = self.followed(lengths, load)?;
             self.residual = solution.report.residual;

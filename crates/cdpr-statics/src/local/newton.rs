@@ -101,10 +101,10 @@ impl<S: Simd> Robots<'_, S> {
                 i += stride;
             }
             for k in 0..6 {
-                all.wrench[k] = self.total(all.wrench[k], sums.wrench[k]);
-                all.gradient[k] = self.total(all.gradient[k], sums.gradient[k]);
+                all.wrench[k] = self.total(first, all.wrench[k], sums.wrench[k]);
+                all.gradient[k] = self.total(first, all.gradient[k], sums.gradient[k]);
             }
-            all.tensions = self.total(all.tensions, sums.tensions);
+            all.tensions = self.total(first, all.tensions, sums.tensions);
         }
         let residual = LaneResidual {
             closure: self.largest(closure),

@@ -135,6 +135,8 @@ impl<'a> DirectProblem<'a> {
         for k in 0..3 {
             robots.frame.push(vector(simd, &self.to_level(pose.rotation.matrix().column(k).into())));
         }
+        // All cables of a robot, however many fill the lanes, have the same equations.
+        let is_guided = robot.cables.iter().any(|cable| cable.guide(None).is_some());
         for first in (0..n).step_by(count) {
             let mut values = [[0.0; MAX_LANES]; 11];
             for lane in 0..count {
@@ -171,7 +173,7 @@ impl<'a> DirectProblem<'a> {
                 force: [column(9), column(10)],
                 guided: None,
             };
-            if robot.cables[first..n.min(first + count)].iter().any(|cable| cable.guide(None).is_some()) {
+            if is_guided {
                 self.lead(simd, &mut cable, first, at);
             }
             robots.cables.push(cable);
@@ -185,13 +187,12 @@ impl<'a> DirectProblem<'a> {
     fn lead<S: Simd>(&self, simd: S, cable: &mut LaneCable<'_, S>, first: usize, at: &Equilibrium) {
         let (n, count, zero) = (self.cables(), Lanes::<S>::COUNT, cable.length.all(0.0));
         let mut values = [[0.0; MAX_LANES]; 9];
-        let mut tilted = false;
+        let tilted = (0..n).any(|i| self.robot.cable(i).leaves_its_plane());
         for lane in 0..count {
             let i = (first + lane).min(n - 1);
             let catenary = self.catenary(i, at.cable_forces[i]);
             let [c, s] = SpannedCable::of(self.robot, &at.pose, i, &catenary).span.plane.azimuth;
             let free = in_its_plane(self.robot, &at.pose, i, catenary).free_length();
-            tilted |= catenary.cable.leaves_its_plane();
             let (lead, radius, [x, y, z]) = match catenary.cable.guide {
                 None => (0.0, 0.0, [0.0, 0.0, 1.0]),
                 Some(guide) => (guide.lead, guide.radius, guide.entry.axis()),

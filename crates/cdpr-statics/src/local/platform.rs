@@ -221,9 +221,9 @@ impl<S: Simd> Robots<'_, S> {
                 i += stride;
             }
             for row in 0..6 {
-                gradient[row] = self.total(gradient[row], forces[row]);
+                gradient[row] = self.total(first, gradient[row], forces[row]);
                 for column in row..6 {
-                    hessian[row][column] = self.total(hessian[row][column], stiffness[row][column]);
+                    hessian[row][column] = self.total(first, hessian[row][column], stiffness[row][column]);
                 }
             }
         }
@@ -290,13 +290,14 @@ impl<S: Simd> Robots<'_, S> {
         }
     }
 
-    /// The sum over all cables of a robot, from that of other cables and the sums of its lanes.
+    /// The sum over all cables of a robot, from that of others, unless these are the first ones, and the sums
+    /// of its lanes.
     #[inline(always)]
-    pub(crate) fn total(&self, others: Lanes<S>, sum: Lanes<S>) -> Lanes<S> {
+    pub(crate) fn total(&self, first: usize, others: Lanes<S>, sum: Lanes<S>) -> Lanes<S> {
         match self.layout {
             Layout::Robots => sum,
             Layout::Cables(_) => {
-                let mut total = others.first();
+                let mut total = if first == 0 { 0.0 } else { others.first() };
                 for lane in sum.to_array() {
                     total += lane;
                 }
