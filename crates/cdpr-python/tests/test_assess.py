@@ -188,7 +188,7 @@ def test_a_path_is_that_of_the_program(name, more, tmp_path):
             continue
         for field in ("jump", "lengths", "tensions", "exit_tensions", "sags", "least_stiffness"):
             numpy.testing.assert_array_equal(getattr(ours, field)[k], pose[field])
-        assert 1e3 * ours.rms[k] == pytest.approx(pose["rms_mm"], rel=1e-12)
+        assert 1e3 * ours.magnitude[k] == pytest.approx(pose["magnitude_mm"], rel=1e-12)
         slack = [cable + 1 for cable in numpy.flatnonzero(ours.loaded.slack[k])]
         assert slack == pose["slack_cables"]
         if more is not None:

@@ -75,8 +75,8 @@ def test_a_run_writes_what_the_command_line_writes(study, expected, tmp_path):
         written = lines[row + 1].split(",")
         assert written[-2] == table["status"][row]
         assert [float(number) for number in written[:-2]] == list(table[row])[:-1]
-    mean = results.summary["studies"]["mechanical"]["rms_mm"]["mean"]
-    assert abs(numpy.nanmean(table["rms_mm"]) - mean) < 1e-12
+    mean = results.summary["studies"]["mechanical"]["magnitude_mm"]["mean"]
+    assert abs(numpy.nanmean(table["magnitude_mm"]) - mean) < 1e-12
     pandas = pytest.importorskip("pandas")
     frame = results.frame("mechanical")
     assert isinstance(frame, pandas.DataFrame) and len(frame) == OBSERVATIONS
@@ -269,6 +269,6 @@ def test_the_table_of_a_surface_has_a_row_a_point(data, tmp_path):
     study = tmp_path / "surface.json"
     study.write_text(json.dumps(file))
     table = cdpr.study.run(study, tmp_path / "out").table(name)
-    assert table.dtype.names[2:] == ("rms_mm", "status") and table.shape == (12,)
-    assert set(table["status"]) == {"ok"} and numpy.all(table["rms_mm"] > 0)
+    assert table.dtype.names[2:] == ("magnitude_mm", "status") and table.shape == (12,)
+    assert set(table["status"]) == {"ok"} and numpy.all(table["magnitude_mm"] > 0)
     assert len(set(table[table.dtype.names[0]])) == 4

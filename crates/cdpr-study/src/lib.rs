@@ -30,8 +30,8 @@
 //! let session = Session::in_memory();
 //! let tally = observe(&sampling, &session)?;
 //! let summary = analyse(&sampling, &tally, &session)?;
-//! if let Some(rms) = summary.values {
-//!     println!("{:.3} mm +- {:.3} mm", rms.mean, rms.std);
+//! if let Some(magnitude) = summary.values {
+//!     println!("{:.3} mm +- {:.3} mm", magnitude.mean, magnitude.std);
 //! }
 //! # Ok::<(), cdpr_study::StudyError>(())
 //! ```

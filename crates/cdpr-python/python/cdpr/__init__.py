@@ -9,7 +9,7 @@ an answer raises.
 >>> import cdpr
 >>> robot = cdpr.Robot.from_file("data/robots/caroca.json")
 >>> given = robot.deflection([0, 0, 1.75], payload=50)
->>> print(f"{1e3 * given.rms:.4f} mm")
+>>> print(f"{1e3 * given.magnitude:.4f} mm")
 1.3312 mm
 """
 

@@ -539,7 +539,7 @@ class Catenary:
         """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
 
         Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `rms/a1.x`.
+        name: `magnitude/a1.x`.
         """
     @property
     def force(self) -> _Floats:
@@ -588,7 +588,7 @@ class InverseSolution:
         """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
 
         Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `rms/a1.x`.
+        name: `magnitude/a1.x`.
         """
     @property
     def lengths(self) -> _Floats:
@@ -650,7 +650,7 @@ class DirectSolution:
         """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
 
         Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `rms/a1.x`.
+        name: `magnitude/a1.x`.
         """
     @property
     def position(self) -> _Floats:
@@ -721,13 +721,13 @@ class Deflection:
         """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
 
         Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `rms/a1.x`.
+        name: `magnitude/a1.x`.
         """
     @property
     def displacement(self) -> _Floats:
         """Displacement dp of P, the position with the load minus that without [m], (3,)."""
     @property
-    def rms(self) -> _Float:
+    def magnitude(self) -> _Float:
         """Norm |dp| of the displacement, the paper's RMS [m]."""
     @property
     def rotation(self) -> _Floats:
@@ -761,7 +761,7 @@ class Modes:
         """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
 
         Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `rms/a1.x`.
+        name: `magnitude/a1.x`.
         """
     @property
     def frequencies_hz(self) -> _Floats:
@@ -804,7 +804,7 @@ class Capacity:
         """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
 
         Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `rms/a1.x`.
+        name: `magnitude/a1.x`.
         """
     @property
     def payload_anew(self) -> _Float:
@@ -849,7 +849,7 @@ class Boundary:
         """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
 
         Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `rms/a1.x`.
+        name: `magnitude/a1.x`.
         """
     @property
     def measure(self) -> float:
@@ -880,7 +880,7 @@ class Certificate:
         """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
 
         Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `rms/a1.x`.
+        name: `magnitude/a1.x`.
         """
     @property
     def pose(self) -> _Floats:
@@ -920,7 +920,7 @@ class PathStates:
         """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
 
         Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `rms/a1.x`.
+        name: `magnitude/a1.x`.
         """
     @property
     def jump(self) -> NDArray[np.bool_]:
@@ -941,7 +941,7 @@ class PathStates:
     def displacement(self) -> _Floats:
         """Displacement of P by the load [m], (m, 3)."""
     @property
-    def rms(self) -> _Floats:
+    def magnitude(self) -> _Floats:
         """Its length [m], (m,)."""
     @property
     def least_stiffness(self) -> _Floats:
@@ -954,8 +954,8 @@ class PathStates:
         """That of the slowest cable between ends at rest [Hz], (m,); NaN without a lowest frequency."""
     @property
     def std(self) -> dict[str, _Floats] | None:
-        """Standard deviations of lengths, tensions, displacement, rms, least stiffness and lowest frequency
-        by their names; NaN where there are no derivatives. None without an uncertainty.
+        """Standard deviations of lengths, tensions, displacement, magnitude, least stiffness and lowest
+        frequency by their names; NaN where there are no derivatives. None without an uncertainty.
         """
     @property
     def loaded(self) -> DirectSolution:
@@ -980,7 +980,7 @@ class Stiffness:
         """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
 
         Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `rms/a1.x`.
+        name: `magnitude/a1.x`.
         """
     @property
     def matrix(self) -> _Floats:
@@ -1037,7 +1037,7 @@ class Derivatives:
         """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
 
         Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `rms/a1.x`.
+        name: `magnitude/a1.x`.
         """
     @property
     def inputs(self) -> list[str]:
@@ -1049,7 +1049,7 @@ class Derivatives:
     def one_sided(self) -> NDArray[np.bool_]:
         """Inputs whose left and right derivatives differ, (k,)."""
     @property
-    def rms(self) -> _Floats:
+    def magnitude(self) -> _Floats:
         """Derivatives of |dp| [m per unit], (k,)."""
     @property
     def displacement(self) -> _Floats:
@@ -1074,7 +1074,7 @@ class Derivatives:
         motions have it, and without inertia of the platform.
         """
     @property
-    def rms_right(self) -> _Floats:
+    def magnitude_right(self) -> _Floats:
         """Right derivatives of |dp| [m per unit], (k,)."""
     @property
     def displacement_right(self) -> _Floats:
@@ -1113,13 +1113,13 @@ class Observations:
         """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
 
         Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `rms/a1.x`.
+        name: `magnitude/a1.x`.
         """
     @property
     def displacement(self) -> _Floats:
         """Displacement dp of P [m], (3,)."""
     @property
-    def rms(self) -> _Float:
+    def magnitude(self) -> _Float:
         """Norm |dp| of the displacement [m]."""
     @property
     def reasons(self) -> _Words:
@@ -1137,7 +1137,7 @@ class Workspace:
         """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
 
         Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `rms/a1.x`.
+        name: `magnitude/a1.x`.
         """
     @property
     def shape(self) -> tuple[int, int, int]:
@@ -1165,7 +1165,7 @@ class Workspace:
     def displacement(self) -> _Floats:
         """Displacement dp of P under the payload [m], (m, 3)."""
     @property
-    def rms(self) -> _Floats:
+    def magnitude(self) -> _Floats:
         """Norm |dp| of the displacement [m], (m,)."""
     @property
     def least_stiffness(self) -> _Floats:

@@ -4,8 +4,8 @@ The files are those of `cdpr study run`, byte for byte.
 
 >>> import cdpr
 >>> results = cdpr.study.run("data/studies/caroca.json", out="results", observations=500)
->>> results.summary["studies"]["mechanical"]["rms_mm"]["mean"]
->>> results.observations("mechanical")["rms_mm"]
+>>> results.summary["studies"]["mechanical"]["magnitude_mm"]["mean"]
+>>> results.observations("mechanical")["magnitude_mm"]
 """
 
 from __future__ import annotations
@@ -85,8 +85,8 @@ class Results:
 
         Columns are those of its table without `reason`: `index`, `d_mass`, ... [SI units], those of the
         output (NaN where it failed), `status` (`ok` or the kind of failure). Deflections have `dx_mm`, `dy_mm`,
-        `dz_mm`, `rms_mm`, and frequencies `frequency_hz`. A sampling at several poses has one for each of
-        them, named `plane/0003`.
+        `dz_mm`, `magnitude_mm`, and frequencies `frequency_hz`. A sampling at several poses has one for each
+        of them, named `plane/0003`.
         """
         import numpy
 

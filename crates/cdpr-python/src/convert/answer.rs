@@ -37,7 +37,7 @@ macro_rules! answer {
             /// Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
             ///
             /// Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-            /// name: `rms/a1.x`.
+            /// name: `magnitude/a1.x`.
             fn to_dataframe<'py>(
                 slf: &pyo3::Bound<'py, Self>,
             ) -> pyo3::PyResult<pyo3::Bound<'py, pyo3::PyAny>> {
@@ -62,7 +62,7 @@ pub(crate) fn fields<'py>(answer: &Bound<'py, PyAny>, names: &[&str]) -> PyResul
     PyTuple::new(answer.py(), values)
 }
 
-/// Summarizes an answer: `<cdpr.Deflection displacement (40, 3), rms (40,), ..., reasons [40]>`.
+/// Summarizes an answer: `<cdpr.Deflection displacement (40, 3), magnitude (40,), ..., reasons [40]>`.
 ///
 /// Numbers, and vectors of up to three of a single case, show their values, other arrays their shapes, lists
 /// their lengths; fields that are None are left out, and right derivatives, which

@@ -17,7 +17,7 @@ answer! {
         /// Displacement dp of P [m], (3,).
         displacement: Py<PyAny>,
         /// Norm |dp| of the displacement [m].
-        rms: Py<PyAny>,
+        magnitude: Py<PyAny>,
         /// Why there is no answer, None where there is one; None for one robot.
         reasons: Py<PyAny>,
         /// The kind of each failure, in the same form: `infeasible_tension`, ...
@@ -84,7 +84,7 @@ impl Robot {
         let all = Columns::new(py, cases, &outcomes)?;
         Ok(Observations {
             displacement: all.vector(|found: &Vector3<f64>| (*found).into())?,
-            rms: all.number(|found: &Vector3<f64>| found.norm())?,
+            magnitude: all.number(|found: &Vector3<f64>| found.norm())?,
             reasons: all.reasons(),
             kinds: all.kinds(),
         })

@@ -30,15 +30,15 @@ answer! {
         /// Displacement of P by the load [m], (m, 3).
         displacement: Py<PyAny>,
         /// Its length [m], (m,).
-        rms: Py<PyAny>,
+        magnitude: Py<PyAny>,
         /// Stiffness of the softest motion with the load [N/m], (m,).
         least_stiffness: Py<PyAny>,
         /// Lowest natural frequency with the load [Hz], (m,); NaN for a robot without `inertia`.
         lowest_frequency: Py<PyAny>,
         /// That of the slowest cable between ends at rest [Hz], (m,); NaN without a lowest frequency.
         lowest_cable_frequency: Py<PyAny>,
-        /// Standard deviations of lengths, tensions, displacement, rms, least stiffness and lowest frequency
-        /// by their names; NaN where there are no derivatives. None without an uncertainty.
+        /// Standard deviations of lengths, tensions, displacement, magnitude, least stiffness and lowest
+        /// frequency by their names; NaN where there are no derivatives. None without an uncertainty.
         std: Py<PyAny>,
         /// The equilibria with the load.
         loaded: Py<DirectSolution>,
@@ -112,7 +112,7 @@ impl Robot {
         stds.set_item("lengths", std(&[cables], |bands| bands.lengths.clone())?)?;
         stds.set_item("tensions", std(&[cables], |bands| bands.tensions.clone())?)?;
         stds.set_item("displacement", std(&[3], |bands| bands.displacement.to_vec())?)?;
-        stds.set_item("rms", std(&[], |bands| number(bands.rms))?)?;
+        stds.set_item("magnitude", std(&[], |bands| number(bands.magnitude))?)?;
         stds.set_item("least_stiffness", std(&[], |bands| number(bands.least_stiffness))?)?;
         stds.set_item("lowest_frequency", std(&[], |bands| number(bands.lowest_frequency))?)?;
         Ok(PathStates {
@@ -122,7 +122,7 @@ impl Robot {
             exit_tensions: of_cables(|at| &at.exit_tensions)?,
             sags: of_cables(|at| &at.sags)?,
             displacement: all.vector(|passed| passed.at.deflection.displacement().into())?,
-            rms: all.number(|passed| passed.at.deflection.displacement().norm())?,
+            magnitude: all.number(|passed| passed.at.deflection.displacement().norm())?,
             least_stiffness: all.number(|passed| passed.at.deflection.loaded.stability.least_stiffness())?,
             lowest_frequency: all.number(|passed| passed.at.lowest_frequency.unwrap_or(f64::NAN))?,
             lowest_cable_frequency: all.number(|passed| {
