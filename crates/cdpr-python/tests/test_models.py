@@ -590,3 +590,55 @@ def test_robots_have_a_ground_below_which_nothing_hangs(data):
     assert robot.ground_z == 2.25
     with pytest.raises(cdpr.NoSolutionError, match="below the ground at 2.25 m"):
         robot.inverse([0.5, 0.3, 2.0], free=["roll", "pitch"])
+
+
+def test_cables_are_a_list_and_their_number_is_its_length(caroca):
+    assert caroca.n_cables == len(caroca.cables) == 8
+    cable = caroca.cables[2]
+    assert cable.number == 3 and cable.section == caroca.section[2] and cable.max_at == "anchor"
+    numpy.testing.assert_array_equal(cable.anchor_point, caroca.anchor_points[2])
+    numpy.testing.assert_array_equal(cable.tension_limits, caroca.cable_limits[2])
+    assert pickle.loads(pickle.dumps(cable)).youngs_modulus == cable.youngs_modulus
+
+
+def test_further_rests_are_answers_like_the_first():
+    robot = cdpr.Robot.from_file("four-cables")
+    found = robot.inverse([0.5, 0.3, 2.0], free=["roll", "pitch"])
+    assert all(other.pose.shape == (7,) and other.lengths.shape == (4,) for other in found.others)
+    for other in found.others:
+        assert isinstance(other.stable, bool) and other.out_of_limits.dtype == numpy.int8
+
+
+@pytest.mark.parametrize("name", ["caroca", "cogiro", "ipanema-3", "four-cables"])
+def test_answers_can_be_drawn(name):
+    matplotlib = pytest.importorskip("matplotlib", reason="matplotlib is not installed")
+    matplotlib.use("svg")
+    from matplotlib import pyplot
+
+    robot = cdpr.Robot.from_file(name)
+    free = ["roll", "pitch"] if name == "four-cables" else None
+    middle = robot.exit_points.mean(axis=0)
+    pose = [0.5, 0.3, 2.0] if free else [*middle[:2], 0.5 * robot.exit_points[:, 2].max()]
+    poses = [pose, [pose[0], pose[1], pose[2] + 0.05]]
+    answers = [
+        robot.inverse(pose, free=free),
+        robot.deflection(poses, payload=1, free=free),
+        robot.deflection(pose, payload=1, free=free).loaded,
+        robot.stiffness(poses, free=free),
+        robot.capacity(poses, free=free),
+        cdpr.catenary([1.0, 2.0], 1e6, length=5.0, end=[4.0, 1.0]),
+        cdpr.catenary(1.0, 1e6, length=5.0, end=[4.0, 1.0]),
+    ]
+    if free is None:
+        answers += [
+            robot.path(poses, payload=1, uncertainty={"a": 0.001}),
+            robot.path(poses, payload=1, uncertainty={"a": 0.001}).std,
+            robot.workspace(plane=("z", pose[2]), grid=(4, 3), payload=1),
+            robot.workspace(x=pose[0], y=pose[1], z=(pose[2], pose[2] + 0.2, 3), payload=1),
+            robot.boundary(plane=("z", pose[2]), grid=(4, 3), payload=1),
+        ]
+    for answer in answers:
+        figure = answer.plot()
+        axis = figure.axes[0]
+        assert axis.get_ylabel() and (axis.lines or axis.patches or axis.collections), answer
+        pyplot.close(figure)

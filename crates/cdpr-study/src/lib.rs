@@ -92,9 +92,9 @@ pub use given::{
 };
 pub use indexmap::IndexMap;
 pub use kind::InputKind;
-pub use model::cable_law::{elastic_laws, open_law};
+pub use model::cable_law::{elastic_laws, open_law, read_law};
 pub use model::error_model::{ErrorModel, Term, uncertainties};
-pub use model::errors::open_errors;
+pub use model::errors::{open_errors, read_errors};
 pub use model::grid::{Grid, free_along};
 pub use model::hash::robot_hash;
 pub use model::observed::{Failure, Measured, MeasuredQuantity, Observed, ScalarCount};

@@ -1,6 +1,6 @@
 //! `Robot.deflection`: how far a load displaces and rotates the platform.
 
-use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each};
+use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each, plotted};
 use crate::robot::Robot;
 use crate::robot::direct::{DirectSolution, Found};
 use crate::robot::inverse::coordinates;
@@ -33,6 +33,8 @@ answer! {
         kinds: Py<PyAny>,
     }
 }
+
+plotted!(Deflection);
 
 /// A deflection with its derived quantities, which are computed in parallel.
 pub(crate) struct Given {

@@ -1,6 +1,6 @@
 //! `Robot.observe`: the deflections of robots that deviate from the nominal one, which every study observes.
 
-use crate::convert::{Answer, Cases, Columns, Loads, Numbers, Raised, Rows, answer, run};
+use crate::convert::{Answer, Cases, Columns, Loads, Numbers, Raised, Rows, answer, plotted, run};
 use crate::robot::Robot;
 use crate::robot::inverse::coordinates;
 use cdpr_robot::{Deviations, ParameterLayout, Vector3};
@@ -24,6 +24,8 @@ answer! {
         kinds: Py<PyAny>,
     }
 }
+
+plotted!(Observations);
 
 /// Number of robots that a thread takes at a time.
 const PART: usize = 256;

@@ -1,6 +1,6 @@
 //! `Robot.workspace`: where the cables hold the platform, and how far it gives there, over a plane or a box.
 
-use crate::convert::{Answer, Array, Numbers, Raised, answer, question, run};
+use crate::convert::{Answer, Array, Numbers, Raised, answer, plotted, question, run};
 use crate::robot::Robot;
 use crate::robot::inverse::coordinates;
 use cdpr_assess::{WorkspaceRow, compute_workspace};
@@ -58,6 +58,8 @@ answer! {
         anew_greatest_tension: Py<PyAny>,
     }
 }
+
+plotted!(Workspace);
 
 /// Number of points of a plane along its two axes.
 const POINTS: (usize, usize) = (41, 41);
