@@ -149,7 +149,7 @@ enum Command {
     /// are left out, those without one in an output are failed observations of it; both are named.
     #[command(after_help = "Examples:
   cdpr analyse data/tables/ishigami.csv
-  cdpr analyse results --table mechanical --limit 'rms_mm<1.4' --out analysis
+  cdpr analyse results --table mechanical --limit 'magnitude_mm<1.4' --out analysis
   cdpr analyse measurements.csv --input 'temperature,load*' --output error_mm --format json")]
     #[command(alias = "analyze")]
     Analyse(study::analyse::Settings),

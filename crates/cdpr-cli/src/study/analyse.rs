@@ -28,8 +28,8 @@ pub(crate) struct Settings {
     /// (index of Wasserstein and Bures).
     #[arg(long, value_name = "COLUMN", value_delimiter = ',')]
     vector: Vec<String>,
-    /// What an output is to satisfy, such as `rms_mm<1.4`: `<`, `<=`, `>` or `>=`. The analysis then says
-    /// which inputs make it fail.
+    /// What an output is to satisfy, such as `magnitude_mm<1.4`: `<`, `<=`, `>` or `>=`. The analysis then
+    /// says which inputs make it fail.
     #[arg(long = "limit", value_name = "COLUMN<VALUE", value_parser = limit)]
     limits: Vec<(String, OutputLimit)>,
     /// Confidence level of the intervals.
@@ -115,9 +115,9 @@ mod tests {
 
     #[test]
     fn a_limit_is_a_column_a_sign_and_a_number() {
-        assert_eq!(limit("rms_mm<1.4").unwrap(), ("rms_mm".to_owned(), OutputLimit::Below(1.4)));
+        assert_eq!(limit("magnitude_mm<1.4").unwrap(), ("magnitude_mm".to_owned(), OutputLimit::Below(1.4)));
         assert_eq!(limit("f >= -2e3").unwrap(), ("f".to_owned(), OutputLimit::AtLeast(-2e3)));
-        for text in ["", "rms", "<1", "rms<", "rms<x", "rms=1"] {
+        for text in ["", "magnitude", "<1", "magnitude<", "magnitude<x", "magnitude=1"] {
             assert!(limit(text).is_err(), "{text}");
         }
     }
