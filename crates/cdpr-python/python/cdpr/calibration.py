@@ -1,6 +1,6 @@
 """Calibration: from measurements to a better robot, and to the accuracy that is left.
 
-The files are those of `cdpr calibrate`, byte for byte.
+The files are those of `cdpr calibrate fit`, byte for byte.
 
 >>> import cdpr
 >>> robot = cdpr.Robot.from_file("data/robots/caroca.json")
@@ -55,7 +55,7 @@ def calibrate(
 ) -> dict[str, Any]:
     """Fit the parameters of a robot to measurements; write all results to a folder and return the summary.
 
-    measurements: CSV with units in its header, or JSON, as `cdpr calibrate` reads them.
+    measurements: CSV with units in its header, or JSON, as `cdpr calibrate fit` reads them.
     out: folder of the results; made if missing.
     noise: standard deviations of the sensors [SI units]: {"position": 1e-4, "length": 1e-4}, and covariances
         of two columns: {"cov_x_m_y_m": 5e-9}.
