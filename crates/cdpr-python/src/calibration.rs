@@ -1,4 +1,4 @@
-//! Calibration, as `cdpr calibrate` and `cdpr calibration` have it. `calibration.py` makes dictionaries of the
+//! Calibration, as `cdpr calibrate fit` and `cdpr calibrate` have it. `calibration.py` makes dictionaries of the
 //! answers.
 
 use crate::convert::{Answer, Numbers, Raised, Rows, question, run, to_json, watched};

@@ -51,7 +51,7 @@ class Finding(NamedTuple):
 
 
 def check(robot: Union[Robot, _inputs.Path]) -> list[Finding]:
-    """Lists what is odd about a robot and yet no error, as `cdpr check` does.
+    """Lists what is odd about a robot and yet no error, as `cdpr robot check` does.
 
     robot: a robot, a robot file, or a name of the library. A file is checked in whatever units it is, also where
         `Robot.from_file` refuses these.
@@ -95,7 +95,7 @@ def tolerances(
     observations: int = 20_000,
     threads: Optional[int] = None,
 ) -> ToleranceBudget:
-    """Finds the tolerances to tighten so that an error stays below a limit, as `cdpr tolerances` does.
+    """Finds the tolerances to tighten so that an error stays below a limit, as `cdpr study tolerances` does.
 
     study: study file, or its content as a dictionary, as `cdpr.study.run` takes it; its error model holds the
         tolerances.
@@ -119,7 +119,7 @@ def tolerances(
 class Robustness:
     """How often the direct model finds the true pose from a wrong start.
 
-    `content` is that of `robustness.json`, which `cdpr robustness` writes.
+    `content` is that of `robustness.json`, which is written to a folder.
     """
 
     def __init__(self, content: dict[str, Any]) -> None:
@@ -171,7 +171,7 @@ def robustness(
     progress: Optional[Callable[[int, int], object]] = None,
     threads: Optional[int] = None,
 ) -> Robustness:
-    """Tests how often the direct model finds the true pose from a wrong start, as `cdpr robustness` does.
+    """Tests how often the direct model finds the true pose from a wrong start.
 
     poses: poses of the protocol of Mahnke and Caverly.
     modulus: Young's modulus of all cables in that protocol [Pa]; 35e9 for CoGiRo, else the robot's, if left out.
@@ -337,7 +337,7 @@ def modulus(
     length_error: float = 0.0,
     section_error: float = 0.0,
 ) -> Moduli:
-    """Finds the moduli of a cable from a load-elongation record, as `cdpr modulus` does.
+    """Finds the moduli of a cable from a load-elongation record, as `cdpr cable modulus` does.
 
     record: CSV with the columns `force_n`, `elongation_mm` and `phase`, "loading" or "unloading"; or these columns
         by their names, a dictionary of arrays (m,) or a pandas.DataFrame.

@@ -1,6 +1,6 @@
 """Calibration: from measurements to a better robot, and to the accuracy that is left.
 
-Nothing is written unless a call is given a folder or file; then the files are those of `cdpr calibrate`, byte for
+Nothing is written unless a call is given a folder or file; then the files are those of `cdpr calibrate fit`, byte for
 byte.
 
 >>> import cdpr
@@ -161,7 +161,7 @@ def calibrate(
 
     measurements: columns by their names, which have units, `x_m`, `roll_deg`, `l1_m` ..., in a dictionary of
         arrays (m,) or a pandas.DataFrame, NaN for what was not measured; or a file, CSV or JSON, as `cdpr
-        calibrate` reads it.
+        calibrate fit` reads it.
     out: folder of the results; made if missing. Without one nothing is written.
     noise: standard deviations of the sensors [SI units]: {"position": 1e-4, "length": 1e-4}, and covariances
         of two columns: {"cov_x_m_y_m": 5e-9}.

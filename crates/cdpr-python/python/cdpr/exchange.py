@@ -64,7 +64,7 @@ def read(
     tension_limits: Optional[ArrayLike] = None,
     cable_set: Optional[str] = None,
 ) -> Imported:
-    """Makes a robot of the files of another program, as `cdpr import` does.
+    """Makes a robot of the files of another program, as `cdpr robot import` does.
 
     files: bodies and cables of CASPR or the folder that has them, a .wcrfx file of WireX, a model of MuJoCo,
         YAML of oKermorgant's cdpr or the SDF made of it, JSON of IRMA, a system of MoorPy or MoorDyn, or a
@@ -103,7 +103,7 @@ class Exported(NamedTuple):
 
 
 def export(robot: Robot, pose: ArrayLike, to: str) -> Exported:
-    """Makes the files of a robot that rests at a pose for another program, as `cdpr export` does.
+    """Makes the files of a robot that rests at a pose for another program, as `cdpr robot export` does.
 
     robot: a robot without what the format has no place for.
     pose: (3,) or (7,).

@@ -127,10 +127,10 @@ class Results:
         workspace: Optional[_inputs.Path] = None,
         overwrite: bool = False,
     ) -> Path:
-        """Writes the report (HTML) again and returns its path, as `cdpr report` does.
+        """Writes the report (HTML) again and returns its path, as `cdpr study report` does.
 
         out: file for the report; `report.html` in the folder if left out.
-        workspace: folder that `cdpr workspace --boundary` has written: its region is drawn around the robot.
+        workspace: folder that `cdpr workspace --with boundary` has written: its region is drawn around the robot.
         overwrite: replace the file `out` if it exists.
 
         Raises FileError and InputError.
