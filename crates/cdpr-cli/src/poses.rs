@@ -45,7 +45,7 @@ impl Angles {
 #[derive(clap::Args)]
 pub(crate) struct PoseArguments {
     /// Pose of the platform: x,y,z [m], level or rotated by --rpy, or x,y,z,qw,qx,qy,qz with a quaternion.
-    #[arg(long, value_parser = pose, allow_hyphen_values = true)]
+    #[arg(long, alias = "start", value_parser = pose, allow_hyphen_values = true)]
     pose: Option<Pose>,
     #[command(flatten)]
     angles: Angles,

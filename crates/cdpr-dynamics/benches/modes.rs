@@ -27,7 +27,7 @@ fn modes(criterion: &mut Criterion) {
         let rest = problem.direct(DirectStart::Near(&held.equilibrium)).unwrap().equilibrium;
         group.bench_function(name, |bencher| {
             bencher.iter(|| {
-                Modes::new(&problem, &held.lengths, black_box(&rest), Wanted::Below(bound)).unwrap()
+                Modes::new(&problem, black_box(&rest), Wanted::Below(bound)).unwrap()
             });
         });
         let platform = MovingPlatform::new(&problem, &rest, bound).unwrap();

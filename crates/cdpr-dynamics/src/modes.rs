@@ -77,7 +77,6 @@ impl Modes {
     /// without `platform.inertia`.
     pub fn new(
         problem: &DirectProblem,
-        lengths: &[f64],
         equilibrium: &Equilibrium,
         wanted: Wanted,
     ) -> Result<Self, DynamicsError> {
@@ -101,8 +100,8 @@ impl Modes {
             modes.truncate(number);
             counted = number;
         }
-        let equilibrium = equilibrium.clone();
-        Ok(Self { modes, complete_below, counted, equilibrium, lengths: lengths.to_vec() })
+        let (equilibrium, lengths) = (equilibrium.clone(), problem.lengths().to_vec());
+        Ok(Self { modes, complete_below, counted, equilibrium, lengths })
     }
 
     /// The motion in which platform and payload have the largest share.
@@ -124,7 +123,7 @@ pub fn modes_at<'a>(
     let found = inverse(robot, pose.into(), load)?;
     let problem = DirectProblem::new(robot, &found.lengths, load)?;
     let rest = problem.direct(DirectStart::Near(&found.equilibrium))?;
-    Modes::new(&problem, &found.lengths, &rest.equilibrium, wanted)
+    Modes::new(&problem, &rest.equilibrium, wanted)
 }
 
 /// A platform, and a frequency [Hz] below which it has `number` natural motions at least.

@@ -60,7 +60,7 @@ fn modes(case: &Value, wanted: Wanted) -> Modes {
     let lengths = numbers(&case["unstrained_lengths"]);
     let problem = DirectProblem::new(&robot, &lengths, &Load::none()).unwrap();
     let rest = problem.direct(DirectStart::Pose(&pose(case))).unwrap();
-    Modes::new(&problem, &lengths, &rest.equilibrium, wanted).unwrap()
+    Modes::new(&problem, &rest.equilibrium, wanted).unwrap()
 }
 
 #[test]
@@ -161,7 +161,7 @@ fn without_mass_of_cables_the_natural_motions_are_those_of_the_static_models() {
         let rest = rest.equilibrium;
         let expected = light.modes(&rest).unwrap();
         let bound = 1.001 * expected.last().unwrap().frequency;
-        let found = Modes::new(&light, &lengths, &rest, Wanted::Below(bound));
+        let found = Modes::new(&light, &rest, Wanted::Below(bound));
         let found = found.unwrap();
         assert_eq!(found.counted, expected.len(), "{}", case["name"]);
         compared += 1;

@@ -69,7 +69,7 @@ fn a_robot_vibrates_alike_however_its_base_is_turned() {
         let modes = |robot: &Robot, pose: &Pose| {
             let problem = DirectProblem::new(robot, &held.lengths, &Load::none()).unwrap();
             let rest = problem.direct(DirectStart::Pose(pose)).unwrap();
-            Modes::new(&problem, &held.lengths, &rest.equilibrium, Wanted::Number(8)).unwrap()
+            Modes::new(&problem, &rest.equilibrium, Wanted::Number(8)).unwrap()
         };
         let (one, other) = (modes(&robot, &pose), modes(&turned, &turned_pose));
         for (one, other) in one.modes.iter().zip(&other.modes) {
