@@ -1,114 +1,115 @@
-//! The cables of a robot whose platform is held at a pose, each with its chord force as its only unknown.
+//! The cables of a robot whose platform is at a given pose, each with its chord force as its only unknown.
 
-use super::question::Question;
+use super::problem::InverseProblem;
 use crate::equations::{ABOVE_LEAST, Bounds, Ends, Held, wrench};
 use crate::error::StaticsError;
 use cdpr_cable::CableError;
 use cdpr_robot::{Freedoms, TensionLimits, Vector3, Vector6};
+use cdpr_tension::Bound;
 
 /// One cable between its two points, at one chord force.
 #[derive(Clone)]
-pub(super) struct Strand<'a> {
+pub(super) struct CableAtPose<'a> {
     pub(super) held: Held<'a>,
     ends: Ends<'a>,
-    arm: Vector3<f64>,
-    /// Limits of the tension [N]; the least includes what the span demands, once it has been asked for.
+    lever_arm: Vector3<f64>,
+    /// Limits of the tension [N]; the least includes what the span demands, once it has been computed.
     pub(super) limits: TensionLimits,
     /// A tension [N], at least the limit, above which no cable over this span comes near its least one.
     floor: f64,
-    /// Chord force at either limit [N], where it has been asked for.
+    /// Chord force at either limit [N], where it is known.
     chord_forces: [Option<f64>; 2],
     pub(super) reference: f64,
     freedoms: Freedoms,
 }
 
-impl<'a> Strand<'a> {
+impl<'a> CableAtPose<'a> {
     /// Cable i at the chord force that is nearest to `tension` [N] within its limits.
-    pub(super) fn new(question: &Question<'a>, i: usize, tension: f64) -> Result<Self, StaticsError> {
-        let limits = question.limits[i];
+    pub(super) fn new(problem: &InverseProblem<'a>, i: usize, tension: f64) -> Result<Self, StaticsError> {
+        let limits = problem.limits[i];
         let tension = tension.clamp(limits.min, limits.max);
-        let strand = || -> Result<Self, CableError> {
-            let mut strand = Self::with_floor(question, i, |floor| tension.max(floor))?;
-            if tension < strand.floor {
-                strand.learn(0)?;
-                let lowest = strand.chord_forces[0].unwrap_or_default();
-                strand.held = strand.at(tension.max(lowest))?;
+        let cable = || -> Result<Self, CableError> {
+            let mut cable = Self::with_floor(problem, i, |floor| tension.max(floor))?;
+            if tension < cable.floor {
+                cable.compute_limit(Bound::Min)?;
+                let lowest = cable.chord_forces[0].unwrap_or_default();
+                cable.held = cable.at(tension.max(lowest))?;
             }
-            Ok(strand)
+            Ok(cable)
         };
-        strand().map_err(StaticsError::cable(i))
+        cable().map_err(StaticsError::cable(i))
     }
 
     /// Cable i as it is at a pose nearby: at the same limit, or else at the same chord force [N].
     pub(super) fn near(
-        question: &Question<'a>,
+        problem: &InverseProblem<'a>,
         i: usize,
         chord_force: f64,
-        limit: Option<usize>,
+        limit: Option<Bound>,
     ) -> Result<Self, CableError> {
-        let mut strand = Self::with_floor(question, i, |_| chord_force)?;
-        if let Some(side) = limit {
-            strand.learn(side)?;
-            strand.held = strand.at(strand.chord_forces[side].unwrap_or(chord_force))?;
+        let mut cable = Self::with_floor(problem, i, |_| chord_force)?;
+        if let Some(bound) = limit {
+            cable.compute_limit(bound)?;
+            cable.held = cable.at(cable.chord_forces[bound as usize].unwrap_or(chord_force))?;
         }
-        Ok(strand)
+        Ok(cable)
     }
 
-    /// Cable i at a chord force [N] that may follow from its floor, with its limits unasked for.
+    /// Cable i at a chord force [N] that may follow from its floor; its limits are still to be computed.
     fn with_floor(
-        question: &Question<'a>,
+        problem: &InverseProblem<'a>,
         i: usize,
         chord_force: impl FnOnce(f64) -> f64,
     ) -> Result<Self, CableError> {
-        let ends = Ends::of(question.robot, question.pose, i);
-        let limits = question.limits[i];
+        let ends = Ends::of(problem.robot, problem.pose, i);
+        let limits = problem.limits[i];
         let floor = ends.floor().max(limits.min);
         Ok(Self {
             held: ends.at_chord_force(chord_force(floor))?,
             ends,
-            arm: question.robot.anchor_arm(question.pose, i),
+            lever_arm: problem.robot.anchor_arm(problem.pose, i),
             limits,
             floor,
             chord_forces: [None; 2],
-            reference: question.reference[i],
-            freedoms: question.robot.freedoms(),
+            reference: problem.reference[i],
+            freedoms: problem.robot.freedoms(),
         })
     }
 
-    /// Wrench about P of a force on the platform, its moment divided by `arm` [m]; zero along held motions.
-    fn wrench(&self, force: [f64; 3], arm: f64) -> Vector6<f64> {
-        let mut wrench = wrench(&self.arm, &force.into());
-        wrench.fixed_rows_mut::<3>(3).unscale_mut(arm);
+    /// Wrench about P of a force on the platform, its moment divided by a characteristic length [m]; zero along held motions.
+    fn wrench(&self, force: [f64; 3], characteristic_length: f64) -> Vector6<f64> {
+        let mut wrench = wrench(&self.lever_arm, &force.into());
+        wrench.fixed_rows_mut::<3>(3).unscale_mut(characteristic_length);
         self.freedoms.of_vector(&wrench)
     }
 
-    /// What the optimum asks of the cable at a chord force.
-    pub(super) fn row(&self, held: &Held, arm: f64) -> Row {
+    /// Tension and wrench with their derivatives at a chord force.
+    pub(super) fn row(&self, held: &Held, characteristic_length: f64) -> Row {
         Row {
             tension: held.tension(),
             tension_slope: held.tension_slope(),
-            wrench: self.wrench(self.ends.force(held), arm),
-            slope: self.wrench(self.ends.force_slope(held), arm),
+            wrench: self.wrench(self.ends.force(held), characteristic_length),
+            slope: self.wrench(self.ends.force_slope(held), characteristic_length),
             reference: self.reference,
         }
     }
 
     /// Second derivative of the Lagrangian, h_i of (I3).
-    pub(super) fn hessian(&self, row: &Row, multipliers: &Vector6<f64>, arm: f64) -> f64 {
+    pub(super) fn hessian(&self, row: &Row, multipliers: &Vector6<f64>, characteristic_length: f64) -> f64 {
         let (force, tension) = self.ends.curvatures(&self.held);
         row.tension_slope * row.tension_slope
             + (row.tension - row.reference) * tension
-            + multipliers.dot(&self.wrench(force, arm))
+            + multipliers.dot(&self.wrench(force, characteristic_length))
     }
 
     /// The wrench of a straight cable from the exit point, of one newton.
-    pub(super) fn chord_wrench(&self, arm: f64) -> Vector6<f64> {
-        self.wrench(self.ends.chord_pull(), arm)
+    pub(super) fn chord_wrench(&self, characteristic_length: f64) -> Vector6<f64> {
+        self.wrench(self.ends.chord_pull(), characteristic_length)
     }
 
     /// y·w'' [1/N].
-    pub(super) fn bend(&self, y: &Vector6<f64>, arm: f64) -> f64 {
-        y.dot(&self.wrench(self.ends.curvatures(&self.held).0, arm))
+    pub(super) fn bend(&self, y: &Vector6<f64>, characteristic_length: f64) -> f64 {
+        y.dot(&self.wrench(self.ends.curvatures(&self.held).0, characteristic_length))
     }
 
     /// d²t/dσ² [1/N].
@@ -116,28 +117,27 @@ impl<'a> Strand<'a> {
         self.ends.curvatures(&self.held).1
     }
 
-    /// Changes of the chord force [N] that lead to the limits; where a limit's chord force has not been asked
-    /// for, a change that does not pass it, because t(σ) is convex with a slope of at most one.
-    pub(super) fn room(&self) -> [f64; 2] {
+    /// Changes of the chord force [N] that lead to the limits; where a limit's chord force is not known, a change that does not pass it, because t(σ) is convex with a slope of at most one.
+    pub(super) fn step_bounds(&self) -> [f64; 2] {
         let t = self.held.tension();
-        let room = |side: usize, estimate: f64| {
-            self.chord_forces[side].map_or(estimate, |at| at - self.held.chord_force())
+        let change = |bound: Bound, estimate: f64| {
+            self.chord_forces[bound as usize].map_or(estimate, |at| at - self.held.chord_force())
         };
-        let low = room(0, (self.floor - t) / self.held.tension_slope());
-        [low, room(1, self.limits.max - t).max(low)]
+        let low = change(Bound::Min, (self.floor - t) / self.held.tension_slope());
+        [low, change(Bound::Max, self.limits.max - t).max(low)]
     }
 
-    /// Whether the chord force at a limit, 0 the least and 1 the greatest, is known.
-    pub(super) fn knows(&self, side: usize) -> bool {
-        self.chord_forces[side].is_some()
+    /// Whether the chord force at a limit is known.
+    pub(super) fn limit_known(&self, bound: Bound) -> bool {
+        self.chord_forces[bound as usize].is_some()
     }
 
-    /// Asks for the chord force at a limit, and for the least tension that the span demands.
+    /// Computes the chord force at a limit; at the lower one the least tension that the span demands, too.
     ///
     /// # Errors
     /// [`CableError::TensionTooSmall`] where the span demands more than the greatest tension.
-    pub(super) fn learn(&mut self, side: usize) -> Result<(), CableError> {
-        if side == 1 {
+    pub(super) fn compute_limit(&mut self, bound: Bound) -> Result<(), CableError> {
+        if bound == Bound::Max {
             self.chord_forces[1] = Some(self.held.with_tension(self.limits.max)?.chord_force());
             return Ok(());
         }
@@ -149,35 +149,44 @@ impl<'a> Strand<'a> {
                 return Err(CableError::TensionTooSmall { tension: self.limits.max, least });
             }
             self.limits.min = self.limits.min.max(ABOVE_LEAST * least);
-            // Beside the least tension, where it has no slope: t = t_0 + t'' (σ - σ_0)²/2.
+            // Next to the least tension, where it has no slope: t = t_0 + t'' (σ - σ_0)²/2.
             let (_, curvature) = self.ends.curvatures(&nearby);
             let beyond = (2.0 * (self.limits.min - least) / curvature).sqrt();
-            if let Ok(beside) = nearby.with_chord_force(nearby.chord_force() + beyond) {
-                nearby = beside;
+            if let Ok(above) = nearby.with_chord_force(nearby.chord_force() + beyond) {
+                nearby = above;
             }
         }
         self.chord_forces[0] = Some(nearby.with_tension(self.limits.min)?.chord_force());
         Ok(())
     }
 
-    /// The limit whose chord force has not been asked for though the cable is beyond it, or too near to its
-    /// least tension to tell.
-    pub(super) fn unknown_limit(&self) -> Option<usize> {
+    /// The limit whose chord force is not known though the cable is beyond it, or may be: it is near its least
+    /// tension.
+    pub(super) fn unknown_limit(&self) -> Option<Bound> {
         let t = self.held.tension();
         let beyond = [t < self.floor, t > self.limits.max];
-        (0..2).find(|side| beyond[*side] && !self.knows(*side))
+        Bound::BOTH.into_iter().find(|bound| beyond[*bound as usize] && !self.limit_known(*bound))
     }
 
     /// The limit that the chord force is at.
-    pub(super) fn at_limit(&self) -> Option<usize> {
-        (0..2).find(|side| self.chord_forces[*side] == Some(self.held.chord_force()))
+    pub(super) fn at_limit(&self) -> Option<Bound> {
+        let here = Some(self.held.chord_force());
+        Bound::BOTH.into_iter().find(|bound| self.chord_forces[*bound as usize] == here)
+    }
+
+    /// The tension at a limit [N].
+    pub(super) fn limit(&self, bound: Bound) -> f64 {
+        match bound {
+            Bound::Min => self.limits.min,
+            Bound::Max => self.limits.max,
+        }
     }
 
     /// No more than y·w at any tension within the limits: the tension differs from the chord force by no
     /// more than the cable's weight. `None` for a cable with a guide.
-    pub(super) fn bound_along(&self, y: &Vector6<f64>, arm: f64) -> Option<f64> {
+    pub(super) fn bound_along(&self, y: &Vector6<f64>, characteristic_length: f64) -> Option<f64> {
         let Bounds { along, sag, weight } = self.ends.bounds()?;
-        let [along, sag] = [along, sag].map(|force| y.dot(&self.wrench(force, arm)));
+        let [along, sag] = [along, sag].map(|force| y.dot(&self.wrench(force, characteristic_length)));
         let chord_forces = [(self.limits.min - weight).max(0.0), self.limits.max + weight];
         let [low, high] = chord_forces.map(|chord_force| along * chord_force);
         Some(low.min(high) + (sag * weight).min(0.0))
@@ -189,8 +198,12 @@ impl<'a> Strand<'a> {
     ///
     /// # Errors
     /// [`CableError`] where the cable cannot be closed.
-    pub(super) fn least_along(&mut self, y: &Vector6<f64>, arm: f64) -> Result<f64, CableError> {
-        let along = |strand: &Self, force: [f64; 3]| y.dot(&strand.wrench(force, arm));
+    pub(super) fn least_along(
+        &mut self,
+        y: &Vector6<f64>,
+        characteristic_length: f64,
+    ) -> Result<f64, CableError> {
+        let along = |cable: &Self, force: [f64; 3]| y.dot(&cable.wrench(force, characteristic_length));
         let mut before: Option<[f64; 3]> = None;
         let mut least = f64::INFINITY;
         for held in self.grid()? {
@@ -212,11 +225,11 @@ impl<'a> Strand<'a> {
     pub(super) fn lagrangians(
         &mut self,
         y: &Vector6<f64>,
-        arm: f64,
+        characteristic_length: f64,
     ) -> Result<(f64, (f64, f64)), CableError> {
-        let part = |strand: &Self, held: &Held| {
-            let beyond = held.tension() - strand.reference;
-            0.5 * beyond * beyond + y.dot(&strand.wrench(strand.ends.force(held), arm))
+        let part = |cable: &Self, held: &Held| {
+            let beyond = held.tension() - cable.reference;
+            0.5 * beyond * beyond + y.dot(&cable.wrench(cable.ends.force(held), characteristic_length))
         };
         let here = part(self, &self.held);
         Ok((here, self.least_of(part)?))
@@ -237,9 +250,9 @@ impl<'a> Strand<'a> {
     /// The cable at chord forces from limit to limit.
     fn grid(&mut self) -> Result<Vec<Held<'a>>, CableError> {
         const INTERVALS: u32 = 12;
-        for side in 0..2 {
-            if !self.knows(side) {
-                self.learn(side)?;
+        for bound in Bound::BOTH {
+            if !self.limit_known(bound) {
+                self.compute_limit(bound)?;
             }
         }
         let [low, high] = self.chord_forces.map(Option::unwrap_or_default);

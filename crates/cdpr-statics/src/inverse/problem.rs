@@ -1,13 +1,13 @@
-//! What the inverse model is asked.
+//! The inverse problem: a robot, a pose, a load, and which tensions are chosen.
 
-use super::limits::limits_at;
+use super::limits::platform_limits;
 use crate::error::StaticsError;
 use crate::state::Load;
 use cdpr_robot::{Pose, Robot, TensionDistribution, TensionLimits, Vector6};
 
-/// A robot to be held at a pose.
+/// The inverse problem of a robot at a pose.
 #[derive(Clone)]
-pub(super) struct Question<'a> {
+pub(super) struct InverseProblem<'a> {
     pub(super) robot: &'a Robot,
     pub(super) pose: &'a Pose,
     pub(super) load: &'a Load,
@@ -18,13 +18,13 @@ pub(super) struct Question<'a> {
     pub(super) limits: Vec<TensionLimits>,
     /// The length [m] that makes moments comparable with forces: of the platform, or of a cable where the
     /// platform is a point.
-    pub(super) arm: f64,
-    /// w_ex, moments divided by the arm [N]; zero along held motions.
+    pub(super) characteristic_length: f64,
+    /// w_ex, moments divided by the characteristic length [N]; zero along held motions.
     pub(super) external: Vector6<f64>,
 }
 
-impl<'a> Question<'a> {
-    /// A question with valid inputs to a robot that has a cable for every free motion.
+impl<'a> InverseProblem<'a> {
+    /// The problem of a robot with a cable for every free motion, its inputs checked.
     pub(super) fn of_whole_pose(
         robot: &'a Robot,
         pose: &'a Pose,
@@ -38,15 +38,15 @@ impl<'a> Question<'a> {
         Self::new(robot, pose, load, reference)
     }
 
-    /// A question with valid inputs.
+    /// The problem, its inputs checked.
     pub(super) fn new(
         robot: &'a Robot,
         pose: &'a Pose,
         load: &'a Load,
         reference: Option<&[f64]>,
     ) -> Result<Self, StaticsError> {
-        let question = Self::with_platform_limits(robot, pose, load, reference)?;
-        Ok(Self { limits: limits_at(robot, pose)?, ..question })
+        let problem = Self::with_platform_limits(robot, pose, load, reference)?;
+        Ok(Self { limits: platform_limits(robot, pose)?, ..problem })
     }
 
     /// The same with every limit taken as one at the platform: for a pose that is not known yet.
@@ -77,14 +77,14 @@ impl<'a> Question<'a> {
             return Err(StaticsError::invalid(format!("reference[{i}]"), value, "a finite tension [N]"));
         }
         let limits = (0..n).map(|i| robot.limits(i)).collect();
-        let (arm, external) = external(robot, pose, load);
-        Ok(Self { robot, pose, load, distribution, reference, limits, arm, external })
+        let (characteristic_length, external) = external(robot, pose, load);
+        Ok(Self { robot, pose, load, distribution, reference, limits, characteristic_length, external })
     }
 
-    /// The question at a pose nearby, within the same limits.
+    /// The problem at a pose nearby, within the same limits.
     pub(super) fn nearby(&self, pose: &'a Pose, load: &'a Load, reference: Vec<f64>) -> Self {
-        let (arm, external) = external(self.robot, pose, load);
-        Self { pose, load, reference, limits: self.limits.clone(), arm, external, ..*self }
+        let (characteristic_length, external) = external(self.robot, pose, load);
+        Self { pose, load, reference, limits: self.limits.clone(), characteristic_length, external, ..*self }
     }
 
     pub(super) fn cables(&self) -> usize {
@@ -92,11 +92,11 @@ impl<'a> Question<'a> {
     }
 }
 
-/// The arm [m], and w_ex with its moments divided by it.
+/// The characteristic length [m], and w_ex with its moments divided by it.
 fn external(robot: &Robot, pose: &Pose, load: &Load) -> (f64, Vector6<f64>) {
     let longest = (0..robot.cables.len()).map(|i| robot.span(pose, i).norm()).fold(0.0, f64::max);
-    let arm = robot.platform_size().max(1e-3 * longest);
+    let characteristic_length = robot.platform_size().max(1e-3 * longest);
     let mut wrench = load.total(robot, pose).to_vector();
-    wrench.fixed_rows_mut::<3>(3).unscale_mut(arm);
-    (arm, robot.freedoms().of_vector(&wrench))
+    wrench.fixed_rows_mut::<3>(3).unscale_mut(characteristic_length);
+    (characteristic_length, robot.freedoms().of_vector(&wrench))
 }
