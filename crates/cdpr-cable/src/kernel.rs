@@ -11,7 +11,6 @@ mod material;
 mod plane;
 mod response;
 mod series;
-mod wheel;
 
 pub use guide::{GuideTerms, GuidedEndSlopes, GuidedInSpace, LeavePoint, SwivelAxis, Way};
 pub use material::{LawSegment, Material};

@@ -66,11 +66,13 @@
 //! dA/dκ = -ρ e_z + r/(1 + ε) dA/dL  in the plane,      r (1 + cos ψ)/sin ψ = B_x/τ_x  across it  (C31)
 //! ```
 
+mod wheel;
+
 use super::response::Response;
 use super::series::elevation;
-use super::wheel::Wheel;
 use cdpr_number::Lanewise;
 use std::f64::consts::FRAC_PI_2;
+use wheel::Wheel;
 
 /// A lead and a pulley after it.
 #[derive(Clone, Copy, Debug)]

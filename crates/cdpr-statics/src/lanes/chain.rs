@@ -7,7 +7,6 @@ pub(crate) mod free;
 pub(crate) mod lengths;
 pub(crate) mod limits;
 pub(crate) mod minimum;
-mod program;
 pub(crate) mod shared;
 pub(crate) mod tensions;
 

@@ -20,7 +20,7 @@
 //!      R1 = (t + û_z dz - r) t' + J·λ,   R2 = sum w + w_ex,   h = t'² + (t - r) t'' + λ·w''
 //! ```
 //!
-//! Where steps pass limits of the tensions, `chain/program.rs` finds those within them.
+//! Where steps pass limits of the tensions, `cdpr_tension::box_problem` finds those within them.
 //!
 //! For a parabola fz is linear in fx and w'' zero; what sag adds is that of the inextensible catenary
 //! ([`HeldCable::curvature`]). A cable that begins near the least tension of its span has it for a limit, as
@@ -32,7 +32,6 @@ use crate::equations::Span;
 use crate::inverse::NEARLY_ROUNDING;
 use crate::lanes::chain::limits::{demand, limits_at, may_be_slack};
 use crate::lanes::chain::minimum::is_least;
-use crate::lanes::chain::program::{Row, newton, within_limits};
 use crate::lanes::chain::shared::{LAST_DISTRIBUTION, LAST_REMAINDER, LAST_SHARE, MAX_DISTRIBUTIONS, Shared};
 use crate::lanes::held::HeldCable;
 use crate::local::cable::{FOLDED, LaneCable};
@@ -43,6 +42,7 @@ use cdpr_number::dense::{Lanes2, Lanes6, halves, replace};
 use cdpr_number::lanes::{Lanes, Mask, Simd, WithSimd};
 use cdpr_number::six;
 use cdpr_number::vector::{dot, wrench};
+use cdpr_tension::box_problem::{BoundedUnknown, solve_within_bounds, unbounded_step};
 
 /// Step of a cable that sags, relative to its horizontal force, from which on the point that it leads to is
 /// compared with others. Without the comparison 14 of 15 040 rows of random robots in `tests/any_lanes.rs`
@@ -52,6 +52,9 @@ const LONGEST_STEP: f64 = 0.3;
 
 /// q² from which a cable sags.
 pub(crate) const SAGGING: f64 = 0.02;
+
+/// Iterations for the bounds that are active in a step.
+const MAX_ITERATIONS: usize = 16;
 
 /// Least curvature of a step, relative to that of a straight cable.
 const LEAST_CURVATURE: f64 = 0.01;
@@ -150,7 +153,7 @@ struct Search<'b, 'a, S: Simd> {
     cables: Vec<CableTension<S>>,
     /// The cables where they are, and their rows of (L3).
     held: Vec<HeldCable<S>>,
-    rows: Vec<Row<S>>,
+    rows: Vec<BoundedUnknown<S>>,
     /// For each cable the lanes where its curvature is positive.
     convex: Vec<Mask<S>>,
     active: Mask<S>,
@@ -226,7 +229,7 @@ impl<'b, 'a, S: Simd> Search<'b, 'a, S> {
                 - lifted * held.curvatures[1];
             self.convex.push((square * LEAST_CURVATURE).less_or_equal(curvature));
             let curvature = curvature.abs().max(square * LEAST_CURVATURE);
-            self.rows.push(Row::new(
+            self.rows.push(BoundedUnknown::new(
                 wrench(&cable.anchor_arm, &along),
                 (held.closed + -choice.reference) * held.tension_slope,
                 curvature.recip(),
@@ -237,7 +240,7 @@ impl<'b, 'a, S: Simd> Search<'b, 'a, S> {
         if !freedoms.are_all() {
             balance = hold(freedoms, balance);
             for row in &mut self.rows {
-                row.slope = hold(freedoms, row.slope);
+                row.column = hold(freedoms, row.column);
             }
         }
         balance
@@ -266,26 +269,26 @@ impl<'b, 'a, S: Simd> Search<'b, 'a, S> {
     /// The step of (L3), within the limits.
     #[inline(always)]
     fn step(&mut self, balance: &Lanes6<S>) -> Step<S> {
-        let (mut multipliers, _) = newton(&self.rows, balance);
+        let mut multipliers = unbounded_step(&self.rows, balance);
         let mut outside = !self.active & self.active;
         for ((row, held), found) in self.rows.iter_mut().zip(&self.held).zip(&self.cables) {
-            row.raise(&multipliers);
+            row.prepare(&multipliers);
             let [least, greatest] = found.limits;
-            let tension = held.closed + held.tension_slope * (row.wanted - row.change);
+            let tension = held.closed + held.tension_slope * (row.free - row.change);
             outside = outside | !(least.less_or_equal(tension) & tension.less_or_equal(greatest));
         }
         // Limits change nothing in the other lanes.
         let (mut settled, bounded) = (!outside, self.active & outside);
         if bounded.any() {
             for ((row, held), found) in self.rows.iter_mut().zip(&self.held).zip(&self.cables) {
-                row.ways = found.limits.map(|limit| held.way_to(limit));
+                row.bounds = found.limits.map(|limit| held.way_to(limit));
             }
-            let (raised, solved) = within_limits(&mut self.rows, balance, bounded);
+            let (raised, solved) = solve_within_bounds(&mut self.rows, balance, bounded, MAX_ITERATIONS);
             replace(&mut multipliers, &raised, bounded);
             settled = settled | solved;
         }
         for row in &mut self.rows {
-            row.sides = [bounded & row.sides[0], bounded & row.sides[1]];
+            row.active = [bounded & row.active[0], bounded & row.active[1]];
         }
         Step { multipliers, bounded, settled }
     }
@@ -298,7 +301,7 @@ impl<'b, 'a, S: Simd> Search<'b, 'a, S> {
         let mut moved = self.before.all(0.0);
         let cables = spans.iter().zip(&mut robots.cables);
         for ((row, held), (span, cable)) in self.rows.iter().zip(&self.held).zip(cables) {
-            let d = row.taken(step.bounded);
+            let d = row.solution(step.bounded);
             let near = d.abs().less_or_equal(cable.force[0] * LONGEST_STEP);
             let far = active & !near & !held.slackness.less_or_equal(d.all(SAGGING));
             self.jumped = self.jumped | far;
@@ -323,7 +326,7 @@ impl<'b, 'a, S: Simd> Search<'b, 'a, S> {
         let mut ends = self.active & moved.less_or_equal(moved.all(LAST_SHARE.sqrt()));
         if ends.any() {
             for ((row, held), cable) in self.rows.iter().zip(&self.held).zip(&robots.cables) {
-                ends = ends & held.is_last(cable, row.taken(step.bounded), LAST_SHARE);
+                ends = ends & held.is_last(cable, row.solution(step.bounded), LAST_SHARE);
             }
         }
         let last = step.settled & (ends | (self.active & small));
@@ -331,8 +334,8 @@ impl<'b, 'a, S: Simd> Search<'b, 'a, S> {
             return last;
         }
         for row in &self.rows {
-            let d = row.taken(step.bounded);
-            balance = six!(|k| balance[k] + row.slope[k] * d);
+            let d = row.solution(step.bounded);
+            balance = six!(|k| balance[k] + row.column[k] * d);
         }
         let (force, moment) = halves(&balance);
         let unbalanced = NEARLY_ROUNDING * shared.forces;
@@ -351,8 +354,8 @@ impl<'b, 'a, S: Simd> Search<'b, 'a, S> {
         let cables = self.rows.iter().zip(&self.held).zip(&mut robots.cables).zip(&mut **offsets);
         for ((((row, held), cable), offset), found) in cables.zip(&mut self.cables) {
             let [least, greatest] = found.limits;
-            let [low, high] = row.sides;
-            found.keep(cable, row.sides, last);
+            let [low, high] = row.active;
+            found.keep(cable, row.active, last);
             let tension = dot(&cable.force, &cable.force).sqrt();
             let chosen = low.select(least, high.select(greatest, tension));
             let set_point = (chosen + *offset).max(least);
@@ -375,7 +378,7 @@ impl<'b, 'a, S: Simd> Search<'b, 'a, S> {
         let Distribute { robots, multipliers, spans, shared, .. } = &self.task;
         // Elsewhere a stationary point may be no minimum.
         for (row, convex) in self.rows.iter().zip(&self.convex) {
-            self.sound = self.sound & (*convex | row.sides[0] | row.sides[1] | !last);
+            self.sound = self.sound & (*convex | row.active[0] | row.active[1] | !last);
         }
         // Long steps may have led to another minimum.
         let doubted = last & self.jumped;

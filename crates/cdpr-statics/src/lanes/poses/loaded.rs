@@ -311,13 +311,13 @@ impl<S: Simd> InLanes<'_, S> {
                 answers.push(Err(if stands[lane] { ScalarReason::Loaded } else { ScalarReason::Unloaded }));
                 continue;
             }
-            let mut rms = None;
+            let mut magnitude = None;
             if self.slopes.is_some() {
                 let Some((slopes, _)) = slopes.as_ref().filter(|(_, decided)| decided[lane]) else {
                     answers.push(Err(ScalarReason::Derivatives));
                     continue;
                 };
-                rms = Some(slopes.iter().map(|slope| slope[lane]).collect());
+                magnitude = Some(slopes.iter().map(|slope| slope[lane]).collect());
             }
             let of_lane = |ends: &[[f64; MAX_LANES]; 2]| ends.map(|of| of[lane]);
             let ends = |i: usize| of_lane(&tensions[1][i]);
@@ -337,7 +337,7 @@ impl<S: Simd> InLanes<'_, S> {
                 slack: (0..robot.cables.len()).filter(is_slack).collect(),
                 scalar: None,
             };
-            answers.push(Ok(PoseSlopes { loaded, rms }));
+            answers.push(Ok(PoseSlopes { loaded, magnitude }));
         }
     }
 }

@@ -59,7 +59,7 @@ pub struct PoseSlopes {
     pub loaded: LoadedPose,
     /// Derivatives of |dp| by every parameter, in the order of [`cdpr_robot::Parameter::of`] [m per unit];
     /// `None` where |dp| is not differentiable.
-    pub rms: Option<Vec<f64>>,
+    pub magnitude: Option<Vec<f64>>,
 }
 
 /// What is found of a robot at a pose with a load on it: [`LoadedPose`] or [`PoseSlopes`].
@@ -114,11 +114,12 @@ impl Loaded for PoseSlopes {
         why: ScalarReason,
     ) -> Result<Self, StaticsError> {
         let found = derivatives_from(robot, &wanted.equilibrium.pose, load, wanted.clone());
-        let (deflection, rms) = match found {
+        let (deflection, magnitude) = match found {
             Ok(found) => {
                 let parameters = ParameterLayout::of(robot).count();
-                let rms = found.rms().ok().map(|slopes| slopes.into_iter().take(parameters).collect());
-                (found.deflection, rms)
+                let magnitude =
+                    found.magnitude().ok().map(|slopes| slopes.into_iter().take(parameters).collect());
+                (found.deflection, magnitude)
             }
             // A pose without a derivative is held nevertheless.
             Err(StaticsError::NoDerivative { .. }) => {
@@ -127,6 +128,6 @@ impl Loaded for PoseSlopes {
             Err(error) => return Err(error),
         };
         let loaded = LoadedPose { scalar: Some(why), ..LoadedPose::of(robot, load, &deflection) };
-        Ok(Self { loaded, rms })
+        Ok(Self { loaded, magnitude })
     }
 }
