@@ -57,6 +57,7 @@ pub mod error;
 mod inverse;
 mod lanes;
 mod loading;
+mod local;
 mod out_of_limits;
 mod problem;
 mod rest_fault;

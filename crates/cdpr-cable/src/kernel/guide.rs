@@ -147,6 +147,8 @@ struct Swung<T> {
     coupled: [T; 3],
     /// -γ q_y.
     coupled_across: T,
+    /// q_y/β [m/N].
+    free_across: T,
 }
 
 /// Derivatives of the end of a cable over a guide at constant force and length, (C24) and (C31).
@@ -166,16 +168,18 @@ pub struct GuidedEndSlopes<T> {
     pub across_per_axis: T,
 }
 
-/// The response of a cable over a guide in space: the axes are forwards, across and upwards.
-pub(crate) struct GuidedInSpace<T> {
+/// The response of a cable over a guide in space: the axes are forwards, across to the left and upwards.
+pub struct GuidedInSpace<T> {
     /// B from D [m].
-    pub(crate) leave: [T; 3],
+    pub leave: [T; 3],
     /// A from D [m].
-    pub(crate) end: [T; 3],
-    /// Rows of dA/dF [m/N], (C22).
-    pub(crate) flexibility: [[T; 3]; 3],
-    /// dA/dL, (C23).
-    pub(crate) end_per_length: [T; 3],
+    pub end: [T; 3],
+    /// Rows of dA/dF at constant length [m/N], (C22).
+    pub flexibility: [[T; 3]; 3],
+    /// dA/dL at constant force, (C23).
+    pub end_per_length: [T; 3],
+    /// dLf/dF at constant length, q/β of (C21) [m/N].
+    pub free_per_force: [T; 3],
 }
 
 impl<T: Lanewise> GuideTerms<T> {
@@ -188,11 +192,16 @@ impl<T: Lanewise> GuideTerms<T> {
         }
     }
 
-    /// B for the direction τ of a cable under a vertical axis, (C30).
+    /// B for the direction τ of a cable, in its plane: (C30) under a vertical axis, else (C19).
     #[inline(always)]
     pub fn leave_position(&self, [tx, tz]: [T; 2]) -> [T; 2] {
-        let signed = self.signed_radius();
-        [self.radius - signed * tz, signed * tx]
+        match self.axis {
+            SwivelAxis::Vertical(signed) => [self.radius - signed * tz, signed * tx],
+            SwivelAxis::Along(axis) => {
+                let [x, _, z] = Wheel::new(self.radius, axis, [tx, tz]).leave(self.radius, axis);
+                [x, z]
+            }
+        }
     }
 
     /// Where a cable of weight `w` [N/m] and unstrained length `free` [m] beyond its leave point leaves it,
@@ -242,7 +251,8 @@ impl<T: Lanewise> GuideTerms<T> {
             end_per_length[0] = end_per_length[0] - mu * delta * n[0];
             end_per_length[1] = end_per_length[1] - mu * delta * n[2];
             let coupled = [n[0] - delta * qx, n[1] - delta * qy, n[2] - delta * qz];
-            Swung { wheel, mu, delta, coupled, coupled_across: -(gamma * qy) }
+            let free_across = qy * free_per_length;
+            Swung { wheel, mu, delta, coupled, coupled_across: -(gamma * qy), free_across }
         });
         Way {
             leave,
@@ -349,26 +359,44 @@ impl<T: Lanewise> Way<T> {
         T::select(x.at_most(0.0), x * 0.0, x / fx)
     }
 
-    /// The response of the whole cable in space, (C22) and (C23).
-    pub(crate) fn in_space(&self, fx: T, free: &Response<T>) -> GuidedInSpace<T> {
+    /// The response of the whole cable in space from that of its free part to `fx` [N] forwards, (C22) and
+    /// (C23).
+    #[inline(always)]
+    pub fn in_space(&self, fx: T, free: &Response<T>) -> GuidedInSpace<T> {
         let Self { leave, kappa, coupled: [px, pz], end_per_length: [ex, ez], .. } = *self;
-        let ([tx, tz], zero) = (leave.tangent, fx * 0.0);
+        let ([tx, tz], zero, [qx, qz]) = (leave.tangent, fx * 0.0, self.free_per_force);
         let ([xx, xz, zz], across) = (free.flexibility, free.lateral_flexibility);
-        let (py, mu, n, o, delta) = match self.swung {
-            None => (zero, self.lateral(fx), [zero, zero + 1.0, zero], [zero, zero + 1.0, zero], zero),
-            Some(Swung { wheel, mu, coupled, coupled_across, delta }) => {
-                (coupled_across, mu, wheel.n, coupled, delta)
+        let (py, mu, n, o, delta, qy, leave_across) = match self.swung {
+            None => {
+                let across = [zero, zero + 1.0, zero];
+                (zero, self.lateral(fx), across, across, zero, zero, zero)
+            }
+            Some(Swung { wheel, mu, coupled, coupled_across, delta, free_across }) => {
+                (coupled_across, mu, wheel.n, coupled, delta, free_across, wheel.leave_across)
             }
         };
-        let (own, t, p) =
-            ([[xx, zero, xz], [zero, across, zero], [xz, zero, zz]], [tx, zero, tz], [px, py, pz]);
-        let entry = |i: usize, j: usize| own[i][j] + kappa * t[i] * p[j] + mu * n[i] * o[j];
-        let leave_across = leave.wheel.map_or(zero, |wheel| wheel.leave_across);
+        let (t, p) = ([tx, zero, tz], [px, py, pz]);
+        let mut flexibility = [[xx, zero, xz], [zero, across, zero], [xz, zero, zz]];
+        for i in 0..3 {
+            for j in 0..3 {
+                flexibility[i][j] = flexibility[i][j] + kappa * t[i] * p[j] + mu * n[i] * o[j];
+            }
+        }
         GuidedInSpace {
             leave: [leave.position[0], leave_across, leave.position[1]],
             end: [leave.position[0] + free.end[0], leave_across, leave.position[1] + free.end[1]],
-            flexibility: [0, 1, 2].map(|i| [0, 1, 2].map(|j| entry(i, j))),
+            flexibility,
             end_per_length: [ex, -(mu * delta * n[1]), ez],
+            free_per_force: [qx, qy, qz],
+        }
+    }
+
+    /// Across the plane, the position of B from D [m] and dA/dL.
+    #[inline(always)]
+    pub fn across(&self) -> [T; 2] {
+        match self.swung {
+            None => [self.length * 0.0; 2],
+            Some(Swung { wheel, mu, delta, .. }) => [wheel.leave_across, -(mu * delta * wheel.n[1])],
         }
     }
 

@@ -6,7 +6,7 @@ use crate::error::StaticsError;
 use crate::problem::DirectProblem;
 use crate::state::Equilibrium;
 use cdpr_cable::Catenary;
-use cdpr_robot::{Matrix3, Pose, Vector3};
+use cdpr_robot::{Freedoms, Matrix3, Pose, Vector3};
 use nalgebra::Matrix6;
 
 /// Platform and cables about an equilibrium. Motions are (dp, dφ): the translation of P [m] and a rotation
@@ -57,7 +57,7 @@ impl<'a> DirectProblem<'a> {
         let cables = forces.map(|(i, force)| self.at_rest(pose, i, self.catenary_at(pose, i, *force)));
         Ok(SmallMotions {
             mass,
-            weight: Balance::of_load(self, pose).symmetric_hessian(),
+            weight: Balance::of_load(self, pose).symmetric_hessian(Freedoms::ALL),
             cables: cables.collect(),
             free: self.robot.freedoms().components(),
         })
@@ -71,8 +71,8 @@ impl<'a> DirectProblem<'a> {
         let mut end_stiffness = Matrix3::zeros();
         if let Some(linearized) = cable.linearized() {
             let stiffness = linearized.stiffness();
-            own.add_cable(&cable.anchor_arm, &cable.force_on_platform(), stiffness);
             end_stiffness = stiffness.into();
+            own.add_cable(&cable.anchor_arm, &cable.force_on_platform(), &end_stiffness.into());
         }
         CableAtRest {
             lever: cable.anchor_arm.into(),
@@ -80,7 +80,7 @@ impl<'a> DirectProblem<'a> {
             catenary,
             linear_density: self.robot.cables[i].properties.linear_density,
             end_stiffness,
-            stiffness: own.symmetric_hessian(),
+            stiffness: own.symmetric_hessian(Freedoms::ALL),
         }
     }
 

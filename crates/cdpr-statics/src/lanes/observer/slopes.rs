@@ -6,9 +6,9 @@ use crate::error::StaticsError;
 use crate::lanes::adjoint::{Adjoint, GuideSlopes, Record, adjoint};
 use crate::lanes::chain::observe;
 use crate::lanes::level::LevelFrame;
-use crate::lanes::observer::rows::Rows;
-use crate::lanes::platform::Robots;
+use crate::lanes::observer::rows::{Axes, Rows};
 use crate::lanes::reason::ScalarReason;
+use crate::local::platform::Robots;
 use crate::state::WantedPose;
 use cdpr_number::Number;
 use cdpr_number::lanes::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
@@ -65,7 +65,7 @@ impl WithSimd for SlopesBatch<'_> {
             Ok(nominal) => nominal,
             Err(why) => return vec![Err(*why); deviations.len() / parameters],
         };
-        if !nominal.free.is_empty() {
+        if nominal.is_tilted || !nominal.free.is_empty() {
             return vec![Err(ScalarReason::Derivatives); deviations.len() / parameters];
         }
         let mut found = Vec::with_capacity(deviations.len() / parameters);
@@ -73,7 +73,7 @@ impl WithSimd for SlopesBatch<'_> {
         for rows in deviations.chunks(Lanes::<S>::COUNT * parameters) {
             let count = rows.len() / parameters;
             let rows = Rows::new(simd, rows, layout);
-            let (mut start, level, valid) = rows.robots(robot, pose, load, nominal);
+            let (mut start, level, valid) = rows.robots(robot, pose, load, nominal, Axes::Vertical);
             start.robots.frame.extend(rows.frame(pose, level.as_ref()));
             let payload = start.payload.clone();
             let rolling = rows.rolling(robot, &start.robots);

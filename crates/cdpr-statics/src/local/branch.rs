@@ -1,20 +1,27 @@
 //! Whether an equilibrium with a load is the one that the unloaded platform becomes: the questions of
 //! `direct/near.rs` in lanes. What they leave open is followed by the scalar models.
 
-use crate::direct::{KEPT, MAX_CORRECTION, SAME_POSE};
-use crate::lanes::load::PlatformLoad;
-use crate::lanes::platform::{LinearizedPlatform, Robots, Scale, Steps};
+use crate::local::load::PlatformLoad;
+use crate::local::platform::{LinearizedPlatform, Robots, Scale, Steps};
 use cdpr_number::Number;
-use cdpr_number::dense::{SymmetricFactors, halves};
+use cdpr_number::dense::SymmetricFactors;
 use cdpr_number::lanes::{Lanes, Mask, Simd};
 use cdpr_number::vector::dot;
+
+/// Largest correction of a prediction, relative to it.
+pub(crate) const MAX_CORRECTION: f64 = 0.2;
+
+/// Distance of poses, relative to the robot's size, that a correction may have beside that.
+pub(crate) const SAME_POSE: f64 = 1e-7;
+
+/// Share of the stiffness of every motion that is left where a branch does not end.
+pub(crate) const KEPT: f64 = 0.5;
 
 impl<S: Simd> Steps<S> {
     /// Lengths of the prediction and of its correction [m].
     #[inline(always)]
     fn lengths(&self) -> [Lanes<S>; 2] {
-        let (p, r) = halves(&self.others);
-        [self.first.sqrt(), (dot(&p, &p) + dot(&r, &r)).sqrt()]
+        [dot(&self.first, &self.first).sqrt(), dot(&self.others, &self.others).sqrt()]
     }
 
     /// The lanes in which a search ended near what its first step predicted.

@@ -18,7 +18,7 @@
 //! These iterations converge by the ratio of both parts, which is 1e-8 to 1e-6 for guides of most robots.
 
 use crate::equations::CablePlane;
-use crate::lanes::freedoms::hold;
+use crate::local::freedoms::hold;
 use cdpr_number::dense::{Lanes3, Lanes6, SymmetricFactors, add, halves, replace};
 use cdpr_number::lanes::{Lanes, Mask, Simd, WithSimd};
 use cdpr_number::vector::{cross, dot};
@@ -95,19 +95,19 @@ impl<S: Simd> WithSimd for Refinement<'_, S> {
     #[inline(always)]
     fn with_simd<Same: Simd>(self, _: Same) -> Mask<S> {
         let Self { skew, symmetric, right, solution, arm } = self;
-        let mut going = right[0].less_or_equal(right[0]);
+        let mut active = right[0].less_or_equal(right[0]);
         for _ in 0..MAX_ITERATIONS {
             let mut right = *right;
             skew.add_to(&mut right, solution);
             let better = symmetric.solve(&right);
             let change = square(&six!(|k| better[k] - solution[k]), arm);
-            replace(solution, &better, going);
-            going = going & !change.less_or_equal(square(solution, arm) * (LAST_CHANGE * LAST_CHANGE));
-            if !going.any() {
+            replace(solution, &better, active);
+            active = active & !change.less_or_equal(square(solution, arm) * (LAST_CHANGE * LAST_CHANGE));
+            if !active.any() {
                 break;
             }
         }
-        !going
+        !active
     }
 }
 

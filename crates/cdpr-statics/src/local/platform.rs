@@ -2,15 +2,17 @@
 //!
 //! Each lane holds a robot, or a cable of one robot.
 
-use crate::equations::{CablePlane, LinearizedCable};
-use crate::lanes::cable::{FreeLength, LaneCable};
-use crate::lanes::freedoms::{hold, hold_matrix};
-use crate::lanes::load::PlatformLoad;
+use crate::equations::{CablePlane, LinearizedCable, add_stiffness};
+use crate::local::cable::LaneCable;
+use crate::local::freedoms::{hold, hold_matrix};
+use crate::local::guided::{FreeLength, GuidedLinearization};
+use crate::local::load::PlatformLoad;
+use crate::local::swivel::Swivel;
 use crate::state::Residual;
-use cdpr_number::Number;
 use cdpr_number::dense::{Lanes3, Lanes6, Lanes6x6, SymmetricFactors, add, halves, replace};
 use cdpr_number::lanes::{Lanes, MAX_LANES, Mask, Simd};
-use cdpr_number::vector::{cross, dot};
+use cdpr_number::vector::dot;
+use cdpr_number::{Lanewise, Number};
 use cdpr_number::{six, three};
 use cdpr_robot::Freedoms;
 use smallvec::{SmallVec, smallvec};
@@ -83,6 +85,8 @@ pub(crate) struct LinearizedPlatform<S: Simd> {
     pub(crate) cables: SmallVec<[LinearizedCable<Lanes<S>>; INLINE]>,
     /// The lengths beyond the leave points of all cables, of robots with guided ones.
     pub(crate) free: Vec<FreeLength<S>>,
+    /// Forces across the planes of all cables, of robots with tilted axes.
+    pub(crate) swivels: Vec<Swivel<S>>,
     /// Gradient of the potential with the predicted forces.
     pub(crate) gradient: Lanes6<S>,
     /// Its derivative, factored.
@@ -93,8 +97,10 @@ pub(crate) struct LinearizedPlatform<S: Simd> {
 
 /// The steps (dp, ℓ dφ) of a search.
 pub(crate) struct Steps<S: Simd> {
-    /// Square of the first one, which the linearization at the start predicts [m²].
-    pub(crate) first: Lanes<S>,
+    /// The number of steps.
+    pub(crate) count: usize,
+    /// The first one, which the linearization at the start predicts [m].
+    pub(crate) first: Lanes6<S>,
     /// The sum of all others [m].
     pub(crate) others: Lanes6<S>,
 }
@@ -112,17 +118,22 @@ impl<S: Simd> LinearizedPlatform<S> {
         Self {
             cables: smallvec![cable; cables],
             free: Vec::new(),
+            swivels: Vec::new(),
             gradient: [zero; 6],
             factored: SymmetricFactors::new([[zero; 6]; 6]),
-            steps: Steps { first: zero, others: [zero; 6] },
+            steps: Steps { count: 0, first: [zero; 6], others: [zero; 6] },
         }
     }
 
-    /// Makes room for the lengths beyond leave points.
+    /// Makes room for the lengths beyond leave points, and for the forces across planes.
     #[inline(always)]
     pub(crate) fn follow_guides(&mut self, robots: &Robots<'_, S>) {
+        let (zero, cables) = (robots.weight.all(0.0), robots.cables.len());
         if robots.cables.iter().any(|cable| cable.guided.is_some()) {
-            self.free = vec![FreeLength::fixed(robots.weight.all(0.0)); robots.cables.len()];
+            self.free = vec![FreeLength::fixed(zero); cables];
+        }
+        if robots.cables.iter().any(LaneCable::is_tilted) {
+            self.swivels = vec![Swivel::none(zero); cables];
         }
     }
 
@@ -134,34 +145,30 @@ impl<S: Simd> LinearizedPlatform<S> {
 }
 
 impl<S: Simd> Robots<'_, S> {
-    /// Linearizes all cables in the lanes that are `going`, and puts the platform between them.
+    /// Linearizes all cables in the lanes that are `active`, and puts the platform between them.
     #[inline(always)]
     pub(crate) fn linearize(
         &self,
         load: &PlatformLoad<S>,
         platform: &mut LinearizedPlatform<S>,
-        going: Mask<S>,
+        active: Mask<S>,
     ) {
-        self.linearize_cables(platform, going);
-        self.assemble(load, platform, going);
+        self.linearize_cables(platform, active);
+        self.assemble(load, platform, active);
     }
 
     #[inline(always)]
-    pub(crate) fn linearize_cables(&self, platform: &mut LinearizedPlatform<S>, going: Mask<S>) {
+    pub(crate) fn linearize_cables(&self, platform: &mut LinearizedPlatform<S>, active: Mask<S>) {
         for (i, (cable, linearized)) in self.cables.iter().zip(&mut platform.cables).enumerate() {
+            let span = cable.span(&self.position);
             if let Some(guided) = &cable.guided {
-                guided.linearize(
-                    cable,
-                    &cable.span(&self.position),
-                    linearized,
-                    &mut platform.free[i],
-                    going,
-                );
+                let (free, swivel) = (&mut platform.free[i], platform.swivels.get_mut(i));
+                let places = GuidedLinearization { cable: linearized, free, swivel };
+                guided.linearize(&cable.free(), &span, places, active);
                 continue;
             }
-            let span = cable.span(&self.position);
             let response = cable.response();
-            linearized.replace(&LinearizedCable::new(&span, cable.force, &response), going);
+            linearized.replace(&LinearizedCable::new(&span, cable.force, &response), active);
         }
     }
 
@@ -178,17 +185,17 @@ impl<S: Simd> Robots<'_, S> {
         hessian
     }
 
-    /// Puts the platform between its linearized cables in the lanes that are `going`.
+    /// Puts the platform between its linearized cables in the lanes that are `active`.
     #[inline(always)]
     pub(crate) fn assemble(
         &self,
         load: &PlatformLoad<S>,
         platform: &mut LinearizedPlatform<S>,
-        going: Mask<S>,
+        active: Mask<S>,
     ) {
         let (gradient, hessian) = self.balance(load, platform);
-        replace(&mut platform.gradient, &gradient, going);
-        platform.factored.replace(&SymmetricFactors::new(hessian), going);
+        replace(&mut platform.gradient, &gradient, active);
+        platform.factored.replace(&SymmetricFactors::new(hessian), active);
     }
 
     /// Gradient of the potential with the predicted forces, and the upper triangle of its derivative, which
@@ -197,8 +204,6 @@ impl<S: Simd> Robots<'_, S> {
     /// Where moments are out of balance the derivative of the gradient is not symmetric. The skew part is
     /// dropped: it is proportional to the residual moment, which vanishes at equilibrium, and that under a
     /// moment takes part in the steps.
-    // Indices as in the formula.
-    #[allow(clippy::needless_range_loop)]
     #[inline(always)]
     pub(crate) fn balance(
         &self,
@@ -207,26 +212,18 @@ impl<S: Simd> Robots<'_, S> {
     ) -> (Lanes6<S>, Lanes6x6<S>) {
         let zero = self.weight.all(0.0);
         let (mut gradient, mut hessian) = ([zero; 6], [[zero; 6]; 6]);
-        for (i, (cable, linearized)) in self.cables.iter().zip(&platform.cables).enumerate() {
-            let counted = LinearizedCable {
-                plane: linearized.plane,
-                predicted: [
-                    self.counted(i, linearized.predicted[0]),
-                    self.counted(i, linearized.predicted[1]),
-                ],
-                stiffness: three!(|j| self.counted(i, linearized.stiffness[j])),
-                lateral_stiffness: self.counted(i, linearized.lateral_stiffness),
-            };
-            // -F_i
-            let force = counted.plane.lift(counted.predicted);
-            add(&mut gradient, &cable.anchor_arm, &force);
-            add_stiffness(&mut hessian, &cable.anchor_arm, &force, &counted.stiffness_in_space());
-        }
-        if let Layout::Cables(_) = self.layout {
+        let stride = self.stride();
+        for first in 0..stride {
+            let (mut forces, mut stiffness) = ([zero; 6], [[zero; 6]; 6]);
+            let mut i = first;
+            while i < self.cables.len() {
+                self.add_cable(i, platform, &mut forces, &mut stiffness);
+                i += stride;
+            }
             for row in 0..6 {
-                gradient[row] = self.total(gradient[row]);
+                gradient[row] = self.total(gradient[row], forces[row]);
                 for column in row..6 {
-                    hessian[row][column] = self.total(hessian[row][column]);
+                    hessian[row][column] = self.total(hessian[row][column], stiffness[row][column]);
                 }
             }
         }
@@ -242,6 +239,38 @@ impl<S: Simd> Robots<'_, S> {
         (gradient, hessian)
     }
 
+    /// Adds -F_i of a cable with its moment, and its stiffness, (S5).
+    #[inline(always)]
+    fn add_cable(
+        &self,
+        i: usize,
+        platform: &LinearizedPlatform<S>,
+        forces: &mut Lanes6<S>,
+        stiffness: &mut Lanes6x6<S>,
+    ) {
+        let (arm, linearized) = (&self.cables[i].anchor_arm, &platform.cables[i]);
+        let counted = LinearizedCable {
+            plane: linearized.plane,
+            predicted: [self.counted(i, linearized.predicted[0]), self.counted(i, linearized.predicted[1])],
+            stiffness: three!(|j| self.counted(i, linearized.stiffness[j])),
+            lateral_stiffness: self.counted(i, linearized.lateral_stiffness),
+        };
+        // -F_i
+        let mut force = counted.plane.lift(counted.predicted);
+        let mut in_space = counted.stiffness_in_space();
+        if let Some(swivel) = platform.swivels.get(i) {
+            let [along, upwards] = swivel.stiffness;
+            let swivel = Swivel {
+                predicted: self.counted(i, swivel.predicted),
+                stiffness: [self.counted(i, along), self.counted(i, upwards)],
+                ..*swivel
+            };
+            swivel.add_to(&counted.plane, &mut force, &mut in_space);
+        }
+        add(forces, arm, &force);
+        add_stiffness(stiffness, arm, &force, &in_space);
+    }
+
     /// The value in the lanes of cable `i` that count, zero in the others.
     #[inline(always)]
     pub(crate) fn counted(&self, i: usize, value: Lanes<S>) -> Lanes<S> {
@@ -251,18 +280,38 @@ impl<S: Simd> Robots<'_, S> {
         }
     }
 
-    /// The sum over all cables of a robot, from the sums of its lanes.
+    /// Every which [`LaneCable`] is added to the same sums. Sums over the cables of one robot are those of
+    /// every eighth cable, whatever the number of lanes: their bits do not depend on it.
     #[inline(always)]
-    pub(crate) fn total(&self, sum: Lanes<S>) -> Lanes<S> {
+    pub(crate) fn stride(&self) -> usize {
+        match self.layout {
+            Layout::Robots => 1,
+            Layout::Cables(_) => MAX_LANES / Lanes::<S>::COUNT,
+        }
+    }
+
+    /// The sum over all cables of a robot, from that of other cables and the sums of its lanes.
+    #[inline(always)]
+    pub(crate) fn total(&self, others: Lanes<S>, sum: Lanes<S>) -> Lanes<S> {
         match self.layout {
             Layout::Robots => sum,
             Layout::Cables(_) => {
-                let mut total = 0.0;
+                let mut total = others.first();
                 for lane in sum.to_array() {
                     total += lane;
                 }
                 sum.all(total)
             }
+        }
+    }
+
+    /// The lanes of robots all of whose cables have an answer of yes.
+    #[inline(always)]
+    pub(crate) fn of_robot(&self, of_cables: Mask<S>) -> Mask<S> {
+        match self.layout {
+            Layout::Robots => of_cables,
+            Layout::Cables(_) if <Lanes<S> as Lanewise>::all(of_cables) => of_cables,
+            Layout::Cables(_) => of_cables & !of_cables,
         }
     }
 
@@ -280,37 +329,4 @@ impl<S: Simd> Robots<'_, S> {
             }
         }
     }
-}
-
-/// Adds a cable with the stiffness K3 and the force -F_i = `f` at the arm s to the upper triangle of the
-/// stiffness, equation (S5).
-#[inline(always)]
-fn add_stiffness<S: Simd>(hessian: &mut Lanes6x6<S>, s: &Lanes3<S>, f: &Lanes3<S>, k: &[Lanes3<S>; 3]) {
-    let [sx, sy, sz] = *s;
-    // K [s], row by row: k x s.
-    let ks = [cross(&k[0], s), cross(&k[1], s), cross(&k[2], s)];
-    for row in 0..3 {
-        for column in 0..3 {
-            hessian[row][3 + column] -= ks[row][column];
-        }
-        for column in row..3 {
-            hessian[row][column] += k[row][column];
-            // [s] K [s], column by column: s x K [s].
-            let swung = match row {
-                0 => sy * ks[2][column] - sz * ks[1][column],
-                1 => sz * ks[0][column] - sx * ks[2][column],
-                _ => sx * ks[1][column] - sy * ks[0][column],
-            };
-            hessian[3 + row][3 + column] -= swung;
-        }
-    }
-    // The symmetric part of s fᵀ - (s·f) 1.
-    let (x, y, z) = (sx * f[0], sy * f[1], sz * f[2]);
-    hessian[3][3] -= y + z;
-    hessian[4][4] -= x + z;
-    hessian[5][5] -= x + y;
-    let half = three!(|j| s[j] * 0.5);
-    hessian[3][4] += half[0] * f[1] + half[1] * f[0];
-    hessian[3][5] += half[0] * f[2] + half[2] * f[0];
-    hessian[4][5] += half[1] * f[2] + half[2] * f[1];
 }

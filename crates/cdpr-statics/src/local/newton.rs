@@ -3,11 +3,11 @@
 //! A lane stops by its own steps alone: the other lanes of a batch change none of its digits.
 
 use crate::equations::LinearizedCable;
-use crate::lanes::cable::FOLDED;
-use crate::lanes::freedoms::hold;
-use crate::lanes::load::PlatformLoad;
-use crate::lanes::platform::{LaneResidual, LinearizedPlatform, Robots, Scale, Steps};
-use crate::lanes::skew::Skew;
+use crate::local::cable::FOLDED;
+use crate::local::freedoms::hold;
+use crate::local::load::PlatformLoad;
+use crate::local::platform::{LaneResidual, LinearizedPlatform, Robots, Scale, Steps};
+use crate::local::skew::Skew;
 use cdpr_cable::kernel::LaneEnd;
 use cdpr_number::Number;
 use cdpr_number::dense::{Lanes3, Lanes6, add, halves, replace};
@@ -44,35 +44,43 @@ const FOLDED_ON_WHEEL: f64 = 0.9;
 const FORCE_ROUNDING: f64 = 1e-12;
 
 impl<S: Simd> Steps<S> {
-    /// Takes a step of the square `moved` in the lanes that are `going`.
+    /// Adds a step in the lanes that are `active`.
     #[inline(always)]
-    fn take(
-        &mut self,
-        iteration: usize,
-        moved: Lanes<S>,
-        step: &Lanes6<S>,
-        characteristic_length: f64,
-        going: Mask<S>,
-    ) {
-        let zero = moved.all(0.0);
-        if iteration == 0 {
-            *self = Self { first: moved, others: [zero; 6] };
+    fn add(&mut self, step: &Lanes6<S>, characteristic_length: f64, active: Mask<S>) {
+        let scaled = six!(|k| if k < 3 { step[k] } else { step[k] * characteristic_length });
+        if self.count == 0 {
+            *self = Self { count: 1, first: scaled, others: [step[0].all(0.0); 6] };
             return;
         }
-        for (k, (sum, part)) in self.others.iter_mut().zip(step).enumerate() {
-            let scaled = if k < 3 { *part } else { *part * characteristic_length };
-            *sum += going.select(scaled, zero);
+        self.count += 1;
+        for k in 0..6 {
+            self.others[k] += active.select(scaled[k], scaled[k].all(0.0));
         }
     }
 }
 
+/// Sums over cables.
+struct Sums<S: Simd> {
+    /// Of their forces and moments, against their sign: those that they have, and those predicted.
+    wrench: Lanes6<S>,
+    gradient: Lanes6<S>,
+    tensions: Lanes<S>,
+}
+
+impl<S: Simd> Sums<S> {
+    #[inline(always)]
+    fn new(zero: Lanes<S>) -> Self {
+        Self { wrench: [zero; 6], gradient: [zero; 6], tensions: zero }
+    }
+}
+
 impl<S: Simd> Robots<'_, S> {
-    /// The residual, and the lanes that hold: where it is rounding, and all cables are pulled, and neither
-    /// folded nor overstrained.
+    /// The residual, and the lanes that are solved: where it is rounding, and all cables are pulled, and
+    /// neither folded nor overstrained.
     ///
     /// In the lanes that are `near` the linearization is moved here and keeps its stiffness.
     #[inline(always)]
-    fn revise(
+    fn update(
         &self,
         load: &PlatformLoad<S>,
         scale: &Scale,
@@ -81,50 +89,84 @@ impl<S: Simd> Robots<'_, S> {
     ) -> (LaneResidual<S>, Mask<S>) {
         let zero = self.weight.all(0.0);
         let wrench = load.wrench(&self.center);
-        let mut residual = LaneResidual { closure: zero, wrench: [zero; 6] };
-        let mut gradient = [zero; 6];
-        let (mut tensions, mut failed) = (zero, zero);
-        for (i, (cable, linearized)) in self.cables.iter().zip(&mut platform.cables).enumerate() {
-            let span = cable.span(&self.position);
-            let LaneEnd { end, tension, slackness } = match &cable.guided {
-                None => cable.end(),
-                Some(guided) => {
-                    let (end, missing) = guided.end(cable);
-                    platform.free[i].revise(missing, near);
-                    let most = zero.all(LAST_MISSING * scale.size);
-                    failed = failed.max(missing.abs().less_or_equal(most).select(zero, zero.all(1.0)));
-                    end
-                }
-            };
-            let miss = span.misclosure(end);
-            residual.closure = residual.closure.max(dot(&miss, &miss));
-            let predicted = linearized.answer(cable.force, miss);
-            let moved = LinearizedCable { plane: span.plane, predicted, ..*linearized };
-            let [fx, fz] = [self.counted(i, cable.force[0]), self.counted(i, cable.force[1])];
-            let [x, z] = [self.counted(i, moved.predicted[0]), self.counted(i, moved.predicted[1])];
-            add(&mut residual.wrench, &cable.anchor_arm, &moved.plane.lift([fx, fz]));
-            add(&mut gradient, &cable.anchor_arm, &moved.plane.lift([x, z]));
-            linearized.replace(&moved, near);
-            tensions += self.counted(i, tension);
-            // A slack cable may hang from either side of its wheel.
-            let folded = if cable.guided.is_some() { FOLDED_ON_WHEEL } else { FOLDED };
-            let sound = zero.less_or_equal(fx)
-                & slackness.less_or_equal(zero.all(folded))
-                & !cable.may_be_overstrained(tension);
-            failed = failed.max((!sound).select(zero.all(1.0), zero));
+        let mut all = Sums::new(zero);
+        let (mut closure, mut failed) = (zero, zero);
+        let stride = self.stride();
+        for first in 0..stride {
+            let mut sums = Sums::new(zero);
+            let mut i = first;
+            while i < self.cables.len() {
+                let [open, fails] = self.update_cable(i, scale, platform, &mut sums, near);
+                (closure, failed) = (closure.max(open), failed.max(fails));
+                i += stride;
+            }
+            for k in 0..6 {
+                all.wrench[k] = self.total(all.wrench[k], sums.wrench[k]);
+                all.gradient[k] = self.total(all.gradient[k], sums.gradient[k]);
+            }
+            all.tensions = self.total(all.tensions, sums.tensions);
         }
-        residual.closure = self.largest(residual.closure);
-        residual.wrench = hold(self.freedoms, six!(|k| self.total(residual.wrench[k]) - wrench[k]));
-        let gradient = hold(self.freedoms, six!(|k| self.total(gradient[k]) - wrench[k]));
+        let residual = LaneResidual {
+            closure: self.largest(closure),
+            wrench: hold(self.freedoms, six!(|k| all.wrench[k] - wrench[k])),
+        };
+        let gradient = hold(self.freedoms, six!(|k| all.gradient[k] - wrench[k]));
         replace(&mut platform.gradient, &gradient, near);
-        tensions = self.total(tensions) + load.weight;
+        let tensions = all.tensions + load.weight;
         let (force, moment) = halves(&residual.wrench);
         let unbalanced =
             dot(&force, &force).sqrt() + dot(&moment, &moment).sqrt() * (1.0 / scale.characteristic_length);
-        let holds = self.largest(failed).less_or_equal(zero)
+        let solved = self.largest(failed).less_or_equal(zero)
             & residual.closure.less_or_equal(zero.all(scale.rounding * scale.rounding))
             & unbalanced.less_or_equal(tensions * FORCE_ROUNDING);
-        (residual, holds)
+        (residual, solved)
+    }
+
+    /// The same of one cable: the square of its misclosure [m²], and one where it is not solved, else zero.
+    #[inline(always)]
+    fn update_cable(
+        &self,
+        i: usize,
+        scale: &Scale,
+        platform: &mut LinearizedPlatform<S>,
+        sums: &mut Sums<S>,
+        near: Mask<S>,
+    ) -> [Lanes<S>; 2] {
+        let (cable, zero) = (&self.cables[i], self.weight.all(0.0));
+        let (mut span, mut across, mut failed) = (cable.span(&self.position), zero, zero);
+        let LaneEnd { end, tension, slackness } = match &cable.guided {
+            None => cable.end(),
+            Some(guided) => {
+                let found = guided.end(&cable.free(), &span);
+                (span, across) = (found.span, found.across);
+                platform.free[i].update(found.missing, near);
+                let most = zero.all(LAST_MISSING * scale.size);
+                failed = found.missing.abs().less_or_equal(most).select(zero, zero.all(1.0));
+                found.end
+            }
+        };
+        let linearized = &mut platform.cables[i];
+        let miss = span.misclosure(end);
+        let mut closure = dot(&miss, &miss);
+        let predicted = linearized.answer(cable.force, miss);
+        let mut moved = LinearizedCable { plane: span.plane, predicted, ..*linearized };
+        if let Some(swivel) = platform.swivels.get_mut(i) {
+            closure += across * across;
+            let sideways = swivel.close(&mut moved, miss, across, near);
+            add(&mut sums.gradient, &cable.anchor_arm, &three!(|k| self.counted(i, sideways[k])));
+        }
+        let [fx, fz] = [self.counted(i, cable.force[0]), self.counted(i, cable.force[1])];
+        let [x, z] = [self.counted(i, moved.predicted[0]), self.counted(i, moved.predicted[1])];
+        add(&mut sums.wrench, &cable.anchor_arm, &moved.plane.lift([fx, fz]));
+        add(&mut sums.gradient, &cable.anchor_arm, &moved.plane.lift([x, z]));
+        linearized.replace(&moved, near);
+        sums.tensions += self.counted(i, tension);
+        // A slack cable may hang from either side of its wheel.
+        let folded = if cable.guided.is_some() { FOLDED_ON_WHEEL } else { FOLDED };
+        let sound = zero.less_or_equal(fx)
+            & slackness.less_or_equal(zero.all(folded))
+            & !cable.may_be_overstrained(tension);
+        [closure, failed.max((!sound).select(zero.all(1.0), zero))]
     }
 
     /// Newton's method on the direct model from a linearization, in the lanes `alive`.
@@ -132,18 +174,18 @@ impl<S: Simd> Robots<'_, S> {
     /// Returns the lanes that found a stable equilibrium, and its residual. The linearization is then one at
     /// this equilibrium, with a stiffness from nearby. All callers share one function for each vector unit.
     #[inline(always)]
-    pub(crate) fn settle(
+    pub(crate) fn solve(
         &mut self,
         load: &PlatformLoad<S>,
         platform: &mut LinearizedPlatform<S>,
         scale: &Scale,
         alive: Mask<S>,
     ) -> (Mask<S>, LaneResidual<S>) {
-        self.weight.apart(Settle { robots: self, load, platform, scale, alive })
+        self.weight.apart(Solve { robots: self, load, platform, scale, alive })
     }
 
     #[inline(always)]
-    fn settle_here(
+    fn solve_here(
         &mut self,
         load: &PlatformLoad<S>,
         platform: &mut LinearizedPlatform<S>,
@@ -153,9 +195,10 @@ impl<S: Simd> Robots<'_, S> {
         let zero = self.weight.all(0.0);
         let (farthest, turned_most) = (zero + (0.3 * scale.size).powi(2), zero + 0.1 * 0.1);
         let small_step = zero + (SMALL_STEP * scale.size).powi(2);
-        let (mut going, mut found) = (alive, alive & !alive);
+        let (mut active, mut found) = (alive, alive & !alive);
         let mut residual = LaneResidual { closure: small_step, wrench: platform.gradient };
-        for iteration in 0..MAX_ITERATIONS {
+        platform.steps.count = 0;
+        for _ in 0..MAX_ITERATIONS {
             let gradient = six!(|k| -platform.gradient[k]);
             let mut step = platform.factored.solve(&gradient);
             if load.moment.is_some() {
@@ -168,31 +211,32 @@ impl<S: Simd> Robots<'_, S> {
             let moved = dot(&translation, &translation)
                 + turned * (scale.characteristic_length * scale.characteristic_length);
             // The linearization is invalid farther away; a comparison with NaN is false, which ends the lane.
-            going = going & moved.less_or_equal(farthest) & turned.less_or_equal(turned_most);
-            platform.steps.take(iteration, moved, &step, scale.characteristic_length, going);
-            let [steady, held] = self.apply(&translation, &rotation, turned, platform, going);
-            going = going & held;
-            let near = going & steady & moved.less_or_equal(small_step);
+            active = active & moved.less_or_equal(farthest) & turned.less_or_equal(turned_most);
+            platform.steps.add(&step, scale.characteristic_length, active);
+            let [steady, held] = self.apply(&translation, &rotation, turned, platform, active);
+            let [steady, held] = [self.of_robot(steady), self.of_robot(held)];
+            active = active & held;
+            let near = active & steady & moved.less_or_equal(small_step);
             if near.any() {
-                let (left, holds) = self.revise(load, scale, platform, near);
+                let (left, holds) = self.update(load, scale, platform, near);
                 let mut done = near & holds & platform.factored.positive;
                 if !platform.free.is_empty() {
                     done = done & moved.less_or_equal(small_step * LAST_OF_GUIDED);
                 }
                 residual = left;
-                (found, going) = (found | done, going & !done);
+                (found, active) = (found | done, active & !done);
             }
-            let far = going & !near;
+            let far = active & !near;
             if far.any() {
                 self.linearize(load, platform, far);
-            } else if !going.any() {
+            } else if !active.any() {
                 break;
             }
         }
         (found, residual)
     }
 
-    /// Moves the platforms and the forces of their cables where `going`. Returns the lanes in which no cable
+    /// Moves the platforms and the forces of their cables where `active`. Returns the lanes in which no cable
     /// changed so much that its stiffness is another one, and those in which none became slack beside
     /// its wheel, from either side of which it may hang.
     #[inline(always)]
@@ -202,9 +246,9 @@ impl<S: Simd> Robots<'_, S> {
         rotation: &Lanes3<S>,
         square: Lanes<S>,
         platform: &LinearizedPlatform<S>,
-        going: Mask<S>,
+        active: Mask<S>,
     ) -> [Mask<S>; 2] {
-        let (mut steady, mut held) = (going, going);
+        let (mut steady, mut held) = (active, active);
         // sin φ/φ and (1 - cos φ)/φ² to rounding for φ up to 0.1.
         let x = -square;
         let a =
@@ -216,39 +260,49 @@ impl<S: Simd> Robots<'_, S> {
         for (i, (cable, linearized)) in self.cables.iter_mut().zip(&platform.cables).enumerate() {
             let (swung, arm) = rotate(&cable.anchor_arm, rotation, a, b);
             let r = three!(|k| translation[k] + swung[k]);
-            let mut force = linearized.force_after(r);
+            let (mut force, mut swivelled) = (linearized.force_after(r), None);
+            if let Some(swivel) = platform.swivels.get(i) {
+                let after = swivel.force_after(linearized, r);
+                (force, swivelled) = (after.in_plane, Some(after));
+            }
             // A cable that becomes slack: the step of 1/fx instead, of which fx remains positive.
             let [fx, fz] = cable.force;
             let lost = fx - force[0];
-            let changed = going & !lost.abs().less_or_equal(fx * SMALL_CHANGE);
+            let changed = active & !lost.abs().less_or_equal(fx * SMALL_CHANGE);
             if changed.any() {
                 steady = steady & !changed;
                 let slackening = changed & !lost.less_or_equal(fx * GREATEST_LOSS);
                 let share = slackening.select(fx / (fx + lost), fx.all(1.0));
                 force = [fx - lost * share, fz + (force[1] - fz) * share];
                 if let Some(guided) = &cable.guided {
-                    held = held & !(slackening & guided.is_beside(cable, &self.position));
+                    let next_to = guided.is_next_to(&cable.free(), &cable.span(&self.position));
+                    held = held & !(slackening & next_to);
                 }
             }
-            if cable.guided.is_some() {
-                let length = cable.length + platform.free[i].change(&cable.force, &force);
-                cable.length.replace(length, going);
+            if let Some(guided) = &mut cable.guided {
+                let mut length = cable.length + platform.free[i].change(&cable.force, &force);
+                if let Some(after) = swivelled {
+                    length += after.free_length;
+                    guided.swing(after.across / force[0], active);
+                    force[0] = (force[0] * force[0] + after.across * after.across).sqrt();
+                }
+                cable.length.replace(length, active);
             }
-            replace(&mut cable.force, &force, going);
-            replace(&mut cable.anchor_arm, &arm, going);
+            replace(&mut cable.force, &force, active);
+            replace(&mut cable.anchor_arm, &arm, active);
         }
         for vector in self.frame.iter_mut().chain([&mut self.center]) {
             let (_, turned) = rotate(vector, rotation, a, b);
-            replace(vector, &turned, going);
+            replace(vector, &turned, active);
         }
         let position = three!(|k| self.position[k] + translation[k]);
-        replace(&mut self.position, &position, going);
+        replace(&mut self.position, &position, active);
         [steady, held]
     }
 }
 
-/// The arguments of [`Robots::settle`].
-struct Settle<'b, 'a, S: Simd> {
+/// The arguments of [`Robots::solve`].
+struct Solve<'b, 'a, S: Simd> {
     robots: &'b mut Robots<'a, S>,
     load: &'b PlatformLoad<S>,
     platform: &'b mut LinearizedPlatform<S>,
@@ -256,12 +310,12 @@ struct Settle<'b, 'a, S: Simd> {
     alive: Mask<S>,
 }
 
-impl<S: Simd> WithSimd for Settle<'_, '_, S> {
+impl<S: Simd> WithSimd for Solve<'_, '_, S> {
     type Output = (Mask<S>, LaneResidual<S>);
 
     #[inline(always)]
     fn with_simd<Same: Simd>(self, _: Same) -> Self::Output {
-        self.robots.settle_here(self.load, self.platform, self.scale, self.alive)
+        self.robots.solve_here(self.load, self.platform, self.scale, self.alive)
     }
 }
 
