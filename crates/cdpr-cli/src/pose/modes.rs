@@ -1,11 +1,11 @@
 //! `cdpr modes`: natural frequencies and motions of the platform on its cables.
 
 use crate::answer::{self, OutOfLimits, decimal};
+use crate::arguments::poses;
 use crate::arguments::{self, FreeArguments};
 use crate::error::ProgramError;
 use crate::output::{Ending, table};
 use crate::pose::at_pose::{RobotAtPose, Row, cells, numbered};
-use crate::poses;
 use crate::questions;
 use cdpr_robot::{Pose, Robot, shown};
 use cdpr_statics::vibration::{PoseModes, modes_at};
