@@ -126,8 +126,9 @@ pub(crate) fn read(path: &Path) -> Result<Value, String> {
 
 /// Mean and standard deviation of a sampling in a summary [mm]; `None` for too few observations.
 pub(crate) fn deflections(summary: &Value, sampling: &str) -> Option<(f64, f64)> {
-    let number =
-        |name: &str| summary.pointer(&format!("/studies/{sampling}/rms_mm/{name}")).and_then(Value::as_f64);
+    let number = |name: &str| {
+        summary.pointer(&format!("/studies/{sampling}/magnitude_mm/{name}")).and_then(Value::as_f64)
+    };
     number("mean").zip(number("std"))
 }
 

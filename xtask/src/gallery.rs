@@ -143,7 +143,7 @@ fn studied(name: &str, folder: &Path, pictures: &Path) -> Result<Vec<(&'static s
         ("tensions", range(&all["nominal"]["unloaded_tensions"])?),
         (
             "deflection",
-            format!("{:.3} mm under {} kg", number(&all["rms_mm"]["nominal"]), summary["payload"]),
+            format!("{:.3} mm under {} kg", number(&all["magnitude_mm"]["nominal"]), summary["payload"]),
         ),
     ])
 }

@@ -29,7 +29,7 @@ struct Run {
     us_without_analysis: f64,
     /// `None` where the system does not say.
     peak_memory_mib: Option<f64>,
-    rms_mm: Value,
+    magnitude_mm: Value,
 }
 
 /// Runs 10^3, 10^4 .. observations up to the number in `rest`, on one and on two threads.
@@ -145,7 +145,7 @@ mod tests {
             us_per_observation_core: 1.0,
             us_without_analysis: 1.0,
             peak_memory_mib: Some(mib),
-            rms_mm: Value::Null,
+            magnitude_mm: Value::Null,
         }
     }
 

@@ -130,7 +130,7 @@ enum Command {
     /// observations of it; both are named.
     #[command(after_help = "Examples:
   cdpr analyse data/tables/ishigami.csv
-  cdpr analyse results/mechanical.csv --limit 'rms_mm<1.4' --out analysis
+  cdpr analyse results/mechanical.csv --limit 'magnitude_mm<1.4' --out analysis
   cdpr analyse measurements.csv --input 'temperature,load*' --output error_mm --format json")]
     #[command(alias = "analyze")]
     Analyse(study::analyse::Settings),

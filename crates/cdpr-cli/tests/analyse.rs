@@ -177,7 +177,7 @@ fn a_folder_of_results_has_the_deviations_as_inputs_and_the_last_column_as_outpu
     let found: Value = serde_json::from_str(&printed).unwrap();
     let inputs = found["inputs"].as_array().unwrap();
     assert!(inputs.iter().all(|name| name.as_str().unwrap().starts_with("d_")));
-    assert_eq!(found["outputs"].as_object().unwrap().keys().collect::<Vec<_>>(), ["rms_mm"]);
+    assert_eq!(found["outputs"].as_object().unwrap().keys().collect::<Vec<_>>(), ["magnitude_mm"]);
 }
 
 #[test]

@@ -122,7 +122,7 @@ fn a_campaign_gives_a_robot_and_what_is_left_and_a_study_takes_both() {
     let found: Value = serde_json::from_str(&answered(cdpr(&asked))).unwrap();
     let names = found["parameters"].as_array().unwrap();
     let slope = |name: &Value| {
-        found["rms_mm"][names.iter().position(|known| known == name).unwrap()].as_f64().unwrap()
+        found["magnitude_mm"][names.iter().position(|known| known == name).unwrap()].as_f64().unwrap()
     };
     let slopes: Vec<f64> = posterior["parameters"].as_array().unwrap().iter().map(slope).collect();
     let row = |row: &Value| -> f64 {

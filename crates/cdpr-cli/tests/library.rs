@@ -91,7 +91,7 @@ fn a_study_and_a_map_run_for_every_robot() {
         run(&["study", "run", &file, "--out", &out]);
         let summary = json_file(folder.path().join(out).join("summary.json"));
         let sampling = &summary["studies"]["all"];
-        assert!(sampling["rms_mm"]["std"].as_f64().unwrap() > 0.0, "{name}: {sampling}");
+        assert!(sampling["magnitude_mm"]["std"].as_f64().unwrap() > 0.0, "{name}: {sampling}");
 
         let position = &study["samplings"]["all"]["pose"]["position"];
         let [x, y, z] = [0, 1, 2].map(|axis| position[axis].as_f64().unwrap());
@@ -131,7 +131,7 @@ fn a_study_and_a_map_of_robots_with_four_cables_find_roll_and_pitch() {
             assert!(output.status.success(), "{arguments:?}: {}", text(output.stderr));
         }
         let summary = json_file(folder.path().join(results).join("summary.json"));
-        let spread = &summary["studies"]["all"]["rms_mm"]["std"];
+        let spread = &summary["studies"]["all"]["magnitude_mm"]["std"];
         assert!(spread.as_f64().is_some_and(|spread| spread > 0.0), "{name}: {summary}");
         let columns = &json_file(folder.path().join(map).join("workspace.json"))["columns"];
         assert_eq!(columns["status"][0], "held", "{name}: {columns}");

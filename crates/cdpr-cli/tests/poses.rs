@@ -136,7 +136,7 @@ fn a_table_has_the_numbers_of_the_lines_of_json_to_the_last_bit() {
                 ],
                 "deflection" => vec![
                     (names(&["dx_mm", "dy_mm", "dz_mm"]), &json[0]["deflection_mm"]),
-                    (names(&["rms_mm"]), &json[0]["rms_mm"]),
+                    (names(&["magnitude_mm"]), &json[0]["magnitude_mm"]),
                     (names(&["rx_deg", "ry_deg", "rz_deg"]), &json[0]["rotation_deg"]),
                     (cables("length", "m"), &json[0]["lengths"]),
                     (cables("unloaded_tension", "n"), &json[0]["unloaded"]["tensions"]),
@@ -164,7 +164,7 @@ fn a_table_has_the_numbers_of_the_lines_of_json_to_the_last_bit() {
                     let vector = ["dx_mm", "dy_mm", "dz_mm"].map(|name| format!("{name}/{parameter}"));
                     let lengths = (1..=8).map(|i| format!("length_{i}_m/{parameter}")).collect();
                     vec![
-                        (all("rms_mm"), &json[0]["rms_mm"]),
+                        (all("magnitude_mm"), &json[0]["magnitude_mm"]),
                         (vector.to_vec(), &json[0]["deflection_mm"][last]),
                         (lengths, &json[0]["unstrained_lengths"][last]),
                     ]

@@ -269,14 +269,15 @@ fn a_deflection_below_rounding_is_zero_with_its_bound_and_has_no_law() {
     });
     bench.run("out", &[]);
     let found = &bench.json("out/summary.json")["studies"]["mechanical"];
-    assert_eq!((&found["rms_mm"]["mean"], &found["rms_mm"]["max"]), (&json!(0.0), &json!(0.0)));
+    assert_eq!((&found["magnitude_mm"]["mean"], &found["magnitude_mm"]["max"]), (&json!(0.0), &json!(0.0)));
     assert_eq!((&found["best_fit"], &found["fits"]), (&json!(null), &json!([])));
     assert!(found["notes"][0].as_str().unwrap().contains("zero within this bound"));
     // A gram is far above it.
     bench.change("study.json", |study| study["payload"] = json!(1e-3));
     bench.run("gram", &[]);
     assert!(
-        bench.json("gram/summary.json")["studies"]["mechanical"]["rms_mm"]["mean"].as_f64().unwrap() > 1e-6
+        bench.json("gram/summary.json")["studies"]["mechanical"]["magnitude_mm"]["mean"].as_f64().unwrap()
+            > 1e-6
     );
 
     let dp = |payload: &str| {
@@ -286,8 +287,8 @@ fn a_deflection_below_rounding_is_zero_with_its_bound_and_has_no_law() {
     };
     let (none, gram) = (dp("1e-300"), dp("1e-3"));
     let bound = none["rounding_mm"].as_f64().unwrap();
-    assert!(none["rms_mm"] == json!(0.0) && bound > 0.0 && bound < 1e-7, "{bound}");
-    assert!(gram["rms_mm"].as_f64().unwrap() > 10.0 * bound);
+    assert!(none["magnitude_mm"] == json!(0.0) && bound > 0.0 && bound < 1e-7, "{bound}");
+    assert!(gram["magnitude_mm"].as_f64().unwrap() > 10.0 * bound);
 }
 
 #[test]

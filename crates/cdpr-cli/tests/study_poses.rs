@@ -94,7 +94,7 @@ fn what_is_said_of_a_pose_is_what_a_sampling_at_it_alone_says() {
     let alone = &bench.json("out/summary.json")["studies"]["alone"];
     let number = |column: &str| row[column].as_str().unwrap().parse::<f64>().unwrap();
     for name in ["mean", "std", "min", "max", "nominal"] {
-        assert_eq!(json!(number(&format!("{name}_mm"))), alone["rms_mm"][name], "{name}");
+        assert_eq!(json!(number(&format!("{name}_mm"))), alone["magnitude_mm"][name], "{name}");
     }
     let effects = alone["t_student"].as_object().unwrap();
     let largest = effects.values().map(|t| t.as_f64().unwrap()).fold(0.0, f64::max);

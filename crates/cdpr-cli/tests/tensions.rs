@@ -100,8 +100,8 @@ fn every_other_command_with_the_inverse_model_takes_preferred_tensions_and_refus
     let words = |output: &str| {
         // Times differ from run to run.
         let line = |line: &&str| !line.contains(" poses in ");
-        let rms = output.split("rms_mm").nth(1).unwrap_or_default().to_owned();
-        output.lines().filter(line).collect::<String>() + &rms
+        let magnitude = output.split("magnitude_mm").nth(1).unwrap_or_default().to_owned();
+        output.lines().filter(line).collect::<String>() + &magnitude
     };
     for command in commands {
         let answer = |option: &[&str]| {

@@ -40,7 +40,7 @@ fn what_is_wrong_is_named_and_the_exit_code_is_not_zero() {
         ),
         (&["--limit", "position_mm<far"], "`far` is not a finite number"),
         (&["--limit", "1.4"], "expected COLUMN<VALUE"),
-        (&["--limit", "rms_mm<1.4"], "expected deflection_mm or position_mm < a number"),
+        (&["--limit", "magnitude_mm<1.4"], "expected deflection_mm or position_mm < a number"),
     ] {
         let output = tolerances(arguments);
         let message = text(output.stderr);

@@ -1,6 +1,6 @@
 //! One cable between two points.
 
-use crate::convert::{Answer, Cases, Columns, Numbers, Raised, Rows, answer, each};
+use crate::convert::{Answer, Cases, Columns, Numbers, Raised, Rows, answer, each, plotted};
 use cdpr_cable::{Cable, CableError, Known, Solution, Vector2};
 use pyo3::prelude::*;
 
@@ -37,6 +37,8 @@ answer! {
         kinds: Py<PyAny>,
     }
 }
+
+plotted!(Catenary);
 
 /// Computes an elastic cable from two of its unstrained length, end, force and tension.
 ///

@@ -4,6 +4,7 @@
 
 mod arguments;
 pub(crate) mod boundary;
+pub(crate) mod cable;
 pub(crate) mod capacity;
 pub(crate) mod certify;
 pub(crate) mod deflection;
@@ -13,13 +14,15 @@ pub(crate) mod inverse;
 pub(crate) mod modes;
 pub(crate) mod observe;
 pub(crate) mod path;
+pub(crate) mod pose;
 pub(crate) mod stiffness;
 pub(crate) mod workspace;
 
 use crate::convert::{Answer, Numbers, Raised, components, guarded, json_text, question};
+use cable::Cable;
 use cdpr_robot::{
-    CableEnd, CableProperties, Parameter, Platform, Provenance, RobotCable, TensionDistribution,
-    TensionLimits, Vector3, plausible,
+    CableProperties, Parameter, Platform, Provenance, RobotCable, TensionDistribution, TensionLimits,
+    Vector3, plausible,
 };
 use cdpr_study::open_robot;
 use numpy::{PyArray1, PyArray2};
@@ -180,8 +183,14 @@ impl Robot {
 
     /// Number of cables n.
     #[getter]
-    fn cables(&self) -> usize {
+    fn n_cables(&self) -> usize {
         self.robot.cables.len()
+    }
+
+    /// The cables, n of them.
+    #[getter]
+    fn cables(&self, py: Python) -> Vec<Cable> {
+        (0..self.robot.cables.len()).map(|i| Cable::of(py, &self.robot, i)).collect()
     }
 
     /// Points A_i in the platform frame [m], (n, 3).
@@ -246,11 +255,7 @@ impl Robot {
     /// The end at which the greatest tension of each cable is limited: "anchor" or "exit".
     #[getter]
     fn max_at(&self) -> Vec<&'static str> {
-        let of_cable = |i| match self.robot.max_at(i) {
-            CableEnd::Anchor => "anchor",
-            CableEnd::Exit => "exit",
-        };
-        (0..self.robot.cables.len()).map(of_cable).collect()
+        (0..self.robot.cables.len()).map(|i| cable::name_of(self.robot.max_at(i))).collect()
     }
 
     /// Height of the ground in the base frame [m]; None where it is not known.

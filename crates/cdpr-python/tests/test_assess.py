@@ -184,13 +184,13 @@ def test_a_path_is_that_of_the_program(name, more, tmp_path):
             continue
         for field in ("jump", "lengths", "tensions", "exit_tensions", "sags", "least_stiffness"):
             numpy.testing.assert_array_equal(getattr(ours, field)[k], pose[field])
-        assert 1e3 * ours.rms[k] == pytest.approx(pose["rms_mm"], rel=1e-12)
+        assert 1e3 * ours.magnitude[k] == pytest.approx(pose["magnitude_mm"], rel=1e-12)
         slack = [cable + 1 for cable in numpy.flatnonzero(ours.loaded.slack[k])]
         assert slack == pose["slack_cables"]
         if more is not None:
             for field, std in pose["standard_deviations"].items():
                 expected = numpy.array(std, dtype=float)  # NaN for None
-                numpy.testing.assert_array_equal(ours.std[field][k], expected)
+                numpy.testing.assert_array_equal(getattr(ours.std, field)[k], expected)
     assert (ours.std is None) == (more is None)
     with pytest.raises(cdpr.InputError, match="expected one load for the whole path"):
         robot.path(poses, payload=[1, 2, 3, 4, 5])
@@ -230,3 +230,35 @@ def test_a_report_is_written_anew(data, tmp_path):
     with pytest.raises(cdpr.FileError) as raised:
         cdpr.study.Results(tmp_path).report()
     assert str(raised.value).startswith(refusal("study", "report", tmp_path).splitlines()[0][:30])
+
+
+def test_records_laws_and_studies_need_no_files(caroca, data, tmp_path, monkeypatch):
+    record = data / "cables" / "caroca-4mm-record.csv"
+    rows = [line.split(",") for line in record.read_text().splitlines() if line and not line.startswith("#")]
+    columns = dict(zip(rows[0], (numpy.array(column) for column in zip(*rows[1:]))))
+    columns = {name: column if name == "phase" else column.astype(float) for name, column in columns.items()}
+    law = json.loads((data / "cables" / "caroca-4mm-law.json").read_text())
+    study = json.loads((data / "studies" / "caroca.json").read_text())
+    known = {"length": 1, "section": 1.2566370614e-5, "breaking_force": 10290, "ranges": [(5, 10), (10, 30)]}
+    expected = assess.modulus(record, **known)
+    cycle = assess.hysteresis(caroca, [0, 0, 1.75], 50, record=record, length=1)
+    elastic = assess.hysteresis(caroca, [0, 0, 1.75], 50, law=data / "cables" / "caroca-4mm-law.json")
+    budget = assess.tolerances(data / "studies" / "caroca.json", "mechanical", 1.4, observations=200)
+    monkeypatch.chdir(tmp_path)
+    tables = [columns]
+    try:
+        import pandas
+    except ImportError:
+        pass
+    else:
+        tables.append(pandas.read_csv(record, comment="#"))
+    for table in tables:
+        assert assess.modulus(table, **known).content == expected.content
+        assert assess.hysteresis(caroca, [0, 0, 1.75], 50, record=table, length=1).content == cycle.content
+    assert assess.hysteresis(caroca, [0, 0, 1.75], 50, law=law).content == elastic.content
+    found = assess.tolerances({**study, "robot": caroca}, "mechanical", 1.4, observations=200)
+    assert found.content == budget.content
+    with pytest.raises(cdpr.InputError, match="record: line 1: header is force_kn"):
+        assess.modulus({"force_kn": [1.0], "elongation_mm": [1.0], "phase": ["loading"]}, **known)
+    with pytest.raises(cdpr.InputError, match="law: format is cdpr-law/9"):
+        assess.hysteresis(caroca, [0, 0, 1.75], 50, law={**law, "format": "cdpr-law/9"})

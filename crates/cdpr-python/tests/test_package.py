@@ -121,7 +121,7 @@ def test_numbers_do_not_depend_on_the_threads(caroca_file):
 import cdpr, numpy
 robot = cdpr.Robot.from_file({caroca_file!r})
 poses = numpy.random.default_rng(1).uniform(-0.5, 0.5, (500, 3)) + [0, 0, 1.75]
-print(robot.deflection(poses, payload=50).rms.tobytes().hex())
+print(robot.deflection(poses, payload=50).magnitude.tobytes().hex())
 """
     one, many = (python(f"import os; os.environ['RAYON_NUM_THREADS'] = '{n}'\n{code}") for n in (1, 4))
     assert one == many

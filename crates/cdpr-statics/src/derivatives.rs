@@ -128,8 +128,8 @@ pub struct EquilibriumDerivatives {
 /// let robot = Robot::from_json(include_str!("../../../data/robots/caroca.json"))?;
 /// let found = derivatives(&robot, &Pose::at(0.0, 0.0, 1.75), &Load::payload(50.0))?;
 /// let modulus = found.inputs.column(Parameter::YoungsModulus);
-/// let rms = found.rms()?; // [m per SI unit]
-/// assert!(modulus.is_some_and(|column| (1e12 * rms[column] + 0.01289).abs() < 1e-5)); // [mm/GPa]
+/// let magnitude = found.magnitude()?; // [m per SI unit]
+/// assert!(modulus.is_some_and(|column| (1e12 * magnitude[column] + 0.01289).abs() < 1e-5)); // [mm/GPa]
 /// # Ok::<(), cdpr_statics::StaticsError>(())
 /// ```
 ///
@@ -284,7 +284,7 @@ impl Derivatives {
     /// # Errors
     /// [`StaticsError::NoDerivative`] where |dp| is so small that rounding decides its direction: a norm has
     /// no derivative at zero.
-    pub fn rms(&self) -> Result<Vec<f64>, StaticsError> {
+    pub fn magnitude(&self) -> Result<Vec<f64>, StaticsError> {
         let dp = self.deflection.displacement();
         let size = self.deflection.lengths.iter().fold(0.0, |size: f64, length| size.max(*length));
         if dp.norm() <= 1e-12 * size {

@@ -49,7 +49,7 @@ fn compare(robot: &Robot, pose: &Pose, load: &Load, rows: &[f64]) -> Vec<(&'stat
         }
         let scaled =
             |slopes: &[f64]| -> Vec<f64> { slopes.iter().zip(&ranges).map(|(s, r)| s * r).collect() };
-        let (found, alone) = (scaled(&found.rms), scaled(&alone.rms));
+        let (found, alone) = (scaled(&found.magnitude), scaled(&alone.magnitude));
         let largest = alone.iter().fold(0.0, |largest: f64, slope| largest.max(slope.abs()));
         let errors = found.iter().zip(&alone).map(|(a, b)| (a - b).abs());
         let (worst, error) = errors.enumerate().fold((0, 0.0), |a, b| if b.1 > a.1 { b } else { a });
@@ -132,7 +132,7 @@ fn free_cables_that_do_not_span_all_wrenches_have_their_slopes_from_the_scalar_m
         let observer = Observer::new(&robot, Pose::at(0.0, 0.0, height), &Load::payload(2.5)).unwrap();
         let found = observed::<ObservationSlopes>(&observer, &none).remove(0).unwrap();
         assert_eq!(found.observation.scalar, Some(ScalarReason::Derivatives));
-        assert_eq!(found.rms, alone::<ObservationSlopes>(&observer, &none).unwrap().rms);
+        assert_eq!(found.magnitude, alone::<ObservationSlopes>(&observer, &none).unwrap().magnitude);
     }
 }
 
@@ -196,7 +196,7 @@ fn slopes_over_pulleys_and_behind_leads_are_differences_of_observations() {
         let length = |k: usize, times: f64| {
             let mut row = vec![0.0; parameters.len()];
             row[k] = times * steps[k];
-            observed::<Observation>(&observer, &row)[0].as_ref().unwrap().rms()
+            observed::<Observation>(&observer, &row)[0].as_ref().unwrap().magnitude()
         };
         // The change of |dp| over one step, to fourth order.
         let change = |k: usize| {
@@ -206,7 +206,7 @@ fn slopes_over_pulleys_and_behind_leads_are_differences_of_observations() {
         let changes: Vec<f64> = (0..parameters.len()).map(change).collect();
         let scale = changes.iter().fold(0.0, |scale: f64, change| scale.max(change.abs()));
         for (k, change) in changes.iter().enumerate() {
-            let error = (found.rms[k] * steps[k] - change).abs() / scale;
+            let error = (found.magnitude[k] * steps[k] - change).abs() / scale;
             assert!(error < 1e-6, "{} {}: {error:.1e}", robot.name, parameters[k]);
         }
         // Those of guides are not lost among the others.

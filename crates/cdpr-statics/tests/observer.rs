@@ -102,7 +102,8 @@ fn lanes_prefer_the_same_tensions_and_keep_the_same_limits() {
         }
         let observed = observed::<Observation>(&Observer::new(&robot, pose, &load).unwrap(), &rows);
         let differ = observed.iter().zip(&least_norm).filter(|(a, b)| {
-            (a.as_ref().unwrap().rms() - b.as_ref().unwrap().rms()).abs() > 1e-4 * b.as_ref().unwrap().rms()
+            (a.as_ref().unwrap().magnitude() - b.as_ref().unwrap().magnitude()).abs()
+                > 1e-4 * b.as_ref().unwrap().magnitude()
         });
         assert_eq!(differ.count(), 300, "{}", robot.name);
         // Limits that some of the perturbed robots reach by their offsets, and some do not.

@@ -30,8 +30,8 @@
 //! let session = Session::in_memory();
 //! let tally = observe(&sampling, &session)?;
 //! let summary = analyse(&sampling, &tally, &session)?;
-//! if let Some(rms) = summary.values {
-//!     println!("{:.3} mm +- {:.3} mm", rms.mean, rms.std);
+//! if let Some(magnitude) = summary.values {
+//!     println!("{:.3} mm +- {:.3} mm", magnitude.mean, magnitude.std);
 //! }
 //! # Ok::<(), cdpr_study::StudyError>(())
 //! ```
@@ -92,9 +92,9 @@ pub use given::{
 };
 pub use indexmap::IndexMap;
 pub use kind::InputKind;
-pub use model::cable_law::{elastic_laws, open_law};
+pub use model::cable_law::{elastic_laws, open_law, read_law};
 pub use model::error_model::{ErrorModel, Term, uncertainties};
-pub use model::errors::open_errors;
+pub use model::errors::{open_errors, read_errors};
 pub use model::grid::{Grid, GridSpan, free_along};
 pub use model::hash::robot_hash;
 pub use model::observed::{Failure, Measured, MeasuredQuantity, Observed, ScalarCount};

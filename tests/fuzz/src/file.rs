@@ -60,7 +60,7 @@ pub fn study(text: &str) {
                 // That each of several poses is held is not checked before it runs.
                 if spec.pose.is_some() {
                     let sampling = study.sampling(name).expect("a checked sampling");
-                    assert!(sampling.nominal.rms().is_finite());
+                    assert!(sampling.nominal.magnitude().is_finite());
                 }
             }
             for name in study.file.surfaces.keys() {

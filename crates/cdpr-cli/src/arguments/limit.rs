@@ -3,7 +3,7 @@
 use crate::arguments::number;
 use cdpr_study::OutputLimit;
 
-/// A column and its limit, such as `rms_mm<1.4`: the name of the column states the unit.
+/// A column and its limit, such as `magnitude_mm<1.4`: the name of the column states the unit.
 pub(crate) fn limit(text: &str) -> Result<(String, OutputLimit), String> {
     let expected = || "expected COLUMN<VALUE, with <, <=, > or >=".to_owned();
     let at = text.find(['<', '>']).filter(|at| *at > 0).ok_or_else(expected)?;
@@ -39,9 +39,9 @@ mod tests {
 
     #[test]
     fn a_limit_is_a_column_a_sign_and_a_number() {
-        assert_eq!(limit("rms_mm<1.4").unwrap(), ("rms_mm".to_owned(), OutputLimit::Below(1.4)));
+        assert_eq!(limit("magnitude_mm<1.4").unwrap(), ("magnitude_mm".to_owned(), OutputLimit::Below(1.4)));
         assert_eq!(limit("f >= -2e3").unwrap(), ("f".to_owned(), OutputLimit::AtLeast(-2e3)));
-        for text in ["", "rms", "<1", "rms<", "rms<x", "rms=1"] {
+        for text in ["", "magnitude", "<1", "magnitude<", "magnitude<x", "magnitude=1"] {
             assert!(limit(text).is_err(), "{text}");
         }
         let names = ["deflection_mm", "position_mm"];

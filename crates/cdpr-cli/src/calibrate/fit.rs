@@ -98,8 +98,8 @@ pub(super) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
         settings: fit,
         folds,
     };
-    let Calibrated { fit: found, summary, seconds } = patiently("calibrating", || {
-        carry_out(&campaign, &settings.out, settings.overwrite.if_exists(), calibration_report)
+    let Calibrated { fit: found, summary, seconds, .. } = patiently("calibrating", || {
+        carry_out(&campaign, Some((&settings.out, settings.overwrite.if_exists())), calibration_report)
     })
     .map_err(|error| match error {
         // Of the folder of results.

@@ -66,7 +66,7 @@ struct Passed {
     /// dp under the load.
     deflection_mm: [f64; 3],
     /// |dp|.
-    rms_mm: f64,
+    magnitude_mm: f64,
     /// Stiffness of the softest motion with the load.
     least_stiffness: f64,
     /// With the load; `null` for a robot that lacks `platform.inertia`.
@@ -94,7 +94,7 @@ impl Passed {
             exit_tensions,
             sags,
             deflection_mm: dp.into(),
-            rms_mm: dp.norm(),
+            magnitude_mm: dp.norm(),
             least_stiffness: loaded.stability.least_stiffness(),
             lowest_frequency_hz: found.lowest_frequency,
             lowest_cable_frequency_hz: found.lowest_cable_frequency.map(|cable| cable.frequency),
@@ -115,7 +115,7 @@ impl Row for Passed {
             "dx_mm",
             "dy_mm",
             "dz_mm",
-            "rms_mm",
+            "magnitude_mm",
             "least_stiffness",
             "lowest_frequency_hz",
             "lowest_cable_frequency_hz",
@@ -128,7 +128,7 @@ impl Row for Passed {
     fn cells(&self) -> Vec<String> {
         let Self { lengths, tensions, exit_tensions, sags, deflection_mm, .. } = self;
         let of_cables = lengths.iter().chain(tensions).chain(exit_tensions).chain(sags);
-        let numbers = of_cables.chain(deflection_mm).chain([&self.rms_mm, &self.least_stiffness]);
+        let numbers = of_cables.chain(deflection_mm).chain([&self.magnitude_mm, &self.least_stiffness]);
         let slack: Vec<_> = self.slack_cables.iter().map(ToString::to_string).collect();
         let frequencies = [self.lowest_frequency_hz, self.lowest_cable_frequency_hz];
         let frequencies = frequencies.map(|of| of.map_or_else(String::new, |of| format!("{of:?}")));
@@ -151,7 +151,8 @@ impl Row for Banded {
         let of_cables = [("std_length", "m"), ("std_tension", "n")];
         let of_cables =
             of_cables.into_iter().flat_map(|(name, unit)| numbered(name, unit, robot.cables.len()));
-        let of_platform = ["dx_mm", "dy_mm", "dz_mm", "rms_mm", "least_stiffness", "lowest_frequency_hz"];
+        let of_platform =
+            ["dx_mm", "dy_mm", "dz_mm", "magnitude_mm", "least_stiffness", "lowest_frequency_hz"];
         let platform = of_platform.into_iter().map(|name| format!("std_{name}"));
         Passed::columns(robot).into_iter().chain(of_cables).chain(platform).collect()
     }
@@ -162,10 +163,10 @@ impl Row for Banded {
             let empty = vec![String::new(); 2 * passed.lengths.len() + 6];
             return passed.cells().into_iter().chain(empty).collect();
         };
-        let Bands { lengths, tensions, displacement, rms, least_stiffness, lowest_frequency } = bands;
+        let Bands { lengths, tensions, displacement, magnitude, least_stiffness, lowest_frequency } = bands;
         let displacement = displacement.map(|std| 1e3 * std);
         let numbers = cells(lengths.iter().chain(tensions).chain(&displacement));
-        let others = [rms.map(|std| 1e3 * std), *least_stiffness, *lowest_frequency];
+        let others = [magnitude.map(|std| 1e3 * std), *least_stiffness, *lowest_frequency];
         let others = others.map(|std| std.map(|std| format!("{std:?}")).unwrap_or_default());
         passed.cells().into_iter().chain(numbers).chain(others).collect()
     }

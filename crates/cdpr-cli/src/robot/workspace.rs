@@ -191,7 +191,7 @@ fn print(summary: &WorkspaceSummary) {
     let mut rows = table(&["over the positions held", "least", "at [m]", "greatest", "at [m]"]);
     let position = |[x, y, z]: [f64; 3]| format!("{x:.3}, {y:.3}, {z:.3}");
     for (name, extremes) in [
-        ("|dp| [mm]", summary.rms_mm),
+        ("|dp| [mm]", summary.magnitude_mm),
         ("least stiffness [N/m]", summary.least_stiffness),
         ("lowest natural frequency [Hz]", summary.lowest_frequency_hz),
         ("that of the slowest cable [Hz]", summary.lowest_cable_frequency_hz),

@@ -26,7 +26,7 @@ pub(crate) struct Settings {
     /// (index of Wasserstein and Bures).
     #[arg(long, value_name = "COLUMN", value_delimiter = ',')]
     vector: Vec<String>,
-    /// What an output is to satisfy, such as `rms_mm<1.4`: `<`, `<=`, `>` or `>=`. The analysis then says
+    /// What an output is to satisfy, such as `magnitude_mm<1.4`: `<`, `<=`, `>` or `>=`. The analysis then says
     /// which inputs make it fail.
     #[arg(long = "limit", value_name = "COLUMN<VALUE", value_parser = arguments::limit)]
     limits: Vec<(String, OutputLimit)>,

@@ -1,11 +1,14 @@
 # Types of the native half of the package. `help(cdpr.Robot)` explains each argument and field.
 
+from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
 from pathlib import Path
-from typing import Any, Callable, TypeAlias, final
+from types import GenericAlias
+from typing import Any, Generic, TypeAlias, final, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from typing_extensions import TypeVar
 
 __all__ = [
     "Boundary",
@@ -35,7 +38,12 @@ __all__ = [
     "analyse",
     "begin",
     "calibrate",
-    "calibration_plan",
+    "plan",
+    "pose",
+    "template",
+    "Cable",
+    "OtherSolution",
+    "PathDeviations",
     "carry_out",
     "check",
     "check_file",
@@ -63,14 +71,20 @@ __all__ = [
 VERSION: str
 
 _Floats: TypeAlias = NDArray[np.float64]
-#: A number for one case, an array (m,) for m cases. A union would refuse what only one of the two can do.
-_Float: TypeAlias = Any
-_Bool: TypeAlias = Any
-_Int: TypeAlias = Any
-#: A word for one case, a list for m cases.
-_Word: TypeAlias = Any
-_Words: TypeAlias = list[str | None] | None
+_Bools: TypeAlias = NDArray[np.bool_]
+_Ints: TypeAlias = NDArray[np.int64]
+_Words: TypeAlias = list[str | None]
+#: One row of numbers; what has more axes, or any number of them, is an ArrayLike.
+_Row: TypeAlias = Sequence[float] | np.ndarray[tuple[int], np.dtype[Any]]
+#: The types of an answer's numbers, truth values, counts, words, and reasons: those of one case, or of several.
+_N = TypeVar("_N", default=Any)
+_B = TypeVar("_B", default=Any)
+_I = TypeVar("_I", default=Any)
+_W = TypeVar("_W", default=Any)
+_R = TypeVar("_R", default=Any)
 _Path: TypeAlias = str | PathLike[str]
+#: A file, or a text with its name.
+_Source: TypeAlias = str | tuple[str, str]
 _Law: TypeAlias = dict[str, Any]
 #: A coordinate [m], or from, to and the number of points.
 _Places: TypeAlias = float | tuple[float, float, int] | NDArray[Any]
@@ -150,8 +164,11 @@ class Robot:
     def name(self) -> str:
         """Name of the robot."""
     @property
-    def cables(self) -> int:
+    def n_cables(self) -> int:
         """Number of cables n."""
+    @property
+    def cables(self) -> list[Cable]:
+        """The cables, n of them."""
     @property
     def anchor_points(self) -> _Floats:
         """Points A_i in the platform frame [m], (n, 3)."""
@@ -224,7 +241,7 @@ class Robot:
         tilt1.v ... (tilts of swivel axes, zero) and gravity.x ... of a vector. All cables share one linear
         density and one modulus here: the value is the first cable's.
         """
-    def with_parameters(self, values: dict[str, float]) -> Robot:
+    def with_parameters(self, values: Mapping[str, float]) -> Robot:
         """Makes a robot with other values of some parameters [SI units]: `{"mass": 185.0, "a1.x": 0.25}`.
 
         Names are those in `parameters`. `linear_density` and `youngs_modulus` are set for all cables. Offsets
@@ -247,17 +264,18 @@ class Robot:
 
         Raises FileError.
         """
-    def inverse(
+    @overload
+    def inverse(  # type: ignore[overload-overlap]
         self,
-        pose: ArrayLike,
+        pose: _Row,
         *,
-        force: ArrayLike | None = None,
-        moment: ArrayLike | None = None,
-        payload: ArrayLike | None = None,
-        reference: ArrayLike | None = None,
+        force: _Row | None = None,
+        moment: _Row | None = None,
+        payload: float | None = None,
+        reference: _Row | None = None,
         path: bool = False,
-        free: list[str] | None = None,
-    ) -> InverseSolution:
+        free: Sequence[str] | None = None,
+    ) -> InverseSolution[bool, int, None]:
         """Computes the unstrained lengths that hold the platform at a pose under its weight and a load.
 
         The tensions are those within their limits that come nearest to a reference. Arguments are of one
@@ -278,15 +296,28 @@ class Robot:
 
         Raises InputError; for one case NoSolutionError.
         """
-    def direct(
+    @overload
+    def inverse(
         self,
-        lengths: ArrayLike,
+        pose: ArrayLike,
         *,
         force: ArrayLike | None = None,
         moment: ArrayLike | None = None,
         payload: ArrayLike | None = None,
-        start: ArrayLike | None = None,
-    ) -> DirectSolution:
+        reference: ArrayLike | None = None,
+        path: bool = False,
+        free: Sequence[str] | None = None,
+    ) -> InverseSolution[_Bools, _Ints, _Words]: ...
+    @overload
+    def direct(  # type: ignore[overload-overlap]
+        self,
+        lengths: _Row,
+        *,
+        force: _Row | None = None,
+        moment: _Row | None = None,
+        payload: float | None = None,
+        start: _Row | None = None,
+    ) -> DirectSolution[float, bool, int, str, None]:
         """Finds where the platform stands for given unstrained lengths: a stable equilibrium.
 
         Arguments are of one case, or have a first axis of m cases.
@@ -298,16 +329,27 @@ class Robot:
 
         Raises InputError; for one case NoSolutionError.
         """
-    def deflection(
+    @overload
+    def direct(
         self,
-        pose: ArrayLike,
+        lengths: ArrayLike,
         *,
-        payload: ArrayLike | None = None,
         force: ArrayLike | None = None,
         moment: ArrayLike | None = None,
-        tension_offsets: ArrayLike | None = None,
-        free: list[str] | None = None,
-    ) -> Deflection:
+        payload: ArrayLike | None = None,
+        start: ArrayLike | None = None,
+    ) -> DirectSolution[_Floats, _Bools, _Ints, _Words, _Words]: ...
+    @overload
+    def deflection(  # type: ignore[overload-overlap]
+        self,
+        pose: _Row,
+        *,
+        payload: float | None = None,
+        force: _Row | None = None,
+        moment: _Row | None = None,
+        tension_offsets: _Row | None = None,
+        free: Sequence[str] | None = None,
+    ) -> Deflection[float, bool, int, str, None]:
         """Computes how far a load displaces and rotates the platform.
 
         The cables are wound so that the platform rests at the pose under its own weight; then the load is
@@ -322,15 +364,27 @@ class Robot:
 
         Raises InputError; for one case NoSolutionError.
         """
-    def stiffness(
+    @overload
+    def deflection(
         self,
         pose: ArrayLike,
         *,
         payload: ArrayLike | None = None,
         force: ArrayLike | None = None,
         moment: ArrayLike | None = None,
-        free: list[str] | None = None,
-    ) -> Stiffness:
+        tension_offsets: ArrayLike | None = None,
+        free: Sequence[str] | None = None,
+    ) -> Deflection[_Floats, _Bools, _Ints, _Words, _Words]: ...
+    @overload
+    def stiffness(  # type: ignore[overload-overlap]
+        self,
+        pose: _Row,
+        *,
+        payload: float | None = None,
+        force: _Row | None = None,
+        moment: _Row | None = None,
+        free: Sequence[str] | None = None,
+    ) -> Stiffness[float, bool, None]:
         """Computes the Cartesian stiffness at a pose with a load, including the sag and weight of the cables.
 
         Arguments are of one case, or have a first axis of m cases.
@@ -343,15 +397,26 @@ class Robot:
 
         Raises InputError; for one case NoSolutionError.
         """
-    def modes(
+    @overload
+    def stiffness(
         self,
         pose: ArrayLike,
         *,
         payload: ArrayLike | None = None,
         force: ArrayLike | None = None,
         moment: ArrayLike | None = None,
-        free: list[str] | None = None,
-    ) -> Modes:
+        free: Sequence[str] | None = None,
+    ) -> Stiffness[_Floats, _Bools, _Words]: ...
+    @overload
+    def modes(  # type: ignore[overload-overlap]
+        self,
+        pose: _Row,
+        *,
+        payload: float | None = None,
+        force: _Row | None = None,
+        moment: _Row | None = None,
+        free: Sequence[str] | None = None,
+    ) -> Modes[None]:
         """Computes the natural frequencies and motions at a pose with a load; the lengths are held.
 
         Arguments are of one case, or have a first axis of m cases.
@@ -364,15 +429,26 @@ class Robot:
 
         Raises InputError, also where the robot has no inertia; for one case NoSolutionError.
         """
-    def derivatives(
+    @overload
+    def modes(
         self,
         pose: ArrayLike,
         *,
         payload: ArrayLike | None = None,
         force: ArrayLike | None = None,
         moment: ArrayLike | None = None,
-        free: list[str] | None = None,
-    ) -> Derivatives:
+        free: Sequence[str] | None = None,
+    ) -> Modes[_Words]: ...
+    @overload
+    def derivatives(  # type: ignore[overload-overlap]
+        self,
+        pose: _Row,
+        *,
+        payload: float | None = None,
+        force: _Row | None = None,
+        moment: _Row | None = None,
+        free: Sequence[str] | None = None,
+    ) -> Derivatives[float, bool, int, str, None]:
         """Computes the exact derivatives of lengths, tensions and deflection under a load.
 
         Arguments are of one case, or have a first axis of m cases.
@@ -385,16 +461,27 @@ class Robot:
 
         Raises InputError; for one case NoSolutionError, also where a derivative does not exist.
         """
-    def observe(
+    @overload
+    def derivatives(
         self,
         pose: ArrayLike,
-        deviations: ArrayLike,
         *,
         payload: ArrayLike | None = None,
         force: ArrayLike | None = None,
         moment: ArrayLike | None = None,
-        free: list[str] | None = None,
-    ) -> Observations:
+        free: Sequence[str] | None = None,
+    ) -> Derivatives[_Floats, _Bools, _Ints, _Words, _Words]: ...
+    @overload
+    def observe(  # type: ignore[overload-overlap]
+        self,
+        pose: _Row,
+        deviations: _Row,
+        *,
+        payload: float | None = None,
+        force: _Row | None = None,
+        moment: _Row | None = None,
+        free: Sequence[str] | None = None,
+    ) -> Observations[float, None]:
         """Computes the deflections under a load of robots whose k parameters deviate from those of this robot.
 
         This is what a study observes; each robot has its cables wound for the pose. Several robots go through
@@ -409,6 +496,17 @@ class Robot:
 
         Raises InputError; for one robot NoSolutionError.
         """
+    @overload
+    def observe(
+        self,
+        pose: ArrayLike,
+        deviations: ArrayLike,
+        *,
+        payload: ArrayLike | None = None,
+        force: ArrayLike | None = None,
+        moment: ArrayLike | None = None,
+        free: Sequence[str] | None = None,
+    ) -> Observations[_Floats, _Words]: ...
     def boundary(
         self,
         *,
@@ -419,7 +517,7 @@ class Robot:
         grid: tuple[int, int] | None = None,
         payload: float,
         way: str = "anew",
-        free: list[str] | None = None,
+        free: Sequence[str] | None = None,
     ) -> Boundary:
         """Finds the boundary of the region that the cables hold under a payload, with the platform level.
 
@@ -434,17 +532,18 @@ class Robot:
 
         Raises InputError.
         """
-    def capacity(
+    @overload
+    def capacity(  # type: ignore[overload-overlap]
         self,
-        pose: ArrayLike,
+        pose: _Row,
         *,
-        payload: ArrayLike | None = None,
-        force: ArrayLike | None = None,
-        moment: ArrayLike | None = None,
+        payload: float | None = None,
+        force: _Row | None = None,
+        moment: _Row | None = None,
         wrenches: ArrayLike | None = None,
         tilt: int = 0,
-        free: list[str] | None = None,
-    ) -> Capacity:
+        free: Sequence[str] | None = None,
+    ) -> Capacity[float, None]:
         """Finds what the cables can carry at a pose besides the platform, and how far the limits are.
 
         Arguments are of one case, or have a first axis of m cases.
@@ -461,6 +560,35 @@ class Robot:
 
         Raises InputError; for one case NoSolutionError.
         """
+    @overload
+    def capacity(
+        self,
+        pose: ArrayLike,
+        *,
+        payload: ArrayLike | None = None,
+        force: ArrayLike | None = None,
+        moment: ArrayLike | None = None,
+        wrenches: ArrayLike | None = None,
+        tilt: int = 0,
+        free: Sequence[str] | None = None,
+    ) -> Capacity[_Floats, _Words]: ...
+    @overload
+    def certify(  # type: ignore[overload-overlap]
+        self,
+        lengths: _Row,
+        *,
+        force: _Row | None = None,
+        moment: _Row | None = None,
+        payload: float | None = None,
+        start: _Row | None = None,
+    ) -> Certificate[float, bool, None]:
+        """Proves how close the exact equilibrium is to that of `Robot.direct`, and that it is stable.
+
+        It is for six free motions, plain cables and a level base. Arguments are those of `Robot.direct`.
+
+        Raises InputError; for one case NoSolutionError, of the kind `not_certified` where nothing is proved.
+        """
+    @overload
     def certify(
         self,
         lengths: ArrayLike,
@@ -469,13 +597,7 @@ class Robot:
         moment: ArrayLike | None = None,
         payload: ArrayLike | None = None,
         start: ArrayLike | None = None,
-    ) -> Certificate:
-        """Proves how close the exact equilibrium is to that of `Robot.direct`, and that it is stable.
-
-        It is for six free motions, plain cables and a level base. Arguments are those of `Robot.direct`.
-
-        Raises InputError; for one case NoSolutionError, of the kind `not_certified` where nothing is proved.
-        """
+    ) -> Certificate[_Floats, _Bools, _Words]: ...
     def path(
         self,
         poses: ArrayLike,
@@ -483,7 +605,7 @@ class Robot:
         payload: ArrayLike | None = None,
         force: ArrayLike | None = None,
         moment: ArrayLike | None = None,
-        uncertainty: dict[str, float] | None = None,
+        uncertainty: Mapping[str, float] | None = None,
     ) -> PathStates:
         """Follows a path of poses, as `cdpr path` does.
 
@@ -506,8 +628,8 @@ class Robot:
         plane: tuple[str, float] | None = None,
         grid: tuple[int, int] | None = None,
         payload: float,
-        uncertainty: dict[str, float] | None = None,
-        free: list[str] | None = None,
+        uncertainty: Mapping[str, float] | None = None,
+        free: Sequence[str] | None = None,
     ) -> Workspace:
         """Finds where the cables hold the platform under a payload, and how far it gives there.
 
@@ -525,7 +647,110 @@ class Robot:
         """
 
 @final
-class Catenary:
+class Cable:
+    """A cable of a robot."""
+
+    def __new__(cls, *fields: Any) -> Cable: ...
+    def __class_getitem__(cls, number: Any) -> GenericAlias: ...
+    def to_dataframe(self) -> Any:
+        """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+
+        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
+        name: `magnitude/a1.x`.
+        """
+    @property
+    def number(self) -> int:
+        """Number of the cable, from 1."""
+    @property
+    def anchor_point(self) -> _Floats:
+        """Point A_i in the platform frame [m], (3,)."""
+    @property
+    def exit_point(self) -> _Floats:
+        """Point B_i in the base frame [m], (3,)."""
+    @property
+    def section(self) -> float:
+        """Section that carries the tension [m²]."""
+    @property
+    def linear_density(self) -> float:
+        """Mass per unstrained length [kg/m]."""
+    @property
+    def youngs_modulus(self) -> float:
+        """Young's modulus [Pa]."""
+    @property
+    def tension_limits(self) -> _Floats:
+        """Least and greatest tension [N], (2,)."""
+    @property
+    def max_at(self) -> str:
+        """The end at which the greatest tension is limited: "anchor" or "exit"."""
+
+@final
+class OtherSolution:
+    """A further rest of a platform with `free` coordinates."""
+
+    def __new__(cls, *fields: Any) -> OtherSolution: ...
+    def __class_getitem__(cls, number: Any) -> GenericAlias: ...
+    def plot(self) -> Any:
+        """Draws the answer, and returns the matplotlib Figure."""
+    def to_dataframe(self) -> Any:
+        """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+
+        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
+        name: `magnitude/a1.x`.
+        """
+    @property
+    def pose(self) -> _Floats:
+        """Pose at which the platform rests, (7,)."""
+    @property
+    def lengths(self) -> _Floats:
+        """Unstrained length of each cable [m], (n,)."""
+    @property
+    def tensions(self) -> _Floats:
+        """Tension of each cable at the platform [N], (n,)."""
+    @property
+    def out_of_limits(self) -> NDArray[np.int8]:
+        """Whether its tension, at either end, is out of limits, as in `InverseSolution`, (n,)."""
+    @property
+    def stable(self) -> bool:
+        """Whether the platform stays there with these lengths."""
+
+@final
+class PathDeviations:
+    """Standard deviations at the m poses of a path, NaN where there are no derivatives."""
+
+    def __new__(cls, *fields: Any) -> PathDeviations: ...
+    def __class_getitem__(cls, number: Any) -> GenericAlias: ...
+    def plot(self) -> Any:
+        """Draws the answer, and returns the matplotlib Figure."""
+    def to_dataframe(self) -> Any:
+        """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+
+        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
+        name: `magnitude/a1.x`.
+        """
+    @property
+    def lengths(self) -> _Floats:
+        """Of the unstrained lengths [m], (m, n)."""
+    @property
+    def tensions(self) -> _Floats:
+        """Of the tensions at the platform without the load [N], (m, n)."""
+    @property
+    def displacement(self) -> _Floats:
+        """Of the displacement [m], (m, 3)."""
+    @property
+    def magnitude(self) -> _Floats:
+        """Of its magnitude [m], (m,)."""
+    @property
+    def least_stiffness(self) -> _Floats:
+        """Of the least stiffness [N/m], (m,)."""
+    @property
+    def lowest_frequency(self) -> _Floats:
+        """Of the lowest natural frequency [Hz], (m,)."""
+    @property
+    def reasons(self) -> _Words:
+        """Why there is no answer, None where there is one, (m,)."""
+
+@final
+class Catenary(Generic[_N, _R]):
     """Cables in equilibrium, in their vertical planes.
 
     The exit point is the origin, the anchor point is at (x, z), and z points up.
@@ -535,48 +760,51 @@ class Catenary:
     """
 
     def __new__(cls, *fields: Any) -> Catenary: ...
+    def __class_getitem__(cls, number: Any) -> GenericAlias: ...
+    def plot(self) -> Any:
+        """Draws the answer, and returns the matplotlib Figure."""
     def to_dataframe(self) -> Any:
         """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
 
         Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `rms/a1.x`.
+        name: `magnitude/a1.x`.
         """
     @property
     def force(self) -> _Floats:
         """Force (fx, fz) on the cable at the anchor point [N], (2,)."""
     @property
-    def anchor_tension(self) -> _Float:
+    def anchor_tension(self) -> _N:
         """Tension at the anchor point [N]."""
     @property
-    def exit_tension(self) -> _Float:
+    def exit_tension(self) -> _N:
         """Tension at the exit point [N]."""
     @property
-    def sag(self) -> _Float:
+    def sag(self) -> _N:
         """Greatest height of the chord above the cable [m]."""
     @property
-    def energy(self) -> _Float:
+    def energy(self) -> _N:
         """Elastic energy plus potential energy of the weight, zero at the height of the exit point [J]."""
     @property
-    def unstrained_length(self) -> _Float:
+    def unstrained_length(self) -> _N:
         """Unstrained length [m]."""
     @property
     def end(self) -> _Floats:
         """Position (x, z) of the anchor point [m], (2,)."""
     @property
-    def residual(self) -> _Float:
+    def residual(self) -> _N:
         """Closure residual: distance between the given end and that of the catenary [m]."""
     @property
     def shape(self) -> _Floats:
         """Points (x, z) from exit to anchor point, at equal unstrained distances [m], (points, 2)."""
     @property
-    def reasons(self) -> _Words:
+    def reasons(self) -> _R:
         """Why there is no answer, None where there is one; None for one cable."""
     @property
-    def kinds(self) -> _Words:
+    def kinds(self) -> _R:
         """The kind of each failure, in the same form: `infeasible_tension`, ..."""
 
 @final
-class InverseSolution:
+class InverseSolution(Generic[_B, _I, _R]):
     """Unstrained lengths that hold poses.
 
     The answer is of one pose, or of m: then every field has a first axis of m, with NaN where there is no
@@ -584,11 +812,14 @@ class InverseSolution:
     """
 
     def __new__(cls, *fields: Any) -> InverseSolution: ...
+    def __class_getitem__(cls, number: Any) -> GenericAlias: ...
+    def plot(self) -> Any:
+        """Draws the answer, and returns the matplotlib Figure."""
     def to_dataframe(self) -> Any:
         """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
 
         Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `rms/a1.x`.
+        name: `magnitude/a1.x`.
         """
     @property
     def lengths(self) -> _Floats:
@@ -614,43 +845,46 @@ class InverseSolution:
     def residual(self) -> _Floats:
         """Residuals of the 6 + 2n equations: closure of the cables [m], force [N], moment [N m], (3,)."""
     @property
-    def iterations(self) -> _Int:
+    def iterations(self) -> _I:
         """Iterations of distribution and Newton's method; 0 where there is no answer."""
     @property
-    def jump(self) -> NDArray[np.bool_] | bool | None:
+    def jump(self) -> _B | None:
         """Where the lengths may jump, because the branch of the pose before ends; only along a path, ()."""
     @property
     def pose(self) -> _Floats:
         """Pose at which the platform rests, (7,): the given one but for `free` coordinates."""
     @property
-    def stable(self) -> NDArray[np.bool_] | bool | None:
+    def stable(self) -> _B | None:
         """Whether the platform stays there with these lengths; only with `free` coordinates."""
     @property
     def others(self) -> list[Any] | None:
-        """Further solutions with `free` coordinates, those within the limits first: a list of dicts of pose,
-        lengths, tensions, stable and out_of_limits, or for m poses a list of m such lists.
+        """Further solutions with `free` coordinates, those within the limits first: a list of `OtherSolution`,
+        or for m poses a list of m such lists.
         """
     @property
-    def reasons(self) -> _Words:
+    def reasons(self) -> _R:
         """Why there is no answer, None where there is one; None for one pose."""
     @property
-    def kinds(self) -> _Words:
+    def kinds(self) -> _R:
         """The kind of each failure, in the same form: `infeasible_tension`, ..."""
 
 @final
-class DirectSolution:
+class DirectSolution(Generic[_N, _B, _I, _W, _R]):
     """Stable equilibria of the platform.
 
     The answer is of one case, or of m: then every field has a first axis of m, with NaN (or False, None)
     where there is no answer, and `reasons` says why.
     """
 
-    def __new__(cls, *fields: Any) -> DirectSolution: ...
+    def __new__(cls, *fields: Any) -> DirectSolution[_N, _B, _I, _W, _R]: ...
+    def __class_getitem__(cls, number: Any) -> GenericAlias: ...
+    def plot(self) -> Any:
+        """Draws the answer, and returns the matplotlib Figure."""
     def to_dataframe(self) -> Any:
         """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
 
         Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `rms/a1.x`.
+        name: `magnitude/a1.x`.
         """
     @property
     def position(self) -> _Floats:
@@ -679,7 +913,7 @@ class DirectSolution:
         greatest tension, -1 below the least one, 0 within, (n,).
         """
     @property
-    def stable(self) -> _Bool:
+    def stable(self) -> _B:
         """Whether the equilibrium is stable."""
     @property
     def neutral(self) -> _Floats:
@@ -687,7 +921,7 @@ class DirectSolution:
         the rows beyond.
         """
     @property
-    def least_stiffness(self) -> _Float:
+    def least_stiffness(self) -> _N:
         """Stiffness of the softest motion that is resisted [N/m]."""
     @property
     def slack(self) -> NDArray[np.bool_]:
@@ -696,38 +930,41 @@ class DirectSolution:
     def residual(self) -> _Floats:
         """Residuals of the 6 + 2n equations: closure of the cables [m], force [N], moment [N m], (3,)."""
     @property
-    def method(self) -> _Word:
+    def method(self) -> _W:
         """Method that found the equilibrium: newton, trust_region or continuation."""
     @property
-    def iterations(self) -> _Int:
+    def iterations(self) -> _I:
         """Iterations of that method; 0 where there is no answer."""
     @property
-    def reasons(self) -> _Words:
+    def reasons(self) -> _R:
         """Why there is no answer, None where there is one; None for one case."""
     @property
-    def kinds(self) -> _Words:
+    def kinds(self) -> _R:
         """The kind of each failure, in the same form: `infeasible_tension`, ..."""
 
 @final
-class Deflection:
+class Deflection(Generic[_N, _B, _I, _W, _R]):
     """Static deflections.
 
     The answer is of one case, or of m: then every field has a first axis of m, with NaN where there is no
     answer, and `reasons` says why.
     """
 
-    def __new__(cls, *fields: Any) -> Deflection: ...
+    def __new__(cls, *fields: Any) -> Deflection[_N, _B, _I, _W, _R]: ...
+    def __class_getitem__(cls, number: Any) -> GenericAlias: ...
+    def plot(self) -> Any:
+        """Draws the answer, and returns the matplotlib Figure."""
     def to_dataframe(self) -> Any:
         """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
 
         Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `rms/a1.x`.
+        name: `magnitude/a1.x`.
         """
     @property
     def displacement(self) -> _Floats:
         """Displacement dp of P, the position with the load minus that without [m], (3,)."""
     @property
-    def rms(self) -> _Float:
+    def magnitude(self) -> _N:
         """Norm |dp| of the displacement, the paper's RMS [m]."""
     @property
     def rotation(self) -> _Floats:
@@ -736,20 +973,20 @@ class Deflection:
     def lengths(self) -> _Floats:
         """Unstrained lengths of the cables [m], (n,)."""
     @property
-    def unloaded(self) -> DirectSolution:
+    def unloaded(self) -> DirectSolution[_N, _B, _I, _W, _R]:
         """The platform under its own weight."""
     @property
-    def loaded(self) -> DirectSolution:
+    def loaded(self) -> DirectSolution[_N, _B, _I, _W, _R]:
         """The platform with the load added."""
     @property
-    def reasons(self) -> _Words:
+    def reasons(self) -> _R:
         """Why there is no answer, None where there is one; None for one case."""
     @property
-    def kinds(self) -> _Words:
+    def kinds(self) -> _R:
         """The kind of each failure, in the same form: `infeasible_tension`, ..."""
 
 @final
-class Modes:
+class Modes(Generic[_R]):
     """Natural motions of the platform, of unit mass.
 
     The answer is of one pose, or of m: then every field has a first axis of m, with NaN where there is no
@@ -757,11 +994,14 @@ class Modes:
     """
 
     def __new__(cls, *fields: Any) -> Modes: ...
+    def __class_getitem__(cls, number: Any) -> GenericAlias: ...
+    def plot(self) -> Any:
+        """Draws the answer, and returns the matplotlib Figure."""
     def to_dataframe(self) -> Any:
         """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
 
         Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `rms/a1.x`.
+        name: `magnitude/a1.x`.
         """
     @property
     def frequencies_hz(self) -> _Floats:
@@ -784,14 +1024,14 @@ class Modes:
         motions take cables without mass: they hold where this is at least twice as high.
         """
     @property
-    def reasons(self) -> _Words:
+    def reasons(self) -> _R:
         """Why there is no answer, None where there is one; None for one pose."""
     @property
-    def kinds(self) -> _Words:
+    def kinds(self) -> _R:
         """The kind of each failure, in the same form: `infeasible_tension`, ..."""
 
 @final
-class Capacity:
+class Capacity(Generic[_N, _R]):
     """What can be carried at a pose, for the wrench that leaves the least.
 
     The answer is of one pose, or of m: then every field has a first axis of m, with NaN where there is no
@@ -800,44 +1040,47 @@ class Capacity:
     """
 
     def __new__(cls, *fields: Any) -> Capacity: ...
+    def __class_getitem__(cls, number: Any) -> GenericAlias: ...
+    def plot(self) -> Any:
+        """Draws the answer, and returns the matplotlib Figure."""
     def to_dataframe(self) -> Any:
         """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
 
         Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `rms/a1.x`.
+        name: `magnitude/a1.x`.
         """
     @property
-    def payload_anew(self) -> _Float:
+    def payload_anew(self) -> _N:
         """Greatest mass at the centre of mass [kg]."""
     @property
-    def payload_kept(self) -> _Float:
+    def payload_kept(self) -> _N:
         """Greatest mass at the centre of mass until a tension reaches any of its limits [kg]."""
     @property
-    def payload_kept_slack(self) -> _Float:
+    def payload_kept_slack(self) -> _N:
         """The same, whichever cables become slack [kg]."""
     @property
-    def margin_anew(self) -> _Float:
+    def margin_anew(self) -> _N:
         """Distance of the tensions from the nearest limit [N]."""
     @property
-    def margin_kept(self) -> _Float:
+    def margin_kept(self) -> _N:
         """Distance of the tensions from the nearest limit [N]."""
     @property
-    def blocked_by(self) -> list[str] | list[list[str] | None]:
+    def blocked_by(self) -> list[Any]:
         """What blocks each of these five, in words, or why it does not exist; a list of five."""
     @property
-    def nearest_cables(self) -> _Float:
+    def nearest_cables(self) -> _N:
         """Distance of the surfaces of the nearest two cables [m]."""
     @property
-    def nearest_to_platform(self) -> _Float:
+    def nearest_to_platform(self) -> _N:
         """Distance of the cable nearest to the platform's hull [m]."""
     @property
     def tilt(self) -> _Floats:
         """How far the platform may tilt towards each azimuth [rad], (tilt,); (0,) if not asked for."""
     @property
-    def reasons(self) -> _Words:
+    def reasons(self) -> _R:
         """Why there is no answer, None where there is one; None for one pose."""
     @property
-    def kinds(self) -> _Words:
+    def kinds(self) -> _R:
         """The kind of each failure, in the same form: `infeasible_tension`, ..."""
 
 @final
@@ -845,11 +1088,14 @@ class Boundary:
     """The boundary of the region that the cables hold."""
 
     def __new__(cls, *fields: Any) -> Boundary: ...
+    def __class_getitem__(cls, number: Any) -> GenericAlias: ...
+    def plot(self) -> Any:
+        """Draws the answer, and returns the matplotlib Figure."""
     def to_dataframe(self) -> Any:
         """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
 
         Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `rms/a1.x`.
+        name: `magnitude/a1.x`.
         """
     @property
     def measure(self) -> float:
@@ -868,7 +1114,7 @@ class Boundary:
         """Number of positions that were asked for."""
 
 @final
-class Certificate:
+class Certificate(Generic[_N, _B, _R]):
     """Bounds on how far the exact equilibrium is from the one that was found, proved by interval arithmetic.
 
     The answer is of one case, or of m: then every field has a first axis of m, with NaN (or False) where
@@ -876,35 +1122,38 @@ class Certificate:
     """
 
     def __new__(cls, *fields: Any) -> Certificate: ...
+    def __class_getitem__(cls, number: Any) -> GenericAlias: ...
+    def plot(self) -> Any:
+        """Draws the answer, and returns the matplotlib Figure."""
     def to_dataframe(self) -> Any:
         """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
 
         Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `rms/a1.x`.
+        name: `magnitude/a1.x`.
         """
     @property
     def pose(self) -> _Floats:
         """Position and quaternion that were found, (7,)."""
     @property
-    def position(self) -> _Float:
+    def position(self) -> _N:
         """Bound on the distance of P from there [m]."""
     @property
-    def rotation(self) -> _Float:
+    def rotation(self) -> _N:
         """Bound on the angle [rad]."""
     @property
-    def force(self) -> _Float:
+    def force(self) -> _N:
         """Bound on the error of the force of every cable [N]."""
     @property
-    def least_stiffness(self) -> _Float:
+    def least_stiffness(self) -> _N:
         """Lower bound of the stiffness of the softest motion [N/m]."""
     @property
-    def stable(self) -> _Bool:
+    def stable(self) -> _B:
         """Whether the exact equilibrium is proved stable."""
     @property
-    def reasons(self) -> _Words:
+    def reasons(self) -> _R:
         """Why there is no proof, None where there is one; None for one case."""
     @property
-    def kinds(self) -> _Words:
+    def kinds(self) -> _R:
         """The kind of each failure, in the same form: `not_certified`, ..."""
 
 @final
@@ -916,11 +1165,14 @@ class PathStates:
     """
 
     def __new__(cls, *fields: Any) -> PathStates: ...
+    def __class_getitem__(cls, number: Any) -> GenericAlias: ...
+    def plot(self) -> Any:
+        """Draws the answer, and returns the matplotlib Figure."""
     def to_dataframe(self) -> Any:
         """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
 
         Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `rms/a1.x`.
+        name: `magnitude/a1.x`.
         """
     @property
     def jump(self) -> NDArray[np.bool_]:
@@ -941,7 +1193,7 @@ class PathStates:
     def displacement(self) -> _Floats:
         """Displacement of P by the load [m], (m, 3)."""
     @property
-    def rms(self) -> _Floats:
+    def magnitude(self) -> _Floats:
         """Its length [m], (m,)."""
     @property
     def least_stiffness(self) -> _Floats:
@@ -953,12 +1205,10 @@ class PathStates:
     def lowest_cable_frequency(self) -> _Floats:
         """That of the slowest cable between ends at rest [Hz], (m,); NaN without a lowest frequency."""
     @property
-    def std(self) -> dict[str, _Floats] | None:
-        """Standard deviations of lengths, tensions, displacement, rms, least stiffness and lowest frequency
-        by their names; NaN where there are no derivatives. None without an uncertainty.
-        """
+    def std(self) -> PathDeviations | None:
+        """Standard deviations by the uncertainty; None without one."""
     @property
-    def loaded(self) -> DirectSolution:
+    def loaded(self) -> DirectSolution[_Floats, _Bools, _Ints, _Words, _Words]:
         """The equilibria with the load."""
     @property
     def reasons(self) -> list[str | None]:
@@ -968,7 +1218,7 @@ class PathStates:
         """The kind of each failure: `infeasible_tension`, ..."""
 
 @final
-class Stiffness:
+class Stiffness(Generic[_N, _B, _R]):
     """Cartesian stiffness.
 
     The answer is of one pose, or of m: then every field has a first axis of m, with NaN where there is no
@@ -976,11 +1226,14 @@ class Stiffness:
     """
 
     def __new__(cls, *fields: Any) -> Stiffness: ...
+    def __class_getitem__(cls, number: Any) -> GenericAlias: ...
+    def plot(self) -> Any:
+        """Draws the answer, and returns the matplotlib Figure."""
     def to_dataframe(self) -> Any:
         """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
 
         Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `rms/a1.x`.
+        name: `magnitude/a1.x`.
         """
     @property
     def matrix(self) -> _Floats:
@@ -1005,23 +1258,23 @@ class Stiffness:
     def rotations(self) -> _Floats:
         """Rotation in each of these motions [rad/m], (6, 3)."""
     @property
-    def least_stiffness(self) -> _Float:
+    def least_stiffness(self) -> _N:
         """Stiffness of the softest motion [N/m]."""
     @property
-    def stable(self) -> _Bool:
+    def stable(self) -> _B:
         """Whether the equilibrium is stable."""
     @property
-    def characteristic_length(self) -> _Float:
+    def characteristic_length(self) -> _N:
         """Characteristic length, which makes rotations comparable with translations [m]."""
     @property
-    def reasons(self) -> _Words:
+    def reasons(self) -> _R:
         """Why there is no answer, None where there is one; None for one pose."""
     @property
-    def kinds(self) -> _Words:
+    def kinds(self) -> _R:
         """The kind of each failure, in the same form: `infeasible_tension`, ..."""
 
 @final
-class Derivatives:
+class Derivatives(Generic[_N, _B, _I, _W, _R]):
     """A deflection with its exact derivatives, per SI unit of the k inputs.
 
     Where a cable leaves a bound on one side of an input only, the derivatives as the input falls (left)
@@ -1033,11 +1286,12 @@ class Derivatives:
     """
 
     def __new__(cls, *fields: Any) -> Derivatives: ...
+    def __class_getitem__(cls, number: Any) -> GenericAlias: ...
     def to_dataframe(self) -> Any:
         """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
 
         Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `rms/a1.x`.
+        name: `magnitude/a1.x`.
         """
     @property
     def inputs(self) -> list[str]:
@@ -1049,7 +1303,7 @@ class Derivatives:
     def one_sided(self) -> NDArray[np.bool_]:
         """Inputs whose left and right derivatives differ, (k,)."""
     @property
-    def rms(self) -> _Floats:
+    def magnitude(self) -> _Floats:
         """Derivatives of |dp| [m per unit], (k,)."""
     @property
     def displacement(self) -> _Floats:
@@ -1074,7 +1328,7 @@ class Derivatives:
         motions have it, and without inertia of the platform.
         """
     @property
-    def rms_right(self) -> _Floats:
+    def magnitude_right(self) -> _Floats:
         """Right derivatives of |dp| [m per unit], (k,)."""
     @property
     def displacement_right(self) -> _Floats:
@@ -1095,37 +1349,40 @@ class Derivatives:
     def frequency_right(self) -> _Floats:
         """Right derivatives of the lowest natural frequency [Hz per unit], (k,)."""
     @property
-    def deflection(self) -> Deflection:
+    def deflection(self) -> Deflection[_N, _B, _I, _W, _R]:
         """The deflection itself."""
     @property
-    def reasons(self) -> _Words:
+    def reasons(self) -> _R:
         """Why there is no answer, None where there is one; None for one case."""
     @property
-    def kinds(self) -> _Words:
+    def kinds(self) -> _R:
         """The kind of each failure, in the same form: `infeasible_tension`, ..."""
 
 @final
-class Observations:
+class Observations(Generic[_N, _R]):
     """Deflections of m robots, or of one; NaN where there is no answer, and `reasons` says why."""
 
     def __new__(cls, *fields: Any) -> Observations: ...
+    def __class_getitem__(cls, number: Any) -> GenericAlias: ...
+    def plot(self) -> Any:
+        """Draws the answer, and returns the matplotlib Figure."""
     def to_dataframe(self) -> Any:
         """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
 
         Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `rms/a1.x`.
+        name: `magnitude/a1.x`.
         """
     @property
     def displacement(self) -> _Floats:
         """Displacement dp of P [m], (3,)."""
     @property
-    def rms(self) -> _Float:
+    def magnitude(self) -> _N:
         """Norm |dp| of the displacement [m]."""
     @property
-    def reasons(self) -> _Words:
+    def reasons(self) -> _R:
         """Why there is no answer, None where there is one; None for one robot."""
     @property
-    def kinds(self) -> _Words:
+    def kinds(self) -> _R:
         """The kind of each failure, in the same form: `infeasible_tension`, ..."""
 
 @final
@@ -1133,11 +1390,14 @@ class Workspace:
     """Results at level positions on a grid, x slowest and z fastest; NaN where there is no answer."""
 
     def __new__(cls, *fields: Any) -> Workspace: ...
+    def __class_getitem__(cls, number: Any) -> GenericAlias: ...
+    def plot(self) -> Any:
+        """Draws the answer, and returns the matplotlib Figure."""
     def to_dataframe(self) -> Any:
         """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
 
         Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `rms/a1.x`.
+        name: `magnitude/a1.x`.
         """
     @property
     def shape(self) -> tuple[int, int, int]:
@@ -1165,7 +1425,7 @@ class Workspace:
     def displacement(self) -> _Floats:
         """Displacement dp of P under the payload [m], (m, 3)."""
     @property
-    def rms(self) -> _Floats:
+    def magnitude(self) -> _Floats:
         """Norm |dp| of the displacement [m], (m,)."""
     @property
     def least_stiffness(self) -> _Floats:
@@ -1200,16 +1460,33 @@ class Workspace:
     def anew_greatest_tension(self) -> _Floats:
         """Greatest tension, distributed anew [N], (m,)."""
 
+def pose(
+    position: ArrayLike, rotation: ArrayLike | Any | None = None, *, rpy_deg: ArrayLike | None = None
+) -> _Floats:
+    """Makes poses of positions and rotations, as all calls take them.
+
+    Arguments are of one pose, or have a first axis of m poses. The rotation turns the platform frame into the
+    base frame; the platform is level if it is left out.
+
+    position: x, y, z [m], (3,) or (m, 3).
+    rotation: a quaternion qw, qx, qy, qz, (4,) or (m, 4), with the scalar first; or a
+        `scipy.spatial.transform.Rotation`, whose own order does not matter then.
+    rpy_deg: roll, pitch, yaw [degrees], (3,) or (m, 3), in place of a rotation:
+        R = Rz(yaw) Ry(pitch) Rx(roll).
+
+    Raises InputError, also for a quaternion whose scalar seems to be the last component, as SciPy has it.
+    """
+@overload
 def catenary(
-    weight: ArrayLike,
-    stiffness: ArrayLike,
+    weight: float,
+    stiffness: float,
     *,
-    length: ArrayLike | None = None,
-    end: ArrayLike | None = None,
-    force: ArrayLike | None = None,
-    tension: ArrayLike | None = None,
+    length: float | None = None,
+    end: _Row | None = None,
+    force: _Row | None = None,
+    tension: float | None = None,
     points: int = 51,
-) -> Catenary:
+) -> Catenary[float, None]:
     """Computes an elastic cable from two of its unstrained length, end, force and tension.
 
     Given are `length` and `end`, `length` and `force`, or `end` and `tension`. Arguments are of one cable, or
@@ -1225,6 +1502,17 @@ def catenary(
 
     Raises InputError; for one cable NoSolutionError.
     """
+@overload
+def catenary(
+    weight: ArrayLike,
+    stiffness: ArrayLike,
+    *,
+    length: ArrayLike | None = None,
+    end: ArrayLike | None = None,
+    force: ArrayLike | None = None,
+    tension: ArrayLike | None = None,
+    points: int = 51,
+) -> Catenary[_Floats, _Words]: ...
 
 #: Inputs: name, law and steps.
 _Inputs: TypeAlias = list[tuple[str, Any, Any]]
@@ -1345,7 +1633,8 @@ def check(robot: Robot) -> str:
 def check_file(path: _Path) -> str:
     """The same of a robot file, whatever its units."""
 def tolerances(
-    study: _Path,
+    study: _Source,
+    robot: Robot | None,
     sampling: str,
     limit_mm: float,
     of: str | None,
@@ -1372,10 +1661,10 @@ def hysteresis(
     robot: Robot,
     pose: ArrayLike,
     payload: float,
-    record: _Path | None,
+    record: _Source | None,
     length: float | None,
     section: float | None,
-    law: _Path | None,
+    law: _Source | None,
     unloading: str,
     steps: int,
     free: list[str] | None,
@@ -1385,7 +1674,7 @@ def hysteresis(
     The cables follow a record (with length and section of its specimen), a law file, or the robot's own laws.
     """
 def modulus(
-    record: _Path,
+    record: _Source,
     length: float,
     section: float,
     breaking_force: float,
@@ -1419,7 +1708,8 @@ def import_robot(
 def export_robot(robot: Robot, pose: ArrayLike, to: str) -> tuple[list[tuple[str, str]], list[str]]:
     """The files of a robot for another program by the ends of their names, and notes."""
 def begin(
-    study: _Path,
+    study: _Source,
+    robot: Robot | None,
     out: _Path,
     observations: int | None,
     resume: bool,
@@ -1460,10 +1750,10 @@ def status(out: _Path) -> str:
     """Returns how far the study in a folder is, as `cdpr study status --format json` prints it."""
 def calibrate(
     robot: Robot,
-    measurements: _Path,
-    out: _Path,
+    measurements: _Source,
+    out: _Path | None,
     noise: list[tuple[str, float]],
-    model: _Path | None,
+    model: _Source | None,
     parameters: list[str],
     share: list[str],
     unknown: list[tuple[str, float | None]],
@@ -1476,13 +1766,17 @@ def calibrate(
     folds: int,
     overwrite: bool,
     threads: int | None,
-) -> str:
-    """Fits the parameters of a robot to measurements and writes all results; returns `summary.json`."""
+) -> tuple[Robot, str]:
+    """Fits the parameters of a robot to measurements, and writes all results to a folder if one is given.
+
+    Returns the calibrated robot, and as JSON the summary, what is known of the robot's errors, the residuals and
+    the poses.
+    """
 def simulate(
     robot: Robot,
     poses: ArrayLike,
-    out: _Path,
-    model: _Path,
+    out: _Path | None,
+    model: _Source,
     noise: list[tuple[str, float]],
     unknown: list[tuple[str, float]],
     markers: Any,
@@ -1491,9 +1785,9 @@ def simulate(
     free: list[str] | None,
     seed: int,
     overwrite: bool,
-) -> Robot:
-    """What a campaign would read at poses with a robot that deviates from its file: writes the measurements as CSV
-    and returns the robot as it truly is.
+) -> tuple[Robot, str]:
+    """What a campaign would read at poses with a robot that deviates from its file, written to a file if one is
+    given: the robot as it truly is, and the measurements as CSV.
     """
 def identify(
     robot: Robot,
@@ -1504,7 +1798,7 @@ def identify(
     free: list[str] | None,
 ) -> str:
     """What measurements at poses tell of uncertain parameters, as JSON."""
-def calibration_plan(
+def plan(
     robot: Robot,
     poses: ArrayLike,
     uncertainty: list[tuple[str, float]],
@@ -1518,5 +1812,9 @@ def calibration_plan(
     seed: int,
 ) -> str:
     """The set of candidate poses that leaves least uncertainty, as JSON."""
+def template(
+    robot: Robot, position: ArrayLike | None, payload: float | None, free: list[str] | None
+) -> str:
+    """The text of a study file for a robot, with usual tolerances."""
 def explorer_parts() -> dict[str, Any]:
     """The packed script, the worker, the style and the packed module of the explorer, for its widget."""

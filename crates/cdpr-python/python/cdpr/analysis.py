@@ -165,8 +165,8 @@ def _numbers(X: ArrayLike) -> tuple[NDArray[Any], list[list[str]]]:
 
 
 def analyse(
-    X: ArrayLike,
-    Y: Union[ArrayLike, Mapping[str, ArrayLike]],
+    rows: ArrayLike,
+    outputs: Union[ArrayLike, Mapping[str, ArrayLike]],
     names: Sequence[str] | None = None,
     *,
     problem: Mapping[str, Any] | None = None,
@@ -177,8 +177,8 @@ def analyse(
 ) -> Annotated[Any, Analysis]:
     """Analyses rows of inputs and their outputs: which inputs matter, and how.
 
-    X: values of the inputs, (n, k), or a pandas.DataFrame. Columns of texts are categories.
-    Y: outputs, (n,), NaN where a row failed; or several outputs: a dictionary, a pandas.DataFrame or (n, m).
+    rows: values of the inputs, (n, k), or a pandas.DataFrame. Columns of texts are categories.
+    outputs: one output a row, (n,), NaN where a row failed; or several outputs: a dictionary, a pandas.DataFrame or (n, m).
     names: names of the inputs; those of the DataFrame, of `problem`, or x1, x2, ... if left out.
     problem: SALib's dictionary of a problem, for its `names`.
     limit: what the outputs are to satisfy, such as ("<", 1.4), with <, <=, > or >=.
@@ -191,11 +191,11 @@ def analyse(
 
     Raises InputError.
     """
-    x, labels = _numbers(X)
+    x, labels = _numbers(rows)
     if names is None and problem is not None:
         names = problem["names"]
     if names is None:
-        columns = getattr(X, "columns", None)
+        columns = getattr(rows, "columns", None)
         names = [f"x{k + 1}" for k in range(x.shape[-1])] if columns is None else list(columns)
     listed = [str(name) for name in names]
 
@@ -203,4 +203,4 @@ def analyse(
         text = _analyse(x, values, listed, labels, limit, level, seed, dependence_rows)
         return Analysis(output, json.loads(text), x, values)
 
-    return by_output(Y, one)
+    return by_output(outputs, one)

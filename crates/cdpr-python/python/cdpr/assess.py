@@ -11,10 +11,10 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
-from os import PathLike, fspath
+from os import fspath
 from typing import TYPE_CHECKING, Any, Callable, NamedTuple, Optional, Union
 
-from . import _core
+from . import _core, _inputs
 from ._core import Robot
 from ._table import Column, Interval, Table, Value
 
@@ -35,9 +35,6 @@ __all__ = [
     "tolerances",
 ]
 
-_Path = Union[str, "PathLike[str]"]
-
-
 class Finding(NamedTuple):
     """Something odd about a robot, and yet no error."""
 
@@ -53,7 +50,7 @@ class Finding(NamedTuple):
     remedy: str
 
 
-def check(robot: Union[Robot, _Path]) -> list[Finding]:
+def check(robot: Union[Robot, _inputs.Path]) -> list[Finding]:
     """Lists what is odd about a robot and yet no error, as `cdpr robot check` does.
 
     robot: a robot, a robot file, or a name of the library. A file is checked in whatever units it is, also where
@@ -88,19 +85,20 @@ class ToleranceBudget(Table):
 
 
 def tolerances(
-    study: _Path,
+    study: _inputs.Document,
     sampling: str,
     limit_mm: float,
     *,
     of: Optional[str] = None,
     quantile: float = 0.95,
-    costs: Mapping[str, float] = {},
+    costs: Optional[Mapping[str, float]] = None,
     observations: int = 20_000,
     threads: Optional[int] = None,
 ) -> ToleranceBudget:
     """Finds the tolerances to tighten so that an error stays below a limit, as `cdpr study tolerances` does.
 
-    study: study file, whose error model holds the tolerances.
+    study: study file, or its content as a dictionary, as `cdpr.study.run` takes it; its error model holds the
+        tolerances.
     sampling: name of the sampling: pose, load and error model.
     limit_mm: limit of the error [mm].
     of: "deflection" by the load, or "position", the distance from the wanted pose without it; the study's output
@@ -112,10 +110,9 @@ def tolerances(
 
     Raises InputError, FileError, NoSolutionError.
     """
-    given = {name: float(cost) for name, cost in costs.items()}
-    text = _core.tolerances(
-        fspath(study), sampling, limit_mm, of, quantile, given, observations, threads
-    )
+    source, robot = _inputs.study(study)
+    given = dict(_inputs.numbers(costs))
+    text = _core.tolerances(source, robot, sampling, limit_mm, of, quantile, given, observations, threads)
     return ToleranceBudget(json.loads(text))
 
 
@@ -146,6 +143,16 @@ class Robustness:
         rows = [{"protocol": name, **row} for name, of in self.content["protocols"].items() for row in of["rows"]]
         return pandas.DataFrame(rows)
 
+    def plot(self) -> Any:
+        """Draws the share of solves in which each protocol found the true pose; returns the matplotlib Figure."""
+        from matplotlib import pyplot
+
+        figure, axis = pyplot.subplots(layout="constrained")
+        found = [self.found(name) for name in self.protocols]
+        axis.bar(self.protocols, [100 * true / max(solves, 1) for true, solves in found])
+        axis.set_ylabel("true pose found [%]")
+        return figure
+
     def __repr__(self) -> str:
         parts = ["{} {} of {}".format(name, *self.found(name)) for name in self.protocols]
         return f"<cdpr.assess.Robustness of {self.content['robot']}: found {', '.join(parts)}>"
@@ -159,7 +166,7 @@ def robustness(
     region: Optional[tuple[Sequence[float], Sequence[float]]] = None,
     free: Optional[Sequence[str]] = None,
     seed: int = 2017,
-    out: Optional[_Path] = None,
+    out: Optional[_inputs.Path] = None,
     overwrite: bool = False,
     progress: Optional[Callable[[int, int], object]] = None,
     threads: Optional[int] = None,
@@ -180,8 +187,7 @@ def robustness(
     Raises InputError, FileError, NoSolutionError.
     """
     box = None if region is None else tuple([float(value) for value in corner] for corner in region)
-    names = None if free is None else list(free)
-    text = _core.robustness(robot, poses, modulus, box, names, seed, out, overwrite, progress, threads)
+    text = _core.robustness(robot, poses, modulus, box, _inputs.names(free), seed, out, overwrite, progress, threads)
     return Robustness(json.loads(text))
 
 
@@ -242,6 +248,14 @@ class LoadCycle:
         """Tension of each cable at the platform at each step [N], (steps, n)."""
         return self._array("tensions")
 
+    def to_dataframe(self) -> Any:
+        """Returns a pandas.DataFrame with a row for each step: payload, position and tensions."""
+        import pandas
+
+        columns = {"payload": self.payloads, **dict(zip(("x", "y", "z"), self.positions.T))}
+        columns.update((f"tensions_{k + 1}", column) for k, column in enumerate(self.tensions.T))
+        return pandas.DataFrame(columns)
+
     def plot(self) -> Any:
         """Draws the payload over the way down, and returns the matplotlib Figure."""
         from matplotlib import pyplot
@@ -267,10 +281,10 @@ def hysteresis(
     pose: ArrayLike,
     payload: float,
     *,
-    record: Optional[_Path] = None,
+    record: Optional[_inputs.Table] = None,
     length: Optional[float] = None,
     section: Optional[float] = None,
-    law: Optional[_Path] = None,
+    law: Optional[_inputs.Document] = None,
     unloading: str = "turning-point",
     steps: int = 50,
     free: Optional[Sequence[str]] = None,
@@ -279,9 +293,9 @@ def hysteresis(
 
     pose: under the platform's own weight, (3,) or (7,).
     payload: mass that is put on the centre of mass [kg].
-    record, length, section: load-elongation record of the cables (CSV), length of its specimen [m] and its
-        section [m^2], that of the cables if left out.
-    law: file of a law (`cdpr-law/1`) in place of a record. Without both, the cables have the laws of the robot
+    record, length, section: load-elongation record of the cables, a file (CSV) or columns by their names as
+        `modulus` takes it, length of its specimen [m] and its section [m^2], that of the cables if left out.
+    law: file of a law (`cdpr-law/1`), or its content as a dictionary, in place of a record. Without both, the cables have the laws of the robot
         file, by which they lose no energy.
     unloading: the part of the unloading curve that a cable follows, from the "turning-point" or that of the
         "same-tension".
@@ -290,12 +304,10 @@ def hysteresis(
 
     Raises InputError, FileError, NoSolutionError.
     """
-    names = None if free is None else list(free)
-    return LoadCycle(
-        json.loads(
-            _core.hysteresis(robot, pose, payload, record, length, section, law, unloading, steps, names)
-        )
-    )
+    measured = None if record is None else _inputs.table("record", record)
+    known = None if law is None else _inputs.document("law", law)
+    settings = (length, section, known, unloading, steps, _inputs.names(free))
+    return LoadCycle(json.loads(_core.hysteresis(robot, pose, payload, measured, *settings)))
 
 
 class Moduli(Table):
@@ -314,7 +326,7 @@ class Moduli(Table):
 
 
 def modulus(
-    record: _Path,
+    record: _inputs.Table,
     *,
     length: float,
     section: float,
@@ -327,7 +339,8 @@ def modulus(
 ) -> Moduli:
     """Finds the moduli of a cable from a load-elongation record, as `cdpr cable modulus` does.
 
-    record: CSV with the columns force_n, elongation_mm, phase.
+    record: CSV with the columns `force_n`, `elongation_mm` and `phase`, "loading" or "unloading"; or these columns
+        by their names, a dictionary of arrays (m,) or a pandas.DataFrame.
     length, section, breaking_force: of the specimen [m, m^2, N].
     ranges: of load in percent of the breaking force, [(10, 30)].
     force_error, elongation_error, length_error, section_error: greatest errors [N, m, m, m^2].
@@ -336,7 +349,8 @@ def modulus(
     """
     pairs = [(float(low), float(high)) for low, high in ranges]
     errors = (force_error, elongation_error, length_error, section_error)
-    return Moduli(json.loads(_core.modulus(record, length, section, breaking_force, pairs, *errors)))
+    source = _inputs.table("record", record)
+    return Moduli(json.loads(_core.modulus(source, length, section, breaking_force, pairs, *errors)))
 
 
 def linear_density(

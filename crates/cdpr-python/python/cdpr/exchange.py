@@ -4,7 +4,7 @@
 >>> "cogiro" in cdpr.exchange.robots()
 True
 >>> cogiro = cdpr.Robot.from_file("cogiro")
->>> exported = cdpr.exchange.export_robot(cogiro, [0, 0, 2], to="mjcf")
+>>> exported = cdpr.exchange.export(cogiro, [0, 0, 2], to="mjcf")
 >>> exported.text[:7]
 '<mujoco'
 """
@@ -16,16 +16,14 @@ from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, Optional, Union
 
-from . import _core
+from . import _core, _inputs
 from ._core import Robot
 from .errors import FileError
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
-__all__ = ["Exported", "Imported", "Note", "cables", "export_robot", "import_robot", "robots"]
-
-_Path = Union[str, "PathLike[str]"]
+__all__ = ["Exported", "Imported", "Note", "cables", "export", "read", "robots"]
 
 
 def robots() -> list[str]:
@@ -34,7 +32,7 @@ def robots() -> list[str]:
 
 
 def cables() -> list[str]:
-    """Lists the names of the cables that come with the package, which `import_robot` takes."""
+    """Lists the names of the cables that come with the package, which `read` takes."""
     return _core.library()[1]
 
 
@@ -57,10 +55,10 @@ class Imported(NamedTuple):
     notes: list[Note]
 
 
-def import_robot(
-    files: Union[_Path, Sequence[_Path]],
+def read(
+    files: Union[_inputs.Path, Sequence[_inputs.Path]],
     *,
-    cable: Optional[_Path] = None,
+    cable: Optional[_inputs.Path] = None,
     mass: Optional[float] = None,
     center_of_mass: Optional[ArrayLike] = None,
     tension_limits: Optional[ArrayLike] = None,
@@ -104,7 +102,7 @@ class Exported(NamedTuple):
         return next(iter(self.files.values()))
 
 
-def export_robot(robot: Robot, pose: ArrayLike, to: str) -> Exported:
+def export(robot: Robot, pose: ArrayLike, to: str) -> Exported:
     """Makes the files of a robot that rests at a pose for another program, as `cdpr robot export` does.
 
     robot: a robot without what the format has no place for.

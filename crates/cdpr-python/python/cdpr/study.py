@@ -1,11 +1,14 @@
 """Studies, which find out which uncertain parameters of a robot matter.
 
-The files are those of `cdpr study run`, byte for byte.
+A study is a file (`cdpr-study/1`) or the dictionary of one, whose robot may be a `Robot`. Without a folder for
+the results they are kept until nothing refers to them; with one, its files are those of `cdpr study run`, byte
+for byte.
 
 >>> import cdpr
->>> results = cdpr.study.run("data/studies/caroca.json", out="results", observations=500)
->>> results.summary["studies"]["mechanical"]["rms_mm"]["mean"]
->>> results.observations("mechanical")["rms_mm"]
+>>> study = cdpr.study.template(cdpr.Robot.from_file("cogiro"), [0, 0, 2], payload=40)
+>>> results = cdpr.study.run(study, observations=64)
+>>> results.observations("all")["status"][:2].tolist()
+['ok', 'ok']
 """
 
 from __future__ import annotations
@@ -13,19 +16,25 @@ from __future__ import annotations
 import concurrent.futures
 import csv
 import json
-from os import PathLike, fspath
+import shutil
+import tempfile
+import weakref
+from collections.abc import Callable, Iterator
+from os import fspath
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Callable, Iterator, Optional, Union
+from typing import TYPE_CHECKING, Any, Optional
 
-from . import _core
+from . import _core, _inputs
+from ._core import Robot
 from .errors import FileError, InputError
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     import numpy
+    from numpy.typing import ArrayLike
 
-__all__ = ["Results", "open_results", "run"]
-
-_Path = Union[str, "PathLike[str]"]
+__all__ = ["Results", "open_results", "run", "template"]
 
 #: Columns of tables that hold text.
 _TEXTS = ("sampling", "status", "dominant", "reason")
@@ -35,10 +44,10 @@ Progress = Callable[[int, int], object]
 
 
 class Results:
-    """A folder of results."""
+    """The results of a study, in their folder."""
 
-    def __init__(self, folder: Union[str, "PathLike[str]"]) -> None:
-        #: The folder.
+    def __init__(self, folder: _inputs.Path) -> None:
+        #: The folder; one that is removed with these results where none was given.
         self.folder = Path(folder)
         #: Figures that a run could not draw, and damaged blocks that it made again.
         self.notes: list[str] = []
@@ -50,19 +59,22 @@ class Results:
         It has moments, fitted laws, effects and measures of sensitivity of each sampling, and the comparison
         with the paper.
         """
-        return json.loads(self._text("summary.json"))
+        summary: dict[str, Any] = json.loads(self._text("summary.json"))
+        return summary
 
     @property
     def timings(self) -> dict[str, Any]:
         """Content of `timings.json`: threads and seconds."""
-        return json.loads(self._text("timings.json"))
+        timings: dict[str, Any] = json.loads(self._text("timings.json"))
+        return timings
 
     def status(self) -> dict[str, Any]:
         """Returns how far the study is: blocks, observations and failures of each design.
 
         It reads all blocks. The content is that of `cdpr study status --format json`.
         """
-        return json.loads(_core.status(self.folder))
+        status: dict[str, Any] = json.loads(_core.status(self.folder))
+        return status
 
     def table(self, name: str) -> "numpy.ndarray[Any, Any]":
         """Returns the table `NAME.csv` as a structured array, with NaN or "" where a cell is empty.
@@ -85,8 +97,8 @@ class Results:
 
         Columns are those of its table without `reason`: `index`, `d_mass`, ... [SI units], those of the
         output (NaN where it failed), `status` (`ok` or the kind of failure). Deflections have `dx_mm`, `dy_mm`,
-        `dz_mm`, `rms_mm`, and frequencies `frequency_hz`. A sampling at several poses has one for each of
-        them, named `plane/0003`.
+        `dz_mm`, `magnitude_mm`, and frequencies `frequency_hz`. A sampling at several poses has one for each
+        of them, named `plane/0003`.
         """
         import numpy
 
@@ -97,8 +109,23 @@ class Results:
         columns["status"] = numpy.array([failure or "ok" for failure in failures])
         return _records(columns)
 
+    def save(self, folder: _inputs.Path) -> Results:
+        """Copies the folder to one that does not exist yet, and returns the results there.
+
+        Raises FileError.
+        """
+        try:
+            shutil.copytree(self.folder, fspath(folder))
+        except OSError as error:
+            raise FileError(f"cannot write {fspath(folder)}: {error}: expected a folder that can be made") from error
+        return Results(folder)
+
     def report(
-        self, out: Optional[_Path] = None, *, workspace: Optional[_Path] = None, overwrite: bool = False
+        self,
+        out: Optional[_inputs.Path] = None,
+        *,
+        workspace: Optional[_inputs.Path] = None,
+        overwrite: bool = False,
     ) -> Path:
         """Writes the report (HTML) again and returns its path, as `cdpr study report` does.
 
@@ -110,7 +137,7 @@ class Results:
         """
         return Path(_core.write_report(self.folder, out, workspace, overwrite))
 
-    def frame(self, sampling: str) -> Any:
+    def to_dataframe(self, sampling: str) -> Any:
         """Returns the observations of a sampling as a `pandas.DataFrame`, with `index` as its index."""
         import pandas
 
@@ -128,7 +155,7 @@ class Results:
         return f"<cdpr.study.Results {self.folder}>"
 
 
-def open_results(folder: Union[str, "PathLike[str]"]) -> Results:
+def open_results(folder: _inputs.Path) -> Results:
     """Opens the results in a folder that `run` or `cdpr study run` has written.
 
     Raises FileError for a folder without results.
@@ -137,9 +164,28 @@ def open_results(folder: Union[str, "PathLike[str]"]) -> Results:
     return Results(folder)
 
 
+def template(
+    robot: Robot,
+    position: Optional[ArrayLike] = None,
+    *,
+    payload: Optional[float] = None,
+    free: Optional[Sequence[str]] = None,
+) -> dict[str, Any]:
+    """Makes a study of a robot with usual tolerances, as `cdpr study new` does: a dictionary to be edited and run.
+
+    position: of the platform [m], (3,); one on the vertical through the middle of the exit points if left out.
+    payload: mass that is added [kg]; a tenth of the platform's if left out.
+    free: names of the coordinates that are found, for a robot with fewer cables than free motions.
+
+    Raises InputError, also where the robot does not hold the position.
+    """
+    text = _core.template(robot, position, payload, _inputs.names(free))
+    return {**json.loads(text), "robot": robot}
+
+
 def run(
-    study: Union[str, "PathLike[str]"],
-    out: Union[str, "PathLike[str]"] = "results",
+    study: _inputs.Document,
+    out: Optional[_inputs.Path] = None,
     *,
     observations: Optional[int] = None,
     resume: bool = False,
@@ -150,13 +196,17 @@ def run(
     executor: Any = None,
     tasks: Optional[int] = None,
 ) -> Results:
-    """Runs a study file (`cdpr-study/1`) and writes its results into a folder.
+    """Runs a study and returns its results, in a folder if one is given.
 
-    observations: number of observations of each sampling, in place of the file's.
-    resume: continue with the blocks of this study that the folder holds. overwrite: start anew. Without
+    study: study file (`cdpr-study/1`), or its content as a dictionary. `robot` in it is a path, a name of the
+        library, a `Robot` or the dictionary of one; other paths start from the working directory.
+    out: folder for the results. If left out, they are in one of the system that is removed when nothing
+        refers to the results any more.
+    observations: number of observations of each sampling, in place of the study's.
+    resume: continue with the blocks of this study that the folder holds. overwrite: start again. Without
         either, a folder that holds blocks is refused.
-    table: "csv", or "none" for no tables of observations. If left out, samplings at one pose have tables as
-        csv, and those at several poses have none.
+    table: "csv", or "none" for no tables of observations in the folder. If left out, samplings at one pose have
+        tables as csv, and those at several poses, and without `out`, have none.
     threads: number of threads of this process; all cores if left out. The numbers do not depend on it.
     progress: function that is called with (done, all) observations from time to time, in the thread that
         called. What it raises ends the run, as Ctrl-C does.
@@ -181,8 +231,13 @@ def run(
         raise TypeError(f"progress is {progress!r}: expected a function of two numbers")
     if not (executor is None or hasattr(executor, "submit") or hasattr(executor, "imap_unordered")):
         raise TypeError(f"executor is {executor!r}: expected one with `submit` or `imap_unordered`")
-    out = fspath(out)
-    blocks, total = _core.begin(study, out, observations, resume, overwrite, table, threads)
+    if resume and out is None:
+        raise InputError("out is None: expected the folder of the run that is to be continued")
+    source, robot = _inputs.study(study)
+    results = _temporary() if out is None else Results(out)
+    table = "none" if out is None and table is None else table
+    out = fspath(results.folder)
+    blocks, total = _core.begin(source, robot, out, observations, resume, overwrite, table, threads)
     if executor is not None:
         done = 0
         count = max(1, min(blocks, 256) if tasks is None else tasks)
@@ -192,11 +247,17 @@ def run(
             done += made
             if progress is not None:
                 progress(done, total)
-    results = Results(out)
     watcher = progress if executor is None else None
     results.notes = _core.carry_out(out, table, threads, executor is not None, total, watcher)
     if executor is not None and progress is not None:
         progress(total, total)
+    return results
+
+
+def _temporary() -> Results:
+    """Results in a folder of the system, which is removed with them."""
+    results = Results(tempfile.mkdtemp(prefix="cdpr-"))
+    weakref.finalize(results, shutil.rmtree, results.folder, ignore_errors=True)
     return results
 
 

@@ -1,6 +1,6 @@
 //! `Robot.boundary`: where the region that the cables hold ends.
 
-use crate::convert::{Answer, Numbers, Raised, answer, run};
+use crate::convert::{Answer, Numbers, Raised, answer, plotted, run};
 use crate::robot::Robot;
 use crate::robot::inverse::coordinates;
 use crate::robot::workspace::grid_of;
@@ -27,6 +27,8 @@ answer! {
         evaluations: usize,
     }
 }
+
+plotted!(Boundary);
 
 #[pymethods]
 impl Robot {

@@ -1,6 +1,6 @@
 //! `Robot.capacity`: what a robot can carry at a pose, and how far its tensions are from their limits.
 
-use crate::convert::{Answer, Array, Columns, Loads, Numbers, Raised, Rows, answer, each};
+use crate::convert::{Answer, Array, Columns, Loads, Numbers, Raised, Rows, answer, each, plotted};
 use crate::robot::Robot;
 use crate::robot::inverse::coordinates;
 use cdpr_assess::{Clearance, Figure, Tilt, WrenchSet, capacity_at, clearance_under, tilt_at};
@@ -40,6 +40,8 @@ answer! {
         kinds: Py<PyAny>,
     }
 }
+
+plotted!(Capacity);
 
 /// Accuracy of the tilt [rad].
 const TILT_ACCURACY: f64 = 1e-4;

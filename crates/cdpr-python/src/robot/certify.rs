@@ -1,6 +1,6 @@
 //! `Robot.certify`: proofs of how close the exact equilibrium is.
 
-use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each, question};
+use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each, plotted, question};
 use crate::robot::Robot;
 use cdpr_robot::plausible;
 use cdpr_statics::{
@@ -33,6 +33,8 @@ answer! {
         kinds: Py<PyAny>,
     }
 }
+
+plotted!(Certificate);
 
 #[pymethods]
 impl Robot {

@@ -1,6 +1,6 @@
 //! `Robot.deflection`: how far a load displaces and rotates the platform.
 
-use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each};
+use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each, plotted};
 use crate::robot::Robot;
 use crate::robot::direct::{DirectSolution, Found};
 use crate::robot::inverse::coordinates;
@@ -18,7 +18,7 @@ answer! {
         /// Displacement dp of P, the position with the load minus that without [m], (3,).
         displacement: Py<PyAny>,
         /// Norm |dp| of the displacement, the paper's RMS [m].
-        rms: Py<PyAny>,
+        magnitude: Py<PyAny>,
         /// Rotation vector from the unloaded to the loaded platform, in the base frame [rad], (3,).
         rotation: Py<PyAny>,
         /// Unstrained lengths of the cables [m], (n,).
@@ -34,9 +34,11 @@ answer! {
     }
 }
 
+plotted!(Deflection);
+
 /// A deflection with its derived quantities, which are computed in parallel.
 pub(crate) struct Given {
-    rms: f64,
+    magnitude: f64,
     displacement: [f64; 3],
     motion: Vector6<f64>,
     lengths: Vec<f64>,
@@ -47,7 +49,7 @@ pub(crate) struct Given {
 impl Given {
     pub(crate) fn new(robot: &cdpr_robot::Robot, found: cdpr_statics::Deflection) -> Self {
         Self {
-            rms: found.rms(),
+            magnitude: found.magnitude(),
             displacement: found.displacement().into(),
             motion: found.unloaded.equilibrium.pose.motion_to(&found.loaded.equilibrium.pose),
             unloaded: Found::new(robot, &found.lengths, found.unloaded),
@@ -113,7 +115,7 @@ impl Deflection {
         let loaded = DirectSolution::new(&all.part(|given| &given.loaded), cables)?;
         Ok(Self {
             displacement: all.vector(|given| given.displacement)?,
-            rms: all.number(|given| given.rms)?,
+            magnitude: all.number(|given| given.magnitude)?,
             rotation: all.vector(|given| [3, 4, 5].map(|row| given.motion[row]))?,
             lengths: all.numbers(&[cables], |given, out| out.copy_from_slice(&given.lengths))?,
             unloaded: Py::new(py, unloaded)?,

@@ -26,7 +26,7 @@ answer! {
         /// Inputs whose left and right derivatives differ, (k,).
         one_sided: Py<PyAny>,
         /// Derivatives of |dp| [m per unit], (k,).
-        rms: Py<PyAny>,
+        magnitude: Py<PyAny>,
         /// Derivatives of dp [m per unit], (3, k).
         displacement: Py<PyAny>,
         /// Derivatives of the unstrained lengths [m per unit], (n, k).
@@ -42,7 +42,7 @@ answer! {
         /// motions have it, and without inertia of the platform.
         frequency: Py<PyAny>,
         /// Right derivatives of |dp| [m per unit], (k,).
-        rms_right: Py<PyAny>,
+        magnitude_right: Py<PyAny>,
         /// Right derivatives of dp [m per unit], (3, k).
         displacement_right: Py<PyAny>,
         /// Right derivatives of the unstrained lengths [m per unit], (n, k).
@@ -74,7 +74,7 @@ struct Sides {
 
 /// The matrices of derivatives, row by row.
 struct Slopes {
-    rms: Vec<f64>,
+    magnitude: Vec<f64>,
     displacement: Vec<f64>,
     lengths: Vec<f64>,
     set_points: Vec<f64>,
@@ -94,7 +94,7 @@ impl Slopes {
         };
         // nalgebra stores matrices column by column.
         Ok(Self {
-            rms: found.rms()?,
+            magnitude: found.magnitude()?,
             displacement: found.displacement().transpose().as_slice().to_vec(),
             lengths: found.lengths.transpose().as_slice().to_vec(),
             set_points: found.set_points.transpose().as_slice().to_vec(),
@@ -154,7 +154,7 @@ impl Robot {
         let numbers = |side: &Columns<Slopes>, shape: &[usize], field: fn(&Slopes) -> &[f64]| {
             side.numbers(shape, |slopes: &Slopes, out| out.copy_from_slice(field(slopes)))
         };
-        let rms = |side| numbers(side, &[count], |slopes| &slopes.rms);
+        let magnitude = |side| numbers(side, &[count], |slopes| &slopes.magnitude);
         let displacement = |side| numbers(side, &[3, count], |slopes| &slopes.displacement);
         let lengths = |side| numbers(side, &[cables, count], |slopes| &slopes.lengths);
         let set_points = |side| numbers(side, &[cables, count], |slopes| &slopes.set_points);
@@ -166,14 +166,14 @@ impl Robot {
             one_sided: all.array(false, &[count], |sides, out| {
                 sides.one_sided.iter().for_each(|column| out[*column] = true);
             })?,
-            rms: rms(&left)?,
+            magnitude: magnitude(&left)?,
             displacement: displacement(&left)?,
             lengths: lengths(&left)?,
             set_points: set_points(&left)?,
             tensions: tensions(&left)?,
             least_stiffness: least_stiffness(&left)?,
             frequency: frequency(&left)?,
-            rms_right: rms(&right)?,
+            magnitude_right: magnitude(&right)?,
             displacement_right: displacement(&right)?,
             lengths_right: lengths(&right)?,
             set_points_right: set_points(&right)?,

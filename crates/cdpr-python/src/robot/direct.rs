@@ -1,6 +1,6 @@
 //! `Robot.direct`: where the platform stands for given unstrained lengths.
 
-use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each, question};
+use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each, plotted, question};
 use crate::robot::Robot;
 use cdpr_assess::doubtful_rest;
 use cdpr_robot::{Rotation3, plausible};
@@ -53,6 +53,8 @@ answer! {
         kinds: Py<PyAny>,
     }
 }
+
+plotted!(DirectSolution);
 
 /// An equilibrium with its least stiffness, which is computed in parallel.
 pub(crate) struct Found {

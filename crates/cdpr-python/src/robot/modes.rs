@@ -1,6 +1,6 @@
 //! `Robot.modes`: natural frequencies and motions at a pose.
 
-use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each};
+use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each, plotted};
 use crate::robot::Robot;
 use crate::robot::inverse::coordinates;
 use cdpr_robot::Vector3;
@@ -34,6 +34,8 @@ answer! {
         kinds: Py<PyAny>,
     }
 }
+
+plotted!(Modes);
 
 #[pymethods]
 impl Robot {

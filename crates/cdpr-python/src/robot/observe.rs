@@ -1,6 +1,6 @@
 //! `Robot.observe`: the deflections of robots that deviate from the nominal one, which every study observes.
 
-use crate::convert::{Answer, Cases, Columns, Loads, Numbers, Raised, Rows, answer, run};
+use crate::convert::{Answer, Cases, Columns, Loads, Numbers, Raised, Rows, answer, plotted, run};
 use crate::robot::Robot;
 use crate::robot::inverse::coordinates;
 use cdpr_robot::{Deviations, ParameterLayout, Vector3};
@@ -17,13 +17,15 @@ answer! {
         /// Displacement dp of P [m], (3,).
         displacement: Py<PyAny>,
         /// Norm |dp| of the displacement [m].
-        rms: Py<PyAny>,
+        magnitude: Py<PyAny>,
         /// Why there is no answer, None where there is one; None for one robot.
         reasons: Py<PyAny>,
         /// The kind of each failure, in the same form: `infeasible_tension`, ...
         kinds: Py<PyAny>,
     }
 }
+
+plotted!(Observations);
 
 /// Number of robots that a thread takes at a time.
 const PART: usize = 256;
@@ -84,7 +86,7 @@ impl Robot {
         let all = Columns::new(py, cases, &outcomes)?;
         Ok(Observations {
             displacement: all.vector(|found: &Vector3<f64>| (*found).into())?,
-            rms: all.number(|found: &Vector3<f64>| found.norm())?,
+            magnitude: all.number(|found: &Vector3<f64>| found.norm())?,
             reasons: all.reasons(),
             kinds: all.kinds(),
         })

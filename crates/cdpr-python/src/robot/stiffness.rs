@@ -1,6 +1,6 @@
 //! `Robot.stiffness`: the Cartesian stiffness at a pose.
 
-use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each};
+use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each, plotted};
 use crate::robot::Robot;
 use crate::robot::inverse::coordinates;
 use cdpr_robot::Vector3;
@@ -42,6 +42,8 @@ answer! {
         kinds: Py<PyAny>,
     }
 }
+
+plotted!(Stiffness);
 
 /// A stiffness with its motions.
 struct Found {

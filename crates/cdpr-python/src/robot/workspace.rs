@@ -1,6 +1,6 @@
 //! `Robot.workspace`: where the cables hold the platform, and how far it gives there, over a plane or a box.
 
-use crate::convert::{Answer, Array, Numbers, Raised, answer, question, run};
+use crate::convert::{Answer, Array, Numbers, Raised, answer, plotted, question, run};
 use crate::robot::Robot;
 use crate::robot::inverse::coordinates;
 use cdpr_assess::{WorkspaceRow, compute_workspace};
@@ -34,7 +34,7 @@ answer! {
         /// Displacement dp of P under the payload [m], (m, 3).
         displacement: Py<PyAny>,
         /// Norm |dp| of the displacement [m], (m,).
-        rms: Py<PyAny>,
+        magnitude: Py<PyAny>,
         /// Stiffness of the softest motion with the load [N/m], (m,).
         least_stiffness: Py<PyAny>,
         /// Lowest natural frequency with the load [Hz], (m,); NaN for a robot without inertia.
@@ -58,6 +58,8 @@ answer! {
         anew_greatest_tension: Py<PyAny>,
     }
 }
+
+plotted!(Workspace);
 
 /// Number of points of a plane along its two axes.
 const POINTS: (usize, usize) = (41, 41);
@@ -124,7 +126,7 @@ impl Robot {
             least_tension: column(&|row| Some(held(row)?.least_tension)),
             greatest_tension: column(&|row| Some(held(row)?.greatest_tension)),
             displacement: vectors(&|row| Some(loaded(row)?.displacement.into()))?,
-            rms: column(&|row| Some(loaded(row)?.displacement.norm())),
+            magnitude: column(&|row| Some(loaded(row)?.displacement.norm())),
             least_stiffness: column(&|row| Some(held(row)?.least_stiffness)),
             lowest_frequency: column(&|row| held(row)?.lowest_frequency),
             lowest_cable_frequency: column(&|row| Some(held(row)?.lowest_cable_frequency?.frequency)),

@@ -121,7 +121,7 @@ fn adjoint_of<S: Simd>(
     let zero = placed.weight.all(0.0);
     let square = dot(displacement, displacement);
     let least = NO_DEFLECTION * shared.scale.size;
-    let rms_inv = square.sqrt().recip();
+    let magnitude_inv = square.sqrt().recip();
     let none = CableAdjoint {
         exit: [zero; 3],
         anchor: [zero; 3],
@@ -141,7 +141,7 @@ fn adjoint_of<S: Simd>(
     let mut lengths = vec![zero; placed.cables.len()];
     let own = PlatformLoad::weight(unloaded.weight);
     let load = payload.on(unloaded.weight);
-    let back = three!(|k| -(displacement[k] * rms_inv));
+    let back = three!(|k| -(displacement[k] * magnitude_inv));
     let arm = shared.scale.characteristic_length;
     // One body of code for both equilibria.
     for (robots, load, sign) in [(unloaded, &own, 1.0), (loaded, &load, -1.0)] {

@@ -46,7 +46,7 @@ pub struct Observation {
 
 impl Observation {
     /// |dp| [m], which the paper calls the RMS of the static deflection.
-    pub fn rms(&self) -> f64 {
+    pub fn magnitude(&self) -> f64 {
         self.displacement.norm()
     }
 

@@ -255,7 +255,7 @@ pub struct ComparisonSpec {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Statistic {
-    /// Mean of the RMS [mm].
+    /// Mean of the magnitude [mm].
     Mean,
     /// Its standard deviation [mm].
     Std,

@@ -21,9 +21,9 @@ use cdpr_robot::{Axis, Parameter, Robot, RobotCable, TiltAxis};
 pub struct ObservationSlopes {
     /// The deflection. [`Observation::scalar`] says why its derivatives were left to the scalar models.
     pub observation: Observation,
-    /// d|dp| by every parameter in the order of [`Parameter::of`] [m per unit], as [`Derivatives::rms`]; left
-    /// derivatives where the scalar models found them.
-    pub rms: Vec<f64>,
+    /// d|dp| by every parameter in the order of [`Parameter::of`] [m per unit], as
+    /// [`Derivatives::magnitude`]; left derivatives where the scalar models found them.
+    pub magnitude: Vec<f64>,
 }
 
 impl Observed for ObservationSlopes {
@@ -45,9 +45,9 @@ impl Observed for ObservationSlopes {
             Wanted::Pose(None) => derivatives(robot, wanted_pose, load)?,
             Wanted::Rest(branch) => derivatives(robot, wanted_pose.free(branch.coordinates()), load)?,
         };
-        let rms = found.rms()?.into_iter().take(layout.count()).collect();
+        let magnitude = found.magnitude()?.into_iter().take(layout.count()).collect();
         let Derivatives { deflection, .. } = found;
-        Ok(Self { observation: Observation::of(&deflection, why), rms })
+        Ok(Self { observation: Observation::of(&deflection, why), magnitude })
     }
 }
 
@@ -91,8 +91,8 @@ impl WithSimd for SlopesBatch<'_> {
                 found.push(match answer {
                     Ok(_) if !decided[lane] => Err(ScalarReason::Derivatives),
                     Ok(observation) => {
-                        let rms = slopes.iter().map(|slope| slope[lane]).collect();
-                        Ok(ObservationSlopes { observation, rms })
+                        let magnitude = slopes.iter().map(|slope| slope[lane]).collect();
+                        Ok(ObservationSlopes { observation, magnitude })
                     }
                     Err(why) => Err(why),
                 });

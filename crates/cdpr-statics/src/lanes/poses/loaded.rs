@@ -79,7 +79,7 @@ pub struct PoseSlopes {
     pub loaded: LoadedPose,
     /// Derivatives of |dp| by every parameter, in the order of [`cdpr_robot::Parameter::of`] [m per unit];
     /// `None` where |dp| is not differentiable.
-    pub rms: Option<Vec<f64>>,
+    pub magnitude: Option<Vec<f64>>,
 }
 
 /// What is found of a robot at a pose with a load on it: [`LoadedPose`] or [`PoseSlopes`].
@@ -134,11 +134,12 @@ impl Loaded for PoseSlopes {
         why: ScalarReason,
     ) -> Result<Self, StaticsError> {
         let found = derivatives_from(robot, &wanted.equilibrium.pose, load, wanted.clone());
-        let (deflection, rms) = match found {
+        let (deflection, magnitude) = match found {
             Ok(found) => {
                 let parameters = ParameterLayout::of(robot).count();
-                let rms = found.rms().ok().map(|slopes| slopes.into_iter().take(parameters).collect());
-                (found.deflection, rms)
+                let magnitude =
+                    found.magnitude().ok().map(|slopes| slopes.into_iter().take(parameters).collect());
+                (found.deflection, magnitude)
             }
             // A pose without a derivative is held nevertheless.
             Err(StaticsError::NoDerivative { .. }) => {
@@ -147,7 +148,7 @@ impl Loaded for PoseSlopes {
             Err(error) => return Err(error),
         };
         let loaded = LoadedPose { scalar: Some(why), ..LoadedPose::of(robot, load, &deflection) };
-        Ok(Self { loaded, rms })
+        Ok(Self { loaded, magnitude })
     }
 }
 
@@ -426,13 +427,13 @@ impl<S: Simd> InLanes<'_, S> {
                 answers.push(Err(if stands[lane] { ScalarReason::Loaded } else { ScalarReason::Unloaded }));
                 continue;
             }
-            let mut rms = None;
+            let mut magnitude = None;
             if self.slopes.is_some() {
                 let Some((slopes, _)) = slopes.as_ref().filter(|(_, decided)| decided[lane]) else {
                     answers.push(Err(ScalarReason::Derivatives));
                     continue;
                 };
-                rms = Some(slopes.iter().map(|slope| slope[lane]).collect());
+                magnitude = Some(slopes.iter().map(|slope| slope[lane]).collect());
             }
             let of_lane = |ends: &[[f64; MAX_LANES]; 2]| ends.map(|of| of[lane]);
             let ends = |i: usize| of_lane(&tensions[1][i]);
@@ -452,7 +453,7 @@ impl<S: Simd> InLanes<'_, S> {
                 slack: (0..robot.cables.len()).filter(is_slack).collect(),
                 scalar: None,
             };
-            answers.push(Ok(PoseSlopes { loaded, rms }));
+            answers.push(Ok(PoseSlopes { loaded, magnitude }));
         }
     }
 }
