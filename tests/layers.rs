@@ -122,6 +122,7 @@ fn each_numerical_library_is_named_by_one_module_of_a_crate() {
             "faer",
             &[
                 "cdpr-calibration/src/solve.rs",
+                "cdpr-dynamics/src/dense.rs",
                 "cdpr-sensitivity/src/measure/linear_algebra.rs",
                 "cdpr-statics/src/dense.rs",
             ],

@@ -127,5 +127,5 @@ pub mod stiffness {
 
 /// Natural motions of the platform and of the cables.
 pub mod vibration {
-    pub use crate::loading::{CableFrequency, NaturalMode, PoseModes, modes_at};
+    pub use crate::loading::{CableAtRest, CableFrequency, NaturalMode, PoseModes, SmallMotions, modes_at};
 }

@@ -90,7 +90,7 @@ fn a_pose_above_the_frame_is_refused_with_what_stays_open() {
     let text = error.to_string();
     assert!(
         text.starts_with(
-            "at position (0, 0, 5) m: no tensions between 1 N and 10290 N balance the wrench: the best from"
+            "at position (0, 0, 5) m: no tensions between 1 N and 10290 N balance the wrench: the best"
         ),
         "{text}"
     );
