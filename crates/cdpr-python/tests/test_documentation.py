@@ -1,8 +1,12 @@
 """The documentation of everything public, in the form of numpydoc, and its examples."""
 
+import dataclasses
 import doctest
 import inspect
 import re
+import subprocess
+import sys
+from pathlib import Path
 
 import numpy
 import pytest
@@ -13,7 +17,7 @@ MODULES = [cdpr, cdpr.analysis, cdpr.assess, cdpr.calibration, cdpr.exchange, cd
 
 #: Types of methods of native classes.
 NATIVE = ("method_descriptor", "builtin_function_or_method")
-SECTIONS = ["Parameters", "Returns", "Raises", "Examples"]
+SECTIONS = ["Attributes", "Parameters", "Returns", "Raises", "Examples"]
 
 
 def public():
@@ -79,6 +83,9 @@ def test_a_public_name_has_the_sections_of_numpydoc(name):
     assert "TODO" not in of.__doc__
     first = found[""].splitlines()[0]
     assert first and len(first) <= 110
+    if dataclasses.is_dataclass(of) or hasattr(of, "_fields"):
+        fields = [field.name for field in dataclasses.fields(of)] if dataclasses.is_dataclass(of) else of._fields
+        assert described(found["Attributes"]) == list(fields)
     if inspect.isclass(of) and not is_made_by_users(name, of):
         return
     expected = parameters(of)
@@ -106,3 +113,17 @@ def test_the_examples_of_a_public_name_print_what_they_say(name):
     said = []
     doctest.DocTestRunner(verbose=False).run(test, out=said.append)
     assert not said, "".join(said)
+
+
+def test_the_reference_has_a_page_for_each_module(tmp_path):
+    script = str(Path(__file__).parents[1] / "api.py")
+    subprocess.run([sys.executable, script, str(tmp_path)], check=True)
+    assert {page.name for page in tmp_path.iterdir()} == {f"{module.__name__}.md" for module in MODULES}
+    pages = {module: (tmp_path / f"{module.__name__}.md").read_text() for module in MODULES}
+    for module, page in pages.items():
+        for name in module.__all__:
+            if f"{module.__name__}.{name}" in PUBLIC:
+                assert f"\n## `{name}" in page, name
+        assert page.count("```") % 2 == 0
+    assert "\n### `Robot.inverse(pose, *, force=None" in pages[cdpr]
+    assert "| `displacement` | Displacement dp of P," in pages[cdpr]

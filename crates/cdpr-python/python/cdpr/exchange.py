@@ -59,21 +59,35 @@ def cables() -> list[str]:
 
 
 class Note(NamedTuple):
-    """What to know of an import."""
+    """What to know of an import.
 
-    #: "assumed", "questioned" or "no place for".
+    Attributes
+    ----------
+    kind : str
+        "assumed", "questioned" or "no place for".
+    place : (str, int) or None
+        File and line, None where it is about no place in a file.
+    text : str
+        A sentence.
+    """
+
     kind: str
-    #: File and line, None where it is about no place in a file.
     place: Optional[tuple[str, int]]
-    #: A sentence.
     text: str
 
 
 class Imported(NamedTuple):
-    """A robot made of the files of another program."""
+    """A robot made of the files of another program.
+
+    Attributes
+    ----------
+    robot : Robot
+        The robot.
+    notes : list of Note
+        What was assumed, what is questioned, what a robot file has no place for.
+    """
 
     robot: Robot
-    #: What was assumed, what is questioned, what a robot file has no place for.
     notes: list[Note]
 
 
@@ -138,11 +152,17 @@ def read(
 
 
 class Exported(NamedTuple):
-    """A robot in the files of another program."""
+    """A robot in the files of another program.
 
-    #: Texts by the ends of the files' names: {".xml": ...}.
+    Attributes
+    ----------
+    files : dict of str
+        Texts by the ends of the files' names: {".xml": ...}.
+    notes : list of str
+        What was assumed, and what the format has no place for.
+    """
+
     files: dict[str, str]
-    #: What was assumed, and what the format has no place for.
     notes: list[str]
 
     @property

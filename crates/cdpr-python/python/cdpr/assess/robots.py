@@ -13,17 +13,26 @@ from .._table import Column, Table, Value
 
 
 class Finding(NamedTuple):
-    """Something odd about a robot, and yet no error."""
+    """Something odd about a robot, and yet no error.
 
-    #: "warning" for what is probably a mistake, "note" for what is worth knowing.
+    Attributes
+    ----------
+    severity : str
+        "warning" for what is probably a mistake, "note" for what is worth knowing.
+    field : str
+        Field of the robot file.
+    value : str
+        Its value.
+    why : str
+        Why it is odd.
+    remedy : str
+        What would be right.
+    """
+
     severity: str
-    #: Field of the robot file.
     field: str
-    #: Its value.
     value: str
-    #: Why it is odd.
     why: str
-    #: What would be right.
     remedy: str
 
 

@@ -16,11 +16,17 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Campaign:
-    """A simulated campaign of measurements."""
+    """A simulated campaign of measurements.
 
-    #: The robot as it truly is.
+    Attributes
+    ----------
+    robot : Robot
+        The robot as it truly is.
+    measurements : dict of numpy.ndarray
+        Columns of the measurements by their names, which `calibrate` takes: `l1_m`, `x_m`, ..., (m,) each.
+    """
+
     robot: Robot
-    #: Columns of the measurements by their names, which `calibrate` takes: `l1_m`, `x_m`, ..., (m,) each.
     measurements: dict[str, NDArray[numpy.float64]]
 
     def to_dataframe(self) -> Any:

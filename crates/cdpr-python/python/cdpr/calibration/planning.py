@@ -18,11 +18,17 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Combination:
-    """A combination of uncertain parameters, and how well measurements identify it."""
+    """A combination of uncertain parameters, and how well measurements identify it.
 
-    #: Its standard deviation before over that of the noise in it.
+    Attributes
+    ----------
+    signal_to_noise : float
+        Its standard deviation before over that of the noise in it.
+    weights : dict of float
+        Weight of each parameter, in its standard deviations.
+    """
+
     signal_to_noise: float
-    #: Weight of each parameter, in its standard deviations.
     weights: dict[str, float]
 
 
@@ -104,15 +110,23 @@ def identify(
 
 @dataclass(frozen=True)
 class Quality:
-    """What measurements at a set of poses leave uncertain."""
+    """What measurements at a set of poses leave uncertain.
 
-    #: Information about the parameters [bit].
+    Attributes
+    ----------
+    information_bits : float
+        Information about the parameters [bit].
+    parameters : float
+        Root mean square of the standard deviations of the parameters after, each over that before.
+    mean_at_work : float or None
+        Root mean square of the standard deviation of a coordinate where the robot works [m]; None without `work`.
+    worst_at_work : float or None
+        The greatest standard deviation of a coordinate there [m].
+    """
+
     information_bits: float
-    #: Root mean square of the standard deviations of the parameters after, each over that before.
     parameters: float
-    #: Root mean square of the standard deviation of a coordinate where the robot works [m]; None without `work`.
     mean_at_work: Optional[float]
-    #: The greatest standard deviation of a coordinate there [m].
     worst_at_work: Optional[float]
 
 
