@@ -10,13 +10,62 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Optional
 
 from . import _core, _inputs
-from .errors import FileError
+from ._table import Column, Interval, Table, Value
+from .errors import FileError, InputError
 
 if TYPE_CHECKING:
     import numpy
 
 #: Columns of tables that hold text.
-_TEXTS = ("sampling", "status", "dominant", "reason")
+_TEXTS = ("sampling", "input", "status", "dominant", "reason")
+
+#: Numbers of cells that are none.
+_NUMBERS = {"": "nan", "true": "1", "false": "0"}
+
+
+class Sampling(Table):
+    """The results of a sampling at one pose, a row for each uncertain parameter.
+
+    Numbers are in the unit that the name of the output has, `output`.
+    """
+
+    _rows, _name, _drawn, _module = "effects", "input", ("effect",), "cdpr.study"
+    _shown = ("mean", "std")
+
+    effect = Column("effect", "Mean output in the upper half of the range minus that in the lower half, (k,).", "effects")
+    effect_interval = Interval("", "Intervals of these, (k, 2); NaN without replicates.", "effects")
+    student = Column("student", "The paper's t-Student index, (k,).", "effects")
+    mean = Value("values.mean", "Mean of the output.")
+    std = Value("values.std", "Standard deviation of the output, with n - 1.")
+    min = Value("values.min", "Least output.")
+    max = Value("values.max", "Greatest output.")
+    median = Value("values.median", "Median of the output.")
+    nominal = Value("values.nominal", "Output of the nominal robot.")
+
+    def __init__(self, output: str, summary: dict[str, Any]) -> None:
+        given = next(of for name, of in summary.items() if name.startswith("signed_effects"))
+        effects = [
+            {"input": name, "student": student, **given.get(name, {"effect": None, "low": None, "high": None})}
+            for name, student in summary["t_student"].items()
+        ]
+        super().__init__({**summary, "effects": effects, "values": summary[output]})
+        #: Name of the output with its unit, `magnitude_mm`.
+        self.output = output
+
+    @property
+    def observations(self) -> int:
+        """Number of observations, failed ones included."""
+        return int(self.content["observations"])
+
+    @property
+    def failed(self) -> dict[str, int]:
+        """Failed observations by kind."""
+        return dict(self.content["failed"])
+
+    @property
+    def notes(self) -> list[str]:
+        """What could not be computed, and why."""
+        return list(self.content["notes"])
 
 
 class Results:
@@ -38,6 +87,36 @@ class Results:
         summary: dict[str, Any] = json.loads(self._text("summary.json"))
         return summary
 
+    def sampling(self, name: str) -> Sampling:
+        """Reads the results of a sampling at one pose.
+
+        Parameters
+        ----------
+        name : str
+            Name of the sampling.
+
+        Returns
+        -------
+        Sampling
+            Statistics of the output, and the effect of each parameter.
+
+        Raises
+        ------
+        FileError
+            For a run that has not ended.
+        InputError
+            For a name that no sampling at one pose has, and for one with fewer than two observations that
+            succeeded.
+        """
+        studies = self.summary["studies"]
+        summary = studies.get(name, {})
+        statistics = (key for key, of in summary.items() if isinstance(of, dict) and {"mean", "nominal"} <= set(of))
+        output = next(statistics, None)
+        if "t_student" not in summary or output is None:
+            known = ", ".join(key for key, of in studies.items() if "t_student" in of)
+            raise InputError(f"name is {name!r}: expected a sampling with observations, one of {known}")
+        return Sampling(output, summary)
+
     @property
     def timings(self) -> dict[str, Any]:
         """Content of `timings.json`: threads and seconds."""
@@ -58,14 +137,15 @@ class Results:
         return status
 
     def table(self, name: str) -> "numpy.ndarray[Any, Any]":
-        """Returns the table `NAME.csv` as a structured array, with NaN or "" where a cell is empty.
+        """Returns the table `NAME.csv` as a structured array, NaN or "" where a cell is empty, 1 for true.
 
-        A sampling at several poses has a row for each pose, a surface a row for each point.
+        A sampling at several poses has a row for each pose, a surface a row for each point, `SAMPLING_sensitivity` a
+        row for each parameter with all measures.
 
         Parameters
         ----------
         name : str
-            Name of a sampling at several poses, or of a surface.
+            Name of a sampling at several poses, of a surface, or of another table.
 
         Returns
         -------
@@ -78,7 +158,7 @@ class Results:
         columns = [
             numpy.array(column, dtype=str)
             if head in _TEXTS
-            else numpy.array([cell or "nan" for cell in column], dtype="f8")
+            else numpy.array([_NUMBERS.get(cell, cell) for cell in column], dtype="f8")
             for head, column in zip(header, zip(*rows))
         ]
         return _records(dict(zip(header, columns)))

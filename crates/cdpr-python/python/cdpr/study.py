@@ -25,7 +25,7 @@ from typing import TYPE_CHECKING, Any, Optional
 
 from . import _core, _inputs
 from ._core import Robot
-from ._results import Results
+from ._results import Results, Sampling
 from .errors import InputError
 
 if TYPE_CHECKING:
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike
 
-__all__ = ["Results", "open_results", "run", "template"]
+__all__ = ["Results", "Sampling", "open_results", "run", "template"]
 
 #: Called with the number of observations that are done, and that of all.
 Progress = Callable[[int, int], object]
