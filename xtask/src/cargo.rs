@@ -21,6 +21,13 @@ pub(crate) fn cdpr_command(command: &[&str]) -> Command {
     cargo_command(&[&["run", "--quiet", "--bin", "cdpr", "--"], command].concat())
 }
 
+/// An example of a crate with its arguments, without the messages of cargo, for the caller to start.
+pub(crate) fn example_command(package: &str, example: &str, arguments: &[&str]) -> Command {
+    cargo_command(
+        &[&["run", "--quiet", "--package", package, "--example", example, "--"], arguments].concat(),
+    )
+}
+
 /// Whether cargo succeeds with a subcommand and its arguments.
 pub(crate) fn cargo(arguments: &[&str]) -> ExitCode {
     match cargo_command(arguments).status() {

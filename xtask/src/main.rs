@@ -145,8 +145,9 @@ fn caroca_study(mut rest: Vec<String>) -> ExitCode {
 fn robustness(mut rest: Vec<String>) -> ExitCode {
     replaceable(&mut rest, "target/robustness");
     default(&mut rest, "--robot", "data/robots/cogiro.json");
-    eprintln!("building the program (a few minutes the first time), then looking for poses");
-    cdpr(&["robustness"], &rest)
+    eprintln!("building the example (a few minutes the first time), then looking for poses");
+    let rest: Vec<&str> = rest.iter().map(String::as_str).collect();
+    cargo(&[&["run", "--package", "cdpr-report", "--example", "robustness", "--"][..], &rest].concat())
 }
 
 fn throughput(rest: &[String]) -> ExitCode {
@@ -156,7 +157,17 @@ fn throughput(rest: &[String]) -> ExitCode {
         _ => {}
     }
     let study = root().join("data/studies/caroca.json").display().to_string();
-    cdpr(&["study", "throughput", &study, "--sampling", "mechanical"], rest)
+    let option = |name: &str| without(rest, name).0.to_owned();
+    let observations = Some(option("--observations")).filter(|number| !number.is_empty());
+    let observations = observations.unwrap_or_else(|| "1000000".to_owned());
+    let threads = option("--threads");
+    let mut command =
+        vec!["run", "--package", "cdpr-study", "--example", "throughput", "--", &study, "mechanical"];
+    command.push(&observations);
+    if !threads.is_empty() {
+        command.push(&threads);
+    }
+    cargo(&command)
 }
 
 /// Adds `option` with a path in the repository, unless the user gives one.

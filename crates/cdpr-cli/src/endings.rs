@@ -45,7 +45,8 @@ fn of(written: Written) -> impl TypedValueParser<Value = PathBuf> {
     })
 }
 
-/// A file of another program, which has one of these endings; without any, several files whose names begin so.
+/// A file of another program, which has one of these endings; without any, several files whose names begin
+/// so.
 pub(crate) fn check_foreign(path: &Path, is: &str, endings: &[&str]) -> Result<(), String> {
     if fits(path, endings) {
         return Ok(());

@@ -12,11 +12,6 @@ pub(crate) fn pose(text: &str) -> Result<Pose, PoseError> {
     pose_of(&numbers(text).map_err(|error| PoseError::Number(format!("{error}: {POSE}")))?)
 }
 
-/// `qw,qx,qy,qz`.
-pub(crate) fn rotation(text: &str) -> Result<Rotation3<f64>, PoseError> {
-    Ok(rotation_in_order(components(text).map_err(PoseError::Number)?)?)
-}
-
 /// The pose of three or seven finite numbers.
 pub(crate) fn pose_of(numbers: &[f64]) -> Result<Pose, PoseError> {
     match *numbers {
@@ -32,7 +27,7 @@ pub(crate) fn pose_of(numbers: &[f64]) -> Result<Pose, PoseError> {
 /// A rotation that is typed as its angles.
 #[derive(clap::Args)]
 pub(crate) struct Angles {
-    /// Rotation by angles [degrees] in place of a quaternion: R = Rz(yaw) Ry(pitch) Rx(roll).
+    /// Rotation by angles [degrees], without a quaternion in the pose: R = Rz(yaw) Ry(pitch) Rx(roll).
     #[arg(long, value_name = "ROLL,PITCH,YAW", value_parser = components::<3>, allow_hyphen_values = true)]
     rpy: Option<[f64; 3]>,
 }
@@ -44,16 +39,36 @@ impl Angles {
         questions::ask(plausible::angles("--rpy", angles));
         Some(rotation_by_angles(angles))
     }
+}
 
-    /// The pose, rotated by the angles if they are given.
-    pub(crate) fn of(&self, pose: &Pose) -> Result<Pose, ProgramError> {
-        match self.rotation() {
-            Some(_) if !is_level(pose) => Err(ProgramError::Usage(
+/// A pose as it is typed.
+#[derive(clap::Args)]
+pub(crate) struct PoseArguments {
+    /// Pose of the platform: x,y,z [m], level or rotated by --rpy, or x,y,z,qw,qx,qy,qz with a quaternion.
+    #[arg(long, value_parser = pose, allow_hyphen_values = true)]
+    pose: Option<Pose>,
+    #[command(flatten)]
+    angles: Angles,
+}
+
+impl PoseArguments {
+    /// The pose, if one is given, rotated by the angles if these are given.
+    pub(crate) fn given(&self) -> Result<Option<Pose>, ProgramError> {
+        match (self.pose, self.angles.rotation()) {
+            (Some(pose), Some(_)) if !is_level(&pose) => Err(ProgramError::Usage(
                 "the pose has a quaternion and --rpy: expected one of them".to_owned(),
             )),
-            Some(rotation) => Ok(Pose { rotation, ..*pose }),
-            None => Ok(*pose),
+            (Some(pose), Some(rotation)) => Ok(Some(Pose { rotation, ..pose })),
+            (None, Some(_)) => {
+                Err(ProgramError::Usage("--rpy rotates --pose: expected --pose, too".to_owned()))
+            }
+            (pose, None) => Ok(pose),
         }
+    }
+
+    /// The pose, which the command needs.
+    pub(crate) fn needed(&self) -> Result<Pose, ProgramError> {
+        self.given()?.ok_or_else(|| ProgramError::Usage("expected --pose x,y,z [m]".to_owned()))
     }
 }
 
@@ -111,22 +126,24 @@ mod tests {
 
     #[test]
     fn angles_turn_about_x_then_y_then_z() {
-        let angles = |rpy: [f64; 3]| Angles { rpy: Some(rpy) };
-        let turned = angles([90.0, 0.0, 90.0]).of(&Pose::at(0.0, 0.0, 1.0)).unwrap();
+        let rotated = |pose: Pose, rpy: [f64; 3]| {
+            PoseArguments { pose: Some(pose), angles: Angles { rpy: Some(rpy) } }.needed()
+        };
+        let turned = rotated(Pose::at(0.0, 0.0, 1.0), [90.0, 0.0, 90.0]).unwrap();
         // Rx takes y to z, which Rz keeps; Rx keeps x, which Rz takes to y.
         assert!((turned.rotation * Vector3::y() - Vector3::z()).norm() < 1e-15);
         assert!((turned.rotation * Vector3::x() - Vector3::y()).norm() < 1e-15);
-        let pitched = angles([90.0, 90.0, 0.0]).of(&Pose::at(0.0, 0.0, 1.0)).unwrap();
+        let pitched = rotated(Pose::at(0.0, 0.0, 1.0), [90.0, 90.0, 0.0]).unwrap();
         // Rx takes y to z, which Ry takes to x.
         assert!((pitched.rotation * Vector3::y() - Vector3::x()).norm() < 1e-15);
-        assert!(angles([0.0; 3]).of(&turned).is_err());
+        assert!(rotated(turned, [0.0; 3]).is_err());
     }
 
     #[test]
     fn a_heading_has_the_angles_of_a_rotated_platform() {
         let level = Pose::at(0.0, -1.5, 2.0);
         assert_eq!(place(&level), "(0, -1.5, 2) m");
-        let turned = Angles { rpy: Some([5.0, -10.0, 30.0]) }.of(&level).unwrap();
+        let turned = Pose { rotation: rotation_by_angles([5.0, -10.0, 30.0]), ..level };
         assert_eq!(place(&turned), "(0, -1.5, 2) m, roll 5, pitch -10, yaw 30 degrees");
     }
 

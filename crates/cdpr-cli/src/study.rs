@@ -1,47 +1,50 @@
-//! Commands about studies: `cdpr study ...`, and those that read a study or its results.
+//! Commands about studies, `cdpr study ...`, and `cdpr analyse`.
 
 pub(crate) mod analyse;
 mod carry_out;
 mod common;
 mod print;
-#[cfg(feature = "mpi")]
-mod ranks;
-pub(crate) mod report;
+mod report;
 mod status;
 mod template;
-mod throughput;
-pub(crate) mod tolerances;
+mod tolerances;
 
-use crate::arguments::{self, Preference, Threads};
+use crate::arguments;
 use crate::error::ProgramError;
 use crate::output::{Ending, patiently};
 use crate::questions::take_results;
 use cdpr_study::{Access, StoredStudy};
 use clap::Subcommand;
 use common::{FolderSettings, RunSettings, begun};
-use std::path::PathBuf;
 
 #[derive(Subcommand)]
 pub(crate) enum Command {
-    /// Write a first study of your own robot, to a file or to the standard output.
-    #[command(after_help = "Example: cdpr study new --robot data/robots/cogiro.json --out my-study.json")]
-    New(template::Settings),
-    /// Run a study file, and write its observations, figures and summary.
+    /// Write a first study of a robot.
     ///
-    /// What is done is kept block by block.
+    /// To a file or to the standard output.
+    #[command(after_help = "Example: cdpr study new data/robots/cogiro.json --out my-study.json")]
+    New(template::Settings),
+    /// Run a study file.
+    ///
+    /// Writes its observations, figures, summary and report. What is done is kept block by block.
     #[command(after_help = "Example: cdpr study run data/studies/caroca.json --out results
 
 Interrupted or killed, it continues with --resume and gives the same results to the last bit.
-On several machines with a shared folder: --shard 1/4 ... --shard 4/4, then `cdpr study merge`;
-or, built with the feature `mpi`: mpirun -n 4 cdpr study run ....")]
+On several machines with a shared folder: --shard 1/4 ... --shard 4/4, then `cdpr study merge`.")]
     Run(RunSettings),
-    /// Analyse a study whose blocks are all in a folder, such as those of all shards.
+    /// Analyse a study whose blocks are all there.
+    ///
+    /// Such as those of all shards.
     #[command(after_help = "Example: cdpr study merge results")]
     Merge(FolderSettings),
-    /// Print how far a study in a folder is, and what its observations give so far.
+    /// Print how far a study is.
+    ///
+    /// And what its observations say so far.
     #[command(after_help = "Example: cdpr study status results --format json")]
     Status(status::Settings),
-    /// Continue a study in a folder to more observations of each sampling; those it has are kept.
+    /// Continue a study to more observations.
+    ///
+    /// Of each sampling; those it has are kept.
     #[command(after_help = "Example: cdpr study extend results --observations 1000000")]
     Extend {
         #[command(flatten)]
@@ -50,25 +53,17 @@ or, built with the feature `mpi`: mpirun -n 4 cdpr study run ....")]
         #[arg(long, value_parser = arguments::count::<3, 10_000_000_000>)]
         observations: usize,
     },
-    /// Measure how fast one sampling of a study runs.
+    /// Write the report of a study as one HTML file.
     ///
-    /// Nothing is written; time, memory and results are printed as JSON.
-    #[command(after_help = "Example: cdpr study throughput data/studies/caroca.json --sampling mechanical \
-                      --observations 1000000")]
-    Throughput {
-        /// Study file (JSON, `cdpr-study/1`).
-        study: PathBuf,
-        /// Name of the sampling.
-        #[arg(long)]
-        sampling: String,
-        /// Number of observations, in place of the file's.
-        #[arg(long, default_value_t = 1_000_000, value_parser = arguments::count::<3, 10_000_000_000>)]
-        observations: usize,
-        #[command(flatten)]
-        preference: Preference,
-        #[command(flatten)]
-        threads: Threads,
-    },
+    /// With all figures; it opens offline.
+    #[command(after_help = "Example: cdpr study report results")]
+    Report(report::Settings),
+    /// Find which tolerances to tighten, and by how much.
+    ///
+    /// So that an error stays below a limit.
+    #[command(after_help = "Example: cdpr study tolerances data/studies/caroca.json \
+                      --sampling geometrical_asymmetric --limit 'deflection_mm<0.9' --costs b=3")]
+    Tolerances(tolerances::Settings),
 }
 
 pub(crate) fn run(command: Command) -> Result<Ending, ProgramError> {
@@ -76,7 +71,7 @@ pub(crate) fn run(command: Command) -> Result<Ending, ProgramError> {
         Command::New(settings) => template::run(&settings).map(well),
         Command::Run(settings) => match processes(|name| std::env::var(name).ok()) {
             // Shards have numbers, however they are launched.
-            Some(processes) if settings.shard.is_none() => together(&settings, processes),
+            Some(processes) if settings.shard.is_none() => Err(ProgramError::Together { processes }),
             _ => alone(&settings),
         },
         Command::Merge(FolderSettings { folder, common }) => {
@@ -84,17 +79,16 @@ pub(crate) fn run(command: Command) -> Result<Ending, ProgramError> {
             let StoredStudy { study, blocks } = take_results(&folder, Access::Alone)?;
             let complete = || cdpr_study::check_complete(&folder, &study, &blocks);
             patiently("looking for blocks", complete)?;
-            carry_out::whole(&study, &folder, &blocks, &common, |_| Ok(()))
+            carry_out::whole(&study, &folder, &blocks, &common)
         }
         Command::Status(settings) => status::run(&settings).map(well),
         Command::Extend { folder: FolderSettings { folder, common }, observations } => {
             common.threads.start()?;
             let StoredStudy { study, blocks } = take_results(&folder, Access::Alone)?.extend(observations)?;
-            carry_out::whole(&study, &folder, &blocks, &common, |_| Ok(()))
+            carry_out::whole(&study, &folder, &blocks, &common)
         }
-        Command::Throughput { study, sampling, observations, preference, threads } => {
-            throughput::run(&study, &sampling, observations, &preference, &threads).map(well)
-        }
+        Command::Report(settings) => report::run(&settings).map(well),
+        Command::Tolerances(settings) => tolerances::run(&settings).map(well),
     }
 }
 
@@ -110,19 +104,8 @@ fn alone(settings: &RunSettings) -> Result<Ending, ProgramError> {
         Some(shard) => {
             carry_out::shard(&study, &settings.out, &blocks, shard, settings.common.format).map(well)
         }
-        None => carry_out::whole(&study, &settings.out, &blocks, &settings.common, |_| Ok(())),
+        None => carry_out::whole(&study, &settings.out, &blocks, &settings.common),
     }
-}
-
-/// Runs the study in all processes that `mpirun` or `srun` has started.
-#[cfg(feature = "mpi")]
-fn together(settings: &RunSettings, processes: usize) -> Result<Ending, ProgramError> {
-    ranks::share_out(settings, processes)
-}
-
-#[cfg(not(feature = "mpi"))]
-fn together(_: &RunSettings, processes: usize) -> Result<Ending, ProgramError> {
-    Err(ProgramError::WithoutMpi { processes })
 }
 
 /// Number of processes that were started together; `None` for one alone.

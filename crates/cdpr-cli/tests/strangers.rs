@@ -42,10 +42,11 @@ fn a_pipe_that_nobody_writes_into_is_refused_at_once() {
     assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
     let robot = data_path("robots/caroca.json");
     for arguments in [
-        &["check", "pipe"][..],
+        &["robot", "check", "pipe"][..],
         &["study", "run", "pipe"],
         &["direct", &robot, "--from", "pipe"],
         &[
+            "cable",
             "modulus",
             "pipe",
             "--breaking-force",
@@ -59,7 +60,7 @@ fn a_pipe_that_nobody_writes_into_is_refused_at_once() {
         ],
         &["hysteresis", &robot, "--law", "pipe", "--pose", "0,0,1.75", "--payload", "50"],
         &[
-            "calibration",
+            "calibrate",
             "identify",
             &robot,
             "--poses",
@@ -67,13 +68,13 @@ fn a_pipe_that_nobody_writes_into_is_refused_at_once() {
             "--uncertainty",
             "a=0.002",
             "--noise",
-            "lengths=0.001",
+            "length=0.001",
         ],
     ] {
         let output = bench.command(env!("CARGO_BIN_EXE_cdpr")).args(arguments).output().unwrap();
         let error = text(output.stderr);
         assert_eq!(output.status.code(), Some(1), "{error}");
-        assert!(error.contains("pipe is a pipe: expected a"), "{error}");
+        assert!(error.contains("pipe is a pipe without content: expected a"), "{error}");
     }
 }
 
@@ -295,8 +296,12 @@ fn files_of_other_programs_are_imported_questioned_or_refused_at_once() {
     let bench = Bench::new("caroca.json", |_| ());
     let import = |files: &[&str], options: &[&str]| {
         let arguments = files.iter().chain(options).copied();
-        let output =
-            bench.command(env!("CARGO_BIN_EXE_cdpr")).arg("import").args(arguments).output().unwrap();
+        let output = bench
+            .command(env!("CARGO_BIN_EXE_cdpr"))
+            .args(["robot", "import"])
+            .args(arguments)
+            .output()
+            .unwrap();
         (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
     };
     let cable = ["--cable", "steel-4mm"];
@@ -324,5 +329,5 @@ fn files_of_other_programs_are_imported_questioned_or_refused_at_once() {
     std::fs::write(bench.path("cables.xml"), cables.replacen("</cable_ideal", "</cable_vsd", 1)).unwrap();
     let (code, _, said) = import(&[&format!("{folder}/plate_bodies.xml"), "cables.xml"], &cable);
     assert_eq!(code, 1);
-    assert!(said.contains("the cable set a, the file also has b: `--cable-set` chooses one"), "{said}");
+    assert!(said.contains("the cable set a, the file also has b: `FILE:SET` chooses one"), "{said}");
 }

@@ -343,16 +343,26 @@ fn where_one_pose_is_wanted_several_are_refused_with_their_names() {
         "{message}"
     );
     let bench = plane(|_| ());
-    let throughput =
-        |name| bench.study(&["throughput", "study.json", "--observations", "40", "--sampling", name]);
-    assert!(throughput("plane/0007").status.success());
+    let of = |name| {
+        bench.study(&[
+            "tolerances",
+            "study.json",
+            "--limit",
+            "deflection_mm<2",
+            "--observations",
+            "40",
+            "--sampling",
+            name,
+        ])
+    };
+    assert!(of("plane/0007").status.success(), "{}", text(of("plane/0007").stderr));
     for (name, expected) in [
         ("plane", "samplings.plane is plane: expected one pose: plane/0000 to plane/0014"),
         ("plane/15", "samplings.plane is plane/15: expected one pose"),
         ("plane/0015", "samplings.plane is plane/0015: expected one pose"),
         ("plan", "samplings.plan is missing: expected one of plane"),
     ] {
-        let message = text(throughput(name).stderr);
+        let message = text(of(name).stderr);
         assert!(message.contains(expected), "{message}");
     }
 }

@@ -172,7 +172,7 @@ fn a_study_of_frequencies_names_them_in_every_file_and_can_be_read_again() {
     assert!(["the magnitude", "mean magnitude", "magnitude ["].iter().all(|words| !report.contains(words)));
 
     // What was written is read back, and printed, under the same names.
-    let drawn = cdpr_in(&bench.path("."), &["report", "out"]);
+    let drawn = cdpr_in(&bench.path("."), &["study", "report", "out"]);
     assert!(drawn.status.success(), "{}", crate::common::text(drawn.stderr));
     assert_eq!(read(&bench, "out/report.html"), report);
     let status: Value = serde_json::from_str(&bench.done(&["status", "out", "--format", "json"])).unwrap();
@@ -304,7 +304,7 @@ fn a_run_writes_a_report_and_so_does_its_folder_alone() {
     for file in ["study.json", "robot.json"] {
         std::fs::remove_file(bench.path(file)).unwrap();
     }
-    let report = |arguments: &[&str]| cdpr_in(&bench.path("."), &[&["report"], arguments].concat());
+    let report = |arguments: &[&str]| cdpr_in(&bench.path("."), &[&["study", "report"], arguments].concat());
     let output = report(&["moved", "--out", "again.html"]);
     assert!(output.status.success(), "{}", text(output.stderr));
     assert_eq!(text(output.stdout), "report in again.html\n");

@@ -1,5 +1,4 @@
-//! Calibration, as `cdpr calibrate` and `cdpr calibration` have it. The package `cdpr.calibration` makes
-//! classes of the answers.
+//! Calibration, as `cdpr calibrate` has it. The package `cdpr.calibration` makes classes of the answers.
 
 use crate::convert::{Answer, Numbers, Raised, Rows, question, run, to_json, watched};
 use crate::robot::Robot;

@@ -1,4 +1,4 @@
-"""Calibrations give the files of `cdpr calibrate`, and plans the poses of `cdpr calibration plan`."""
+"""Calibrations give the files of `cdpr calibrate fit`, and plans the poses of `cdpr calibrate plan`."""
 
 import json
 import os
@@ -30,8 +30,8 @@ def measurements(data, model, caroca_file, tmp_path_factory):
     path = tmp_path_factory.mktemp("campaign") / "measurements.csv"
     poses = str(data / "calibration" / "caroca-candidates.csv")
     noise = ",".join(f"{name}={std}" for name, std in NOISE.items())
-    arguments = ["--poses", poses, "--model", model, "--noise", noise, "--seed", "2", "--out", path]
-    done = command("calibration", "simulate", caroca_file, *arguments)
+    arguments = ["--poses", poses, "--uncertainty", model, "--noise", noise, "--seed", "2", "--out", path]
+    done = command("calibrate", "simulate", caroca_file, *arguments)
     assert done.returncode == 0, done.stderr
     lines = path.read_text().splitlines()
     path.write_text("\n".join([lines[0], *lines[1::9]]) + "\n")
@@ -43,8 +43,8 @@ def test_files_are_those_of_the_program(caroca, caroca_file, measurements, model
     found = cdpr.calibration.calibrate(caroca, measurements, ours, model=model, noise=NOISE)
     summary = found.summary
     noise = ",".join(f"{name}={std}" for name, std in NOISE.items())
-    arguments = ["--measurements", measurements, "--model", model, "--noise", noise, "--out", theirs]
-    printed = answer("calibrate", caroca_file, *arguments)
+    arguments = [measurements, "--uncertainty", model, "--noise", noise, "--out", theirs]
+    printed = answer("calibrate", "fit", caroca_file, *arguments)
     assert summary == printed == json.loads((ours / "summary.json").read_text())
     for name in ("calibrated.json", "posterior.json", "residuals.csv", "poses.csv", "report.html"):
         assert (ours / name).read_bytes() == (theirs / name).read_bytes(), name
@@ -112,9 +112,9 @@ def test_plans_are_those_of_the_program(caroca, caroca_file, candidates):
     assert told.held == 6 and len(told.remaining) == len(told.inputs)
     bits = sum(0.5 * numpy.log2(1 + of.signal_to_noise**2) for of in told.identifiable)
     assert bits == pytest.approx(found.quality.information_bits, rel=1e-6)
-    arguments = ["--grid=-2:2:4,-1:1:3,1:2.5:4", "--count", 6, "--noise", "position=1e-4,rotation=1e-4"]
+    arguments = ["--region=-2:2:4,-1:1:3,1:2.5:4", "--count", 6, "--noise", "position=1e-4,rotation=1e-4"]
     theirs = answer(
-        "calibration", "plan", caroca_file, *arguments, "--uncertainty", "a=0.002,b=0.002,youngs_modulus=5e9"
+        "calibrate", "plan", caroca_file, *arguments, "--uncertainty", "a=0.002,b=0.002,youngs_modulus=5e9"
     )
     for name in ("information_bits", "parameters"):
         assert getattr(found.quality, name) == pytest.approx(theirs["plan"][name], rel=1e-9)
@@ -142,11 +142,11 @@ def test_irma4u_is_read_as_its_authors_write_it(data, tmp_path):
         "winch",
         "--seed",
         "1",
-        "--model",
+        "--uncertainty",
         model,
     ]
     arguments += ["--noise", noise, "--unknown", "length_offset=0.01", "--out", measured]
-    done = command("calibration", "simulate", str(data / "robots" / "irma4u.json"), *arguments)
+    done = command("calibrate", "simulate", str(data / "robots" / "irma4u.json"), *arguments)
     assert done.returncode == 0, done.stderr
     rows = [
         dict(zip(lines[0], cells))
@@ -232,7 +232,7 @@ def test_a_simulated_campaign_is_that_of_the_program(name, free, tmp_path):
     candidates = tmp_path / "poses.csv"
     candidates.write_text("\n".join(",".join(map(str, pose)) for pose in poses))
     more = [] if free is None else ["--free", ",".join(free)]
-    done = command("calibration", "simulate", name, "--poses", candidates, "--model", model, "--seed", "3",
+    done = command("calibrate", "simulate", name, "--poses", candidates, "--uncertainty", model, "--seed", "3",
                    "--noise", "position=1e-4,length=1e-4", "--unknown", "length_offset=0.01",
                    "--out", tmp_path / "theirs.csv", "--truth", tmp_path / "truth.json", *more)
     assert done.returncode == 0, done.stderr

@@ -16,7 +16,7 @@ def test_a_robot_of_the_library_has_a_name(cogiro):
 
 
 def exported(target, robot, pose, path):
-    arguments = ["export", robot, "--to", target, f"--pose={pose}", "--out", str(path)]
+    arguments = ["robot", "export", robot, "--to", target, f"--pose={pose}", "--out", str(path)]
     subprocess.run([program(), *arguments], check=True, capture_output=True)
     return str(path)
 
@@ -108,6 +108,6 @@ def test_a_robot_goes_to_mujoco_and_moorpy_and_back(tmp_path, cogiro):
 
 
 def test_the_library_is_that_of_the_program():
-    listed = answer("robots")
-    assert cdpr.exchange.robots() == [robot["name"] for robot in listed]
-    assert cdpr.exchange.cables() == [cable["name"] for cable in answer("robots", "--cables")]
+    listed = answer("robot", "list")
+    assert cdpr.exchange.robots() == [robot["name"] for robot in listed["robots"]]
+    assert cdpr.exchange.cables() == [cable["name"] for cable in listed["cables"]]

@@ -31,8 +31,9 @@ def test_a_cable_is_that_of_the_command_line():
         {"length": 4.3, "force": [30.0, -12.0]},
         {"end": [4.1, -1.7], "tension": 55.0},
     ):
-        flags = [f"--{name}={words(numpy.atleast_1d(value))}" for name, value in given.items()]
-        printed = answer("catenary", "--weight", 0.9957, "--stiffness", 1.28e6, *flags)
+        names = {"force": "end-force"}
+        flags = [f"--{names.get(name, name)}={words(numpy.atleast_1d(value))}" for name, value in given.items()]
+        printed = answer("cable", "catenary", "weight=0.9957,stiffness=1.28e6", *flags)
         cable = cdpr.catenary(0.9957, 1.28e6, **given)
         same(cable.force, printed["force"])
         same(cable.end, printed["end"])
@@ -70,7 +71,7 @@ def test_the_direct_model_is_that_of_the_command_line(caroca, caroca_file):
     flags = (f"--lengths={words(LENGTHS)}", "--force=20,0,-30", "--moment=1,2,3")
     given = {"force": [20, 0, -30], "moment": [1, 2, 3]}
     check_direct(caroca.direct(LENGTHS, **given), answer("direct", caroca_file, *flags))
-    start = (f"--start={words(TURNED)}",)
+    start = (f"--pose={words(TURNED)}",)
     check_direct(caroca.direct(LENGTHS, start=TURNED, **given), answer("direct", caroca_file, *flags, *start))
     heavier = caroca.with_parameters({"mass": 200.0})
     printed = answer("direct", caroca_file, f"--lengths={words(LENGTHS)}", "--mass=200")
@@ -111,7 +112,7 @@ def test_the_stiffness_is_that_of_the_command_line(caroca, caroca_file):
 
 
 def test_the_capacity_is_that_of_the_command_line(caroca, caroca_file):
-    flags = ["--payload=50", "--wrench=100,0,0,0,0,0", "--wrench=0,0,-200,0,0,0", "--tilt=4"]
+    flags = ["--payload=50", "--wrench=100,0,0,0,0,0", "--wrench=0,0,-200,0,0,0", "--with=tilt=4"]
     printed = answer("capacity", caroca_file, f"--pose={words(TURNED)}", *flags)
     wrenches = [[100, 0, 0, 0, 0, 0], [0, 0, -200, 0, 0, 0]]
     found = caroca.capacity(TURNED, payload=50, wrenches=wrenches, tilt=4)
@@ -181,7 +182,7 @@ def test_quaternions_in_doubt_are_questioned(caroca):
 
 
 def test_a_workspace_is_that_of_the_command_line(caroca, caroca_file, tmp_path):
-    printed = answer("workspace", caroca_file, "--box=-3:3:7,-1:1:3,1.75:1.75:1", "--payload=50",
+    printed = answer("workspace", caroca_file, "--region=-3:3:7,-1:1:3,1.75:1.75:1", "--payload=50",
                   "--uncertainty=a=0.002,b=0.002", "--out", tmp_path)
     found = caroca.workspace(x=(-3, 3, 7), y=(-1, 1, 3), z=1.75, payload=50,
                              uncertainty={"a": 0.002, "b": 0.002})
@@ -313,10 +314,10 @@ def test_bad_input_is_refused_with_field_value_and_what_would_be_right(caroca, c
     broken.write_text(open(caroca_file).read().replace('"mass"', '"masse"'))
     with pytest.raises(cdpr.InputError) as raised:
         cdpr.Robot.from_file(broken)
-    assert str(raised.value) == refusal("check", broken)
+    assert str(raised.value) == refusal("robot", "check", broken)
     with pytest.raises(cdpr.FileError) as raised:
         cdpr.Robot.from_file(tmp_path / "none.json")
-    assert str(raised.value) == refusal("check", tmp_path / "none.json")
+    assert str(raised.value) == refusal("robot", "check", tmp_path / "none.json")
 
 
 def test_a_robot_with_its_own_parameters_is_itself(caroca):

@@ -81,7 +81,7 @@ pub use file::template::{TEMPLATE_NOTES, template, template_cost, write_template
 pub use file::value::Value;
 pub use fs::files::{open_cable, open_robot, open_robot_in_any_unit};
 pub use fs::finite::is_not_finite;
-pub use fs::input::{check_table, other_kind, read_bytes, read_table, read_text};
+pub use fs::input::{check_table, is_standard_input, other_kind, read_bytes, read_table, read_text};
 pub use fs::lock::Access;
 pub use fs::manifest::{ResultsOf, read_result};
 pub use fs::owned::ResultsFolder;
@@ -95,7 +95,7 @@ pub use kind::InputKind;
 pub use model::cable_law::{elastic_laws, open_law, read_law};
 pub use model::error_model::{ErrorModel, Term, uncertainties};
 pub use model::errors::{open_errors, read_errors};
-pub use model::grid::{Grid, free_along};
+pub use model::grid::{Grid, GridSpan, free_along};
 pub use model::hash::robot_hash;
 pub use model::observed::{Failure, Measured, MeasuredQuantity, Observed, ScalarCount};
 pub use model::observer::OutputObserver;

@@ -1,7 +1,7 @@
 //! `cdpr derivatives`: the derivatives of lengths and deflection with respect to each parameter.
 
 use crate::answer::{OutOfLimits, bound_name, decimal};
-use crate::arguments::ErrorModelArguments;
+use crate::arguments::UncertaintyArgument;
 use crate::error::ProgramError;
 use crate::output::{Ending, table};
 use crate::pose::at_pose::{RobotAtFreePose, Row, cells};
@@ -18,7 +18,7 @@ pub(crate) struct Settings {
     #[command(flatten)]
     at: RobotAtFreePose,
     #[command(flatten)]
-    errors: ErrorModelArguments,
+    errors: UncertaintyArgument,
 }
 
 pub(crate) fn run(

@@ -19,18 +19,14 @@ pub(crate) struct Settings {
     at: RobotAtPose,
     #[command(flatten)]
     free: FreeArguments,
-    /// Unstrained lengths of the cables in place of a pose, in the order of the file: l1,..,ln [m].
-    #[arg(long, group = "where", value_parser = arguments::list, allow_hyphen_values = true)]
+    /// Unstrained lengths of the cables, in the order of the file: l1,..,ln [m]. The search for their pose
+    /// starts from --pose, or where straight cables would hold a point.
+    #[arg(long, value_parser = arguments::list, conflicts_with = "poses", allow_hyphen_values = true)]
     lengths: Option<arguments::List>,
-    /// DirectStart of the search for the pose of the lengths: x,y,z [m], or x,y,z,qw,qx,qy,qz.
-    ///
-    /// If left out, the search starts where straight cables would hold a point.
-    #[arg(long, value_parser = poses::pose, requires = "lengths", allow_hyphen_values = true)]
-    start: Option<Pose>,
 }
 
 pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
-    let Settings { at, free, lengths, start } = settings;
+    let Settings { at, free, lengths } = settings;
     let load = at.load.load();
     let Some(arguments::List(lengths)) = lengths else {
         let solve = |robot: &Robot, pose: &Pose| {
@@ -38,7 +34,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
         };
         return at.answer(solve, Answer::print);
     };
-    let robot = at.robot()?;
+    let (robot, start) = (at.robot()?, at.pose()?);
     questions::about_lengths(&robot, lengths);
     let solve = || -> Result<_, StaticsError> {
         let problem = DirectProblem::new(&robot, lengths, &load)?;
@@ -49,8 +45,9 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     };
     let found = solve()?;
     let answer = Answer::new(&robot, &found);
-    let heading = format!("{} at {}", shown(&robot.name), poses::place(&found.equilibrium.pose));
-    at.print(&answer, |answer| answer.print(&heading))
+    let pose = &found.equilibrium.pose;
+    let heading = format!("{} at {}", shown(&robot.name), poses::place(pose));
+    at.print(&robot, pose, &answer, |answer| answer.print(&heading))
 }
 
 /// The natural motions.

@@ -1,7 +1,7 @@
 //! `cdpr path`: what a robot does along a path of poses.
 
 use crate::answer::{OutOfLimits, warn_of_cables};
-use crate::arguments::{ErrorModelArguments, Overwrite};
+use crate::arguments::UncertaintyArgument;
 use crate::endings;
 use crate::error::ProgramError;
 use crate::output::Ending;
@@ -19,15 +19,13 @@ pub(crate) struct Settings {
     #[command(flatten)]
     at: RobotAtPose,
     #[command(flatten)]
-    errors: ErrorModelArguments,
+    errors: UncertaintyArgument,
     /// File for a figure of the path (SVG), with bands of two standard deviations if an error model is given.
     #[arg(long, value_name = "FILE", value_parser = endings::svg)]
     figure: Option<PathBuf>,
-    #[command(flatten)]
-    overwrite: Overwrite,
 }
 
-pub(crate) fn run(Settings { at, errors, figure, overwrite }: &Settings) -> Result<Ending, ProgramError> {
+pub(crate) fn run(Settings { at, errors, figure }: &Settings) -> Result<Ending, ProgramError> {
     let (robot, load) = (at.robot()?, at.load.load());
     let model = errors.model(&robot)?;
     let mut path = Path::new(&robot, load, model.as_ref())?;
@@ -49,7 +47,7 @@ pub(crate) fn run(Settings { at, errors, figure, overwrite }: &Settings) -> Resu
     };
     warn_of_cables(frequencies.into_iter());
     if let Some(file) = figure {
-        overwrite.write(file, &path_view(&robot, &load, &passed)?)?;
+        at.printing.overwrite.write(file, &path_view(&robot, &load, &passed)?)?;
     }
     Ok(ending)
 }

@@ -8,6 +8,7 @@ use crate::arguments::Format;
 use crate::error::ProgramError;
 use crate::output::{Ending, progress};
 use crate::questions;
+use crate::said;
 use cdpr_report::{draw, report_with};
 use cdpr_study::{
     Blocks, Plan, REPORT_NAME, Run, STUDY_NAME, Session, Shard, Study, StudyError, Summary, TableFormat,
@@ -48,13 +49,12 @@ pub(super) fn shard(
     Ok(format.print(&serde_json::json!({ "folder": out.to_string_lossy(), "shard": "done" }), text)?)
 }
 
-/// Makes the blocks that `first` leaves missing, and analyses the whole study.
+/// Makes the blocks that are missing, and analyses the whole study.
 pub(super) fn whole(
     study: &Study,
     out: &Path,
     blocks: &Blocks,
     common: &Common,
-    first: impl FnOnce(&Session) -> Result<(), ProgramError>,
 ) -> Result<Ending, ProgramError> {
     announce_slow(study)?;
     let progress = progress(study.all_observations()?, "observations");
@@ -63,12 +63,9 @@ pub(super) fn whole(
         begin: &|name| progress.set_message(name.to_owned()),
         tick: &|done| progress.inc(done as u64),
         warn: &warn(&progress),
-        note: &|note| progress.suspend(|| eprintln!("note: {note}")),
+        note: &|note| progress.suspend(|| said::note(format_args!("{note}"))),
         stop: &|| false,
     };
-    let Watcher { tick, warn, stop, .. } = watcher;
-    first(&Session { blocks: Some(blocks), tick, warn, stop })?;
-    progress.reset();
     let format = common.table.map(TableFormat::from);
     let Run { results, figures } = cdpr_study::run(study, blocks, format, &draw, watcher)?;
     progress.finish_and_clear();
@@ -88,7 +85,7 @@ const LONG: f64 = 20.0;
 /// Says before the run which samplings take long because the scalar models observe them.
 fn announce_slow(study: &Study) -> Result<(), ProgramError> {
     let slow = study.scalar_samplings()?.into_iter().filter(|sampling| sampling.seconds > LONG);
-    slow.for_each(|sampling| eprintln!("note: {sampling}; `--observations N` makes fewer"));
+    slow.for_each(|sampling| said::note(format_args!("{sampling}; `--observations N` makes fewer")));
     Ok(())
 }
 

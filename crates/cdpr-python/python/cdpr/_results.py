@@ -221,14 +221,14 @@ class Results:
         workspace: Optional[_inputs.Path] = None,
         overwrite: bool = False,
     ) -> Path:
-        """Writes the report (HTML) again and returns its path, as `cdpr report` does.
+        """Writes the report (HTML) again and returns its path, as `cdpr study report` does.
 
         Parameters
         ----------
         out : path, optional
             File for the report; `report.html` in the folder if left out.
         workspace : path, optional
-            Folder that `cdpr workspace --boundary` has written: its region is drawn around the robot.
+            Folder that `cdpr workspace --with boundary` has written: its region is drawn around the robot.
         overwrite : bool, default False
             Replace the file `out` if it exists.
 

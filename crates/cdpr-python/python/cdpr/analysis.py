@@ -31,7 +31,7 @@ __all__ = ["Analysis", "analyse"]
 
 
 class Analysis(Table):
-    """What a table says of one output. `content` holds all of it, as `cdpr analyse --json` prints it.
+    """What a table says of one output. `content` holds all of it, as `cdpr analyse --format json` prints it.
 
     Arrays have an element for each of the k inputs, NaN where a measure cannot be computed (see `notes`).
     """

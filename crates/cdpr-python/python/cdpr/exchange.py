@@ -100,7 +100,7 @@ def read(
     tension_limits: Optional[ArrayLike] = None,
     cable_set: Optional[str] = None,
 ) -> Imported:
-    """Makes a robot of the files of another program, as `cdpr import` does.
+    """Makes a robot of the files of another program, as `cdpr robot import` does.
 
     Parameters
     ----------
@@ -172,7 +172,7 @@ class Exported(NamedTuple):
 
 
 def export(robot: Robot, pose: ArrayLike, to: str) -> Exported:
-    """Makes the files of a robot that rests at a pose for another program, as `cdpr export` does.
+    """Makes the files of a robot that rests at a pose for another program, as `cdpr robot export` does.
 
     Parameters
     ----------

@@ -211,7 +211,7 @@ def modulus(
     length_error: float = 0.0,
     section_error: float = 0.0,
 ) -> Moduli:
-    """Finds the moduli of a cable from a load-elongation record, as `cdpr modulus` does.
+    """Finds the moduli of a cable from a load-elongation record, as `cdpr cable modulus` does.
 
     Parameters
     ----------

@@ -37,7 +37,7 @@ class Finding(NamedTuple):
 
 
 def check(robot: Union[Robot, _inputs.Path]) -> list[Finding]:
-    """Lists what is odd about a robot and yet no error, as `cdpr check` does.
+    """Lists what is odd about a robot and yet no error, as `cdpr robot check` does.
 
     Parameters
     ----------
@@ -100,7 +100,7 @@ def tolerances(
     observations: int = 20_000,
     threads: Optional[int] = None,
 ) -> ToleranceBudget:
-    """Finds the tolerances to tighten so that an error stays below a limit, as `cdpr tolerances` does.
+    """Finds the tolerances to tighten so that an error stays below a limit, as `cdpr study tolerances` does.
 
     Parameters
     ----------
@@ -155,7 +155,7 @@ def tolerances(
 class Robustness:
     """How often the direct model finds the true pose from a wrong start.
 
-    `content` is that of `robustness.json`, which `cdpr robustness` writes.
+    `content` is that of `robustness.json`, which is written to a folder.
     """
 
     def __init__(self, content: dict[str, Any]) -> None:
@@ -230,7 +230,7 @@ def robustness(
     progress: Optional[Callable[[int, int], object]] = None,
     threads: Optional[int] = None,
 ) -> Robustness:
-    """Tests how often the direct model finds the true pose from a wrong start, as `cdpr robustness` does.
+    """Tests how often the direct model finds the true pose from a wrong start.
 
     Parameters
     ----------

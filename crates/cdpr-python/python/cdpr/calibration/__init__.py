@@ -1,6 +1,6 @@
 """Calibration: from measurements to a better robot, and to the accuracy that is left.
 
-Nothing is written unless a call is given a folder or file; then the files are those of `cdpr calibrate`, byte for
+Nothing is written unless a call is given a folder or file; then the files are those of `cdpr calibrate fit`, byte for
 byte.
 
 >>> import cdpr

@@ -136,7 +136,7 @@ def calibrate(
     measurements : path, dict of array_like or DataFrame
         Columns by their names, which have units, `x_m`, `roll_deg`, `l1_m` ..., in a dictionary of
         arrays (m,) or a pandas.DataFrame, NaN for what was not measured; or a file, CSV or JSON, as
-        `cdpr calibrate` reads it.
+        `cdpr calibrate fit` reads it.
     out : path, optional
         Folder of the results; made if missing. Without one nothing is written.
     noise : dict of float, optional

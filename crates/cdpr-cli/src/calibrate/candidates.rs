@@ -1,36 +1,37 @@
 //! Where a robot may be measured, what is measured there, and what is uncertain.
 
-use crate::arguments::{self, Named};
+use crate::arguments::{Region, UncertaintyArgument, region};
+use crate::calibrate::sensors::NoiseArgument;
 use crate::error::ProgramError;
 use crate::lists;
-use crate::output::progress;
+use crate::output::{Ending, progress};
 use crate::questions;
-use crate::robot::calibrate::Sought;
 use cdpr_calibration::{Calibration, Measurement};
 use cdpr_robot::{Parameter, Pose, Robot};
 use cdpr_statics::Load;
-use cdpr_study::Grid;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 /// Where a robot may be measured.
 #[derive(clap::Args)]
-#[command(group = clap::ArgGroup::new("where").required(true).args(["poses", "grid"]))]
+#[command(group = clap::ArgGroup::new("where").required(true).args(["poses", "region"]))]
 pub(crate) struct Candidates {
-    /// File of candidate poses (CSV): x_m,y_m,z_m, then qw,qx,qy,qz or roll_deg,pitch_deg,yaw_deg or nothing.
-    #[arg(long)]
+    /// Table of candidate poses: x_m,y_m,z_m, then qw,qx,qy,qz or roll_deg,pitch_deg,yaw_deg or nothing; -
+    /// for the standard input.
+    #[arg(long, value_name = "FILE")]
     poses: Option<PathBuf>,
-    /// Grid of candidate positions, min:max:points of each axis: -2:2:5,-1:1:3,0.5:2.5:3.
-    #[arg(long, value_parser = arguments::grid, allow_hyphen_values = true)]
-    grid: Option<Grid>,
+    /// Candidate positions: x, y and z, each of them a coordinate, min:max or min:max:points [m], such as
+    /// -2:2:5,-1:1:3,1:2.5:3.
+    #[arg(long, value_parser = region, allow_hyphen_values = true)]
+    region: Option<Region>,
 }
 
 impl Candidates {
     pub(super) fn read(&self, robot: &Robot) -> Result<Vec<Pose>, ProgramError> {
-        let poses = match (&self.grid, &self.poses) {
-            (Some(grid), _) => grid.poses(),
-            (None, Some(path)) => lists::pose_file(path)?,
-            (None, None) => return Err(ProgramError::Usage("expected --poses or --grid".to_owned())),
+        let poses = match (&self.region, &self.poses) {
+            (Some(region), _) => region.grid(robot)?.poses(),
+            (None, Some(path)) => lists::pose_file(path)?.poses,
+            (None, None) => return Err(ProgramError::Usage("expected --poses or --region".to_owned())),
         };
         questions::about_poses(robot, "the candidates", &poses);
         Ok(poses)
@@ -68,40 +69,39 @@ pub(super) fn add(
 /// What is uncertain, and what is measured with which noise.
 #[derive(clap::Args)]
 pub(crate) struct Known {
-    /// Standard deviations of the uncertain parameters or groups of them, SI units: a=0.001,b=0.001,mass=0.5.
-    ///
-    /// All other parameters are known. --model has them in a file.
-    #[arg(long, value_parser = arguments::named, conflicts_with = "model", required_unless_present = "model")]
-    uncertainty: Option<Named>,
     #[command(flatten)]
-    sought: Sought,
-    /// What is measured, with its noise, such as position=1e-4,rotation=1e-4.
-    ///
-    /// Position [m] and rotation [rad] go together; others are tensions [N] and lengths [m].
-    #[arg(long, value_parser = arguments::named)]
-    noise: Named,
+    uncertainty: UncertaintyArgument,
+    #[command(flatten)]
+    noise: NoiseArgument,
 }
 
 impl Known {
     /// The standard deviation of each parameter; correlations of an error model do not count.
     pub(super) fn deviations(&self, robot: &Robot) -> Result<Vec<f64>, ProgramError> {
-        match (&self.uncertainty, self.sought.prior(robot)?) {
-            (Some(named), _) => arguments::uncertainties(robot, named),
-            (None, Some(model)) => {
-                let mut variances = vec![0.0; Parameter::of(robot).len()];
-                for term in &model.terms {
-                    variances[term.parameter] += (term.factor * model.inputs[term.input].law.std()).powi(2);
-                }
-                Ok(variances.iter().map(|variance: &f64| variance.sqrt()).collect())
-            }
-            (None, None) => Err(ProgramError::Usage("expected --model or --uncertainty".to_owned())),
+        let model = self.uncertainty.needed(robot)?;
+        let mut variances = vec![0.0; Parameter::of(robot).len()];
+        for term in &model.terms {
+            variances[term.parameter] += (term.factor * model.inputs[term.input].law.std()).powi(2);
         }
+        Ok(variances.iter().map(|variance: &f64| variance.sqrt()).collect())
     }
 
     /// What is measured.
     pub(super) fn measurements(&self, robot: &Robot) -> Result<Vec<Measurement>, ProgramError> {
-        let Named(named) = &self.noise;
-        questions::about_noise(robot, named);
+        let named = self.noise.named(robot);
+        if named.is_empty() {
+            let missing = "expected --noise: what is measured, such as position=1e-4,rotation=1e-4";
+            return Err(ProgramError::Usage(missing.to_owned()));
+        }
         Measurement::named(named).map_err(|error| ProgramError::Usage(format!("--{error}")))
     }
+}
+
+/// The end of a command of which so many candidates of all are held.
+pub(super) fn ending(held: usize, all: usize) -> Ending {
+    if 2 * held < all {
+        eprintln!("warning: fewer than half of the candidate poses are held, {held} of {all}");
+        return Ending::SomethingWrong;
+    }
+    Ending::Well
 }

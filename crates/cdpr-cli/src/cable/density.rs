@@ -1,6 +1,6 @@
-//! `cdpr linear-density`: the mass per length of a cable from a weighing.
+//! `cdpr cable density`: the mass per length of a cable from a weighing.
 
-use crate::arguments::{Format, number};
+use crate::arguments::{Named, Printing, named, number};
 use crate::error::ProgramError;
 use crate::questions;
 use cdpr_cable::{Measured, linear_density};
@@ -16,15 +16,11 @@ pub(crate) struct Settings {
     /// Length of the piece [m].
     #[arg(long, value_parser = number, allow_hyphen_values = true)]
     length: f64,
-    /// Greatest error of the mass [kg].
-    #[arg(long, value_parser = number, allow_hyphen_values = true, default_value_t = 0.0)]
-    mass_error: f64,
-    /// Greatest error of the length [m].
-    #[arg(long, value_parser = number, allow_hyphen_values = true, default_value_t = 0.0)]
-    length_error: f64,
-    /// How the result is printed.
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    format: Format,
+    /// Greatest errors: mass=0.001,length=0.001 [kg, m]; without error if left out.
+    #[arg(long, value_parser = named, default_value = "mass=0")]
+    errors: Named,
+    #[command(flatten)]
+    printing: Printing,
 }
 
 #[derive(Serialize)]
@@ -34,13 +30,14 @@ struct Found {
     unit: &'static str,
 }
 
-pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
+pub(super) fn run(settings: &Settings) -> Result<(), ProgramError> {
+    let [mass, length] = settings.errors.all("--errors", ["mass", "length"])?.map(Option::unwrap_or_default);
     let found = linear_density(
-        Measured { value: settings.mass, error: settings.mass_error },
-        Measured { value: settings.length, error: settings.length_error },
+        Measured { value: settings.mass, error: mass },
+        Measured { value: settings.length, error: length },
     )?;
     questions::ask(plausible::linear_density(found.value));
     let found = Found { linear_density: found.value, error: found.error, unit: "kg/m" };
     let text = |found: &Found| println!("{:.6} kg/m +- {:.6} kg/m", found.linear_density, found.error);
-    Ok(settings.format.print(&found, text)?)
+    Ok(settings.printing.format().print(&found, text)?)
 }

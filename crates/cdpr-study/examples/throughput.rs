@@ -1,36 +1,35 @@
-//! `cdpr study throughput`: how fast a sampling runs, in one line of JSON.
+//! How fast a sampling of a study runs, in one line of JSON:
+//! `cargo run --release -p cdpr-study --example throughput -- STUDY SAMPLING [OBSERVATIONS [THREADS]]`.
+//!
+//! Nothing is written. The intervals of replicates and the measures of sensitivity are observations of their
+//! own and are left out. All cores compute if THREADS is left out.
 
-use crate::arguments::{Preference, Threads};
-use crate::error::ProgramError;
-use crate::output::progress;
-use cdpr_study::{Session, analyse, observe};
+#![allow(clippy::print_stdout)]
+
+use cdpr_study::{Session, Study, analyse, observe};
 use serde_json::json;
 use std::path::Path;
 use std::time::Instant;
 
-pub(crate) fn run(
-    path: &Path,
-    sampling: &str,
-    observations: usize,
-    preference: &Preference,
-    threads: &Threads,
-) -> Result<(), ProgramError> {
-    threads.start()?;
-    let mut study = preference.open_study(path)?;
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let mut arguments = std::env::args().skip(1);
+    let path = arguments.next().ok_or("which study file?")?;
+    let name = arguments.next().ok_or("which sampling of the study?")?;
+    let observations = arguments.next().map_or(Ok(1_000_000), |number| number.parse())?;
+    if let Some(threads) = arguments.next() {
+        rayon::ThreadPoolBuilder::new().num_threads(threads.parse()?).build_global()?;
+    }
+    let mut study = Study::open(Path::new(&path))?;
     study.set_observations(observations)?;
-    // The intervals of replicates and the measures of sensitivity are observations of their own.
     study.file.replicates = 0;
     study.file.sensitivity = None;
-    let sampling = study.sampling(sampling)?;
+    let sampling = study.sampling(&name)?;
     let clock = Instant::now();
-    let bar = progress(observations, "observations");
-    let tick = |done: usize| bar.inc(done as u64);
-    let session = Session { tick: &tick, ..Session::in_memory() };
+    let session = Session::in_memory();
     let tally = observe(&sampling, &session)?;
     let observed = clock.elapsed().as_secs_f64();
     let summary = analyse(&sampling, &tally, &session)?;
     let wall = clock.elapsed().as_secs_f64();
-    bar.finish_and_clear();
     let threads = rayon::current_num_threads();
     let each = |seconds: f64| 1e6 * seconds * threads as f64 / observations as f64;
     let values = summary.values.map(|values| json!({ "mean": values.mean, "std": values.std }));

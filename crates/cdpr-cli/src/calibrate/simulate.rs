@@ -1,13 +1,17 @@
-//! `cdpr calibration simulate`: what a campaign would read.
+//! `cdpr calibrate simulate`: what a campaign would read.
 
-use crate::arguments::{self, FreeArguments, LoadArguments, Named, Overwrite, Preference};
+use crate::arguments::{
+    self, Format, FreeArguments, LoadArguments, Overwrite, Preference, RobotArgument, UncertaintyArgument,
+};
+use crate::calibrate::candidates::Candidates;
+use crate::calibrate::sensors::{NoiseArgument, SensorArguments};
 use crate::endings;
 use crate::error::ProgramError;
+use crate::output::Ending;
 use crate::questions;
-use crate::robot::calibrate::{Sought, sensor_errors};
-use crate::robot::calibration::candidates::Candidates;
 use cdpr_calibration::{Noise, SensorError, Simulated, drawn_errors, simulate, write_measurements};
-use cdpr_robot::{CableEnd, Vector3, counted};
+use cdpr_robot::{CableEnd, counted};
+use serde_json::json;
 use std::path::PathBuf;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -18,24 +22,17 @@ enum CellsAt {
 
 /// A robot that deviates from its file, and what is measured.
 #[derive(clap::Args)]
-pub(crate) struct SimulateSettings {
-    /// Robot file (JSON, `cdpr-robot/1`): what the controller knows.
-    robot: PathBuf,
+pub(crate) struct Settings {
+    #[command(flatten)]
+    robot: RobotArgument,
     #[command(flatten)]
     candidates: Candidates,
     #[command(flatten)]
-    sought: Sought,
-    /// Noise of the sensors that are there: position=1e-4,rotation=1e-4,length=1e-4,tension=5.
-    #[arg(long, value_parser = arguments::named)]
-    noise: Named,
-    /// Errors of the sensors to draw, with their standard deviations: length_offset=0.01,tension_bias=20.
-    ///
-    /// The names are those of `cdpr calibrate --unknown`.
-    #[arg(long, value_name = "ERRORS", value_delimiter = ',')]
-    unknown: Vec<String>,
-    /// Where a marker stands on the platform: x,y,z [m], once for each in their order.
-    #[arg(long = "marker", value_parser = arguments::components::<3>, allow_hyphen_values = true)]
-    markers: Vec<[f64; 3]>,
+    uncertainty: UncertaintyArgument,
+    #[command(flatten)]
+    noise: NoiseArgument,
+    #[command(flatten)]
+    sensors: SensorArguments,
     /// Where the load cells sit.
     #[arg(long, value_enum, default_value_t = CellsAt::Platform)]
     tension_at: CellsAt,
@@ -49,31 +46,32 @@ pub(crate) struct SimulateSettings {
     #[arg(long, value_parser = arguments::seed, allow_negative_numbers = true)]
     seed: u64,
     /// File for the measurements (CSV).
-    #[arg(long, value_parser = endings::csv())]
+    #[arg(short, long, value_parser = endings::csv())]
     out: PathBuf,
     /// File for the robot as it truly is (JSON).
     #[arg(long, value_parser = endings::json())]
     truth: Option<PathBuf>,
     #[command(flatten)]
     overwrite: Overwrite,
+    /// How the counts of rows and poses are printed.
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
 }
 
-pub(super) fn simulated(settings: &SimulateSettings) -> Result<(), ProgramError> {
-    let robot = settings.preference.open_robot(&settings.robot)?;
+pub(super) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
+    let robot = settings.preference.open_robot(settings.robot.path())?;
     let poses = settings.candidates.read(&robot)?;
-    let Some(model) = settings.sought.prior(&robot)? else {
-        return Err(ProgramError::Usage(
-            "expected --model, the tolerances to draw deviations from".to_owned(),
-        ));
-    };
-    let Named(noise) = &settings.noise;
-    questions::about_noise(&robot, noise);
+    let model = settings.uncertainty.needed(&robot)?;
+    let noise = settings.noise.named(&robot);
+    if noise.is_empty() {
+        let missing = "expected --noise of the sensors that are there, such as position=1e-4,rotation=1e-4";
+        return Err(ProgramError::Usage(missing.to_owned()));
+    }
     questions::about_load(&robot, &settings.load.load());
     let noise = Noise::named(noise)?;
     let deviations = cdpr_calibration::drawn(&model, settings.seed);
-    let markers: Vec<Vector3<f64>> = settings.markers.iter().map(|marker| Vector3::from(*marker)).collect();
-    questions::about_markers(&robot, markers.iter().copied());
-    let errors = sensor_errors(&settings.unknown)?;
+    let markers = settings.sensors.markers(&robot);
+    let errors = settings.sensors.errors()?;
     let sized = |(error, std): (SensorError, Option<f64>)| {
         let name = error.name();
         let missing = || ProgramError::Usage(format!("--unknown {name}: expected {name}=STD"));
@@ -104,7 +102,11 @@ pub(super) fn simulated(settings: &SimulateSettings) -> Result<(), ProgramError>
     let truth = settings.truth.iter().map(|path| (path.as_path(), truth.as_str()));
     let files: Vec<_> = truth.chain([(settings.out.as_path(), text.as_str())]).collect();
     settings.overwrite.write_all(&files)?;
-    let [rows, poses] = [counted(rows.len(), "row"), counted(poses.len(), "pose")];
-    println!("{}: {rows} at {poses}", settings.out.display());
-    Ok(())
+    let (held, all) = (rows.len(), poses.len());
+    let written = json!({ "measurements": settings.out.to_string_lossy(), "rows": held, "poses": all });
+    settings.format.print(&written, |_| {
+        let [rows, poses] = [counted(held, "row"), counted(all, "pose")];
+        println!("{}: {rows} at {poses}", settings.out.display());
+    })?;
+    Ok(Ending::Well)
 }

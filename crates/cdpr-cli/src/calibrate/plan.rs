@@ -1,24 +1,26 @@
-//! `cdpr calibration plan`: the poses to measure.
+//! `cdpr calibrate plan`: the poses to measure.
 
-use crate::arguments::{self, Format, FreeArguments, LoadArguments, Overwrite, Preference};
+use crate::arguments::{
+    self, Format, FreeArguments, LoadArguments, Overwrite, Preference, Region, RobotArgument, region,
+};
+use crate::calibrate::candidates::{Candidates, Known, add, ending};
 use crate::endings;
 use crate::error::ProgramError;
-use crate::output::{patiently, table};
+use crate::output::{Ending, patiently, table};
 use crate::poses;
 use crate::questions;
-use crate::robot::calibration::candidates::{Candidates, Known, add};
 use cdpr_calibration::{AtWork, Calibration, Criterion, PosePlan, Quality};
 use cdpr_robot::{Pose, Robot, counted, rounded, shown};
-use cdpr_study::Grid;
+use cdpr_study::OutputLimit;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 /// The robot, the candidates, and what is to be exact.
 #[derive(clap::Args)]
-pub(crate) struct PlanSettings {
-    /// Robot file (JSON, `cdpr-robot/1`).
-    robot: PathBuf,
+pub(crate) struct Settings {
+    #[command(flatten)]
+    robot: RobotArgument,
     #[command(flatten)]
     candidates: Candidates,
     #[command(flatten)]
@@ -29,27 +31,25 @@ pub(crate) struct PlanSettings {
     /// What the set is to be best in.
     #[arg(long, value_enum, default_value_t = CriterionName::Information)]
     criterion: CriterionName,
-    /// Positions where the robot works, min:max:points of each axis.
-    #[arg(long, value_parser = arguments::grid, allow_hyphen_values = true)]
-    work: Option<Grid>,
-    /// What is to be exact there: the position with given lengths, or the deflection by the load.
-    #[arg(long, value_enum, default_value_t = OfWork::Position)]
-    of: OfWork,
-    /// How exact it is to be there, the standard deviation of a coordinate [m]: how many poses does that
-    /// take?
-    #[arg(long, value_parser = arguments::payload, requires = "work")]
-    accuracy: Option<f64>,
+    /// Positions where the robot works, as those of --region: the position with given lengths, or the
+    /// deflection by the load, is to be exact there.
+    #[arg(long, value_name = "REGION", value_parser = region, allow_hyphen_values = true)]
+    work: Option<Region>,
+    /// How exact it is to be there, the standard deviation of a coordinate: position_mm<VALUE or
+    /// deflection_mm<VALUE [mm]. How many poses does that take?
+    #[arg(long, value_name = "COLUMN<VALUE", value_parser = arguments::limit, requires = "work")]
+    limit: Option<(String, OutputLimit)>,
     #[command(flatten)]
     load: LoadArguments,
     #[command(flatten)]
     free: FreeArguments,
     #[command(flatten)]
     preference: Preference,
-    /// Seed of the random sets beside it.
+    /// Seed of the random sets that are compared with it.
     #[arg(long, default_value_t = 1, value_parser = arguments::seed, allow_negative_numbers = true)]
     seed: u64,
     /// File for the poses (CSV), as --poses reads them.
-    #[arg(long, value_parser = endings::csv())]
+    #[arg(short, long, value_parser = endings::csv())]
     out: Option<PathBuf>,
     #[command(flatten)]
     overwrite: Overwrite,
@@ -64,48 +64,70 @@ enum CriterionName {
     Information,
     /// Mean variance of the parameters (A-optimal).
     Parameters,
-    /// Mean variance where the robot works.
-    MeanAtWork,
-    /// Greatest variance where the robot works (G-optimal).
-    WorstAtWork,
+    /// Mean variance of the position where the robot works.
+    MeanPosition,
+    /// Greatest variance of the position where the robot works (G-optimal).
+    WorstPosition,
+    /// Mean variance of the deflection where the robot works.
+    MeanDeflection,
+    /// Greatest variance of the deflection where the robot works.
+    WorstDeflection,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-enum OfWork {
-    Position,
-    Deflection,
+impl CriterionName {
+    /// The criterion, and what is to be exact where the robot works, if it is one of that.
+    fn meant(self) -> (Criterion, Option<AtWork>) {
+        match self {
+            Self::Information => (Criterion::Information, None),
+            Self::Parameters => (Criterion::Parameters, None),
+            Self::MeanPosition => (Criterion::MeanAtWork, Some(AtWork::Position)),
+            Self::WorstPosition => (Criterion::WorstAtWork, Some(AtWork::Position)),
+            Self::MeanDeflection => (Criterion::MeanAtWork, Some(AtWork::Deflection)),
+            Self::WorstDeflection => (Criterion::WorstAtWork, Some(AtWork::Deflection)),
+        }
+    }
 }
 
-pub(super) fn plan(settings: &PlanSettings) -> Result<(), ProgramError> {
-    let robot = settings.preference.open_robot(&settings.robot)?;
+impl Settings {
+    /// What is to be exact where the robot works, and how exact [m].
+    fn at_work(&self) -> Result<(AtWork, Option<f64>), ProgramError> {
+        let (_, of_criterion) = self.criterion.meant();
+        let Some(limit) = &self.limit else { return Ok((of_criterion.unwrap_or(AtWork::Position), None)) };
+        let (name, most) =
+            arguments::upper(limit, &["position_mm", "deflection_mm"]).map_err(ProgramError::Usage)?;
+        let of = if name == "position_mm" { AtWork::Position } else { AtWork::Deflection };
+        if of_criterion.is_some_and(|criterion| criterion != of) {
+            let usage = format!("--limit {name} and --criterion: expected both of the same quantity");
+            return Err(ProgramError::Usage(usage));
+        }
+        Ok((of, Some(1e-3 * most)))
+    }
+}
+
+pub(super) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
+    let (criterion, of_work) = settings.criterion.meant();
+    let (of, accuracy) = settings.at_work()?;
+    let robot = settings.preference.open_robot(settings.robot.path())?;
     let candidates = settings.candidates.read(&robot)?;
     let measurements = settings.known.measurements(&robot)?;
     let uncertainties = settings.known.deviations(&robot)?;
-    let criterion = match settings.criterion {
-        CriterionName::Information => Criterion::Information,
-        CriterionName::Parameters => Criterion::Parameters,
-        CriterionName::MeanAtWork => Criterion::MeanAtWork,
-        CriterionName::WorstAtWork => Criterion::WorstAtWork,
-    };
-    let at_work = matches!(criterion, Criterion::MeanAtWork | Criterion::WorstAtWork);
-    if at_work && settings.work.is_none() {
-        return Err(ProgramError::Usage(
-            "--criterion at work: expected --work, where the robot works".to_owned(),
-        ));
+    if of_work.is_some() && settings.work.is_none() {
+        let usage = "--criterion: expected --work, too, where the robot works";
+        return Err(ProgramError::Usage(usage.to_owned()));
     }
     let mut calibration = Calibration::new(&robot, &uncertainties)?.with_free(&settings.free.free);
     let load = settings.load.load();
     questions::about_load(&robot, &load);
-    questions::about_accuracy(&robot, settings.accuracy);
+    questions::about_accuracy(&robot, accuracy);
+    let all = candidates.len();
     let (poses, refused) = add(&mut calibration, candidates, &load, &measurements)?;
-    let of = match settings.of {
-        OfWork::Position => AtWork::Position,
-        OfWork::Deflection => AtWork::Deflection,
+    let work = match &settings.work {
+        Some(region) => region.grid(&robot)?.poses(),
+        None => Vec::new(),
     };
-    let work = settings.work.map(|grid| grid.poses()).unwrap_or_default();
     questions::about_poses(&robot, "--work", &work);
     let worked = work.iter().filter(|pose| calibration.add_work(pose, &load, of).is_ok()).count();
-    if at_work && worked == 0 {
+    if of_work.is_some() && worked == 0 {
         return Err(ProgramError::NoPoseHeld { reasons: "none of --work is held".to_owned() });
     }
     let found = patiently("choosing poses", || calibration.plan(settings.count, criterion, settings.seed));
@@ -117,8 +139,9 @@ pub(super) fn plan(settings: &PlanSettings) -> Result<(), ProgramError> {
             .collect();
         settings.overwrite.write(out, &format!("{}\n{}\n", poses::COLUMNS.join(","), lines.join("\n")))?;
     }
-    let output = Plan::new(&poses, refused, found, settings.accuracy);
-    Ok(settings.format.print(&output, |output| print_plan(&robot, output))?)
+    let output = Plan::new(&poses, refused, found, accuracy);
+    settings.format.print(&output, |output| print_plan(&robot, output))?;
+    Ok(ending(output.candidates, all))
 }
 
 /// A plan as it is printed.

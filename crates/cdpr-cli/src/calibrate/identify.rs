@@ -1,23 +1,22 @@
-//! `cdpr calibration identify`: what measurements identify.
+//! `cdpr calibrate identify`: what measurements identify.
 
-use crate::arguments::{self, Format, FreeArguments, Preference};
+use crate::arguments::{self, FreeArguments, Preference, Printing, RobotArgument};
+use crate::calibrate::candidates::{Candidates, Known, add, ending};
 use crate::error::ProgramError;
-use crate::output::{patiently, table};
+use crate::output::{Ending, patiently, table};
 use crate::poses;
 use crate::questions;
-use crate::robot::calibration::candidates::{Candidates, Known, add};
 use cdpr_calibration::{Calibration, Combination, Identifiability, ParameterValue};
 use cdpr_robot::{Pose, Robot, counted, rounded, shown};
 use cdpr_statics::Load;
 use serde::Serialize;
 use std::collections::BTreeMap;
-use std::path::PathBuf;
 
 /// The robot, the candidate poses and the measurements.
 #[derive(clap::Args)]
 pub(crate) struct Settings {
-    /// Robot file (JSON, `cdpr-robot/1`).
-    robot: PathBuf,
+    #[command(flatten)]
+    robot: RobotArgument,
     #[command(flatten)]
     candidates: Candidates,
     #[command(flatten)]
@@ -29,28 +28,29 @@ pub(crate) struct Settings {
     free: FreeArguments,
     #[command(flatten)]
     preference: Preference,
-    /// Number of poses to choose.
+    /// Number of best poses that are printed.
     #[arg(long, default_value_t = 10, value_parser = arguments::count::<0, 100_000>)]
-    choose: usize,
-    /// How the results are printed.
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    format: Format,
+    count: usize,
+    #[command(flatten)]
+    printing: Printing,
 }
 
-pub(super) fn identify(settings: &Settings) -> Result<(), ProgramError> {
-    let robot = settings.preference.open_robot(&settings.robot)?;
+pub(super) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
+    let robot = settings.preference.open_robot(settings.robot.path())?;
     let candidates = settings.candidates.read(&robot)?;
     let measurements = settings.known.measurements(&robot)?;
     let uncertainties = settings.known.deviations(&robot)?;
     let mut calibration = Calibration::new(&robot, &uncertainties)?.with_free(&settings.free.free);
     let load = Load::payload(settings.payload);
     questions::about_load(&robot, &load);
+    let all = candidates.len();
     let (poses, refused) = add(&mut calibration, candidates, &load, &measurements)?;
     let output = patiently("choosing poses", || {
         let found = calibration.identify(0..poses.len());
-        Output::new(poses, refused, &found, &calibration, settings.choose)
+        Output::new(poses, refused, &found, &calibration, settings.count)
     });
-    Ok(settings.format.print(&output, |output| print(&robot, output))?)
+    settings.printing.format().print(&output, |output| print(&robot, output))?;
+    Ok(ending(output.poses, all))
 }
 
 /// The results.

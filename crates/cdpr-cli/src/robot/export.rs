@@ -1,30 +1,27 @@
-//! `cdpr export`: a robot in the files of another program.
+//! `cdpr robot export`: a robot in the files of another program.
 
-use crate::arguments::Overwrite;
+use crate::arguments::{Overwrite, RobotArgument};
 use crate::endings::check_foreign;
 use crate::error::ProgramError;
 use crate::output::patiently;
-use crate::poses::{Angles, place, pose};
+use crate::poses::{PoseArguments, place};
 use crate::questions;
 use cdpr_exchange::{Target, export};
-use cdpr_robot::{Pose, shown};
+use cdpr_robot::shown;
 use std::path::{Path, PathBuf};
 
 /// A robot, a pose and a format.
 #[derive(clap::Args)]
 pub(crate) struct Settings {
-    /// Robot file (JSON, `cdpr-robot/1`).
-    robot: PathBuf,
+    #[command(flatten)]
+    robot: RobotArgument,
     /// Format.
     #[arg(long, value_enum)]
     to: Format,
-    /// Pose at which the robot rests: x,y,z [m], or x,y,z,qw,qx,qy,qz with a quaternion.
-    #[arg(long, value_parser = pose, allow_hyphen_values = true)]
-    pose: Pose,
     #[command(flatten)]
-    angles: Angles,
+    pose: PoseArguments,
     /// File to write; with CASPR what both names begin with.
-    #[arg(long)]
+    #[arg(short, long)]
     out: PathBuf,
     #[command(flatten)]
     overwrite: Overwrite,
@@ -63,8 +60,8 @@ impl Format {
 
 pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
     settings.to.check(&settings.out)?;
-    let robot = questions::open_robot(&settings.robot)?;
-    let pose = settings.angles.of(&settings.pose)?;
+    let pose = settings.pose.needed()?;
+    let robot = questions::open_robot(settings.robot.path())?;
     questions::about_pose(&robot, "--pose", &pose);
     let exported = patiently("solving", || export(&robot, &pose, settings.to.target()))?;
     let single = exported.files.len() == 1;
