@@ -2,7 +2,9 @@
 //!
 //! A parser says what is wrong with the text; clap adds the argument and the value.
 
+pub(crate) mod endings;
 mod limit;
+pub(crate) mod poses;
 mod printing;
 mod region;
 mod robot;

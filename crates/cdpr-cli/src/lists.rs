@@ -1,7 +1,7 @@
 //! Poses and wrenches as files list them, one a line: which column is which quantity, and in which unit.
 
+use crate::arguments::poses::pose_of;
 use crate::error::ProgramError;
-use crate::poses::pose_of;
 use crate::questions;
 use cdpr_robot::{Pose, Vector3, counted, plausible, rotation_by_angles, rotation_of, short};
 use cdpr_study::{Column, Dimension, InputKind, StudyError, Table, TableError, read_table};

@@ -1,5 +1,5 @@
 //! Assessments of a robot and its cables, as the commands `check`, `tolerances`, `robustness`, `hysteresis`,
-//! `modulus` and `linear-density` make them. `assess.py` makes classes of these.
+//! `modulus` and `linear-density` make them. The package `cdpr.assess` makes classes of these.
 
 use crate::convert::{Answer, Raised, Rows, guarded, run, to_json, watched, whole};
 use crate::robot::Robot;

@@ -1,5 +1,4 @@
-//! Calibration, as `cdpr calibrate fit` and `cdpr calibrate` have it. `calibration.py` makes dictionaries of the
-//! answers.
+//! Calibration, as `cdpr calibrate` has it. The package `cdpr.calibration` makes classes of the answers.
 
 use crate::convert::{Answer, Numbers, Raised, Rows, question, run, to_json, watched};
 use crate::robot::Robot;
@@ -23,8 +22,8 @@ type Named = Vec<(String, f64)>;
 
 /// Fits the parameters of a robot to measurements, and writes all results to a folder if one is given.
 ///
-/// Returns the calibrated robot, and as JSON the summary, what is known of the robot's errors, the residuals and
-/// the poses.
+/// Returns the calibrated robot, and as JSON the summary, what is known of the robot's errors, the residuals
+/// and the poses.
 #[pyfunction]
 #[allow(clippy::too_many_arguments)]
 pub(crate) fn calibrate(

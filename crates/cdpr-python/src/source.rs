@@ -60,7 +60,7 @@ impl Source {
     pub(crate) fn record(&self) -> Answer<Record> {
         match self {
             Self::Text(name, text) => {
-                read_record(text).map_err(|error| Raised::Input(format!("{}: {error}", name.display())))
+                read_record(text.as_bytes()).map_err(|error| Raised::Input(format!("{}: {error}", name.display())))
             }
             Self::File(path) => Ok(open_record(path)?),
         }

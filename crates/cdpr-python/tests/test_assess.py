@@ -258,7 +258,7 @@ def test_records_laws_and_studies_need_no_files(caroca, data, tmp_path, monkeypa
     assert assess.hysteresis(caroca, [0, 0, 1.75], 50, law=law).content == elastic.content
     found = assess.tolerances({**study, "robot": caroca}, "mechanical", 1.4, observations=200)
     assert found.content == budget.content
-    with pytest.raises(cdpr.InputError, match="record: line 1: header is force_kn"):
-        assess.modulus({"force_kn": [1.0], "elongation_mm": [1.0], "phase": ["loading"]}, **known)
+    with pytest.raises(cdpr.InputError, match="record: line 1: header is force_kg"):
+        assess.modulus({"force_kg": [1.0], "elongation_mm": [1.0], "phase": ["loading"]}, **known)
     with pytest.raises(cdpr.InputError, match="law: format is cdpr-law/9"):
         assess.hysteresis(caroca, [0, 0, 1.75], 50, law={**law, "format": "cdpr-law/9"})

@@ -637,6 +637,7 @@ def test_answers_can_be_drawn(name):
             robot.workspace(plane=("z", pose[2]), grid=(4, 3), payload=1),
             robot.workspace(x=pose[0], y=pose[1], z=(pose[2], pose[2] + 0.2, 3), payload=1),
             robot.boundary(plane=("z", pose[2]), grid=(4, 3), payload=1),
+            robot.boundary(x=(-0.5, 0.5, 3), y=(-0.5, 0.5, 3), z=(pose[2], pose[2] + 0.2, 3), payload=1),
         ]
     for answer in answers:
         figure = answer.plot()

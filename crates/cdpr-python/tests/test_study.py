@@ -325,3 +325,21 @@ def test_what_a_calibration_leaves_is_an_error_model_of_a_study(study, caroca):
     content.update(robot=caroca, error_models={"posterior": posterior}, samplings={"after": sampling})
     table = cdpr.study.run(content, observations=64).observations("after")
     assert [name for name in table.dtype.names if name.startswith("d_")] == ["d_posterior_1", "d_posterior_2"]
+
+
+@pytest.mark.parametrize("name", ["cogiro", "four-cables"])
+def test_a_sampling_has_its_statistics_and_the_effect_of_each_parameter(name):
+    study = cdpr.study.template(cdpr.Robot.from_file(name))
+    results = cdpr.study.run(study, observations=64)
+    found, table = results.sampling("all"), results.observations("all")
+    values = table[found.output]
+    assert found.mean == pytest.approx(numpy.nanmean(values), rel=1e-12) and found.max == numpy.nanmax(values)
+    assert found.observations == 64 and sum(found.failed.values()) == numpy.isnan(values).sum()
+    assert [f"d_{parameter}" for parameter in found.inputs] == list(table.dtype.names[1 : len(found.inputs) + 1])
+    assert found.effect.shape == found.student.shape == (len(found.inputs),)
+    assert found.effect_interval.shape == (len(found.inputs), 2) and found.output == "magnitude_mm"
+    surface = next(part for part in results.summary["studies"] if part != "all")
+    with pytest.raises(cdpr.InputError, match=f"name is '{surface}': expected a sampling with observations, one of all"):
+        results.sampling(surface)
+    if name == "cogiro":
+        assert list(results.table("all_sensitivity")["input"]) == found.inputs

@@ -1,7 +1,7 @@
 //! `cdpr cable modulus`: the moduli of a cable from a load-elongation record.
 
+use crate::arguments::endings;
 use crate::arguments::{Named, Printing, named, number};
-use crate::endings;
 use crate::error::ProgramError;
 use crate::output::{patiently, table};
 use crate::questions;

@@ -1,10 +1,10 @@
 //! `cdpr calibrate identify`: what measurements identify.
 
+use crate::arguments::poses;
 use crate::arguments::{self, FreeArguments, Preference, Printing, RobotArgument};
 use crate::calibrate::candidates::{Candidates, Known, add, ending};
 use crate::error::ProgramError;
 use crate::output::{Ending, patiently, table};
-use crate::poses;
 use crate::questions;
 use cdpr_calibration::{Calibration, Combination, Identifiability, ParameterValue};
 use cdpr_robot::{Pose, Robot, counted, rounded, shown};

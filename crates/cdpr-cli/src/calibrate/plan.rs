@@ -1,13 +1,13 @@
 //! `cdpr calibrate plan`: the poses to measure.
 
+use crate::arguments::endings;
+use crate::arguments::poses;
 use crate::arguments::{
     self, Format, FreeArguments, LoadArguments, Overwrite, Preference, Region, RobotArgument, region,
 };
 use crate::calibrate::candidates::{Candidates, Known, add, ending};
-use crate::endings;
 use crate::error::ProgramError;
 use crate::output::{Ending, patiently, table};
-use crate::poses;
 use crate::questions;
 use cdpr_calibration::{AtWork, Calibration, Criterion, PosePlan, Quality};
 use cdpr_robot::{Pose, Robot, counted, rounded, shown};

@@ -1,11 +1,11 @@
 //! `cdpr calibrate simulate`: what a campaign would read.
 
+use crate::arguments::endings;
 use crate::arguments::{
     self, Format, FreeArguments, LoadArguments, Overwrite, Preference, RobotArgument, UncertaintyArgument,
 };
 use crate::calibrate::candidates::Candidates;
 use crate::calibrate::sensors::{NoiseArgument, SensorArguments};
-use crate::endings;
 use crate::error::ProgramError;
 use crate::output::Ending;
 use crate::questions;

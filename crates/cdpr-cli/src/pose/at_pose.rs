@@ -1,13 +1,13 @@
 //! A robot at a pose, or at each pose of a file: arguments and answers of several commands.
 
 use crate::answer::OutOfLimits;
+use crate::arguments::poses::{COLUMNS, PoseArguments, place, pose_numbers};
 use crate::arguments::{
     Format, FreeArguments, LoadArguments, Preference, Printing, RobotArgument, print_record,
 };
 use crate::error::ProgramError;
 use crate::lists::{PoseTable, pose_file};
 use crate::output::{Ending, patiently, progress};
-use crate::poses::{COLUMNS, PoseArguments, place, pose_numbers};
 use crate::questions;
 use cdpr_robot::{Pose, Robot, shown};
 use cdpr_statics::StaticsError;

@@ -3,11 +3,11 @@
 //! Cases come one from the arguments, or one or many from a file.
 
 use crate::answer::Found;
+use crate::arguments::poses::{self, PoseArguments};
 use crate::arguments::{self, Printing, RobotArgument};
 use crate::error::ProgramError;
 use crate::output::{Ending, patiently, progress};
 use crate::pose::at_pose::Failure;
-use crate::poses::{self, PoseArguments};
 use crate::questions;
 use cdpr_robot::{Robot, Vector3, Wrench, from_json, plausible};
 use cdpr_statics::{Certificate, DirectProblem, DirectStart, Load, StaticsError, check_lengths, rough_pose};

@@ -1,14 +1,14 @@
 //! `cdpr hysteresis`: where a payload that is put on and taken off again leaves the platform.
 
 use crate::answer::{OutOfLimits, vector};
+use crate::arguments::endings;
+use crate::arguments::poses::PoseArguments;
 use crate::arguments::{
     self, FreeArguments, Preference, Printing, RobotArgument, With, number, payload, with,
 };
-use crate::endings;
 use crate::error::ProgramError;
 use crate::output::{Ending, patiently, table};
 use crate::pose::at_pose::print_fall;
-use crate::poses::PoseArguments;
 use crate::questions;
 use cdpr_report::{Cycle, CycleBranch, cycle};
 use cdpr_robot::Robot;

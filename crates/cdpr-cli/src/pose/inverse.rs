@@ -1,11 +1,11 @@
 //! `cdpr inverse`: the unstrained lengths that hold a pose.
 
 use crate::answer::{self, Neutral, OutOfLimits, Residual, bound_name};
+use crate::arguments::poses::{COLUMNS, pose_numbers};
 use crate::arguments::{FreeArguments, With, with};
 use crate::error::ProgramError;
 use crate::output::Ending;
 use crate::pose::at_pose::{RobotAtPose, Row, cells, numbered};
-use crate::poses::{COLUMNS, pose_numbers};
 use cdpr_robot::{Pose, Robot};
 use cdpr_statics::free_coordinates::{FreeSolution, FreeSolutions, free_solutions};
 use cdpr_statics::{

@@ -3,11 +3,11 @@
 mod massless;
 
 use crate::answer::{OutOfLimits, decimal};
+use crate::arguments::poses;
 use crate::arguments::{self, FreeArguments};
 use crate::error::ProgramError;
 use crate::output::{Ending, table};
 use crate::pose::at_pose::{RobotAtPose, Row};
-use crate::poses;
 use crate::questions;
 use crate::said::note;
 use cdpr_dynamics::{Mode, Modes, Wanted};

@@ -2,7 +2,7 @@
 
 use crate::answer::{OutOfLimits, warn_of_cables};
 use crate::arguments::UncertaintyArgument;
-use crate::endings;
+use crate::arguments::endings;
 use crate::error::ProgramError;
 use crate::output::Ending;
 use crate::pose::at_pose::{RobotAtPose, Row, cells, numbered};

@@ -1,7 +1,7 @@
 //! `cdpr explore`: a robot that computes in the browser, as one HTML file.
 
+use crate::arguments::endings;
 use crate::arguments::{Format, Overwrite, named_after};
-use crate::endings;
 use crate::error::ProgramError;
 use crate::output::patiently;
 use crate::questions;

@@ -1,10 +1,10 @@
 //! `cdpr robot export`: a robot in the files of another program.
 
+use crate::arguments::endings::check_foreign;
+use crate::arguments::poses::{PoseArguments, place};
 use crate::arguments::{Overwrite, RobotArgument};
-use crate::endings::check_foreign;
 use crate::error::ProgramError;
 use crate::output::patiently;
-use crate::poses::{PoseArguments, place};
 use crate::questions;
 use cdpr_exchange::{Target, export};
 use cdpr_robot::shown;

@@ -1,7 +1,7 @@
 //! `cdpr robot import`: a robot file made of the files of another program.
 
+use crate::arguments::endings;
 use crate::arguments::{self, Overwrite, components};
-use crate::endings;
 use crate::error::ProgramError;
 use crate::output::Ending;
 use crate::questions;

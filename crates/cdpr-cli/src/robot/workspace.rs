@@ -1,13 +1,13 @@
 //! `cdpr workspace`: where the cables hold the platform, and how far it gives there, over a plane or a box.
 
 use crate::answer::warn_of_cables;
+use crate::arguments::poses::Angles;
 use crate::arguments::{
     self, Format, FreeArguments, LoadArguments, Overwrite, Preference, Region, RobotArgument, Threads,
     UncertaintyArgument, With, count, region, with,
 };
 use crate::error::ProgramError;
 use crate::output::{Ending, drawn, patiently, progress, table};
-use crate::poses::Angles;
 use crate::questions;
 use crate::wrenches::WrenchArguments;
 use cdpr_assess::{

@@ -1,7 +1,7 @@
 //! `cdpr study report`: the report of a study, from its folder of results.
 
+use crate::arguments::endings;
 use crate::arguments::{Format, Overwrite};
-use crate::endings;
 use crate::error::ProgramError;
 use crate::output::patiently;
 use cdpr_assess::read_region;

@@ -1,10 +1,10 @@
 //! `cdpr study new`: a first study of a robot.
 
+use crate::arguments::endings;
+use crate::arguments::poses::pose;
 use crate::arguments::{self, FreeArguments, RobotArgument};
-use crate::endings;
 use crate::error::ProgramError;
 use crate::output::patiently;
-use crate::poses::pose;
 use crate::questions;
 use cdpr_robot::{Pose, Rotation3};
 use cdpr_study::{TEMPLATE_NOTES, template, template_cost, write_template};

@@ -96,29 +96,67 @@ class Robot:
     A robot does not change: `with_parameters` makes another one. Units are SI, and z points up in the base
     frame. A pose is x, y, z [m], or x, y, z, qw, qx, qy, qz.
 
-    anchor_points: (n, 3), points A_i in the platform frame [m].
-    exit_points: (n, 3), points B_i in the base frame [m].
-    mass: mass of the platform [kg].
-    section: section that carries the tension [m²]; one number, or one for each cable, as for the next two.
-    linear_density: mass per unstrained length [kg/m].
-    youngs_modulus: Young's modulus [Pa].
-    tension_limits: least and greatest tension of a cable [N], (2,), or one row for each cable, (n, 2).
-    max_at: the end at which the greatest tension is limited, "anchor", on the platform, or "exit", where the
-        limit is the winch's.
-    tension_reference: tensions that those of the inverse model come as near to as they can: a number for all
-        cables [N], one for each, or "mid", the middle of the limits; the least norm if left out.
-    distribution: which tensions the inverse model chooses: "nearest" to tension_reference, or of "least_1_norm",
-        "least_2_norm" or "least_infinity_norm". Derivatives, paths and studies refuse the 1-norm and the
-        infinity-norm, whose tensions jump from pose to pose.
-    center_of_mass: centre of mass in the platform frame [m]; P if left out.
-    gravity: acceleration due to gravity [m/s²], a number along -z of the base frame or a vector in it, (3,);
+    Parameters
+    ----------
+    anchor_points : array_like
+        (n, 3), points A_i in the platform frame [m].
+    exit_points : array_like
+        (n, 3), points B_i in the base frame [m].
+    mass : float
+        Mass of the platform [kg].
+    section : array_like
+        Section that carries the tension [m²]; one number, or one for each cable, as for the next two.
+    linear_density : array_like
+        Mass per unstrained length [kg/m].
+    youngs_modulus : array_like
+        Young's modulus [Pa].
+    tension_limits : array_like
+        Least and greatest tension of a cable [N], (2,), or one row for each cable, (n, 2).
+    center_of_mass : array_like, optional
+        Centre of mass in the platform frame [m]; P if left out.
+    gravity : array_like, optional
+        Acceleration due to gravity [m/s²], a number along -z of the base frame or a vector in it, (3,);
         9.81 if left out.
-    point: whether the platform is a point mass: its rotation is held.
-    plane: "xy", "xz" or "yz" for a planar robot, whose platform moves in this plane of the base frame.
-    ground_z: height of the ground in the base frame [m]: with free coordinates no cable and no anchor point is
-        below it.
+    name : str, optional
+        Name of the robot; "robot" if left out.
+    max_at : str, default 'anchor'
+        The end at which the greatest tension is limited, "anchor", on the platform, or "exit", where
+        the limit is the winch's.
+    tension_reference : array_like or str, optional
+        Tensions that those of the inverse model come as near to as they can: a number for all cables
+        [N], one for each, or "mid", the middle of the limits; the least norm if left out.
+    distribution : str, default 'nearest'
+        Which tensions the inverse model chooses: "nearest" to tension_reference, or of "least_1_norm",
+        "least_2_norm" or "least_infinity_norm". Derivatives, paths and studies refuse the 1-norm and
+        the infinity-norm, whose tensions jump from pose to pose.
+    point : bool, default False
+        Whether the platform is a point mass: its rotation is held.
+    plane : str, optional
+        "xy", "xz" or "yz" for a planar robot, whose platform moves in this plane of the base frame.
+    ground_z : float, optional
+        Height of the ground in the base frame [m]: with free coordinates no cable and no anchor point
+        is below it.
 
-    Raises InputError naming the field, its value and what would be right.
+    Raises
+    ------
+    InputError
+        The message names the field, its value and what would be right.
+
+    Examples
+    --------
+    >>> import cdpr
+    >>> robot = cdpr.Robot(
+    ...     [[0, 0, 0], [0, 0, 0], [0, 0, 0]],
+    ...     [[0, 0, 3], [4, 0, 3], [2, 3, 3]],
+    ...     mass=10.0,
+    ...     section=1.26e-5,
+    ...     linear_density=0.1,
+    ...     youngs_modulus=1e11,
+    ...     tension_limits=(1.0, 5000.0),
+    ...     point=True,
+    ... )
+    >>> robot.inverse([2, 1, 1]).tensions.shape  # [N]
+    (3,)
     """
 
     def __new__(
@@ -145,21 +183,104 @@ class Robot:
     def from_file(path: _Path) -> Robot:
         """Reads a robot file (`cdpr-robot/1`), or a robot of the library by its name, `cogiro`.
 
-        Raises FileError, and InputError with line, column, field and what would be right.
+        Parameters
+        ----------
+        path : path
+            Path of the file.
+
+        Returns
+        -------
+        Robot
+            The robot.
+
+        Raises
+        ------
+        FileError
+            For a file or folder that cannot be read, written or used.
+        InputError
+            The message has line, column, field and what would be right.
+
+        Examples
+        --------
+        >>> cdpr.Robot.from_file("cogiro").n_cables
+        8
         """
     @staticmethod
     def from_json(text: str) -> Robot:
-        """Makes a robot from the text of a robot file."""
+        """Makes a robot from the text of a robot file.
+
+        Parameters
+        ----------
+        text : str
+            Text of a robot file.
+
+        Returns
+        -------
+        Robot
+            The robot.
+
+        Examples
+        --------
+        >>> import cdpr
+        >>> robot = cdpr.Robot.from_file("cogiro")
+        >>> cdpr.Robot.from_json(robot.to_json()) == robot
+        True
+        """
     @staticmethod
     def from_dict(content: dict[str, Any]) -> Robot:
         """Makes a robot from the dictionary that `json.loads` makes of a robot file.
 
         It may hold numbers and arrays of NumPy.
+
+        Parameters
+        ----------
+        content : dict
+            The dictionary.
+
+        Returns
+        -------
+        Robot
+            The robot.
+
+        Examples
+        --------
+        >>> import cdpr
+        >>> robot = cdpr.Robot.from_file("cogiro")
+        >>> content = robot.to_dict()
+        >>> content["platform"]["mass"] = 100  # [kg]
+        >>> cdpr.Robot.from_dict(content).mass
+        100.0
         """
     def to_json(self) -> str:
-        """The robot file as text."""
+        """The robot file as text.
+
+        Returns
+        -------
+        str
+            The text.
+
+        Examples
+        --------
+        >>> import cdpr
+        >>> robot = cdpr.Robot.from_file("cogiro")
+        >>> robot.to_json()[0]
+        '{'
+        """
     def to_dict(self) -> dict[str, Any]:
-        """The robot file as a dictionary."""
+        """The robot file as a dictionary.
+
+        Returns
+        -------
+        dict
+            The dictionary.
+
+        Examples
+        --------
+        >>> import cdpr
+        >>> robot = cdpr.Robot.from_file("cogiro")
+        >>> robot.to_dict()["format"]
+        'cdpr-robot/1'
+        """
     @property
     def name(self) -> str:
         """Name of the robot."""
@@ -210,10 +331,28 @@ class Robot:
     def with_tension_reference(self, reference: ArrayLike | str | None) -> Robot:
         """Makes a robot whose inverse model prefers other tensions.
 
-        reference: a number for all cables [N], one for each, "mid" for the middle of the limits, or None for
-            the least norm.
+        Parameters
+        ----------
+        reference : array_like or str, optional
+            A number for all cables [N], one for each, "mid" for the middle of the limits, or None for the
+            least norm.
 
-        Raises InputError for a negative tension or another number of them than of cables.
+        Returns
+        -------
+        Robot
+            The robot.
+
+        Raises
+        ------
+        InputError
+            For a negative tension or another number of them than of cables.
+
+        Examples
+        --------
+        >>> import cdpr
+        >>> robot = cdpr.Robot.from_file("cogiro")
+        >>> robot.with_tension_reference(500).tension_reference[0]  # [N]
+        np.float64(500.0)
         """
     @property
     def distribution(self) -> str:
@@ -223,9 +362,27 @@ class Robot:
     def with_distribution(self, distribution: str) -> Robot:
         """Makes a robot whose inverse model chooses tensions in another way. A norm drops the tension reference.
 
-        distribution: "nearest", "least_1_norm", "least_2_norm" or "least_infinity_norm".
+        Parameters
+        ----------
+        distribution : str
+            "nearest", "least_1_norm", "least_2_norm" or "least_infinity_norm".
 
-        Raises InputError for another name.
+        Returns
+        -------
+        Robot
+            The robot.
+
+        Raises
+        ------
+        InputError
+            For another name.
+
+        Examples
+        --------
+        >>> import cdpr
+        >>> robot = cdpr.Robot.from_file("cogiro")
+        >>> robot.with_distribution("least_2_norm").distribution
+        'least_2_norm'
         """
     @property
     def gravity(self) -> Any:
@@ -248,21 +405,69 @@ class Robot:
         dt belong to a set-point and not to a robot: they can only be zero here; `deflection` takes them as
         `tension_offsets`.
 
-        Raises InputError for a name or value that no such robot has.
+        Parameters
+        ----------
+        values : dict of float
+            New values by name [SI units].
+
+        Returns
+        -------
+        Robot
+            The robot.
+
+        Raises
+        ------
+        InputError
+            For a name or value that no such robot has.
+
+        Examples
+        --------
+        >>> import cdpr
+        >>> robot = cdpr.Robot.from_file("cogiro")
+        >>> robot.with_parameters({"mass": 100, "a1.x": 0.5}).mass  # [kg], [m]
+        100.0
         """
     def __eq__(self, value: object, /) -> bool: ...
     def __hash__(self) -> int: ...
     def explore(self, *, state: dict[str, Any] | None = None) -> Any:
         """Shows the robot in a notebook, where it computes as it is moved: a widget of the package anywidget.
 
-        state: what is shown first, as `Explorer.state` has it.
+        Parameters
+        ----------
+        state : dict, optional
+            What is shown first, as `Explorer.state` has it.
+
+        Returns
+        -------
+        Any
+            The widget.
+
+        Examples
+        --------
+        >>> import cdpr
+        >>> robot = cdpr.Robot.from_file("cogiro")
+        >>> widget = robot.explore()  # doctest: +SKIP
         """
     def write_explorer(self, path: _Path, *, overwrite: bool = False) -> None:
         """Writes the page of `cdpr explore`: one HTML file on which the robot computes in any browser.
 
-        path: the file. overwrite: whether a file that exists is replaced.
+        Parameters
+        ----------
+        path : path
+            The file. overwrite: whether a file that exists is replaced.
+        overwrite : bool, default False
+            Whether what is there is replaced.
 
-        Raises FileError.
+        Raises
+        ------
+        FileError
+            For a file or folder that cannot be read, written or used.
+
+        Examples
+        --------
+        >>> import cdpr
+        >>> robot = cdpr.Robot.from_file("cogiro")
+        >>> robot.write_explorer("cogiro.html")  # doctest: +SKIP
         """
     @overload
     def inverse(  # type: ignore[overload-overlap]
@@ -281,20 +486,46 @@ class Robot:
         The tensions are those within their limits that come nearest to a reference. Arguments are of one
         case, or have a first axis of m cases.
 
-        pose: x, y, z [m], or x, y, z, qw, qx, qy, qz, (3,) or (7,).
-        force, moment: on the platform in the base frame, about P [N, N m], (3,).
-        payload: mass added at the platform's centre of mass [kg].
-        reference: tensions that the tensions are nearest to [N], (n,), in place of the robot's own
+        Parameters
+        ----------
+        pose : array_like
+            x, y, z [m], or x, y, z, qw, qx, qy, qz, (3,) or (7,).
+        force, moment : array_like, optional
+            On the platform in the base frame, about P [N, N m], (3,).
+        payload : array_like, optional
+            Mass added at the platform's centre of mass [kg].
+        reference : array_like, optional
+            Tensions that the tensions are nearest to [N], (n,), in place of the robot's own
             `tension_reference`; zeros for the least norm.
-        path: whether the cases are a path, so that each keeps to the branch of tensions of the one before as
+        path : bool, default False
+            Whether the cases are a path, so that each keeps to the branch of tensions of the one before as
             long as it exists on the straight way between them.
-        free: names of the coordinates of the pose that are found, for a robot with fewer cables than free
-            motions: as many of x, y, z, roll, pitch, yaw as cables are missing, with
-            R = Rz(yaw) Ry(pitch) Rx(roll). They start from the pose and end where the platform rests,
-            within the limits, with no cable longer than three chords or below `ground_z`; a reference does
-            not matter.
+        free : sequence of str, optional
+            Names of the coordinates of the pose that are found, for a robot with fewer cables than free
+            motions: as many of x, y, z, roll, pitch, yaw as cables are missing, with R = Rz(yaw) Ry(pitch)
+            Rx(roll). They start from the pose and end where the platform rests, within the limits, with no
+            cable longer than three chords or below `ground_z`; a reference does not matter.
 
-        Raises InputError; for one case NoSolutionError.
+        Returns
+        -------
+        InverseSolution
+            Lengths and tensions.
+
+        Raises
+        ------
+        InputError
+            For an invalid value; the message names it and what would be right.
+        NoSolutionError
+            For one case without an answer; of several, its row has NaN and a reason.
+
+        Examples
+        --------
+        >>> import cdpr
+        >>> robot = cdpr.Robot.from_file("cogiro")
+        >>> robot.inverse([0, 0, 2]).lengths.shape  # [m]
+        (8,)
+        >>> robot.inverse([[0, 0, 2], [1, 0, 2]], payload=50).lengths.shape
+        (2, 8)
         """
     @overload
     def inverse(
@@ -322,12 +553,36 @@ class Robot:
 
         Arguments are of one case, or have a first axis of m cases.
 
-        lengths: unstrained lengths of the cables [m], (n,).
-        force, moment: on the platform in the base frame, about P [N, N m], (3,).
-        payload: mass added at the platform's centre of mass [kg].
-        start: start of the search, (3,) or (7,); if left out, where straight cables would hold a point.
+        Parameters
+        ----------
+        lengths : array_like
+            Unstrained lengths of the cables [m], (n,).
+        force, moment : array_like, optional
+            On the platform in the base frame, about P [N, N m], (3,).
+        payload : array_like, optional
+            Mass added at the platform's centre of mass [kg].
+        start : array_like, optional
+            Start of the search, (3,) or (7,); if left out, where straight cables would hold a point.
 
-        Raises InputError; for one case NoSolutionError.
+        Returns
+        -------
+        DirectSolution
+            The equilibria.
+
+        Raises
+        ------
+        InputError
+            For an invalid value; the message names it and what would be right.
+        NoSolutionError
+            For one case without an answer; of several, its row has NaN and a reason.
+
+        Examples
+        --------
+        >>> import cdpr
+        >>> robot = cdpr.Robot.from_file("cogiro")
+        >>> found = robot.direct(robot.inverse([0, 0, 2]).lengths)
+        >>> found.position.round(6).tolist()  # [m]
+        [0.0, 0.0, 2.0]
         """
     @overload
     def direct(
@@ -355,14 +610,39 @@ class Robot:
         The cables are wound so that the platform rests at the pose under its own weight; then the load is
         added. Arguments are of one case, or have a first axis of m cases.
 
-        pose: wanted pose under the platform's own weight, (3,) or (7,).
-        payload: mass added at the platform's centre of mass [kg].
-        force, moment: on the platform in the base frame, about P [N, N m], (3,).
-        tension_offsets: offsets added to the tension set-points [N], (n,).
-        free: names of the coordinates of the pose that are found, for a robot with fewer cables than free
+        Parameters
+        ----------
+        pose : array_like
+            Wanted pose under the platform's own weight, (3,) or (7,).
+        payload : array_like, optional
+            Mass added at the platform's centre of mass [kg].
+        force, moment : array_like, optional
+            On the platform in the base frame, about P [N, N m], (3,).
+        tension_offsets : array_like, optional
+            Offsets added to the tension set-points [N], (n,).
+        free : sequence of str, optional
+            Names of the coordinates of the pose that are found, for a robot with fewer cables than free
             motions, as `Robot.inverse` takes them.
 
-        Raises InputError; for one case NoSolutionError.
+        Returns
+        -------
+        Deflection
+            Displacements and rotations, and the equilibria without and with the load.
+
+        Raises
+        ------
+        InputError
+            For an invalid value; the message names it and what would be right.
+        NoSolutionError
+            For one case without an answer; of several, its row has NaN and a reason.
+
+        Examples
+        --------
+        >>> import cdpr
+        >>> robot = cdpr.Robot.from_file("cogiro")
+        >>> given = robot.deflection([0, 0, 2], payload=50)
+        >>> print(f"{1e3 * given.magnitude:.1f} mm")
+        7.7 mm
         """
     @overload
     def deflection(
@@ -389,13 +669,36 @@ class Robot:
 
         Arguments are of one case, or have a first axis of m cases.
 
-        pose: x, y, z [m], or x, y, z, qw, qx, qy, qz, (3,) or (7,).
-        payload: mass that the platform carries there, at its centre of mass [kg].
-        force, moment: on the platform in the base frame, about P [N, N m], (3,).
-        free: names of the coordinates of the pose that are found, for a robot with fewer cables than free
+        Parameters
+        ----------
+        pose : array_like
+            x, y, z [m], or x, y, z, qw, qx, qy, qz, (3,) or (7,).
+        payload : array_like, optional
+            Mass that the platform carries there, at its centre of mass [kg].
+        force, moment : array_like, optional
+            On the platform in the base frame, about P [N, N m], (3,).
+        free : sequence of str, optional
+            Names of the coordinates of the pose that are found, for a robot with fewer cables than free
             motions, as `Robot.inverse` takes them.
 
-        Raises InputError; for one case NoSolutionError.
+        Returns
+        -------
+        Stiffness
+            Stiffness matrices and their eigenvalues.
+
+        Raises
+        ------
+        InputError
+            For an invalid value; the message names it and what would be right.
+        NoSolutionError
+            For one case without an answer; of several, its row has NaN and a reason.
+
+        Examples
+        --------
+        >>> import cdpr
+        >>> robot = cdpr.Robot.from_file("cogiro")
+        >>> robot.stiffness([0, 0, 2]).matrix.shape
+        (6, 6)
         """
     @overload
     def stiffness(
@@ -421,13 +724,37 @@ class Robot:
 
         Arguments are of one case, or have a first axis of m cases.
 
-        pose: x, y, z [m], or x, y, z, qw, qx, qy, qz, (3,) or (7,).
-        payload: mass that the platform carries there, at its centre of mass [kg].
-        force, moment: on the platform in the base frame, about P [N, N m], (3,).
-        free: names of the coordinates of the pose that are found, for a robot with fewer cables than free
+        Parameters
+        ----------
+        pose : array_like
+            x, y, z [m], or x, y, z, qw, qx, qy, qz, (3,) or (7,).
+        payload : array_like, optional
+            Mass that the platform carries there, at its centre of mass [kg].
+        force, moment : array_like, optional
+            On the platform in the base frame, about P [N, N m], (3,).
+        free : sequence of str, optional
+            Names of the coordinates of the pose that are found, for a robot with fewer cables than free
             motions, as `Robot.inverse` takes them.
 
-        Raises InputError, also where the robot has no inertia; for one case NoSolutionError.
+        Returns
+        -------
+        Modes
+            Frequencies and motions.
+
+        Raises
+        ------
+        InputError
+            For an invalid value; the message names it and what would be right; also where the robot has no
+            inertia.
+        NoSolutionError
+            For one case without an answer; of several, its row has NaN and a reason.
+
+        Examples
+        --------
+        >>> import cdpr
+        >>> robot = cdpr.Robot.from_file("cogiro")
+        >>> robot.modes([0, 0, 2]).frequencies_hz.shape  # [Hz]
+        (6,)
         """
     @overload
     def modes(
@@ -453,13 +780,38 @@ class Robot:
 
         Arguments are of one case, or have a first axis of m cases.
 
-        pose: wanted pose under the platform's own weight, (3,) or (7,).
-        payload: mass added at the platform's centre of mass [kg].
-        force, moment: on the platform in the base frame, about P [N, N m], (3,).
-        free: names of the coordinates of the pose that are found, for a robot with fewer cables than free
+        Parameters
+        ----------
+        pose : array_like
+            Wanted pose under the platform's own weight, (3,) or (7,).
+        payload : array_like, optional
+            Mass added at the platform's centre of mass [kg].
+        force, moment : array_like, optional
+            On the platform in the base frame, about P [N, N m], (3,).
+        free : sequence of str, optional
+            Names of the coordinates of the pose that are found, for a robot with fewer cables than free
             motions, as `Robot.inverse` takes them.
 
-        Raises InputError; for one case NoSolutionError, also where a derivative does not exist.
+        Returns
+        -------
+        Derivatives
+            Derivatives by each input.
+
+        Raises
+        ------
+        InputError
+            For an invalid value; the message names it and what would be right.
+        NoSolutionError
+            For one case without an answer; of several, its row has NaN and a reason; also where a
+            derivative does not exist.
+
+        Examples
+        --------
+        >>> import cdpr
+        >>> robot = cdpr.Robot.from_file("cogiro")
+        >>> slopes = robot.derivatives([0, 0, 2], payload=50)
+        >>> slopes.inputs[0], len(slopes.magnitude) == len(slopes.inputs)
+        ('mass', True)
         """
     @overload
     def derivatives(
@@ -488,13 +840,37 @@ class Robot:
         the vector unit at once: the answers agree with `deflection` to rounding, and each depends on its own
         row alone.
 
-        pose: wanted pose under the platform's own weight, (3,) or (7,).
-        deviations: deviations of the parameters, in the order of `parameters` [SI units], (k,) or (m, k).
-        payload, force, moment: one load for all, as in `deflection`.
-        free: names of the coordinates of the pose that this robot finds, as `Robot.inverse` takes them, for
+        Parameters
+        ----------
+        pose : array_like
+            Wanted pose under the platform's own weight, (3,) or (7,).
+        deviations : array_like
+            Deviations of the parameters, in the order of `parameters` [SI units], (k,) or (m, k).
+        payload, force, moment : array_like, optional
+            One load for all, as in `deflection`.
+        free : sequence of str, optional
+            Names of the coordinates of the pose that this robot finds, as `Robot.inverse` takes them, for
             one with fewer cables than free motions; deviating robots are wound for the pose that it finds.
 
-        Raises InputError; for one robot NoSolutionError.
+        Returns
+        -------
+        Observations
+            Displacements, a row for each robot.
+
+        Raises
+        ------
+        InputError
+            For an invalid value; the message names it and what would be right.
+        NoSolutionError
+            For one robot without an answer; of several, its row has NaN and a reason.
+
+        Examples
+        --------
+        >>> import cdpr
+        >>> robot = cdpr.Robot.from_file("cogiro")
+        >>> deviations = [[0.0] * len(robot.parameters)] * 3
+        >>> robot.observe([0, 0, 2], deviations, payload=50).displacement.shape  # [m]
+        (3, 3)
         """
     @overload
     def observe(
@@ -524,13 +900,43 @@ class Robot:
         Bisection moves it between the positions of a grid to where it is, so that a coarse grid does; a hole or
         an island that lies between the positions is not seen.
 
-        x, y, z, plane, grid: as `Robot.workspace` takes them: a plane or a box.
-        payload: mass added at the platform's centre of mass [kg].
-        way: how the load is borne: "anew", the winches distribute the tensions, or "kept", with the lengths.
-        free: names of the coordinates of the pose that are found, for a robot with fewer cables than free
+        Parameters
+        ----------
+        x : float or (float, float, int), optional
+            as `Robot.workspace` takes them: a plane or a box.
+        y : float or (float, float, int), optional
+            as `Robot.workspace` takes them: a plane or a box.
+        z : float or (float, float, int), optional
+            as `Robot.workspace` takes them: a plane or a box.
+        plane : (str, float), optional
+            as `Robot.workspace` takes them: a plane or a box.
+        grid : (int, int), optional
+            as `Robot.workspace` takes them: a plane or a box.
+        payload : float
+            Mass added at the platform's centre of mass [kg].
+        way : str, default 'anew'
+            How the load is borne: "anew", the winches distribute the tensions, or "kept", with the lengths.
+        free : sequence of str, optional
+            Names of the coordinates of the pose that are found, for a robot with fewer cables than free
             motions.
 
-        Raises InputError.
+        Returns
+        -------
+        Boundary
+            Polygons or triangles, and their area or volume.
+
+        Raises
+        ------
+        InputError
+            For an invalid value; the message names it and what would be right.
+
+        Examples
+        --------
+        >>> import cdpr
+        >>> robot = cdpr.Robot.from_file("cogiro")
+        >>> region = robot.boundary(plane=("z", 2), grid=(4, 4), payload=50)
+        >>> region.polygons[0].shape[1], region.measure > 0  # [m], [m²]
+        (3, True)
         """
     @overload
     def capacity(  # type: ignore[overload-overlap]
@@ -548,17 +954,42 @@ class Robot:
 
         Arguments are of one case, or have a first axis of m cases.
 
-        pose: x, y, z [m], or x, y, z, qw, qx, qy, qz, (3,) or (7,).
-        payload: mass that the platform carries there, at its centre of mass [kg].
-        force, moment: on the platform in the base frame, about P [N, N m], (3,).
-        wrenches: wrenches that may act beside the load, fx to mz about P [N, N m], (k, 6); all poses have the
+        Parameters
+        ----------
+        pose : array_like
+            x, y, z [m], or x, y, z, qw, qx, qy, qz, (3,) or (7,).
+        payload : array_like, optional
+            Mass that the platform carries there, at its centre of mass [kg].
+        force, moment : array_like, optional
+            On the platform in the base frame, about P [N, N m], (3,).
+        wrenches : array_like, optional
+            Wrenches that may act beside the load, fx to mz about P [N, N m], (k, 6); all poses have the
             same.
-        tilt: number of azimuths, from x to y, towards which the platform is tilted as far as tensions within
+        tilt : int, default 0
+            Number of azimuths, from x to y, towards which the platform is tilted as far as tensions within
             the limits hold it; 0 leaves it out.
-        free: names of the coordinates of the pose that are found, for a robot with fewer cables than free
+        free : sequence of str, optional
+            Names of the coordinates of the pose that are found, for a robot with fewer cables than free
             motions, as `Robot.inverse` takes them.
 
-        Raises InputError; for one case NoSolutionError.
+        Returns
+        -------
+        Capacity
+            Payloads, margins and distances.
+
+        Raises
+        ------
+        InputError
+            For an invalid value; the message names it and what would be right.
+        NoSolutionError
+            For one case without an answer; of several, its row has NaN and a reason.
+
+        Examples
+        --------
+        >>> import cdpr
+        >>> robot = cdpr.Robot.from_file("cogiro")
+        >>> robot.capacity([[0, 0, 2], [1, 0, 2]]).payload_anew.shape  # [kg]
+        (2,)
         """
     @overload
     def capacity(
@@ -586,7 +1017,38 @@ class Robot:
 
         It is for six free motions, plain cables and a level base. Arguments are those of `Robot.direct`.
 
-        Raises InputError; for one case NoSolutionError, of the kind `not_certified` where nothing is proved.
+        Parameters
+        ----------
+        lengths : array_like
+            Unstrained lengths of the cables [m], (n,).
+        force : array_like, optional
+            Force on the platform in the base frame [N], (3,).
+        moment : array_like, optional
+            Moment on the platform in the base frame, about P [N m], (3,).
+        payload : array_like, optional
+            Mass added at the platform's centre of mass [kg].
+        start : array_like, optional
+            Start of the search, (3,) or (7,).
+
+        Returns
+        -------
+        Certificate
+            Bounds.
+
+        Raises
+        ------
+        InputError
+            For an invalid value; the message names it and what would be right.
+        NoSolutionError
+            For one case without an answer; of several, its row has NaN and a reason, of the kind
+            `not_certified` where nothing is proved.
+
+        Examples
+        --------
+        >>> import cdpr
+        >>> robot = cdpr.Robot.from_file("cogiro")
+        >>> robot.certify(robot.inverse([0, 0, 2]).lengths).position < 1e-9  # [m]
+        True
         """
     @overload
     def certify(
@@ -612,12 +1074,34 @@ class Robot:
         Strongly sagging cables may hold a pose with several sets of tensions. Along a path each pose keeps to
         the set of the pose before, as long as it exists. A pose without an answer is left out of the path.
 
-        poses: x, y, z [m], or x, y, z, qw, qx, qy, qz, (m, 3) or (m, 7).
-        payload: mass that the platform carries, at its centre of mass [kg].
-        force, moment: on the platform in the base frame, about P [N, N m], (3,).
-        uncertainty: standard deviations of parameters or groups [SI units]: {"a": 0.002, "mass": 0.5}.
+        Parameters
+        ----------
+        poses : array_like
+            x, y, z [m], or x, y, z, qw, qx, qy, qz, (m, 3) or (m, 7).
+        payload : array_like, optional
+            Mass that the platform carries, at its centre of mass [kg].
+        force, moment : array_like, optional
+            On the platform in the base frame, about P [N, N m], (3,).
+        uncertainty : dict of float, optional
+            Standard deviations of parameters or groups [SI units]: {"a": 0.002, "mass": 0.5}.
 
-        Raises InputError.
+        Returns
+        -------
+        PathStates
+            States along the path.
+
+        Raises
+        ------
+        InputError
+            For an invalid value; the message names it and what would be right.
+
+        Examples
+        --------
+        >>> import cdpr
+        >>> robot = cdpr.Robot.from_file("cogiro")
+        >>> states = robot.path([[x, 0, 2] for x in (0, 0.1, 0.2)], payload=50, uncertainty={"a": 0.002})
+        >>> states.tensions.shape, states.std.magnitude.shape  # [N], [m]
+        ((3, 8), (3,))
         """
     def workspace(
         self,
@@ -635,15 +1119,40 @@ class Robot:
 
         Positions are on a grid, with the platform level.
 
-        x, y, z: coordinates along each axis [m]: a number, or (from, to, points).
-        plane: in place of x, y and z, a plane over the frame of the exit points, ("z", 1.75).
-        grid: points of the plane along its two axes; (41, 41) if left out.
-        payload: mass added at the platform's centre of mass [kg]; with 0 there is no deflection.
-        uncertainty: standard deviations of parameters or groups [SI units]: {"a": 0.002, "mass": 0.5}.
-        free: names of the coordinates of the pose that are found, for a robot with fewer cables than free
+        Parameters
+        ----------
+        x, y, z : float or (float, float, int), optional
+            Coordinates along each axis [m]: a number, or (from, to, points).
+        plane : (str, float), optional
+            In place of x, y and z, a plane over the frame of the exit points, ("z", 1.75).
+        grid : (int, int), optional
+            Points of the plane along its two axes; (41, 41) if left out.
+        payload : float
+            Mass added at the platform's centre of mass [kg]; with 0 there is no deflection.
+        uncertainty : dict of float, optional
+            Standard deviations of parameters or groups [SI units]: {"a": 0.002, "mass": 0.5}.
+        free : sequence of str, optional
+            Names of the coordinates of the pose that are found, for a robot with fewer cables than free
             motions, as `Robot.inverse` takes them.
 
-        Raises InputError. A position that is not held is no error.
+        Returns
+        -------
+        Workspace
+            Results at each position of the grid.
+
+        Raises
+        ------
+        InputError
+            For an invalid value; the message names it and what would be right. A position that is not held
+            is no error.
+
+        Examples
+        --------
+        >>> import cdpr
+        >>> robot = cdpr.Robot.from_file("cogiro")
+        >>> found = robot.workspace(plane=("z", 2), grid=(4, 3), payload=50)
+        >>> found.shape, found.magnitude.shape  # [m]
+        ((4, 3, 1), (12,))
         """
 
 @final
@@ -653,10 +1162,15 @@ class Cable:
     def __new__(cls, *fields: Any) -> Cable: ...
     def __class_getitem__(cls, number: Any) -> GenericAlias: ...
     def to_dataframe(self) -> Any:
-        """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+        """Makes a frame with a row for each case and columns of numbers and words.
 
         Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
         name: `magnitude/a1.x`.
+
+        Returns
+        -------
+        pandas.DataFrame
+            The frame.
         """
     @property
     def number(self) -> int:
@@ -690,12 +1204,23 @@ class OtherSolution:
     def __new__(cls, *fields: Any) -> OtherSolution: ...
     def __class_getitem__(cls, number: Any) -> GenericAlias: ...
     def plot(self) -> Any:
-        """Draws the answer, and returns the matplotlib Figure."""
+        """Draws the answer: of one case a bar for each element, of several a line over the cases.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            The figure.
+        """
     def to_dataframe(self) -> Any:
-        """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+        """Makes a frame with a row for each case and columns of numbers and words.
 
         Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
         name: `magnitude/a1.x`.
+
+        Returns
+        -------
+        pandas.DataFrame
+            The frame.
         """
     @property
     def pose(self) -> _Floats:
@@ -720,12 +1245,23 @@ class PathDeviations:
     def __new__(cls, *fields: Any) -> PathDeviations: ...
     def __class_getitem__(cls, number: Any) -> GenericAlias: ...
     def plot(self) -> Any:
-        """Draws the answer, and returns the matplotlib Figure."""
+        """Draws the answer: of one case a bar for each element, of several a line over the cases.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            The figure.
+        """
     def to_dataframe(self) -> Any:
-        """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+        """Makes a frame with a row for each case and columns of numbers and words.
 
         Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
         name: `magnitude/a1.x`.
+
+        Returns
+        -------
+        pandas.DataFrame
+            The frame.
         """
     @property
     def lengths(self) -> _Floats:
@@ -762,12 +1298,23 @@ class Catenary(Generic[_N, _R]):
     def __new__(cls, *fields: Any) -> Catenary: ...
     def __class_getitem__(cls, number: Any) -> GenericAlias: ...
     def plot(self) -> Any:
-        """Draws the answer, and returns the matplotlib Figure."""
+        """Draws the answer: of one case a bar for each element, of several a line over the cases.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            The figure.
+        """
     def to_dataframe(self) -> Any:
-        """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+        """Makes a frame with a row for each case and columns of numbers and words.
 
         Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
         name: `magnitude/a1.x`.
+
+        Returns
+        -------
+        pandas.DataFrame
+            The frame.
         """
     @property
     def force(self) -> _Floats:
@@ -814,12 +1361,23 @@ class InverseSolution(Generic[_B, _I, _R]):
     def __new__(cls, *fields: Any) -> InverseSolution: ...
     def __class_getitem__(cls, number: Any) -> GenericAlias: ...
     def plot(self) -> Any:
-        """Draws the answer, and returns the matplotlib Figure."""
+        """Draws the answer: of one case a bar for each element, of several a line over the cases.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            The figure.
+        """
     def to_dataframe(self) -> Any:
-        """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+        """Makes a frame with a row for each case and columns of numbers and words.
 
         Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
         name: `magnitude/a1.x`.
+
+        Returns
+        -------
+        pandas.DataFrame
+            The frame.
         """
     @property
     def lengths(self) -> _Floats:
@@ -879,12 +1437,23 @@ class DirectSolution(Generic[_N, _B, _I, _W, _R]):
     def __new__(cls, *fields: Any) -> DirectSolution[_N, _B, _I, _W, _R]: ...
     def __class_getitem__(cls, number: Any) -> GenericAlias: ...
     def plot(self) -> Any:
-        """Draws the answer, and returns the matplotlib Figure."""
+        """Draws the answer: of one case a bar for each element, of several a line over the cases.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            The figure.
+        """
     def to_dataframe(self) -> Any:
-        """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+        """Makes a frame with a row for each case and columns of numbers and words.
 
         Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
         name: `magnitude/a1.x`.
+
+        Returns
+        -------
+        pandas.DataFrame
+            The frame.
         """
     @property
     def position(self) -> _Floats:
@@ -953,12 +1522,23 @@ class Deflection(Generic[_N, _B, _I, _W, _R]):
     def __new__(cls, *fields: Any) -> Deflection[_N, _B, _I, _W, _R]: ...
     def __class_getitem__(cls, number: Any) -> GenericAlias: ...
     def plot(self) -> Any:
-        """Draws the answer, and returns the matplotlib Figure."""
+        """Draws the answer: of one case a bar for each element, of several a line over the cases.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            The figure.
+        """
     def to_dataframe(self) -> Any:
-        """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+        """Makes a frame with a row for each case and columns of numbers and words.
 
         Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
         name: `magnitude/a1.x`.
+
+        Returns
+        -------
+        pandas.DataFrame
+            The frame.
         """
     @property
     def displacement(self) -> _Floats:
@@ -996,12 +1576,23 @@ class Modes(Generic[_R]):
     def __new__(cls, *fields: Any) -> Modes: ...
     def __class_getitem__(cls, number: Any) -> GenericAlias: ...
     def plot(self) -> Any:
-        """Draws the answer, and returns the matplotlib Figure."""
+        """Draws the answer: of one case a bar for each element, of several a line over the cases.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            The figure.
+        """
     def to_dataframe(self) -> Any:
-        """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+        """Makes a frame with a row for each case and columns of numbers and words.
 
         Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
         name: `magnitude/a1.x`.
+
+        Returns
+        -------
+        pandas.DataFrame
+            The frame.
         """
     @property
     def frequencies_hz(self) -> _Floats:
@@ -1042,12 +1633,23 @@ class Capacity(Generic[_N, _R]):
     def __new__(cls, *fields: Any) -> Capacity: ...
     def __class_getitem__(cls, number: Any) -> GenericAlias: ...
     def plot(self) -> Any:
-        """Draws the answer, and returns the matplotlib Figure."""
+        """Draws the answer: of one case a bar for each element, of several a line over the cases.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            The figure.
+        """
     def to_dataframe(self) -> Any:
-        """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+        """Makes a frame with a row for each case and columns of numbers and words.
 
         Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
         name: `magnitude/a1.x`.
+
+        Returns
+        -------
+        pandas.DataFrame
+            The frame.
         """
     @property
     def payload_anew(self) -> _N:
@@ -1090,12 +1692,23 @@ class Boundary:
     def __new__(cls, *fields: Any) -> Boundary: ...
     def __class_getitem__(cls, number: Any) -> GenericAlias: ...
     def plot(self) -> Any:
-        """Draws the answer, and returns the matplotlib Figure."""
+        """Draws the answer: of one case a bar for each element, of several a line over the cases.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            The figure.
+        """
     def to_dataframe(self) -> Any:
-        """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+        """Makes a frame with a row for each case and columns of numbers and words.
 
         Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
         name: `magnitude/a1.x`.
+
+        Returns
+        -------
+        pandas.DataFrame
+            The frame.
         """
     @property
     def measure(self) -> float:
@@ -1124,12 +1737,23 @@ class Certificate(Generic[_N, _B, _R]):
     def __new__(cls, *fields: Any) -> Certificate: ...
     def __class_getitem__(cls, number: Any) -> GenericAlias: ...
     def plot(self) -> Any:
-        """Draws the answer, and returns the matplotlib Figure."""
+        """Draws the answer: of one case a bar for each element, of several a line over the cases.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            The figure.
+        """
     def to_dataframe(self) -> Any:
-        """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+        """Makes a frame with a row for each case and columns of numbers and words.
 
         Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
         name: `magnitude/a1.x`.
+
+        Returns
+        -------
+        pandas.DataFrame
+            The frame.
         """
     @property
     def pose(self) -> _Floats:
@@ -1167,12 +1791,23 @@ class PathStates:
     def __new__(cls, *fields: Any) -> PathStates: ...
     def __class_getitem__(cls, number: Any) -> GenericAlias: ...
     def plot(self) -> Any:
-        """Draws the answer, and returns the matplotlib Figure."""
+        """Draws the answer: of one case a bar for each element, of several a line over the cases.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            The figure.
+        """
     def to_dataframe(self) -> Any:
-        """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+        """Makes a frame with a row for each case and columns of numbers and words.
 
         Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
         name: `magnitude/a1.x`.
+
+        Returns
+        -------
+        pandas.DataFrame
+            The frame.
         """
     @property
     def jump(self) -> NDArray[np.bool_]:
@@ -1228,12 +1863,23 @@ class Stiffness(Generic[_N, _B, _R]):
     def __new__(cls, *fields: Any) -> Stiffness: ...
     def __class_getitem__(cls, number: Any) -> GenericAlias: ...
     def plot(self) -> Any:
-        """Draws the answer, and returns the matplotlib Figure."""
+        """Draws the answer: of one case a bar for each element, of several a line over the cases.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            The figure.
+        """
     def to_dataframe(self) -> Any:
-        """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+        """Makes a frame with a row for each case and columns of numbers and words.
 
         Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
         name: `magnitude/a1.x`.
+
+        Returns
+        -------
+        pandas.DataFrame
+            The frame.
         """
     @property
     def matrix(self) -> _Floats:
@@ -1288,10 +1934,15 @@ class Derivatives(Generic[_N, _B, _I, _W, _R]):
     def __new__(cls, *fields: Any) -> Derivatives: ...
     def __class_getitem__(cls, number: Any) -> GenericAlias: ...
     def to_dataframe(self) -> Any:
-        """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+        """Makes a frame with a row for each case and columns of numbers and words.
 
         Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
         name: `magnitude/a1.x`.
+
+        Returns
+        -------
+        pandas.DataFrame
+            The frame.
         """
     @property
     def inputs(self) -> list[str]:
@@ -1365,12 +2016,23 @@ class Observations(Generic[_N, _R]):
     def __new__(cls, *fields: Any) -> Observations: ...
     def __class_getitem__(cls, number: Any) -> GenericAlias: ...
     def plot(self) -> Any:
-        """Draws the answer, and returns the matplotlib Figure."""
+        """Draws the answer: of one case a bar for each element, of several a line over the cases.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            The figure.
+        """
     def to_dataframe(self) -> Any:
-        """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+        """Makes a frame with a row for each case and columns of numbers and words.
 
         Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
         name: `magnitude/a1.x`.
+
+        Returns
+        -------
+        pandas.DataFrame
+            The frame.
         """
     @property
     def displacement(self) -> _Floats:
@@ -1392,12 +2054,23 @@ class Workspace:
     def __new__(cls, *fields: Any) -> Workspace: ...
     def __class_getitem__(cls, number: Any) -> GenericAlias: ...
     def plot(self) -> Any:
-        """Draws the answer, and returns the matplotlib Figure."""
+        """Draws the answer: of one case a bar for each element, of several a line over the cases.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            The figure.
+        """
     def to_dataframe(self) -> Any:
-        """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+        """Makes a frame with a row for each case and columns of numbers and words.
 
         Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
         name: `magnitude/a1.x`.
+
+        Returns
+        -------
+        pandas.DataFrame
+            The frame.
         """
     @property
     def shape(self) -> tuple[int, int, int]:
@@ -1468,13 +2141,33 @@ def pose(
     Arguments are of one pose, or have a first axis of m poses. The rotation turns the platform frame into the
     base frame; the platform is level if it is left out.
 
-    position: x, y, z [m], (3,) or (m, 3).
-    rotation: a quaternion qw, qx, qy, qz, (4,) or (m, 4), with the scalar first; or a
+    Parameters
+    ----------
+    position : array_like
+        x, y, z [m], (3,) or (m, 3).
+    rotation : array_like or Rotation, optional
+        A quaternion qw, qx, qy, qz, (4,) or (m, 4), with the scalar first; or a
         `scipy.spatial.transform.Rotation`, whose own order does not matter then.
-    rpy_deg: roll, pitch, yaw [degrees], (3,) or (m, 3), in place of a rotation:
-        R = Rz(yaw) Ry(pitch) Rx(roll).
+    rpy_deg : array_like, optional
+        roll, pitch, yaw [degrees], (3,) or (m, 3), in place of a rotation: R = Rz(yaw) Ry(pitch)
+        Rx(roll).
 
-    Raises InputError, also for a quaternion whose scalar seems to be the last component, as SciPy has it.
+    Returns
+    -------
+    ndarray
+        Poses x, y, z [m], qw, qx, qy, qz, (7,) or (m, 7).
+
+    Raises
+    ------
+    InputError
+        For an invalid value; the message names it and what would be right; also for a quaternion whose
+        scalar seems to be the last component, as SciPy has it.
+
+    Examples
+    --------
+    >>> import cdpr
+    >>> cdpr.pose([0, 0, 2], rpy_deg=[0, 0, 60]).round(3).tolist()
+    [0.0, 0.0, 2.0, 0.866, 0.0, 0.0, 0.5]
     """
 @overload
 def catenary(
@@ -1492,15 +2185,41 @@ def catenary(
     Given are `length` and `end`, `length` and `force`, or `end` and `tension`. Arguments are of one cable, or
     have a first axis of m cables.
 
-    weight: weight per unstrained length [N/m]; 0 makes the cable a straight spring.
-    stiffness: axial stiffness EA [N].
-    length: unstrained length [m].
-    end: position (x, z) of the anchor point [m], (2,); x >= 0, z up.
-    force: force (fx, fz) on the cable at the anchor point [N], (2,).
-    tension: tension at the anchor point [N].
-    points: number of points of `shape`, at least 2.
+    Parameters
+    ----------
+    weight : array_like
+        Weight per unstrained length [N/m]; 0 makes the cable a straight spring.
+    stiffness : array_like
+        Axial stiffness EA [N].
+    length : array_like, optional
+        Unstrained length [m].
+    end : array_like, optional
+        Position (x, z) of the anchor point [m], (2,); x >= 0, z up.
+    force : array_like, optional
+        Force (fx, fz) on the cable at the anchor point [N], (2,).
+    tension : array_like, optional
+        Tension at the anchor point [N].
+    points : int, default 51
+        Number of points of `shape`, at least 2.
 
-    Raises InputError; for one cable NoSolutionError.
+    Returns
+    -------
+    Catenary
+        Forces, tensions and shapes.
+
+    Raises
+    ------
+    InputError
+        For an invalid value; the message names it and what would be right.
+    NoSolutionError
+        For one cable without an answer; of several, its row has NaN and a reason.
+
+    Examples
+    --------
+    >>> import cdpr
+    >>> cable = cdpr.catenary(1.0, 1e6, length=5.0, end=[4.0, 1.0])  # [N/m], [N], [m], [m]
+    >>> cable.shape.shape
+    (51, 2)
     """
 @overload
 def catenary(
@@ -1769,8 +2488,8 @@ def calibrate(
 ) -> tuple[Robot, str]:
     """Fits the parameters of a robot to measurements, and writes all results to a folder if one is given.
 
-    Returns the calibrated robot, and as JSON the summary, what is known of the robot's errors, the residuals and
-    the poses.
+    Returns the calibrated robot, and as JSON the summary, what is known of the robot's errors, the residuals
+    and the poses.
     """
 def simulate(
     robot: Robot,

@@ -5,18 +5,18 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-#: What is drawn of an answer: a field and its label.
+#: What is drawn of an answer: a field, its label, and what its elements are of.
 _DRAWN = {
-    "Capacity": ("payload_anew", "greatest payload [kg]"),
-    "Certificate": ("position", "bound on the distance of P [m]"),
-    "Deflection": ("magnitude", "displacement |dp| [m]"),
-    "DirectSolution": ("tensions", "tension [N]"),
-    "InverseSolution": ("tensions", "tension [N]"),
-    "Modes": ("frequencies_hz", "natural frequency [Hz]"),
-    "OtherSolution": ("tensions", "tension [N]"),
-    "PathDeviations": ("tensions", "standard deviation of the tension [N]"),
-    "PathStates": ("tensions", "tension [N]"),
-    "Stiffness": ("eigenvalues", "stiffness [N/m]"),
+    "Capacity": ("payload_anew", "greatest payload [kg]", "pose"),
+    "Certificate": ("position", "bound on the distance of P [m]", "case"),
+    "Deflection": ("magnitude", "displacement |dp| [m]", "case"),
+    "DirectSolution": ("tensions", "tension [N]", "cable"),
+    "InverseSolution": ("tensions", "tension [N]", "cable"),
+    "Modes": ("frequencies_hz", "natural frequency [Hz]", "motion"),
+    "OtherSolution": ("tensions", "tension [N]", "cable"),
+    "PathDeviations": ("tensions", "standard deviation of the tension [N]", "cable"),
+    "PathStates": ("tensions", "tension [N]", "cable"),
+    "Stiffness": ("eigenvalues", "stiffness [N/m]", "motion"),
 }
 
 
@@ -24,32 +24,38 @@ def figure_of(answer: Any) -> Any:
     """Draws an answer: of one case a bar for each element, of several a line over the cases."""
     from matplotlib import pyplot
 
-    figure, axis = pyplot.subplots(layout="constrained")
+    figure = pyplot.figure(layout="constrained")
     kind = type(answer).__name__
+    if kind == "Boundary" and len(answer.triangles) > 0:
+        _surface(answer, figure.add_subplot(projection="3d"))
+        return figure
+    axis = figure.add_subplot()
     special = _SPECIAL.get(kind)
     if special is not None:
         special(answer, axis)
         return figure
-    field, label = _DRAWN[kind]
-    _draw(axis, getattr(answer, field), label, single=getattr(answer, "reasons", None) is None)
+    field, label, elements = _DRAWN[kind]
+    single = getattr(answer, "reasons", None) is None
+    _draw(axis, getattr(answer, field), (label, elements), single=single)
     return figure
 
 
-def _draw(axis: Any, values: Any, label: str, *, single: bool) -> None:
+def _draw(axis: Any, values: Any, labels: tuple[str, str], *, single: bool) -> None:
     import numpy
 
     array = numpy.atleast_1d(values)
+    label, elements = labels
     axis.set_ylabel(label)
     if single:
         places = numpy.arange(1, len(array) + 1)
         axis.bar(places, array)
         axis.set_xticks(places)
-        axis.set_xlabel("number")
+        axis.set_xlabel(elements)
         return
     for k, column in enumerate(array.reshape(len(array), -1).T):
         axis.plot(column, ".-", label=str(k + 1))
     if array.ndim > 1:
-        axis.legend(title="number", ncols=4)
+        axis.legend(title=elements, ncols=4)
     axis.set_xlabel("case")
 
 
@@ -95,19 +101,28 @@ def _map(answer: Any, axis: Any) -> None:
 
 
 def _boundary(answer: Any, axis: Any) -> None:
-    """The polygons of a plane; the triangles of a box seen from above."""
+    """The polygons in a plane, along its two axes."""
     import numpy
 
-    parts = answer.polygons or list(answer.triangles)
-    points = numpy.concatenate(parts) if parts else numpy.zeros((0, 3))
-    spread = numpy.ptp(points, axis=0) if len(points) else numpy.zeros(3)
-    across, up = (0, 1) if not answer.polygons else sorted(numpy.argsort(-spread, kind="stable")[:2])
+    parts = answer.polygons
+    points = numpy.concatenate(parts) if parts else numpy.zeros((1, 3))
+    across, up = sorted(numpy.argsort(-numpy.ptp(points, axis=0), kind="stable")[:2])
     for part in parts:
         closed = numpy.vstack([part, part[:1]])
-        axis.plot(closed[:, across], closed[:, up], "k-", linewidth=1.5 if answer.polygons else 0.3)
+        axis.plot(closed[:, across], closed[:, up], "k-")
     axis.set_aspect("equal", adjustable="datalim")
     axis.set_xlabel(f"{'xyz'[across]} [m]")
     axis.set_ylabel(f"{'xyz'[up]} [m]")
+
+
+def _surface(answer: Any, axis: Any) -> None:
+    """The triangles of a region in space."""
+    from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+
+    axis.add_collection3d(Poly3DCollection(answer.triangles, edgecolor="k", linewidth=0.3, alpha=0.5))
+    points = answer.triangles.reshape(-1, 3)
+    axis.set(**{f"{name}lim": (low, high) for name, low, high in zip("xyz", points.min(axis=0), points.max(axis=0))})
+    axis.set(xlabel="x [m]", ylabel="y [m]", zlabel="z [m]", aspect="equal")
 
 
 _SPECIAL: dict[str, Callable[[Any, Any], None]] = {

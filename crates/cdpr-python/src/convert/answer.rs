@@ -34,10 +34,15 @@ macro_rules! answer {
                 $crate::convert::answer::summary(slf.as_any(), &[$(stringify!($field)),*])
             }
 
-            /// Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+            /// Makes a frame with a row for each case and columns of numbers and words.
             ///
             /// Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
             /// name: `magnitude/a1.x`.
+            ///
+            /// Returns
+            /// -------
+            /// pandas.DataFrame
+            ///     The frame.
             fn to_dataframe<'py>(
                 slf: &pyo3::Bound<'py, Self>,
             ) -> pyo3::PyResult<pyo3::Bound<'py, pyo3::PyAny>> {
@@ -63,7 +68,12 @@ macro_rules! plotted {
     ($class:ident) => {
         #[pyo3::pymethods]
         impl $class {
-            /// Draws the answer, and returns the matplotlib Figure.
+            /// Draws the answer: of one case a bar for each element, of several a line over the cases.
+            ///
+            /// Returns
+            /// -------
+            /// matplotlib.figure.Figure
+            ///     The figure.
             fn plot<'py>(slf: &pyo3::Bound<'py, Self>) -> pyo3::PyResult<pyo3::Bound<'py, pyo3::PyAny>> {
                 slf.py().import("cdpr._figures")?.call_method1("figure_of", (slf,))
             }

@@ -66,14 +66,39 @@ impl Robot {
     /// The cables are wound so that the platform rests at the pose under its own weight; then the load is
     /// added. Arguments are of one case, or have a first axis of m cases.
     ///
-    /// pose: wanted pose under the platform's own weight, (3,) or (7,).
-    /// payload: mass added at the platform's centre of mass [kg].
-    /// force, moment: on the platform in the base frame, about P [N, N m], (3,).
-    /// tension_offsets: offsets added to the tension set-points [N], (n,).
-    /// free: names of the coordinates of the pose that are found, for a robot with fewer cables than free
+    /// Parameters
+    /// ----------
+    /// pose : array_like
+    ///     Wanted pose under the platform's own weight, (3,) or (7,).
+    /// payload : array_like, optional
+    ///     Mass added at the platform's centre of mass [kg].
+    /// force, moment : array_like, optional
+    ///     On the platform in the base frame, about P [N, N m], (3,).
+    /// tension_offsets : array_like, optional
+    ///     Offsets added to the tension set-points [N], (n,).
+    /// free : sequence of str, optional
+    ///     Names of the coordinates of the pose that are found, for a robot with fewer cables than free
     ///     motions, as `Robot.inverse` takes them.
     ///
-    /// Raises InputError; for one case NoSolutionError.
+    /// Returns
+    /// -------
+    /// Deflection
+    ///     Displacements and rotations, and the equilibria without and with the load.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     For an invalid value; the message names it and what would be right.
+    /// NoSolutionError
+    ///     For one case without an answer; of several, its row has NaN and a reason.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import cdpr
+    /// >>> robot = cdpr.Robot.from_file("cogiro")
+    /// >>> given = robot.deflection([0, 0, 2], payload=50)
+    /// >>> print(f"{1e3 * given.magnitude:.1f} mm")
+    /// 7.7 mm
     #[pyo3(signature = (pose, *, payload=None, force=None, moment=None, tension_offsets=None, free=None))]
     #[allow(clippy::too_many_arguments)]
     fn deflection(

@@ -111,13 +111,38 @@ impl Robot {
     ///
     /// Arguments are of one case, or have a first axis of m cases.
     ///
-    /// pose: wanted pose under the platform's own weight, (3,) or (7,).
-    /// payload: mass added at the platform's centre of mass [kg].
-    /// force, moment: on the platform in the base frame, about P [N, N m], (3,).
-    /// free: names of the coordinates of the pose that are found, for a robot with fewer cables than free
+    /// Parameters
+    /// ----------
+    /// pose : array_like
+    ///     Wanted pose under the platform's own weight, (3,) or (7,).
+    /// payload : array_like, optional
+    ///     Mass added at the platform's centre of mass [kg].
+    /// force, moment : array_like, optional
+    ///     On the platform in the base frame, about P [N, N m], (3,).
+    /// free : sequence of str, optional
+    ///     Names of the coordinates of the pose that are found, for a robot with fewer cables than free
     ///     motions, as `Robot.inverse` takes them.
     ///
-    /// Raises InputError; for one case NoSolutionError, also where a derivative does not exist.
+    /// Returns
+    /// -------
+    /// Derivatives
+    ///     Derivatives by each input.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     For an invalid value; the message names it and what would be right.
+    /// NoSolutionError
+    ///     For one case without an answer; of several, its row has NaN and a reason; also where a
+    ///     derivative does not exist.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import cdpr
+    /// >>> robot = cdpr.Robot.from_file("cogiro")
+    /// >>> slopes = robot.derivatives([0, 0, 2], payload=50)
+    /// >>> slopes.inputs[0], len(slopes.magnitude) == len(slopes.inputs)
+    /// ('mass', True)
     #[pyo3(signature = (pose, *, payload=None, force=None, moment=None, free=None))]
     #[allow(clippy::too_many_arguments)]
     fn derivatives(

@@ -213,20 +213,46 @@ impl Robot {
     /// The tensions are those within their limits that come nearest to a reference. Arguments are of one
     /// case, or have a first axis of m cases.
     ///
-    /// pose: x, y, z [m], or x, y, z, qw, qx, qy, qz, (3,) or (7,).
-    /// force, moment: on the platform in the base frame, about P [N, N m], (3,).
-    /// payload: mass added at the platform's centre of mass [kg].
-    /// reference: tensions that the tensions are nearest to [N], (n,), in place of the robot's own
+    /// Parameters
+    /// ----------
+    /// pose : array_like
+    ///     x, y, z [m], or x, y, z, qw, qx, qy, qz, (3,) or (7,).
+    /// force, moment : array_like, optional
+    ///     On the platform in the base frame, about P [N, N m], (3,).
+    /// payload : array_like, optional
+    ///     Mass added at the platform's centre of mass [kg].
+    /// reference : array_like, optional
+    ///     Tensions that the tensions are nearest to [N], (n,), in place of the robot's own
     ///     `tension_reference`; zeros for the least norm.
-    /// path: whether the cases are a path, so that each keeps to the branch of tensions of the one before as
+    /// path : bool, default False
+    ///     Whether the cases are a path, so that each keeps to the branch of tensions of the one before as
     ///     long as it exists on the straight way between them.
-    /// free: names of the coordinates of the pose that are found, for a robot with fewer cables than free
-    ///     motions: as many of x, y, z, roll, pitch, yaw as cables are missing, with
-    ///     R = Rz(yaw) Ry(pitch) Rx(roll). They start from the pose and end where the platform rests,
-    ///     within the limits, with no cable longer than three chords or below `ground_z`; a reference does
-    ///     not matter.
+    /// free : sequence of str, optional
+    ///     Names of the coordinates of the pose that are found, for a robot with fewer cables than free
+    ///     motions: as many of x, y, z, roll, pitch, yaw as cables are missing, with R = Rz(yaw) Ry(pitch)
+    ///     Rx(roll). They start from the pose and end where the platform rests, within the limits, with no
+    ///     cable longer than three chords or below `ground_z`; a reference does not matter.
     ///
-    /// Raises InputError; for one case NoSolutionError.
+    /// Returns
+    /// -------
+    /// InverseSolution
+    ///     Lengths and tensions.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     For an invalid value; the message names it and what would be right.
+    /// NoSolutionError
+    ///     For one case without an answer; of several, its row has NaN and a reason.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import cdpr
+    /// >>> robot = cdpr.Robot.from_file("cogiro")
+    /// >>> robot.inverse([0, 0, 2]).lengths.shape  # [m]
+    /// (8,)
+    /// >>> robot.inverse([[0, 0, 2], [1, 0, 2]], payload=50).lengths.shape
+    /// (2, 8)
     #[pyo3(signature = (pose, *, force=None, moment=None, payload=None, reference=None, path=false,
         free=None))]
     #[allow(clippy::too_many_arguments)]

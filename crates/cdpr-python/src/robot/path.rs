@@ -85,12 +85,34 @@ impl Robot {
     /// Strongly sagging cables may hold a pose with several sets of tensions. Along a path each pose keeps to
     /// the set of the pose before, as long as it exists. A pose without an answer is left out of the path.
     ///
-    /// poses: x, y, z [m], or x, y, z, qw, qx, qy, qz, (m, 3) or (m, 7).
-    /// payload: mass that the platform carries, at its centre of mass [kg].
-    /// force, moment: on the platform in the base frame, about P [N, N m], (3,).
-    /// uncertainty: standard deviations of parameters or groups [SI units]: {"a": 0.002, "mass": 0.5}.
+    /// Parameters
+    /// ----------
+    /// poses : array_like
+    ///     x, y, z [m], or x, y, z, qw, qx, qy, qz, (m, 3) or (m, 7).
+    /// payload : array_like, optional
+    ///     Mass that the platform carries, at its centre of mass [kg].
+    /// force, moment : array_like, optional
+    ///     On the platform in the base frame, about P [N, N m], (3,).
+    /// uncertainty : dict of float, optional
+    ///     Standard deviations of parameters or groups [SI units]: {"a": 0.002, "mass": 0.5}.
     ///
-    /// Raises InputError.
+    /// Returns
+    /// -------
+    /// PathStates
+    ///     States along the path.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     For an invalid value; the message names it and what would be right.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import cdpr
+    /// >>> robot = cdpr.Robot.from_file("cogiro")
+    /// >>> states = robot.path([[x, 0, 2] for x in (0, 0.1, 0.2)], payload=50, uncertainty={"a": 0.002})
+    /// >>> states.tensions.shape, states.std.magnitude.shape  # [N], [m]
+    /// ((3, 8), (3,))
     #[pyo3(signature = (poses, *, payload=None, force=None, moment=None, uncertainty=None))]
     fn path(
         &self,

@@ -10,13 +10,33 @@ use pyo3::prelude::*;
 /// Arguments are of one pose, or have a first axis of m poses. The rotation turns the platform frame into the
 /// base frame; the platform is level if it is left out.
 ///
-/// position: x, y, z [m], (3,) or (m, 3).
-/// rotation: a quaternion qw, qx, qy, qz, (4,) or (m, 4), with the scalar first; or a
+/// Parameters
+/// ----------
+/// position : array_like
+///     x, y, z [m], (3,) or (m, 3).
+/// rotation : array_like or Rotation, optional
+///     A quaternion qw, qx, qy, qz, (4,) or (m, 4), with the scalar first; or a
 ///     `scipy.spatial.transform.Rotation`, whose own order does not matter then.
-/// rpy_deg: roll, pitch, yaw [degrees], (3,) or (m, 3), in place of a rotation:
-///     R = Rz(yaw) Ry(pitch) Rx(roll).
+/// rpy_deg : array_like, optional
+///     roll, pitch, yaw [degrees], (3,) or (m, 3), in place of a rotation: R = Rz(yaw) Ry(pitch)
+///     Rx(roll).
 ///
-/// Raises InputError, also for a quaternion whose scalar seems to be the last component, as SciPy has it.
+/// Returns
+/// -------
+/// ndarray
+///     Poses x, y, z [m], qw, qx, qy, qz, (7,) or (m, 7).
+///
+/// Raises
+/// ------
+/// InputError
+///     For an invalid value; the message names it and what would be right; also for a quaternion whose
+///     scalar seems to be the last component, as SciPy has it.
+///
+/// Examples
+/// --------
+/// >>> import cdpr
+/// >>> cdpr.pose([0, 0, 2], rpy_deg=[0, 0, 60]).round(3).tolist()
+/// [0.0, 0.0, 2.0, 0.866, 0.0, 0.0, 0.5]
 #[pyfunction]
 #[pyo3(signature = (position, rotation = None, *, rpy_deg = None))]
 pub(crate) fn pose(

@@ -70,15 +70,40 @@ impl Robot {
     ///
     /// Positions are on a grid, with the platform level.
     ///
-    /// x, y, z: coordinates along each axis [m]: a number, or (from, to, points).
-    /// plane: in place of x, y and z, a plane over the frame of the exit points, ("z", 1.75).
-    /// grid: points of the plane along its two axes; (41, 41) if left out.
-    /// payload: mass added at the platform's centre of mass [kg]; with 0 there is no deflection.
-    /// uncertainty: standard deviations of parameters or groups [SI units]: {"a": 0.002, "mass": 0.5}.
-    /// free: names of the coordinates of the pose that are found, for a robot with fewer cables than free
+    /// Parameters
+    /// ----------
+    /// x, y, z : float or (float, float, int), optional
+    ///     Coordinates along each axis [m]: a number, or (from, to, points).
+    /// plane : (str, float), optional
+    ///     In place of x, y and z, a plane over the frame of the exit points, ("z", 1.75).
+    /// grid : (int, int), optional
+    ///     Points of the plane along its two axes; (41, 41) if left out.
+    /// payload : float
+    ///     Mass added at the platform's centre of mass [kg]; with 0 there is no deflection.
+    /// uncertainty : dict of float, optional
+    ///     Standard deviations of parameters or groups [SI units]: {"a": 0.002, "mass": 0.5}.
+    /// free : sequence of str, optional
+    ///     Names of the coordinates of the pose that are found, for a robot with fewer cables than free
     ///     motions, as `Robot.inverse` takes them.
     ///
-    /// Raises InputError. A position that is not held is no error.
+    /// Returns
+    /// -------
+    /// Workspace
+    ///     Results at each position of the grid.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     For an invalid value; the message names it and what would be right. A position that is not held
+    ///     is no error.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import cdpr
+    /// >>> robot = cdpr.Robot.from_file("cogiro")
+    /// >>> found = robot.workspace(plane=("z", 2), grid=(4, 3), payload=50)
+    /// >>> found.shape, found.magnitude.shape  # [m]
+    /// ((4, 3, 1), (12,))
     #[pyo3(signature = (*, x=None, y=None, z=None, plane=None, grid=None, payload, uncertainty=None,
         free=None))]
     #[allow(clippy::too_many_arguments)]

@@ -71,8 +71,8 @@ impl<'a> DirectProblem<'a> {
         let mut end_stiffness = Matrix3::zeros();
         if let Some(linearized) = cable.linearized() {
             let stiffness = linearized.stiffness();
-            own.add_cable(&cable.anchor_arm, &cable.force_on_platform(), &stiffness.into());
-            end_stiffness = stiffness;
+            end_stiffness = stiffness.into();
+            own.add_cable(&cable.anchor_arm, &cable.force_on_platform(), &end_stiffness.into());
         }
         CableAtRest {
             lever: cable.anchor_arm.into(),

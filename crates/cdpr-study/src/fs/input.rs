@@ -76,7 +76,8 @@ pub(crate) fn text_of(path: &Path, bytes: Vec<u8>) -> Result<String, StudyError>
 pub fn read_bytes(path: &Path, kind: InputKind) -> Result<Vec<u8>, StudyError> {
     let unread = |source| StudyError::Read { path: path.to_owned(), source };
     let too_large = || StudyError::TooLarge { path: path.to_owned(), kind, most: kind.most_bytes() };
-    let fits = |bytes: Vec<u8>| if bytes.len() as u64 > kind.most_bytes() { Err(too_large()) } else { Ok(bytes) };
+    let fits =
+        |bytes: Vec<u8>| if bytes.len() as u64 > kind.most_bytes() { Err(too_large()) } else { Ok(bytes) };
     if is_standard_input(path) {
         return fits(standard_input().map_err(unread)?.to_vec());
     }
@@ -238,9 +239,11 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let pipe = folder.path().join("pipe");
         assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
-        for (path, found) in
-            [(pipe.as_path(), "a pipe without content"), (folder.path(), "a folder"), (Path::new("/dev/zero"), "a device")]
-        {
+        for (path, found) in [
+            (pipe.as_path(), "a pipe without content"),
+            (folder.path(), "a folder"),
+            (Path::new("/dev/zero"), "a device"),
+        ] {
             let error = read_text(path, InputKind::Study).unwrap_err().to_string();
             assert!(error.ends_with(&format!("is {found}: expected a study file")), "{error}");
         }
