@@ -30,6 +30,7 @@ mod feasible;
 mod free;
 mod greatest;
 mod in_turn;
+mod is_held;
 mod limits;
 mod maximization;
 mod norm;
@@ -48,12 +49,13 @@ use branch::KnownOptimum;
 use cdpr_cable::Catenary;
 use cdpr_robot::{Pose, Robot, Vector6};
 use cdpr_tension::Bound;
-use feasible::{holds, search};
+use feasible::search;
 pub(crate) use free::{BESIDE, FreeBranch};
 pub use free::{FreeSolution, FreeSolutions, LONGEST, free_solutions, rest_near};
 pub(crate) use free::{held_at, rest};
 pub use greatest::{Blocking, Greatest, greatest_payload, tension_margin};
 pub(crate) use in_turn::InTurn;
+pub use is_held::is_held;
 pub use limits::limits_at;
 use norm::chosen;
 pub(crate) use norm::require_smooth;
@@ -101,40 +103,6 @@ pub(crate) fn inverse_at(
 ) -> Result<InverseSolution, StaticsError> {
     let problem = InverseProblem::of_whole_pose(robot, pose, load, reference)?;
     InverseSolution::new(&problem, chosen(&problem)?)
-}
-
-/// Whether tensions within the limits hold the platform at a wanted pose, or at each of many, under its weight
-/// and `load`, as far as the search from the tensions of straight cables shows.
-///
-/// A yes is certain. A no comes much sooner than from [`crate::inverse`], which tries other starts before it
-/// calls a pose infeasible: cables that sag may hold a pose with tensions far from those of straight ones.
-/// With free coordinates the answer is whether [`crate::inverse`] finds the platform at rest.
-///
-/// # Errors
-/// Those of [`crate::inverse`] but [`StaticsError::NoTensions`], [`StaticsError::InverseNotConverged`] and
-/// [`StaticsError::NoRest`].
-pub fn is_held<W: Wanted>(robot: &Robot, wanted: W, load: &Load) -> W::Answers<Result<bool, StaticsError>> {
-    one_by_one(wanted, |wanted| {
-        let wanted = refuse_offsets(*wanted)?;
-        if wanted.free.is_empty() {
-            return is_held_at(robot, &wanted, load);
-        }
-        match rest(robot, &wanted, load) {
-            Ok(_) => Ok(true),
-            Err(StaticsError::NoRest { .. }) => Ok(false),
-            Err(error) => Err(error),
-        }
-    })
-}
-
-fn is_held_at(robot: &Robot, wanted: &WantedPose, load: &Load) -> Result<bool, StaticsError> {
-    let problem = InverseProblem::of_whole_pose(robot, &wanted.pose, load, wanted.tension_reference)?;
-    let limits = problem.limits.iter().enumerate();
-    if limits.into_iter().any(|(i, limits)| robot.cable(i).overstrain(limits.max).is_some()) {
-        // Tensions within the limits may strain a cable too much.
-        return Ok(search(&problem).and_then(|found| InverseSolution::new(&problem, found)).is_ok());
-    }
-    holds(&problem)
 }
 
 /// The inverse model along a path: each pose is answered on the branch of the one before.

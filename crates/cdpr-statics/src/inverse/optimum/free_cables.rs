@@ -39,7 +39,7 @@ impl Point<'_> {
 
     /// Newton's step and the new multipliers, with the steps of some cables given: the others are free.
     /// `None` unless it leads to a minimum over the free cables.
-    pub(in crate::inverse) fn newton_step(
+    pub(crate) fn newton_step(
         &self,
         hessian: &[f64],
         fixed: &[Option<f64>],
