@@ -204,7 +204,8 @@ def test_a_boundary_is_that_of_the_program(name, plane, payload, way, tmp_path):
     boundary = "boundary" if way == "anew" else f"boundary={way}"
     done = command("workspace", name, "--region", f"::5,::4,{plane[1]}", "--payload", payload, "--with", boundary,
                    "--out", tmp_path / "theirs")
-    assert done.returncode == 0, done.stderr
+    # It ends with 3 where less than half of the positions are held, as around a region.
+    assert done.returncode in (0, 3), done.stderr
     theirs = json.loads((tmp_path / "theirs" / "workspace.json").read_text())["boundary"]
     ours = cdpr.Robot.from_file(name).boundary(plane=plane, grid=(5, 4), payload=payload, way=way)
     numbers = [value for value in theirs.values() if isinstance(value, (int, float))]
