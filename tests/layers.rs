@@ -126,7 +126,6 @@ fn each_numerical_library_is_named_by_one_module_of_a_crate() {
                 "cdpr-statics/src/dense.rs",
             ],
         ),
-        ("mpi", &["cdpr-cli/src/study/ranks.rs"]),
         ("pulp", &["cdpr-number/src/lanes.rs"]),
     ] {
         let mut users = Vec::new();

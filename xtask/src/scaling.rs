@@ -1,9 +1,9 @@
-//! `cargo xtask scaling`: time and memory of `cdpr study throughput` over the number of observations and of
-//! threads.
+//! `cargo xtask scaling`: time and memory of the example `throughput` of cdpr-study over the number of
+//! observations and of threads.
 
 #![allow(clippy::print_stdout)]
 
-use crate::cargo::{cdpr_command, root};
+use crate::cargo::{root, study_example};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::process::{ExitCode, Stdio};
@@ -16,7 +16,7 @@ const STEADY: u64 = 100_000;
 /// Largest accepted ratio of peak memory to that of [`STEADY`] observations.
 const GROWTH: f64 = 1.1;
 
-/// The line that `cdpr study throughput` prints.
+/// The line that the example prints.
 #[derive(Debug, Deserialize, Serialize)]
 struct Run {
     sampling: String,
@@ -118,12 +118,12 @@ fn growth(runs: &[Run]) -> Option<f64> {
 
 fn throughput(observations: u64, threads: u64) -> Result<Run, String> {
     let study = root().join("data/studies/caroca.json").display().to_string();
-    let mut command = cdpr_command(&["study", "throughput", &study, "--sampling", "mechanical"]);
+    let mut command = study_example("throughput", &[&study, "--sampling", "mechanical"]);
     command.args(["--observations", &observations.to_string(), "--threads", &threads.to_string()]);
     let output =
         command.stderr(Stdio::inherit()).output().map_err(|error| format!("cannot start cargo: {error}"))?;
     if !output.status.success() {
-        return Err(format!("`cdpr study throughput` has failed ({})", output.status));
+        return Err(format!("the example `throughput` has failed ({})", output.status));
     }
     let line = String::from_utf8_lossy(&output.stdout);
     serde_json::from_str(&line).map_err(|error| format!("`{}`: {error}", line.trim()))

@@ -47,7 +47,7 @@ struct Case {
     poses: Vec<Value>,
 }
 
-/// The line of a pose that `cdpr study throughput` prints.
+/// The line of a pose that the example `throughput` of cdpr-study prints.
 #[derive(Deserialize)]
 struct Line {
     observations: usize,
@@ -162,14 +162,22 @@ impl Case {
     /// Observes the study at one pose.
     fn line(&self, study: &Path, pose: usize) -> Result<Line, String> {
         // As it is installed.
-        let mut command = cargo_command(&["run", "--release", "--quiet", "--bin", "cdpr", "--"]);
-        command.args(["study", "throughput", &study.display().to_string()]);
+        let mut command = cargo_command(&[
+            "run",
+            "--release",
+            "--quiet",
+            "--package",
+            "cdpr-study",
+            "--example",
+            "throughput",
+        ]);
+        command.args(["--", &study.display().to_string()]);
         command.args(["--sampling", &format!("all/{pose:04}"), "--threads", "1"]);
         command.args(["--observations", &self.observations.to_string()]);
         let output = command.stderr(Stdio::inherit()).output();
         let output = output.map_err(|error| format!("cannot start cargo: {error}"))?;
         if !output.status.success() {
-            return Err(format!("{}: `cdpr study throughput` has failed ({})", self.name, output.status));
+            return Err(format!("{}: the example `throughput` has failed ({})", self.name, output.status));
         }
         let text = String::from_utf8_lossy(&output.stdout);
         serde_json::from_str(&text).map_err(in_file(text.trim()))

@@ -54,18 +54,11 @@ pub(crate) enum ProgramError {
     NoPoseHeld { reasons: String },
     #[error("cannot start {threads} threads: {source}")]
     Threads { threads: u16, source: rayon::ThreadPoolBuildError },
-    #[cfg(not(feature = "mpi"))]
     #[error(
-        "{processes} processes run this study together: expected one, several with --shard, or a program \
-         built with the feature `mpi` (cargo install --path crates/cdpr-cli --features mpi)"
+        "a launcher has started {processes} processes of this command, and each would run the whole study: \
+         expected one, or several with --shard i/{processes}"
     )]
-    WithoutMpi { processes: usize },
-    #[cfg(feature = "mpi")]
-    #[error(
-        "the launcher has started {expected} processes and MPI knows of {found}: expected a launcher of the \
-         MPI that the program was built with"
-    )]
-    Ranks { expected: usize, found: usize },
+    Together { processes: usize },
     #[error("cannot ask the system to report files that are too large: {0}")]
     FileLimit(std::io::Error),
     #[error("cannot wait for Ctrl-C: {0}")]

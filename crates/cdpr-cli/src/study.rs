@@ -4,22 +4,18 @@ pub(crate) mod analyse;
 mod carry_out;
 mod common;
 mod print;
-#[cfg(feature = "mpi")]
-mod ranks;
 pub(crate) mod report;
 mod status;
 mod template;
-mod throughput;
 pub(crate) mod tolerances;
 
-use crate::arguments::{self, Preference, Threads};
+use crate::arguments;
 use crate::error::ProgramError;
 use crate::output::{Ending, patiently};
 use crate::questions::take_results;
 use cdpr_study::{Access, StoredStudy};
 use clap::Subcommand;
 use common::{FolderSettings, RunSettings, begun};
-use std::path::PathBuf;
 
 #[derive(Subcommand)]
 pub(crate) enum Command {
@@ -32,8 +28,7 @@ pub(crate) enum Command {
     #[command(after_help = "Example: cdpr study run data/studies/caroca.json --out results
 
 Interrupted or killed, it continues with --resume and gives the same results to the last bit.
-On several machines with a shared folder: --shard 1/4 ... --shard 4/4, then `cdpr study merge`;
-or, built with the feature `mpi`: mpirun -n 4 cdpr study run ....")]
+On several machines with a shared folder: --shard 1/4 ... --shard 4/4, then `cdpr study merge`.")]
     Run(RunSettings),
     /// Analyse a study whose blocks are all in a folder, such as those of all shards.
     #[command(after_help = "Example: cdpr study merge results")]
@@ -50,25 +45,6 @@ or, built with the feature `mpi`: mpirun -n 4 cdpr study run ....")]
         #[arg(long, value_parser = arguments::count::<3, 10_000_000_000>)]
         observations: usize,
     },
-    /// Measure how fast one sampling of a study runs.
-    ///
-    /// Nothing is written; time, memory and results are printed as JSON.
-    #[command(after_help = "Example: cdpr study throughput data/studies/caroca.json --sampling mechanical \
-                      --observations 1000000")]
-    Throughput {
-        /// Study file (JSON, `cdpr-study/1`).
-        study: PathBuf,
-        /// Name of the sampling.
-        #[arg(long)]
-        sampling: String,
-        /// Number of observations, in place of the file's.
-        #[arg(long, default_value_t = 1_000_000, value_parser = arguments::count::<3, 10_000_000_000>)]
-        observations: usize,
-        #[command(flatten)]
-        preference: Preference,
-        #[command(flatten)]
-        threads: Threads,
-    },
 }
 
 pub(crate) fn run(command: Command) -> Result<Ending, ProgramError> {
@@ -76,7 +52,7 @@ pub(crate) fn run(command: Command) -> Result<Ending, ProgramError> {
         Command::New(settings) => template::run(&settings).map(well),
         Command::Run(settings) => match processes(|name| std::env::var(name).ok()) {
             // Shards have numbers, however they are launched.
-            Some(processes) if settings.shard.is_none() => together(&settings, processes),
+            Some(processes) if settings.shard.is_none() => Err(ProgramError::Together { processes }),
             _ => alone(&settings),
         },
         Command::Merge(FolderSettings { folder, common }) => {
@@ -84,16 +60,13 @@ pub(crate) fn run(command: Command) -> Result<Ending, ProgramError> {
             let StoredStudy { study, blocks } = take_results(&folder, Access::Alone)?;
             let complete = || cdpr_study::check_complete(&folder, &study, &blocks);
             patiently("looking for blocks", complete)?;
-            carry_out::whole(&study, &folder, &blocks, &common, |_| Ok(()))
+            carry_out::whole(&study, &folder, &blocks, &common)
         }
         Command::Status(settings) => status::run(&settings).map(well),
         Command::Extend { folder: FolderSettings { folder, common }, observations } => {
             common.threads.start()?;
             let StoredStudy { study, blocks } = take_results(&folder, Access::Alone)?.extend(observations)?;
-            carry_out::whole(&study, &folder, &blocks, &common, |_| Ok(()))
-        }
-        Command::Throughput { study, sampling, observations, preference, threads } => {
-            throughput::run(&study, &sampling, observations, &preference, &threads).map(well)
+            carry_out::whole(&study, &folder, &blocks, &common)
         }
     }
 }
@@ -110,19 +83,8 @@ fn alone(settings: &RunSettings) -> Result<Ending, ProgramError> {
         Some(shard) => {
             carry_out::shard(&study, &settings.out, &blocks, shard, settings.common.format).map(well)
         }
-        None => carry_out::whole(&study, &settings.out, &blocks, &settings.common, |_| Ok(())),
+        None => carry_out::whole(&study, &settings.out, &blocks, &settings.common),
     }
-}
-
-/// Runs the study in all processes that `mpirun` or `srun` has started.
-#[cfg(feature = "mpi")]
-fn together(settings: &RunSettings, processes: usize) -> Result<Ending, ProgramError> {
-    ranks::share_out(settings, processes)
-}
-
-#[cfg(not(feature = "mpi"))]
-fn together(_: &RunSettings, processes: usize) -> Result<Ending, ProgramError> {
-    Err(ProgramError::WithoutMpi { processes })
 }
 
 /// Number of processes that were started together; `None` for one alone.

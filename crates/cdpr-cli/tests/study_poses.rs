@@ -1,7 +1,7 @@
 //! Samplings at several poses: each equals a sampling at that pose alone, and a pose that is not held is a
 //! row with its reason.
 
-use crate::common::{Bench, text};
+use crate::common::{Bench, cdpr_in, text};
 use serde_json::{Value, json};
 
 /// CAROCA over a plane of 5 x 3 positions, of which the outer ones are not held.
@@ -76,7 +76,7 @@ fn a_plane_of_poses_has_a_row_each_maps_and_reasons_where_nothing_holds_it() {
         report.contains("Over the workspace")
             && report.contains("holds 3 of 15 poses; not held: 12 infeasible tension")
     );
-    assert!(text.contains("plane: 12 of 15 poses infeasible tension"), "{text}");
+    assert!(text.contains("12 of 15 poses are not held: 12 infeasible tension."), "{text}");
 }
 
 #[test]
@@ -173,7 +173,7 @@ fn a_study_in_which_no_pose_is_held_says_so_and_ends_well() {
         study["samplings"]["plane"]["poses"]["grid"]["z"] = json!({"min": 9.0, "max": 9.0, "points": 1});
     });
     let text = bench.run("out", &[]);
-    assert!(text.contains("plane: 15 of 15 poses infeasible tension"), "{text}");
+    assert!(text.contains("15 of 15 poses are not held: 15 infeasible tension."), "{text}");
     assert!(text.contains("note: no figure plane_mean: nothing to draw"), "{text}");
     assert_eq!(bench.json("out/summary.json")["studies"]["plane"]["mean_mm"], Value::Null);
     let report = std::fs::read_to_string(bench.path("out/report.html")).unwrap();
@@ -331,28 +331,20 @@ fn names_whose_files_would_be_those_of_another_part_are_refused() {
 
 #[test]
 fn where_one_pose_is_wanted_several_are_refused_with_their_names() {
-    let bench = plane(|study| {
-        study["comparison"] = json!([{
-            "figure": "1", "quantity": "mean", "study": "plane", "statistic": "mean", "paper": 1.0,
-            "unit": "mm", "last_digit": 0.1
-        }]);
-    });
-    let message = bench.refused(&["run", "study.json"]);
-    assert!(
-        message.contains("comparison[0].study is plane: expected the name of a sampling at one pose"),
-        "{message}"
-    );
     let bench = plane(|_| ());
-    let throughput =
-        |name| bench.study(&["throughput", "study.json", "--observations", "40", "--sampling", name]);
-    assert!(throughput("plane/0007").status.success());
+    let tolerances = |name| {
+        let arguments =
+            ["tolerances", "study.json", "--observations", "40", "--limit", "9", "--sampling", name];
+        cdpr_in(&bench.path("."), &arguments)
+    };
+    assert!(tolerances("plane/0007").status.success());
     for (name, expected) in [
         ("plane", "samplings.plane is plane: expected one pose: plane/0000 to plane/0014"),
         ("plane/15", "samplings.plane is plane/15: expected one pose"),
         ("plane/0015", "samplings.plane is plane/0015: expected one pose"),
         ("plan", "samplings.plan is missing: expected one of plane"),
     ] {
-        let message = text(throughput(name).stderr);
+        let message = text(tolerances(name).stderr);
         assert!(message.contains(expected), "{message}");
     }
 }

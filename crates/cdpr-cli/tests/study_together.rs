@@ -1,4 +1,4 @@
-//! A study shared by processes, by the scripts for clusters and by MPI, has the files of one run.
+//! A study shared by processes, by the scripts for clusters, has the files of one run.
 
 #![cfg(unix)]
 
@@ -96,9 +96,8 @@ exit "${failed:-0}"
     bench.assert_same("whole", "shared");
 }
 
-#[cfg(not(feature = "mpi"))]
 #[test]
-fn processes_of_a_launcher_without_mpi_or_shards_are_refused() {
+fn processes_of_a_launcher_without_shards_are_refused() {
     let bench = bench(100);
     let mut command = bench.command(env!("CARGO_BIN_EXE_cdpr"));
     let output =
@@ -106,78 +105,8 @@ fn processes_of_a_launcher_without_mpi_or_shards_are_refused() {
     assert_eq!(output.status.code(), Some(1));
     let text = String::from_utf8(output.stderr).unwrap();
     assert!(
-        text.starts_with("error: 4 processes run this study together: expected one, several with --shard"),
+        text.starts_with("error: a launcher has started 4 processes of this command, and each would run"),
         "{text}"
     );
     assert!(!bench.path("results").exists());
-}
-
-#[cfg(feature = "mpi")]
-mod mpi {
-    use super::*;
-    use std::path::Path;
-    use std::process::Stdio;
-    use std::time::{Duration, Instant};
-
-    /// `mpirun -n 2 cdpr study run ...`
-    fn ranks(bench: &Bench, arguments: &[&str]) -> Command {
-        let mut command = bench.command("mpirun");
-        // Open MPI refuses root and more ranks than cores without these options.
-        for variable in ["ALLOW_RUN_AS_ROOT", "ALLOW_RUN_AS_ROOT_CONFIRM", "MCA_rmaps_base_oversubscribe"] {
-            command.env(format!("OMPI_{variable}"), "1");
-        }
-        command.args(["-n", "2", env!("CARGO_BIN_EXE_cdpr"), "study", "run"]).args(arguments);
-        command.args(["--threads", "1", "--table", "none"]);
-        command
-    }
-
-    /// Blocks below a folder that is being written to.
-    fn count_blocks(folder: &Path) -> usize {
-        let entries = std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
-        let count = |path: std::path::PathBuf| {
-            let is_block = path.extension().is_some_and(|extension| extension == "block");
-            if path.is_dir() { count_blocks(&path) } else { usize::from(is_block) }
-        };
-        entries.map(count).sum()
-    }
-
-    #[test]
-    fn two_ranks_make_what_one_process_makes() {
-        let bench = bench(20_000);
-        let mut command = ranks(&bench, &["study.json", "--out", "ranks"]);
-        let output = command.output().unwrap();
-        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-        bench.run("whole", &["--table", "none"]);
-        bench.assert_same("whole", "ranks");
-        let output = ranks(&bench, &["study.json", "--out", "ranks"]).output().unwrap();
-        assert_eq!(output.status.code(), Some(1));
-        let text = String::from_utf8(output.stderr).unwrap();
-        assert!(text.contains("--resume goes on with them"), "{text}");
-        assert_eq!(text.matches("error: ").count(), 1, "said once: {text}");
-    }
-
-    #[test]
-    fn a_killed_rank_leaves_its_blocks_and_the_resumed_run_ends_with_the_same_bytes() {
-        let bench = bench(200_000);
-        let mut command = ranks(&bench, &["study.json", "--out", "ranks"]);
-        let mut launcher = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
-        let clock = Instant::now();
-        let blocks = || count_blocks(&bench.path("ranks/blocks"));
-        while blocks() < 3 && clock.elapsed() < Duration::from_secs(120) {
-            std::thread::sleep(Duration::from_millis(10));
-        }
-        let children = format!("/proc/{0}/task/{0}/children", launcher.id());
-        let children = std::fs::read_to_string(children).unwrap();
-        let rank = children.split_whitespace().last().unwrap();
-        assert!(Command::new("kill").args(["-KILL", rank]).status().unwrap().success());
-        assert!(!launcher.wait().unwrap().success());
-        let (left, all) = (blocks(), 3 * 13 + 3 * 13);
-        assert!((3..all).contains(&left), "{left} of {all} blocks");
-        assert!(!bench.path("ranks/summary.json").exists());
-        let mut resumed = ranks(&bench, &["study.json", "--out", "ranks", "--resume"]);
-        let output = resumed.output().unwrap();
-        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-        bench.run("whole", &["--table", "none"]);
-        bench.assert_same("whole", "ranks");
-    }
 }

@@ -79,7 +79,7 @@ fn every_other_command_with_the_inverse_model_takes_preferred_tensions_and_refus
     let study = data_path("studies/caroca.json");
     let robot = data_path("robots/caroca.json");
     let law = data_path("robots/caroca-law.json");
-    let commands: [&[&str]; 5] = [
+    let commands: [&[&str]; 4] = [
         &["hysteresis", &law, "--pose", "0,0,1.75", "--payload", "50"],
         &["workspace", &robot, "--box=-1:1:2,0:0:1,1.5:1.5:1", "--payload", "50", "--overwrite"],
         &[
@@ -92,7 +92,6 @@ fn every_other_command_with_the_inverse_model_takes_preferred_tensions_and_refus
             "--noise",
             "tensions=1",
         ],
-        &["study", "throughput", &study, "--sampling", "mechanical", "--observations", "20"],
         &["tolerances", &study, "--sampling", "mechanical", "--limit", "1.4", "--observations", "200"],
     ];
     let words = |output: &str| {
@@ -137,7 +136,6 @@ fn a_study_file_an_option_and_a_robot_file_prefer_the_same_tensions() {
             study["samplings"]["mechanical"]["observations"] = json!(20);
             study["replicates"] = json!(0);
             study["surfaces"] = json!({});
-            study["comparison"] = json!([]);
         })
     };
     let plain = bench();
@@ -256,7 +254,7 @@ fn a_tension_that_is_too_much_in_any_answer_is_named_and_ends_with_code_3() {
             let grid = format!("--box={}", around.join(","));
             let (code, printed) =
                 ended(folder, &["workspace", "--payload", &payload, &grid, "--out", "map", "--overwrite"]);
-            let words = "1 with tensions above tension_limits.max or a breaking force";
+            let words = "At 1 position tensions are above tension_limits.max or a breaking force.";
             assert!(code == 3 && printed.contains(words), "{file}: {printed}");
             let table = std::fs::read_to_string(folder.path().join("map/workspace.csv")).unwrap();
             assert!(table.contains(&name) && table.contains("beyond_limits"), "{table}");
@@ -312,7 +310,6 @@ fn all_parts_of_a_study_name_a_nominal_robot_that_bears_too_much() {
             (surface["x"]["points"], surface["y"]["points"]) = (json!(2), json!(2));
         }
         study["replicates"] = json!(0);
-        study["comparison"] = json!([]);
     });
     bench.change("robot.json", |robot| robot["cable"]["breaking_force"] = json!(730.0));
     let output = bench.study(&["run", "study.json", "--out", "out"]);
@@ -385,7 +382,7 @@ fn a_norm_that_jumps_is_refused_where_tensions_have_to_change_smoothly() {
     let expected = "distribution is least_1_norm: expected nearest or least_2_norm";
     for command in [
         &["derivatives", &robot, "--pose", "0,0,1.75", "--payload", "5"][..],
-        &["study", "throughput", &study, "--sampling", "mechanical", "--observations", "20"],
+        &["tolerances", &study, "--sampling", "mechanical", "--limit", "1.4"],
     ] {
         let output = cdpr_in(folder.path(), &[command, &["--distribution", "least_1_norm"]].concat());
         let message = text(output.stderr);

@@ -8,7 +8,7 @@ use std::path::Path;
 use std::process::Command;
 
 /// A good call of each command in the folder of all cases.
-const CALLS: [&str; 27] = [
+const CALLS: [&str; 26] = [
     "catenary --weight 1 --stiffness 1e6 --length 4.3 --end 4,-1",
     "inverse robot.json --pose 0,0,1.75",
     "direct robot.json --lengths 4.44,4.54,4.36,4.26,4.26,4.36,4.54,4.44",
@@ -21,7 +21,6 @@ const CALLS: [&str; 27] = [
     "check robot.json",
     "study new --robot robot.json",
     "study run study.json --out out",
-    "study throughput study.json --sampling mechanical --observations 100",
     "study merge out",
     "study status out",
     "study extend out --observations 200",

@@ -48,13 +48,12 @@ pub(super) fn shard(
     Ok(format.print(&serde_json::json!({ "folder": out.to_string_lossy(), "shard": "done" }), text)?)
 }
 
-/// Makes the blocks that `first` leaves missing, and analyses the whole study.
+/// Makes the blocks that are missing, and analyses the whole study.
 pub(super) fn whole(
     study: &Study,
     out: &Path,
     blocks: &Blocks,
     common: &Common,
-    first: impl FnOnce(&Session) -> Result<(), ProgramError>,
 ) -> Result<Ending, ProgramError> {
     announce_slow(study)?;
     let progress = progress(study.all_observations()?, "observations");
@@ -66,18 +65,24 @@ pub(super) fn whole(
         note: &|note| progress.suspend(|| eprintln!("note: {note}")),
         stop: &|| false,
     };
-    let Watcher { tick, warn, stop, .. } = watcher;
-    first(&Session { blocks: Some(blocks), tick, warn, stop })?;
-    progress.reset();
     let format = common.table.map(TableFormat::from);
     let Run { results, figures } = cdpr_study::run(study, blocks, format, &draw, watcher)?;
     progress.finish_and_clear();
     let timings = results.timings.clone().unwrap_or_default();
-    common.format.print(&results.summary, |summary| print::print(summary, &timings))?;
+    common.format.print(&results.summary, |summary| {
+        print::print(summary);
+        if common.details.details {
+            println!();
+            print::print_details(summary, &timings);
+        }
+    })?;
     let page = report_with(&results, &figures, None)?;
     let path = blocks.results()?.write(REPORT_NAME, page.as_bytes())?;
     if common.format == Format::Text {
         println!("\nresults in {}\nreport in {}", out.display(), path.display());
+        if !common.details.details {
+            println!("all measures: in the report, or with --details");
+        }
     }
     Ok(ending(&results.summary))
 }
@@ -136,6 +141,9 @@ fn resumed(out: &Path, common: &Common) -> String {
     }
     if common.format == Format::Json {
         command += " --format json";
+    }
+    if common.details.details {
+        command += " --details";
     }
     command
 }

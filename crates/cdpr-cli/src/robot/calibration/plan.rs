@@ -3,12 +3,12 @@
 use crate::arguments::{self, Format, FreeArguments, LoadArguments, Overwrite, Preference};
 use crate::endings;
 use crate::error::ProgramError;
-use crate::output::{patiently, table};
+use crate::output::{Details, narrow_table, patiently, table};
 use crate::poses;
 use crate::questions;
 use crate::robot::calibration::candidates::{Candidates, Known, add};
 use cdpr_calibration::{AtWork, Calibration, Criterion, PosePlan, Quality};
-use cdpr_robot::{Pose, Robot, counted, rounded, shown};
+use cdpr_robot::{Pose, Robot, broken, counted, rounded, shown, significant};
 use cdpr_study::Grid;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -53,6 +53,8 @@ pub(crate) struct PlanSettings {
     out: Option<PathBuf>,
     #[command(flatten)]
     overwrite: Overwrite,
+    #[command(flatten)]
+    details: Details,
     /// How the results are printed.
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
@@ -118,7 +120,8 @@ pub(super) fn plan(settings: &PlanSettings) -> Result<(), ProgramError> {
         settings.overwrite.write(out, &format!("{}\n{}\n", poses::COLUMNS.join(","), lines.join("\n")))?;
     }
     let output = Plan::new(&poses, refused, found, settings.accuracy);
-    Ok(settings.format.print(&output, |output| print_plan(&robot, output))?)
+    let text = |output: &Plan| print_plan(&robot, output, settings.details.details);
+    Ok(settings.format.print(&output, text)?)
 }
 
 /// A plan as it is printed.
@@ -179,13 +182,38 @@ impl Plan {
     }
 }
 
-fn print_plan(robot: &Robot, output: &Plan) {
+/// What the planned poses leave, compared with other sets.
+fn answer(robot: &Robot, output: &Plan) -> String {
+    let (count, name) = (output.poses.len(), shown(&robot.name));
+    let at_work = |of: &Left| of.mean_at_work.map(|std| significant(1e3 * std, 3));
+    let sets = [&output.plan, &output.random, &output.outermost];
+    match sets.map(at_work) {
+        [Some(plan), Some(random), Some(outermost)] => format!(
+            "{count} poses of {name} leave {plan} mm at work (random {random}, outermost {outermost})."
+        ),
+        _ => {
+            let [plan, random, outermost] = sets.map(|of| significant(100.0 * of.parameters, 3));
+            format!(
+                "{count} poses of {name} leave {plan} % of parameters' std (random {random}, outermost \
+                 {outermost})."
+            )
+        }
+    }
+}
+
+fn print_plan(robot: &Robot, output: &Plan, details: bool) {
     let count = output.poses.len();
-    println!("{}: {count} of {} poses", shown(&robot.name), output.candidates);
+    broken(&answer(robot, output)).iter().for_each(|line| println!("{line}"));
+    match output.needed {
+        Some(Some(needed)) => println!("{} reach the accuracy", counted(needed, "pose")),
+        Some(None) => println!("{} do not reach the accuracy", counted(count, "pose")),
+        None => {}
+    }
+    println!("chosen of {}", counted(output.candidates, "pose"));
     for (reason, count) in &output.refused {
         println!("{} left out: {reason}", counted(*count, "pose"));
     }
-    let mut rows = table(&[
+    let mut rows = narrow_table(&[
         "set of poses",
         "information [bit]",
         "std of parameters left [%]",
@@ -206,15 +234,11 @@ fn print_plan(robot: &Robot, output: &Plan) {
     add("planned".to_owned(), &output.plan);
     add("random, median".to_owned(), &output.random);
     add("outermost".to_owned(), &output.outermost);
-    for (k, of) in output.growing.iter().enumerate().filter(|(k, _)| (k + 1).is_power_of_two()) {
+    let growing = output.growing.iter().enumerate().filter(|(k, _)| details && (k + 1).is_power_of_two());
+    for (k, of) in growing {
         add(format!("growing, {}", k + 1), of);
     }
     println!("{rows}");
-    match output.needed {
-        Some(Some(needed)) => println!("{needed} poses reach the accuracy"),
-        Some(None) => println!("{count} poses do not reach the accuracy"),
-        None => {}
-    }
     let mut rows = table(&["x, y, z [m], qw, qx, qy, qz"]);
     for pose in &output.poses {
         rows.add_row([pose.map(|number| rounded(number, 6).to_string()).join(", ")]);
