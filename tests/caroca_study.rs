@@ -26,7 +26,7 @@ fn run(name: &str) -> (Vec<Part>, SamplingSummary) {
     (parts, summary)
 }
 
-fn rms(summary: &SamplingSummary) -> &cdpr_study::ValueSummary {
+fn observed(summary: &SamplingSummary) -> &cdpr_study::ValueSummary {
     summary.values.as_ref().unwrap()
 }
 
@@ -43,10 +43,10 @@ fn mechanical_study_at_the_symmetric_pose() {
     let (_, summary) = run("mechanical");
     assert_eq!(summary.observations, 2000);
     assert_eq!(summary.failed.values().sum::<usize>(), 0);
-    within(rms(&summary).nominal, 1.331_245, 1e-5);
-    within(rms(&summary).mean, 1.347, 0.005);
-    within(rms(&summary).min, 1.12, 0.01);
-    within(rms(&summary).max, 1.635, 0.015);
+    within(observed(&summary).nominal, 1.331_245, 1e-5);
+    within(observed(&summary).mean, 1.347, 0.005);
+    within(observed(&summary).min, 1.12, 0.01);
+    within(observed(&summary).max, 1.635, 0.015);
     // The uniform law of the paper is the nearest, and yet 2000 observations reject it.
     let best = summary.best_fit.unwrap();
     assert_eq!((best.family, best.evidence), (Family::Uniform, Evidence::Rejected));
@@ -59,8 +59,8 @@ fn mechanical_study_at_the_symmetric_pose() {
 fn geometrical_study_at_the_symmetric_pose() {
     let (_, summary) = run("geometrical");
     assert_eq!(summary.failed.values().sum::<usize>(), 0);
-    within(rms(&summary).mean, 1.333, 0.003);
-    within(rms(&summary).std, 0.018, 0.001);
+    within(observed(&summary).mean, 1.333, 0.003);
+    within(observed(&summary).std, 0.018, 0.001);
     // A normal and a lognormal law are nearest; both are rejected.
     assert_eq!(summary.best_fit.unwrap().evidence, Evidence::Rejected);
     let normal = summary.fits.iter().find(|fit| fit.law == Family::Normal).unwrap();
@@ -77,7 +77,7 @@ fn geometrical_study_at_the_symmetric_pose() {
 #[test]
 fn geometrical_study_at_the_non_symmetric_pose() {
     let (parts, summary) = run("geometrical_asymmetric");
-    within(rms(&summary).nominal, 0.821_859, 1e-5);
+    within(observed(&summary).nominal, 0.821_859, 1e-5);
     // Two exit points and the anchor points of their cables dominate: t of 8 to 13 and of 4 to 7 in the
     // independent model, the others about 1 or less. From 2000 observations t itself is known to about 1.5.
     let largest = |letter: char, i: usize| {
@@ -105,8 +105,8 @@ fn surfaces_around_the_symmetric_pose() {
         let surface = study.surface(name).unwrap();
         let result = compute_surface(&surface, &|_| ());
         assert!(result.values.iter().all(Result::is_ok));
-        let rms = SurfaceSummary::new(&surface, &result).values;
-        (rms.min.unwrap(), rms.max.unwrap())
+        let values = SurfaceSummary::new(&surface, &result).values;
+        (values.min.unwrap(), values.max.unwrap())
     };
     let (min, max) = extremes("surface_E_rho");
     within(min, 1.13, 0.01);

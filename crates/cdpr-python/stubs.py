@@ -18,18 +18,25 @@ def documentation(module, node, owner=None):
     return None if of is None or not of.__doc__ else inspect.cleandoc(of.__doc__)
 
 
+def first_of_each(nodes):
+    """The functions among these, of several overloads the first."""
+    functions = {}
+    for node in nodes:
+        if isinstance(node, ast.FunctionDef):
+            functions.setdefault(node.name, node)
+    return list(functions.values())
+
+
 def documented(module, text):
     """The stubs with the documentation of the module."""
     lines = text.splitlines()
-    edits = []
-    for node in ast.parse(text).body:
-        if not isinstance(node, (ast.ClassDef, ast.FunctionDef)):
-            continue
-        edits.append((node, documentation(module, node)))
+    body = ast.parse(text).body
+    edits = [(node, documentation(module, node)) for node in first_of_each(body)]
+    for node in body:
         if isinstance(node, ast.ClassDef):
             owner = getattr(module, node.name)
-            methods = [of for of in node.body if isinstance(of, ast.FunctionDef)]
-            edits += [(of, documentation(module, of, owner)) for of in methods]
+            edits.append((node, documentation(module, node)))
+            edits += [(of, documentation(module, of, owner)) for of in first_of_each(node.body)]
     for node, doc in sorted(edits, key=lambda edit: -edit[0].lineno):
         first = node.body[0]
         old = isinstance(first, ast.Expr) and isinstance(first.value, ast.Constant) and first.value.value is not ...

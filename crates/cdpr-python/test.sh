@@ -13,7 +13,9 @@ trap 'rm -rf "$environment"' EXIT
 
 cargo build --quiet --bin cdpr
 python3 -m venv --clear "$environment"
-"$environment/bin/pip" install --quiet ./crates/cdpr-python pytest pandas matplotlib mypy mujoco anywidget SALib "$@"
+# In the profile of the tests, so that nothing is compiled twice; a wheel is otherwise built as a release.
+"$environment/bin/pip" install --quiet --config-settings=build-args="--profile dev" ./crates/cdpr-python
+"$environment/bin/pip" install --quiet pytest scipy pandas matplotlib mypy mujoco anywidget SALib "$@"
 cd crates/cdpr-python
 CDPR=$target/debug/cdpr "$environment/bin/python" -m pytest -q -rs -p no:cacheprovider tests
 "$environment/bin/python" -m mypy.stubtest cdpr --mypy-config-file pyproject.toml \

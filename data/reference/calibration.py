@@ -1,7 +1,7 @@
 """The calibration of CAROCA by SciPy's least_squares, around `cdpr direct`, for tests of cdpr-calibration.
 
 Run in the root of the repository, with the program in target/debug: python3 data/reference/calibration.py
-It simulates a campaign (`cdpr calibration simulate`), minimises the same sum of squares with a Jacobian by
+It simulates a campaign (`cdpr calibrate simulate`), minimises the same sum of squares with a Jacobian by
 differences, and writes data/reference/calibration.json.
 """
 
@@ -68,7 +68,7 @@ def main():
         file.write("\n".join([lines[0], *lines[1 :: max(1, (len(lines) - 1) // ROWS)]][: ROWS + 1]) + "\n")
     table = os.path.join(folder, "measurements.csv")
     noise = f"position={NOISE},rotation={NOISE}"
-    run("calibration", "simulate", ROBOT, "--poses", few, "--model", MODEL, "--noise", noise, "--seed", "5", "--out", table)
+    run("calibrate", "simulate", ROBOT, "--poses", few, "--uncertainty", MODEL, "--noise", noise, "--seed", "5", "--out", table)
     with open(table) as file:
         text = file.read()
     rows = list(csv.DictReader(text.splitlines()))
@@ -79,7 +79,7 @@ def main():
     cases = os.path.join(folder, "cases.json")
     with open(cases, "w") as file:
         starts = [[*p, *q] for p, q in zip(position.tolist(), quaternion)]
-        json.dump([{"lengths": l, "start": s} for l, s in zip(lengths, starts)], file)
+        json.dump([{"lengths": l, "pose": s} for l, s in zip(lengths, starts)], file)
 
     def residuals(x):
         path = os.path.join(folder, "robot.json")

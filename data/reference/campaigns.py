@@ -1,8 +1,8 @@
-"""Calibrations of ten robots by `cdpr calibrate` and by SciPy's least_squares (campaign_fit.py).
+"""Calibrations of ten robots by `cdpr calibrate fit` and by SciPy's least_squares (campaign_fit.py).
 
 python3 data/reference/campaigns.py [CAMPAIGNS] [WITH_SCIPY] [ROBOT...] (or `cargo xtask calibration
 campaigns`), with the program in target/debug or where CDPR says. For each robot it draws robots from
-tolerances and simulates campaigns (`cdpr calibration simulate`). The program calibrates each; then SciPy
+tolerances and simulates campaigns (`cdpr calibrate simulate`). The program calibrates each; then SciPy
 does so for the first WITH_SCIPY of them, from the same start, robot by robot: it may be ended at any time.
 data/reference/campaigns.json gets the chi-squares and how often the truth lies within 1.96 of the standard
 deviations printed. Robots that are not named keep what is there.
@@ -165,9 +165,9 @@ def simulated(folder, case, seed):
         for p, (x, y, z, w) in zip(places, rotations.as_quat()):
             file.write(",".join(map(str, [*p, w, x, y, z])) + "\n")
     given = ",".join(f"{name}={std}" for name, std in noise.items())
-    arguments = ["--poses", at("poses.csv"), "--model", at("model.json"), "--noise", given, "--seed", str(seed)]
+    arguments = ["--poses", at("poses.csv"), "--uncertainty", at("model.json"), "--noise", given, "--seed", str(seed)]
     arguments += ["--out", at("rows.csv"), "--truth", at("truth.json"), "--overwrite"]
-    run("calibration", "simulate", at("robot.json"), *arguments, *(["--free", free] if free else []))
+    run("calibrate", "simulate", at("robot.json"), *arguments, *(["--free", free] if free else []))
     with open(at("rows.csv")) as file:
         rows = list(csv.DictReader(file))
     with open(at("truth.json")) as file:
@@ -177,8 +177,8 @@ def simulated(folder, case, seed):
 
 def calibrated(folder, given):
     at = lambda name: os.path.join(folder, name)
-    arguments = ["--measurements", at("rows.csv"), "--model", at("model.json"), "--noise", given, "--folds", "0"]
-    text = run("calibrate", at("robot.json"), *arguments, "--out", at("out"), "--overwrite", "--format", "json",
+    arguments = [at("rows.csv"), "--uncertainty", at("model.json"), "--noise", given, "--with", "folds=0"]
+    text = run("calibrate", "fit", at("robot.json"), *arguments, "--out", at("out"), "--overwrite", "--format", "json",
                codes=(0, 3))
     return json.loads(text)
 

@@ -5,7 +5,7 @@ python3 data/reference/irma4u.py ws_selfcalibration_27_final.mat [ws_selfcalibra
 The files are those of github.com/fzoffoli/UACDPR_SelfCalibration (campaigns of March 2025):
 `cable_length_meas` (4 x n, m), `tau_zero` with `loadcell_meas` (4 x n, N), `epsilon_meas` (3 x n, roll,
 pitch, yaw, rad) and `swivel_meas` (4 x n, rad). Poses are not measured. Two fits are made by
-`cdpr calibrate`:
+`cdpr calibrate fit`:
 
 - offsets: lengths count from the homing; offsets of the lengths (50 mm) and of the three angles are sought;
 - relative: as the authors weigh it. Lengths, swivel angles and yaw count from anywhere; 10 mm, 10 N,
@@ -117,8 +117,8 @@ def main():
             command = [
                 program,
                 "calibrate",
+                "fit",
                 ROBOT,
-                "--measurements",
                 measurements,
                 "--parameters",
                 "none",
@@ -126,7 +126,7 @@ def main():
                 out,
             ]
             found = subprocess.run(
-                [*command, *arguments, "--starts", "10", "--format", "json"],
+                [*command, *arguments, "--with", "starts=10", "--format", "json"],
                 capture_output=True,
                 text=True,
                 check=False,

@@ -41,7 +41,7 @@ for name, model, bounds in (
         with path.open("w") as file:
             csv.writer(file).writerows([[*names, "y"], *([*row, y] for row, y in zip(x, y))])
         start = time.perf_counter()
-        found = subprocess.run([program, "analyse", path, "--json"], check=True, capture_output=True)
+        found = subprocess.run([program, "analyse", path, "--format", "json"], check=True, capture_output=True)
         ours = time.perf_counter() - start
     inputs = json.loads(found.stdout)["outputs"]["y"]["inputs"]
     problem = {"num_vars": len(names), "names": names, "bounds": bounds}

@@ -21,20 +21,16 @@ pub(crate) fn cdpr_command(command: &[&str]) -> Command {
     cargo_command(&[&["run", "--quiet", "--bin", "cdpr", "--"], command].concat())
 }
 
-/// An example of cdpr-study, without the messages of cargo, for the caller to start.
-pub(crate) fn study_example(name: &str, arguments: &[&str]) -> Command {
-    let example = ["run", "--quiet", "--package", "cdpr-study", "--example", name, "--"];
-    cargo_command(&[&example, arguments].concat())
+/// An example of a crate with its arguments, without the messages of cargo, for the caller to start.
+pub(crate) fn example_command(package: &str, example: &str, arguments: &[&str]) -> Command {
+    cargo_command(
+        &[&["run", "--quiet", "--package", package, "--example", example, "--"], arguments].concat(),
+    )
 }
 
 /// Whether cargo succeeds with a subcommand and its arguments.
 pub(crate) fn cargo(arguments: &[&str]) -> ExitCode {
-    ended(cargo_command(arguments))
-}
-
-/// Whether a command of cargo succeeds.
-pub(crate) fn ended(mut command: Command) -> ExitCode {
-    match command.status() {
+    match cargo_command(arguments).status() {
         Ok(status) if status.success() => ExitCode::SUCCESS,
         Ok(_) => ExitCode::FAILURE,
         Err(error) => {

@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 const FREE: [(&str, &str); 3] =
     [("four-cables", "0.5,0.3,2"), ("grab", "1.28,-0.19,-0.92"), ("irma4u", "0.2,0.1,0.8")];
 
-/// What is behind the warnings of `cdpr check`.
+/// What is behind the warnings of `cdpr robot check`.
 const REMARKS: [(&str, &str); 1] = [(
     "copacabana-handling",
     "its upper exit points lead to the lower anchor points, so that cables pass each other closely",
@@ -47,7 +47,7 @@ pub(crate) fn run() -> Result<(), String> {
     let mut page = String::from(
         "# Robots that are known
 
-The library has these robots; every command takes their names, `cdpr check cogiro`. Each table has the pose at
+The library has these robots; every command takes their names, `cdpr robot check cogiro`. Each table has the pose at
 the middle of the workspace that `cdpr study new` finds, the tensions that hold it, and how far the template's
 payload, a tenth of the platform's mass, moves the platform. `cargo xtask gallery` makes this page and its
 pictures.
@@ -55,8 +55,8 @@ pictures.
 ",
     );
     let mut live = String::from(LIVE);
-    let robots = answer(&["robots"], &[0])?;
-    for robot in robots.as_array().ok_or("no list of robots")? {
+    let robots = answer(&["robot", "list"], &[0])?;
+    for robot in robots["robots"].as_array().ok_or("no list of robots")? {
         let name = text(&robot["name"]);
         eprintln!("{name}");
         let rows = match FREE.iter().find(|(free, _)| *free == name) {
@@ -79,7 +79,8 @@ pictures.
 /// The section of one robot.
 fn section(page: &mut String, robot: &Value, rows: &[(&str, String)]) -> Result<(), String> {
     let name = text(&robot["name"]);
-    let findings = answer(&["check", name], &[0, 3])?;
+    let findings = answer(&["robot", "check", name], &[0, 3])?;
+    let provenance = answer(&["robot", "show", name], &[0])?;
     let findings = findings.as_array().ok_or("no list of findings")?;
     let warnings: Vec<_> = findings.iter().filter(|finding| finding["severity"] == "warning").collect();
     let extent = robot["extent_m"].as_array().ok_or("no extent")?;
@@ -100,15 +101,15 @@ fn section(page: &mut String, robot: &Value, rows: &[(&str, String)]) -> Result<
         let _ = writeln!(page, "| {what} | {value} |");
     }
     let notes = findings.len() - warnings.len();
-    let _ = writeln!(page, "| `cdpr check` | warnings {}, notes {notes} |\n", warnings.len());
+    let _ = writeln!(page, "| `cdpr robot check` | warnings {}, notes {notes} |\n", warnings.len());
     for warning in &warnings {
         let behind = REMARKS.iter().find(|(robot, _)| *robot == name).map_or("not explained", |(_, why)| why);
         let said =
             format!("`check` warns of {}, {}: {behind}.", text(&warning["field"]), text(&warning["why"]));
         let _ = writeln!(page, "{}\n", wrapped(&said, ""));
     }
-    let _ = writeln!(page, "{}\n", wrapped(&format!("Source: {}", text(&robot["source"])), ""));
-    let assumed = robot["assumed"].as_array().ok_or("no list of assumptions")?;
+    let _ = writeln!(page, "{}\n", wrapped(&format!("Source: {}", text(&provenance["source"])), ""));
+    let assumed = provenance["assumed"].as_array().ok_or("no list of assumptions")?;
     if !assumed.is_empty() {
         let lines: Vec<_> = assumed.iter().map(|one| wrapped(&format!("- {}", text(one)), "  ")).collect();
         let _ = writeln!(page, "Assumed:\n\n{}\n", lines.join("\n"));
@@ -118,7 +119,7 @@ fn section(page: &mut String, robot: &Value, rows: &[(&str, String)]) -> Result<
 
 /// Runs a small study of the template, keeps its picture, and reads its pose, tensions and deflection.
 fn studied(name: &str, folder: &Path, pictures: &Path) -> Result<Vec<(&'static str, String)>, String> {
-    let mut study: Value = parsed(&output(&["study", "new", "--robot", name], &[0])?)?;
+    let mut study: Value = parsed(&output(&["study", "new", name], &[0])?)?;
     study.as_object_mut().map(|study| study.remove("sensitivity"));
     study["replicates"] = json!(0);
     study["samplings"]["all"]["observations"] = json!(32);
@@ -142,7 +143,7 @@ fn studied(name: &str, folder: &Path, pictures: &Path) -> Result<Vec<(&'static s
         ("tensions", range(&all["nominal"]["unloaded_tensions"])?),
         (
             "deflection",
-            format!("{:.3} mm under {} kg", number(&all["rms_mm"]["nominal"]), summary["payload"]),
+            format!("{:.3} mm under {} kg", number(&all["magnitude_mm"]["nominal"]), summary["payload"]),
         ),
     ])
 }

@@ -20,7 +20,7 @@ mod statistics;
 mod throughput;
 mod web;
 
-use cargo::{cargo, cdpr, ended, root, study_example};
+use cargo::{cargo, cdpr, example_command, root};
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -147,7 +147,7 @@ fn caroca_study(mut rest: Vec<String>) -> ExitCode {
 /// Prints the published figures next to those of the study, and writes them to `published.txt`.
 fn compared(out: &Path) -> Result<(), String> {
     let figures = root().join("data/reference/published.json").display().to_string();
-    let mut command = study_example("published", &[&figures, &out.display().to_string()]);
+    let mut command = example_command("cdpr-study", "published", &[&figures, &out.display().to_string()]);
     let output = command.output().map_err(|error| format!("cannot start cargo: {error}"))?;
     if !output.status.success() {
         return Err(String::from_utf8_lossy(&output.stderr).into_owned());
@@ -160,8 +160,9 @@ fn compared(out: &Path) -> Result<(), String> {
 fn robustness(mut rest: Vec<String>) -> ExitCode {
     replaceable(&mut rest, "target/robustness");
     default(&mut rest, "--robot", "data/robots/cogiro.json");
-    eprintln!("building the program (a few minutes the first time), then looking for poses");
-    cdpr(&["robustness"], &rest)
+    eprintln!("building the example (a few minutes the first time), then looking for poses");
+    let rest: Vec<&str> = rest.iter().map(String::as_str).collect();
+    cargo(&[&["run", "--package", "cdpr-report", "--example", "robustness", "--"][..], &rest].concat())
 }
 
 fn throughput(rest: &[String]) -> ExitCode {
@@ -171,8 +172,17 @@ fn throughput(rest: &[String]) -> ExitCode {
         _ => {}
     }
     let study = root().join("data/studies/caroca.json").display().to_string();
-    let rest: Vec<&str> = rest.iter().map(String::as_str).collect();
-    ended(study_example("throughput", &[&[study.as_str(), "--sampling", "mechanical"], &rest[..]].concat()))
+    let option = |name: &str| without(rest, name).0.to_owned();
+    let observations = Some(option("--observations")).filter(|number| !number.is_empty());
+    let observations = observations.unwrap_or_else(|| "1000000".to_owned());
+    let threads = option("--threads");
+    let mut command =
+        vec!["run", "--package", "cdpr-study", "--example", "throughput", "--", &study, "mechanical"];
+    command.push(&observations);
+    if !threads.is_empty() {
+        command.push(&threads);
+    }
+    cargo(&command)
 }
 
 /// Adds `option` with a path in the repository, unless the user gives one.

@@ -1,9 +1,9 @@
-//! `cargo xtask scaling`: time and memory of the example `throughput` of cdpr-study over the number of
-//! observations and of threads.
+//! `cargo xtask scaling`: time and memory of the example `throughput` over the number of observations and of
+//! threads.
 
 #![allow(clippy::print_stdout)]
 
-use crate::cargo::{root, study_example};
+use crate::cargo::{example_command, root};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::process::{ExitCode, Stdio};
@@ -16,7 +16,7 @@ const STEADY: u64 = 100_000;
 /// Largest accepted ratio of peak memory to that of [`STEADY`] observations.
 const GROWTH: f64 = 1.1;
 
-/// The line that the example prints.
+/// The line that the example `throughput` of cdpr-study prints.
 #[derive(Debug, Deserialize, Serialize)]
 struct Run {
     sampling: String,
@@ -29,7 +29,7 @@ struct Run {
     us_without_analysis: f64,
     /// `None` where the system does not say.
     peak_memory_mib: Option<f64>,
-    rms_mm: Value,
+    magnitude_mm: Value,
 }
 
 /// Runs 10^3, 10^4 .. observations up to the number in `rest`, on one and on two threads.
@@ -118,8 +118,9 @@ fn growth(runs: &[Run]) -> Option<f64> {
 
 fn throughput(observations: u64, threads: u64) -> Result<Run, String> {
     let study = root().join("data/studies/caroca.json").display().to_string();
-    let mut command = study_example("throughput", &[&study, "--sampling", "mechanical"]);
-    command.args(["--observations", &observations.to_string(), "--threads", &threads.to_string()]);
+    let [observations, threads] = [observations, threads].map(|count| count.to_string());
+    let arguments = [study.as_str(), "mechanical", &observations, &threads];
+    let mut command = example_command("cdpr-study", "throughput", &arguments);
     let output =
         command.stderr(Stdio::inherit()).output().map_err(|error| format!("cannot start cargo: {error}"))?;
     if !output.status.success() {
@@ -144,7 +145,7 @@ mod tests {
             us_per_observation_core: 1.0,
             us_without_analysis: 1.0,
             peak_memory_mib: Some(mib),
-            rms_mm: Value::Null,
+            magnitude_mm: Value::Null,
         }
     }
 

@@ -161,19 +161,10 @@ impl Case {
 
     /// Observes the study at one pose.
     fn line(&self, study: &Path, pose: usize) -> Result<Line, String> {
-        // As it is installed.
-        let mut command = cargo_command(&[
-            "run",
-            "--release",
-            "--quiet",
-            "--package",
-            "cdpr-study",
-            "--example",
-            "throughput",
-        ]);
-        command.args(["--", &study.display().to_string()]);
-        command.args(["--sampling", &format!("all/{pose:04}"), "--threads", "1"]);
-        command.args(["--observations", &self.observations.to_string()]);
+        // With the profile of what is installed.
+        let mut command = cargo_command(&["run", "--release", "--quiet", "--package", "cdpr-study"]);
+        command.args(["--example", "throughput", "--", &study.display().to_string()]);
+        command.args([&format!("all/{pose:04}"), &self.observations.to_string(), "1"]);
         let output = command.stderr(Stdio::inherit()).output();
         let output = output.map_err(|error| format!("cannot start cargo: {error}"))?;
         if !output.status.success() {

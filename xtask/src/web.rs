@@ -4,8 +4,7 @@
 //! has the checksum of what they were made of; `cargo xtask web --check` says where it is another one by now.
 //!
 //! It takes the target `wasm32-unknown-unknown` of the compiler, npm, and wasm-bindgen in the version of
-//! Cargo.lock, which is installed below `target`. The module is made twice: with the vector unit of
-//! WebAssembly, and without it for old browsers.
+//! Cargo.lock, which is installed below `target`. The module uses the vector unit of WebAssembly.
 
 use crate::cargo::{cargo_command, done, root};
 use sha2::{Digest, Sha256};
@@ -17,10 +16,6 @@ use std::process::{Command, ExitCode};
 type Outcome<T = ()> = Result<T, Box<dyn Error>>;
 
 const TARGET: &str = "wasm32-unknown-unknown";
-
-/// The modules, the features of the processor that they ask for, and their folders below that of the glue.
-const MODULES: [(&str, &str, &str); 2] =
-    [("cdpr_web", "+simd128", ""), ("cdpr_web_scalar", "-simd128", "scalar")];
 
 /// What the products are made of, in the workspace.
 const SOURCES: [&str; 11] = [
@@ -62,19 +57,15 @@ fn make() -> Outcome {
     has_target()?;
     let wasm_bindgen = wasm_bindgen()?;
     fs::create_dir_all(&dist)?;
-    for (name, feature, folder) in MODULES {
-        eprintln!("module {name}");
-        let target = root().join("target/web");
-        let mut build = cargo_command(&["build", "--locked", "--package", "cdpr-web", "--profile", "web"]);
-        build.args(["--target", TARGET, "--target-dir"]).arg(&target);
-        done(build.env("RUSTFLAGS", format!("-C target-feature={feature}")))?;
-        // Of the same name, so that the one glue in `pkg` serves both.
-        let bound = page.join("pkg").join(folder);
-        let mut bind = Command::new(&wasm_bindgen);
-        bind.args(["--target", "web", "--no-typescript", "--out-name", "cdpr_web", "--out-dir"]).arg(&bound);
-        done(bind.arg(target.join(TARGET).join("web/cdpr_web.wasm")))?;
-        pack(&bound.join("cdpr_web_bg.wasm"), &dist.join(format!("{name}.wasm.gz")))?;
-    }
+    let target = root().join("target/web");
+    let mut build = cargo_command(&["build", "--locked", "--package", "cdpr-web", "--profile", "web"]);
+    build.args(["--target", TARGET, "--target-dir"]).arg(&target);
+    done(build.env("RUSTFLAGS", "-C target-feature=+simd128"))?;
+    let bound = page.join("pkg");
+    let mut bind = Command::new(&wasm_bindgen);
+    bind.args(["--target", "web", "--no-typescript", "--out-name", "cdpr_web", "--out-dir"]).arg(&bound);
+    done(bind.arg(target.join(TARGET).join("web/cdpr_web.wasm")))?;
+    pack(&bound.join("cdpr_web_bg.wasm"), &dist.join("cdpr_web.wasm.gz"))?;
     eprintln!("page");
     done(Command::new("npm").args(["ci", "--no-audit", "--no-fund"]).current_dir(&page))?;
     done(Command::new("npm").args(["run", "build"]).current_dir(&page))?;

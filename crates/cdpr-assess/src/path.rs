@@ -51,7 +51,7 @@ pub struct Bands {
     /// Of dp under the load [m].
     pub displacement: [f64; 3],
     /// Of |dp| [m].
-    pub rms: Option<f64>,
+    pub magnitude: Option<f64>,
     /// Of the stiffness of the softest motion with the load [N/m].
     pub least_stiffness: Option<f64>,
     /// Of the lowest natural frequency with the load [Hz].
@@ -130,7 +130,7 @@ impl Bands {
             lengths: of_cables(&|side, i, k| side.lengths[(i, k)])?,
             tensions: of_cables(&|side, i, k| side.unloaded.tensions[(i, k)])?,
             displacement: [moved(0)?, moved(1)?, moved(2)?],
-            rms: std(&|side| side.rms().ok()),
+            magnitude: std(&|side| side.magnitude().ok()),
             least_stiffness: std(&|side| Some(side.least_stiffness(robot, load).ok()?.1)),
             lowest_frequency: std(&|side| Some(side.frequency(robot, load).ok()?.1)),
         })

@@ -235,7 +235,7 @@ impl<'a> Model<'a> {
         match self.of {
             Limited::Deflection => {
                 let found = observer.derivatives(&perturbed)?;
-                Ok((1e3 * found.deflection.rms(), squares(&[found.rms()?])))
+                Ok((1e3 * found.deflection.magnitude(), squares(&[found.magnitude()?])))
             }
             Limited::Position => {
                 let (displaced, slopes) = observer.displaced_slopes(&perturbed, errors)?;

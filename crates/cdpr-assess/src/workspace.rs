@@ -124,8 +124,8 @@ fn loaded_from(
         }
         Some(model) => {
             let with_slopes = |found: Result<PoseSlopes, StaticsError>| {
-                let PoseSlopes { loaded, rms } = found?;
-                Ok(Held::new(robot, loaded, rms.and_then(|slopes| Dominant::of(&slopes, model))))
+                let PoseSlopes { loaded, magnitude } = found?;
+                Ok(Held::new(robot, loaded, magnitude.and_then(|slopes| Dominant::of(&slopes, model))))
             };
             loaded_poses::<PoseSlopes>(robot, &answered, load).into_iter().map(with_slopes).collect()
         }
@@ -219,7 +219,7 @@ fn held_free(workspace: &Workspace, pose: &Pose) -> Result<Held, StaticsError> {
     };
     match derivatives(robot, WantedPose::at(pose).free(free), load) {
         Ok(found) => {
-            let dominant = found.rms().ok().and_then(|slopes| Dominant::of(&slopes, model));
+            let dominant = found.magnitude().ok().and_then(|slopes| Dominant::of(&slopes, model));
             Ok(alone(&found.deflection, dominant))
         }
         // A pose without a derivative is held nevertheless.

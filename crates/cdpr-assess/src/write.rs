@@ -127,7 +127,7 @@ pub fn read_region(folder: &Path) -> Result<FoundRegion, StudyError> {
     };
     let summary: Summary = serde_json::from_slice(&read(WORKSPACE)?)
         .map_err(|error| wrong(WORKSPACE, "the file", error.to_string(), "the summary of a workspace"))?;
-    let expected = "that of a workspace with --boundary";
+    let expected = "that of a workspace with its boundary";
     let missing = || wrong(WORKSPACE, "boundary", "null".to_owned(), expected);
     let Region { way, measure, unit } = summary.boundary.ok_or_else(missing)?;
     let (mut polygons, mut triangles) = (Vec::new(), Vec::new());

@@ -113,3 +113,17 @@ fn a_platform_below_the_ground_or_turned_over_is_questioned() {
     let asked = doubtful_rest(&robot, "it", given, &found, &start).unwrap();
     assert!(asked.value.starts_with("turned over by 172 degrees"), "{asked}");
 }
+
+#[test]
+fn a_platform_that_stays_at_its_start_is_not_turned_from_it() {
+    let robot = named("caroca");
+    for yaw in 1..=20 {
+        let rotation = cdpr_robot::Rotation3::from_euler_angles(0.0, 0.0, 0.005 * f64::from(yaw));
+        let wanted = Pose { rotation, ..Pose::at(0.0, 0.0, 1.75) };
+        let lengths = inverse(&robot, &wanted, &Load::none()).unwrap().lengths;
+        let found = direct(&robot, &lengths, &Load::none(), DirectStart::Pose(&wanted)).unwrap();
+        let given = (&lengths[..], &Load::none());
+        let asked = doubtful_rest(&robot, "it", given, &found, &rotation);
+        assert!(asked.is_none(), "{asked:?}");
+    }
+}

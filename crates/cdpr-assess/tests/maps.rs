@@ -193,7 +193,7 @@ fn derivatives_over_poses_are_those_of_the_scalar_models() {
             let (found, alone) = match (found, alone) {
                 (Ok(found), Ok(alone)) => (found, alone),
                 (Ok(found), Err(StaticsError::NoDerivative { .. })) => {
-                    assert_eq!(found.rms, None, "{name}");
+                    assert_eq!(found.magnitude, None, "{name}");
                     continue;
                 }
                 (found, alone) => {
@@ -202,7 +202,7 @@ fn derivatives_over_poses_are_those_of_the_scalar_models() {
                 }
             };
             in_lanes += usize::from(found.loaded.scalar.is_none());
-            let (Some(slopes), Ok(alone)) = (found.rms, alone.rms()) else { continue };
+            let (Some(slopes), Ok(alone)) = (found.magnitude, alone.magnitude()) else { continue };
             assert_eq!(slopes.len(), parameters.len());
             let each = || slopes.iter().zip(&alone).zip(&ranges);
             let largest =

@@ -103,7 +103,7 @@ fn every_position_is_what_the_models_say_of_it() {
         assert_range(&anew, [found.least_tension, found.greatest_tension]);
 
         let variances: Vec<f64> = deviations.iter().map(|std| std * std).collect();
-        let (left, right) = (exact.rms().unwrap(), exact.right().rms().unwrap());
+        let (left, right) = (exact.magnitude().unwrap(), exact.right().magnitude().unwrap());
         let squares = left.iter().zip(&right).map(|(left, right)| 0.5 * (left * left + right * right));
         let parts: Vec<f64> = squares.zip(&variances).map(|(square, variance)| square * variance).collect();
         let variance: f64 = parts.iter().sum();
@@ -149,7 +149,7 @@ fn a_load_beyond_the_limits_is_told_from_a_pose_that_is_not_held() {
     assert_eq!(second, "infeasible_tension");
     assert_eq!(summary.rows[1].status, "infeasible_tension");
     assert_eq!(
-        (summary.rms_mm, summary.rows[1].rms_mm, summary.rows[0].dominant.clone()),
+        (summary.magnitude_mm, summary.rows[1].magnitude_mm, summary.rows[0].dominant.clone()),
         (None, None, None)
     );
 }

@@ -12,8 +12,7 @@ mod plane;
 mod response;
 mod series;
 
-pub(crate) use guide::GuidedInSpace;
-pub use guide::{GuideTerms, GuidedEndSlopes, LeavePoint, SwivelAxis, Way};
+pub use guide::{GuideTerms, GuidedEndSlopes, GuidedInSpace, LeavePoint, SwivelAxis, Way};
 pub use material::{LawSegment, Material};
 pub use plane::{closure_of_limp, in_plane_stiffness, stiffness_in_space};
 pub(crate) use response::Terms;

@@ -1,5 +1,6 @@
 //! One unknown of a cable from the others: the force at its end, or its unstrained length.
 
+mod chord_force;
 mod end_force;
 mod held;
 mod known;
@@ -9,5 +10,5 @@ mod spatial;
 pub use end_force::{Solution, end_force, end_force_near};
 pub use held::{HeldCable, TensionSlope};
 pub use known::Known;
-pub use length_for_tension::{least_tension, length_for_tension, length_for_tension_near};
+pub use length_for_tension::{length_for_tension, length_for_tension_near};
 pub use spatial::{HeldSpatialCable, spatial_end_force};

@@ -2,7 +2,7 @@
 
 use approx::assert_relative_eq;
 use cdpr_cable::kernel::{Material, response};
-use cdpr_cable::{Cable, Catenary, Vector2, least_tension, length_for_tension};
+use cdpr_cable::{Cable, Catenary, HeldCable, Vector2, length_for_tension};
 use cdpr_number::{Dual, Number};
 use proptest::prelude::*;
 
@@ -81,7 +81,7 @@ proptest! {
     ) {
         let end = Vector2::new(x, z);
         let cable = Cable::linear(w, w * end.norm() * 10f64.powf(stiffness));
-        let least = least_tension(&cable, end).unwrap();
+        let least = HeldCable::at_least_tension(&cable, end).unwrap().catenary;
         prop_assert!((least.end_position() - end).norm() < 1e-12 * end.norm());
         let slope = least.force.dot(&least.compliance().force_per_length());
         let scale = least.force.norm() * least.compliance().force_per_length().norm();

@@ -1,9 +1,9 @@
-//! A whole calibration, from measurements that were read to a folder of results.
+//! A whole calibration, from measurements that were read to results, in a folder where one is wanted.
 
 use crate::error::CalibrationError;
 use crate::fit::{cross_validated, fit};
 use crate::fitted::{Difference, Fit, FitSettings};
-use crate::results::folder::{begin_calibration, write_calibration};
+use crate::results::folder::{Calibrated, begin_calibration, write_calibration};
 use crate::results::summary::{CalibrationSummary, Context};
 use crate::table::Measurements;
 use crate::unknowns::Unknowns;
@@ -36,25 +36,13 @@ impl Campaign<'_> {
     pub const MOST_FOLDS: usize = 10_000;
 }
 
-/// What a calibration has made.
-#[derive(Clone, Debug)]
-pub struct Calibrated {
-    /// The fit.
-    pub fit: Fit,
-    /// The summary, as it was written.
-    pub summary: CalibrationSummary,
-    /// Time of the fit [s].
-    pub seconds: f64,
-}
-
-/// Fits, predicts and writes all results to the folder `out`; `report` makes the page.
+/// Fits and predicts, and writes all results to a folder if one is given; `report` makes its page.
 ///
 /// # Errors
-/// Those of [`fit`], [`begin_calibration`] and [`write_calibration`].
+/// Those of [`fit`], and of the folder: [`CalibrationError::Study`].
 pub fn carry_out(
     campaign: &Campaign,
-    out: &Path,
-    if_exists: IfExists,
+    out: Option<(&Path, IfExists)>,
     report: impl FnOnce(&Robot, &CalibrationSummary, &Fit) -> String,
 ) -> Result<Calibrated, CalibrationError> {
     let Campaign { robot, unknowns, settings, .. } = campaign;
@@ -63,7 +51,7 @@ pub fn carry_out(
         let expected = format!("0 to {}", Campaign::MOST_FOLDS);
         return Err(CalibrationError::invalid("folds", campaign.folds, expected));
     }
-    let folder = begin_calibration(out, if_exists)?;
+    let folder = out.map(|(out, if_exists)| begin_calibration(out, if_exists)).transpose()?;
     let clock = Instant::now();
     let found = fit(robot, rows, unknowns, settings)?;
     let seconds = clock.elapsed().as_secs_f64();
@@ -78,7 +66,11 @@ pub fn carry_out(
         rows: rows.len(),
     };
     let summary = found.summary(&context, rows);
-    let page = report(robot, &summary, &found);
-    write_calibration(&folder, &found, &summary, &context, campaign.name, Some(&page))?;
-    Ok(Calibrated { fit: found, summary, seconds })
+    let (calibrated, posterior) = (found.calibrated(&context, campaign.name), found.posterior(&context));
+    let made = Calibrated { fit: found, robot: calibrated, posterior, summary, seconds };
+    if let Some(folder) = folder {
+        let page = report(robot, &made.summary, &made.fit);
+        write_calibration(&folder, &made, &page)?;
+    }
+    Ok(made)
 }

@@ -7,7 +7,7 @@
 //! | what do measurements of this kind tell at all? | [`Calibration::identify`] |
 //! | which poses should be measured? | [`Calibration::plan`], [`Calibration::best_poses`] |
 //! | what would a campaign read? | [`simulate`] |
-//! | all of a calibration, from a table to a folder of results | [`carry_out`] |
+//! | all of a calibration, from a table to results and their folder | [`carry_out`] |
 #![warn(missing_docs)]
 
 mod campaign;
@@ -27,7 +27,7 @@ mod table;
 mod unknowns;
 
 pub use campaign::{Noise, Quantity, Reading, Row};
-pub use carry_out::{Calibrated, Campaign, carry_out};
+pub use carry_out::{Campaign, carry_out};
 pub use error::CalibrationError;
 pub use fit::{cross_validated, fit};
 pub use fitted::{Difference, Estimate, Fit, FitSettings, FitStatus, RobustLoss, UnidentifiableCombination};
@@ -36,7 +36,7 @@ pub use identify::{
 };
 pub use plan::{Criterion, PosePlan, Quality};
 pub use results::arrows;
-pub use results::folder::{CALIBRATED_NAME, POSTERIOR_NAME, begin_calibration, write_calibration};
+pub use results::folder::{CALIBRATED_NAME, Calibrated, POSTERIOR_NAME};
 pub use results::patterns::{Split, Trend};
 pub use results::predicted::UncertaintyMap;
 pub use results::summary::{CalibrationSummary, Context, OutlierSummary, ParameterSummary, SensorSummary};

@@ -142,7 +142,7 @@ fn pulleys_in_a_block_have_one_radius_and_one_uncertainty() {
         settings: FitSettings::default(),
         folds: 0,
     };
-    carry_out(&campaign, &out, cdpr_study::IfExists::Refuse, |_, _, _| String::new()).unwrap();
+    carry_out(&campaign, Some((&out, cdpr_study::IfExists::Refuse)), |_, _, _| String::new()).unwrap();
     let posterior: serde_json::Value =
         serde_json::from_str(&std::fs::read_to_string(out.join("posterior.json")).unwrap()).unwrap();
     let names: Vec<&str> =

@@ -79,8 +79,8 @@ impl OutOfLimits {
     }
 }
 
-/// Warns of the first of several poses at which the slowest cable vibrates less than twice as fast as the platform,
-/// whose frequencies [Hz] are those on cables without mass.
+/// Warns of the first of several poses at which the slowest cable vibrates less than twice as fast as the
+/// platform, whose frequencies [Hz] are those on cables without mass.
 pub(crate) fn warn_of_cables(poses: impl Iterator<Item = (CableFrequency, f64)>) {
     let mut warnings = poses.filter_map(|(cable, platform)| cable.warning(platform));
     let Some(first) = warnings.next() else { return };

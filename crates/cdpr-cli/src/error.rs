@@ -39,13 +39,11 @@ pub(crate) enum ProgramError {
     Format(#[from] JsonError),
     #[error("cable {cable}: {source}")]
     OfCable { cable: usize, source: CableError },
-    #[error("{field} is a list of {given}: expected {expected} moduli, one a range")]
-    Moduli { field: &'static str, given: usize, expected: usize },
     #[error(
         "the cables of the robot differ in their section: expected --section, that of the record's specimen"
     )]
     DifferentSections,
-    #[error("no cable of the robot has a law: expected --record, --law, or a `law` in the robot file")]
+    #[error("no cable of the robot has a law: expected --law, or a `law` in the robot file")]
     NoLaw,
     /// A list of poses or wrenches.
     #[error("{option} {path}, {reason}")]
@@ -55,8 +53,8 @@ pub(crate) enum ProgramError {
     #[error("cannot start {threads} threads: {source}")]
     Threads { threads: u16, source: rayon::ThreadPoolBuildError },
     #[error(
-        "a launcher has started {processes} processes of this command, and each would run the whole study: \
-         expected one, or several with --shard i/{processes}"
+        "{processes} processes run this study together, and each would make the whole of it: expected one, or \
+         several with --shard"
     )]
     Together { processes: usize },
     #[error("cannot ask the system to report files that are too large: {0}")]
@@ -65,6 +63,8 @@ pub(crate) enum ProgramError {
     Signals(#[from] ctrlc::Error),
     #[error("cannot open {path} in a browser: {reason}; it is written, and any browser opens it")]
     Browser { path: PathBuf, reason: String },
+    #[error("cannot write {path}: {source}")]
+    Unwritten { path: PathBuf, source: std::io::Error },
     #[error("cannot write JSON: {0}")]
     Json(#[from] serde_json::Error),
 }
@@ -94,6 +94,11 @@ impl ProgramError {
         |source| Self::InFile { path: path.to_owned(), source: Box::new(source.into()) }
     }
 
+    /// The error of writing to a path.
+    pub(crate) fn unwritten(path: &Path) -> impl Fn(std::io::Error) -> Self {
+        |source| Self::Unwritten { path: path.to_owned(), source }
+    }
+
     /// 2 for wrong arguments, 3 for a platform that falls before the whole load is on it, which is an answer;
     /// 1 for everything else.
     pub(crate) fn exit_code(&self) -> u8 {
@@ -117,13 +122,13 @@ impl ProgramError {
 fn asked_for(error: &ExchangeError) -> String {
     let ExchangeError::Lacking(lacking) = error else {
         let help = match error {
-            ExchangeError::CableSet { .. } => ": `--cable-set` chooses one",
+            ExchangeError::CableSet { .. } => ": `FILE:SET` chooses one",
             _ => "",
         };
         return format!("{error}{help}");
     };
     let options = lacking.iter().map(|lacking| match lacking {
-        Lacking::Cable => "--cable NAME or FILE (`cdpr robots --cables` lists the names)",
+        Lacking::Cable => "--cable NAME or FILE (`cdpr robot list` lists the names)",
         Lacking::Mass => "--mass KG",
         Lacking::TensionLimits => "--tension-limits MIN,MAX",
     });
@@ -134,29 +139,33 @@ fn asked_for(error: &ExchangeError) -> String {
 fn with_options(error: &StudyError) -> String {
     let help = match error {
         StudyError::Setting { field, .. } => {
-            let is_option = ["observations", "position", "shard"].contains(&field.as_str());
-            return format!("{}{error}", if is_option { "--" } else { "" });
+            return match field.as_str() {
+                "observations" | "shard" => format!("--{error}"),
+                // The position of a template.
+                "position" => format!("--pose: {error}"),
+                _ => error.to_string(),
+            };
         }
-        StudyError::OtherKind { found: InputKind::Robot, .. } => ": `cdpr check` takes it",
+        StudyError::OtherKind { found: InputKind::Robot, .. } => ": `cdpr robot check` takes it",
         StudyError::OtherKind { found: InputKind::Study, .. } => {
             ": `cdpr study run` takes it, and the robot file is the one that its field `robot` names"
         }
         StudyError::OtherKind { found: InputKind::Law, .. } => ": `cdpr hysteresis --law` takes it",
-        StudyError::OtherKind { found: InputKind::Cable, .. } => ": `cdpr import --cable` takes it",
+        StudyError::OtherKind { found: InputKind::Cable, .. } => ": `cdpr robot import --cable` takes it",
         StudyError::OtherKind { found: InputKind::Errors, .. } => {
-            ": `cdpr calibrate --model` takes it, and so do the `error_models` of a study, {\"file\": ...}"
+            ": `--uncertainty` takes it, and so do the `error_models` of a study, {\"file\": ...}"
         }
-        StudyError::OtherKind { found: InputKind::Measurements, .. } => {
-            ": `cdpr calibrate --measurements` takes it"
+        StudyError::OtherKind { found: InputKind::Measurements, .. } => ": `cdpr calibrate fit` takes it",
+        StudyError::OtherKind { found: InputKind::Results, .. } => ": `cdpr study report` takes its folder",
+        StudyError::OtherKind { found: InputKind::Foreign, .. } => {
+            ": `cdpr robot import` makes a robot file of it"
         }
-        StudyError::OtherKind { found: InputKind::Results, .. } => ": `cdpr report` takes its folder",
-        StudyError::OtherKind { found: InputKind::Foreign, .. } => ": `cdpr import` makes a robot file of it",
         StudyError::OtherKind { found: InputKind::Table, kind: InputKind::Robot, .. } => {
-            ": `cdpr import` makes a robot file of a table of points"
+            ": `cdpr robot import` makes a robot file of a table of points"
         }
         StudyError::OtherKind { found: InputKind::Table, .. } => ": `cdpr analyse` takes it",
-        StudyError::NoSuchName { kind: InputKind::Cable, .. } => "; `cdpr robots --cables` lists them all",
-        StudyError::NoSuchName { .. } => "; `cdpr robots` lists them all",
+        StudyError::NoSuchName { kind: InputKind::Cable, .. } => "; `cdpr robot list` lists them all",
+        StudyError::NoSuchName { .. } => "; `cdpr robot list` lists them all",
         StudyError::FileExists { .. } => "; --overwrite replaces it",
         StudyError::ResultsExist { .. } => "; --overwrite replaces them",
         StudyError::ForeignFolder { .. } => ", or --overwrite what is there",

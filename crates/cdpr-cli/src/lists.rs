@@ -1,7 +1,7 @@
 //! Poses and wrenches as files list them, one a line: which column is which quantity, and in which unit.
 
+use crate::arguments::poses::pose_of;
 use crate::error::ProgramError;
-use crate::poses::pose_of;
 use crate::questions;
 use cdpr_robot::{Pose, Vector3, counted, plausible, rotation_by_angles, rotation_of, short};
 use cdpr_study::{Column, Dimension, InputKind, StudyError, Table, TableError, read_table};
@@ -15,16 +15,24 @@ const ANGLES: [&str; 3] = ["roll", "pitch", "yaw"];
 /// Names of the components of a wrench.
 const WRENCH: [&str; 6] = ["fx", "fy", "fz", "mx", "my", "mz"];
 
+/// Poses of a table, and its further columns.
+pub(crate) struct PoseTable {
+    pub(crate) poses: Vec<Pose>,
+    /// Names and cells, which the answer has, too.
+    pub(crate) further: Vec<(String, Vec<String>)>,
+}
+
 /// Why a line, or the names, are no list.
 type Reason = Box<dyn std::fmt::Display>;
 
 /// Poses from a file, one a line: x, y, z, and a quaternion or angles. Three or seven plain numbers need no
 /// names.
-pub(crate) fn pose_file(path: &Path) -> Result<Vec<Pose>, ProgramError> {
+pub(crate) fn pose_file(path: &Path) -> Result<PoseTable, ProgramError> {
     listed("--poses", path, "a pose", |table| {
         let Some(header) = table.header else {
             let row = |row: &[f64]| pose_of(row).map_err(|error| Box::new(error) as Reason);
-            return rows(table, &table.columns.iter().map(|column| (column, 1.0)).collect::<Vec<_>>(), row);
+            let columns: Vec<_> = table.columns.iter().map(|column| (column, 1.0)).collect();
+            return Ok(PoseTable { poses: rows(table, &columns, row)?, further: Vec::new() });
         };
         let of = |reason| at(header, &reason);
         let found =
@@ -38,7 +46,7 @@ pub(crate) fn pose_file(path: &Path) -> Result<Vec<Pose>, ProgramError> {
             let name = &column.name;
             return Err(of(format!("column {name} has no unit: expected {name}_deg or {name}_rad")));
         }
-        match (found.all(&QUATERNION), angles.iter().all(Option::is_none)) {
+        let poses = match (found.all(&QUATERNION), angles.iter().all(Option::is_none)) {
             (Some(quaternion), true) => {
                 let poses = rows(table, &[place, quaternion].concat(), |row| {
                     let rotation = rotation_of([row[3], row[4], row[5], row[6]]);
@@ -50,14 +58,18 @@ pub(crate) fn pose_file(path: &Path) -> Result<Vec<Pose>, ProgramError> {
                     plausible::quaternion(&format!("line {line}: qw,qx,qy,qz"), &pose.rotation)
                 };
                 questions::ask(table.lines.iter().zip(&poses).find_map(doubt));
-                Ok(poses)
+                Ok::<_, String>(poses)
             }
             (None, _) if !QUATERNION.iter().any(|name| found.get(name).is_some()) => {
                 let columns = place.into_iter().chain(angles.iter().flatten().copied()).collect::<Vec<_>>();
                 rows(table, &columns, |row| by_angles(row, &angles))
             }
             _ => Err(of(found.lacking(POSES))),
-        }
+        }?;
+        let rows = 0..table.rows();
+        let cells = |column: &&Column| rows.clone().map(|row| column.text(row)).collect();
+        let further = found.further.iter().map(|column| (column.name.clone(), cells(column))).collect();
+        Ok(PoseTable { poses, further })
     })
 }
 
@@ -80,10 +92,14 @@ fn by_angles(row: &[f64], columns: &[Option<(&Column, f64)>]) -> Result<Pose, Re
 
 /// Wrenches from a file, one a line: fx, fy, fz [N], mx, my, mz [N m].
 pub(crate) fn wrench_file(path: &Path) -> Result<Vec<[f64; 6]>, ProgramError> {
-    listed("--wrenches", path, "a wrench", |table| {
+    listed("--wrench", path, "a wrench", |table| {
         let columns = match table.header {
             Some(header) => {
                 let found = Quantities::of(table, &WRENCH, WRENCHES).map_err(|reason| at(header, &reason))?;
+                if let Some(column) = found.further.iter().find(|column| !column.is_aside()) {
+                    let reason = format!("column {}: expected {WRENCHES}, texts and a time t", column.name);
+                    return Err(at(header, &reason));
+                }
                 found.all(&WRENCH).ok_or_else(|| at(header, &found.lacking(WRENCHES)))?
             }
             None => table.columns.iter().map(|column| (column, 1.0)).collect(),
@@ -106,15 +122,15 @@ fn listed<T>(
     option: &'static str,
     path: &Path,
     what: &str,
-    read: impl FnOnce(&Table) -> Result<Vec<T>, String>,
-) -> Result<Vec<T>, ProgramError> {
+    read: impl FnOnce(&Table) -> Result<T, String>,
+) -> Result<T, ProgramError> {
     let refused = |reason: String| ProgramError::List { option, path: path.to_owned(), reason };
     let table = match read_table(path, InputKind::Poses) {
         Err(StudyError::Table { source, .. }) => return Err(refused(source.to_string())),
         table => table?,
     };
     let list = read(&table).map_err(refused)?;
-    if list.is_empty() {
+    if table.rows() == 0 {
         let empty = format!("{option} {}: the file is empty, expected {what} on each line", path.display());
         return Err(ProgramError::Usage(empty));
     }
@@ -145,29 +161,38 @@ fn at(line: usize, reason: &dyn std::fmt::Display) -> String {
 /// The columns of a table by the names of their quantities, with the factors to SI units.
 struct Quantities<'a> {
     found: Vec<(String, &'a Column, f64)>,
+    further: Vec<&'a Column>,
     names: Vec<&'a str>,
 }
 
 impl<'a> Quantities<'a> {
-    /// Finds the quantities of these names. What else stands beside them must be texts, the time, or the
-    /// number of a row.
+    /// Finds the quantities of these names. All other columns are further ones, unless their names are those
+    /// of rotations or nearly those of a wanted quantity: what is meant by them must not be left out.
     fn of(table: &'a Table, wanted: &[&str], expected: &str) -> Result<Self, String> {
         let mut found: Vec<(String, &Column, f64)> = Vec::new();
+        let mut further = Vec::new();
         for column in &table.columns {
             let (quantity, unit) = column.quantity();
-            let is_wanted = wanted.contains(&quantity.as_str());
-            if is_wanted && unit.is_none_or(|unit| Some(unit.dimension) == dimension(&quantity)) {
+            let name = &column.name;
+            if wanted.contains(&quantity.as_str()) {
+                if let Some(unit) = unit.filter(|unit| Some(unit.dimension) != dimension(&quantity)) {
+                    let of = format!("column {name}: {quantity} in a unit of {}", unit.dimension.name());
+                    return Err(format!("{of}: expected {expected}"));
+                }
                 if found.iter().any(|(known, ..)| *known == quantity) {
-                    return Err(format!("column {}: {quantity} is there twice", column.name));
+                    return Err(format!("column {name}: {quantity} is there twice"));
                 }
                 found.push((quantity, column, unit.map_or(1.0, |unit| unit.factor)));
-            } else if is_wanted || !column.is_aside() {
-                let name = &column.name;
-                return Err(format!("column {name}: expected {expected}; beside them, texts and a time t"));
+            } else if is_rotation(&quantity) || wanted.iter().any(|wanted| is_near(wanted, &quantity)) {
+                return Err(format!(
+                    "column {name}: expected {expected}; give it another name if it is not of these"
+                ));
+            } else {
+                further.push(column);
             }
         }
         let names = table.columns.iter().map(|column| column.name.as_str()).collect();
-        Ok(Self { found, names })
+        Ok(Self { found, further, names })
     }
 
     fn get(&self, name: &str) -> Option<(&'a Column, f64)> {
@@ -182,6 +207,27 @@ impl<'a> Quantities<'a> {
     fn lacking(&self, expected: &str) -> String {
         format!("columns {}: expected {expected}", self.names.join(","))
     }
+}
+
+/// Whether a name is that of a part of a rotation.
+fn is_rotation(name: &str) -> bool {
+    const NAMES: [&str; 8] = ["rx", "ry", "rz", "phi", "theta", "psi", "heading", "azimuth"];
+    let component = name.strip_prefix('q').map(|rest| rest.trim_start_matches('_'));
+    let is_component = |rest: &str| rest.len() == 1 && rest.ends_with(|c: char| "wxyzijk0123".contains(c));
+    NAMES.contains(&name) || name.contains("quat") || component.is_some_and(is_component)
+}
+
+/// Whether two names of three letters or more differ in one letter, or by one that is missing.
+fn is_near(wanted: &str, name: &str) -> bool {
+    let (one, other): (Vec<char>, Vec<char>) = (wanted.chars().collect(), name.chars().collect());
+    if one.len() < 3 || one.len().abs_diff(other.len()) > 1 {
+        return false;
+    }
+    let same_start = one.iter().zip(&other).take_while(|(a, b)| a == b).count();
+    let ends =
+        |a: &[char], b: &[char]| a.iter().rev().zip(b.iter().rev()).take_while(|(a, b)| a == b).count();
+    let same_end = ends(&one[same_start..], &other[same_start..]);
+    same_start + same_end + 1 >= one.len().max(other.len())
 }
 
 /// What a quantity measures.

@@ -2,27 +2,32 @@
 
 use crate::error::ProgramError;
 use crate::questions;
+use crate::said::{self, Said};
 use cdpr_report::ReportError;
 use cdpr_robot::shown_lines;
+use cdpr_study::{IfExists, check_replaceable, write_text};
 use comfy_table::{ContentArrangement, Table, presets};
 use indicatif::{ProgressBar, ProgressState, ProgressStyle, WeakProgressBar};
 use std::fmt;
 use std::io::{self, ErrorKind, IsTerminal, Write};
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::sync::OnceLock;
 use std::sync::mpsc::{Receiver, RecvTimeoutError};
+use std::sync::{Mutex, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
 /// Exit codes, as `cdpr --help` and docs/COMMANDS.md state them.
 pub(crate) const EXIT_CODES: &str = "Exit codes:
   0    all that was asked for is done
-  1    it cannot be done: a wrong or unreadable file, no answer, a place that cannot be written;
-       the standard error says why
+  1    it cannot be done: a wrong or unreadable file, no answer, a place that
+       cannot be written; the standard error says why
   2    wrong arguments; the standard error says why
-  3    done, but something is wrong: a value is questioned, `check` warns, a case of `direct --from` or a
-       pose of `--poses` has no answer, a platform falls before the whole load is on it,
-       `--certify` proves nothing, a tension lies above tension_limits.max or a breaking
-       force, more than half of the observations of a sampling or surface failed
+  3    done, but something is wrong: a value is questioned, `robot check` warns,
+       a case of `direct --from` or a pose of `--poses` has no answer, a
+       platform falls before the whole load is on it, `--certify` proves
+       nothing, a tension is above tension_limits.max or a breaking force, less
+       than half of the positions of a map or of the candidate poses are held,
+       or of the observations have succeeded
   130  a study was interrupted (Ctrl-C, the end of a job): what is done is kept,
        and the standard error says how to go on";
 
@@ -40,6 +45,31 @@ impl Ending {
     pub(crate) fn and(self, other: Self) -> Self {
         if self == Self::Well { other } else { self }
     }
+}
+
+/// The file for the answer, and what is printed so far.
+static ANSWER: Mutex<Option<AnswerFile>> = Mutex::new(None);
+
+struct AnswerFile {
+    path: PathBuf,
+    if_exists: IfExists,
+    text: String,
+}
+
+/// From now on, what is printed goes to a file, which is written when the command ends.
+pub(crate) fn print_to(path: &Path, if_exists: IfExists) {
+    let mut answer = ANSWER.lock().unwrap_or_else(PoisonError::into_inner);
+    if answer.is_none() {
+        *answer = Some(AnswerFile { path: path.to_owned(), if_exists, text: String::new() });
+    }
+}
+
+/// Writes the file for the answer, if there is one.
+fn write_answer() -> Result<(), ProgramError> {
+    let answer = ANSWER.lock().unwrap_or_else(PoisonError::into_inner).take();
+    let Some(AnswerFile { path, if_exists, text }) = answer else { return Ok(()) };
+    check_replaceable(&path, &text, if_exists)?;
+    Ok(write_text(&path, &text, if_exists)?)
 }
 
 /// Why the standard output could not be written, the first time.
@@ -67,6 +97,11 @@ pub(crate) fn tell_line(line: fmt::Arguments) {
 
 /// What `println!` expands to.
 pub(crate) fn print_line(line: fmt::Arguments) {
+    if let Some(answer) = ANSWER.lock().unwrap_or_else(PoisonError::into_inner).as_mut() {
+        answer.text += &shown_lines(&line.to_string());
+        answer.text.push('\n');
+        return;
+    }
     if UNPRINTED.get().is_none()
         && let Err(error) = writeln!(io::stdout().lock(), "{}", shown_lines(&line.to_string()))
     {
@@ -93,6 +128,7 @@ pub(crate) fn survive_file_limit() -> Result<(), ProgramError> {
 ///
 /// A reader that stops reading is no failure.
 pub(crate) fn exit_code(result: Result<Ending, ProgramError>) -> ExitCode {
+    let result = result.and_then(|ending| write_answer().map(|()| ending));
     let unprinted = UNPRINTED.get().filter(|error| error.kind() != ErrorKind::BrokenPipe);
     let (code, message) = match (result, unprinted) {
         (Err(error), _) => (error.exit_code(), Some(error.to_string())),
@@ -167,6 +203,9 @@ impl Pace {
 
 /// Does what may take long and cannot count its steps; after a second, its time is shown.
 pub(crate) fn patiently<T>(doing: &str, work: impl FnOnce() -> T) -> T {
+    if !said::is_said(Said::Usual) {
+        return work();
+    }
     let clock = Instant::now();
     let (working, waiting) = std::sync::mpsc::channel::<()>();
     std::thread::scope(|scope| {
@@ -209,6 +248,9 @@ pub(crate) fn progress(steps: usize, unit: &str) -> ProgressBar {
         // A terminal that takes no text cannot be helped.
         let _ = write!(out, "{:.0}/s", state.per_sec());
     };
+    if !said::is_said(Said::Usual) {
+        return ProgressBar::hidden();
+    }
     let bar = ProgressBar::new(steps as u64);
     if !io::stderr().is_terminal() {
         log_progress(bar.downgrade(), unit.to_owned());
@@ -225,7 +267,7 @@ pub(crate) fn progress(steps: usize, unit: &str) -> ProgressBar {
 
 /// A figure with its name, or a note why it cannot be drawn: the results stand without it.
 pub(crate) fn drawn(name: &str, svg: Result<String, ReportError>) -> Option<(String, String)> {
-    let svg = svg.map_err(|error| eprintln!("note: no figure {name}: {error}")).ok()?;
+    let svg = svg.map_err(|error| said::note(format_args!("no figure {name}: {error}"))).ok()?;
     Some((name.to_owned(), svg))
 }
 

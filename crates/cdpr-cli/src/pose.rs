@@ -5,7 +5,6 @@ pub(crate) mod capacity;
 pub(crate) mod deflection;
 pub(crate) mod derivatives;
 pub(crate) mod direct;
-pub(crate) mod export;
 pub(crate) mod hysteresis;
 pub(crate) mod inverse;
 pub(crate) mod modes;

@@ -4,10 +4,11 @@
 //! Robots and studies are opened here and nowhere else, so that no command forgets to ask.
 
 use crate::error::ProgramError;
+use crate::said;
 use cdpr_assess::{HELD, WorkspaceSummary, doubtful_rest};
-use cdpr_robot::{Doubt, Pose, Robot, Vector3, Wrench, place_of, plausible};
+use cdpr_robot::{Doubt, Pose, Robot, Vector3, Wrench, place_of, plausible, shown};
 use cdpr_statics::{DirectSolution, Load};
-use cdpr_study::{Access, ErrorModel, InputKind, StoredStudy, Study, read_text};
+use cdpr_study::{Access, ErrorModel, InputKind, StoredStudy, Study, is_standard_input, read_text};
 use serde::Serialize;
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
@@ -33,7 +34,9 @@ pub(crate) fn ask(doubts: impl IntoIterator<Item = Doubt>) {
 /// Asks about what a file says.
 fn ask_in(path: &Path, doubts: impl IntoIterator<Item = Doubt>) {
     // The robot of a library has no file.
-    let text = read_text(path, InputKind::Study).ok();
+    // A pipe is read once.
+    let is_read_again = path.is_file() || is_standard_input(path);
+    let text = is_read_again.then(|| read_text(path, InputKind::Study).ok()).flatten();
     ask_at(doubts, |field| {
         let text = text.as_deref()?;
         let place = place_of(text, field).filter(|place| *place != place_of(text, "").unwrap_or_default());
@@ -71,6 +74,8 @@ pub(crate) fn added_to(object: String) -> serde_json::Result<String> {
 /// The robot of a file.
 pub(crate) fn open_robot(path: &Path) -> Result<Robot, ProgramError> {
     let robot = cdpr_study::open_robot(path)?;
+    let cables = robot.cables.len();
+    said::detail(format_args!("robot {}: {}, {cables} cables", path.display(), shown(&robot.name)));
     ask_in(path, plausible::robot(&robot));
     Ok(robot)
 }
@@ -78,6 +83,7 @@ pub(crate) fn open_robot(path: &Path) -> Result<Robot, ProgramError> {
 /// The study of a file.
 pub(crate) fn open_study(path: &Path) -> Result<Study, ProgramError> {
     let study = Study::open(path)?;
+    said::detail(format_args!("study {} of the robot {}", path.display(), shown(&study.robot.name)));
     ask_in(&path.with_file_name(&study.file.robot), plausible::robot(&study.robot));
     ask_in(path, study.doubts());
     Ok(study)
@@ -145,6 +151,16 @@ pub(crate) fn about_markers(robot: &Robot, markers: impl IntoIterator<Item = Vec
 pub(crate) fn about_map(summary: &WorkspaceSummary) {
     let held = summary.rows.iter().any(|row| row.status == HELD || row.anew_status == Some(HELD));
     ask((!held).then(|| plausible::nothing_held(summary.rows.len())));
+}
+
+/// What is said of a map on which some positions are held, and fewer than half.
+pub(crate) fn few_held(summary: &WorkspaceSummary) -> Option<String> {
+    let is_held = |status: Option<&str>| status == Some(HELD);
+    let rows = &summary.rows;
+    let held = rows.iter().filter(|row| is_held(Some(row.status)) || is_held(row.anew_status)).count();
+    let all = rows.len();
+    (held > 0 && 2 * held < all)
+        .then(|| format!("fewer than half of the positions are held, {held} of {all}"))
 }
 
 /// Asks about where a platform was found to rest with given lengths [m], from a start and under a load.

@@ -1,13 +1,13 @@
-//! Commands about studies: `cdpr study ...`, and those that read a study or its results.
+//! Commands about studies, `cdpr study ...`, and `cdpr analyse`.
 
 pub(crate) mod analyse;
 mod carry_out;
 mod common;
 mod print;
-pub(crate) mod report;
+mod report;
 mod status;
 mod template;
-pub(crate) mod tolerances;
+mod tolerances;
 
 use crate::arguments;
 use crate::error::ProgramError;
@@ -19,24 +19,32 @@ use common::{FolderSettings, RunSettings, begun};
 
 #[derive(Subcommand)]
 pub(crate) enum Command {
-    /// Write a first study of your own robot, to a file or to the standard output.
-    #[command(after_help = "Example: cdpr study new --robot data/robots/cogiro.json --out my-study.json")]
-    New(template::Settings),
-    /// Run a study file, and write its observations, figures and summary.
+    /// Write a first study of a robot.
     ///
-    /// What is done is kept block by block.
+    /// To a file or to the standard output.
+    #[command(after_help = "Example: cdpr study new data/robots/cogiro.json --out my-study.json")]
+    New(template::Settings),
+    /// Run a study file.
+    ///
+    /// Writes its observations, figures, summary and report. What is done is kept block by block.
     #[command(after_help = "Example: cdpr study run data/studies/caroca.json --out results
 
 Interrupted or killed, it continues with --resume and gives the same results to the last bit.
 On several machines with a shared folder: --shard 1/4 ... --shard 4/4, then `cdpr study merge`.")]
     Run(RunSettings),
-    /// Analyse a study whose blocks are all in a folder, such as those of all shards.
+    /// Analyse a study whose blocks are all there.
+    ///
+    /// Such as those of all shards.
     #[command(after_help = "Example: cdpr study merge results")]
     Merge(FolderSettings),
-    /// Print how far a study in a folder is, and what its observations give so far.
+    /// Print how far a study is.
+    ///
+    /// And what its observations say so far.
     #[command(after_help = "Example: cdpr study status results --format json")]
     Status(status::Settings),
-    /// Continue a study in a folder to more observations of each sampling; those it has are kept.
+    /// Continue a study to more observations.
+    ///
+    /// Of each sampling; those it has are kept.
     #[command(after_help = "Example: cdpr study extend results --observations 1000000")]
     Extend {
         #[command(flatten)]
@@ -45,6 +53,17 @@ On several machines with a shared folder: --shard 1/4 ... --shard 4/4, then `cdp
         #[arg(long, value_parser = arguments::count::<3, 10_000_000_000>)]
         observations: usize,
     },
+    /// Write the report of a study as one HTML file.
+    ///
+    /// With all figures; it opens offline.
+    #[command(after_help = "Example: cdpr study report results")]
+    Report(report::Settings),
+    /// Find which tolerances to tighten, and by how much.
+    ///
+    /// So that an error stays below a limit.
+    #[command(after_help = "Example: cdpr study tolerances data/studies/caroca.json \
+                      --sampling geometrical_asymmetric --limit 'deflection_mm<0.9' --costs b=3")]
+    Tolerances(tolerances::Settings),
 }
 
 pub(crate) fn run(command: Command) -> Result<Ending, ProgramError> {
@@ -68,6 +87,8 @@ pub(crate) fn run(command: Command) -> Result<Ending, ProgramError> {
             let StoredStudy { study, blocks } = take_results(&folder, Access::Alone)?.extend(observations)?;
             carry_out::whole(&study, &folder, &blocks, &common)
         }
+        Command::Report(settings) => report::run(&settings).map(well),
+        Command::Tolerances(settings) => tolerances::run(&settings).map(well),
     }
 }
 

@@ -24,23 +24,20 @@ fn options_with_units(command: &[&str]) -> Vec<String> {
 fn every_option_with_a_unit_is_known_to_the_questions() {
     // What asks about the number of each option. A new option with a unit must ask, too: then it stands here.
     let known = [
-        (
-            "position",
-            vec!["--pose", "--start", "--plane", "--box", "--grid", "--work", "--region", "--position"],
-        ),
-        ("load, wrench", vec!["--payload", "--force", "--moment", "--wrench", "--wrench-box"]),
+        ("position", vec!["--pose", "--region", "--work"]),
+        ("load, wrench", vec!["--payload", "--force", "--moment", "--wrench"]),
         ("lengths", vec!["--lengths"]),
         ("reference", vec!["--tension-reference"]),
         ("deviation", vec!["--uncertainty"]),
-        ("noise, on_platform", vec!["--noise", "--accuracy", "--marker"]),
-        ("robot, mass, modulus", vec!["--mass", "--modulus", "--center-of-mass", "--tension-limits"]),
-        ("span, linear_density", vec!["--weight", "--stiffness", "--length", "--end"]),
+        ("noise, on_platform", vec!["--noise", "--limit", "--marker"]),
+        ("robot, mass, modulus", vec!["--mass", "--center-of-mass", "--tension-limits"]),
+        ("span, linear_density", vec!["--length", "--end"]),
         ("modulus of the record", vec!["--section", "--breaking-force"]),
         // Errors of a measurement widen an interval and enter nothing else; a tension ends a catenary.
-        ("none", vec!["--tension", "--mass-error", "--length-error", "--force-error", "--section-error"]),
+        ("none", vec!["--tension", "--end-force", "--errors"]),
     ];
-    let commands: [&[&str]; 22] = [
-        &["catenary"],
+    let commands: [&[&str]; 21] = [
+        &["cable", "catenary"],
         &["inverse"],
         &["direct"],
         &["deflection"],
@@ -50,18 +47,17 @@ fn every_option_with_a_unit_is_known_to_the_questions() {
         &["workspace"],
         &["study", "new"],
         &["study", "run"],
-        &["calibrate"],
-        &["calibration", "identify"],
-        &["calibration", "plan"],
-        &["calibration", "simulate"],
+        &["calibrate", "fit"],
+        &["calibrate", "identify"],
+        &["calibrate", "plan"],
+        &["calibrate", "simulate"],
         &["derivatives"],
         &["hysteresis"],
-        &["linear-density"],
+        &["cable", "density"],
         &["modes"],
-        &["modulus"],
-        &["export"],
-        &["import"],
-        &["robustness"],
+        &["cable", "modulus"],
+        &["robot", "export"],
+        &["robot", "import"],
     ];
     for command in commands {
         for option in options_with_units(command) {
@@ -122,7 +118,7 @@ fn a_figure_is_svg_or_refused_before_anything_is_computed() {
 fn tables_hold_no_number_that_is_not_finite() {
     let folder = tempfile::TempDir::new().unwrap();
     let out = folder.path().join("map");
-    let arguments = "workspace caroca --plane z=1.75 --grid 3x3 --payload 50 --uncertainty a=1e300 --out";
+    let arguments = "workspace caroca --region ::3,::3,1.75 --payload 50 --uncertainty a=1e300 --out";
     let arguments: Vec<_> = arguments.split(' ').chain([out.to_str().unwrap()]).collect();
     assert_eq!(cdpr(&arguments).status.code(), Some(3));
     let table = std::fs::read_to_string(out.join("workspace.csv")).unwrap();

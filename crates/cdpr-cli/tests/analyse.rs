@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use tempfile::TempDir;
 
 fn json_of(arguments: &[&str]) -> Value {
-    serde_json::from_str(&answered(cdpr(&[arguments, &["--json"]].concat()))).unwrap()
+    serde_json::from_str(&answered(cdpr(&[arguments, &["--format", "json"]].concat()))).unwrap()
 }
 
 #[test]
@@ -32,7 +32,7 @@ fn a_table_with_failed_rows_says_which_inputs_matter_and_which_rows_failed() {
 
 /// What a table says, and the exit code.
 fn of_table(name: &str) -> (Value, i32) {
-    let output = cdpr(&["analyse", &data_path(&format!("tables/{name}")), "--json"]);
+    let output = cdpr(&["analyse", &data_path(&format!("tables/{name}")), "--format", "json"]);
     let code = output.status.code().unwrap();
     (serde_json::from_str(&text(output.stdout)).unwrap(), code)
 }
@@ -104,9 +104,7 @@ fn counts_without_end_are_refused_before_anything_is_computed() {
     let line = |row: usize| vec![row.to_string(); 60_000].join(",") + "\n";
     std::fs::write(&wider, (1..=9).map(line).collect::<String>()).unwrap();
     let begun = std::time::Instant::now();
-    let table = data_path("tables/ishigami.csv");
     for (arguments, code, words) in [
-        (vec![table.as_str(), "--dependence-rows", "50000"], 2, "expected a count, 6 to 5000"),
         (vec![wide.to_str().unwrap()], 1, "inputs = 2999: expected 1 to 1000"),
         (vec![wider.to_str().unwrap()], 1, "inputs = 59999: expected 1 to 1000"),
     ] {
@@ -174,11 +172,11 @@ fn a_folder_of_results_has_the_deviations_as_inputs_and_the_last_column_as_outpu
     assert_eq!(several.status.code(), Some(1));
     assert!(text(several.stderr).contains("mechanical"));
     let printed =
-        answered(cdpr_in(&bench.path("."), &["analyse", "results", "--table", "mechanical", "--json"]));
+        answered(cdpr_in(&bench.path("."), &["analyse", "results/mechanical.csv", "--format", "json"]));
     let found: Value = serde_json::from_str(&printed).unwrap();
     let inputs = found["inputs"].as_array().unwrap();
     assert!(inputs.iter().all(|name| name.as_str().unwrap().starts_with("d_")));
-    assert_eq!(found["outputs"].as_object().unwrap().keys().collect::<Vec<_>>(), ["rms_mm"]);
+    assert_eq!(found["outputs"].as_object().unwrap().keys().collect::<Vec<_>>(), ["magnitude_mm"]);
 }
 
 #[test]
@@ -188,14 +186,14 @@ fn inputs_that_are_certain_in_the_own_table_of_a_study_have_a_share_and_the_caus
         [("caroca", "200"), ("caroca", "500"), ("caroca", "2000"), ("cogiro", "500"), ("ipanema-1", "500")]
     {
         let folder = TempDir::new().unwrap();
-        cdpr_in(folder.path(), &["study", "new", "--robot", robot, "--out", "study.json"]);
+        cdpr_in(folder.path(), &["study", "new", robot, "--out", "study.json"]);
         let path = folder.path().join("study.json");
         let mut study: Value = serde_json::from_slice(&std::fs::read(&path).unwrap()).unwrap();
         (study["surfaces"], study["replicates"]) = (json!({}), json!(0));
         study.as_object_mut().unwrap().remove("sensitivity");
         std::fs::write(&path, study.to_string()).unwrap();
         cdpr_in(folder.path(), &["study", "run", "study.json", "--out", "results", "--observations", rows]);
-        let analyse = ["analyse", "results/all.csv", "--output", "dz_mm", "--json"];
+        let analyse = ["analyse", "results/all.csv", "--output", "dz_mm", "--format", "json"];
         let found: Value = serde_json::from_str(&answered(cdpr_in(folder.path(), &analyse))).unwrap();
         assert_eq!(found["inputs"].as_array().unwrap().len(), 62);
         let verdict = &found["outputs"]["dz_mm"]["verdict"];
@@ -248,7 +246,7 @@ fn wrong_columns_limits_and_tables_are_refused_with_what_would_be_right() {
         (vec!["--vector", "z"], 1, "vector is z: expected a column of numbers"),
         (vec!["--limit", "y=3"], 2, "expected COLUMN<VALUE, with <, <=, > or >="),
         (vec!["--output", "status"], 1, "output is status"),
-        (vec!["--level", "1.5"], 1, "level = 1.5: expected a number between 0 and 1"),
+        (vec!["--confidence", "1.5"], 1, "level = 1.5: expected a number between 0 and 1"),
     ] {
         let output = cdpr(&[&["analyse", table.as_str()], &arguments[..]].concat());
         assert_eq!(output.status.code(), Some(code), "{arguments:?}");

@@ -61,14 +61,10 @@ fn a_refused_run_leaves_no_folder() {
         assert!(left.is_empty(), "{arguments:?}: {left:?}");
     };
     refused(
-        &["workspace", "four-cables", "--plane", "z=2", "--free", "x,y"],
+        &["workspace", "four-cables", "--region", "z=2", "--free", "x,y"],
         "free is x: expected coordinates",
     );
-    refused(&["workspace", "four-cables", "--plane", "z=2", "--free", "roll"], "free is [roll]");
-    refused(
-        &["robustness", "--robot", "four-cables", "--poses", "1"],
-        "free is []: expected 2 of x, y, z, roll, pitch, yaw",
-    );
+    refused(&["workspace", "four-cables", "--region", "z=2", "--free", "roll"], "free is [roll]");
     // Missing free coordinates are missing at every pose: no table of refusals is printed.
     let poses = tempfile::NamedTempFile::new().unwrap();
     std::fs::write(poses.path(), "x,y,z\n0.5,0.3,2\n0.4,0.2,2\n").unwrap();
@@ -77,7 +73,7 @@ fn a_refused_run_leaves_no_folder() {
     for (arguments, rest) in [
         (&["path", "four-cables", "--poses", poses, "--payload", "5"][..], &[][..]),
         (&["stiffness", "four-cables", "--poses", poses], &[]),
-        (&["calibration", "plan", "four-cables", "--poses", poses], &noise),
+        (&["calibrate", "plan", "four-cables", "--poses", poses], &noise),
     ] {
         let output = cdpr_in(folder.path(), &[arguments, rest].concat());
         let (message, code) = questions(&output);
@@ -86,7 +82,7 @@ fn a_refused_run_leaves_no_folder() {
     }
     // A folder that was there stays.
     std::fs::create_dir(folder.path().join("mine")).unwrap();
-    let out = ["workspace", "four-cables", "--plane", "z=2", "--free", "roll", "--out", "mine"];
+    let out = ["workspace", "four-cables", "--region", "z=2", "--free", "roll", "--out", "mine"];
     let (_, code) = questions(&cdpr_in(folder.path(), &out));
     assert!(code == Some(2) && folder.path().join("mine").is_dir());
 }
@@ -130,7 +126,7 @@ fn the_first_study_of_a_robot_with_few_cables_is_held_in_every_observation() {
     let folder = tempfile::TempDir::new().unwrap();
     for robot in ["four-cables", "irma4u", "grab"] {
         let file = format!("{robot}.json");
-        let new = cdpr_in(folder.path(), &["study", "new", "--robot", robot, "--out", &file]);
+        let new = cdpr_in(folder.path(), &["study", "new", robot, "--out", &file]);
         assert!(new.status.success(), "{}", text(new.stderr));
         let study = json_file(folder.path().join(&file));
         let is_said = study["source"].as_str().unwrap().contains("times smaller than usual");
@@ -161,7 +157,7 @@ fn a_platform_that_falls_ends_a_simulation_as_it_ends_a_deflection() {
         text(output.stdout.clone()).contains("the platform falls from") && output.status.code() == Some(3)
     );
     let simulation = [
-        &["calibration", "simulate", &robot, "--poses", "pose.csv", "--model", "model.json"][..],
+        &["calibrate", "simulate", &robot, "--poses", "pose.csv", "--uncertainty", "model.json"][..],
         &["--noise", "position=1e-4", "--seed", "1", "--out", "out.csv"],
         &load,
     ];

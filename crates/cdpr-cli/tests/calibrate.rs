@@ -1,4 +1,4 @@
-//! `cdpr calibrate` as a user meets it.
+//! `cdpr calibrate fit` as a user meets it.
 
 use crate::common::{answered, cdpr, data_path, text};
 use serde_json::Value;
@@ -21,12 +21,12 @@ fn campaign() -> (TempDir, String) {
     std::fs::write(&poses, format!("{}\n{}\n", lines[0], few.join("\n"))).unwrap();
     let model = data_path("calibration/caroca-tolerances.json");
     let output = cdpr(&[
-        "calibration",
+        "calibrate",
         "simulate",
         &data_path("robots/caroca.json"),
         "--poses",
         poses.to_str().unwrap(),
-        "--model",
+        "--uncertainty",
         &model,
         "--noise",
         NOISE,
@@ -41,7 +41,7 @@ fn campaign() -> (TempDir, String) {
 
 fn calibrate(measurements: &str, out: &Path, more: &[&str]) -> std::process::Output {
     let (robot, out) = (data_path("robots/caroca.json"), out.display().to_string());
-    let first = ["calibrate", &robot, "--measurements", measurements, "--out", &out, "--format", "json"];
+    let first = ["calibrate", "fit", &robot, measurements, "--out", &out, "--format", "json"];
     cdpr(&[&first[..], more].concat())
 }
 
@@ -60,7 +60,7 @@ fn noise_stated_in_millimetres_makes_chi_square_too_small_and_is_questioned() {
     let (folder, path) = campaign();
     let model = data_path("calibration/caroca-tolerances.json");
     let noise = "position=0.05,rotation=0.05,length=0.05";
-    let output = calibrate(&path, &folder.path().join("out"), &["--model", &model, "--noise", noise]);
+    let output = calibrate(&path, &folder.path().join("out"), &["--uncertainty", &model, "--noise", noise]);
     assert_eq!(output.status.code(), Some(3), "{}", text(output.stderr));
     let summary: Value = serde_json::from_slice(&output.stdout).unwrap();
     let warnings = summary["warnings"].as_array().unwrap();
@@ -77,7 +77,7 @@ fn a_campaign_gives_a_robot_and_what_is_left_and_a_study_takes_both() {
     let (folder, path) = campaign();
     let model = data_path("calibration/caroca-tolerances.json");
     let out = folder.path().join("out");
-    let output = calibrate(&path, &out, &["--model", &model, "--noise", NOISE]);
+    let output = calibrate(&path, &out, &["--uncertainty", &model, "--noise", NOISE]);
     assert_eq!(output.status.code(), Some(0), "{}", text(output.stderr));
     let printed: Value = serde_json::from_slice(&output.stdout).unwrap();
     let read = |name: &str| std::fs::read_to_string(out.join(name)).unwrap();
@@ -115,14 +115,14 @@ fn a_campaign_gives_a_robot_and_what_is_left_and_a_study_takes_both() {
     assert!(output.status.success(), "{error}");
 
     // Derivatives with the posterior: g' C g, correlations included.
-    let (calibrated, study) = (out.join("calibrated.json"), file.display().to_string());
+    let (calibrated, study) = (out.join("calibrated.json"), format!("{}:errors", file.display()));
     let at = ["--pose", "0.3,0.2,1.5", "--payload", "50", "--format", "json"];
-    let errors = ["--study", &study, "--error-model", "errors"];
+    let errors = ["--uncertainty", &study];
     let asked = [&["derivatives", calibrated.to_str().unwrap()], &at[..], &errors[..]].concat();
     let found: Value = serde_json::from_str(&answered(cdpr(&asked))).unwrap();
     let names = found["parameters"].as_array().unwrap();
     let slope = |name: &Value| {
-        found["rms_mm"][names.iter().position(|known| known == name).unwrap()].as_f64().unwrap()
+        found["magnitude_mm"][names.iter().position(|known| known == name).unwrap()].as_f64().unwrap()
     };
     let slopes: Vec<f64> = posterior["parameters"].as_array().unwrap().iter().map(slope).collect();
     let row = |row: &Value| -> f64 {
@@ -136,13 +136,13 @@ fn a_campaign_gives_a_robot_and_what_is_left_and_a_study_takes_both() {
     assert!((shares.map(|share| share.as_f64().unwrap()).sum::<f64>() - 1.0).abs() < 1e-9);
 
     // The same folder takes a further calibration on request, one of a user does not.
-    let further = ["--model", &model, "--noise", NOISE, "--overwrite"];
+    let further = ["--uncertainty", &model, "--noise", NOISE, "--overwrite"];
     assert_eq!(calibrate(&path, &out, &further[..4]).status.code(), Some(1));
     assert_eq!(calibrate(&path, &out, &further).status.code(), Some(0));
     let own = folder.path().join("own");
     std::fs::create_dir(&own).unwrap();
     std::fs::write(own.join("summary.json"), "mine").unwrap();
-    let refused = calibrate(&path, &own, &["--model", &model, "--noise", NOISE]);
+    let refused = calibrate(&path, &own, &["--uncertainty", &model, "--noise", NOISE]);
     assert_eq!(refused.status.code(), Some(1));
     assert_eq!(std::fs::read_to_string(own.join("summary.json")).unwrap(), "mine");
 }
@@ -220,7 +220,7 @@ fn swapped_columns_and_rows_of_other_poses_are_warned_of() {
     let model = data_path("calibration/caroca-tolerances.json");
     let (folder, path) = campaign();
     changed(&path, |cells| cells[7][8] = (cells[7][8].parse::<f64>().unwrap() + 0.3).to_string());
-    let output = calibrate(&path, &folder.path().join("out"), &["--model", &model, "--noise", NOISE]);
+    let output = calibrate(&path, &folder.path().join("out"), &["--uncertainty", &model, "--noise", NOISE]);
     assert_eq!(output.status.code(), Some(3), "{}", text(output.stderr));
     let summary: Value = serde_json::from_slice(&output.stdout).unwrap();
     let warnings = summary["warnings"].to_string();
@@ -232,7 +232,8 @@ fn swapped_columns_and_rows_of_other_poses_are_warned_of() {
     ] {
         let (folder, path) = campaign();
         changed(&path, |cells| cells[1..].iter_mut().for_each(|line| line.swap(columns.0, columns.1)));
-        let output = calibrate(&path, &folder.path().join("out"), &["--model", &model, "--noise", NOISE]);
+        let output =
+            calibrate(&path, &folder.path().join("out"), &["--uncertainty", &model, "--noise", NOISE]);
         let error = text(output.stderr);
         assert!(output.status.code() == Some(1) && error.contains(words), "{error}");
     }

@@ -1,4 +1,4 @@
-//! `cdpr calibration` as a user meets it.
+//! `cdpr calibrate` as a user meets it.
 
 use crate::common::{answered, cdpr, data_path, text};
 use serde_json::Value;
@@ -9,13 +9,13 @@ const UNCERTAINTY: [&str; 2] = ["--uncertainty", "a=0.002,b=0.002,youngs_modulus
 const NOISE: [&str; 2] = ["--noise", "position=1e-4,rotation=1e-4"];
 
 fn run(arguments: &[&str]) -> Output {
-    cdpr(&[&["calibration", "identify", &data_path("robots/caroca.json")], arguments].concat())
+    cdpr(&[&["calibrate", "identify", &data_path("robots/caroca.json")], arguments].concat())
 }
 
 #[test]
 fn a_grid_of_poses_tells_geometry_but_no_offset_of_a_tension() {
-    let arguments = [&["--grid=-2:2:3,-1:1:3,1:9:2"][..], &UNCERTAINTY, &NOISE].concat();
-    let output = run(&[&arguments[..], &["--choose", "4", "--format", "json"]].concat());
+    let arguments = [&["--region=-2:2:3,-1:1:3,1:9:2"][..], &UNCERTAINTY, &NOISE].concat();
+    let output = run(&[&arguments[..], &["--count", "4", "--format", "json"]].concat());
     let json: Value = serde_json::from_str(&answered(output)).unwrap();
     assert_eq!((json["poses"].as_u64(), json["refused"]["infeasible_tension"].as_u64()), (Some(9), Some(9)));
     let unidentifiable: Vec<_> =
@@ -40,7 +40,7 @@ fn a_file_of_poses_is_read_line_by_line() {
     let folder = TempDir::new().unwrap();
     let path = folder.path().join("poses.csv");
     let arguments = ["--poses", path.to_str().unwrap(), "--format", "json"];
-    let arguments = [&arguments[..], &UNCERTAINTY, &["--noise", "lengths=1e-3,tensions=5"]].concat();
+    let arguments = [&arguments[..], &UNCERTAINTY, &["--noise", "length=1e-3,tension=5"]].concat();
     std::fs::write(&path, "0,0,1.75,1,0,0,0\n\n1,0.5,2,0.99,0,0,0.1\n").unwrap();
     let json: Value = serde_json::from_slice(&run(&arguments).stdout).unwrap();
     assert_eq!(json["poses"], 2);
@@ -55,12 +55,12 @@ fn a_file_of_poses_is_read_line_by_line() {
 
 #[test]
 fn bad_input_is_named_with_what_would_be_right() {
-    let grid = "--grid=0:1:2,0:1:2,1:2:2";
+    let grid = "--region=0:1:2,0:1:2,1:2:2";
     for (arguments, words) in [
         (vec![NOISE[0], NOISE[1], UNCERTAINTY[0], UNCERTAINTY[1]], "required"),
         (
-            vec!["--grid=0:1", NOISE[0], NOISE[1], UNCERTAINTY[0], UNCERTAINTY[1]],
-            "expected min:max:points of x, y and z",
+            vec!["--region=0:1", NOISE[0], NOISE[1], UNCERTAINTY[0], UNCERTAINTY[1]],
+            "expected a plane, z=1.75, or x, y and z",
         ),
         (
             vec![grid, NOISE[0], NOISE[1], "--uncertainty", "c=1"],

@@ -26,18 +26,18 @@ fn json_holds_the_numbers_of_the_library() {
         assert!(output.status.success() && output.stderr.is_empty(), "{}", text(output.stderr));
         let json: Value = serde_json::from_slice(&output.stdout).unwrap();
         let keys: Vec<_> = json.as_object().unwrap().keys().map(String::as_str).collect();
-        let lists = ["parameters", "rms_mm", "deflection_mm", "unstrained_lengths", "least_stiffness"];
+        let lists = ["parameters", "magnitude_mm", "deflection_mm", "unstrained_lengths", "least_stiffness"];
         assert_eq!(keys, [&lists[..], &["without", "unit"]].concat());
         assert!(json["without"][0].as_str().unwrap().contains("platform.inertia"));
         assert_eq!(json["unit"], "per SI unit of the parameter");
         let exact = derivatives(&robot, &pose, &Load::payload(50.0)).unwrap();
-        let (rms, displacement) = (exact.rms().unwrap(), exact.displacement());
+        let (magnitude, displacement) = (exact.magnitude().unwrap(), exact.displacement());
         let lists: Vec<_> = lists.iter().map(|key| json[key].as_array().unwrap()).collect();
         let (_, stiffness) = exact.least_stiffness(&robot, &Load::payload(50.0)).unwrap();
         assert!(lists.iter().all(|list| list.len() == 62));
         for (j, parameter) in exact.inputs.parameters.iter().enumerate() {
             assert_eq!(lists[0][j], parameter.to_string());
-            assert_eq!(lists[1][j].as_f64(), Some(1e3 * rms[j]));
+            assert_eq!(lists[1][j].as_f64(), Some(1e3 * magnitude[j]));
             assert_eq!(lists[4][j].as_f64(), Some(stiffness[j]));
             for axis in 0..3 {
                 assert_eq!(lists[2][j][axis].as_f64(), Some(1e3 * displacement[(axis, j)]));
@@ -84,15 +84,15 @@ fn a_parameter_with_two_sides_has_both_in_json_table_and_csv() {
         assert_eq!(name, format!("dt{cable}"));
         assert_eq!((&found["cables"][0], &found["bounds"][0]), (&Value::from(cable), &Value::from("min")));
         for (side, exact_side) in [("left", &left), ("right", &right)] {
-            assert_eq!(found[side]["rms_mm"], 1e3 * exact_side.rms().unwrap()[exact.column]);
+            assert_eq!(found[side]["magnitude_mm"], 1e3 * exact_side.magnitude().unwrap()[exact.column]);
             for i in 0..8 {
                 let length = &found[side]["unstrained_lengths"][i];
                 assert_eq!(*length, exact_side.lengths[(i, exact.column)]);
             }
             assert!(table.contains(&format!("{name}, {side}")), "{table}");
         }
-        assert_eq!(found["left"]["rms_mm"], 0.0);
-        assert_ne!(found["right"]["rms_mm"], 0.0);
+        assert_eq!(found["left"]["magnitude_mm"], 0.0);
+        assert_ne!(found["right"]["magnitude_mm"], 0.0);
         assert!(
             table.contains(&format!("{name}: cable {cable} leaves its minimum tension on one side only"))
         );
@@ -178,8 +178,8 @@ fn derivatives_of_a_robot_with_four_cables_need_and_take_free_coordinates() {
     let free = [Coordinate::Roll, Coordinate::Pitch];
     let (pose, load) = (Pose::at(0.5, 0.3, 2.0), Load::payload(5.0));
     let exact = derivatives(&of, WantedPose::at(&pose).free(&free), &load).unwrap();
-    for (j, rms) in exact.rms().unwrap().iter().take(exact.inputs.parameters.len()).enumerate() {
-        assert_eq!(found["rms_mm"][j].as_f64(), Some(1e3 * rms));
+    for (j, magnitude) in exact.magnitude().unwrap().iter().take(exact.inputs.parameters.len()).enumerate() {
+        assert_eq!(found["magnitude_mm"][j].as_f64(), Some(1e3 * magnitude));
     }
     let refused = text(cdpr(&arguments).stderr);
     assert!(refused.contains("expected as many names in `free`"), "{refused}");

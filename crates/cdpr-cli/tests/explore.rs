@@ -34,7 +34,7 @@ fn a_page_of_a_robot_a_study_or_results_names_the_file_of_the_robot() {
         let held = held(&bench.path("page.html"));
         assert_eq!(held["file"], file, "{input}");
         assert_eq!(held["study"].is_object(), has_study, "{input}");
-        answered(cdpr_in(&folder, &["check", file]));
+        answered(cdpr_in(&folder, &["robot", "check", file]));
     }
 }
 

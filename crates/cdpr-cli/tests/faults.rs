@@ -11,7 +11,7 @@ use std::process::Output;
 const DIED: i32 = 86;
 
 /// The last files of a run: beside one of them, all others are whole and of the same run.
-const CONCLUSIONS: [&str; 3] = ["summary.json", "workspace.json", "robustness.json"];
+const CONCLUSIONS: [&str; 2] = ["summary.json", "workspace.json"];
 
 /// A small study: a sampling at one pose, one at a list of one, with tables, and a surface.
 fn bench() -> Bench {
@@ -269,7 +269,7 @@ fn an_extension_that_fails_or_dies_at_any_operation_is_done_again_to_the_same_by
 #[test]
 fn a_report_that_fails_or_dies_at_any_operation_is_written_again() {
     let bench = with_results();
-    for command in [&["report", "out"][..], &["report", "out", "--out", "out/mine.html"]] {
+    for command in [&["study", "report", "out"][..], &["study", "report", "out", "--out", "out/mine.html"]] {
         let operations = Trial::new(&bench, command, command).leaving_unfinished().at_every_operation();
         assert!(operations > 4, "{operations}");
     }
@@ -278,7 +278,7 @@ fn a_report_that_fails_or_dies_at_any_operation_is_written_again() {
 #[test]
 fn a_workspace_that_fails_or_dies_at_any_operation_is_made_again_to_the_same_bytes() {
     let bench = bench();
-    let workspace = ["workspace", "robot.json", "--box=0:0.1:2,0:0.1:2,1.75:1.75:1", "--out", "out"];
+    let workspace = ["workspace", "robot.json", "--region=0:0.1:2,0:0.1:2,1.75:1.75:1", "--out", "out"];
     let loaded = [&workspace[..], &["--payload", "50"]].concat();
     let again = [&loaded[..], &["--overwrite"]].concat();
     let operations = Trial::new(&bench, &loaded, &again).at_every_operation();
@@ -291,22 +291,20 @@ fn a_workspace_that_fails_or_dies_at_any_operation_is_made_again_to_the_same_byt
 }
 
 #[test]
-fn the_robustness_of_a_robot_that_fails_or_dies_at_any_operation_is_computed_again() {
-    let bench = bench();
-    let robot = data_path("robots/cogiro.json");
-    let command = ["robustness", "--robot", &robot, "--poses", "1", "--out", "out"];
-    let again = [&command[..], &["--overwrite"]].concat();
-    let operations = Trial::new(&bench, &command, &again).at_every_operation();
-    assert!(operations > 25, "{operations}");
-}
-
-#[test]
 fn a_template_a_law_and_a_figure_are_whole_or_absent() {
     let bench = bench();
     let record = data_path("cables/caroca-4mm-record.csv");
-    let new = ["study", "new", "--robot", "robot.json", "--out", "out/new.json"];
-    let modulus =
-        ["modulus", &record, "--breaking-force", "10290", "--section", "1.2566370614e-5", "--length"];
+    let new = ["study", "new", "robot.json", "--out", "out/new.json"];
+    let modulus = [
+        "cable",
+        "modulus",
+        &record,
+        "--breaking-force",
+        "10290",
+        "--section",
+        "1.2566370614e-5",
+        "--length",
+    ];
     let law = [&modulus[..], &["1", "--range", "5-10", "--law", "out/law.json"]].concat();
     put(&[("mine.csv".to_owned(), b"mine".to_vec())].into(), &bench.path("out"));
     for command in [&new[..], &law] {

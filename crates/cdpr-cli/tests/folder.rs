@@ -25,9 +25,9 @@ pub(crate) fn bench() -> Bench {
     })
 }
 
-/// `cdpr report ...`: the exit code and the standard error.
+/// `cdpr study report ...`: the exit code and the standard error.
 pub(crate) fn report(bench: &Bench, arguments: &[&str]) -> (Option<i32>, String) {
-    let output = cdpr_in(&bench.path("."), &[&["report"], arguments].concat());
+    let output = cdpr_in(&bench.path("."), &[&["study", "report"], arguments].concat());
     (output.status.code(), text(output.stderr))
 }
 
@@ -140,25 +140,16 @@ fn a_users_own_files_are_not_written_over_by_a_first_run_and_named() {
         }
         assert_eq!(everything(Path::new(&out)), [(format!("{name}/"), b"mine".to_vec())]);
     }
-    let robot = [data_path("robots/caroca.json"), data_path("robots/cogiro.json")];
-    let workspace = ["workspace", &robot[0], "--box=0:0:1,0:0:1,1.75:1.75:1"];
-    let robustness = ["robustness", "--robot", &robot[1], "--poses", "1"];
-    for (command, names) in [
-        (&workspace[..], &["workspace.csv", "workspace.json", "deflection.svg", "deflection_z00.svg"][..]),
-        (&robustness, &["solves.csv", "refused.csv", "robustness.json", "found_poses.svg"]),
-    ] {
-        for name in names {
-            let own = bench.path(&format!("own-{name}/{name}"));
-            write(&own, "mine");
-            let out = own.parent().unwrap().to_str().unwrap().to_owned();
-            let output = cdpr_in(&bench.path("."), &[command, &["--out", &out]].concat());
-            let message = text(output.stderr);
-            assert!(
-                output.status.code() == Some(1) && message.contains("was not written by a run"),
-                "{message}"
-            );
-            assert_eq!(everything(Path::new(&out)), [(format!("{name}/"), b"mine".to_vec())]);
-        }
+    let robot = data_path("robots/caroca.json");
+    let workspace = ["workspace", &robot, "--region=0:0:1,0:0:1,1.75:1.75:1"];
+    for name in ["workspace.csv", "workspace.json", "deflection.svg", "deflection_z00.svg"] {
+        let own = bench.path(&format!("own-{name}/{name}"));
+        write(&own, "mine");
+        let out = own.parent().unwrap().to_str().unwrap().to_owned();
+        let output = cdpr_in(&bench.path("."), &[&workspace[..], &["--out", &out]].concat());
+        let message = text(output.stderr);
+        assert!(output.status.code() == Some(1) && message.contains("was not written by a run"), "{message}");
+        assert_eq!(everything(Path::new(&out)), [(format!("{name}/"), b"mine".to_vec())]);
     }
 }
 
@@ -191,22 +182,23 @@ fn a_report_shows_the_region_of_a_workspace_of_its_robot() {
             &bench.path("."),
             &[&["workspace", robot, place, "--out", "map", "--overwrite"], more].concat(),
         );
-        assert!(output.status.success(), "{}", text(output.stderr));
+        // CoGiRo holds less than half of these positions.
+        assert!(matches!(output.status.code(), Some(0 | 3)), "{}", text(output.stderr));
     };
     let region = || {
-        let asked = report(&bench, &["out", "--out", "report.html", "--workspace", "map", "--overwrite"]);
+        let asked = report(&bench, &["out", "map", "--out", "report.html", "--overwrite"]);
         assert_eq!(asked, (Some(0), String::new()));
         let page = std::fs::read_to_string(bench.path("report.html")).unwrap();
         let data = page.split_once(r#"id="data">"#).unwrap().1.split_once("</script>").unwrap().0;
         serde_json::from_str::<serde_json::Value>(data).unwrap()["region"].clone()
     };
     let count = |value: &serde_json::Value| value.as_array().unwrap().len();
-    map("robot.json", "--plane=z=1.75", &["--grid", "7x7", "--boundary"]);
+    map("robot.json", "--region=::7,::7,1.75", &["--with", "boundary"]);
     let plane = region();
     assert!(count(&plane["lines"]) == 1 && count(&plane["lines"][0]) > 50, "{plane}");
     let corners = plane["points"].as_array().unwrap();
     assert!(corners.iter().all(|point| point[2] == 1.75 && point[0].as_f64().unwrap().abs() < 3.6));
-    map("robot.json", "--box=-3.4:3.4:5,-1.9:1.9:4,0.5:2.5:3", &["--boundary"]);
+    map("robot.json", "--region=-3.4:3.4:5,-1.9:1.9:4,0.5:2.5:3", &["--with", "boundary"]);
     let space = region();
     assert!(count(&space["triangles"]) > 100 && count(&space["lines"]) == 0, "{space}");
     let last = count(&space["points"]) as u64;
@@ -214,14 +206,14 @@ fn a_report_shows_the_region_of_a_workspace_of_its_robot() {
         space["triangles"].as_array().unwrap().iter().flat_map(|corners| corners.as_array().unwrap());
     assert!(triangles.clone().all(|corner| corner.as_u64().unwrap() < last));
 
-    map("robot.json", "--plane=z=1.75", &["--grid", "3x3"]);
-    let asked = |folder: &str| report(&bench, &["out", "--out", "report.html", "--workspace", folder]);
+    map("robot.json", "--region=::3,::3,1.75", &[]);
+    let asked = |folder: &str| report(&bench, &["out", folder, "--out", "report.html"]);
     let (code, message) = asked("map");
     assert!(
         code == Some(1) && message.contains("workspace.json: boundary is null: expected that of"),
         "{message}"
     );
-    map("cogiro", "--plane=z=1.5", &["--grid", "5x5", "--boundary"]);
+    map("cogiro", "--region=::5,::5,1.5", &["--with", "boundary"]);
     let (code, message) = asked("map");
     assert!(code == Some(1) && message.contains("the robot of the workspace is CoGiRo"), "{message}");
     assert_eq!(asked("out").0, Some(1));
@@ -364,7 +356,7 @@ fn pipes_in_a_folder_of_results_are_not_waited_for() {
             &["study", "run", "study.json", "--out", "out", "--overwrite"],
             &["study", "merge", "out"],
             &["study", "status", "out"],
-            &["report", "out"],
+            &["study", "report", "out"],
         ] {
             let mut command = bench.command("timeout");
             let output = command.arg("20").arg(env!("CARGO_BIN_EXE_cdpr")).args(arguments).output().unwrap();
@@ -382,7 +374,7 @@ fn results_of_another_kind_are_not_written_into_a_folder() {
     let before = bench.files("out");
     let robot = data_path("robots/caroca.json");
     let workspace =
-        cdpr_in(&bench.path("."), &["workspace", &robot, "--box=0:0:1,0:0:1,1.75:1.75:1", "--out", "out"]);
+        cdpr_in(&bench.path("."), &["workspace", &robot, "--region=0:0:1,0:0:1,1.75:1.75:1", "--out", "out"]);
     let message = text(workspace.stderr);
     assert!(message.contains("out holds the results of a study: expected those of a workspace"), "{message}");
     assert_eq!(bench.files("out"), before);

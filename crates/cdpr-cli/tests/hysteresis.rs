@@ -6,7 +6,7 @@ use std::process::Output;
 
 fn hysteresis(more: &[&str]) -> Output {
     let (robot, record) = (data_path("robots/caroca.json"), data_path("cables/caroca-4mm-record.csv"));
-    let given = ["hysteresis", &robot, "--record", &record, "--length", "1", "--pose", "0,0,1.75"];
+    let given = ["hysteresis", &robot, "--law", &record, "--length", "1", "--pose", "0,0,1.75"];
     cdpr(&[&given[..], more].concat())
 }
 
@@ -43,7 +43,7 @@ fn down_and_left(found: &Value) -> [f64; 2] {
 #[test]
 fn a_law_file_says_what_its_record_says() {
     let robot = data_path("robots/caroca.json");
-    let of_record = json(&[&robot, "--record", &data_path("cables/caroca-4mm-record.csv"), "--length", "1"]);
+    let of_record = json(&[&robot, "--law", &data_path("cables/caroca-4mm-record.csv"), "--length", "1"]);
     let of_law = json(&[&robot, "--law", &data_path("cables/caroca-4mm-law.json")]);
     for (one, other) in down_and_left(&of_record).into_iter().zip(down_and_left(&of_law)) {
         // Moduli of the file are rounded to six digits.
@@ -72,7 +72,7 @@ fn cables_of_other_moduli_follow_the_record_and_those_of_other_sections_its_stre
         robot["cables"][2]["cable"] = other;
         std::fs::write(&path, robot.to_string()).unwrap();
     };
-    let record = ["--record", &data_path("cables/caroca-4mm-record.csv"), "--length", "1"];
+    let record = ["--law", &data_path("cables/caroca-4mm-record.csv"), "--length", "1"];
     let even = json(&[&[data_path("robots/caroca.json").as_str()], &record[..]].concat());
     write(&|cable| cable["youngs_modulus"] = 0.5e11.into());
     let other_modulus = json(&[&[file], &record[..]].concat());
@@ -96,7 +96,7 @@ fn cables_of_other_moduli_follow_the_record_and_those_of_other_sections_its_stre
 
 #[test]
 fn a_loop_that_gives_energy_is_said_to_do_so() {
-    let output = hysteresis(&["--payload", "50", "--unloading", "same-tension"]);
+    let output = hysteresis(&["--payload", "50", "--with", "same-tension"]);
     assert!(output.status.success());
     let warning = text(output.stderr);
     assert!(warning.contains("runs the wrong way round"), "{warning}");
@@ -141,7 +141,7 @@ fn a_platform_that_falls_in_its_load_cycle_has_an_answer_and_the_exit_code_3() {
     std::fs::write(&path, robot.to_string()).unwrap();
     let law = data_path("cables/caroca-4mm-law.json");
     let given = ["hysteresis", path.to_str().unwrap(), "--law", &law, "--pose", "0.5,0.3,2", "--free"];
-    let given = [&given[..], &["roll,pitch", "--payload", "150", "--steps", "5"]].concat();
+    let given = [&given[..], &["roll,pitch", "--payload", "150", "--with", "steps=5"]].concat();
     let output = cdpr(&given);
     assert_eq!(output.status.code(), Some(3), "{}", text(output.stderr));
     assert!(text(output.stdout).contains("the platform falls from"));

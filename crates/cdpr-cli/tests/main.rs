@@ -19,6 +19,7 @@ mod explore;
 #[cfg(debug_assertions)]
 mod faults;
 mod folder;
+mod grammar;
 mod hysteresis;
 mod library;
 mod models;
@@ -30,7 +31,6 @@ mod ours;
 mod path;
 mod poses;
 mod questions;
-mod robustness;
 mod shell;
 mod strangers;
 mod study_blocks;

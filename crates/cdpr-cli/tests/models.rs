@@ -40,13 +40,8 @@ fn a_cable_is_that_of_40_digit_arithmetic_whichever_two_of_its_values_are_known(
     for case in cases.iter().take(24) {
         let of = |key: &str| number(&case[key]);
         let (length, end) = (of("unstrained_length"), joined(&[of("x"), of("z")]));
-        let cable = [
-            "catenary",
-            "--weight",
-            &of("weight_per_length").to_string(),
-            "--stiffness",
-            &of("axial_stiffness").to_string(),
-        ];
+        let cable = format!("weight={},stiffness={}", of("weight_per_length"), of("axial_stiffness"));
+        let cable = ["cable", "catenary", &cable];
         // Some of the cables are of no material, which is questioned; the answer is as exact.
         let answer = |arguments: &[&str]| -> Value {
             let output = cdpr(&[arguments, &["--format", "json"]].concat());
@@ -66,7 +61,8 @@ fn a_cable_is_that_of_40_digit_arithmetic_whichever_two_of_its_values_are_known(
         assert!(number(&known["sag"]) >= 0.0 && known["energy"].is_f64());
 
         let force_text = joined(&found);
-        let end_found = answer(&[&cable[..], &["--length", &length_text, "--force", &force_text]].concat());
+        let end_found =
+            answer(&[&cable[..], &["--length", &length_text, "--end-force", &force_text]].concat());
         let apart = vector(&json!([end_found["end"][0], end_found["end"][1], 0.0]))
             - Vector3::new(of("x"), of("z"), 0.0);
         assert!(apart.norm() < 1e-12 * length, "{case}: {end_found}");
@@ -81,8 +77,7 @@ fn a_cable_is_that_of_40_digit_arithmetic_whichever_two_of_its_values_are_known(
             );
         }
     }
-    let printed =
-        printed(&["catenary", "--weight", "2", "--stiffness", "1e6", "--length", "6", "--end", "5,0"]);
+    let printed = printed(&["cable", "catenary", "weight=2,stiffness=1e6", "--length", "6", "--end", "5,0"]);
     assert!(printed.contains("anchor point       (5.000000, 0.000000) m"), "{printed}");
 }
 
@@ -112,7 +107,7 @@ fn direct_case(case: &Value) -> Value {
     let q = UnitQuaternion::from_matrix(&rotation);
     let p = numbers(&case["start_position"]);
     json!({
-        "lengths": numbers(&case["unstrained_lengths"]), "start": [p[0], p[1], p[2], q.w, q.i, q.j, q.k],
+        "lengths": numbers(&case["unstrained_lengths"]), "pose": [p[0], p[1], p[2], q.w, q.i, q.j, q.k],
         "force": numbers(&case["external_force"]), "moment": numbers(&case["external_moment"]),
     })
 }
@@ -220,7 +215,7 @@ fn the_deflection_is_that_of_the_paper_s_nominal_robot() {
     let arguments = ["deflection", &robot, "--pose", "0,0,1.75", "--payload", "50"];
     let found = answer(&arguments);
     let exact = deflection(&caroca(), &Pose::at(0.0, 0.0, 1.75), &Load::payload(50.0)).unwrap();
-    assert_eq!(number(&found["rms_mm"]), 1e3 * exact.rms());
+    assert_eq!(number(&found["magnitude_mm"]), 1e3 * exact.magnitude());
     assert_eq!(numbers(&found["deflection_mm"]), (1e3 * exact.displacement()).as_slice());
     assert_eq!(numbers(&found["loaded"]["tensions"]), exact.loaded.equilibrium.tensions());
     assert!(printed(&arguments).contains("dp = (0.00000, 0.00000, -1.33124) mm, |dp| = 1.33124 mm"));
@@ -252,17 +247,17 @@ fn the_stiffness_predicts_the_displacement_under_a_small_force() {
 
 #[test]
 fn a_check_ends_with_its_own_code_where_it_warns() {
-    let notes = printed(&["check", &data_path("robots/caroca.json")]);
+    let notes = printed(&["robot", "check", &data_path("robots/caroca.json")]);
     assert!(notes.contains(
         "note: cable 3, cables[2].exit_point is [-3.5, 2.0, 3.5] m: the same place as that of cable 1"
     ));
     assert!(notes.ends_with("CAROCA: 8 cables, 0 warnings, 5 notes\n"), "{notes}");
-    assert_eq!(answer(&["check", &data_path("robots/cogiro.json")]), json!([]));
+    assert_eq!(answer(&["robot", "check", &data_path("robots/cogiro.json")]), json!([]));
 
     let folder = TempDir::new().unwrap();
     let path = folder.path().join("robot.json");
     std::fs::write(&path, data_text("robots/cogiro.json").replace("1.0e11", "100")).unwrap();
-    let output = cdpr(&["check", path.to_str().unwrap(), "--format", "json"]);
+    let output = cdpr(&["robot", "check", path.to_str().unwrap(), "--format", "json"]);
     assert_eq!(output.status.code(), Some(3));
     let findings: Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(findings[0]["severity"], "warning");
@@ -281,7 +276,7 @@ fn natural_frequencies_are_those_of_the_library_by_pose_and_by_lengths() {
     let at_pose = answer(&["modes", &file, "--pose", "0.5,0.2,2"]);
     assert_eq!(numbers(&at_pose["frequencies_hz"]), expected);
     let lengths = joined(&inverse(&robot, &pose, &Load::none()).unwrap().lengths);
-    let by_lengths = answer(&["modes", &file, "--lengths", &lengths, "--start", "0,0,2.5"]);
+    let by_lengths = answer(&["modes", &file, "--lengths", &lengths, "--pose", "0,0,2.5"]);
     for (one, other) in numbers(&by_lengths["frequencies_hz"]).into_iter().zip(&expected) {
         assert!(close(one, *other, 1e-9));
     }
@@ -314,7 +309,7 @@ fn every_answer_with_a_frequency_says_how_slowly_the_cables_themselves_vibrate()
     let map = [
         "workspace",
         &file,
-        "--box=0:1:2,0:1:2,2:2:1",
+        "--region=0:1:2,0:1:2,2:2:1",
         "--out",
         folder.path().to_str().unwrap(),
         "--overwrite",
@@ -378,8 +373,7 @@ fn paths_and_capacities_end_with_the_branch() {
 
 #[test]
 fn a_catenary_beyond_ten_percent_of_strain_is_refused() {
-    let refused =
-        cdpr(&["catenary", "--weight", "1", "--stiffness", "1000", "--length", "3", "--end", "4,-1"]);
+    let refused = cdpr(&["cable", "catenary", "weight=1,stiffness=1000", "--length", "3", "--end", "4,-1"]);
     assert_eq!(refused.status.code(), Some(1));
     let said = text(refused.stderr);
     assert!(said.contains("strains the cable by") && said.contains("beyond the 10 %"), "{said}");

@@ -1,4 +1,4 @@
-//! `cdpr modulus` and `cdpr linear-density` as a user meets them.
+//! `cdpr cable modulus` and `cdpr cable density` as a user meets them.
 
 use crate::common::{cdpr, data_path, text};
 use serde_json::Value;
@@ -10,7 +10,7 @@ fn record() -> String {
 
 fn modulus(record: &str, more: &[&str]) -> Output {
     let specimen = ["--breaking-force", "10290", "--section", "1.2566370614e-5", "--length", "1"];
-    cdpr(&[&["modulus", record], &specimen[..], more].concat())
+    cdpr(&[&["cable", "modulus", record], &specimen[..], more].concat())
 }
 
 #[test]
@@ -31,22 +31,11 @@ fn moduli_of_several_ranges_come_as_json_and_the_loop_as_a_picture() {
 }
 
 #[test]
-fn a_published_table_stands_beside_the_record_and_its_inconsistent_entry_is_named() {
+fn the_law_of_a_record_is_written() {
     let folder = tempfile::tempdir().unwrap();
     let law = folder.path().join("law.json");
-    let (record, table) = (record(), data_path("cables/caroca-4mm.json"));
-    let with = ["modulus", &record, "--published", &table, "--length", "1", "--law", law.to_str().unwrap()];
-    let text = text(cdpr(&with).stdout);
-    assert!(text.contains("E_10-30 while loading: 102.2 GPa is published, 101.5 GPa follows"), "{text}");
-    let output = cdpr(&[&with[..], &["--format", "json"]].concat());
-    let found: Value = serde_json::from_slice(&output.stdout).unwrap();
-    let entries = found["published"].as_array().unwrap();
-    let inconsistent: Vec<_> = entries.iter().filter(|entry| entry["consistent"] == false).collect();
-    assert_eq!((entries.len(), inconsistent.len()), (16, 1));
-    assert_eq!(
-        (&inconsistent[0]["phase"], &inconsistent[0]["from_percent"]),
-        (&"loading".into(), &10.0.into())
-    );
+    let output = modulus(&record(), &["--range", "5-10", "--law", law.to_str().unwrap()]);
+    assert!(output.status.success(), "{}", text(output.stderr));
     let law = cdpr_study::open_law(&law).unwrap();
     assert!(
         (law.loading[1].modulus / 8.32e10 - 1.0).abs() < 1e-9
@@ -77,12 +66,12 @@ fn what_cannot_be_answered_ends_with_an_error_that_says_why() {
 
 #[test]
 fn a_weighing_gives_the_linear_density_with_its_error() {
-    let weighing = ["--mass", "0.203", "--length", "2", "--mass-error", "0.001", "--length-error", "0.001"];
-    let output = cdpr(&[&["linear-density"], &weighing[..], &["--format", "json"]].concat());
+    let weighing = ["--mass", "0.203", "--length", "2", "--errors", "mass=0.001,length=0.001"];
+    let output = cdpr(&[&["cable", "density"], &weighing[..], &["--format", "json"]].concat());
     let found: Value = serde_json::from_slice(&output.stdout).unwrap();
     assert!((found["linear_density"].as_f64().unwrap() - 0.1015).abs() < 1e-12);
     assert!((found["error"].as_f64().unwrap() - 5.5075e-4).abs() < 1e-12);
-    let refused = cdpr(&["linear-density", "--mass", "1", "--length", "0"]);
+    let refused = cdpr(&["cable", "density", "--mass", "1", "--length", "0"]);
     assert!(!refused.status.success());
     assert!(text(refused.stderr).contains("length is 0: expected a length"));
 }

@@ -43,27 +43,30 @@ fn a_file_of_another_kind_is_named_with_the_command_that_takes_it() {
     let modulus = "--breaking-force 10290 --section 1e-5 --length 1 --range 5-10";
     for (command, message) in [
         (
-            "check study.json".to_owned(),
+            "robot check study.json".to_owned(),
             "study.json is a study file: expected a robot file: `cdpr study run` takes it",
         ),
         (
-            "check broken-study.json".to_owned(),
+            "robot check broken-study.json".to_owned(),
             "broken-study.json is a study file: expected a robot file: `cdpr study run` takes it",
         ),
         (
             "study run robot.json".to_owned(),
-            "robot.json is a robot file: expected a study file: `cdpr check`",
+            "robot.json is a robot file: expected a study file: `cdpr robot check`",
         ),
         (format!("inverse law.json {at}"), "law.json is a law file: expected a robot file: `cdpr hysteresis"),
-        (format!("inverse poses.csv {at}"), "poses.csv is a table: expected a robot file: `cdpr import`"),
+        (
+            format!("inverse poses.csv {at}"),
+            "poses.csv is a table: expected a robot file: `cdpr robot import`",
+        ),
         (
             format!("inverse yaml.yaml {at}"),
-            "yaml.yaml is a file to import: expected a robot file: `cdpr import`",
+            "yaml.yaml is a file to import: expected a robot file: `cdpr robot import`",
         ),
         (format!("inverse page.html {at}"), "page.html is a file to import: expected a robot file"),
         (
             "inverse robot.json --poses robot.json".to_owned(),
-            "robot.json is a robot file: expected a list of poses: `cdpr check` takes it",
+            "robot.json is a robot file: expected a list of poses: `cdpr robot check` takes it",
         ),
         (
             "inverse robot.json --poses list.json".to_owned(),
@@ -72,13 +75,9 @@ fn a_file_of_another_kind_is_named_with_the_command_that_takes_it() {
         ("analyse study.json".to_owned(), "study.json is a study file: expected a table: `cdpr study run`"),
         (
             "analyse measurements.json".to_owned(),
-            "measurements.json is measurements: expected a table: `cdpr calibrate --measurements` takes it",
+            "measurements.json is measurements: expected a table: `cdpr calibrate fit` takes it",
         ),
-        (format!("modulus robot.json {modulus}"), "robot.json is a robot file: expected a record"),
-        (
-            "modulus record.csv --length 1 --published robot.json".to_owned(),
-            "robot.json is a robot file: expected a file of moduli",
-        ),
+        (format!("cable modulus robot.json {modulus}"), "robot.json is a robot file: expected a record"),
         (
             format!("hysteresis robot.json {at} --payload 5 --law robot.json"),
             "robot.json is a robot file: expected a law file",
@@ -88,18 +87,18 @@ fn a_file_of_another_kind_is_named_with_the_command_that_takes_it() {
             "study.json is a study file: expected a file of cases",
         ),
         (
-            "calibrate robot.json --measurements robot.json --noise length=1e-3 --out out".to_owned(),
-            "robot.json is a robot file: expected measurements: `cdpr check` takes it",
+            "calibrate fit robot.json robot.json --noise length=1e-3 --out out".to_owned(),
+            "robot.json is a robot file: expected measurements: `cdpr robot check` takes it",
         ),
         (
-            "import robot.json".to_owned(),
-            "robot.json is a robot file: expected a file to import: `cdpr check`",
+            "robot import robot.json".to_owned(),
+            "robot.json is a robot file: expected a file to import: `cdpr robot check`",
         ),
         (
-            "import poses.csv --cable robot.json".to_owned(),
-            "robot.json is a robot file: expected a cable file: `cdpr check` takes it",
+            "robot import poses.csv --cable robot.json".to_owned(),
+            "robot.json is a robot file: expected a cable file: `cdpr robot check` takes it",
         ),
-        ("report study.json".to_owned(), "study.json is a file: expected a folder of results"),
+        ("study report study.json".to_owned(), "study.json is a file: expected a folder of results"),
         ("study status study.json".to_owned(), "study.json is a file: expected a folder of results"),
     ] {
         let said = refused(folder.path(), &command);
@@ -110,7 +109,10 @@ fn a_file_of_another_kind_is_named_with_the_command_that_takes_it() {
 #[test]
 fn an_error_model_is_one_and_no_study_or_robot() {
     let folder = folder();
-    let calibrate = "calibrate robot.json --noise length=1e-3 --out out --measurements poses.csv --model";
+    let calibrate = "calibrate fit robot.json --noise length=1e-3 --out out poses.csv --uncertainty";
     let said = refused(folder.path(), &format!("{calibrate} robot.json"));
-    assert!(said.contains("robot.json is a robot file: expected an error model: `cdpr check`"), "{said}");
+    assert!(
+        said.contains("robot.json is a robot file: expected an error model: `cdpr robot check`"),
+        "{said}"
+    );
 }

@@ -4,7 +4,7 @@ use crate::common::{cdpr_in, data_path, text};
 use std::path::Path;
 use std::process::{Command, Output};
 
-const PLACE: &str = "--box=0:0:1,0:0:1,1.75:1.75:1";
+const PLACE: &str = "--region=0:0:1,0:0:1,1.75:1.75:1";
 
 fn refused(output: Output, words: &str) {
     let message = text(output.stderr);
@@ -22,25 +22,25 @@ fn writers() -> Vec<(Vec<String>, &'static str, &'static str)> {
     let source = data_path("reference/exchange/caroca.yaml");
     let study = data_path("studies/caroca.json");
     let simulate = format!(
-        "calibration simulate {caroca} --model {study} --error-model table_3 --poses poses.csv --noise \
+        "calibrate simulate {caroca} --uncertainty {study}:table_3 --poses poses.csv --noise \
          position=1e-4,rotation=1e-4,length=1e-4 --seed 1"
     );
     let plan = format!(
-        "calibration plan {caroca} --poses poses.csv --noise position=1e-4,rotation=1e-4 --count 1 \
+        "calibrate plan {caroca} --poses poses.csv --noise position=1e-4,rotation=1e-4 --count 1 \
          --uncertainty a=0.001"
     );
-    let load_cycle = format!("hysteresis {caroca} --pose 0,0,1.75 --payload 50 --record {record} --length 1");
+    let load_cycle = format!("hysteresis {caroca} --pose 0,0,1.75 --payload 50 --law {record} --length 1");
     let modulus = "--breaking-force 10290 --section 1.2566370614e-5 --length 1 --range 5-10";
     [
         (
-            format!("import {source} --cable steel-4mm --tension-limits 50,10000 --out FILE"),
+            format!("robot import {source} --cable steel-4mm --tension-limits 50,10000 --out FILE"),
             "json",
             "cdpr-robot/1",
         ),
-        (format!("export {caroca} --to mjcf --pose 0,0,1.75 --out FILE"), "xml", "<mujoco"),
-        (format!("export {caroca} --to moorpy --pose 0,0,1.75 --out FILE"), "txt", "LINE TYPES"),
-        (format!("modulus {record} {modulus} --law FILE"), "json", "cdpr-law/1"),
-        (format!("modulus {record} {modulus} --figure FILE"), "svg", "<svg"),
+        (format!("robot export {caroca} --to mjcf --pose 0,0,1.75 --out FILE"), "xml", "<mujoco"),
+        (format!("robot export {caroca} --to moorpy --pose 0,0,1.75 --out FILE"), "txt", "LINE TYPES"),
+        (format!("cable modulus {record} {modulus} --law FILE"), "json", "cdpr-law/1"),
+        (format!("cable modulus {record} {modulus} --figure FILE"), "svg", "<svg"),
         (format!("path {caroca} --poses poses.csv --payload 50 --figure FILE"), "svg", " along a path of "),
         (format!("explore {caroca} --out FILE"), "html", "content=\"cdpr explorer "),
         (format!("{simulate} --out FILE"), "csv", "pose,cable"),
@@ -81,10 +81,10 @@ fn a_name_that_says_another_format_is_refused_before_anything_is_computed() {
     let folder = tempfile::tempdir().unwrap();
     let caroca = data_path("robots/caroca.json");
     let more = [
-        (format!("export {caroca} --to caspr --pose 0,0,1.75 --out FILE"), "json"),
-        (format!("study new --robot {caroca} --out FILE"), "json"),
-        (format!("calibration plan {caroca} --poses poses.csv --parameters mass --out FILE"), "csv"),
-        ("report results --out FILE".to_owned(), "html"),
+        (format!("robot export {caroca} --to caspr --pose 0,0,1.75 --out FILE"), "json"),
+        (format!("study new {caroca} --out FILE"), "json"),
+        (format!("calibrate plan {caroca} --poses poses.csv --uncertainty mass=1 --out FILE"), "csv"),
+        ("study report results --out FILE".to_owned(), "html"),
     ];
     let split = |(command, ending): (String, _)| (command.split(' ').map(str::to_owned).collect(), ending);
     let known = writers().into_iter().map(|(command, ending, _)| (command, ending));
@@ -107,7 +107,7 @@ fn a_name_that_says_another_format_is_refused_before_anything_is_computed() {
 fn a_map_is_replaced_on_request_only_and_robots_have_folders_of_their_own() {
     let folder = tempfile::tempdir().unwrap();
     let run = |robot: &str, more: &[&str]| {
-        cdpr_in(folder.path(), &[&["workspace", robot, PLACE, "--draw", "0"], more].concat())
+        cdpr_in(folder.path(), &[&["workspace", robot, PLACE, "--with", "layers=0"], more].concat())
     };
     done(run("caroca", &[]));
     done(run("cogiro", &[]));
@@ -132,7 +132,7 @@ fn results_that_were_changed_are_refused_by_every_reader_and_kept_by_every_run()
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
     std::fs::copy(data_path("robots/caroca.json"), here.join("caroca.json")).unwrap();
-    done(cdpr_in(here, &["study", "new", "--robot", "caroca.json", "--out", "study.json"]));
+    done(cdpr_in(here, &["study", "new", "caroca.json", "--out", "study.json"]));
     let run = ["study", "run", "study.json", "--out", "out", "--observations", "64", "--table", "csv"];
     done(cdpr_in(here, &run));
     let names = std::fs::read_dir(here.join("out")).unwrap().map(|entry| entry.unwrap().file_name());
@@ -143,7 +143,7 @@ fn results_that_were_changed_are_refused_by_every_reader_and_kept_by_every_run()
     let whole = std::fs::read(&path).unwrap();
     add(&path, "\n");
     let words = "is not what the run has written here";
-    refused(cdpr_in(here, &["analyse", "out", "--table", table.strip_suffix(".csv").unwrap()]), words);
+    refused(cdpr_in(here, &["analyse", &format!("out/{table}")]), words);
     refused(cdpr_in(here, &["analyse", path.to_str().unwrap()]), words);
     // A run that would replace it says so before it computes anything.
     refused(cdpr_in(here, &[&run[..], &["--resume"]].concat()), words);
@@ -154,11 +154,11 @@ fn results_that_were_changed_are_refused_by_every_reader_and_kept_by_every_run()
     let path = here.join("out/summary.json");
     let whole = std::fs::read(&path).unwrap();
     add(&path, "\n");
-    refused(cdpr_in(here, &["report", "out"]), words);
+    refused(cdpr_in(here, &["study", "report", "out"]), words);
     std::fs::write(&path, whole).unwrap();
-    done(cdpr_in(here, &["report", "out"]));
+    done(cdpr_in(here, &["study", "report", "out"]));
     add(&here.join("out/report.html"), "<!-- mine -->");
-    refused(cdpr_in(here, &["report", "out"]), words);
+    refused(cdpr_in(here, &["study", "report", "out"]), words);
 }
 
 #[test]
@@ -167,12 +167,13 @@ fn the_region_of_another_robot_of_the_same_name_is_refused() {
     let here = folder.path();
     let robot = std::fs::read_to_string(data_path("robots/caroca.json")).unwrap();
     std::fs::write(here.join("robot.json"), &robot).unwrap();
-    done(cdpr_in(here, &["study", "new", "--robot", "robot.json", "--out", "study.json"]));
+    done(cdpr_in(here, &["study", "new", "robot.json", "--out", "study.json"]));
     done(cdpr_in(here, &["study", "run", "study.json", "--out", "out", "--observations", "64"]));
-    let map = ["workspace", "robot.json", "--plane", "z=1.75", "--grid", "3x3", "--boundary", "--out", "map"];
+    let map =
+        ["workspace", "robot.json", "--region", "-2:2:3,-1:1:3,1.75", "--with", "boundary", "--out", "map"];
     let map = [&map[..], &["--overwrite"]].concat();
     done(cdpr_in(here, &map));
-    let report = ["report", "out", "--out", "with.html", "--workspace", "map"];
+    let report = ["study", "report", "out", "map", "--out", "with.html"];
     done(cdpr_in(here, &report));
     let heavier = robot.replace("\"mass\": 180", "\"mass\": 150");
     assert_ne!(heavier, robot);

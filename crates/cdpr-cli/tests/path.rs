@@ -62,7 +62,8 @@ fn a_path_tells_of_each_pose_what_the_other_commands_say() {
                     assert!((on_path / alone - 1.0).abs() < 1e-9, "{robot} {name}: {on_path} {alone}");
                 }
             }
-            let (on_path, alone) = (row["rms_mm"].as_f64().unwrap(), deflection["rms_mm"].as_f64().unwrap());
+            let (on_path, alone) =
+                (row["magnitude_mm"].as_f64().unwrap(), deflection["magnitude_mm"].as_f64().unwrap());
             assert!((on_path / alone - 1.0).abs() < 1e-6, "{robot}: {on_path} mm, {alone} mm");
             // The sag of a taut parabola is w c h/8T over its chord c and horizontal part h (Irvine 1981).
             let content: Value = serde_json::from_str(&std::fs::read_to_string(&robot).unwrap()).unwrap();
@@ -98,7 +99,7 @@ fn the_frequency_of_a_path_without_load_is_that_of_the_modes() {
         let first = numbers(&modes["frequencies_hz"])[0];
         assert!((found / first - 1.0).abs() < 1e-6, "{found} Hz, {first} Hz");
         // Nothing displaces it but rounding.
-        assert!(row[column(&headers, "rms_mm")].parse::<f64>().unwrap() < 1e-9);
+        assert!(row[column(&headers, "magnitude_mm")].parse::<f64>().unwrap() < 1e-9);
     }
 }
 
@@ -136,7 +137,7 @@ fn the_standard_deviations_of_a_path_are_those_of_the_derivatives() {
                 let on_path: f64 = row[name].parse().unwrap();
                 assert!((on_path / expected - 1.0).abs() < 1e-5, "{robot} {name}: {on_path} {expected}");
             };
-            same("std_rms_mm", std(&|k| found["rms_mm"][k].as_f64().unwrap()));
+            same("std_magnitude_mm", std(&|k| found["magnitude_mm"][k].as_f64().unwrap()));
             same("std_dz_mm", std(&|k| found["deflection_mm"][k][2].as_f64().unwrap()));
             same("std_length_2_m", std(&|k| found["unstrained_lengths"][k][1].as_f64().unwrap()));
         }

@@ -136,7 +136,7 @@ fn a_table_has_the_numbers_of_the_lines_of_json_to_the_last_bit() {
                 ],
                 "deflection" => vec![
                     (names(&["dx_mm", "dy_mm", "dz_mm"]), &json[0]["deflection_mm"]),
-                    (names(&["rms_mm"]), &json[0]["rms_mm"]),
+                    (names(&["magnitude_mm"]), &json[0]["magnitude_mm"]),
                     (names(&["rx_deg", "ry_deg", "rz_deg"]), &json[0]["rotation_deg"]),
                     (cables("length", "m"), &json[0]["lengths"]),
                     (cables("unloaded_tension", "n"), &json[0]["unloaded"]["tensions"]),
@@ -164,7 +164,7 @@ fn a_table_has_the_numbers_of_the_lines_of_json_to_the_last_bit() {
                     let vector = ["dx_mm", "dy_mm", "dz_mm"].map(|name| format!("{name}/{parameter}"));
                     let lengths = (1..=8).map(|i| format!("length_{i}_m/{parameter}")).collect();
                     vec![
-                        (all("rms_mm"), &json[0]["rms_mm"]),
+                        (all("magnitude_mm"), &json[0]["magnitude_mm"]),
                         (vector.to_vec(), &json[0]["deflection_mm"][last]),
                         (lengths, &json[0]["unstrained_lengths"][last]),
                     ]
@@ -250,15 +250,15 @@ fn angles_and_a_quaternion_are_one_rotation_which_stands_in_the_heading() {
             assert!(!level.lines().next().unwrap().contains("yaw"), "{level}");
         }
         let hysteresis = ["hysteresis", &path, "--law", &data_path("cables/caroca-4mm-law.json")];
-        let hysteresis = [&hysteresis[..], &["--payload", "20", "--steps", "2"]].concat();
+        let hysteresis = [&hysteresis[..], &["--payload", "20", "--with", "steps=2"]].concat();
         assert_eq!(
             answered(cdpr(&[&hysteresis[..], &by_angles].concat())),
             answered(cdpr(&[&hysteresis[..], &["--pose", &quaternion]].concat()))
         );
         let lengths = joined(&flat(&answer(&[&["inverse", &path], &by_angles[..]].concat())["lengths"]));
         let direct = ["direct", &path, "--lengths", &lengths];
-        let found = answer(&[&direct[..], &["--start", &at, "--rpy", "0", "0", "10"]].concat());
-        let level = answer(&[&direct[..], &["--start", &at]].concat());
+        let found = answer(&[&direct[..], &["--pose", &at, "--rpy", "0", "0", "10"]].concat());
+        let level = answer(&[&direct[..], &["--pose", &at]].concat());
         let iterations = |found: &Value| found["report"]["iterations"].as_u64().unwrap();
         assert!(iterations(&found) < iterations(&level), "{found} {level}");
         let apart = vector(&found["position"]) - vector(&Value::from(position.to_vec()));
@@ -271,7 +271,7 @@ fn a_workspace_takes_angles_too() {
     let folder = TempDir::new().unwrap();
     let (robot, out) = (data_path("robots/caroca.json"), folder.path().join("out"));
     let run = |rotation: &[&str]| {
-        let place = ["workspace", &robot, "--plane", "z=1.75", "--grid", "3x3", "--format", "json"];
+        let place = ["workspace", &robot, "--region", "0,0,1.75", "--format", "json"];
         let answer = answered(cdpr(&[&place[..], &["--out", out.to_str().unwrap()], rotation].concat()));
         serde_json::from_str::<Value>(&answer).unwrap()
     };
@@ -292,12 +292,12 @@ fn rotations_in_doubt_are_questioned() {
     for (arguments, words) in [
         (vec!["inverse", &robot, "--pose", "0,0,2,1,1,0,0"], "such as 0.707107,0.707107,0,0"),
         (vec!["stiffness", &robot, "--pose", at], reordered),
-        (vec!["direct", &robot, "--lengths", lengths, "--start", at], reordered),
-        (vec!["workspace", &robot, "--plane", "z=1", "--rotation", "0,0,0,1"], "would be 1,0,0,0"),
-        (vec!["workspace", &robot, "--plane", "z=1", "--rotation", "0,0,0,2"], "has the length 2.0000"),
+        (vec!["direct", &robot, "--lengths", lengths, "--pose", at], reordered),
+        (vec!["inverse", &robot, "--pose", "0,0,2,0,0,0,1"], "would be 1,0,0,0"),
+        (vec!["inverse", &robot, "--pose", "0,0,2,0,0,0,2"], "has the length 2.0000"),
         (vec!["inverse", &robot, "--pose", "0,0,2,0.6,0,0,0.8", "--rpy", "0", "0", "9"], no_rotation),
         (vec!["inverse", &robot, "--pose", "0,0,2", "--rpy", "0", "9"], "2 numbers: expected 3"),
-        (vec!["direct", &robot, "--lengths", lengths, "--rpy", "0", "0", "9"], "expected --start, too"),
+        (vec!["direct", &robot, "--lengths", lengths, "--rpy", "0", "0", "9"], "expected --pose, too"),
     ] {
         let output = cdpr(&arguments);
         let error = text(output.stderr);
@@ -312,7 +312,7 @@ fn the_direct_model_under_a_payload_finds_the_loaded_platform_of_the_deflection(
         let (path, at) = (data_path(robot), joined(&position));
         let deflection = answer(&["deflection", &path, "--pose", &at, "--payload", "50"]);
         let lengths = joined(&flat(&deflection["lengths"]));
-        let direct = ["direct", &path, "--lengths", &lengths, "--start", &at];
+        let direct = ["direct", &path, "--lengths", &lengths, "--pose", &at];
         let found = answer(&[&direct[..], &["--payload", "50"]].concat());
         let apart = vector(&found["position"]) - vector(&deflection["loaded"]["position"]);
         assert!(apart.norm() < 1e-9, "{robot}: {apart}");
@@ -321,7 +321,7 @@ fn the_direct_model_under_a_payload_finds_the_loaded_platform_of_the_deflection(
 
         let folder = TempDir::new().unwrap();
         let file = folder.path().join("case.json");
-        let case = format!("{{\"lengths\": [{lengths}], \"payload\": 50, \"start\": [{at}]}}");
+        let case = format!("{{\"lengths\": [{lengths}], \"payload\": 50, \"pose\": [{at}]}}");
         std::fs::write(&file, case).unwrap();
         assert_eq!(answer(&["direct", &path, "--from", file.to_str().unwrap()]), found);
 

@@ -34,17 +34,17 @@ fn asks(command: &str, expected: &[(&str, &str)]) {
 fn typed_numbers_in_another_unit_are_questioned_and_taken() {
     let folder = tempfile::TempDir::new().unwrap();
     let out = |name: &str| format!("--out {}", folder.path().join(name).display());
-    let map = |where_: &str, name: &str| format!("workspace caroca {where_} --grid 3x3 {}", out(name));
+    let map = |where_: &str, name: &str| format!("workspace caroca --region=::3,::3,{where_} {}", out(name));
     asks(
-        &map("--plane z=1200", "mm"),
+        &map("1200", "mm"),
         &[
             ("pose 1 of the map is (-3.5, -2, 1200) m", "(-3.5, -2, 1.2) m, if it is in mm"),
             ("the map is empty", ""),
         ],
     );
-    asks(&map("--plane z=12", "high"), &[("the map is empty: none of 9 positions is held", "")]);
+    asks(&map("12", "high"), &[("the map is empty: none of 9 positions is held", "")]);
     asks(
-        &format!("{} --payload 50", map("--plane z=1.75 --uncertainty a=1,b=3,youngs_modulus=20", "gpa")),
+        &format!("{} --payload 50", map("1.75 --uncertainty a=1,b=3,youngs_modulus=20", "gpa")),
         &[
             ("std of youngs_modulus is 20 Pa", "2.000e10 Pa, if 20 is in GPa"),
             ("std of a is 1 m", "0.001 m, if 1 is in mm"),
@@ -117,14 +117,14 @@ fn loads_lengths_and_cables_are_questioned() {
     );
     let lengths = "4.44,4.54,4.36,4.26,4.26,4.36,4.54,4.44";
     first(&format!("direct caroca --lengths {lengths} --mass 180000"), "mass is 1.800e5 kg", "180 kg, if");
-    first("linear-density --mass 203 --length 2", "linear_density is 101.5 kg/m", "0.1015 kg/m, if");
-    let cable = "catenary --weight 0.9957 --stiffness";
+    first("cable density --mass 203 --length 2", "linear_density is 101.5 kg/m", "0.1015 kg/m, if");
+    let cable = "cable catenary weight=0.9957,stiffness";
     first(
-        &format!("{cable} 1280 --length 4.3 --end 4.1,-1.7"),
+        &format!("{cable}=1280 --length 4.3 --end 4.1,-1.7"),
         "stiffness is 1280 N",
         "1.280e6 N, if 1280 is in kN",
     );
-    first(&format!("{cable} 1.28e6 --length 4300 --end 4.1,-1.7"), "length is 4300 m", "4.3 m, if");
+    first(&format!("{cable}=1.28e6 --length 4300 --end 4.1,-1.7"), "length is 4300 m", "4.3 m, if");
     first(
         "hysteresis caroca-law --pose 0,0,1750 --payload 50",
         "--pose is (0, 0, 1750) m",
@@ -136,7 +136,7 @@ fn loads_lengths_and_cables_are_questioned() {
         "500 N, if",
     );
     first(
-        "calibration identify caroca --grid=-1:1:3,-1:1:3,1:2:2 --uncertainty a=0.002 --noise position=0.1,rotation=1e-3",
+        "calibrate identify caroca --region=-1:1:3,-1:1:3,1:2:2 --uncertainty a=0.002 --noise position=0.1,rotation=1e-3",
         "noise of position is 0.1 m",
         "1.000e-4 m, if 0.1 is in mm",
     );
@@ -163,7 +163,7 @@ fn warned(robot: &str, change: impl Fn(&mut Value)) -> Vec<String> {
     change(&mut content);
     let path = folder.path().join("robot.json");
     std::fs::write(&path, content.to_string()).unwrap();
-    let output = cdpr(&["check", path.to_str().unwrap(), "--format", "json"]);
+    let output = cdpr(&["robot", "check", path.to_str().unwrap(), "--format", "json"]);
     let findings: Vec<Value> = serde_json::from_slice(&output.stdout).unwrap();
     let warnings = findings.iter().filter(|finding| finding["severity"] == "warning");
     warnings.map(|finding| format!("{} {} {}", finding["field"], finding["why"], finding["remedy"])).collect()
@@ -316,12 +316,14 @@ fn nothing_in_the_library_and_no_study_is_questioned() {
         let output = cdpr(command);
         assert_eq!(questions(&output), (vec![], Some(0)), "{command:?}: {}", text(output.stderr.clone()));
     };
-    let list: Vec<Value> = serde_json::from_slice(&cdpr(&["robots", "--format", "json"]).stdout).unwrap();
+    let library: Value =
+        serde_json::from_slice(&cdpr(&["robot", "list", "--format", "json"]).stdout).unwrap();
+    let list = library["robots"].as_array().unwrap();
     assert_eq!(list.len(), 20);
     let folder = tempfile::TempDir::new().unwrap();
     let page = |name: &str| folder.path().join(format!("{name}.html")).to_str().unwrap().to_owned();
-    for robot in &list {
-        quiet(&["robots", robot["name"].as_str().unwrap()]);
+    for robot in list {
+        quiet(&["robot", "show", robot["name"].as_str().unwrap()]);
     }
     for entry in std::fs::read_dir(data("studies")).unwrap() {
         let path = entry.unwrap().path();

@@ -8,7 +8,7 @@ use std::process::{Command, Stdio};
 fn a_reader_that_goes_away_is_no_failure() {
     for arguments in [
         vec!["derivatives", &data_path("robots/caroca.json"), "--pose", "0,0,1.75", "--payload", "50"],
-        vec!["check", &data_path("robots/caroca.json")],
+        vec!["robot", "check", &data_path("robots/caroca.json")],
         vec!["completions", "bash"],
     ] {
         let mut child = Command::new(env!("CARGO_BIN_EXE_cdpr"))

@@ -41,10 +41,11 @@ fn a_pipe_that_nobody_writes_into_is_refused_at_once() {
     assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
     let robot = data_path("robots/caroca.json");
     for arguments in [
-        &["check", "pipe"][..],
+        &["robot", "check", "pipe"][..],
         &["study", "run", "pipe"],
         &["direct", &robot, "--from", "pipe"],
         &[
+            "cable",
             "modulus",
             "pipe",
             "--breaking-force",
@@ -58,7 +59,7 @@ fn a_pipe_that_nobody_writes_into_is_refused_at_once() {
         ],
         &["hysteresis", &robot, "--law", "pipe", "--pose", "0,0,1.75", "--payload", "50"],
         &[
-            "calibration",
+            "calibrate",
             "identify",
             &robot,
             "--poses",
@@ -66,13 +67,13 @@ fn a_pipe_that_nobody_writes_into_is_refused_at_once() {
             "--uncertainty",
             "a=0.002",
             "--noise",
-            "lengths=0.001",
+            "length=0.001",
         ],
     ] {
         let output = bench.command(env!("CARGO_BIN_EXE_cdpr")).args(arguments).output().unwrap();
         let error = text(output.stderr);
         assert_eq!(output.status.code(), Some(1), "{error}");
-        assert!(error.contains("pipe is a pipe: expected a"), "{error}");
+        assert!(error.contains("pipe is a pipe without content: expected a"), "{error}");
     }
 }
 
@@ -263,14 +264,15 @@ fn a_deflection_below_rounding_is_zero_with_its_bound_and_has_no_law() {
     });
     bench.run("out", &[]);
     let found = &bench.json("out/summary.json")["studies"]["mechanical"];
-    assert_eq!((&found["rms_mm"]["mean"], &found["rms_mm"]["max"]), (&json!(0.0), &json!(0.0)));
+    assert_eq!((&found["magnitude_mm"]["mean"], &found["magnitude_mm"]["max"]), (&json!(0.0), &json!(0.0)));
     assert_eq!((&found["best_fit"], &found["fits"]), (&json!(null), &json!([])));
     assert!(found["notes"][0].as_str().unwrap().contains("zero within this bound"));
     // A gram is far above it.
     bench.change("study.json", |study| study["payload"] = json!(1e-3));
     bench.run("gram", &[]);
     assert!(
-        bench.json("gram/summary.json")["studies"]["mechanical"]["rms_mm"]["mean"].as_f64().unwrap() > 1e-6
+        bench.json("gram/summary.json")["studies"]["mechanical"]["magnitude_mm"]["mean"].as_f64().unwrap()
+            > 1e-6
     );
 
     let dp = |payload: &str| {
@@ -280,8 +282,8 @@ fn a_deflection_below_rounding_is_zero_with_its_bound_and_has_no_law() {
     };
     let (none, gram) = (dp("1e-300"), dp("1e-3"));
     let bound = none["rounding_mm"].as_f64().unwrap();
-    assert!(none["rms_mm"] == json!(0.0) && bound > 0.0 && bound < 1e-7, "{bound}");
-    assert!(gram["rms_mm"].as_f64().unwrap() > 10.0 * bound);
+    assert!(none["magnitude_mm"] == json!(0.0) && bound > 0.0 && bound < 1e-7, "{bound}");
+    assert!(gram["magnitude_mm"].as_f64().unwrap() > 10.0 * bound);
 }
 
 #[test]
@@ -289,8 +291,12 @@ fn files_of_other_programs_are_imported_questioned_or_refused_at_once() {
     let bench = Bench::new("caroca.json", |_| ());
     let import = |files: &[&str], options: &[&str]| {
         let arguments = files.iter().chain(options).copied();
-        let output =
-            bench.command(env!("CARGO_BIN_EXE_cdpr")).arg("import").args(arguments).output().unwrap();
+        let output = bench
+            .command(env!("CARGO_BIN_EXE_cdpr"))
+            .args(["robot", "import"])
+            .args(arguments)
+            .output()
+            .unwrap();
         (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
     };
     let cable = ["--cable", "steel-4mm"];
@@ -318,5 +324,5 @@ fn files_of_other_programs_are_imported_questioned_or_refused_at_once() {
     std::fs::write(bench.path("cables.xml"), cables.replacen("</cable_ideal", "</cable_vsd", 1)).unwrap();
     let (code, _, said) = import(&[&format!("{folder}/plate_bodies.xml"), "cables.xml"], &cable);
     assert_eq!(code, 1);
-    assert!(said.contains("the cable set a, the file also has b: `--cable-set` chooses one"), "{said}");
+    assert!(said.contains("the cable set a, the file also has b: `FILE:SET` chooses one"), "{said}");
 }

@@ -157,7 +157,7 @@ fn three_shards_merged_equal_one_run_and_are_not_analysed_before_all_are_there()
         bench.run("shards", &["--shard", shard]);
     }
     assert!(!bench.path("shards/summary.json").exists());
-    let report = cdpr(&["report", bench.path("shards").to_str().unwrap()]);
+    let report = cdpr(&["study", "report", bench.path("shards").to_str().unwrap()]);
     assert_eq!(report.status.code(), Some(1));
     let message = text(report.stderr);
     assert!(message.contains("has no summary.json: analyse it with cdpr study merge"), "{message}");
@@ -338,15 +338,15 @@ fn a_new_study_of_ones_own_robot_runs_as_it_is() {
     std::fs::create_dir(bench.path("mine")).unwrap();
     std::fs::write(bench.path("mine/robot-1.json"), std::fs::read(data("robots/cogiro.json")).unwrap())
         .unwrap();
-    let new = ["new", "--robot", "mine/robot-1.json", "--out", "mine/study-1.json"];
+    let new = ["new", "mine/robot-1.json", "--out", "mine/study-1.json"];
     let notes = bench.done(&new);
     assert!(notes.contains("error_models") && notes.contains("cdpr study run FILE"), "{notes}");
     bench.done(&["run", "mine/study-1.json", "--out", "out", "--observations", "64"]);
     assert!(bench.path("out/all_sensitivity.svg").exists());
     let message = bench.refused(&new);
     assert!(message.starts_with("error: cannot write mine/study-1.json: File exists"), "{message}");
-    let message = bench.misused(&["new", "--robot", "mine/robot-1.json", "--position", "0,0,99"]);
-    assert!(message.starts_with("error: --position is [0.0, 0.0, 99.0]: expected a position"), "{message}");
+    let message = bench.misused(&["new", "mine/robot-1.json", "--pose", "0,0,99"]);
+    assert!(message.starts_with("error: --pose: position is [0.0, 0.0, 99.0]: expected a"), "{message}");
 }
 
 /// Signals a child as Ctrl-C does, or lets a shell limit its files.

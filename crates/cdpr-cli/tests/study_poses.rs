@@ -1,7 +1,7 @@
 //! Samplings at several poses: each equals a sampling at that pose alone, and a pose that is not held is a
 //! row with its reason.
 
-use crate::common::{Bench, cdpr_in, text};
+use crate::common::{Bench, text};
 use serde_json::{Value, json};
 
 /// CAROCA over a plane of 5 x 3 positions, of which the outer ones are not held.
@@ -94,7 +94,7 @@ fn what_is_said_of_a_pose_is_what_a_sampling_at_it_alone_says() {
     let alone = &bench.json("out/summary.json")["studies"]["alone"];
     let number = |column: &str| row[column].as_str().unwrap().parse::<f64>().unwrap();
     for name in ["mean", "std", "min", "max", "nominal"] {
-        assert_eq!(json!(number(&format!("{name}_mm"))), alone["rms_mm"][name], "{name}");
+        assert_eq!(json!(number(&format!("{name}_mm"))), alone["magnitude_mm"][name], "{name}");
     }
     let effects = alone["t_student"].as_object().unwrap();
     let largest = effects.values().map(|t| t.as_f64().unwrap()).fold(0.0, f64::max);
@@ -332,19 +332,26 @@ fn names_whose_files_would_be_those_of_another_part_are_refused() {
 #[test]
 fn where_one_pose_is_wanted_several_are_refused_with_their_names() {
     let bench = plane(|_| ());
-    let tolerances = |name| {
-        let arguments =
-            ["tolerances", "study.json", "--observations", "40", "--limit", "9", "--sampling", name];
-        cdpr_in(&bench.path("."), &arguments)
+    let of = |name| {
+        bench.study(&[
+            "tolerances",
+            "study.json",
+            "--limit",
+            "deflection_mm<2",
+            "--observations",
+            "40",
+            "--sampling",
+            name,
+        ])
     };
-    assert!(tolerances("plane/0007").status.success());
+    assert!(of("plane/0007").status.success(), "{}", text(of("plane/0007").stderr));
     for (name, expected) in [
         ("plane", "samplings.plane is plane: expected one pose: plane/0000 to plane/0014"),
         ("plane/15", "samplings.plane is plane/15: expected one pose"),
         ("plane/0015", "samplings.plane is plane/0015: expected one pose"),
         ("plan", "samplings.plan is missing: expected one of plane"),
     ] {
-        let message = text(tolerances(name).stderr);
+        let message = text(of(name).stderr);
         assert!(message.contains(expected), "{message}");
     }
 }

@@ -74,13 +74,16 @@ fn a_study_writes_tables_figures_and_a_summary() {
     assert_eq!(mechanical["observations"], 64);
     assert_eq!(mechanical["failed"]["infeasible_tension"], 0);
     assert_eq!(mechanical["t_student"].as_object().unwrap().len(), 62);
-    assert!((mechanical["rms_mm"]["nominal"].as_f64().unwrap() - 1.33125).abs() < 1e-4);
+    assert!((mechanical["magnitude_mm"]["nominal"].as_f64().unwrap() - 1.33125).abs() < 1e-4);
     assert!(mechanical["fits"].as_array().unwrap().iter().any(|fit| fit["law"] == "uniform"));
     let table = read(&bench, "out/mechanical.csv");
     let mut lines = table.lines();
     let header: Vec<&str> = lines.next().unwrap().split(',').collect();
     assert_eq!(header.len(), 1 + 62 + 4 + 2);
-    assert_eq!((header[1], header[62], header[66], header[67]), ("d_mass", "d_dt8", "rms_mm", "status"));
+    assert_eq!(
+        (header[1], header[62], header[66], header[67]),
+        ("d_mass", "d_dt8", "magnitude_mm", "status")
+    );
     assert_eq!(lines.count(), 64);
     assert_eq!(read(&bench, "out/surface_E_rho.csv").lines().count(), 1 + 20);
     let report = read(&bench, "out/report.html");
@@ -153,14 +156,14 @@ fn a_study_of_frequencies_names_them_in_every_file_and_can_be_read_again() {
     assert!(header("out/surface_E_rho.csv").ends_with(",frequency_hz,status"));
     let drawn = ["mechanical", "mechanical_effects", "plane_mean", "surface_E_rho", "anchor_points"];
     for svg in drawn.map(|name| read(&bench, &format!("out/{name}.svg"))) {
-        assert!(svg.contains("frequency") && !svg.contains("RMS"), "{svg}");
+        assert!(svg.contains("frequency") && !svg.contains("magnitude"), "{svg}");
     }
     let report = read(&bench, "out/report.html");
     assert!(report.contains("Lowest natural frequency [Hz]"));
-    assert!(["the RMS", "mean RMS", "RMS ["].iter().all(|words| !report.contains(words)));
+    assert!(["the magnitude", "mean magnitude", "magnitude ["].iter().all(|words| !report.contains(words)));
 
     // What was written is read back, and printed, under the same names.
-    let drawn = cdpr_in(&bench.path("."), &["report", "out"]);
+    let drawn = cdpr_in(&bench.path("."), &["study", "report", "out"]);
     assert!(drawn.status.success(), "{}", crate::common::text(drawn.stderr));
     assert_eq!(read(&bench, "out/report.html"), report);
     let status: Value = serde_json::from_str(&bench.done(&["status", "out", "--format", "json"])).unwrap();
@@ -262,7 +265,7 @@ fn what_cannot_be_computed_from_the_observations_left_is_noted_and_the_rest_writ
     assert!(text.contains("mechanical: t_student: input `mass`: 0 observations above the middle"), "{text}");
     let summary = bench.json("out/summary.json");
     let mechanical = &summary["studies"]["mechanical"];
-    assert!(mechanical["rms_mm"]["mean"].as_f64().unwrap() > 1.0);
+    assert!(mechanical["magnitude_mm"]["mean"].as_f64().unwrap() > 1.0);
     assert_eq!(mechanical["t_student"], json!({}));
     assert!(mechanical["notes"][0].as_str().unwrap().starts_with("t_student: "));
 }
@@ -292,7 +295,7 @@ fn a_run_writes_a_report_and_so_does_its_folder_alone() {
     for file in ["study.json", "robot.json"] {
         std::fs::remove_file(bench.path(file)).unwrap();
     }
-    let report = |arguments: &[&str]| cdpr_in(&bench.path("."), &[&["report"], arguments].concat());
+    let report = |arguments: &[&str]| cdpr_in(&bench.path("."), &[&["study", "report"], arguments].concat());
     let output = report(&["moved", "--out", "again.html"]);
     assert!(output.status.success(), "{}", text(output.stderr));
     assert_eq!(text(output.stdout), "report in again.html\n");

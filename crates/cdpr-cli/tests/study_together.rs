@@ -1,4 +1,4 @@
-//! A study shared by processes, by the scripts for clusters, has the files of one run.
+//! A study shared by processes, and by the scripts for clusters has the files of one run.
 
 #![cfg(unix)]
 
@@ -105,7 +105,7 @@ fn processes_of_a_launcher_without_shards_are_refused() {
     assert_eq!(output.status.code(), Some(1));
     let text = String::from_utf8(output.stderr).unwrap();
     assert!(
-        text.starts_with("error: a launcher has started 4 processes of this command, and each would run"),
+        text.starts_with("error: 4 processes run this study together, and each would make the whole of it"),
         "{text}"
     );
     assert!(!bench.path("results").exists());

@@ -24,7 +24,7 @@ fn assert_narrow(printed: &str) {
 
 /// The template study of a robot, without surfaces.
 fn template(folder: &Path, robot: &str) {
-    answered(cdpr_in(folder, &["study", "new", "--robot", robot, "--out", "study.json"]));
+    answered(cdpr_in(folder, &["study", "new", robot, "--out", "study.json"]));
     let path = folder.join("study.json");
     let mut study = json_file(&path);
     study["surfaces"] = json!({});
@@ -131,9 +131,11 @@ fn of_twelve_inputs_of_ishigami_three_are_certain_to_matter_and_x2_is_first() {
     assert_eq!(names, ["x2", "x1", "x3"], "{printed}");
     assert!(printed.contains("not settled by 500 rows, more of them may: x4, x5, x6"), "{printed}");
     assert!(printed.contains("z: certain to matter: x5 (trend)"), "{printed}");
-    let found: Value =
-        serde_json::from_str(&answered(cdpr_in(folder.path(), &[&analyse[..], &["--json"]].concat())))
-            .unwrap();
+    let found: Value = serde_json::from_str(&answered(cdpr_in(
+        folder.path(),
+        &[&analyse[..], &["--format", "json"]].concat(),
+    )))
+    .unwrap();
     let verdict = &found["outputs"]["y"]["verdict"];
     assert_eq!(verdict["sentences"][0].as_str().unwrap(), first.strip_prefix("y: ").unwrap());
     assert!(verdict["certain"].as_array().unwrap().iter().all(|of| of["p_value"].as_f64().unwrap() < 0.05));
@@ -143,19 +145,20 @@ fn of_twelve_inputs_of_ishigami_three_are_certain_to_matter_and_x2_is_first() {
 fn tolerances_begin_with_what_to_tighten_and_what_independent_robots_say_of_it() {
     let study = data_path("studies/caroca.json");
     let run = |limit: &str, more: &[&str]| {
-        let arguments = ["tolerances", &study, "--sampling", "geometrical_asymmetric", "--limit", limit];
+        let arguments =
+            ["study", "tolerances", &study, "--sampling", "geometrical_asymmetric", "--limit", limit];
         answered(cdpr(&[&arguments[..], more].concat()))
     };
-    let printed = run("0.9", &["--costs", "b=3"]);
+    let printed = run("deflection_mm<0.9", &["--costs", "b=3"]);
     assert_narrow(&printed);
     let lines: Vec<&str> = printed.lines().collect();
     assert!(lines[0].starts_with("For 95 % below 0.9 mm, tighten to the share b 0.8"), "{printed}");
     // 4096 robots have found the factors, and 20 000 others miss the limit by a little.
     assert!(lines[1].starts_with("Then 94.5 % (94.2 to 94.8) of the robots keep it, now 91."), "{printed}");
     assert!(lines[2].starts_with("That is less than 95 %: a limit of 0.898"), "{printed}");
-    let enough = run("1", &[]);
+    let enough = run("deflection_mm<1", &[]);
     assert!(enough.starts_with("The tolerances suffice: nothing has to be tightened for 95 %"), "{enough}");
-    assert!(run("0.9", &["--details"]).contains("quantile if it alone is halved [mm]"));
+    assert!(run("deflection_mm<0.9", &["--details"]).contains("quantile if it alone is halved [mm]"));
 }
 
 #[test]
@@ -170,7 +173,7 @@ fn each_robot_says_first_what_it_carries_how_much_of_a_plane_it_holds_and_what_a
 
         let (x, z) = (pose.split(',').next().unwrap(), pose.rsplit(',').next().unwrap());
         let (x, z): (f64, f64) = (x.parse().unwrap(), z.parse().unwrap());
-        let grid = format!("--box={}:{x}:2,0:0.2:2,{z}:{z}:1", x - 0.1);
+        let grid = format!("--region={}:{x}:2,0:0.2:2,{z}:{z}:1", x - 0.1);
         let workspace = [&["workspace", robot, &grid, "--payload", "1", "--out", robot], free].concat();
         let output = cdpr_in(folder.path(), &workspace);
         let printed = text(output.stdout);
@@ -200,15 +203,15 @@ fn a_campaign_is_planned_read_and_fitted_with_the_answer_first() {
         printed
     };
     let noise = "--noise position=1e-4,rotation=1e-4,lengths=1e-4 --uncertainty a=0.002,b=0.005";
-    let plan = format!("calibration plan caroca --count 12 {noise} --out poses.csv --poses");
+    let plan = format!("calibrate plan caroca --count 12 {noise} --out poses.csv --poses");
     let planned = run(&plan, &[&candidates]);
     assert!(planned.starts_with("12 poses of CAROCA leave "), "{planned}");
     assert!(planned.contains(" % of parameters' std (random "), "{planned}");
     let (model, exact) =
         (data_path("calibration/caroca-tolerances.json"), "--noise position=1e-4,rotation=1e-4,length=1e-4");
-    let simulate = "calibration simulate caroca --poses poses.csv --seed 1 --out measured.csv --model";
+    let simulate = "calibrate simulate caroca --poses poses.csv --seed 1 --out measured.csv --uncertainty";
     run(&format!("{simulate} {model} {exact}"), &[]);
-    let calibrate = "calibrate caroca --measurements measured.csv --folds 0 --starts 1 --out fitted --model";
+    let calibrate = "calibrate fit caroca measured.csv --with folds=0,starts=1 --out fitted --uncertainty";
     let fitted = run(&format!("{calibrate} {model} {exact}"), &[]);
     assert!(fitted.lines().next().unwrap().contains("CAROCA"), "{fitted}");
     assert!(fitted.contains(" are identifiable.") && fitted.contains("chi-square"), "{fitted}");

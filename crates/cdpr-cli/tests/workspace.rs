@@ -26,9 +26,9 @@ fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
 #[test]
 fn a_plane_is_written_as_table_summary_and_maps_the_same_on_any_number_of_threads() {
     let folder = TempDir::new().unwrap();
-    let place = ["--plane", "z=1.75", "--grid", "9x7"];
+    let place = ["--region", "::9,::7,1.75"];
     let load = ["--payload", "50", "--uncertainty", "a=0.002,youngs_modulus=5e9"];
-    let run = |out: &[&str]| run(folder.path(), &[&place, &load, out].concat());
+    let run = |out: &[&str]| run(folder.path(), &[&place[..], &load, out].concat());
     let printed = run(&["--threads", "1", "--out", "one"]);
     let json = run(&["--threads", "2", "--out", "two", "--format", "json"]);
     let written = files(&folder.path().join("one"));
@@ -57,14 +57,17 @@ fn a_plane_is_written_as_table_summary_and_maps_the_same_on_any_number_of_thread
     let center = |name: &str| columns[name][31].as_f64().unwrap();
     let exact = deflection(&robot, &Pose::at(0.0, 0.0, 1.75), &Load::payload(50.0)).unwrap();
     assert_eq!((center("x"), center("y")), (0.0, 0.0));
-    assert!((center("rms_mm") - 1e3 * exact.rms()).abs() < 1e-11 * 1e3 * exact.rms());
+    assert!((center("magnitude_mm") - 1e3 * exact.magnitude()).abs() < 1e-11 * 1e3 * exact.magnitude());
     assert_eq!(
         (&columns["status"][31], &columns["dominant"][31]),
         (&"held".into(), &"youngs_modulus".into())
     );
     assert_eq!(columns.get("payload_anew_kg"), None, "what was not asked for has no column");
     assert!(columns.as_object().unwrap().values().all(|column| column.as_array().unwrap().len() == 63));
-    assert_eq!((&columns["status"][0], &columns["rms_mm"][0]), (&"infeasible_tension".into(), &Value::Null));
+    assert_eq!(
+        (&columns["status"][0], &columns["magnitude_mm"][0]),
+        (&"infeasible_tension".into(), &Value::Null)
+    );
 
     let table = text(written[5].1.clone());
     let lines: Vec<_> = table.lines().collect();
@@ -82,8 +85,9 @@ fn a_plane_is_written_as_table_summary_and_maps_the_same_on_any_number_of_thread
 fn a_box_has_maps_of_its_layers_and_a_study_may_give_the_tolerances() {
     let folder = TempDir::new().unwrap();
     let study = data("studies/caroca.json");
-    let tolerances = ["--study", study.to_str().unwrap(), "--error-model", "table_3", "--payload", "50"];
-    let place = ["--box=-1:1:3,0:0:1,1:2:2", "--out", "out", "--format", "json"];
+    let tolerances = format!("{}:table_3", study.display());
+    let tolerances = ["--uncertainty", &tolerances, "--payload", "50"];
+    let place = ["--region=-1:1:3,0:0:1,1:2:2", "--out", "out", "--format", "json"];
     let summary: Value =
         serde_json::from_str(&run(folder.path(), &[&place, &tolerances[..]].concat())).unwrap();
     assert_eq!(summary["columns"]["status"].as_array().unwrap().len(), 6);
@@ -91,14 +95,14 @@ fn a_box_has_maps_of_its_layers_and_a_study_may_give_the_tolerances() {
     // A uniform law of half width 18 kg.
     assert!((summary["uncertainties"]["mass"].as_f64().unwrap() - 18.0 / 3f64.sqrt()).abs() < 1e-12);
     assert_eq!(files(&folder.path().join("out")).len(), 7, "the box is a plane: y has one coordinate");
-    run(folder.path(), &["--box=-1:1:2,0:1:2,1:2:2", "--payload", "50", "--out", "box"]);
+    run(folder.path(), &["--region=-1:1:2,0:1:2,1:2:2", "--payload", "50", "--out", "box"]);
     let names: Vec<_> = files(&folder.path().join("box")).into_iter().map(|(name, _)| name).collect();
     let layers = ["deflection", "greatest_tension_anew", "greatest_tension", "least_stiffness"]
         .map(|name| [format!("{name}_z00.svg"), format!("{name}_z01.svg")]);
     assert_eq!(names[..8], layers.concat());
     assert_eq!(names[8..], ["workspace.csv", "workspace.json"]);
-    let printed = run(folder.path(), &["--box=-1:1:2,0:1:2,1:2:5", "--draw", "3", "--out", "high"]);
-    assert!(printed.contains("3 of 5 layers are drawn: --draw 5 draws all of them"), "{printed}");
+    let printed = run(folder.path(), &["--region=-1:1:2,0:1:2,1:2:5", "--with", "layers=3", "--out", "high"]);
+    assert!(printed.contains("3 of 5 layers are drawn: --with layers=5 draws all of them"), "{printed}");
     let names: Vec<_> = files(&folder.path().join("high")).into_iter().map(|(name, _)| name).collect();
     let layers = ["00", "02", "04"].map(|layer| format!("least_stiffness_z{layer}.svg"));
     assert!(layers.iter().all(|layer| names.contains(layer)) && names.len() == 3 * 2 + 2, "{names:?}");
@@ -107,18 +111,19 @@ fn a_box_has_maps_of_its_layers_and_a_study_may_give_the_tolerances() {
 #[test]
 fn any_load_and_any_orientation_have_a_workspace_and_without_a_load_nothing_is_displaced() {
     let folder = TempDir::new().unwrap();
-    let region = "--box=-0.5:0.5:3,-0.5:0.5:3,1.75:1.75:1";
+    let region = "--region=-0.5:0.5:3,-0.5:0.5:3,1.75:1.75:1";
     let summary = |arguments: &[&str]| {
         let arguments = [&[region, "--format", "json", "--out", "out", "--overwrite"], arguments].concat();
         serde_json::from_str::<Value>(&run(folder.path(), &arguments)).unwrap()
     };
-    let turned = summary(&["--rotation", "1,0,0,0.05", "--force", "0,200,0", "--moment", "0,0,10"]);
+    let yaw = format!("0,0,{}", 2.0 * 0.05_f64.atan().to_degrees());
+    let turned = summary(&["--rpy", &yaw, "--force", "0,200,0", "--moment", "0,0,10"]);
     let robot = Robot::from_json(&std::fs::read_to_string(data("robots/caroca.json")).unwrap()).unwrap();
     let pose = Pose::with_quaternion(Vector3::new(0.0, 0.0, 1.75), [1.0, 0.0, 0.0, 0.05]).unwrap();
     let wrench = Wrench { force: Vector3::new(0.0, 200.0, 0.0), moment: Vector3::new(0.0, 0.0, 10.0) };
     let exact = deflection(&robot, &pose, &Load::wrench(wrench)).unwrap();
-    let rms = turned["columns"]["rms_mm"][4].as_f64().unwrap();
-    assert!((rms - 1e3 * exact.rms()).abs() < 1e-11 * rms);
+    let magnitude = turned["columns"]["magnitude_mm"][4].as_f64().unwrap();
+    assert!((magnitude - 1e3 * exact.magnitude()).abs() < 1e-11 * magnitude);
     let map = std::fs::read_to_string(folder.path().join("out/deflection.svg")).unwrap();
     assert!(map.contains("force (0, 200, 0) N, moment (0, 0, 10) N m, quaternion (0.9988, "), "{map}");
 
@@ -126,7 +131,7 @@ fn any_load_and_any_orientation_have_a_workspace_and_without_a_load_nothing_is_d
     std::fs::write(folder.path().join("out/mine.svg"), "mine").unwrap();
     let unloaded = summary(&[]);
     assert_eq!((&unloaded["anew_status"], unloaded["columns"].get("anew_status")), (&json!({}), None));
-    assert_eq!((&unloaded["rms_mm"], unloaded["columns"].get("rms_mm")), (&Value::Null, None));
+    assert_eq!((&unloaded["magnitude_mm"], unloaded["columns"].get("magnitude_mm")), (&Value::Null, None));
     assert!(unloaded["least_stiffness"]["min"].as_f64().unwrap() > 0.0);
     assert!(!folder.path().join("out/deflection.svg").exists());
     assert_eq!(std::fs::read(folder.path().join("out/mine.svg")).unwrap(), b"mine");

@@ -142,16 +142,16 @@ impl<S: Simd> SymmetricFactors<S> {
         matrix
     }
 
-    /// Takes over another one in the lanes that are `going`.
+    /// Assigns another one in the lanes that are `active`.
     #[inline(always)]
-    pub fn replace(&mut self, other: &Self, going: Mask<S>) {
+    pub fn replace(&mut self, other: &Self, active: Mask<S>) {
         for row in 0..6 {
             for column in row + 1..6 {
-                self.upper[row][column].replace(other.upper[row][column], going);
+                self.upper[row][column].replace(other.upper[row][column], active);
             }
         }
-        replace(&mut self.pivots_inv, &other.pivots_inv, going);
-        self.positive = (going & other.positive) | (!going & self.positive);
+        replace(&mut self.pivots_inv, &other.pivots_inv, active);
+        self.positive = (active & other.positive) | (!active & self.positive);
     }
 
     /// The solution for a right side.
@@ -253,11 +253,11 @@ pub fn halves<S: Simd>(wrench: &Lanes6<S>) -> (Lanes3<S>, Lanes3<S>) {
     (three!(|k| wrench[k]), three!(|k| wrench[3 + k]))
 }
 
-/// Takes over other components in the lanes that are `going`.
+/// Assigns other components in the lanes that are `active`.
 #[inline(always)]
-pub fn replace<S: Simd, const N: usize>(own: &mut [Lanes<S>; N], other: &[Lanes<S>; N], going: Mask<S>) {
+pub fn replace<S: Simd, const N: usize>(own: &mut [Lanes<S>; N], other: &[Lanes<S>; N], active: Mask<S>) {
     for k in 0..N {
-        own[k].replace(other[k], going);
+        own[k].replace(other[k], active);
     }
 }
 

@@ -38,13 +38,13 @@ pub fn least_eigenvalue<S: Simd>(matrix: Lanes6x6<S>) -> Lanes<S> {
                 small = small & (a[p][q] * a[p][q]).less_or_equal(least);
             }
         }
-        let going = !small;
-        if !going.any() {
+        let active = !small;
+        if !active.any() {
             break;
         }
         for p in 0..6 {
             for q in p + 1..6 {
-                let beside = going.select(a[p][q], zero);
+                let beside = active.select(a[p][q], zero);
                 let half = (a[q][q] - a[p][p]) * 0.5;
                 let root = (half * half + beside * beside).sqrt();
                 let sum = zero.less_or_equal(half).select(half + root, half - root);
@@ -55,7 +55,7 @@ pub fn least_eigenvalue<S: Simd>(matrix: Lanes6x6<S>) -> Lanes<S> {
                 let s = c * t;
                 a[p][p] -= t * beside;
                 a[q][q] += t * beside;
-                a[p][q] = going.select(zero, a[p][q]);
+                a[p][q] = active.select(zero, a[p][q]);
                 for r in 0..6 {
                     if r == p || r == q {
                         continue;

@@ -158,10 +158,10 @@ impl<S: Simd> Lanes<S> {
         other.less_or_equal(self).select(self, other)
     }
 
-    /// Takes over another number in the lanes that are `going`.
+    /// Assigns another number in the lanes that are `active`.
     #[inline(always)]
-    pub fn replace(&mut self, other: Self, going: Mask<S>) {
-        *self = going.select(other, *self);
+    pub fn replace(&mut self, other: Self, active: Mask<S>) {
+        *self = active.select(other, *self);
     }
 
     /// False where one of them is NaN.

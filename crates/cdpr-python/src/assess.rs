@@ -1,18 +1,19 @@
 //! Assessments of a robot and its cables, as the commands `check`, `tolerances`, `robustness`, `hysteresis`,
-//! `modulus` and `linear-density` make them. `assess.py` makes classes of these.
+//! `modulus` and `linear-density` make them. The package `cdpr.assess` makes classes of these.
 
-use crate::convert::{Answer, Raised, Rows, guarded, question, run, to_json, watched, whole};
+use crate::convert::{Answer, Raised, Rows, guarded, run, to_json, watched, whole};
 use crate::robot::Robot;
 use crate::robot::inverse::coordinates;
+use crate::source::Source;
 use cdpr_assess::{
     Limit, Limited, PoseRegion, ProtocolSummary, RobustnessSummary, begin_robustness, inspect, protocols,
     run_robustness, tolerance_budget, write_robustness,
 };
 use cdpr_cable::{Measured, Phase, SecantModulus, Specimen};
-use cdpr_robot::{Pose, plausible};
+use cdpr_robot::Pose;
 use cdpr_statics::WantedPose;
 use cdpr_statics::hysteresis::{CycleStep, HysteresisLaw, LoadCycle, Unloading, load_cycle};
-use cdpr_study::{CableLaw, IfExists, Study, elastic_laws, open_law, open_record, open_robot_in_any_unit};
+use cdpr_study::{CableLaw, IfExists, elastic_laws, open_robot_in_any_unit};
 use pyo3::prelude::*;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -37,7 +38,8 @@ pub(crate) fn check_file(py: Python, path: PathBuf) -> Answer<String> {
 #[allow(clippy::too_many_arguments)]
 pub(crate) fn tolerances(
     py: Python,
-    study: PathBuf,
+    study: Source,
+    robot: Option<&Robot>,
     sampling: &str,
     limit_mm: f64,
     of: Option<&str>,
@@ -59,8 +61,7 @@ pub(crate) fn tolerances(
         threads,
         |_| Ok(()),
         |_| -> Answer<String> {
-            let study = Study::open(&study)?;
-            question(plausible::robot(&study.robot).into_iter().chain(study.doubts()))?;
+            let study = study.study(robot)?;
             let sampling = study.sampling(sampling)?;
             to_json(&tolerance_budget(&sampling, &limit)?)
         },
@@ -134,10 +135,10 @@ pub(crate) fn hysteresis(
     robot: &Robot,
     pose: Bound<PyAny>,
     payload: f64,
-    record: Option<PathBuf>,
+    record: Option<Source>,
     length: Option<f64>,
     section: Option<f64>,
-    law: Option<PathBuf>,
+    law: Option<Source>,
     unloading: &str,
     steps: Bound<PyAny>,
     free: Option<Vec<String>>,
@@ -163,15 +164,15 @@ pub(crate) fn hysteresis(
                                record's specimen";
                 return Err(Raised::Input(message.to_owned()));
             }
-            let law = CableLaw::of_record(&open_record(&record)?, length, section.unwrap_or(of_cables));
-            Some(law.map_err(|error| Raised::Input(format!("{}: {error}", record.display())))?)
+            let law = CableLaw::of_record(&record.record()?, length, section.unwrap_or(of_cables));
+            Some(law.map_err(|error| Raised::Input(format!("{}: {error}", record.path().display())))?)
         }
         (Some(_), None, None) => {
             return Err(Raised::Input(
                 "length is None: expected that of the record's specimen [m]".to_owned(),
             ));
         }
-        (None, _, Some(law)) => Some(open_law(&law)?),
+        (None, _, Some(law)) => Some(law.law()?),
         (None, _, None) => None,
     };
     let laws = match law {
@@ -222,7 +223,7 @@ pub(crate) fn single(pose: &Bound<PyAny>, robot: &cdpr_robot::Robot) -> Answer<P
 #[pyfunction]
 #[allow(clippy::too_many_arguments)]
 pub(crate) fn modulus(
-    record: PathBuf,
+    record: Source,
     length: f64,
     section: f64,
     breaking_force: f64,
@@ -232,7 +233,7 @@ pub(crate) fn modulus(
     length_error: f64,
     section_error: f64,
 ) -> Answer<String> {
-    let record = guarded(|| open_record(&record))??;
+    let record = guarded(|| record.record())??;
     let specimen = Specimen {
         breaking_force,
         section,

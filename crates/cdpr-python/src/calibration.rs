@@ -1,37 +1,38 @@
-//! Calibration, as `cdpr calibrate` and `cdpr calibration` have it. `calibration.py` makes dictionaries of the
-//! answers.
+//! Calibration, as `cdpr calibrate` has it. The package `cdpr.calibration` makes classes of the answers.
 
 use crate::convert::{Answer, Numbers, Raised, Rows, question, run, to_json, watched};
 use crate::robot::Robot;
 use crate::robot::inverse::coordinates;
+use crate::source::Source;
 use cdpr_calibration::{
-    AtWork, Calibration, CalibrationError, Campaign, Combination, Criterion, FitSettings, Measurement, Noise,
-    Quality, RobustLoss, SensorError, Simulated, Unknowns, carry_out, drawn, drawn_errors, read_measurements,
-    write_measurements,
+    AtWork, Calibrated, Calibration, CalibrationError, Campaign, Combination, Criterion, Difference,
+    FitSettings, Measurement, Noise, Quality, RobustLoss, SensorError, Simulated, Unknowns, carry_out, drawn,
+    drawn_errors, read_measurements, write_measurements,
 };
 use cdpr_report::calibration_report;
 use cdpr_robot::{CableEnd, Pose, Vector3};
 use cdpr_statics::Load;
-use cdpr_study::{
-    ErrorModel, IfExists, InputKind, check_table, open_errors, read_bytes, uncertainties, write_text,
-};
+use cdpr_study::{ErrorModel, IfExists, uncertainties, write_text};
 use pyo3::prelude::*;
 use serde_json::{Map, Value, json};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Numbers by name.
 type Named = Vec<(String, f64)>;
 
-/// Fits the parameters of a robot to measurements and writes all results; returns `summary.json`.
+/// Fits the parameters of a robot to measurements, and writes all results to a folder if one is given.
+///
+/// Returns the calibrated robot, and as JSON the summary, what is known of the robot's errors, the residuals
+/// and the poses.
 #[pyfunction]
 #[allow(clippy::too_many_arguments)]
 pub(crate) fn calibrate(
     py: Python,
     robot: &Robot,
-    measurements: PathBuf,
-    out: PathBuf,
+    measurements: Source,
+    out: Option<PathBuf>,
     noise: Named,
-    model: Option<PathBuf>,
+    model: Option<Source>,
     parameters: Vec<String>,
     share: Vec<String>,
     unknown: Vec<(String, Option<f64>)>,
@@ -44,7 +45,7 @@ pub(crate) fn calibrate(
     folds: usize,
     overwrite: bool,
     threads: Option<usize>,
-) -> Answer<String> {
+) -> Answer<(Robot, String)> {
     let robot = &robot.robot;
     let loss = match loss {
         "squares" => RobustLoss::Squares,
@@ -53,11 +54,9 @@ pub(crate) fn calibrate(
         _ => return Err(Raised::Input(format!("loss is {loss}: expected squares, huber or cauchy"))),
     };
     let settings = FitSettings { loss, starts, seed, only_identifiable, ..FitSettings::default() };
-    let work = |_: &_| -> Answer<String> {
-        let prior = model.map(|path| questioned(&path, robot)).transpose()?;
-        let bytes = read_bytes(&measurements, InputKind::Measurements)?;
-        check_table(&measurements, &bytes, InputKind::Measurements)?;
-        let measured = read_measurements(&bytes, robot, &noise)?;
+    let work = |_: &_| -> Answer<(Robot, String)> {
+        let prior = model.map(|model| model.errors(robot)).transpose()?;
+        let measured = read_measurements(&measurements.measurements()?, robot, &noise)?;
         let names: Vec<&str> = parameters.iter().map(String::as_str).collect();
         let share: Vec<&str> = share.iter().map(String::as_str).collect();
         let mut unknowns = Unknowns::sought(robot, prior.as_ref(), &names, &share)?;
@@ -68,7 +67,7 @@ pub(crate) fn calibrate(
             unknowns.bound(robot, name, *bounds)?;
         }
         unknowns.set_markers(markers.into_iter().map(Vector3::from).collect());
-        let name = measurements.file_name().map(|name| name.to_string_lossy().into_owned());
+        let name = measurements.path().file_name().map(|name| name.to_string_lossy().into_owned());
         let campaign = Campaign {
             robot,
             prior: prior.as_ref(),
@@ -78,9 +77,39 @@ pub(crate) fn calibrate(
             settings,
             folds,
         };
-        to_json(&carry_out(&campaign, &out, IfExists::overwriting(overwrite), calibration_report)?.summary)
+        let out = out.as_deref().map(|out| (out, IfExists::overwriting(overwrite)));
+        let made = carry_out(&campaign, out, calibration_report)?;
+        let content = calibrated(&made)?;
+        Ok((Robot { robot: made.robot }, content))
     };
     watched(py, threads, |_| Ok(()), work)?
+}
+
+/// Everything but the robot as JSON: a residual is measured less modelled, by the robot before and after.
+fn calibrated(made: &Calibrated) -> Answer<String> {
+    let of_row = |(before, after): (&Difference, &Difference)| {
+        json!({
+            "line": after.line,
+            "column": after.quantity.to_string(),
+            "unit": after.quantity.unit(),
+            "before": before.difference,
+            "after": after.difference,
+            "std": after.std,
+        })
+    };
+    let fit = &made.fit;
+    to_json(&json!({
+        "summary": made.summary,
+        "posterior": made.posterior,
+        "residuals": fit.before.iter().zip(&fit.after).map(of_row).collect::<Vec<_>>(),
+        "poses": fit.poses.iter().map(numbers).collect::<Vec<_>>(),
+        "poses_before": fit.poses_before.iter().map(numbers).collect::<Vec<_>>(),
+    }))
+}
+
+/// A pose as calls take it: x, y, z, qw, qx, qy, qz.
+fn numbers(pose: &Pose) -> Vec<f64> {
+    [pose.position.as_slice(), &pose.quaternion()].concat()
 }
 
 /// What measurements at poses tell of uncertain parameters, as JSON.
@@ -121,7 +150,7 @@ pub(crate) fn identify(
 /// The set of candidate poses that leaves least uncertainty, as JSON.
 #[pyfunction]
 #[allow(clippy::too_many_arguments)]
-pub(crate) fn calibration_plan(
+pub(crate) fn plan(
     py: Python,
     robot: &Robot,
     poses: Numbers,
@@ -176,13 +205,9 @@ pub(crate) fn calibration_plan(
                 "worst_at_work": of.worst_at_work,
             })
         };
-        let numbers = |k: &usize| {
-            let Pose { position, .. } = held[*k];
-            [position.as_slice(), &held[*k].quaternion()].concat()
-        };
         to_json(&json!({
             "candidates": held.len(),
-            "poses": found.poses.iter().map(numbers).collect::<Vec<_>>(),
+            "poses": found.poses.iter().map(|k| numbers(&held[*k])).collect::<Vec<_>>(),
             "plan": left(&found.quality),
             "random": left(&found.random),
             "outermost": left(&found.corners),
@@ -191,16 +216,16 @@ pub(crate) fn calibration_plan(
     })?
 }
 
-/// What a campaign would read at poses with a robot that deviates from its file: writes the measurements as CSV
-/// and returns the robot as it truly is.
+/// What a campaign would read at poses with a robot that deviates from its file, written to a file if one is
+/// given: the robot as it truly is, and the measurements as CSV.
 #[pyfunction]
 #[allow(clippy::too_many_arguments)]
 pub(crate) fn simulate(
     py: Python,
     robot: &Robot,
     poses: Numbers,
-    out: PathBuf,
-    model: PathBuf,
+    out: Option<PathBuf>,
+    model: Source,
     noise: Named,
     unknown: Named,
     markers: Vec<[f64; 3]>,
@@ -209,7 +234,7 @@ pub(crate) fn simulate(
     free: Option<Vec<String>>,
     seed: u64,
     overwrite: bool,
-) -> Answer<Robot> {
+) -> Answer<(Robot, String)> {
     let robot = &robot.robot;
     let poses = Rows::poses("poses", &poses, robot)?;
     let poses = (0..poses.number()).map(|k| poses.pose(k)).collect::<Result<Vec<_>, _>>()?;
@@ -220,8 +245,8 @@ pub(crate) fn simulate(
         _ => return Err(Raised::Input(format!("tension_at is {tension_at:?}: expected platform or winch"))),
     };
     let markers: Vec<Vector3<f64>> = markers.into_iter().map(Vector3::from).collect();
-    run(py, |_| -> Answer<Robot> {
-        let deviations = drawn(&questioned(&model, robot)?, seed);
+    run(py, |_| -> Answer<(Robot, String)> {
+        let deviations = drawn(&model.errors(robot)?, seed);
         let named = |(name, std): &(String, f64)| Ok((SensorError::from_name(name)?, *std));
         let errors = unknown.iter().map(named).collect::<Result<Vec<_>, CalibrationError>>()?;
         let rows = cdpr_calibration::simulate(&Simulated {
@@ -238,8 +263,11 @@ pub(crate) fn simulate(
         })?;
         let (header, lines) = write_measurements(&rows);
         let lines = lines.iter().map(|line| line.join(",") + "\n").collect::<String>();
-        write_text(&out, &(header.join(",") + "\n" + &lines), IfExists::overwriting(overwrite))?;
-        Ok(Robot { robot: robot.perturbed(&deviations)?.robot })
+        let text = header.join(",") + "\n" + &lines;
+        if let Some(out) = out {
+            write_text(&out, &text, IfExists::overwriting(overwrite))?;
+        }
+        Ok((Robot { robot: robot.perturbed(&deviations)?.robot }, text))
     })?
 }
 
@@ -265,13 +293,6 @@ fn measured(
         Some(reason) if held.is_empty() => Err(reason.into()),
         _ => Ok((calibration, held)),
     }
-}
-
-/// The error model of a file; its deviations are questioned.
-fn questioned(path: &Path, robot: &cdpr_robot::Robot) -> Answer<ErrorModel> {
-    let model = open_errors(path, robot)?;
-    question(model.doubts(robot))?;
-    Ok(model)
 }
 
 /// The standard deviation of each parameter, which is questioned.

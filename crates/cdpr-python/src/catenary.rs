@@ -1,6 +1,6 @@
 //! One cable between two points.
 
-use crate::convert::{Answer, Cases, Columns, Numbers, Raised, Rows, answer, each};
+use crate::convert::{Answer, Cases, Columns, Numbers, Raised, Rows, answer, each, plotted};
 use cdpr_cable::{Cable, CableError, Known, Solution, Vector2};
 use pyo3::prelude::*;
 
@@ -38,20 +38,48 @@ answer! {
     }
 }
 
+plotted!(Catenary);
+
 /// Computes an elastic cable from two of its unstrained length, end, force and tension.
 ///
 /// Given are `length` and `end`, `length` and `force`, or `end` and `tension`. Arguments are of one cable, or
 /// have a first axis of m cables.
 ///
-/// weight: weight per unstrained length [N/m]; 0 makes the cable a straight spring.
-/// stiffness: axial stiffness EA [N].
-/// length: unstrained length [m].
-/// end: position (x, z) of the anchor point [m], (2,); x >= 0, z up.
-/// force: force (fx, fz) on the cable at the anchor point [N], (2,).
-/// tension: tension at the anchor point [N].
-/// points: number of points of `shape`, at least 2.
+/// Parameters
+/// ----------
+/// weight : array_like
+///     Weight per unstrained length [N/m]; 0 makes the cable a straight spring.
+/// stiffness : array_like
+///     Axial stiffness EA [N].
+/// length : array_like, optional
+///     Unstrained length [m].
+/// end : array_like, optional
+///     Position (x, z) of the anchor point [m], (2,); x >= 0, z up.
+/// force : array_like, optional
+///     Force (fx, fz) on the cable at the anchor point [N], (2,).
+/// tension : array_like, optional
+///     Tension at the anchor point [N].
+/// points : int, default 51
+///     Number of points of `shape`, at least 2.
 ///
-/// Raises InputError; for one cable NoSolutionError.
+/// Returns
+/// -------
+/// Catenary
+///     Forces, tensions and shapes.
+///
+/// Raises
+/// ------
+/// InputError
+///     For an invalid value; the message names it and what would be right.
+/// NoSolutionError
+///     For one cable without an answer; of several, its row has NaN and a reason.
+///
+/// Examples
+/// --------
+/// >>> import cdpr
+/// >>> cable = cdpr.catenary(1.0, 1e6, length=5.0, end=[4.0, 1.0])  # [N/m], [N], [m], [m]
+/// >>> cable.shape.shape
+/// (51, 2)
 #[pyfunction]
 #[pyo3(signature = (weight, stiffness, *, length=None, end=None, force=None, tension=None, points=51))]
 #[allow(clippy::too_many_arguments)]

@@ -9,7 +9,7 @@ mod json;
 mod question;
 mod threads;
 
-pub(crate) use answer::answer;
+pub(crate) use answer::{answer, plotted};
 pub(crate) use arrays::{Array, Numbers, components, filled, whole};
 pub(crate) use cases::{Cases, Loads, Rows};
 pub(crate) use columns::Columns;

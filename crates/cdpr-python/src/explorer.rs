@@ -24,7 +24,21 @@ pub(crate) fn explorer_parts(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
 impl Robot {
     /// Shows the robot in a notebook, where it computes as it is moved: a widget of the package anywidget.
     ///
-    /// state: what is shown first, as `Explorer.state` has it.
+    /// Parameters
+    /// ----------
+    /// state : dict, optional
+    ///     What is shown first, as `Explorer.state` has it.
+    ///
+    /// Returns
+    /// -------
+    /// Any
+    ///     The widget.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import cdpr
+    /// >>> robot = cdpr.Robot.from_file("cogiro")
+    /// >>> widget = robot.explore()  # doctest: +SKIP
     #[pyo3(signature = (*, state = None))]
     fn explore(slf: Bound<'_, Self>, state: Option<Bound<'_, PyDict>>) -> PyResult<Py<PyAny>> {
         let module = slf.py().import("cdpr.explorer")?;
@@ -33,9 +47,23 @@ impl Robot {
 
     /// Writes the page of `cdpr explore`: one HTML file on which the robot computes in any browser.
     ///
-    /// path: the file. overwrite: whether a file that exists is replaced.
+    /// Parameters
+    /// ----------
+    /// path : path
+    ///     The file. overwrite: whether a file that exists is replaced.
+    /// overwrite : bool, default False
+    ///     Whether what is there is replaced.
     ///
-    /// Raises FileError.
+    /// Raises
+    /// ------
+    /// FileError
+    ///     For a file or folder that cannot be read, written or used.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import cdpr
+    /// >>> robot = cdpr.Robot.from_file("cogiro")
+    /// >>> robot.write_explorer("cogiro.html")  # doctest: +SKIP
     #[pyo3(signature = (path, *, overwrite = false))]
     fn write_explorer(&self, path: PathBuf, overwrite: bool) -> Answer<()> {
         let Self { robot } = self;

@@ -15,6 +15,7 @@ mod exchange;
 mod explorer;
 mod robot;
 mod sensitivity;
+mod source;
 mod study;
 
 use pyo3::prelude::*;
@@ -25,7 +26,7 @@ mod _core {
     #[pymodule_export]
     use crate::assess::{check, check_file, hysteresis, linear_density, modulus, robustness, tolerances};
     #[pymodule_export]
-    use crate::calibration::{calibrate, calibration_plan, identify, simulate};
+    use crate::calibration::{calibrate, identify, plan, simulate};
     #[pymodule_export]
     use crate::catenary::{Catenary, catenary};
     #[pymodule_export]
@@ -37,6 +38,8 @@ mod _core {
     #[pymodule_export]
     use crate::robot::boundary::Boundary;
     #[pymodule_export]
+    use crate::robot::cable::Cable;
+    #[pymodule_export]
     use crate::robot::capacity::Capacity;
     #[pymodule_export]
     use crate::robot::certify::Certificate;
@@ -47,13 +50,15 @@ mod _core {
     #[pymodule_export]
     use crate::robot::direct::DirectSolution;
     #[pymodule_export]
-    use crate::robot::inverse::InverseSolution;
+    use crate::robot::inverse::{InverseSolution, OtherSolution};
     #[pymodule_export]
     use crate::robot::modes::Modes;
     #[pymodule_export]
     use crate::robot::observe::Observations;
     #[pymodule_export]
-    use crate::robot::path::PathStates;
+    use crate::robot::path::{PathDeviations, PathStates};
+    #[pymodule_export]
+    use crate::robot::pose::pose;
     #[pymodule_export]
     use crate::robot::stiffness::Stiffness;
     #[pymodule_export]
@@ -67,7 +72,9 @@ mod _core {
     #[pymodule_export]
     use crate::sensitivity::laws::{allocate, fit_laws, law_moments, law_values};
     #[pymodule_export]
-    use crate::study::{begin, carry_out, make_shard, observations, open_results, status, write_report};
+    use crate::study::{
+        begin, carry_out, make_shard, observations, open_results, status, template, write_report,
+    };
     #[pymodule_export]
     const VERSION: &str = env!("CARGO_PKG_VERSION");
 }

@@ -1,20 +1,36 @@
 //! Functions of studies on folders of results, as `cdpr study` has them. `study.py` puts them together.
 
-use crate::convert::{Answer, Raised, question, run, to_json, watched, whole};
+use crate::convert::{Answer, Numbers, Raised, components, run, to_json, watched, whole};
+use crate::robot::Robot;
+use crate::robot::inverse::coordinates;
+use crate::source::Source;
 use cdpr_assess::read_region;
 use cdpr_report::{draw, figures, report_with};
-use cdpr_robot::plausible;
 use cdpr_sensitivity::SampleDesign;
 use cdpr_study::{
-    Access, Existing, IfExists, Part, Plan, REPORT_NAME, Results, Run, Session, Shard, StoredStudy, Study,
-    StudyError, TableFormat, Watcher, check_complete, check_observed, observe_into, observe_shard,
-    take_results, write_text,
+    Access, Existing, IfExists, Part, Plan, REPORT_NAME, ROBOT_NAME, Results, Run, Session, Shard,
+    StoredStudy, StudyError, TableFormat, Watcher, check_complete, check_observed, observe_into,
+    observe_shard, take_results, write_text,
 };
 use numpy::{IxDyn, PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
+
+/// The text of a study file for a robot, with usual tolerances.
+#[pyfunction]
+pub(crate) fn template(
+    py: Python,
+    robot: &Robot,
+    position: Option<Numbers>,
+    payload: Option<f64>,
+    free: Option<Vec<String>>,
+) -> Answer<String> {
+    let position = position.map(|position| components("position", &position)).transpose()?;
+    let free = coordinates(free)?;
+    Ok(run(py, |_| cdpr_study::template(&robot.robot, ROBOT_NAME, position, payload, &free))??)
+}
 
 /// Makes the folder of a study, or continues with it; returns the numbers of blocks and observations.
 ///
@@ -23,7 +39,8 @@ use std::sync::{Mutex, PoisonError};
 #[allow(clippy::too_many_arguments)]
 pub(crate) fn begin(
     py: Python,
-    study: PathBuf,
+    study: Source,
+    robot: Option<&Robot>,
     out: PathBuf,
     observations: Option<Bound<PyAny>>,
     resume: bool,
@@ -42,8 +59,7 @@ pub(crate) fn begin(
     format_of(table)?;
     let observations = observations.map(|number| whole("observations", &number)).transpose()?;
     let begun = |_: &_| -> Answer<_> {
-        let mut study = Study::open(&study)?;
-        question(plausible::robot(&study.robot).into_iter().chain(study.doubts()))?;
+        let mut study = study.study(robot)?;
         if let Some(observations) = observations {
             study.set_observations(observations)?;
         }

@@ -28,10 +28,10 @@ def layouts(values):
 def test_numbers_are_the_same_however_they_lie_in_memory(caroca):
     payloads = numpy.array([0.0, 10.0, 20.0, 30.0])
     poses = numpy.array(POSE) + numpy.random.default_rng(3).uniform(-0.5, 0.5, (4, 3))
-    expected = caroca.deflection(poses, payload=payloads).rms
+    expected = caroca.deflection(poses, payload=payloads).magnitude
     assert len(set(expected)) == 4
     for (name, payload), (_, pose) in zip(layouts(payloads), layouts(poses)):
-        numpy.testing.assert_array_equal(caroca.deflection(pose, payload=payload).rms, expected, name)
+        numpy.testing.assert_array_equal(caroca.deflection(pose, payload=payload).magnitude, expected, name)
 
 
 def test_a_robot_is_the_same_however_its_arrays_lie_in_memory(caroca):
@@ -80,7 +80,7 @@ def test_a_value_that_cannot_be_is_a_row_without_an_answer_and_raises_alone(caro
     found = caroca.deflection(POSE, payload=[50, -1, numpy.nan, 50])
     assert found.kinds == [None, "invalid_input", "invalid_input", None]
     assert found.reasons[1] == "payload is -1: expected a mass, zero or more [kg]"
-    assert numpy.isnan(found.rms).tolist() == [False, True, True, False]
+    assert numpy.isnan(found.magnitude).tolist() == [False, True, True, False]
     cables = cdpr.catenary(1, 1e6, length=[4, -4], end=[3, 0])
     assert cables.kinds == [None, "invalid_input"] and numpy.isnan(cables.sag).tolist() == [False, True]
     for call in (
@@ -148,7 +148,8 @@ def test_numbers_of_numpy_are_numbers(caroca):
     assert cdpr.Robot.from_dict(content) == caroca
     alike = [caroca.workspace(x=x, y=numpy.float32(0), z=1.75, payload=50)
              for x in ((-1, 1, 3), [-1, 1, 3], (-1, 1, 3.0), numpy.array([-1, 1, 3]))]
-    assert all(found.rms.tolist() == alike[0].rms.tolist() and found.shape == (3, 1, 1) for found in alike)
+    expected = alike[0].magnitude.tolist()
+    assert all(found.magnitude.tolist() == expected and found.shape == (3, 1, 1) for found in alike)
 
 
 def test_what_does_not_fit_in_memory_raises():
@@ -169,7 +170,7 @@ def test_a_load_is_asked_for_where_it_is_the_question(caroca):
         message = "nothing displaces the platform: expected payload, force or moment"
         with pytest.raises(cdpr.InputError, match=message):
             call()
-    assert caroca.deflection(POSE, payload=[0.0, 50.0]).rms[0] < 1e-12
+    assert caroca.deflection(POSE, payload=[0.0, 50.0]).magnitude[0] < 1e-12
     with pytest.raises(TypeError, match="payload"):
         caroca.workspace(plane=("z", 1.75))
     with pytest.raises(cdpr.InputError, match="expected x, y and z, or plane with its grid"):

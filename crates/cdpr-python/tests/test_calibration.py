@@ -1,4 +1,4 @@
-"""Calibrations give the files of `cdpr calibrate`, and plans the poses of `cdpr calibration plan`."""
+"""Calibrations give the files of `cdpr calibrate fit`, and plans the poses of `cdpr calibrate plan`."""
 
 import json
 import os
@@ -30,8 +30,8 @@ def measurements(data, model, caroca_file, tmp_path_factory):
     path = tmp_path_factory.mktemp("campaign") / "measurements.csv"
     poses = str(data / "calibration" / "caroca-candidates.csv")
     noise = ",".join(f"{name}={std}" for name, std in NOISE.items())
-    arguments = ["--poses", poses, "--model", model, "--noise", noise, "--seed", "2", "--out", path]
-    done = command("calibration", "simulate", caroca_file, *arguments)
+    arguments = ["--poses", poses, "--uncertainty", model, "--noise", noise, "--seed", "2", "--out", path]
+    done = command("calibrate", "simulate", caroca_file, *arguments)
     assert done.returncode == 0, done.stderr
     lines = path.read_text().splitlines()
     path.write_text("\n".join([lines[0], *lines[1::9]]) + "\n")
@@ -40,15 +40,23 @@ def measurements(data, model, caroca_file, tmp_path_factory):
 
 def test_files_are_those_of_the_program(caroca, caroca_file, measurements, model, tmp_path):
     ours, theirs = tmp_path / "ours", tmp_path / "theirs"
-    summary = cdpr.calibration.calibrate(caroca, measurements, ours, model=model, noise=NOISE)
+    found = cdpr.calibration.calibrate(caroca, measurements, ours, model=model, noise=NOISE)
+    summary = found.summary
     noise = ",".join(f"{name}={std}" for name, std in NOISE.items())
-    arguments = ["--measurements", measurements, "--model", model, "--noise", noise, "--out", theirs]
-    printed = answer("calibrate", caroca_file, *arguments)
+    arguments = [measurements, "--uncertainty", model, "--noise", noise, "--out", theirs]
+    printed = answer("calibrate", "fit", caroca_file, *arguments)
     assert summary == printed == json.loads((ours / "summary.json").read_text())
     for name in ("calibrated.json", "posterior.json", "residuals.csv", "poses.csv", "report.html"):
         assert (ours / name).read_bytes() == (theirs / name).read_bytes(), name
     robot = cdpr.Robot.from_file(ours / "calibrated.json")
     assert robot.parameters["a1.x"] == summary["parameters"]["a1.x"]["after"]
+    assert robot == found.robot and found.posterior == json.loads((ours / "posterior.json").read_text())
+    assert found.parameters[:2] == ["mass", "youngs_modulus"] or "a1.x" in found.parameters
+    lines = (ours / "residuals.csv").read_text().splitlines()[1:]
+    assert found.residuals.after.tolist() == [float(line.split(",")[4]) for line in lines]
+    assert found.residuals.columns == [line.split(",")[1] for line in lines]
+    lines = (ours / "poses.csv").read_text().splitlines()[1:]
+    assert found.poses.tolist() == [[float(cell) for cell in line.split(",")[1:8]] for line in lines]
 
 
 def test_errors_of_sensors_are_sought(caroca, measurements, model, tmp_path):
@@ -60,8 +68,8 @@ def test_errors_of_sensors_are_sought(caroca, measurements, model, tmp_path):
     moved = tmp_path / "moved.csv"
     moved.write_text("\n".join([lines[0], *map(change, lines[1:])]) + "\n")
     sought = {"model": model, "noise": NOISE, "unknown": {"length_offset": None}}
-    found = cdpr.calibration.calibrate(caroca, moved, tmp_path / "out", **sought)
-    offset = found["sensors"]["length_offset1"]
+    found = cdpr.calibration.calibrate(caroca, moved, **sought)
+    offset = found.sensors["length_offset1"]
     assert abs(offset["after"] - 0.25) < 5 * offset["std"] + 1e-6
 
 
@@ -72,7 +80,7 @@ def test_bounds_hold_and_groups_move_together(caroca, measurements, tmp_path):
         "share": ["b1.z+b2.z"],
         "bounds": {"mass": (-1e-3, 1e-3)},
     }
-    found = cdpr.calibration.calibrate(caroca, measurements, tmp_path / "out", **sought)["parameters"]
+    found = cdpr.calibration.calibrate(caroca, measurements, **sought).summary["parameters"]
     moved = [found[name]["after"] - found[name]["before"] for name in ("b1.z", "b2.z", "mass")]
     # Differences of masses near 180 kg are rounded.
     assert moved[0] == pytest.approx(moved[1], abs=1e-12) and abs(moved[2]) <= 1e-3 + 1e-12
@@ -97,22 +105,22 @@ def test_plans_are_those_of_the_program(caroca, caroca_file, candidates):
     noise = {"position": 1e-4, "rotation": 1e-4}
     uncertainty = {"a": 0.002, "b": 0.002, "youngs_modulus": 5e9}
     known = {"uncertainty": uncertainty, "noise": noise}
-    found = cdpr.calibration.calibration_plan(caroca, candidates, count=6, **known)
-    assert len(found["poses"]) == 6 and len(found["growing"]) == 6
-    assert found["plan"]["information_bits"] > found["random"]["information_bits"]
-    told = cdpr.calibration.identify(caroca, found["poses"], **known)
-    assert told["poses"] == 6
-    bits = sum(0.5 * numpy.log2(1 + of["signal_to_noise"] ** 2) for of in told["identifiable"])
-    assert bits == pytest.approx(found["plan"]["information_bits"], rel=1e-6)
-    arguments = ["--grid=-2:2:4,-1:1:3,1:2.5:4", "--count", 6, "--noise", "position=1e-4,rotation=1e-4"]
+    found = cdpr.calibration.plan(caroca, candidates, count=6, **known)
+    assert found.poses.shape == (6, 7) and len(found.growing) == 6
+    assert found.quality.information_bits > found.random.information_bits
+    told = cdpr.calibration.identify(caroca, found.poses, **known)
+    assert told.held == 6 and len(told.remaining) == len(told.inputs)
+    bits = sum(0.5 * numpy.log2(1 + of.signal_to_noise**2) for of in told.identifiable)
+    assert bits == pytest.approx(found.quality.information_bits, rel=1e-6)
+    arguments = ["--region=-2:2:4,-1:1:3,1:2.5:4", "--count", 6, "--noise", "position=1e-4,rotation=1e-4"]
     theirs = answer(
-        "calibration", "plan", caroca_file, *arguments, "--uncertainty", "a=0.002,b=0.002,youngs_modulus=5e9"
+        "calibrate", "plan", caroca_file, *arguments, "--uncertainty", "a=0.002,b=0.002,youngs_modulus=5e9"
     )
     for name in ("information_bits", "parameters"):
-        assert found["plan"][name] == pytest.approx(theirs["plan"][name], rel=1e-9)
-    assert numpy.array(found["poses"]) == pytest.approx(numpy.array(theirs["poses"]), abs=1e-12)
+        assert getattr(found.quality, name) == pytest.approx(theirs["plan"][name], rel=1e-9)
+    assert found.poses == pytest.approx(numpy.array(theirs["poses"]), abs=1e-12)
     with pytest.raises(cdpr.InputError, match="work has no pose"):
-        cdpr.calibration.calibration_plan(caroca, candidates, criterion="mean-at-work", **known)
+        cdpr.calibration.plan(caroca, candidates, criterion="mean-at-work", **known)
 
 
 def test_irma4u_is_read_as_its_authors_write_it(data, tmp_path):
@@ -134,11 +142,11 @@ def test_irma4u_is_read_as_its_authors_write_it(data, tmp_path):
         "winch",
         "--seed",
         "1",
-        "--model",
+        "--uncertainty",
         model,
     ]
     arguments += ["--noise", noise, "--unknown", "length_offset=0.01", "--out", measured]
-    done = command("calibration", "simulate", str(data / "robots" / "irma4u.json"), *arguments)
+    done = command("calibrate", "simulate", str(data / "robots" / "irma4u.json"), *arguments)
     assert done.returncode == 0, done.stderr
     rows = [
         dict(zip(lines[0], cells))
@@ -224,15 +232,63 @@ def test_a_simulated_campaign_is_that_of_the_program(name, free, tmp_path):
     candidates = tmp_path / "poses.csv"
     candidates.write_text("\n".join(",".join(map(str, pose)) for pose in poses))
     more = [] if free is None else ["--free", ",".join(free)]
-    done = command("calibration", "simulate", name, "--poses", candidates, "--model", model, "--seed", "3",
+    done = command("calibrate", "simulate", name, "--poses", candidates, "--uncertainty", model, "--seed", "3",
                    "--noise", "position=1e-4,length=1e-4", "--unknown", "length_offset=0.01",
                    "--out", tmp_path / "theirs.csv", "--truth", tmp_path / "truth.json", *more)
     assert done.returncode == 0, done.stderr
-    truth = cdpr.calibration.simulate(
+    campaign = cdpr.calibration.simulate(
         robot, poses, tmp_path / "ours.csv", model=model, noise={"position": 1e-4, "length": 1e-4},
         unknown={"length_offset": 0.01}, free=free, seed=3,
     )
     assert (tmp_path / "ours.csv").read_bytes() == (tmp_path / "theirs.csv").read_bytes()
-    assert truth.to_dict() == cdpr.Robot.from_file(tmp_path / "truth.json").to_dict()
+    assert campaign.robot.to_dict() == cdpr.Robot.from_file(tmp_path / "truth.json").to_dict()
     with pytest.raises(cdpr.InputError, match='tension_at is "x": expected platform or winch'):
-        cdpr.calibration.simulate(robot, poses, tmp_path / "x.csv", model=model, noise={}, tension_at="x")
+        cdpr.calibration.simulate(robot, poses, model=model, noise={}, tension_at="x")
+
+
+def test_a_calibration_needs_no_files(caroca, measurements, model, data, tmp_path, monkeypatch):
+    """Measurements as a dictionary of arrays or a DataFrame and tolerances as a dictionary."""
+    header, *lines = [line.split(",") for line in Path(measurements).read_text().splitlines()]
+    columns = dict(zip(header, numpy.array(lines, dtype=float).T))
+    tolerances = json.loads(Path(model).read_text())
+    expected = cdpr.calibration.calibrate(caroca, measurements, model=model, noise=NOISE)
+    monkeypatch.chdir(tmp_path)
+    tables = [columns]
+    try:
+        import pandas
+    except ImportError:
+        pass
+    else:
+        tables.append(pandas.DataFrame({**columns, "operator": ["me"] * len(lines)}))
+    for table in tables:
+        found = cdpr.calibration.calibrate(caroca, table, model=tolerances, noise=NOISE)
+        assert found.summary == expected.summary and found.posterior == expected.posterior
+        numpy.testing.assert_array_equal(found.robot.anchor_points, expected.robot.anchor_points)
+    assert list(tmp_path.iterdir()) == []
+    again = cdpr.calibration.calibrate(found.robot, columns, model=found.posterior, noise=NOISE)
+    assert again.parameters == found.parameters
+    for wrong, words in (
+        ({"l1_m": [1.0, 2.0], "l2_m": [1.0]}, "measurements: l2_m has 1 rows: expected 2 rows, as l1_m"),
+        ({"l1_m": [[1.0]]}, r"measurements: l1_m has the shape \(1, 1\): expected \(m,\)"),
+        ({"l1_x": [1.0]}, "l1_x"),
+        (3, "measurements is of the type int: expected the path of a file, a dictionary of arrays"),
+    ):
+        with pytest.raises(cdpr.InputError, match=words):
+            cdpr.calibration.calibrate(caroca, wrong, noise=NOISE)
+    with pytest.raises(cdpr.InputError, match="model: .*nonsense"):
+        cdpr.calibration.calibrate(caroca, columns, model={"nonsense": {"law": {"normal": {"mean": 0, "std": 1}}}})
+
+
+@pytest.mark.parametrize("name, free", [("cogiro", None), ("four-cables", ["roll", "pitch"]), ("ipanema-3", None)])
+def test_a_simulated_campaign_in_memory_leads_back_to_the_true_robot(name, free):
+    robot = cdpr.Robot.from_file(name)
+    middle = robot.exit_points.mean(axis=0)
+    height = robot.exit_points[:, 2].max()
+    poses = [[*(middle[:2] + [x, y]), z * height] for x in (-0.3, 0, 0.3) for y in (-0.2, 0.2) for z in (0.4, 0.5)]
+    tolerances = {"a": {"law": {"normal": {"mean": 0.0, "std": 0.001}}}}
+    noise = {"position": 1e-6, "rotation": 1e-6, "length": 1e-6}
+    campaign = cdpr.calibration.simulate(robot, poses, model=tolerances, noise=noise, free=free)
+    assert len({len(column) for column in campaign.measurements.values()}) == 1
+    found = cdpr.calibration.calibrate(robot, campaign.measurements, model=tolerances, noise=noise)
+    before = abs(robot.anchor_points - campaign.robot.anchor_points).max()
+    assert abs(found.robot.anchor_points - campaign.robot.anchor_points).max() < 0.5 * before

@@ -16,7 +16,7 @@ def test_a_robot_of_the_library_has_a_name(cogiro):
 
 
 def exported(target, robot, pose, path):
-    arguments = ["export", robot, "--to", target, f"--pose={pose}", "--out", str(path)]
+    arguments = ["robot", "export", robot, "--to", target, f"--pose={pose}", "--out", str(path)]
     subprocess.run([program(), *arguments], check=True, capture_output=True)
     return str(path)
 
@@ -67,7 +67,7 @@ def test_moorpy_finds_the_tensions_of_the_exported_robot(tmp_path, cogiro):
     ("mjcf", "nist-robocrane", [0, 0, 1.5]),
 ])
 def test_exported_files_are_those_of_the_program(target, name, pose, tmp_path):
-    found = cdpr.exchange.export_robot(cdpr.Robot.from_file(name), pose, target)
+    found = cdpr.exchange.export(cdpr.Robot.from_file(name), pose, target)
     exported(target, name, ",".join(map(str, pose)), tmp_path / "robot")
     theirs = {path.name.removeprefix("robot"): path.read_text() for path in tmp_path.iterdir()}
     single = len(found.files) == 1
@@ -76,38 +76,38 @@ def test_exported_files_are_those_of_the_program(target, name, pose, tmp_path):
 
 def test_a_robot_goes_to_caspr_and_back(tmp_path):
     robot = cdpr.Robot.from_file("ipanema-3")
-    for ending, text in cdpr.exchange.export_robot(robot, [0, 0, 1.3], "caspr").files.items():
+    for ending, text in cdpr.exchange.export(robot, [0, 0, 1.3], "caspr").files.items():
         (tmp_path / f"robot{ending}").write_text(text)
-    again, notes = cdpr.exchange.import_robot(tmp_path, cable="steel-4mm", tension_limits=[10, 2000])
+    again, notes = cdpr.exchange.read(tmp_path, cable="steel-4mm", tension_limits=[10, 2000])
     np.testing.assert_allclose(again.exit_points, robot.exit_points, atol=1e-9)
     np.testing.assert_allclose(again.anchor_points, robot.anchor_points, atol=1e-9)
     assert again.mass == pytest.approx(robot.mass) and list(again.tension_limits) == [10, 2000]
     assert {note.kind for note in notes} <= {"assumed", "questioned", "no place for"}
     for call, said in (
-        (lambda: cdpr.exchange.export_robot(robot, [0, 0, 1.3], "urdf"), 'to is "urdf": expected mjcf'),
-        (lambda: cdpr.exchange.import_robot(tmp_path, cable="steel-400mm", tension_limits=[1, 2]), "steel-400mm"),
-        (lambda: cdpr.exchange.import_robot(tmp_path, tension_limits=[1, 2, 3]), "tension_limits has the shape"),
+        (lambda: cdpr.exchange.export(robot, [0, 0, 1.3], "urdf"), 'to is "urdf": expected mjcf'),
+        (lambda: cdpr.exchange.read(tmp_path, cable="steel-400mm", tension_limits=[1, 2]), "steel-400mm"),
+        (lambda: cdpr.exchange.read(tmp_path, tension_limits=[1, 2, 3]), "tension_limits has the shape"),
     ):
         with pytest.raises((cdpr.InputError, cdpr.FileError), match=said):
             call()
     with pytest.raises(cdpr.NoSolutionError):
-        cdpr.exchange.export_robot(cdpr.Robot.from_file("cogiro"), [0, 0, 50], "mjcf")
+        cdpr.exchange.export(cdpr.Robot.from_file("cogiro"), [0, 0, 50], "mjcf")
     with pytest.raises(cdpr.FileError, match="expected a folder with the XML files"):
         (tmp_path / "empty").mkdir()
-        cdpr.exchange.import_robot(tmp_path / "empty")
+        cdpr.exchange.read(tmp_path / "empty")
 
 
 def test_a_robot_goes_to_mujoco_and_moorpy_and_back(tmp_path, cogiro):
     for target, limits in (("mjcf", None), ("moorpy", list(cogiro.tension_limits))):
         file = tmp_path / f"robot.{target}"
-        file.write_text(cdpr.exchange.export_robot(cogiro, [0, 0, 2], target).text)
-        again, notes = cdpr.exchange.import_robot(file, tension_limits=limits)
+        file.write_text(cdpr.exchange.export(cogiro, [0, 0, 2], target).text)
+        again, notes = cdpr.exchange.read(file, tension_limits=limits)
         assert (again.exit_points == cogiro.exit_points).all() and (again.anchor_points == cogiro.anchor_points).all()
         assert again.mass == cogiro.mass and "questioned" not in {note.kind for note in notes}
         np.testing.assert_allclose(again.inverse([0, 0, 2]).lengths, cogiro.inverse([0, 0, 2]).lengths, rtol=1e-12)
 
 
 def test_the_library_is_that_of_the_program():
-    listed = answer("robots")
-    assert cdpr.exchange.robots() == [robot["name"] for robot in listed]
-    assert cdpr.exchange.cables() == [cable["name"] for cable in answer("robots", "--cables")]
+    listed = answer("robot", "list")
+    assert cdpr.exchange.robots() == [robot["name"] for robot in listed["robots"]]
+    assert cdpr.exchange.cables() == [cable["name"] for cable in listed["cables"]]

@@ -31,8 +31,9 @@ def test_a_cable_is_that_of_the_command_line():
         {"length": 4.3, "force": [30.0, -12.0]},
         {"end": [4.1, -1.7], "tension": 55.0},
     ):
-        flags = [f"--{name}={words(numpy.atleast_1d(value))}" for name, value in given.items()]
-        printed = answer("catenary", "--weight", 0.9957, "--stiffness", 1.28e6, *flags)
+        names = {"force": "end-force"}
+        flags = [f"--{names.get(name, name)}={words(numpy.atleast_1d(value))}" for name, value in given.items()]
+        printed = answer("cable", "catenary", "weight=0.9957,stiffness=1.28e6", *flags)
         cable = cdpr.catenary(0.9957, 1.28e6, **given)
         same(cable.force, printed["force"])
         same(cable.end, printed["end"])
@@ -70,7 +71,7 @@ def test_the_direct_model_is_that_of_the_command_line(caroca, caroca_file):
     flags = (f"--lengths={words(LENGTHS)}", "--force=20,0,-30", "--moment=1,2,3")
     given = {"force": [20, 0, -30], "moment": [1, 2, 3]}
     check_direct(caroca.direct(LENGTHS, **given), answer("direct", caroca_file, *flags))
-    start = (f"--start={words(TURNED)}",)
+    start = (f"--pose={words(TURNED)}",)
     check_direct(caroca.direct(LENGTHS, start=TURNED, **given), answer("direct", caroca_file, *flags, *start))
     heavier = caroca.with_parameters({"mass": 200.0})
     printed = answer("direct", caroca_file, f"--lengths={words(LENGTHS)}", "--mass=200")
@@ -81,7 +82,7 @@ def test_the_deflection_is_that_of_the_command_line(caroca, caroca_file):
     printed = answer("deflection", caroca_file, f"--pose={words(TURNED)}", "--payload=50", "--moment=3,0,-2")
     given = caroca.deflection(TURNED, payload=50, moment=[3, 0, -2])
     same(1e3 * given.displacement, printed["deflection_mm"])
-    assert 1e3 * given.rms == printed["rms_mm"]
+    assert 1e3 * given.magnitude == printed["magnitude_mm"]
     # The command line has degrees.
     numpy.testing.assert_allclose(numpy.degrees(given.rotation), printed["rotation_deg"], rtol=1e-15)
     same(given.lengths, printed["lengths"])
@@ -111,7 +112,7 @@ def test_the_stiffness_is_that_of_the_command_line(caroca, caroca_file):
 
 
 def test_the_capacity_is_that_of_the_command_line(caroca, caroca_file):
-    flags = ["--payload=50", "--wrench=100,0,0,0,0,0", "--wrench=0,0,-200,0,0,0", "--tilt=4"]
+    flags = ["--payload=50", "--wrench=100,0,0,0,0,0", "--wrench=0,0,-200,0,0,0", "--with=tilt=4"]
     printed = answer("capacity", caroca_file, f"--pose={words(TURNED)}", *flags)
     wrenches = [[100, 0, 0, 0, 0, 0], [0, 0, -200, 0, 0, 0]]
     found = caroca.capacity(TURNED, payload=50, wrenches=wrenches, tilt=4)
@@ -135,11 +136,11 @@ def test_the_derivatives_are_those_of_the_command_line(caroca, caroca_file):
     count = len(printed["parameters"])
     assert found.inputs[:count] == printed["parameters"]
     assert found.inputs[count:] == ["payload", "x", "y", "z", "rx", "ry", "rz"]
-    same(1e3 * found.rms[:count], printed["rms_mm"])
+    same(1e3 * found.magnitude[:count], printed["magnitude_mm"])
     same(1e3 * found.displacement[:, :count].T, printed["deflection_mm"])
     same(found.lengths[:, :count].T, printed["unstrained_lengths"])
     assert not found.one_sided.any() and "one_sided" not in printed
-    same(found.rms_right, found.rms)
+    same(found.magnitude_right, found.magnitude)
     same(found.least_stiffness[:count], printed["least_stiffness"])
     assert numpy.isnan(found.frequency).all(), "CAROCA has no inertia"
 
@@ -181,7 +182,7 @@ def test_quaternions_in_doubt_are_questioned(caroca):
 
 
 def test_a_workspace_is_that_of_the_command_line(caroca, caroca_file, tmp_path):
-    printed = answer("workspace", caroca_file, "--box=-3:3:7,-1:1:3,1.75:1.75:1", "--payload=50",
+    printed = answer("workspace", caroca_file, "--region=-3:3:7,-1:1:3,1.75:1.75:1", "--payload=50",
                   "--uncertainty=a=0.002,b=0.002", "--out", tmp_path)
     found = caroca.workspace(x=(-3, 3, 7), y=(-1, 1, 3), z=1.75, payload=50,
                              uncertainty={"a": 0.002, "b": 0.002})
@@ -199,7 +200,7 @@ def test_a_workspace_is_that_of_the_command_line(caroca, caroca_file, tmp_path):
                  "anew_least_tension", "anew_greatest_tension"):
         same(getattr(found, name), [numpy.nan if value is None else value for value in column(name)])
     bare = caroca.workspace(x=(-3, 3, 7), y=0, z=1.75, payload=0)
-    assert numpy.isnan(bare.rms).all() and not numpy.isnan(bare.least_stiffness).any()
+    assert numpy.isnan(bare.magnitude).all() and not numpy.isnan(bare.least_stiffness).any()
     assert numpy.isnan(bare.lowest_frequency).all()
     content = caroca.to_dict()
     content["platform"]["inertia"] = numpy.diag([4.0, 5.0, 6.0]).tolist()
@@ -228,7 +229,7 @@ def test_a_row_of_an_array_is_what_the_case_is_alone(caroca):
         same(direct.pose[i], alone.pose)
         same(direct.slack[i], alone.slack)
         assert direct.method[i] == alone.method
-        assert deflection.rms[i] == caroca.deflection(pose, force=load, payload=10.0).rms
+        assert deflection.magnitude[i] == caroca.deflection(pose, force=load, payload=10.0).magnitude
         same(stiffness.matrix[i], caroca.stiffness(pose, payload=payloads[i]).matrix)
         if i < 5:
             same(derivatives.lengths[i], caroca.derivatives(pose, payload=50).lengths)
@@ -244,14 +245,14 @@ def test_robots_that_deviate_are_observed_as_they_are_alone(caroca):
     deviations = sizes * generator.uniform(-1, 1, (600, len(names)))
     deviations[7, 0] = -1e4
     found = caroca.observe(POSE, deviations, payload=50)
-    assert found.reasons[7].startswith("platform.mass is -") and numpy.isnan(found.rms[7])
+    assert found.reasons[7].startswith("platform.mass is -") and numpy.isnan(found.magnitude[7])
     same(found.displacement[300:], caroca.observe(POSE, deviations[300:], payload=50).displacement)
     for row in (0, 100, 599):
         values = dict(zip(names, numpy.array(list(caroca.parameters.values())) + deviations[row]))
         offsets = [values.pop(f"dt{i + 1}") for i in range(8)]
         alone = caroca.with_parameters(values).deflection(POSE, payload=50, tension_offsets=offsets)
         numpy.testing.assert_allclose(found.displacement[row], alone.displacement, atol=1e-12)
-        assert abs(caroca.observe(POSE, deviations[row], payload=50).rms - alone.rms) < 1e-12
+        assert abs(caroca.observe(POSE, deviations[row], payload=50).magnitude - alone.magnitude) < 1e-12
 
 
 def test_no_case_is_an_empty_answer(caroca):
@@ -263,7 +264,7 @@ def test_a_case_without_an_answer_is_nan_in_an_array_and_raises_alone(caroca, ca
     far = [9.0, 0.0, 1.75]
     poses = numpy.array([POSE, far, POSE])
     found = caroca.deflection(poses, payload=50)
-    assert numpy.isnan(found.rms).tolist() == [False, True, False]
+    assert numpy.isnan(found.magnitude).tolist() == [False, True, False]
     assert numpy.isnan(found.loaded.tensions[1]).all()
     text = refusal("deflection", caroca_file, "--pose=9,0,1.75", "--payload=50")
     assert found.reasons == [None, text, None]
@@ -313,10 +314,10 @@ def test_bad_input_is_refused_with_field_value_and_what_would_be_right(caroca, c
     broken.write_text(open(caroca_file).read().replace('"mass"', '"masse"'))
     with pytest.raises(cdpr.InputError) as raised:
         cdpr.Robot.from_file(broken)
-    assert str(raised.value) == refusal("check", broken)
+    assert str(raised.value) == refusal("robot", "check", broken)
     with pytest.raises(cdpr.FileError) as raised:
         cdpr.Robot.from_file(tmp_path / "none.json")
-    assert str(raised.value) == refusal("check", tmp_path / "none.json")
+    assert str(raised.value) == refusal("robot", "check", tmp_path / "none.json")
 
 
 def test_a_robot_with_its_own_parameters_is_itself(caroca):
@@ -424,10 +425,10 @@ def test_an_answer_goes_to_another_process_and_is_summed_up(caroca):
                        "MorrisEffects", "Certificate", "PathStates"}
     one = caroca.deflection(POSE, payload=50)
     numbers = ", ".join(f"{value:.6g}" for value in one.displacement)
-    assert f"displacement [{numbers}], rms {one.rms:.6g}, " in repr(one)
+    assert f"displacement [{numbers}], magnitude {one.magnitude:.6g}, " in repr(one)
     found = caroca.deflection([POSE, POSE], payload=50)
     assert repr(found) == (
-        "<cdpr.Deflection displacement (2, 3), rms (2,), rotation (2, 3), lengths (2, 8), "
+        "<cdpr.Deflection displacement (2, 3), magnitude (2,), rotation (2, 3), lengths (2, 8), "
         "unloaded DirectSolution, loaded DirectSolution, reasons [2], kinds [2]>"
     )
     with pytest.raises(TypeError, match="missing"):
@@ -442,9 +443,9 @@ def test_answers_are_frames_of_pandas_with_a_row_for_each_case(caroca):
     far = [POSE, [9.0, 0.0, 1.75]]
     found = caroca.derivatives(far, payload=50)
     frame = found.to_dataframe()
-    numpy.testing.assert_array_equal(frame["rms/a1.x"], found.rms[:, found.inputs.index("a1.x")])
+    numpy.testing.assert_array_equal(frame["magnitude/a1.x"], found.magnitude[:, found.inputs.index("a1.x")])
     numpy.testing.assert_array_equal(frame["lengths_8/mass"], found.lengths[:, 7, found.inputs.index("mass")])
-    assert list(frame["kinds"]) == found.kinds and numpy.isnan(frame["rms/a1.x"][1])
+    assert list(frame["kinds"]) == found.kinds and numpy.isnan(frame["magnitude/a1.x"][1])
     assert caroca.inverse(POSE).to_dataframe()["tensions_3"][0] == caroca.inverse(POSE).tensions[2]
     plane = caroca.workspace(plane=("z", 1.75), grid=(3, 3), payload=50)
     frame = plane.to_dataframe()
@@ -476,7 +477,7 @@ def test_a_robot_is_made_of_arrays_and_read_back_to_the_last_bit(caroca):
     assert len(made.parameters) == 62
     for again in (cdpr.Robot.from_dict(content), pickle.loads(pickle.dumps(caroca))):
         same(again.inverse(TURNED).lengths, caroca.inverse(TURNED).lengths)
-    assert f"{1e3 * made.deflection(POSE, payload=50).rms:.4f}" == "1.3312"
+    assert f"{1e3 * made.deflection(POSE, payload=50).magnitude:.4f}" == "1.3312"
     stiffer = caroca.with_parameters({"youngs_modulus": 2e11, "a1.x": 0.25})
     assert stiffer.parameters["youngs_modulus"] == 2e11 and stiffer.anchor_points[0, 0] == 0.25
     assert caroca.parameters["youngs_modulus"] != 2e11
@@ -562,23 +563,23 @@ def test_derivatives_and_workspaces_of_four_cables_take_free_coordinates(data):
     pose, free = [0.5, 0.3, 2.0], ["roll", "pitch"]
     found = robot.derivatives(pose, payload=5, free=free)
     given = robot.deflection(pose, payload=5, free=free)
-    assert found.deflection.rms == given.rms
+    assert found.deflection.magnitude == given.magnitude
     column = list(found.inputs).index("mass")
     step = 0.01
     heavier, lighter = (
         robot.with_parameters({"mass": robot.parameters["mass"] + change}).deflection(pose, payload=5, free=free)
         for change in (step, -step)
     )
-    difference = (heavier.rms - lighter.rms) / (2 * step)
-    assert abs(found.rms[column] - difference) < 1e-3 * abs(difference)
+    difference = (heavier.magnitude - lighter.magnitude) / (2 * step)
+    assert abs(found.magnitude[column] - difference) < 1e-3 * abs(difference)
     deviations = numpy.zeros((2, len(robot.parameters)))
     deviations[1, found.inputs.index("mass")] = 0.5
     observed = robot.observe(pose, deviations, payload=5, free=free)
-    assert abs(observed.rms[0] - given.rms) < 1e-9
-    slope = found.rms[found.inputs.index("mass")]
-    assert abs((observed.rms[1] - observed.rms[0]) / 0.5 - slope) < 0.05 * abs(slope)
+    assert abs(observed.magnitude[0] - given.magnitude) < 1e-9
+    slope = found.magnitude[found.inputs.index("mass")]
+    assert abs((observed.magnitude[1] - observed.magnitude[0]) / 0.5 - slope) < 0.05 * abs(slope)
     space = robot.workspace(x=0.5, y=0.3, z=(1.5, 2.0, 2), payload=5, free=free)
-    assert abs(space.rms[1] - given.rms) < 1e-12
+    assert abs(space.magnitude[1] - given.magnitude) < 1e-12
     with pytest.raises(cdpr.InputError, match="free is"):
         robot.workspace(x=0.5, y=0.3, z=(1.5, 2.0, 2), payload=5)
 
@@ -590,3 +591,56 @@ def test_robots_have_a_ground_below_which_nothing_hangs(data):
     assert robot.ground_z == 2.25
     with pytest.raises(cdpr.NoSolutionError, match="below the ground at 2.25 m"):
         robot.inverse([0.5, 0.3, 2.0], free=["roll", "pitch"])
+
+
+def test_cables_are_a_list_and_their_number_is_its_length(caroca):
+    assert caroca.n_cables == len(caroca.cables) == 8
+    cable = caroca.cables[2]
+    assert cable.number == 3 and cable.section == caroca.section[2] and cable.max_at == "anchor"
+    numpy.testing.assert_array_equal(cable.anchor_point, caroca.anchor_points[2])
+    numpy.testing.assert_array_equal(cable.tension_limits, caroca.cable_limits[2])
+    assert pickle.loads(pickle.dumps(cable)).youngs_modulus == cable.youngs_modulus
+
+
+def test_further_rests_are_answers_like_the_first():
+    robot = cdpr.Robot.from_file("four-cables")
+    found = robot.inverse([0.5, 0.3, 2.0], free=["roll", "pitch"])
+    assert all(other.pose.shape == (7,) and other.lengths.shape == (4,) for other in found.others)
+    for other in found.others:
+        assert isinstance(other.stable, bool) and other.out_of_limits.dtype == numpy.int8
+
+
+@pytest.mark.parametrize("name", ["caroca", "cogiro", "ipanema-3", "four-cables"])
+def test_answers_can_be_drawn(name):
+    matplotlib = pytest.importorskip("matplotlib", reason="matplotlib is not installed")
+    matplotlib.use("svg")
+    from matplotlib import pyplot
+
+    robot = cdpr.Robot.from_file(name)
+    free = ["roll", "pitch"] if name == "four-cables" else None
+    middle = robot.exit_points.mean(axis=0)
+    pose = [0.5, 0.3, 2.0] if free else [*middle[:2], 0.5 * robot.exit_points[:, 2].max()]
+    poses = [pose, [pose[0], pose[1], pose[2] + 0.05]]
+    answers = [
+        robot.inverse(pose, free=free),
+        robot.deflection(poses, payload=1, free=free),
+        robot.deflection(pose, payload=1, free=free).loaded,
+        robot.stiffness(poses, free=free),
+        robot.capacity(poses, free=free),
+        cdpr.catenary([1.0, 2.0], 1e6, length=5.0, end=[4.0, 1.0]),
+        cdpr.catenary(1.0, 1e6, length=5.0, end=[4.0, 1.0]),
+    ]
+    if free is None:
+        answers += [
+            robot.path(poses, payload=1, uncertainty={"a": 0.001}),
+            robot.path(poses, payload=1, uncertainty={"a": 0.001}).std,
+            robot.workspace(plane=("z", pose[2]), grid=(4, 3), payload=1),
+            robot.workspace(x=pose[0], y=pose[1], z=(pose[2], pose[2] + 0.2, 3), payload=1),
+            robot.boundary(plane=("z", pose[2]), grid=(4, 3), payload=1),
+            robot.boundary(x=(-0.5, 0.5, 3), y=(-0.5, 0.5, 3), z=(pose[2], pose[2] + 0.2, 3), payload=1),
+        ]
+    for answer in answers:
+        figure = answer.plot()
+        axis = figure.axes[0]
+        assert axis.get_ylabel() and (axis.lines or axis.patches or axis.collections), answer
+        pyplot.close(figure)

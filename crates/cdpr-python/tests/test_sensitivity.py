@@ -146,13 +146,13 @@ def test_a_design_over_the_parameters_of_a_robot_finds_what_its_derivatives_say(
     nominal = {name: 0.5 * (law["uniform"]["min"] + law["uniform"]["max"]) for name, law in laws.items()}
     design = SobolDesign(laws, 128, seed=1)
     outputs = [
-        caroca.with_parameters(dict(zip(laws, row))).deflection([0, 0, 1.75], payload=50).rms
+        caroca.with_parameters(dict(zip(laws, row))).deflection([0, 0, 1.75], payload=50).magnitude
         for row in design.rows()
     ]
     found = design.effects(outputs)
     slopes = caroca.with_parameters(nominal).derivatives([0, 0, 1.75], payload=50)
     halves = [0.5 * (law["uniform"]["max"] - law["uniform"]["min"]) for law in laws.values()]
-    expected = [slopes.rms[slopes.inputs.index(name)] * half for name, half in zip(laws, halves)]
+    expected = [slopes.magnitude[slopes.inputs.index(name)] * half for name, half in zip(laws, halves)]
     # 1/E is not linear over 10 %: its third order is 0.5 % of the largest effect, and the points are out of
     # balance by about as much.
     numpy.testing.assert_allclose(found.effect, expected, atol=0.01 * numpy.abs(expected).max())

@@ -75,10 +75,10 @@ def test_a_run_writes_what_the_command_line_writes(study, expected, tmp_path):
         written = lines[row + 1].split(",")
         assert written[-2] == table["status"][row]
         assert [float(number) for number in written[:-2]] == list(table[row])[:-1]
-    mean = results.summary["studies"]["mechanical"]["rms_mm"]["mean"]
-    assert abs(numpy.nanmean(table["rms_mm"]) - mean) < 1e-12
+    mean = results.summary["studies"]["mechanical"]["magnitude_mm"]["mean"]
+    assert abs(numpy.nanmean(table["magnitude_mm"]) - mean) < 1e-12
     pandas = pytest.importorskip("pandas")
-    frame = results.frame("mechanical")
+    frame = results.to_dataframe("mechanical")
     assert isinstance(frame, pandas.DataFrame) and len(frame) == OBSERVATIONS
 
 
@@ -269,6 +269,77 @@ def test_the_table_of_a_surface_has_a_row_a_point(data, tmp_path):
     study = tmp_path / "surface.json"
     study.write_text(json.dumps(file))
     table = cdpr.study.run(study, tmp_path / "out").table(name)
-    assert table.dtype.names[2:] == ("rms_mm", "status") and table.shape == (12,)
-    assert set(table["status"]) == {"ok"} and numpy.all(table["rms_mm"] > 0)
+    assert table.dtype.names[2:] == ("magnitude_mm", "status") and table.shape == (12,)
+    assert set(table["status"]) == {"ok"} and numpy.all(table["magnitude_mm"] > 0)
     assert len(set(table[table.dtype.names[0]])) == 4
+
+
+def test_a_study_needs_no_files(study, data, tmp_path, monkeypatch):
+    """The study as a dictionary, its robot as a path, a robot or a dictionary."""
+    content = json.loads(Path(study).read_text())
+    robot = cdpr.Robot.from_file(content["robot"])
+    expected = cdpr.study.run(study, tmp_path / "out", observations=200)
+    names = [file.name for file in tmp_path.iterdir()]
+    monkeypatch.chdir(tmp_path)
+    for of in (content["robot"], Path(content["robot"]), robot, robot.to_dict()):
+        results = cdpr.study.run({**content, "robot": of}, observations=200)
+        assert results.summary["studies"] == expected.summary["studies"]
+        numpy.testing.assert_array_equal(results.observations("mechanical"), expected.observations("mechanical"))
+    assert [file.name for file in tmp_path.iterdir()] == names
+    folder = results.folder
+    saved = results.save(tmp_path / "saved")
+    assert (saved.folder / "report.html").exists() and not (saved.folder / "mechanical.csv").exists()
+    del results
+    assert not folder.exists() and saved.summary["studies"] == expected.summary["studies"]
+    with pytest.raises(cdpr.FileError, match="saved"):
+        saved.save(tmp_path / "saved")
+    for wrong, start in (
+        ({**content, "payload": -1}, "study: payload is -1: expected a finite mass above zero"),
+        ({**content, "robot": "cogira"}, "no file and no robot of the library is called `cogira`"),
+        (3, "study is of the type int: expected the path of a file, or its content as a dictionary"),
+        ({**content, "payload": numpy.nan}, "study cannot be written as JSON"),
+    ):
+        with pytest.raises(cdpr.InputError) as raised:
+            cdpr.study.run(wrong)
+        assert str(raised.value).startswith(start), str(raised.value)
+    with pytest.raises(cdpr.InputError, match="out is None: expected the folder of the run"):
+        cdpr.study.run(content, resume=True)
+
+
+@pytest.mark.parametrize("name", ["caroca", "cogiro", "four-cables", "ipanema-3"])
+def test_the_template_of_a_robot_runs(name):
+    study = cdpr.study.template(cdpr.Robot.from_file(name))
+    results = cdpr.study.run(study, observations=16)
+    assert all(part["observations"] > 0 for part in results.summary["studies"].values())
+
+
+def test_what_a_calibration_leaves_is_an_error_model_of_a_study(study, caroca):
+    content = json.loads(Path(study).read_text())
+    posterior = {
+        "format": "cdpr-errors/1",
+        "parameters": ["a1.x", "a1.y"],
+        "mean": [0.0, 0.0],
+        "covariance": [[4e-6, 1e-6], [1e-6, 4e-6]],
+    }
+    sampling = {**content["samplings"]["mechanical"], "error_model": "posterior"}
+    content.update(robot=caroca, error_models={"posterior": posterior}, samplings={"after": sampling})
+    table = cdpr.study.run(content, observations=64).observations("after")
+    assert [name for name in table.dtype.names if name.startswith("d_")] == ["d_posterior_1", "d_posterior_2"]
+
+
+@pytest.mark.parametrize("name", ["cogiro", "four-cables"])
+def test_a_sampling_has_its_statistics_and_the_effect_of_each_parameter(name):
+    study = cdpr.study.template(cdpr.Robot.from_file(name))
+    results = cdpr.study.run(study, observations=64)
+    found, table = results.sampling("all"), results.observations("all")
+    values = table[found.output]
+    assert found.mean == pytest.approx(numpy.nanmean(values), rel=1e-12) and found.max == numpy.nanmax(values)
+    assert found.observations == 64 and sum(found.failed.values()) == numpy.isnan(values).sum()
+    assert [f"d_{parameter}" for parameter in found.inputs] == list(table.dtype.names[1 : len(found.inputs) + 1])
+    assert found.effect.shape == found.student.shape == (len(found.inputs),)
+    assert found.effect_interval.shape == (len(found.inputs), 2) and found.output == "magnitude_mm"
+    surface = next(part for part in results.summary["studies"] if part != "all")
+    with pytest.raises(cdpr.InputError, match=f"name is '{surface}': expected a sampling with observations, one of all"):
+        results.sampling(surface)
+    if name == "cogiro":
+        assert list(results.table("all_sensitivity")["input"]) == found.inputs

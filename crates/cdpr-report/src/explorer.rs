@@ -1,7 +1,7 @@
 //! The explorer: one HTML file with a robot that computes where it is opened.
 
 use crate::error::ReportError;
-use crate::live::{BOOT, LiveRobot, UNPACK, data, models, packed, policy, script};
+use crate::live::{BOOT, LiveRobot, UNPACK, data, models, policy, script};
 use cdpr_robot::shown;
 use cdpr_study::StudyFile;
 use cdpr_web::page;
@@ -48,7 +48,6 @@ pub fn explorer(explored: &Explored, version: &str) -> Result<String, ReportErro
                 }
                 (data(&json))
                 (models())
-                (packed("module-scalar", page::SCALAR_MODULE))
                 (script(UNPACK))
                 (script(BOOT))
             }

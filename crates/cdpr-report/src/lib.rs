@@ -7,8 +7,8 @@
 //! |---|---|---|
 //! | | the robot at the poses of a study | [`robot_view`] |
 //! | 3 | load over elongation, and other cycles | [`cycle`] |
-//! | 4a, 5a | distribution of the RMS with its fitted laws | [`histogram`] |
-//! | 4b, 4c | RMS over two parameters | [`surface`] |
+//! | 4a, 5a | distribution of the magnitude with its fitted laws | [`histogram`] |
+//! | 4b, 4c | magnitude over two parameters | [`surface`] |
 //! | 5b, 5c | t-Student index of the coordinates of points | [`point_effects`] |
 //! | | signed effects with their intervals | [`signed_effects`] |
 //! | | shares of the variance by all measures | [`shares`] |

@@ -141,7 +141,7 @@ impl ScenePose {
             loaded: State::new(robot, &nominal.lengths, &nominal.loaded.equilibrium)?,
             unloaded,
             lengths: nominal.lengths.clone(),
-            deflection_mm: 1e3 * nominal.rms(),
+            deflection_mm: 1e3 * nominal.magnitude(),
             pose,
         })
     }

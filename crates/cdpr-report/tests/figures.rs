@@ -34,7 +34,7 @@ fn sampling() -> SamplingSummary {
         p_is_bound: false,
         probability: 0.5,
     };
-    let rms = ValueSummary {
+    let magnitude = ValueSummary {
         mean: 1.35,
         std: 0.1375,
         min: 1.1,
@@ -57,10 +57,10 @@ fn sampling() -> SamplingSummary {
         observations: 101,
         failed: [("infeasible_tension".to_owned(), 1)].into(),
         scalar: Default::default(),
-        values: Some(rms),
+        values: Some(magnitude),
         nominal: NominalSummary {
             displacement_mm: [0.0, 0.0, -1.33],
-            small_displacement_rms_mm: Some(1.3),
+            small_displacement_magnitude_mm: Some(1.3),
             unloaded_tensions: vec![574.0; 8],
             loaded_tensions: vec![730.0; 8],
             out_of_limits: Vec::new(),
@@ -188,7 +188,7 @@ fn a_histogram_has_a_bar_for_each_bin_and_names_the_best_law() {
     assert_eq!(rectangles(&svg), 5);
     let texts = texts(&svg);
     for text in [
-        "RMS of the static deflection [mm]",
+        "magnitude of the static deflection [mm]",
         "density [1/mm]",
         "mean 1.350, standard deviation 0.138, min 1.100, max 1.600, nominal 1.330 mm; 101 observations, 1 \
             failed",
@@ -226,7 +226,7 @@ fn a_surface_has_a_cell_for_each_point_and_shows_the_failed_ones() {
     let svg = surface(&summary, &result).unwrap();
     let failed = texts(&svg).join("\n");
     for text in
-        ["E and m", "Young&apos;s modulus E [GPa]", "mass of the platform m [kg]", "RMS [mm]", "failed"]
+        ["E and m", "Young&apos;s modulus E [GPa]", "mass of the platform m [kg]", "magnitude [mm]", "failed"]
     {
         assert!(failed.contains(text), "{text}: {failed}");
     }
@@ -258,7 +258,7 @@ fn signed_effects_are_sorted_by_size_and_cut_off() {
     let svg = signed_effects(&summary, 2).unwrap();
     assert_eq!(rectangles(&svg), 2);
     let texts = texts(&svg);
-    assert!(texts.contains(&"signed effect on the RMS of the static deflection [mm]"));
+    assert!(texts.contains(&"signed effect on the magnitude of the static deflection [mm]"));
     assert!(texts.contains(&"2 of 3 parameters; intervals of 95 % confidence from 8 replicates"));
     let line_of = |name| texts.iter().position(|text| *text == name);
     // Rows are drawn from the bottom up.

@@ -95,7 +95,7 @@ fn only(study: &mut Value, parameter: &str, of: Value) {
 fn a_study_of_which_every_observation_fails_or_few_are_made() {
     let heavy = json!({"law": {"uniform": {"min": 1e6, "max": 2e6}}});
     let found = check("all fail", &|study, _| study["error_models"]["table_3"]["mass"] = heavy.clone());
-    assert!(found["mechanical"]["rms_mm"].is_null());
+    assert!(found["mechanical"]["magnitude_mm"].is_null());
     let half = json!({"law": {"uniform": {"min": -10.0, "max": 20000.0}}});
     let found = check("most fail", &|study, _| study["error_models"]["table_3"]["mass"] = half.clone());
     assert!(found["mechanical"]["failed"].as_object().unwrap().values().any(|count| *count != 0));
@@ -111,7 +111,7 @@ fn a_study_of_which_every_observation_fails_or_few_are_made() {
 fn a_study_of_which_all_outputs_are_the_same() {
     let tiny = json!({"law": {"uniform": {"min": -1e-300, "max": 1e-300}}});
     let found = check("deviations below rounding", &|study, _| only(study, "mass", tiny.clone()));
-    assert_eq!(found["mechanical"]["rms_mm"]["std"], json!(0.0));
+    assert_eq!(found["mechanical"]["magnitude_mm"]["std"], json!(0.0));
     check("hardly any load", &|study, _| study["payload"] = json!(1e-300));
     check("a load below rounding", &|study, _| study["payload"] = json!(1e-9));
     check("one uncertain parameter", &|study, _| {

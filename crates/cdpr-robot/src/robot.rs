@@ -333,6 +333,13 @@ impl Robot {
         let sum: f64 = self.cables.iter().map(|cable| cable.anchor_point.norm_squared()).sum();
         (sum / self.cables.len() as f64).sqrt()
     }
+
+    /// Inertia to assume where `platform.inertia` is not known [kg m²]: that of a ball with the radius
+    /// [`Self::platform_size`], at least 1 cm.
+    pub fn assumed_inertia(&self) -> Matrix3<f64> {
+        let radius = self.platform_size().max(0.01);
+        Matrix3::identity() * (0.4 * self.platform.mass * radius * radius)
+    }
 }
 
 /// Horizontal part of a vertical axis at most, relative to its length.

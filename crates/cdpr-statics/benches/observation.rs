@@ -66,7 +66,7 @@ fn observation(criterion: &mut Criterion) {
     let (robot, load) = (caroca(), Load::payload(50.0));
     let observer = Observer::new(&robot, Pose::at(0.0, 0.0, 1.75), &load).unwrap();
     let nominal = alone::<Observation>(&observer, &[0.0; 62]).unwrap();
-    assert!((1e3 * nominal.rms() - 1.33125).abs() < 1e-4);
+    assert!((1e3 * nominal.magnitude() - 1.33125).abs() < 1e-4);
 
     let one = deviations(&robot, 1);
     group.throughput(Throughput::Elements(1));

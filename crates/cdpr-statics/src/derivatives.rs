@@ -52,19 +52,21 @@
 //! Nothing larger than 6 x 6 is factored: the cables are eliminated, as in Newton's method of the direct
 //! model.
 
+mod equilibrium;
 mod optimum;
 mod rest;
 mod softest;
 mod winding;
 
 pub use crate::equations::Inputs;
-use crate::equations::{CableDerivatives, Partials, Pins, Reading, read, solve};
 use crate::error::StaticsError;
 use crate::inverse::{Branch, InverseSolution, require_smooth};
 use crate::loading::{Deflection, Wound, deflection_from, wind, wind_free, wind_from, wind_near};
 use crate::problem::DirectProblem;
-use crate::state::{Equilibrium, Load, Wanted, WantedPose, one_by_one};
-use cdpr_robot::{CableEnd, Matrix6xX, Pose, Robot, Vector3};
+use crate::state::{Load, Wanted, WantedPose, one_by_one};
+use cdpr_robot::{Pose, Robot};
+use equilibrium::split_off;
+pub use equilibrium::{EquilibriumDerivatives, ForceDerivatives};
 use nalgebra::{DMatrix, Matrix3xX};
 pub use optimum::AtBound;
 use rest::Rest;
@@ -105,15 +107,6 @@ struct Excess {
     loaded: EquilibriumDerivatives,
 }
 
-/// Derivatives of an equilibrium; columns as in [`Derivatives`].
-#[derive(Clone, Debug, PartialEq)]
-pub struct EquilibriumDerivatives {
-    /// Derivatives of the pose: (dp, dφ) in the base frame, `R <- exp(dφ) R`, 6 x count [m, rad per unit].
-    pub pose: Matrix6xX<f64>,
-    /// Derivatives of the tensions at the platform, n x count [N per unit].
-    pub tensions: DMatrix<f64>,
-}
-
 /// The deflection at a wanted pose, or at each of many, as [`crate::deflection`] gives it, with its
 /// derivatives.
 ///
@@ -128,8 +121,8 @@ pub struct EquilibriumDerivatives {
 /// let robot = Robot::from_json(include_str!("../../../data/robots/caroca.json"))?;
 /// let found = derivatives(&robot, &Pose::at(0.0, 0.0, 1.75), &Load::payload(50.0))?;
 /// let modulus = found.inputs.column(Parameter::YoungsModulus);
-/// let rms = found.rms()?; // [m per SI unit]
-/// assert!(modulus.is_some_and(|column| (1e12 * rms[column] + 0.01289).abs() < 1e-5)); // [mm/GPa]
+/// let magnitude = found.magnitude()?; // [m per SI unit]
+/// assert!(modulus.is_some_and(|column| (1e12 * magnitude[column] + 0.01289).abs() < 1e-5)); // [mm/GPa]
 /// # Ok::<(), cdpr_statics::StaticsError>(())
 /// ```
 ///
@@ -247,15 +240,6 @@ fn add<'a>(sum: impl Iterator<Item = &'a mut f64>, more: impl Iterator<Item = &'
     sum.zip(more).for_each(|(sum, more)| *sum += more);
 }
 
-/// The columns from `count` on, which the matrix loses.
-fn split_off(matrix: &mut DMatrix<f64>, count: usize) -> DMatrix<f64> {
-    let last = matrix.columns(count, matrix.ncols() - count).into_owned();
-    if last.ncols() > 0 {
-        matrix.resize_horizontally_mut(count, 0.0);
-    }
-    last
-}
-
 impl Derivatives {
     /// The right derivatives: those of every input as it grows, with an empty `one_sided`. They differ from
     /// the left ones in the columns of the inputs in `one_sided`.
@@ -284,7 +268,7 @@ impl Derivatives {
     /// # Errors
     /// [`StaticsError::NoDerivative`] where |dp| is so small that rounding decides its direction: a norm has
     /// no derivative at zero.
-    pub fn rms(&self) -> Result<Vec<f64>, StaticsError> {
+    pub fn magnitude(&self) -> Result<Vec<f64>, StaticsError> {
         let dp = self.deflection.displacement();
         let size = self.deflection.lengths.iter().fold(0.0, |size: f64, length| size.max(*length));
         if dp.norm() <= 1e-12 * size {
@@ -333,121 +317,5 @@ impl Derivatives {
         let Deflection { loaded: found, lengths, .. } = &self.deflection;
         let (length_slopes, pose_slopes) = (&self.lengths, &self.loaded.pose);
         AtRest { robot, load, inputs: &self.inputs, found, lengths, length_slopes, pose_slopes }
-    }
-}
-
-impl DirectProblem<'_> {
-    /// Derivatives of an equilibrium for *given* lengths, which do not change with the parameters: neither
-    /// tension offsets nor the wanted pose matter. Along held motions and those that nothing resists they are
-    /// zero.
-    ///
-    /// # Errors
-    /// [`StaticsError::Invalid`] unless the equilibrium is finite and has one force for each cable;
-    /// [`StaticsError::NoDerivative`] at the border of stability.
-    pub fn derivatives(&self, equilibrium: &Equilibrium) -> Result<EquilibriumDerivatives, StaticsError> {
-        self.check("equilibrium", equilibrium)?;
-        EquilibriumDerivatives::new(self, &Inputs::of(self.robot), equilibrium, None)
-    }
-}
-
-/// Derivatives of an equilibrium by all inputs and by the unstrained length of every cable.
-///
-/// Each matrix has the columns of [`Inputs`] followed by one for each length. A length changes alone; so does
-/// an input, while all lengths stay the same.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ForceDerivatives {
-    /// Derivatives of the pose: (dp, dφ) in the base frame, `R <- exp(dφ) R` [m, rad per unit].
-    pub pose: Matrix6xX<f64>,
-    /// Force with which each cable pulls at that end, in the base frame [N]: on the platform, or on its
-    /// guide.
-    pub forces: Vec<Vector3<f64>>,
-    /// Derivatives of these forces, rows 3i to 3i + 2 for cable i [N per unit].
-    pub per_input: DMatrix<f64>,
-}
-
-impl DirectProblem<'_> {
-    /// Derivatives of an equilibrium, with those by the lengths and with the forces at an end of the cables
-    /// as vectors: what measurements of any kind are compared with.
-    ///
-    /// # Errors
-    /// As [`DirectProblem::derivatives`].
-    pub fn force_derivatives(
-        &self,
-        equilibrium: &Equilibrium,
-        end: CableEnd,
-    ) -> Result<ForceDerivatives, StaticsError> {
-        self.check("equilibrium", equilibrium)?;
-        let inputs = Inputs::of(self.robot);
-        let (n, count) = (self.cables(), inputs.count());
-        let mut lengths = DMatrix::zeros(n, count + n);
-        (0..n).for_each(|i| lengths[(i, count + i)] = 1.0);
-        let pose = EquilibriumDerivatives::new(self, &inputs, equilibrium, Some(&lengths))?.pose;
-        let mut cables = CableDerivatives::all(self, &equilibrium.pose, &equilibrium.cable_forces);
-        if end == CableEnd::Exit {
-            for (i, force) in equilibrium.cable_forces.iter().enumerate() {
-                cables[i] = cables[i].of_pull(self.robot, &equilibrium.pose, i, &self.catenary(i, *force));
-            }
-        }
-        let mut per_input = DMatrix::zeros(3 * n, count + n);
-        let columns = inputs.pose();
-        for (axis, unit) in [Vector3::x(), Vector3::y(), Vector3::z()].into_iter().enumerate() {
-            let along = |_: &CableDerivatives| Reading { per_force: unit, per_arm: Vector3::zeros() };
-            let mut at_rest = read(&inputs, &equilibrium.pose, &cables, along);
-            let per_motion = at_rest.columns(columns.start, 6).into_owned();
-            at_rest.columns_mut(columns.start, 6).fill(0.0);
-            let moved = per_motion * &pose;
-            for (i, cable) in cables.iter().enumerate() {
-                let mut row = per_input.row_mut(3 * i + axis);
-                row += moved.row(i);
-                let mut of_inputs = row.columns_mut(0, count);
-                of_inputs += at_rest.row(i);
-                row[count + i] += cable.per_actuation[axis];
-            }
-        }
-        Ok(ForceDerivatives { pose, forces: cables.iter().map(|cable| cable.force).collect(), per_input })
-    }
-}
-
-impl EquilibriumDerivatives {
-    /// Equation (D8), for lengths with the derivatives `winding`.
-    fn new(
-        problem: &DirectProblem,
-        inputs: &Inputs,
-        equilibrium: &Equilibrium,
-        winding: Option<&DMatrix<f64>>,
-    ) -> Result<Self, StaticsError> {
-        let Equilibrium { pose, cable_forces } = equilibrium;
-        let cables = CableDerivatives::all(problem, pose, cable_forces);
-        let mut partials =
-            Partials::new(problem.robot, inputs, pose, &problem.load, &cables, Reading::tension);
-        let (hessian, tensions_per_motion) = partials.take_pose(inputs);
-        let pins = Pins::new(problem, equilibrium, &(-0.5 * (hessian + hessian.transpose())));
-        let Partials { mut balance, readings: mut tensions } = partials;
-        if let Some(winding) = winding {
-            if winding.ncols() > inputs.count() {
-                balance.resize_horizontally_mut(winding.ncols(), 0.0);
-                tensions.resize_horizontally_mut(winding.ncols(), 0.0);
-            }
-            let per_actuation: Vec<_> = cables.iter().map(CableDerivatives::wrench_per_actuation).collect();
-            balance.gemm(1.0, &Matrix6xX::from_columns(&per_actuation), winding, 1.0);
-            for (i, cable) in cables.iter().enumerate() {
-                let mut row = tensions.row_mut(i);
-                row += winding.row(i) * cable.direction.dot(&cable.per_actuation);
-            }
-        }
-        balance.neg_mut();
-        pins.take(&mut balance);
-        solve(pins.pinned(&hessian, -1.0), &mut balance, "the equilibrium")?;
-        tensions.gemm(1.0, &tensions_per_motion, &balance, 1.0);
-        Ok(Self { pose: balance, tensions })
-    }
-
-    /// The columns from `count` on, which the derivatives lose.
-    fn split_off(&mut self, count: usize) -> Self {
-        let last = self.pose.columns(count, self.pose.ncols() - count).into_owned();
-        if last.ncols() > 0 {
-            self.pose.resize_horizontally_mut(count, 0.0);
-        }
-        Self { pose: last, tensions: split_off(&mut self.tensions, count) }
     }
 }

@@ -13,7 +13,6 @@ mod trust_region;
 pub use continuation::{Loss, LossKind, Path, PathStep, Setting, follow_load};
 pub(crate) use continuation::{follow_change, follow_from};
 pub use multistart::{Equilibria, Found, Starts};
-pub(crate) use near::{KEPT, MAX_CORRECTION, SAME_POSE};
 pub use search::{DirectStart, direct, rough_pose};
 pub use solution::{DirectMethod, DirectReport, DirectSolution};
 pub use stability::{Mode, Stability};

@@ -3,6 +3,7 @@
 mod assembled;
 mod balance;
 mod cable;
+mod cable_derivatives;
 mod held;
 mod linearization;
 mod motions;
@@ -12,15 +13,14 @@ mod shape;
 mod spanned;
 
 pub(crate) use assembled::{NEAR_VERTICAL, State, closure_row, jacobian, residual, skew};
-pub(crate) use balance::Balance;
+pub(crate) use balance::{Balance, add_stiffness};
 pub(crate) use cable::{CablePlane, LinearizedCable, Span, between};
+pub(crate) use cable_derivatives::{CableDerivatives, wrench};
 pub(crate) use held::{ABOVE_LEAST, Bounds, Ends, Held};
 pub use linearization::Linearization;
 pub(crate) use motions::{Motions, Pins, cables_at, is_definite, per_length};
 pub use partials::Inputs;
-pub(crate) use partials::{
-    CableDerivatives, Partials, Reading, Weighed, each_effect_on_weight, read, solve, tensions, wrench,
-};
+pub(crate) use partials::{Partials, Reading, Weighed, each_effect_on_weight, read, solve, tensions};
 pub(crate) use rounding::{FORCES, forces};
 pub use shape::CableShape;
-pub(crate) use spanned::{SpannedCable, SpannedStiffness, Turned, end, to_base};
+pub(crate) use spanned::{LinearizedInSpace, SpannedCable, end, in_its_plane, to_base};

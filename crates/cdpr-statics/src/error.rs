@@ -33,9 +33,8 @@ pub enum StaticsError {
     /// No tensions within the limits that hold the pose were found.
     #[error(
         "at position ({x}, {y}, {z}) m: no tensions between {min} N and {max} N balance the wrench{why}: \
-         the best \
-         from {from} leave a residual of {force:.3} N and {moment:.3} N m beside tensions up to \
-         {largest:.3} N{blocked}; change the pose, the load or the limits",
+         the best tensions from {from}, up to {largest:.3} N, leave a residual of {force:.3} N and \
+         {moment:.3} N m{blocked}; change the pose, the load or the limits",
         x = short(position[0]), y = short(position[1]), z = short(position[2]),
         min = short(*min),
         max = short(*max),

@@ -4,7 +4,7 @@
 //! the shape that its own tension gives it, those nearest to a reference r are chosen:
 //!
 //! ```text
-//! minimise  1/2 sum (t_i - r_i)²   subject to   sum w_i(t_i) + w_ex = 0,   min_i <= t_i <= max_i    (I1)
+//! minimize  1/2 sum (t_i - r_i)²   subject to   sum w_i(t_i) + w_ex = 0,   min_i <= t_i <= max_i    (I1)
 //! ```
 //!
 //! w_i is the wrench of cable i on the platform, t_i its tension there, on the branch where the tension falls
@@ -25,25 +25,26 @@
 //! called infeasible, `branch` from the optimum at a pose nearby.
 
 mod branch;
+mod cable;
 mod feasible;
 mod free;
 mod greatest;
-mod held;
 mod in_turn;
 mod limits;
 mod maximization;
 mod norm;
 mod optimum;
-mod question;
+mod problem;
 mod start;
+mod wanted;
 
 #[cfg(doc)]
 use crate::equations::ABOVE_LEAST;
 use crate::equations::Ends;
 use crate::error::StaticsError;
 use crate::problem::DirectProblem;
-use crate::state::{Equilibrium, Load, Residual, WantedPose};
-use branch::Answered;
+use crate::state::{Equilibrium, Load, Residual, Wanted, WantedPose, one_by_one};
+use branch::KnownOptimum;
 use cdpr_cable::Catenary;
 use cdpr_robot::{Pose, Robot, Vector6};
 use cdpr_tension::Bound;
@@ -58,7 +59,9 @@ use norm::chosen;
 pub(crate) use norm::require_smooth;
 pub(crate) use optimum::NEARLY_ROUNDING;
 use optimum::Optimum;
-use question::Question;
+use problem::InverseProblem;
+pub(crate) use wanted::refuse_offsets;
+use wanted::{pose_alone, whole};
 
 /// Unstrained lengths that hold a pose in balance.
 ///
@@ -96,31 +99,47 @@ pub(crate) fn inverse_at(
     load: &Load,
     reference: Option<&[f64]>,
 ) -> Result<InverseSolution, StaticsError> {
-    let question = Question::of_whole_pose(robot, pose, load, reference)?;
-    InverseSolution::new(&question, chosen(&question)?)
+    let problem = InverseProblem::of_whole_pose(robot, pose, load, reference)?;
+    InverseSolution::new(&problem, chosen(&problem)?)
 }
 
-/// Whether tensions within the limits hold the platform at `pose` under its weight and `load`, as far as the
-/// search from the tensions of straight cables tells.
+/// Whether tensions within the limits hold the platform at a wanted pose, or at each of many, under its weight
+/// and `load`, as far as the search from the tensions of straight cables shows.
 ///
 /// A yes is certain. A no comes much sooner than from [`crate::inverse`], which tries other starts before it
 /// calls a pose infeasible: cables that sag may hold a pose with tensions far from those of straight ones.
+/// With free coordinates the answer is whether [`crate::inverse`] finds the platform at rest.
 ///
 /// # Errors
-/// Those of [`crate::inverse`] but [`StaticsError::NoTensions`] and [`StaticsError::InverseNotConverged`].
-pub fn is_held(robot: &Robot, pose: &Pose, load: &Load) -> Result<bool, StaticsError> {
-    let question = Question::of_whole_pose(robot, pose, load, None)?;
-    let limits = question.limits.iter().enumerate();
+/// Those of [`crate::inverse`] but [`StaticsError::NoTensions`], [`StaticsError::InverseNotConverged`] and
+/// [`StaticsError::NoRest`].
+pub fn is_held<W: Wanted>(robot: &Robot, wanted: W, load: &Load) -> W::Answers<Result<bool, StaticsError>> {
+    one_by_one(wanted, |wanted| {
+        let wanted = refuse_offsets(*wanted)?;
+        if wanted.free.is_empty() {
+            return is_held_at(robot, &wanted, load);
+        }
+        match rest(robot, &wanted, load) {
+            Ok(_) => Ok(true),
+            Err(StaticsError::NoRest { .. }) => Ok(false),
+            Err(error) => Err(error),
+        }
+    })
+}
+
+fn is_held_at(robot: &Robot, wanted: &WantedPose, load: &Load) -> Result<bool, StaticsError> {
+    let problem = InverseProblem::of_whole_pose(robot, &wanted.pose, load, wanted.tension_reference)?;
+    let limits = problem.limits.iter().enumerate();
     if limits.into_iter().any(|(i, limits)| robot.cable(i).overstrain(limits.max).is_some()) {
         // Tensions within the limits may strain a cable too much.
-        return Ok(search(&question).and_then(|found| InverseSolution::new(&question, found)).is_ok());
+        return Ok(search(&problem).and_then(|found| InverseSolution::new(&problem, found)).is_ok());
     }
-    holds(&question)
+    holds(&problem)
 }
 
 /// The inverse model along a path: each pose is answered on the branch of the one before.
 ///
-/// (I1) may have several local minima. While pose, load and reference go straight from one question to the
+/// (I1) may have several local minima. While pose, load and reference go straight from one problem to the
 /// next, a strict local minimum moves along a curve, its branch, until it ceases to be a minimum or to exist.
 /// The branch is followed, so that lengths are continuous, also where another branch becomes better. Only
 /// where it ends is the next pose answered as by [`crate::inverse`]; this is a jump.
@@ -140,7 +159,7 @@ pub fn is_held(robot: &Robot, pose: &Pose, load: &Load) -> Result<bool, StaticsE
 #[derive(Clone, Debug)]
 pub struct InversePath<'a> {
     robot: &'a Robot,
-    last: Option<Answered>,
+    last: Option<KnownOptimum>,
 }
 
 /// A pose of a path.
@@ -169,24 +188,16 @@ impl<'a> InversePath<'a> {
         wanted: impl Into<WantedPose<'w>>,
         load: &Load,
     ) -> Result<PathSolution, StaticsError> {
-        let WantedPose { pose, free, tension_reference, .. } = refuse_offsets(wanted.into())?;
-        if !free.is_empty() {
-            let expected = "none: a path prescribes whole poses";
-            return Err(StaticsError::invalid(
-                "free".to_owned(),
-                format!("a list of {}", free.len()),
-                expected,
-            ));
-        }
+        let WantedPose { pose, tension_reference, .. } = whole(wanted.into())?;
         if tension_reference.is_none() {
             require_smooth(self.robot)?;
         }
-        let question = Question::of_whole_pose(self.robot, &pose, load, tension_reference)?;
-        let followed = self.last.as_ref().and_then(|last| last.followed(&question));
+        let problem = InverseProblem::of_whole_pose(self.robot, &pose, load, tension_reference)?;
+        let followed = self.last.as_ref().and_then(|last| last.followed(&problem));
         let jump = self.last.is_some() && followed.is_none();
-        let optimum = followed.map_or_else(|| search(&question), Ok)?;
-        let answered = Answered::new(&question, &optimum);
-        let solution = InverseSolution::new(&question, optimum)?;
+        let optimum = followed.map_or_else(|| search(&problem), Ok)?;
+        let answered = KnownOptimum::new(&problem, &optimum);
+        let solution = InverseSolution::new(&problem, optimum)?;
         self.last = Some(answered);
         Ok(PathSolution { solution, jump })
     }
@@ -194,7 +205,7 @@ impl<'a> InversePath<'a> {
 
 /// The optimum of a robot at a pose, from which those of robots that differ from it are found.
 #[derive(Clone, Debug)]
-pub(crate) struct Branch(Answered);
+pub(crate) struct Branch(KnownOptimum);
 
 impl Branch {
     /// The inverse model of `robot` at `pose` under its own weight, as [`crate::inverse`] answers it.
@@ -203,10 +214,10 @@ impl Branch {
     /// Those of [`crate::inverse`].
     pub(crate) fn of(robot: &Robot, pose: &Pose) -> Result<(InverseSolution, Self), StaticsError> {
         let none = Load::none();
-        let question = Question::of_whole_pose(robot, pose, &none, None)?;
-        let optimum = search(&question)?;
-        let branch = Self(Answered::new(&question, &optimum));
-        Ok((InverseSolution::new(&question, optimum)?, branch))
+        let problem = InverseProblem::of_whole_pose(robot, pose, &none, None)?;
+        let optimum = search(&problem)?;
+        let branch = Self(KnownOptimum::new(&problem, &optimum));
+        Ok((InverseSolution::new(&problem, optimum)?, branch))
     }
 
     /// The inverse model of a robot that differs a little: the local minimum of (I1) to which Newton's method
@@ -216,38 +227,20 @@ impl Branch {
     /// Those of [`crate::inverse`].
     pub(crate) fn nearby(&self, robot: &Robot, pose: &Pose) -> Result<InverseSolution, StaticsError> {
         let none = Load::none();
-        let question = Question::of_whole_pose(robot, pose, &none, None)?;
-        let near = self.0.corrected(&question, &mut 0).or_else(|| self.0.optimised(&question));
-        let optimum = near.map_or_else(|| search(&question), |point| Ok(point.optimum()))?;
-        InverseSolution::new(&question, optimum)
-    }
-}
-
-/// A wanted pose without offsets.
-///
-/// # Errors
-/// [`StaticsError::Invalid`] for offsets: they are of set-points, which this model does not set.
-pub(crate) fn refuse_offsets(wanted: WantedPose) -> Result<WantedPose, StaticsError> {
-    match wanted.tension_offsets {
-        [] => Ok(wanted),
-        given => {
-            let expected = "none here: deflections, their derivatives and `wound_lengths` take them";
-            Err(StaticsError::invalid(
-                "tension_offsets".to_owned(),
-                format!("a list of {}", given.len()),
-                expected,
-            ))
-        }
+        let problem = InverseProblem::of_whole_pose(robot, pose, &none, None)?;
+        let near = self.0.corrected(&problem, &mut 0).or_else(|| self.0.optimized(&problem));
+        let optimum = near.map_or_else(|| search(&problem), |point| Ok(point.optimum()))?;
+        InverseSolution::new(&problem, optimum)
     }
 }
 
 impl InverseSolution {
-    fn new(question: &Question, optimum: Optimum) -> Result<Self, StaticsError> {
+    fn new(problem: &InverseProblem, optimum: Optimum) -> Result<Self, StaticsError> {
         let Optimum { catenaries, tensions, active, multipliers, iterations, stationarity, .. } = optimum;
-        let HeldPose { lengths, equilibrium } = HeldPose::new(question.pose, &catenaries);
-        let problem = DirectProblem::new(question.robot, &lengths, question.load)?;
-        problem.check_strains(&equilibrium)?;
-        let residual = Residual::of(&problem, &equilibrium);
+        let HeldPose { lengths, equilibrium } = HeldPose::new(problem.pose, &catenaries);
+        let direct = DirectProblem::new(problem.robot, &lengths, problem.load)?;
+        direct.check_strains(&equilibrium)?;
+        let residual = Residual::of(&direct, &equilibrium);
         Ok(Self { lengths, tensions, active, multipliers, equilibrium, iterations, stationarity, residual })
     }
 }
@@ -269,15 +262,24 @@ impl HeldPose {
     }
 }
 
-/// The unstrained lengths that give each cable the tension `tensions[i]` [N] at the platform, held at `pose`.
+/// The unstrained lengths that give each cable the tension `tensions[i]` [N] at the platform, fixed at a pose
+/// or at each of many.
 ///
 /// A cable whose own weight demands more over its span, or nearly as much, gets 1.001 times the least tension
 /// that it demands.
 ///
 /// # Errors
-/// [`StaticsError::Invalid`] unless there is one tension for each cable; [`StaticsError::Cable`] for a
-/// tension that is not positive and finite.
-pub fn lengths_for_tensions(robot: &Robot, pose: &Pose, tensions: &[f64]) -> Result<HeldPose, StaticsError> {
+/// [`StaticsError::Invalid`] unless there is one tension for each cable, and for free coordinates, offsets or
+/// a reference of the tensions; [`StaticsError::Cable`] for a tension that is not positive and finite.
+pub fn lengths_for_tensions<W: Wanted>(
+    robot: &Robot,
+    wanted: W,
+    tensions: &[f64],
+) -> W::Answers<Result<HeldPose, StaticsError>> {
+    one_by_one(wanted, |wanted| with_tensions(robot, &pose_alone(*wanted)?, tensions))
+}
+
+fn with_tensions(robot: &Robot, pose: &Pose, tensions: &[f64]) -> Result<HeldPose, StaticsError> {
     StaticsError::one_per_cable("tensions", tensions, robot.cables.len())?;
     let catenaries = tensions.iter().enumerate().map(|(i, tension)| {
         let ends = Ends::of(robot, pose, i);

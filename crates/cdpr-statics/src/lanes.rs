@@ -2,19 +2,12 @@
 //! each lane, or a cable of one robot.
 
 mod adjoint;
-mod branch;
-mod cable;
 mod chain;
-mod freedoms;
 mod held;
 mod level;
-mod load;
-mod newton;
 mod observer;
-mod platform;
 mod poses;
 mod reason;
-mod skew;
 mod tracker;
 
 pub use observer::{Observation, ObservationMotion, ObservationSlopes, Observed, Observer};

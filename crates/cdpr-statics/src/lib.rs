@@ -36,7 +36,7 @@
 //! let robot = Robot::from_json(include_str!("../../../data/robots/caroca.json"))?;
 //! let pose = Pose::at(0.0, 0.0, 1.75);
 //! let deflection = deflection(&robot, &pose, &Load::payload(50.0))?;
-//! assert!((1e3 * deflection.rms() - 1.33125).abs() < 1e-4); // [mm]
+//! assert!((1e3 * deflection.magnitude() - 1.33125).abs() < 1e-4); // [mm]
 //! assert!(deflection.loaded.report.residual.force < 1e-8); // [N]
 //!
 //! // Does it stay there, and how exactly is that known?
@@ -57,6 +57,7 @@ pub mod error;
 mod inverse;
 mod lanes;
 mod loading;
+mod local;
 mod out_of_limits;
 mod problem;
 mod rest_fault;
@@ -127,5 +128,5 @@ pub mod stiffness {
 
 /// Natural motions of the platform and of the cables.
 pub mod vibration {
-    pub use crate::loading::{CableFrequency, NaturalMode, PoseModes, modes_at};
+    pub use crate::loading::{CableAtRest, CableFrequency, NaturalMode, PoseModes, SmallMotions, modes_at};
 }

@@ -4,6 +4,7 @@ mod deflection;
 mod follow;
 mod hysteresis;
 mod modes;
+mod small_motions;
 mod stiffness;
 
 pub use deflection::{Deflection, deflection, deflection_from, wound_lengths};
@@ -13,4 +14,5 @@ pub(crate) use deflection::{
 pub use follow::follow;
 pub use hysteresis::{CycleStep, HysteresisLaw, LoadCycle, Unloading, load_cycle};
 pub use modes::{CableFrequency, NaturalMode, PoseModes, modes_at};
+pub use small_motions::{CableAtRest, SmallMotions};
 pub use stiffness::{PoseStiffness, stiffness_at};

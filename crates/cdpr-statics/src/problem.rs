@@ -54,6 +54,11 @@ impl<'a> DirectProblem<'a> {
         Self { length_of_rotations: Some(length), ..self }
     }
 
+    /// Unstrained lengths [m].
+    pub fn lengths(&self) -> &'a [f64] {
+        self.lengths
+    }
+
     /// Number of cables n.
     pub(crate) fn cables(&self) -> usize {
         self.lengths.len()

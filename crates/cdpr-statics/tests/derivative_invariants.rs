@@ -196,7 +196,7 @@ fn the_norm_of_no_deflection_has_no_derivative() {
     let Case { robot, pose, offsets, .. } = some_case();
     let exact = derivatives(&robot, WantedPose::at(&pose).tension_offsets(&offsets), &Load::none()).unwrap();
     assert_eq!(
-        exact.rms().unwrap_err().to_string(),
+        exact.magnitude().unwrap_err().to_string(),
         "the norm of the deflection has no derivative: the load does not displace the platform"
     );
     assert!(exact.displacement().amax() < 1e3);
@@ -217,7 +217,7 @@ fn the_modulus_makes_the_variance_of_the_mechanical_study() {
         };
         assert_eq!(exact.one_sided, []);
         let parameters = || exact.inputs.parameters.iter();
-        let each = parameters().zip(exact.rms().unwrap());
+        let each = parameters().zip(exact.magnitude().unwrap());
         let parts: Vec<f64> = each.map(|(parameter, slope)| slope * slope * variance(parameter)).collect();
         let all: f64 = parts.iter().sum();
         let mut groups = BTreeMap::<_, f64>::new();
@@ -226,7 +226,7 @@ fn the_modulus_makes_the_variance_of_the_mechanical_study() {
         }
         println!(
             "{position:?}: |dp| = {:.5} mm, predicted standard deviation {:.5} mm, shares [%]: {groups:.4?}",
-            1e3 * exact.deflection.rms(),
+            1e3 * exact.deflection.magnitude(),
             1e3 * all.sqrt()
         );
         if position == STUDY_POSES[0] {

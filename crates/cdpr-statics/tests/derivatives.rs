@@ -121,7 +121,7 @@ impl Case {
             ("loaded rotation", rotation(turned(&found, true))),
             ("loaded tensions", found.loaded.equilibrium.tensions()),
             ("deflection", found.displacement().as_slice().to_vec()),
-            ("norm of the deflection", vec![found.rms()]),
+            ("norm of the deflection", vec![found.magnitude()]),
         ];
         Ok((outputs, regime))
     }
@@ -129,7 +129,7 @@ impl Case {
 
 /// A column of all derivatives, in the order of [`Case::outputs`].
 pub(crate) fn column(exact: &Derivatives, column: usize) -> Vec<DVector<f64>> {
-    let rms = exact.rms().unwrap();
+    let magnitude = exact.magnitude().unwrap();
     let pose =
         |at: &EquilibriumDerivatives, first: usize| DVector::from_fn(3, |i, _| at.pose[(first + i, column)]);
     vec![
@@ -142,7 +142,7 @@ pub(crate) fn column(exact: &Derivatives, column: usize) -> Vec<DVector<f64>> {
         pose(&exact.loaded, 3),
         exact.loaded.tensions.column(column).into_owned(),
         DVector::from_column_slice(exact.displacement().column(column).as_slice()),
-        DVector::from_element(1, rms[column]),
+        DVector::from_element(1, magnitude[column]),
     ]
 }
 

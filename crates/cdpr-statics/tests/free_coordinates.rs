@@ -208,7 +208,7 @@ fn outputs(
         motion(&about.unloaded, &found.unloaded),
         motion(&about.loaded, &found.loaded),
         DVector::from_vec(found.loaded.equilibrium.tensions()),
-        DVector::from_element(1, found.rms()),
+        DVector::from_element(1, found.magnitude()),
     ]
 }
 
@@ -260,7 +260,7 @@ fn derivatives_with_free_coordinates_are_central_differences() {
             *about,
             deflection(&robot, WantedPose::at(&pose).free(&free).tension_offsets(&offsets), &load).unwrap()
         );
-        let rms = found.rms().unwrap();
+        let magnitude = found.magnitude().unwrap();
         let parameters = Parameter::of(&robot);
         for column in 0..found.inputs.count() {
             let held = column > parameters.len() && !robot.freedoms().contains(column - parameters.len() - 1);
@@ -297,7 +297,7 @@ fn derivatives_with_free_coordinates_are_central_differences() {
                 DVector::from_column_slice(found.unloaded.pose.column(column).as_slice()),
                 DVector::from_column_slice(found.loaded.pose.column(column).as_slice()),
                 found.loaded.tensions.column(column).into_owned(),
-                DVector::from_element(1, rms[column]),
+                DVector::from_element(1, magnitude[column]),
             ];
             let scales = [
                 about.unloaded.equilibrium.tensions().iter().sum::<f64>(),

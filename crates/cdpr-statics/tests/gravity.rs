@@ -104,20 +104,20 @@ fn derivatives_turn_with_the_robot() {
         let rotation = rotations().pop().unwrap();
         let (other, at) = (turned(&robot, &rotation), turned_pose(&pose, &rotation));
         let found = derivatives(&other, &at, &turned_load(&load, &rotation)).unwrap();
-        let (level_rms, rms) = (level.rms().unwrap(), found.rms().unwrap());
+        let (level_magnitude, magnitude) = (level.magnitude().unwrap(), found.magnitude().unwrap());
         // What has no direction of the base frame.
         for (column, parameter) in level.inputs.parameters.iter().enumerate() {
             if ["b", "gravity", "tilt"].contains(&parameter.group()) {
                 continue;
             }
             let turned = found.inputs.column(*parameter).unwrap();
-            let size = level_rms[column].abs().max(1e-12);
+            let size = level_magnitude[column].abs().max(1e-12);
             assert!(
-                (rms[turned] - level_rms[column]).abs() < 1e-6 * size,
+                (magnitude[turned] - level_magnitude[column]).abs() < 1e-6 * size,
                 "{} {parameter}: {} {}",
                 robot.name,
-                rms[turned],
-                level_rms[column]
+                magnitude[turned],
+                level_magnitude[column]
             );
         }
     }

@@ -38,6 +38,7 @@ mod strain;
 mod subproblem;
 mod tangent;
 mod tensions;
+mod tilted_axes;
 mod tracker;
 mod vector_units;
 mod wanted;

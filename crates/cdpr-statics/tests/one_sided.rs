@@ -2,7 +2,7 @@
 
 use crate::common::robots;
 use crate::derivatives::{Case, column};
-use cdpr_robot::{Parameter, ParameterLayout};
+use cdpr_robot::{Parameter, ParameterLayout, Pose, Robot};
 use cdpr_statics::derivatives::AtBound;
 use cdpr_statics::{Bound, Derivatives, InverseSolution, Load, WantedPose, derivatives, inverse};
 use nalgebra::DVector;
@@ -88,7 +88,7 @@ fn check(title: &str, case: &Case) -> BTreeMap<String, Vec<AtBound>> {
 /// Each robot at its pose, with the tensions of the inverse model for low limits, and the cable of the least
 /// tension that rests on no limit.
 fn cases() -> Vec<(Case, Vec<f64>, usize)> {
-    let case = |(mut robot, pose): (cdpr_robot::Robot, cdpr_robot::Pose)| {
+    let case = |(mut robot, pose): (Robot, Pose)| {
         robot.tension_limits.min *= 0.1;
         let InverseSolution { tensions, active, .. } = inverse(&robot, &pose, &Load::none()).unwrap();
         let free = (0..tensions.len()).filter(|i| active[*i].is_none());
@@ -194,4 +194,21 @@ fn where_no_cable_is_near_a_bound_nothing_is_one_sided() {
         let on_limit = tensions.iter().filter(|tension| **tension == low).count();
         assert!(found.len() == on_limit && offsets_of_cables_at_bounds(&found));
     }
+}
+
+#[test]
+fn where_too_few_cables_are_between_their_bounds_there_is_no_derivative() {
+    // In the middle four cables of IPAnema 1 are on their least tension: the other four act on four motions.
+    let robot = Robot::from_json(include_str!("../../../data/robots/ipanema-1.json")).unwrap();
+    let load = Load::none();
+    for height in [0.516, 0.732, 0.948, 1.164] {
+        let pose = Pose::at(0.0, 0.0, height);
+        let wanted = inverse(&robot, &pose, &load).unwrap();
+        assert_eq!(wanted.active.iter().flatten().count(), 4);
+        let error = derivatives(&robot, &pose, &Load::payload(1.0)).unwrap_err();
+        assert!(error.to_string().contains("do not act on all motions"), "{error}");
+    }
+    let aside = Pose::at(-0.54, -0.36, 0.732);
+    assert_eq!(inverse(&robot, &aside, &load).unwrap().active.iter().flatten().count(), 2);
+    assert!(derivatives(&robot, &aside, &Load::payload(1.0)).is_ok());
 }

@@ -9,7 +9,7 @@ use cdpr_robot::{
     Wrench,
 };
 use cdpr_statics::stiffness::stiffness_at;
-use cdpr_statics::{DirectProblem, DirectStart, Load, WantedPose, deflection, direct, inverse};
+use cdpr_statics::{DirectMethod, DirectProblem, DirectStart, Load, WantedPose, deflection, direct, inverse};
 use nalgebra::Matrix6;
 use serde_json::Value;
 
@@ -79,6 +79,18 @@ fn equilibria_over_pulleys_match_arithmetic_of_20_digits() {
         println!("{line}");
         assert!(position < 1e-9 && angle < 1e-9 && worst < 1e-9 && off < 1e-9, "{line}");
         assert!(solution.stability.is_stable());
+        // So does Newton's method in lanes from an equilibrium nearby.
+        let part = Wrench { force: 0.98 * load.wrench.force, moment: 0.98 * load.wrench.moment };
+        let near = DirectStart::Near(&solution.equilibrium);
+        let near = direct(&robot, &lengths, &Load::wrench(part), near).unwrap().equilibrium;
+        let again = direct(&robot, &lengths, &load, DirectStart::Near(&near)).unwrap();
+        let off = expected.motion_to(&again.equilibrium.pose).norm();
+        assert!(off < 1e-9 && again.report.method == DirectMethod::Newton, "{line}: {off:e}");
+        let found =
+            again.equilibrium.tensions().into_iter().chain(again.equilibrium.exit_tensions(&robot, &lengths));
+        let worst =
+            found.zip(tensions.iter().chain(&exits)).map(|(t, e)| (t / e - 1.0).abs()).fold(0.0, f64::max);
+        assert!(worst < 1e-9, "{line}: {worst:e}");
         // The inverse model asks for those very tensions and finds those lengths.
         let pose = solution.equilibrium.pose;
         let held = inverse(&robot, WantedPose::at(&pose).tension_reference(&tensions), &load).unwrap();

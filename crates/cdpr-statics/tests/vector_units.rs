@@ -6,7 +6,9 @@ use cdpr_robot::{Coordinate, Parameter, Pose, Pulley, Robot, Vector3};
 use cdpr_statics::batch::{
     LoadedPose, Observation, ObservationMotion, ObservationSlopes, PoseSlopes, loaded_poses,
 };
-use cdpr_statics::{InverseSolution, Load, Observer, StaticsError, Tracker, WantedPose, inverse};
+use cdpr_statics::{
+    DirectStart, InverseSolution, Load, Observer, StaticsError, Tracker, WantedPose, direct, inverse,
+};
 use std::fmt::Debug;
 
 /// The result of `task`, which must be the same on all vector units.
@@ -111,20 +113,28 @@ fn the_vector_unit_changes_no_bit_of_the_inverse_model() {
 }
 
 #[test]
-fn a_tracker_has_the_same_pose_on_any_unit_but_for_the_order_of_sums() {
-    let robot = caroca();
-    let pose = Pose::at(0.1, 0.2, 1.75);
-    let wanted = inverse(&robot, &pose, &Load::none()).unwrap();
-    let mut tracker = Tracker::new(&robot, &wanted.lengths, &Load::none(), &wanted.equilibrium).unwrap();
-    let mut found = Vec::new();
-    for unit in Unit::all() {
+fn the_vector_unit_changes_no_bit_of_the_direct_model_nor_of_a_tracker() {
+    let grab = Robot::from_json(include_str!("../../../data/robots/grab.json")).unwrap();
+    let pulleys = over_pulleys(caroca(), |i| i as f64);
+    for robot in [caroca(), cogiro(), pulleys] {
+        let pose = Pose::at(0.1, 0.2, 1.75);
+        let wanted = inverse(&robot, &pose, &Load::none()).unwrap();
         let load = Load::payload(30.0);
-        found.push(unit.run(|| tracker.update(&wanted.lengths, &load).unwrap().pose));
-        tracker.update(&wanted.lengths, &Load::none()).unwrap();
+        let near = DirectStart::Near(&wanted.equilibrium);
+        assert!(on_all_units(|| direct(&robot, &wanted.lengths, &load, near)).is_ok());
+        let mut tracker = Tracker::new(&robot, &wanted.lengths, &Load::none(), &wanted.equilibrium).unwrap();
+        let mut found = Vec::new();
+        for unit in Unit::all() {
+            found.push(unit.run(|| tracker.update(&wanted.lengths, &load).unwrap().clone()));
+            tracker = Tracker::new(&robot, &wanted.lengths, &Load::none(), &wanted.equilibrium).unwrap();
+        }
+        assert!(found.iter().all(|equilibrium| *equilibrium == found[0]), "{}", robot.name);
     }
-    for pose in &found {
-        assert!(pose.motion_to(&found[0]).norm() < 1e-13);
-    }
+    let pose = Pose::at(1.28, -0.19, -0.92);
+    let free = [Coordinate::Roll, Coordinate::Pitch];
+    let observer = Observer::new(&grab, WantedPose::at(&pose).free(&free), &Load::payload(0.5)).unwrap();
+    let rows = vec![1e-5; 5 * Parameter::of(&grab).len()];
+    on_all_units(|| observed::<ObservationMotion>(&observer, &rows));
 }
 
 #[test]

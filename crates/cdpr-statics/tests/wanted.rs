@@ -2,12 +2,14 @@
 
 use crate::common::{caroca, cogiro, ipanema};
 use cdpr_robot::{Coordinate, Pose, Robot, TensionReference};
+use cdpr_statics::capacity::{greatest_payload, tension_margin};
 use cdpr_statics::free_coordinates::free_solutions;
+use cdpr_statics::limits::limits_at;
 use cdpr_statics::stiffness::stiffness_at;
 use cdpr_statics::vibration::modes_at;
 use cdpr_statics::{
     InversePath, InverseSolution, Load, Observer, StaticsError, WantedPose, deflection, derivatives, inverse,
-    wound_lengths,
+    is_held, lengths_for_tensions, wound_lengths,
 };
 
 /// CoGiRo on every other cable, with the coordinates that it finds itself.
@@ -64,6 +66,11 @@ fn offsets_are_refused_where_no_set_points_are_set() {
         modes_at(&robot, wanted, &load).err(),
         InversePath::new(&robot).solve(wanted, &load).err(),
         Observer::new(&robot, wanted, &load).err(),
+        is_held(&robot, wanted, &load).err(),
+        greatest_payload(&robot, wanted, &load.wrench).err(),
+        tension_margin(&robot, wanted, &load).err(),
+        lengths_for_tensions(&robot, wanted, &[900.0; 8]).err(),
+        limits_at(&robot, wanted).err(),
     ];
     for error in errors {
         let text = error.unwrap().to_string();
@@ -73,8 +80,51 @@ fn offsets_are_refused_where_no_set_points_are_set() {
         );
     }
     let preferred = WantedPose::at(&pose).tension_reference(&[900.0; 8]);
-    let text = Observer::new(&robot, preferred, &load).unwrap_err().to_string();
-    assert!(text.starts_with("tension_reference is a list of 8: expected none here"), "{text}");
+    let errors = [
+        Observer::new(&robot, preferred, &load).err(),
+        lengths_for_tensions(&robot, preferred, &[900.0; 8]).err(),
+        limits_at(&robot, preferred).err(),
+    ];
+    for error in errors {
+        let text = error.unwrap().to_string();
+        assert!(text.starts_with("tension_reference is a list of 8: expected none here"), "{text}");
+    }
+}
+
+#[test]
+fn free_coordinates_are_refused_where_tensions_have_to_be_chosen() {
+    let ((robot, free), load) = (on_four_cables(), Load::none());
+    let pose = Pose::at(1.0, -0.3, 2.0);
+    let wanted = WantedPose::at(&pose).free(&free);
+    let errors = [
+        InversePath::new(&robot).solve(wanted, &load).err(),
+        greatest_payload(&robot, wanted, &load.wrench).err(),
+        tension_margin(&robot, wanted, &load).err(),
+        lengths_for_tensions(&robot, wanted, &[900.0; 4]).err(),
+        limits_at(&robot, wanted).err(),
+    ];
+    for error in errors {
+        let text = error.unwrap().to_string();
+        assert!(text.starts_with("free is a list of 2: expected none here: it takes whole poses"), "{text}");
+    }
+    // They are found, at rest or not.
+    assert_eq!(is_held(&robot, wanted, &load), Ok(true));
+    assert_eq!(is_held(&robot, WantedPose { pose: Pose::at(1.0, -0.3, 9.0), ..wanted }, &load), Ok(false));
+}
+
+#[test]
+fn each_pose_of_a_list_has_its_own_answer() {
+    let (robot, load) = (caroca(), Load::none());
+    let poses = [Pose::at(0.4, -0.3, 1.6), Pose::at(9.0, 0.0, 1.0)];
+    let held: Vec<_> = poses.iter().map(|pose| is_held(&robot, pose, &load)).collect();
+    assert_eq!((is_held(&robot, &poses, &load), &held), (vec![Ok(true), Ok(false)], &held));
+    let each: Vec<_> = poses.iter().map(|pose| greatest_payload(&robot, pose, &load.wrench)).collect();
+    assert_eq!(greatest_payload(&robot, &poses, &load.wrench), each);
+    let each: Vec<_> = poses.iter().map(|pose| tension_margin(&robot, pose, &load)).collect();
+    assert_eq!(tension_margin(&robot, &poses, &load), each);
+    let each: Vec<_> = poses.iter().map(|pose| lengths_for_tensions(&robot, pose, &[900.0; 8])).collect();
+    assert_eq!(lengths_for_tensions(&robot, &poses, &[900.0; 8]), each);
+    assert_eq!(limits_at(&robot, &poses).len(), 2);
 }
 
 #[test]
@@ -97,7 +147,10 @@ fn a_path_takes_no_free_coordinates() {
     let (robot, free) = on_four_cables();
     let wanted = WantedPose::at(&Pose::at(1.0, -0.3, 2.0)).free(&free);
     let error = InversePath::new(&robot).solve(wanted, &Load::none()).unwrap_err();
-    assert_eq!(error.to_string(), "free is a list of 2: expected none: a path prescribes whole poses");
+    assert_eq!(
+        error.to_string(),
+        "free is a list of 2: expected none here: it takes whole poses, at which tensions are chosen"
+    );
     let error = InversePath::new(&robot).solve(wanted.pose, &Load::none()).unwrap_err();
     assert!(matches!(error, StaticsError::FreeCoordinates { cables: 4, .. }));
 }

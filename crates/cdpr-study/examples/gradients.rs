@@ -118,15 +118,15 @@ impl Case<'_> {
         observe_rows(design, 0..design.points(), |rows| {
             let deviations = self.sampling.errors.deviations(rows);
             let found = self.observer.observe::<Observation>(&deviations).into_iter();
-            found.map(|of| of.ok().map(|of| 1e3 * of.rms())).collect()
+            found.map(|of| of.ok().map(|of| 1e3 * of.magnitude())).collect()
         })
     }
 
     fn slopes(&self, design: &impl SampleDesign) -> Vec<Option<Slopes>> {
         let errors = &self.sampling.errors;
         let in_mm = |of: ObservationSlopes| Slopes {
-            output: 1e3 * of.observation.rms(),
-            gradient: errors.gradient(&of.rms).iter().map(|slope| 1e3 * slope).collect(),
+            output: 1e3 * of.observation.magnitude(),
+            gradient: errors.gradient(&of.magnitude).iter().map(|slope| 1e3 * slope).collect(),
         };
         observe_rows(design, 0..design.points(), |rows| {
             let found = self.observer.observe(&errors.deviations(rows)).into_iter();

@@ -25,8 +25,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let clock = Instant::now();
     let observations = observe(&sampling, &Session::in_memory())?;
     let summary = analyse(&sampling, &observations, &Session::in_memory())?;
-    let rms = summary.values.ok_or("too few observations succeeded")?;
-    println!("deflection {:.3} mm +- {:.3} mm ({:.2?})", rms.mean, rms.std, clock.elapsed());
+    let magnitude = summary.values.ok_or("too few observations succeeded")?;
+    println!("deflection {:.3} mm +- {:.3} mm ({:.2?})", magnitude.mean, magnitude.std, clock.elapsed());
     let mut effects: Vec<_> = summary.signed_effects.iter().collect();
     effects.sort_by(|a, b| b.1.effect.abs().total_cmp(&a.1.effect.abs()));
     for (parameter, effect) in effects.iter().take(5) {

@@ -215,15 +215,15 @@ fn computed(statistic: Statistic, study: &StudySummary) -> Option<Value> {
 }
 
 fn of_sampling(statistic: Statistic, sampling: &SamplingSummary) -> Option<Value> {
-    let rms = sampling.values.as_ref()?;
+    let values = sampling.values.as_ref()?;
     let largest = |tensions: &[f64]| tensions.iter().copied().reduce(f64::max);
     let number = match statistic {
-        Statistic::Mean => rms.mean,
-        Statistic::Std => rms.std,
-        Statistic::Min => rms.min,
-        Statistic::Max => rms.max,
-        Statistic::Spread => rms.max - rms.min,
-        Statistic::RelativeSpread => 100.0 * (rms.max - rms.min) / rms.mean,
+        Statistic::Mean => values.mean,
+        Statistic::Std => values.std,
+        Statistic::Min => values.min,
+        Statistic::Max => values.max,
+        Statistic::Spread => values.max - values.min,
+        Statistic::RelativeSpread => 100.0 * (values.max - values.min) / values.mean,
         Statistic::UnloadedTension => largest(&sampling.nominal.unloaded_tensions)?,
         Statistic::LoadedTension => largest(&sampling.nominal.loaded_tensions)?,
         Statistic::BestFit => {

@@ -1,39 +1,29 @@
-//! How fast one sampling of a study runs: time, memory and results in one line of JSON. Nothing is written.
+//! How fast a sampling of a study runs, in one line of JSON:
+//! `cargo run --release -p cdpr-study --example throughput -- STUDY SAMPLING [OBSERVATIONS [THREADS]]`.
 //!
-//! `cargo run -p cdpr-study --example throughput -- STUDY --sampling NAME [--observations N] [--threads N]`;
-//! `cargo xtask throughput` and `cargo xtask scaling` run it.
+//! Nothing is written. The intervals of replicates and the measures of sensitivity are observations of their
+//! own and are left out. All cores compute if THREADS is left out.
 
 #![allow(clippy::print_stdout)]
 
 use cdpr_study::{Session, Study, analyse, observe};
 use serde_json::json;
-use std::error::Error;
+use std::path::Path;
 use std::time::Instant;
 
-/// Observations without `--observations`.
-const OBSERVATIONS: usize = 1_000_000;
-
-fn main() -> Result<(), Box<dyn Error>> {
+fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut arguments = std::env::args().skip(1);
-    let path = arguments.next().ok_or("expected a study file")?;
-    let (mut sampling, mut observations, mut threads) = (None, OBSERVATIONS, 0);
-    while let Some(option) = arguments.next() {
-        let value = arguments.next().ok_or_else(|| format!("{option}: expected a value"))?;
-        match option.as_str() {
-            "--sampling" => sampling = Some(value),
-            "--observations" => observations = value.parse()?,
-            "--threads" => threads = value.parse()?,
-            _ => return Err(format!("{option}: expected --sampling, --observations or --threads").into()),
-        }
+    let path = arguments.next().ok_or("which study file?")?;
+    let name = arguments.next().ok_or("which sampling of the study?")?;
+    let observations = arguments.next().map_or(Ok(1_000_000), |number| number.parse())?;
+    if let Some(threads) = arguments.next() {
+        rayon::ThreadPoolBuilder::new().num_threads(threads.parse()?).build_global()?;
     }
-    let sampling = sampling.ok_or("expected --sampling NAME")?;
-    rayon::ThreadPoolBuilder::new().num_threads(threads).build_global()?;
-    let mut study = Study::open(path.as_ref())?;
+    let mut study = Study::open(Path::new(&path))?;
     study.set_observations(observations)?;
-    // The intervals of replicates and the measures of sensitivity are observations of their own.
     study.file.replicates = 0;
     study.file.sensitivity = None;
-    let sampling = study.sampling(&sampling)?;
+    let sampling = study.sampling(&name)?;
     let clock = Instant::now();
     let session = Session::in_memory();
     let tally = observe(&sampling, &session)?;

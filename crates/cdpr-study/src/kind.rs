@@ -21,8 +21,6 @@ pub enum InputKind {
     Measurements,
     /// A load-elongation record.
     Record,
-    /// Published moduli.
-    Moduli,
     /// Poses, one a line.
     Poses,
     /// Cases of the direct model.
@@ -38,11 +36,14 @@ pub enum InputKind {
 const MEGABYTE: u64 = 1_000_000;
 
 impl InputKind {
+    /// Largest size of any file \[bytes\].
+    pub(crate) const MOST_BYTES: u64 = 256 * MEGABYTE;
+
     /// Largest size of such a file \[bytes\]: hundreds of times what has been seen.
     pub fn most_bytes(self) -> u64 {
         MEGABYTE
             * match self {
-                Self::Robot | Self::Cable | Self::Foreign | Self::Law | Self::Moduli => 4,
+                Self::Robot | Self::Cable | Self::Foreign | Self::Law => 4,
                 Self::Study | Self::Poses | Self::Cases | Self::Block | Self::Errors | Self::Measurements => {
                     32
                 }
@@ -108,7 +109,6 @@ impl fmt::Display for InputKind {
             Self::Errors => "an error model",
             Self::Measurements => "measurements",
             Self::Record => "a record",
-            Self::Moduli => "a file of moduli",
             Self::Poses => "a list of poses",
             Self::Cases => "a file of cases",
             Self::Results => "a file of results",

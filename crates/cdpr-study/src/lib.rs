@@ -30,8 +30,8 @@
 //! let session = Session::in_memory();
 //! let tally = observe(&sampling, &session)?;
 //! let summary = analyse(&sampling, &tally, &session)?;
-//! if let Some(rms) = summary.values {
-//!     println!("{:.3} mm +- {:.3} mm", rms.mean, rms.std);
+//! if let Some(magnitude) = summary.values {
+//!     println!("{:.3} mm +- {:.3} mm", magnitude.mean, magnitude.std);
 //! }
 //! # Ok::<(), cdpr_study::StudyError>(())
 //! ```
@@ -75,7 +75,7 @@ pub use file::cable_law::{CableLaw, LAW_FORMAT, LawFile, UnloadingCurve, law_jso
 pub use file::errors_file::{ERRORS_FORMAT, ErrorsFile, errors_schema};
 pub use file::grid::{GridAxis, GridSpec};
 pub use file::output::{Output, VectorOutput};
-pub use file::record::{open_record, read_record};
+pub use file::record::{RecordTextError, open_record, read_record};
 pub use file::sensitivity_spec::SensitivitySpec;
 pub use file::study_file::{
     AxisSpec, CorrelationSpec, InputSpec, PoseSpec, PosesSpec, STUDY_FORMAT, SamplingSpec, StudyFile,
@@ -84,7 +84,7 @@ pub use file::study_file::{
 pub use file::template::{TEMPLATE_NOTES, template, template_cost, write_template};
 pub use fs::files::{open_cable, open_robot, open_robot_in_any_unit};
 pub use fs::finite::is_not_finite;
-pub use fs::input::{check_table, other_kind, read_bytes, read_table, read_text};
+pub use fs::input::{check_table, is_standard_input, other_kind, read_bytes, read_table, read_text};
 pub use fs::lock::Access;
 pub use fs::manifest::{ResultsOf, read_result};
 pub use fs::owned::ResultsFolder;
@@ -95,10 +95,10 @@ pub use given::{
 };
 pub use indexmap::IndexMap;
 pub use kind::InputKind;
-pub use model::cable_law::{elastic_laws, open_law};
+pub use model::cable_law::{elastic_laws, open_law, read_law};
 pub use model::error_model::{ErrorModel, Term, uncertainties};
-pub use model::errors::open_errors;
-pub use model::grid::{Grid, free_along};
+pub use model::errors::{open_errors, read_errors};
+pub use model::grid::{Grid, GridSpan, free_along};
 pub use model::hash::robot_hash;
 pub use model::observed::{Failure, Measured, MeasuredQuantity, Observed, ScalarCount};
 pub use model::observer::OutputObserver;

@@ -325,7 +325,7 @@ fn a_robot_with_four_cables_keeps_the_held_coordinates_and_finds_the_others() {
                 WantedPose::at(&sampling.pose).free(free).tension_offsets(offsets),
                 &sampling.load,
             );
-            let difference = measured.value() - 1e3 * expected.unwrap().rms();
+            let difference = measured.value() - 1e3 * expected.unwrap().magnitude();
             assert!(difference.abs() < 1e-7 * measured.value().max(1.0), "{difference} mm");
         }
         assert!(tilted > 1e-3, "{tilted}");

@@ -74,7 +74,7 @@ fn a_parquet_table_says_what_it_is_of_and_in_which_units() {
     assert_eq!((of("version").as_str(), of("hash").len()), (env!("CARGO_PKG_VERSION"), 32));
     let units: serde_json::Value = serde_json::from_str(&of("units")).unwrap();
     assert_eq!(
-        (&units["d_youngs_modulus"], &units["d_b8.z"], &units["rms_mm"]),
+        (&units["d_youngs_modulus"], &units["d_b8.z"], &units["magnitude_mm"]),
         (&"Pa".into(), &"m".into(), &"mm".into())
     );
 }

@@ -1,21 +1,31 @@
-//! Quadratic programs with a diagonal Hessian, bounds and six equations, by their dual.
+//! Quadratic programs with a diagonal Hessian, bounds and six equations, by their dual, one in each lane.
 //!
 //! ```text
-//! minimise  sum (c_i d_i + h_i d_i²/2) + |J d + F + ε λ_0|²/2ε   subject to   l_i <= d_i <= u_i   (T4)
+//! minimize  sum (c_i d_i + h_i d_i²/2)   subject to   J d + F = 0,   l_i <= d_i <= u_i             (T4)
 //! ```
 //!
-//! As ε goes to zero this is the program with `J d + F = 0`. Its dual has six unknowns λ, however many
-//! unknowns d there are: for given λ each d_i stands alone,
+//! The dual has six unknowns λ, however many unknowns d there are: for given λ each d_i is alone,
 //!
 //! ```text
-//! d_i(λ) = clip( -(c_i + J_i·λ)/h_i, l_i, u_i ),      g(λ) = J d(λ) + F - ε (λ - λ_0) = 0         (T5)
+//! d_i(λ) = -(c_i + J_i·λ)/h_i, but l_i or u_i beyond them,      g(λ) = J d(λ) + F = 0              (T5)
 //! ```
 //!
 //! and g is the gradient of a concave function, quadratic between the points at which a bound becomes active.
-//! Newton's method solves for it. A step that would pass the maximum ends there: the slope along the step is
-//! piecewise linear, so that its zero is found exactly.
+//! Newton's method with an exact search along its direction ends after finitely many steps (J. S. Pang, L. Qi,
+//! *A globally convergent Newton method for convex SC1 minimization problems*, 1995). Its matrix is
+//! `sum J_i J_iᵀ/h_i` over the unknowns within their bounds, plus a small elasticity (R. T. Rockafellar,
+//! *Monotone operators and the proximal point algorithm*, 1976). Where bounds leave too few unknowns for the
+//! equations, multipliers grow until one of them is free, or, where no d solves the equations, until the
+//! residual is nearly the least.
+//!
+//! [`BoxProblem`] is one program in doubles. Programs in lanes are [`BoundedUnknown`]s, each lane with a
+//! problem of its own: no other lane changes its digits.
 
-use nalgebra::{Matrix6, Vector6};
+use cdpr_number::dense::{Lanes2, Lanes6, Lanes6x6, SymmetricFactors};
+use cdpr_number::lanes::{Lanes, Mask, Scalar, Simd};
+use cdpr_number::vector::dot;
+use cdpr_number::{Number, six};
+use nalgebra::Vector6;
 
 /// One unknown of the program (T4).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,137 +47,260 @@ pub struct BoxProblem<'a> {
     pub unknowns: &'a [BoxUnknown],
     /// F.
     pub residual: Vector6<f64>,
-    /// ε, positive.
-    pub elasticity: f64,
-    /// λ_0, where Newton's method starts, too.
+    /// λ where Newton's method starts.
     pub multipliers: Vector6<f64>,
 }
 
-/// The solution of a [`BoxProblem`].
+/// The solution of a [`BoxProblem`], or what is nearest to one within the bounds where there is none.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BoxSolution {
     /// d.
     pub values: Vec<f64>,
     /// λ.
     pub multipliers: Vector6<f64>,
-    /// |g(λ)|, zero but for rounding.
-    pub residual: f64,
-}
-
-/// A gradient below this, relative to the terms that it is the sum of, is rounding; one below the other if a
-/// step does not halve it.
-const ROUNDING: f64 = 1e-15;
-const NEARLY_ROUNDING: f64 = 1e-12;
-
-impl BoxUnknown {
-    /// d_i(λ), (T5), with J_i·λ.
-    #[inline]
-    fn value(&self, along: f64) -> f64 {
-        let free = -(self.gradient + along) / self.curvature;
-        free.max(self.bounds[0]).min(self.bounds[1])
-    }
-}
-
-/// The dual at some λ.
-struct Dual {
-    /// g.
-    gradient: Vector6<f64>,
-    /// The largest term of g.
-    size: f64,
-}
-
-/// What is kept of an unknown between the iterations.
-struct Kept {
-    /// The largest component of its column.
-    largest: f64,
-    /// Whether it moves with λ, as far as the factors of the slope know.
-    moving: bool,
-    /// Whether it moves with λ where the dual was last evaluated.
-    moves: bool,
 }
 
 impl BoxProblem<'_> {
-    /// The solution: for a positive ε there is exactly one.
+    /// The solution.
     pub fn solve(&self) -> BoxSolution {
         const MAX_ITERATIONS: usize = 100;
-        let mut multipliers = self.multipliers;
-        // The first step sees no bound.
-        let each = self.unknowns.iter().map(|unknown| unknown.column.amax());
-        let mut kept: Vec<_> = each.map(|largest| Kept { largest, moving: true, moves: true }).collect();
-        let mut dual = self.dual(&multipliers, &mut kept, true);
-        let mut factors = self.slope(&kept).cholesky();
-        for _ in 0..MAX_ITERATIONS {
-            let error = dual.gradient.amax();
-            if error <= ROUNDING * dual.size {
-                break;
-            }
-            let Some(step) = factors.as_ref().map(|factors| factors.solve(&dual.gradient)) else { break };
-            let full = multipliers + step;
-            let next = self.dual(&full, &mut kept, false);
-            let halved = next.gradient.amax() <= 0.5 * error;
-            if !halved && error <= NEARLY_ROUNDING * dual.size {
-                break;
-            }
-            if halved || next.gradient.dot(&step) >= 0.0 {
-                (multipliers, dual) = (full, next);
-            } else {
-                multipliers += step * self.share(&multipliers, &step, &mut kept);
-                dual = self.dual(&multipliers, &mut kept, false);
-            }
-            if kept.iter().any(|kept| kept.moving != kept.moves) {
-                kept.iter_mut().for_each(|kept| kept.moving = kept.moves);
-                factors = self.slope(&kept).cholesky();
-            }
+        let all = |value: f64| Lanes::splat(Scalar, value);
+        let (balance, start) = (six!(|k| all(self.residual[k])), six!(|k| all(self.multipliers[k])));
+        let each = self.unknowns.iter().map(|unknown| {
+            let column = six!(|k| all(unknown.column[k]));
+            let curvature_inv = all(unknown.curvature).recip();
+            let free = BoundedUnknown::new(column, all(unknown.gradient), curvature_inv, &start);
+            BoundedUnknown { bounds: unknown.bounds.map(all), ..free }
+        });
+        let mut unknowns: Vec<_> = each.collect();
+        let everywhere = balance[0].less_or_equal(balance[0]);
+        let (change, _) = solve_within_bounds(&mut unknowns, &balance, everywhere, MAX_ITERATIONS);
+        BoxSolution {
+            values: unknowns.iter().map(|unknown| unknown.value().first()).collect(),
+            multipliers: self.multipliers + Vector6::from(six!(|k| change[k].first())),
         }
-        let value = |unknown: &BoxUnknown| unknown.value(unknown.column.dot(&multipliers));
-        let values = self.unknowns.iter().map(value).collect();
-        BoxSolution { values, multipliers, residual: dual.gradient.norm() }
+    }
+}
+
+/// One unknown of a program in each lane, as a function (T5) of the multipliers.
+#[derive(Clone, Copy)]
+pub struct BoundedUnknown<S: Simd> {
+    /// Column J.
+    pub column: Lanes6<S>,
+    /// 1/h.
+    curvature_inv: Lanes<S>,
+    /// -(c + J·λ)/h, the value without bounds.
+    pub free: Lanes<S>,
+    /// J·dλ/h, by which a change of the multipliers lowers this value.
+    pub change: Lanes<S>,
+    /// Least and greatest value.
+    pub bounds: Lanes2<S>,
+    /// The lanes in which either bound is active.
+    pub active: [Mask<S>; 2],
+}
+
+/// Elasticity of the equations, relative to the diagonal of their matrix with all unknowns free.
+const ELASTICITY: f64 = 1e-10;
+
+impl<S: Simd> BoundedUnknown<S> {
+    /// An unknown of column J, gradient c and 1/h, at the multipliers λ; its bounds are still to be set.
+    #[inline(always)]
+    pub fn new(
+        column: Lanes6<S>,
+        gradient: Lanes<S>,
+        curvature_inv: Lanes<S>,
+        multipliers: &Lanes6<S>,
+    ) -> Self {
+        let zero = gradient.all(0.0);
+        let never = !zero.less_or_equal(zero);
+        let free = -((gradient + dot(&column, multipliers)) * curvature_inv);
+        Self { column, curvature_inv, free, change: zero, bounds: [zero; 2], active: [never; 2] }
     }
 
-    /// The dual at λ, and which unknowns move there: all where bounds are `ignored`.
-    fn dual(&self, multipliers: &Vector6<f64>, kept: &mut [Kept], ignored: bool) -> Dual {
-        let mut gradient = self.residual - (multipliers - self.multipliers) * self.elasticity;
-        let mut size = self.residual.amax();
-        for (unknown, kept) in self.unknowns.iter().zip(kept) {
-            let BoxUnknown { column, bounds: [least, greatest], curvature, .. } = unknown;
-            let along = column.dot(multipliers);
-            let d = unknown.value(along);
-            gradient += column * d;
-            kept.moves = ignored || (*least < d && d < *greatest);
-            if kept.moves {
-                // d is the difference of two terms as large as this.
-                let terms = (unknown.gradient.abs() + along.abs()) / curvature * kept.largest;
-                size = if terms > size { terms } else { size };
+    /// Prepares a change of the multipliers.
+    #[inline(always)]
+    pub fn prepare(&mut self, step: &Lanes6<S>) {
+        self.change = dot(&self.column, step) * self.curvature_inv;
+    }
+
+    /// The value within the bounds after `share` of the change.
+    #[inline(always)]
+    fn after(&self, share: Lanes<S>) -> Lanes<S> {
+        let d = self.free - share * self.change;
+        let d = self.bounds[0].less_or_equal(d).select(d, self.bounds[0]);
+        d.less_or_equal(self.bounds[1]).select(d, self.bounds[1])
+    }
+
+    /// The value within the bounds.
+    #[inline(always)]
+    fn value(&self) -> Lanes<S> {
+        self.active[0].select(self.bounds[0], self.active[1].select(self.bounds[1], self.free))
+    }
+
+    /// The value that was found: within the bounds in the lanes that are `bounded`, after the change in the
+    /// others.
+    #[inline(always)]
+    pub fn solution(&self, bounded: Mask<S>) -> Lanes<S> {
+        bounded.select(self.value(), self.free - self.change)
+    }
+
+    /// The lanes in which a value lies beyond either bound.
+    #[inline(always)]
+    fn beyond(&self, d: Lanes<S>) -> [Mask<S>; 2] {
+        let low = !self.bounds[0].less_or_equal(d);
+        [low, !low & !d.less_or_equal(self.bounds[1])]
+    }
+}
+
+/// Newton's step of the multipliers where no bound is active.
+#[inline(always)]
+pub fn unbounded_step<S: Simd>(unknowns: &[BoundedUnknown<S>], balance: &Lanes6<S>) -> Lanes6<S> {
+    let (matrix, gradient) = normal_equations(unknowns, balance);
+    let elasticity = elasticity(&six!(|k| matrix[k][k]));
+    elastic_step(matrix, &gradient, &elasticity)
+}
+
+/// The matrix of Newton's method, its upper triangle, and g.
+// Indices as in the formula; iterators that skip would keep the matrix in memory.
+#[allow(clippy::needless_range_loop)]
+#[inline(always)]
+fn normal_equations<S: Simd>(
+    unknowns: &[BoundedUnknown<S>],
+    balance: &Lanes6<S>,
+) -> (Lanes6x6<S>, Lanes6<S>) {
+    let zero = balance[0].all(0.0);
+    let mut matrix = [[zero; 6]; 6];
+    let mut gradient = *balance;
+    for unknown in unknowns {
+        let free_inv = (unknown.active[0] | unknown.active[1]).select(zero, unknown.curvature_inv);
+        let d = unknown.value();
+        for k in 0..6 {
+            let c = unknown.column[k] * free_inv;
+            gradient[k] += unknown.column[k] * d;
+            for column in k..6 {
+                matrix[k][column] += c * unknown.column[column];
             }
         }
-        Dual { gradient, size }
     }
+    (matrix, gradient)
+}
 
-    /// -dg/dλ, where the unknowns that are `moving` move with λ.
-    fn slope(&self, kept: &[Kept]) -> Matrix6<f64> {
-        let mut slope = Matrix6::from_diagonal_element(self.elasticity);
-        let moving = self.unknowns.iter().zip(kept).filter(|(_, kept)| kept.moving);
-        for (BoxUnknown { column, curvature, .. }, _) in moving {
-            slope.syger(1.0 / curvature, column, column, 1.0);
-        }
-        slope
-    }
+/// Elasticity of the forces and of the moments, by the diagonal of the matrix with all unknowns free.
+#[inline(always)]
+fn elasticity<S: Simd>(diagonal: &Lanes6<S>) -> Lanes2<S> {
+    // A point takes no moments at all: its rotations then do not change.
+    let [x, y, z, mx, my, mz] = *diagonal;
+    [(x + y + z) * ELASTICITY, (mx + my + mz) * ELASTICITY + f64::MIN_POSITIVE]
+}
 
-    /// The share of a step at which the slope g·step becomes zero; it is negative at the whole step.
-    fn share(&self, multipliers: &Vector6<f64>, step: &Vector6<f64>, kept: &mut [Kept]) -> f64 {
-        let mut slope = |share: f64| self.dual(&(multipliers + step * share), kept, false).gradient.dot(step);
-        // Where an unknown meets a bound.
-        let mut kinks: Vec<f64> = Vec::with_capacity(2 * self.unknowns.len());
-        for BoxUnknown { gradient, curvature, column, bounds } in self.unknowns {
-            let (now, change) = (gradient + column.dot(multipliers), column.dot(step));
-            let kink = |bound: &f64| -(curvature * bound + now) / change;
-            kinks.extend(bounds.iter().map(kink).filter(|share| 0.0 < *share && *share < 1.0));
-        }
-        kinks.sort_by(f64::total_cmp);
-        let first_negative = kinks.partition_point(|kink| slope(*kink) > 0.0);
-        let low = first_negative.checked_sub(1).map_or(0.0, |i| kinks[i]);
-        let high = kinks.get(first_negative).copied().unwrap_or(1.0);
-        let (at_low, at_high) = (slope(low), slope(high));
-        low + (high - low) * (at_low / (at_low - at_high)).clamp(0.0, 1.0)
+// Indices as in the formula.
+#[allow(clippy::needless_range_loop)]
+#[inline(always)]
+fn elastic_step<S: Simd>(mut matrix: Lanes6x6<S>, gradient: &Lanes6<S>, elasticity: &Lanes2<S>) -> Lanes6<S> {
+    for k in 0..3 {
+        matrix[k][k] += elasticity[0];
+        matrix[3 + k][3 + k] += elasticity[1];
     }
+    SymmetricFactors::new(matrix).solve(gradient)
+}
+
+/// Solves the program in the lanes that are `open`, in at most this many iterations. Returns the change of the
+/// multipliers and the lanes in which the solution was found.
+#[inline(always)]
+pub fn solve_within_bounds<S: Simd>(
+    unknowns: &mut [BoundedUnknown<S>],
+    balance: &Lanes6<S>,
+    open: Mask<S>,
+    max_iterations: usize,
+) -> (Lanes6<S>, Mask<S>) {
+    let zero = balance[0].all(0.0);
+    let mut raised = [zero; 6];
+    let mut going = open;
+    let mut diagonal = [zero; 6];
+    for unknown in unknowns.iter_mut() {
+        for k in 0..6 {
+            diagonal[k] += unknown.column[k] * unknown.curvature_inv * unknown.column[k];
+        }
+        // Elsewhere no bound is active, and every step is the same again.
+        let [low, high] = unknown.beyond(unknown.free);
+        unknown.active = [open & low, open & high];
+    }
+    let elasticity = elasticity(&diagonal);
+    for _ in 0..max_iterations {
+        let (matrix, gradient) = normal_equations(unknowns, balance);
+        let step = elastic_step(matrix, &gradient, &elasticity);
+        let mut same = going;
+        for unknown in unknowns.iter_mut() {
+            unknown.prepare(&step);
+            let [low, high] = unknown.beyond(unknown.free - unknown.change);
+            let [was_low, was_high] = unknown.active;
+            same = same & !((low & !was_low) | (!low & was_low) | (high & !was_high) | (!high & was_high));
+        }
+        let share = search(unknowns, &step, balance, -dot(&gradient, &step), same);
+        let moving = going.select(share, zero);
+        raised = six!(|k| raised[k] + step[k] * moving);
+        for unknown in unknowns.iter_mut() {
+            unknown.free -= unknown.change * moving;
+            let [low, high] = unknown.beyond(unknown.free);
+            unknown.active = [
+                (going & !same & low) | (!(going & !same) & unknown.active[0]),
+                (going & !same & high) | (!(going & !same) & unknown.active[1]),
+            ];
+        }
+        going = going & !same;
+        if !going.any() {
+            break;
+        }
+    }
+    (raised, open & !going)
+}
+
+/// The share of a step at which the dual is least along it: all of it in lanes that are `whole`.
+#[inline(always)]
+fn search<S: Simd>(
+    unknowns: &[BoundedUnknown<S>],
+    step: &Lanes6<S>,
+    balance: &Lanes6<S>,
+    falling: Lanes<S>,
+    whole: Mask<S>,
+) -> Lanes<S> {
+    let zero = falling.all(0.0);
+    let one = zero.all(1.0);
+    let constant = -dot(balance, step);
+    let (mut near, mut far) = ([zero, falling], [one, slope_at(unknowns, step, constant, one)]);
+    let overshot = !whole & !far[1].less_or_equal(zero);
+    if !overshot.any() {
+        return one;
+    }
+    for unknown in unknowns {
+        for bound in unknown.bounds {
+            let share = (unknown.free - bound) / unknown.change;
+            let inside = !share.less_or_equal(near[0]) & !far[0].less_or_equal(share);
+            let inside = inside & share.less_or_equal(share);
+            if inside.any() {
+                let slope = slope_at(unknowns, step, constant, share);
+                let falls = slope.less_or_equal(zero);
+                let (nearer, farther) = (inside & falls, inside & !falls);
+                near = [nearer.select(share, near[0]), nearer.select(slope, near[1])];
+                far = [farther.select(share, far[0]), farther.select(slope, far[1])];
+            }
+        }
+    }
+    let between = near[0] - (far[0] - near[0]) * near[1] / (far[1] - near[1]);
+    overshot.select(between, one)
+}
+
+/// Derivative of the dual along a step, after a share of it.
+#[inline(always)]
+fn slope_at<S: Simd>(
+    unknowns: &[BoundedUnknown<S>],
+    step: &Lanes6<S>,
+    constant: Lanes<S>,
+    share: Lanes<S>,
+) -> Lanes<S> {
+    let mut slope = constant;
+    for unknown in unknowns {
+        slope -= dot(&unknown.column, step) * unknown.after(share);
+    }
+    slope
 }

@@ -39,7 +39,7 @@ pub struct Distribution {
 pub fn distribute(problem: &Problem, objective: Objective) -> Result<Distribution, TensionError> {
     problem.validate(&objective)?;
     if let Objective::Nearest(reference) = objective
-        && let Some(tensions) = closed_form(problem, reference)
+        && let Some(tensions) = problem.closed_form(reference)
         && tensions.iter().zip(problem.limits).all(|(t, limits)| limits.min <= *t && *t <= limits.max)
     {
         let value = DVector::from_column_slice(reference).metric_distance(&tensions);
@@ -64,22 +64,6 @@ pub fn distribute(problem: &Problem, objective: Objective) -> Result<Distributio
 pub fn offset(tensions: &[f64], offsets: &[f64], limits: &[TensionLimits]) -> Vec<f64> {
     let each = tensions.iter().zip(offsets).zip(limits);
     each.map(|((t, dt), limits)| (t + dt).max(limits.min).min(limits.max)).collect()
-}
-
-/// The closed form (T2), whether or not it is within the limits. `None` if W does not have full rank.
-fn closed_form(problem: &Problem, reference: &[f64]) -> Option<DVector<f64>> {
-    let w = problem.wrench_matrix;
-    let gram = w * w.transpose();
-    // W Wᵀ has elements in 1, m and m²: its diagonal scales it.
-    let scale = gram.diagonal().map(|d| 1.0 / d.sqrt());
-    let scaled = gram.component_mul(&(&scale * scale.transpose()));
-    let cholesky = scaled.cholesky()?;
-    if cholesky.l_dirty().diagonal().min() < 1e-7 {
-        return None;
-    }
-    let residual = problem.residual(reference);
-    let multipliers = cholesky.solve(&residual.component_mul(&scale)).component_mul(&scale);
-    Some(DVector::from_column_slice(reference) - w.tr_mul(&multipliers))
 }
 
 /// The program of an objective in units of force: unknowns are the tensions, and z where there is one.

@@ -1,7 +1,7 @@
 //! Least squares with bounds for six equations, by an active set.
 //!
 //! ```text
-//! minimise  |J d + F|²/2 + sum (c_i d_i + h_i d_i²/2)   subject to   l_i <= d_i <= u_i             (T7)
+//! minimize  |J d + F|²/2 + sum (c_i d_i + h_i d_i²/2)   subject to   l_i <= d_i <= u_i             (T7)
 //! ```
 //!
 //! This is (T4) with ε = 1 and λ_0 = 0. Where h is small, the multipliers of its dual lose the digits from

@@ -10,7 +10,7 @@
 //!
 //! W is the wrench matrix, in which the directions of the cables are given, and w the sum of all wrenches on
 //! the platform that do not come from the cables. Of sagging cables, whose directions depend on their
-//! tensions, (T1) is a linearisation: `cdpr_statics` starts there.
+//! tensions, (T1) is a linearization: `cdpr_statics` starts there.
 //!
 //! Where no bound is active the tensions nearest to a reference have the closed form
 //!
@@ -57,9 +57,9 @@
 //!
 //! [`BoxProblem`], [`LinearProgram`] and [`bounded_least_squares`] are the programs of single steps towards
 //! an equilibrium with sagging cables. They are solved many times for one pose, in a tenth of Clarabel's
-//! time.
+//! time. [`box_problem`] solves the first for many robots at a time, too, in the lanes of the vector unit.
 
-mod box_problem;
+pub mod box_problem;
 mod distribution;
 mod least_squares;
 mod linear_program;

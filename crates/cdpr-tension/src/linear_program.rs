@@ -1,7 +1,7 @@
 //! Small dense linear programs with bounds, by the simplex method.
 //!
 //! ```text
-//! maximise  c·x - M |b - A x|_1   subject to   l <= x <= u                                        (T6)
+//! maximize  c·x - M |b - A x|_1   subject to   l <= x <= u                                        (T6)
 //! ```
 //!
 //! For a penalty M above the multipliers of the rows this is the program with `A x = b`, if that has a

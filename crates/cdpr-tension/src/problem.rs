@@ -39,6 +39,11 @@ pub enum Bound {
     Max,
 }
 
+impl Bound {
+    /// The least tension, then the greatest.
+    pub const BOTH: [Self; 2] = [Self::Min, Self::Max];
+}
+
 /// Why there is no distribution.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum TensionError {
@@ -107,6 +112,23 @@ impl Problem<'_> {
             }
             Objective::LeastSum | Objective::LeastGreatest => Ok(()),
         }
+    }
+
+    /// The tensions nearest to a reference [N] without regard to limits, the closed form (T2) [N]; `None` if W
+    /// does not have full rank.
+    pub fn closed_form(&self, reference: &[f64]) -> Option<DVector<f64>> {
+        let w = self.wrench_matrix;
+        let gram = w * w.transpose();
+        // W Wᵀ has elements in 1, m and m²: its diagonal scales it.
+        let scale = gram.diagonal().map(|d| 1.0 / d.sqrt());
+        let scaled = gram.component_mul(&(&scale * scale.transpose()));
+        let cholesky = scaled.cholesky()?;
+        if cholesky.l_dirty().diagonal().min() < 1e-7 {
+            return None;
+        }
+        let residual = self.residual(reference);
+        let multipliers = cholesky.solve(&residual.component_mul(&scale)).component_mul(&scale);
+        Some(DVector::from_column_slice(reference) - w.tr_mul(&multipliers))
     }
 
     /// Residual wrench W t + w [N, N m], Eq. (3).

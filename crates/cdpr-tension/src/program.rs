@@ -11,7 +11,7 @@ use clarabel::solver::{
     SupportedConeT::{NonnegativeConeT, ZeroConeT},
 };
 
-/// `minimise sum (c_i x_i + h_i x_i²/2)  subject to  A x = b,  B x <= d,  l <= x <= u`.
+/// `minimize sum (c_i x_i + h_i x_i²/2)  subject to  A x = b,  B x <= d,  l <= x <= u`.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Program {
     /// c.

@@ -1,7 +1,6 @@
 // The commands of the program that give the numbers on screen.
 
 import { isChanged } from "./robot.js";
-import { quaternion } from "./rotation.js";
 import { SLICE_AXES } from "./slices.js";
 
 /**
@@ -16,7 +15,7 @@ export function commands({ state, file, lengths, pose, slice, hasModes, observed
   const changed = isChanged(state.changes);
   const robot = quote(changed ? changedName(file) : file);
   const needs = changed ? ["robot"] : [];
-  const wanted = [...poseOptions("pose", state.position, state.rpy_deg), ...freeOptions(state)];
+  const wanted = [...poseOptions(state.position, state.rpy_deg), ...freeOptions(state)];
   const load = loadOptions(state);
   const reference = referenceOptions(state);
   const list = [];
@@ -36,7 +35,7 @@ export function commands({ state, file, lengths, pose, slice, hasModes, observed
       "direct",
       robot,
       ...lengthOptions(lengths),
-      ...poseOptions("start", pose.position, pose.rpy_deg),
+      ...poseOptions(pose.position, pose.rpy_deg),
       ...load,
     ]);
   }
@@ -45,7 +44,7 @@ export function commands({ state, file, lengths, pose, slice, hasModes, observed
       "modes",
       robot,
       ...lengthOptions(lengths),
-      `--start=${[...pose.position, ...rotationOf(pose.rpy_deg)].join(",")}`,
+      ...poseOptions(pose.position, pose.rpy_deg),
       ...load,
     ]);
   }
@@ -87,17 +86,12 @@ export function stem(file) {
   return file.replace(/^.*[/\\]/, "").replace(/\.json$/i, "") || "robot";
 }
 
-function poseOptions(name, position, rpy_deg) {
-  return [`--${name}=${position.join(",")}`, ...rpyOptions(rpy_deg)];
-}
-
-// `modes` takes the rotation of its start as a quaternion.
-function rotationOf(rpy_deg) {
-  return rpy_deg.some((angle) => angle !== 0) ? quaternion(rpy_deg) : [];
+function poseOptions(position, rpy_deg) {
+  return [`--pose=${position.join(",")}`, ...rpyOptions(rpy_deg)];
 }
 
 function rpyOptions(rpy_deg) {
-  return rpy_deg.some((angle) => angle !== 0) ? ["--rpy", ...rpy_deg.map(String)] : [];
+  return rpy_deg.some((angle) => angle !== 0) ? [`--rpy=${rpy_deg.join(",")}`] : [];
 }
 
 function lengthOptions(lengths) {
@@ -125,5 +119,5 @@ function boxOptions({ normal, at, u, v }) {
   const [first, second] = SLICE_AXES[normal];
   ranges[first] = u.join(":");
   ranges[second] = v.join(":");
-  return [`--box=${ranges.x},${ranges.y},${ranges.z}`];
+  return [`--region=${ranges.x},${ranges.y},${ranges.z}`];
 }

@@ -1,10 +1,8 @@
 //! The products of `cargo xtask web`: what a page needs besides a robot.
 
-/// The module with the vector unit of WebAssembly, packed by gzip.
+/// The module, packed by gzip. It uses the vector unit of WebAssembly, which every browser has that can
+/// unpack it.
 pub const MODULE: &[u8] = include_bytes!("../dist/cdpr_web.wasm.gz");
-
-/// The module without it, for browsers before 2023.
-pub const SCALAR_MODULE: &[u8] = include_bytes!("../dist/cdpr_web_scalar.wasm.gz");
 
 /// The script of the page, which defines `cdprExplorer`, packed by gzip.
 pub const SCRIPT: &[u8] = include_bytes!("../dist/explorer.js.gz");

@@ -1,4 +1,4 @@
-// Asks a stored module by the worker of the page: `node ask.mjs MODULE`, with {robot, asks} on the standard
+// Asks the stored module by the worker of the page: `node ask.mjs`, with {robot, asks} on the standard
 // input and the list of answers on the standard output.
 
 import { readFileSync } from "node:fs";
@@ -6,7 +6,7 @@ import { gunzipSync } from "node:zlib";
 import vm from "node:vm";
 
 const dist = new URL("../dist/", import.meta.url);
-const module = gunzipSync(readFileSync(new URL(`${process.argv[2]}.wasm.gz`, dist)));
+const module = gunzipSync(readFileSync(new URL("cdpr_web.wasm.gz", dist)));
 const said = [];
 globalThis.self = { postMessage: (message) => said.push(message) };
 vm.runInThisContext(readFileSync(new URL("worker.js", dist), "utf8"));

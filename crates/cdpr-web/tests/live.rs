@@ -24,7 +24,7 @@ fn a_deflection_is_that_of_the_model() {
     let expected = deflection(&robot, &Pose::at(1.0, -0.5, 1.5), &Load::payload(100.0)).unwrap();
     let question = json!({"hold": {"pose": [1.0, -0.5, 1.5, 1, 0, 0, 0], "load": {"payload": 100}}});
     let found = ask(&mut Live::new(&text).unwrap(), &question)["ok"].clone();
-    assert_eq!(found["rms"].as_f64(), Some(expected.rms()));
+    assert_eq!(found["rms"].as_f64(), Some(expected.magnitude()));
     assert_eq!(found["lengths"], json!(expected.lengths));
     let residual = &expected.loaded.report.residual;
     assert_eq!(found["loaded"]["residual"]["force"].as_f64(), Some(residual.force));
@@ -90,7 +90,7 @@ fn a_table_has_the_inputs_and_outputs_of_every_observation() {
     let observed = ask(&mut live, &json!({"observe": {"replicate": 0}}))["ok"].clone();
     let table = ask(&mut live, &json!({"table": {}}))["ok"].clone();
     assert_eq!(table["seed"], study["seed"]);
-    assert_eq!(table["outputs"], json!(["dx_mm", "dy_mm", "dz_mm", "rms_mm"]));
+    assert_eq!(table["outputs"], json!(["dx_mm", "dy_mm", "dz_mm", "magnitude_mm"]));
     let inputs = table["inputs"].as_array().unwrap();
     assert!(inputs.contains(&json!({"name": "mass", "unit": "kg"})), "{inputs:?}");
     let rows = table["rows"].as_array().unwrap();

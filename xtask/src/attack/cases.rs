@@ -41,7 +41,7 @@ fn kinds() -> io::Result<[Kind; 6]> {
         Kind {
             name: "record.csv",
             good: read("cables/caroca-4mm-record.csv")?,
-            command: "modulus record.csv --breaking-force 10290 --section 1.2566e-5 --length 1 --range 5-10",
+            command: "cable modulus record.csv --breaking-force 10290 --section 1.2566e-5 --length 1 --range 5-10",
         },
         Kind {
             name: "case.json",
@@ -53,7 +53,7 @@ fn kinds() -> io::Result<[Kind; 6]> {
         Kind {
             name: "poses.txt",
             good: "0,0,1.75\n0.5,0,1.5\n0,0.5,2,1,0,0,0\n".to_owned(),
-            command: "calibration identify robot.json --poses poses.txt --uncertainty a=2e-3 \
+            command: "calibrate identify robot.json --poses poses.txt --uncertainty a=2e-3 \
                       --noise lengths=1e-3",
         },
     ])
@@ -214,7 +214,7 @@ fn arguments(cases: &mut Vec<Case>) {
         "\u{663}",
         "0,0,1e308",
     ];
-    const OPTIONS: [(&str, &str); 24] = [
+    const OPTIONS: [(&str, &str); 19] = [
         ("inverse robot.json", "--pose"),
         ("inverse robot.json --pose 0,0,1.75", "--payload"),
         ("inverse robot.json --pose 0,0,1.75", "--force"),
@@ -224,21 +224,16 @@ fn arguments(cases: &mut Vec<Case>) {
         ("derivatives robot.json --pose 0,0,1.75", "--payload"),
         ("direct robot.json", "--lengths"),
         ("direct robot.json --lengths 4.44,4.54,4.36,4.26,4.26,4.36,4.54,4.44", "--mass"),
-        ("direct robot.json --lengths 4.44,4.54,4.36,4.26,4.26,4.36,4.54,4.44", "--start"),
-        ("catenary --weight 1 --stiffness 1e6 --end 4,-1", "--length"),
-        ("catenary --weight 1 --stiffness 1e6 --end 4,-1", "--tension"),
-        ("catenary --stiffness 1e6 --length 4.3 --end 4,-1", "--weight"),
-        ("catenary --weight 1 --length 4.3 --end 4,-1", "--stiffness"),
-        ("workspace robot.json --out out --plane z=1.75", "--grid"),
-        ("workspace robot.json --out out", "--plane"),
-        ("workspace robot.json --out out", "--box"),
+        ("direct robot.json --lengths 4.44,4.54,4.36,4.26,4.26,4.36,4.54,4.44", "--pose"),
+        ("cable catenary weight=1,stiffness=1e6 --end 4,-1", "--length"),
+        ("cable catenary weight=1,stiffness=1e6 --end 4,-1", "--tension"),
+        ("workspace robot.json --out out", "--region"),
         ("study run study.json --out out", "--observations"),
         ("study run study.json --out out", "--threads"),
         ("study run study.json --out out", "--shard"),
-        ("linear-density --length 2", "--mass"),
-        ("linear-density --mass 0.2", "--length"),
-        ("robustness --robot robot.json --out out", "--poses"),
-        ("tolerances study.json --sampling mechanical --observations 100", "--limit"),
+        ("cable density --length 2", "--mass"),
+        ("cable density --mass 0.2", "--length"),
+        ("study tolerances study.json --sampling mechanical --observations 100", "--limit"),
     ];
     for (command, option) in OPTIONS {
         // Numbers that are as good as others, but ask for hours.
@@ -276,14 +271,14 @@ fn strangers(kinds: &[Kind; 6], cases: &mut Vec<Case>) -> io::Result<()> {
     for command in [
         "run study.json",
         "merge out",
-        "study report out",
+        "report out",
         "check study.json",
         "study run robot.json --out out",
         "study run study.json --out out --payload 50",
         "study run study.json --out out --threads 65535",
         "direct robot.json --payload 3",
         "study status nowhere",
-        "report nowhere",
+        "study report nowhere",
         "study merge robot.json",
         "study extend out --observations 99",
     ] {

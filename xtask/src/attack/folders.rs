@@ -47,7 +47,8 @@ fn changed(what: &str, change: &str, command: &str, may_succeed: bool) -> Case {
 /// Commands that write into a folder of results.
 fn writers() -> Vec<String> {
     let options = ["--overwrite", "--resume", "--shard 1/1"].map(|option| format!("{RUN} {option}"));
-    let others = ["study merge out", "study extend out --observations 40", "report out"].map(str::to_owned);
+    let others =
+        ["study merge out", "study extend out --observations 40", "study report out"].map(str::to_owned);
     options.into_iter().chain(others).collect()
 }
 
@@ -128,7 +129,7 @@ fn edited_files() -> Vec<Case> {
         ("surface_E_rho.csv", "s/0,/1,/"),
     ] {
         let (what, change) = (format!("{name} was edited"), format!("sed -i '{edit}' out/{name}"));
-        cases.push(changed(&what, &change, "report out", false));
+        cases.push(changed(&what, &change, "study report out", false));
         if ["robot.json", "study.json"].contains(&name) {
             cases.push(changed(&what, &change, "study merge out", false));
             cases.push(changed(&what, &change, "study status out", false));
@@ -141,7 +142,7 @@ fn reports_over_files() -> Vec<Case> {
     let names =
         ["study.json", "robot.json", "summary.json", "mechanical.csv", "mechanical.svg", "cdpr-results.json"];
     let over = |folder: &str, name: &str| {
-        changed("a report over another file", ":", &format!("report out --out {folder}/{name}"), false)
+        changed("a report over another file", ":", &format!("study report out --out {folder}/{name}"), false)
     };
     names.iter().flat_map(|name| ["out", DONE].map(|folder| over(folder, name))).collect()
 }
@@ -158,7 +159,7 @@ fn files_of_the_user() -> Vec<Case> {
         }
     }
     for name in ["workspace.csv", "workspace.json", "deflection.svg"] {
-        let command = "workspace robot.json --box=0:0:1,0:0:1,1.75:1.75:1 --out out";
+        let command = "workspace robot.json --region=0:0:1,0:0:1,1.75:1.75:1 --out out";
         cases.push(case("the user's own file", own(name), "", command, false));
     }
     cases
@@ -170,8 +171,8 @@ fn paths_that_are_no_text() -> Vec<Case> {
     let made = [
         "study run study.json --out out/\u{fffd} --shard 1/1 --format json",
         "study run study.json --out out/\u{fffd}",
-        "workspace robot.json --box=0:0:1,0:0:1,1.75:1.75:1 --out out/\u{fffd} --format json",
-        "study new --robot robot.json --out out/\u{fffd}.json",
+        "workspace robot.json --region=0:0:1,0:0:1,1.75:1.75:1 --out out/\u{fffd} --format json",
+        "study new robot.json --out out/\u{fffd}.json",
         "study run study.json --out out\u{fffd}/\u{fffd}/\u{fffd}",
     ];
     let made = made.map(|command| {
@@ -190,8 +191,13 @@ fn paths_that_are_no_text() -> Vec<Case> {
 
 /// A full disk, two runs at once, and a run that is ended.
 fn disturbed_runs() -> Vec<Case> {
-    let printed =
-        ["--help", "--version", "study run --help", "check robot.json", "inverse robot.json --pose 0,0,1.75"];
+    let printed = [
+        "--help",
+        "--version",
+        "study run --help",
+        "robot check robot.json",
+        "inverse robot.json --pose 0,0,1.75",
+    ];
     let full = "exec \"$0\" \"$@\" >/dev/full";
     let mut cases: Vec<Case> = printed
         .map(|command| case("a full disk behind the standard output", ":".to_owned(), full, command, false))

@@ -8,45 +8,45 @@ use std::path::Path;
 use std::process::Command;
 
 /// A good call of each command in the folder of all cases.
-const CALLS: [&str; 26] = [
-    "catenary --weight 1 --stiffness 1e6 --length 4.3 --end 4,-1",
+const CALLS: [&str; 25] = [
+    "cable catenary weight=1,stiffness=1e6 --length 4.3 --end 4,-1",
     "inverse robot.json --pose 0,0,1.75",
     "direct robot.json --lengths 4.44,4.54,4.36,4.26,4.26,4.36,4.54,4.44",
     "deflection robot.json --pose 0,0,1.75 --payload 50",
     "stiffness robot.json --pose 0,0,1.75",
     "capacity robot.json --pose 0,0,1.75",
     "path robot.json --poses poses.txt --payload 50",
-    "workspace robot.json --plane z=1.75 --grid 3x3 --payload 50 --out out",
+    "workspace robot.json --region ::3,::3,1.75 --payload 50 --out out",
     "explore robot.json --out out/page.html",
-    "check robot.json",
-    "study new --robot robot.json",
+    "robot check robot.json",
+    "study new robot.json",
     "study run study.json --out out",
     "study merge out",
     "study status out",
     "study extend out --observations 200",
-    "calibrate robot.json --measurements measured.csv --parameters mass --noise position=1e-3,length=1e-3 --out out",
-    "calibration identify robot.json --poses poses.txt --uncertainty a=2e-3 --noise lengths=1e-3",
-    "calibration plan robot.json --poses poses.txt --uncertainty a=2e-3 --noise lengths=1e-3 --count 2",
-    "calibration simulate robot.json --poses poses.txt --model study.json --error-model table_3 \
+    "calibrate fit robot.json measured.csv --parameters mass --noise position=1e-3,length=1e-3 --out out",
+    "calibrate identify robot.json --poses poses.txt --uncertainty a=2e-3 --noise lengths=1e-3",
+    "calibrate plan robot.json --poses poses.txt --uncertainty a=2e-3 --noise lengths=1e-3 --count 2",
+    "calibrate simulate robot.json --poses poses.txt --uncertainty study.json:table_3 \
      --noise length=1e-3 --seed 1 --out out/measured.csv",
     "derivatives robot.json --pose 0,0,1.75 --payload 50",
     "hysteresis robot.json --law law.json --pose 0,0,1.75 --payload 50",
-    "linear-density --mass 0.203 --length 2",
+    "cable density --mass 0.203 --length 2",
     "modes robot.json --pose 0,0,1.75",
-    "modulus record.csv --breaking-force 10290 --section 1.2566e-5 --length 1 --range 5-10",
-    "tolerances study.json --sampling mechanical --observations 100 --limit 1",
-    "robustness --robot robot.json --poses 10 --out out",
+    "cable modulus record.csv --breaking-force 10290 --section 1.2566e-5 --length 1 --range 5-10",
+    "study tolerances study.json --sampling mechanical --observations 100 --limit deflection_mm<1",
 ];
 
 /// Calls whose commands read other files: their options name files, folders and words.
-const OTHERS: [&str; 7] = [
-    "export robot.json --to mjcf --pose 0,0,1.75 --out out/robot.xml",
-    "import points.csv --cable steel-4mm --mass 100 --tension-limits 1,5000",
+const OTHERS: [&str; 8] = [
+    "robot export robot.json --to mjcf --pose 0,0,1.75 --out out/robot.xml",
+    "robot import points.csv --cable steel-4mm --mass 100 --tension-limits 1,5000",
     "analyse measured.csv",
-    "report out",
-    "robots",
+    "study report out",
+    "robot list",
+    "robot show cogiro",
     "completions bash",
-    "help",
+    "man",
 ];
 
 /// Options that name files to write: other cases give them names.
@@ -70,9 +70,7 @@ pub(super) fn prepare(folder: &Path) -> io::Result<()> {
 /// An error of the system, and a command that no call stands for.
 pub(super) fn all(program: &Path) -> io::Result<Vec<Case>> {
     let mut cases = Vec::new();
-    let mut commands = Vec::new();
-    names(program, &[], &mut commands)?;
-    for command in commands {
+    for command in names(&help(program, &[])?) {
         let call = CALLS.iter().chain(&OTHERS).find(|call| starts_with(&split(call), &command));
         let call = call.ok_or_else(|| io::Error::other(format!("no call of `{}`", command.join(" "))))?;
         for option in options(&help(program, &command)?) {
@@ -101,21 +99,12 @@ fn help(program: &Path, command: &[String]) -> io::Result<String> {
     Ok(String::from_utf8_lossy(&output.stdout).into_owned())
 }
 
-/// The commands without commands of their own, below `command`.
-fn names(program: &Path, command: &[String], found: &mut Vec<Vec<String>>) -> io::Result<()> {
-    let help = help(program, command)?;
-    let listed = help.split("Commands:\n").nth(1).and_then(|rest| rest.split("\n\n").next());
-    let Some(listed) = listed else {
-        found.push(command.to_vec());
-        return Ok(());
-    };
-    let own = |line: &str| line.starts_with("  ") && !line.starts_with("   ");
-    for name in listed.lines().filter(|line| own(line)).filter_map(|line| line.split_whitespace().next()) {
-        if name != "help" {
-            names(program, &[command, &[name.to_owned()]].concat(), found)?;
-        }
-    }
-    Ok(())
+/// The commands, as the help of the program lists them in groups.
+fn names(help: &str) -> Vec<Vec<String>> {
+    let groups = help.split("Options:").next().unwrap_or_default();
+    let lines = groups.lines().filter(|line| line.starts_with("  ") && !line.starts_with("  Example"));
+    let words = lines.filter_map(|line| line.trim_start().split("  ").next());
+    words.map(|words| words.split(' ').map(str::to_owned).collect()).collect()
 }
 
 /// The options with values that a help lists.
@@ -143,10 +132,17 @@ mod tests {
     use super::*;
 
     #[test]
+    fn commands_are_found_in_the_groups_of_the_help() {
+        let help = "A\n\nUsage: cdpr <COMMAND>\n\nRobots:\n  inverse            Find it\n  robot list         List\n  \
+                    Example: cdpr x\n\nOptions:\n  -h, --help  Print help\n";
+        assert_eq!(names(help), [vec!["inverse"], vec!["robot", "list"]]);
+    }
+
+    #[test]
     fn options_with_values_are_found_in_a_help() {
         let help = "Options:\n      --pose <POSE>\n          Pose: --rpy <X>\n  -o, --out <FILE>\n      \
-                    --overwrite\n      --tilt [<DIRECTIONS>]\n      --rpy <ROLL> <PITCH> <YAW>\n";
-        assert_eq!(options(help), ["--pose", "--out", "--tilt", "--rpy"]);
+                    --overwrite\n      --with <NAMES>\n      --rpy <ROLL> <PITCH> <YAW>\n";
+        assert_eq!(options(help), ["--pose", "--out", "--with", "--rpy"]);
     }
 
     #[test]

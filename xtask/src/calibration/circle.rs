@@ -33,7 +33,7 @@ pub(crate) fn run() -> Result<(), String> {
     }
     for criterion in CRITERIA.into_iter().rev() {
         let choose =
-            ["calibration", "plan", &robot, "--poses", &candidates, "--count", "20", "--model", &model];
+            ["calibrate", "plan", &robot, "--poses", &candidates, "--count", "20", "--uncertainty", &model];
         let work = ["--work=-1.5:1.5:3,-0.8:0.8:3,1.5:2:2", "--noise", "position=1e-4,rotation=1e-4"];
         let out = ["--criterion", criterion, "--out", &plan];
         let found = answer(&[&choose[..], &work, &out].concat(), &[0])?;
@@ -49,9 +49,10 @@ pub(crate) fn run() -> Result<(), String> {
             );
         }
     }
-    let simulate = ["calibration", "simulate", &robot, "--poses", &plan, "--seed", "1", "--model", &model];
+    let simulate =
+        ["calibrate", "simulate", &robot, "--poses", &plan, "--seed", "1", "--uncertainty", &model];
     output(&[&simulate[..], &["--noise", NOISE, "--out", &campaign]].concat(), &[0])?;
-    let fit = ["calibrate", &robot, "--measurements", &campaign, "--model", &model, "--noise", NOISE];
+    let fit = ["calibrate", "fit", &robot, &campaign, "--uncertainty", &model, "--noise", NOISE];
     let summary = answer(&[&fit[..], &["--out", &calibrated]].concat(), &[0])?;
     let parameters = summary["parameters"].as_object().ok_or("no parameters")?;
     let told = parameters.values().filter(|of| of["identifiable"] == true).count();

@@ -1,7 +1,7 @@
 //! Questions about where a platform was found to rest with given lengths: below the floor, turned over, on
 //! some of its cables alone. Lengths of another robot, or in another order, lead there.
 
-use cdpr_robot::{Doubt, Pose, Robot, Rotation3, Vector3, frame, short};
+use cdpr_robot::{Doubt, Pose, Robot, Rotation3, UnitQuaternion, Vector3, frame, short};
 use cdpr_statics::limits::{Limit, out_of_limits};
 use cdpr_statics::{DirectSolution, Load};
 use std::f64::consts::FRAC_PI_2;
@@ -76,7 +76,9 @@ fn floor(robot: &Robot) -> (f64, String) {
 
 /// A platform that is turned by more than a right angle.
 fn turned(robot: &Robot, pose: &Pose, start: &Rotation3<f64>) -> Option<(String, String)> {
-    let angle = start.angle_to(&pose.rotation);
+    // Of matrices that are equal but for rounding the cosine may exceed 1.
+    let [from, to] = [start, &pose.rotation].map(UnitQuaternion::from_rotation_matrix);
+    let angle = from.angle_to(&to);
     if robot.platform.point || angle <= TURNED {
         return None;
     }

@@ -25,7 +25,7 @@ pub struct WorkspaceRow {
     pub dy_mm: Option<f64>,
     pub dz_mm: Option<f64>,
     /// |dp|.
-    pub rms_mm: Option<f64>,
+    pub magnitude_mm: Option<f64>,
     pub least_stiffness: Option<f64>,
     /// Lowest natural frequency with the load.
     pub lowest_frequency_hz: Option<f64>,
@@ -106,7 +106,7 @@ impl WorkspaceRow {
             dx_mm: displacement.map(|dp| dp.x),
             dy_mm: displacement.map(|dp| dp.y),
             dz_mm: displacement.map(|dp| dp.z),
-            rms_mm: displacement.map(|dp| dp.norm()),
+            magnitude_mm: displacement.map(|dp| dp.norm()),
             least_stiffness: held.map(|held| held.least_stiffness),
             lowest_frequency_hz: held.and_then(|held| held.lowest_frequency),
             lowest_cable_frequency_hz: held
@@ -196,7 +196,7 @@ pub(super) fn columns<S: Serializer>(rows: &[WorkspaceRow], serializer: S) -> Re
         dx_mm,
         dy_mm,
         dz_mm,
-        rms_mm,
+        magnitude_mm,
         least_stiffness,
         lowest_frequency_hz,
         lowest_cable_frequency_hz,

@@ -50,7 +50,7 @@ pub struct WorkspaceSummary {
     pub dominant: BTreeMap<String, usize>,
     /// |dp| [mm] over the positions with status `held`. This and the following are absent without such
     /// positions.
-    pub rms_mm: Option<Extremes>,
+    pub magnitude_mm: Option<Extremes>,
     /// Stiffness of the softest motion [N/m].
     pub least_stiffness: Option<Extremes>,
     /// Lowest natural frequency with the load [Hz]; absent without `platform.inertia`.
@@ -170,7 +170,7 @@ impl WorkspaceSummary {
             left_out: left_out(poses),
             too_much: poses.iter().filter(|pose| pose.is_too_much()).count(),
             dominant,
-            rms_mm: held_extremes(&rows, |row| row.rms_mm),
+            magnitude_mm: held_extremes(&rows, |row| row.magnitude_mm),
             least_stiffness: held_extremes(&rows, |row| row.least_stiffness),
             lowest_frequency_hz: held_extremes(&rows, |row| row.lowest_frequency_hz),
             lowest_cable_frequency_hz: held_extremes(&rows, |row| row.lowest_cable_frequency_hz),

@@ -122,7 +122,8 @@ fn free_length_and_response<T: Real>(
     let in_plane = Numbers { axis: [c * kx + s * ky, c * ky - s * kx, kz], ..*numbers };
     let guided = Guided::new(cable, &guide(cable), &in_plane, [fx, z]);
     let free = cable.free_response(&Numbers { length: guided.free, ..*numbers }, [fx, z]);
-    let GuidedInSpace { leave, end, flexibility, end_per_length } = guided.in_space(fx, &free);
+    let GuidedInSpace { leave, end, flexibility, end_per_length, free_per_force } =
+        guided.in_space(fx, &free);
     let turn = |[h, l, z]: [T; 3]| [c * h - s * l, s * h + c * l, z];
     let rows = flexibility.map(turn);
     let columns = [0, 1, 2].map(|j| turn(rows.map(|row| row[j])));
@@ -131,6 +132,7 @@ fn free_length_and_response<T: Real>(
         end: turn(end),
         flexibility: [0, 1, 2].map(|i| columns.map(|column| column[i])),
         end_per_length: turn(end_per_length),
+        free_per_force: turn(free_per_force),
     };
     (guided.free, response)
 }
@@ -179,7 +181,7 @@ impl<'a> SpatialCable<'a> {
     /// Position of A, flexibility and dA/dL.
     pub fn response(&self) -> SpatialResponse {
         let force = self.force.into();
-        let GuidedInSpace { leave, end, flexibility, end_per_length } =
+        let GuidedInSpace { leave, end, flexibility, end_per_length, .. } =
             response(&self.cable, &self.numbers(), &force);
         SpatialResponse {
             leave: leave.into(),

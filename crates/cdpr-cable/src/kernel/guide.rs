@@ -66,10 +66,13 @@
 //! dA/dκ = -ρ e_z + r/(1 + ε) dA/dL  in the plane,      r (1 + cos ψ)/sin ψ = B_x/τ_x  across it  (C31)
 //! ```
 
+mod wheel;
+
 use super::response::Response;
 use super::series::elevation;
 use cdpr_number::Lanewise;
 use std::f64::consts::FRAC_PI_2;
+use wheel::Wheel;
 
 /// A lead and a pulley after it.
 #[derive(Clone, Copy, Debug)]
@@ -104,20 +107,6 @@ pub struct LeavePoint<T> {
     pub tension_inv: T,
     /// The wheel that is not in the cable's plane.
     wheel: Option<Wheel<T>>,
-}
-
-/// A wheel about a tilted axis, in the axes of the cable's plane: forwards, across and upwards.
-#[derive(Clone, Copy, Debug)]
-struct Wheel<T> {
-    cos: T,
-    sin: T,
-    /// 1 + cos ψ.
-    one_plus_cos: T,
-    u: [T; 3],
-    n: [T; 3],
-    m: [T; 3],
-    /// B_y [m].
-    leave_across: T,
 }
 
 /// The way of a cable over its guide.
@@ -158,6 +147,8 @@ struct Swung<T> {
     coupled: [T; 3],
     /// -γ q_y.
     coupled_across: T,
+    /// q_y/β [m/N].
+    free_across: T,
 }
 
 /// Derivatives of the end of a cable over a guide at constant force and length, (C24) and (C31).
@@ -177,16 +168,18 @@ pub struct GuidedEndSlopes<T> {
     pub across_per_axis: T,
 }
 
-/// The response of a cable over a guide in space: the axes are forwards, across and upwards.
-pub(crate) struct GuidedInSpace<T> {
+/// The response of a cable over a guide in space: the axes are forwards, across to the left and upwards.
+pub struct GuidedInSpace<T> {
     /// B from D [m].
-    pub(crate) leave: [T; 3],
+    pub leave: [T; 3],
     /// A from D [m].
-    pub(crate) end: [T; 3],
-    /// Rows of dA/dF [m/N], (C22).
-    pub(crate) flexibility: [[T; 3]; 3],
-    /// dA/dL, (C23).
-    pub(crate) end_per_length: [T; 3],
+    pub end: [T; 3],
+    /// Rows of dA/dF at constant length [m/N], (C22).
+    pub flexibility: [[T; 3]; 3],
+    /// dA/dL at constant force, (C23).
+    pub end_per_length: [T; 3],
+    /// dLf/dF at constant length, q/β of (C21) [m/N].
+    pub free_per_force: [T; 3],
 }
 
 impl<T: Lanewise> GuideTerms<T> {
@@ -199,11 +192,16 @@ impl<T: Lanewise> GuideTerms<T> {
         }
     }
 
-    /// B for the direction τ of a cable under a vertical axis, (C30).
+    /// B for the direction τ of a cable, in its plane: (C30) under a vertical axis, else (C19).
     #[inline(always)]
     pub fn leave_position(&self, [tx, tz]: [T; 2]) -> [T; 2] {
-        let signed = self.signed_radius();
-        [self.radius - signed * tz, signed * tx]
+        match self.axis {
+            SwivelAxis::Vertical(signed) => [self.radius - signed * tz, signed * tx],
+            SwivelAxis::Along(axis) => {
+                let [x, _, z] = Wheel::new(self.radius, axis, [tx, tz]).leave(self.radius, axis);
+                [x, z]
+            }
+        }
     }
 
     /// Where a cable of weight `w` [N/m] and unstrained length `free` [m] beyond its leave point leaves it,
@@ -253,7 +251,8 @@ impl<T: Lanewise> GuideTerms<T> {
             end_per_length[0] = end_per_length[0] - mu * delta * n[0];
             end_per_length[1] = end_per_length[1] - mu * delta * n[2];
             let coupled = [n[0] - delta * qx, n[1] - delta * qy, n[2] - delta * qz];
-            Swung { wheel, mu, delta, coupled, coupled_across: -(gamma * qy) }
+            let free_across = qy * free_per_length;
+            Swung { wheel, mu, delta, coupled, coupled_across: -(gamma * qy), free_across }
         });
         Way {
             leave,
@@ -303,45 +302,6 @@ impl<T: Lanewise> GuideTerms<T> {
             per_axis: [paid_out * ex, paid_out * ez - self.signed_radius()],
             across_per_axis: position[0] / tx,
         }
-    }
-}
-
-impl<T: Lanewise> Wheel<T> {
-    /// (C19) of a pulley of this radius [m].
-    #[inline(always)]
-    fn new(radius: T, [kx, ky, kz]: [T; 3], [tx, tz]: [T; 2]) -> Self {
-        let cos = -(tx * kx + tz * kz);
-        let normal = [ky * tz, kz * tx - kx * tz, -(ky * tx)];
-        let sin = (normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]).sqrt();
-        // A cable that goes straight on has no wheel's plane: without a pulley that adds nothing.
-        let straight = T::select(radius.at_most(0.0), sin, sin * 0.0 + 1.0).at_most(0.0);
-        let sin_inv = T::select(straight, sin * 0.0, sin.recip());
-        let [nx, ny, nz] = [normal[0] * sin_inv, normal[1] * sin_inv, normal[2] * sin_inv];
-        let u = [ny * kz - nz * ky, nz * kx - nx * kz, nx * ky - ny * kx];
-        let m = [cos * u[0] + sin * kx, cos * u[1] + sin * ky, cos * u[2] + sin * kz];
-        let one_plus_cos = T::select(cos.at_most(0.0), sin * sin / (-cos + 1.0), cos + 1.0);
-        Self { cos, sin, one_plus_cos, u, n: [nx, ny, nz], m, leave_across: sin * 0.0 }
-    }
-
-    /// B [m].
-    #[inline(always)]
-    fn leave(&self, radius: T, [kx, ky, kz]: [T; 3]) -> [T; 3] {
-        let Self { sin, one_plus_cos, u: [ux, uy, uz], .. } = *self;
-        [
-            radius * (one_plus_cos * ux + sin * kx),
-            radius * (one_plus_cos * uy + sin * ky),
-            radius * (one_plus_cos * uz + sin * kz),
-        ]
-    }
-
-    /// μ of (C22) [m/N]: sin ψ/(1 - cos ψ) is (1 + cos ψ)/sin ψ where the cable turns back.
-    #[inline(always)]
-    fn mu(&self, radius: T, tension_inv: T) -> T {
-        let Self { cos, sin, .. } = *self;
-        let backwards = sin / (-cos + 1.0);
-        let forwards = (cos + 1.0) / sin;
-        let per_radius = T::select(cos.at_most(0.0), backwards, forwards);
-        T::select(radius.at_most(0.0), sin * 0.0, radius * per_radius * tension_inv)
     }
 }
 
@@ -399,26 +359,44 @@ impl<T: Lanewise> Way<T> {
         T::select(x.at_most(0.0), x * 0.0, x / fx)
     }
 
-    /// The response of the whole cable in space, (C22) and (C23).
-    pub(crate) fn in_space(&self, fx: T, free: &Response<T>) -> GuidedInSpace<T> {
+    /// The response of the whole cable in space from that of its free part to `fx` [N] forwards, (C22) and
+    /// (C23).
+    #[inline(always)]
+    pub fn in_space(&self, fx: T, free: &Response<T>) -> GuidedInSpace<T> {
         let Self { leave, kappa, coupled: [px, pz], end_per_length: [ex, ez], .. } = *self;
-        let ([tx, tz], zero) = (leave.tangent, fx * 0.0);
+        let ([tx, tz], zero, [qx, qz]) = (leave.tangent, fx * 0.0, self.free_per_force);
         let ([xx, xz, zz], across) = (free.flexibility, free.lateral_flexibility);
-        let (py, mu, n, o, delta) = match self.swung {
-            None => (zero, self.lateral(fx), [zero, zero + 1.0, zero], [zero, zero + 1.0, zero], zero),
-            Some(Swung { wheel, mu, coupled, coupled_across, delta }) => {
-                (coupled_across, mu, wheel.n, coupled, delta)
+        let (py, mu, n, o, delta, qy, leave_across) = match self.swung {
+            None => {
+                let across = [zero, zero + 1.0, zero];
+                (zero, self.lateral(fx), across, across, zero, zero, zero)
+            }
+            Some(Swung { wheel, mu, coupled, coupled_across, delta, free_across }) => {
+                (coupled_across, mu, wheel.n, coupled, delta, free_across, wheel.leave_across)
             }
         };
-        let (own, t, p) =
-            ([[xx, zero, xz], [zero, across, zero], [xz, zero, zz]], [tx, zero, tz], [px, py, pz]);
-        let entry = |i: usize, j: usize| own[i][j] + kappa * t[i] * p[j] + mu * n[i] * o[j];
-        let leave_across = leave.wheel.map_or(zero, |wheel| wheel.leave_across);
+        let (t, p) = ([tx, zero, tz], [px, py, pz]);
+        let mut flexibility = [[xx, zero, xz], [zero, across, zero], [xz, zero, zz]];
+        for i in 0..3 {
+            for j in 0..3 {
+                flexibility[i][j] = flexibility[i][j] + kappa * t[i] * p[j] + mu * n[i] * o[j];
+            }
+        }
         GuidedInSpace {
             leave: [leave.position[0], leave_across, leave.position[1]],
             end: [leave.position[0] + free.end[0], leave_across, leave.position[1] + free.end[1]],
-            flexibility: [0, 1, 2].map(|i| [0, 1, 2].map(|j| entry(i, j))),
+            flexibility,
             end_per_length: [ex, -(mu * delta * n[1]), ez],
+            free_per_force: [qx, qy, qz],
+        }
+    }
+
+    /// Across the plane, the position of B from D [m] and dA/dL.
+    #[inline(always)]
+    pub fn across(&self) -> [T; 2] {
+        match self.swung {
+            None => [self.length * 0.0; 2],
+            Some(Swung { wheel, mu, delta, .. }) => [wheel.leave_across, -(mu * delta * wheel.n[1])],
         }
     }
 

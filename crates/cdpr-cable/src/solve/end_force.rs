@@ -1,6 +1,6 @@
 //! The end force of a cable for a given end position and unstrained length.
 //!
-//! The force maximises the concave function `f·r - U*(f)`, so it is unique. Newton's method on the gradient
+//! The force maximizes the concave function `f·r - U*(f)`, so it is unique. Newton's method on the gradient
 //! `r - (x, z)(f)`, which halves a step until it does not pass the maximum, starts from the better of two
 //! approximations:
 //!
@@ -26,11 +26,11 @@ use nalgebra::Vector2;
 pub struct Solution<'a> {
     /// The equilibrium.
     pub catenary: Catenary<'a>,
-    /// End position (x, z) that was asked for, or that follows from a given force [m].
+    /// Prescribed end position (x, z), or that follows from a given force [m].
     pub end: Vector2<f64>,
     /// Iterations of Newton's method; 0 for a closed form.
     pub iterations: usize,
-    /// Distance between the end of the catenary and the end asked for [m].
+    /// Distance between the end of the catenary and the prescribed end [m].
     pub residual: f64,
 }
 

@@ -24,15 +24,16 @@
 //!
 //! Second derivatives are (C18) differentiated by dual numbers.
 
+mod in_plane;
+
 use crate::cable::{Cable, Numbers};
 use crate::catenary::Catenary;
-use crate::catenary::guided::OnGuide;
 use crate::error::{CableError, SMALLEST, check};
 use crate::guide::Straight;
-use crate::kernel::Response;
+use crate::solve::chord_force::{ByChordForce, at_least_tension};
 use crate::solve::end_force::{check_end, straightened};
-use crate::solve::length_for_tension::length_for_tension_near;
 use cdpr_number::{Dual, Number, Real};
+use in_plane::{ClosureMatrix, InPlane, VERTICAL};
 use nalgebra::Vector2;
 
 /// A cable between held ends, with the derivatives of its force with respect to the chord force σ.
@@ -68,17 +69,9 @@ pub struct TensionSlope {
     pub per_guide: [Vector2<f64>; 2],
 }
 
-/// Share of the chord that stands for the horizontal distance of a vertical cable: far below rounding.
-const VERTICAL: f64 = 1e-20;
-
 /// A cable whose horizontal distance is a smaller share of its chord answers to a motion forwards as one that
 /// is vertical.
 const NEARLY_VERTICAL: f64 = 1e-8;
-
-/// A cable below this chord force, relative to its weight per length times the chord, is nearly vertical and
-/// folded, or has passed its least tension. Its tension at A is within 1e-10 of its weight of that at any
-/// lower chord force, which rounding of the vertical force at B would hide.
-const FOLDED: f64 = 1.0 / 24.0;
 
 impl<'a> HeldCable<'a> {
     /// The cable from the origin to `end = (x, z)` [m], `x >= 0`, with the chord force `chord_force` [N].
@@ -128,14 +121,6 @@ impl<'a> HeldCable<'a> {
         Self::at_chord_force(&self.catenary.cable, self.end, chord_force)
     }
 
-    /// The same cable with the tension `tension` [N] at A, on its taut branch.
-    ///
-    /// # Errors
-    /// As [`crate::length_for_tension`].
-    pub fn with_tension(&self, tension: f64) -> Result<Self, CableError> {
-        Ok(Self::of(length_for_tension_near(&self.catenary, self.end, tension)?.catenary, self.end))
-    }
-
     /// The derivatives of a cable whose end is at `end` [m].
     pub fn of(catenary: Catenary<'a>, end: Vector2<f64>) -> Self {
         let chord_force = end.norm() / catenary.response().lateral_flexibility;
@@ -152,7 +137,7 @@ impl<'a> HeldCable<'a> {
             let (_, _, beyond) = straightened(cable, guide, end)?;
             chord *= beyond.x.max(VERTICAL * beyond.norm()) / end.x.max(VERTICAL * chord);
         }
-        least_tension_from(cable, chord, |sigma| Self::at_chord_force(cable, end, sigma))
+        at_least_tension(cable, chord, |sigma| Self::at_chord_force(cable, end, sigma))
     }
 
     /// Tension t at A [N].
@@ -326,16 +311,6 @@ impl<'a> HeldCable<'a> {
     }
 }
 
-/// A cable between held ends as a function of its chord force alone.
-pub(crate) trait ByChordForce: Sized {
-    /// σ [N].
-    fn chord_force(&self) -> f64;
-    /// dt/dσ and d²t/dσ² [1/N].
-    fn tension_slopes(&self) -> [f64; 2];
-    /// The cable with another chord force [N].
-    fn to(&self, chord_force: f64) -> Result<Self, CableError>;
-}
-
 impl ByChordForce for HeldCable<'_> {
     fn chord_force(&self) -> f64 {
         self.chord_force
@@ -347,131 +322,5 @@ impl ByChordForce for HeldCable<'_> {
 
     fn to(&self, chord_force: f64) -> Result<Self, CableError> {
         self.with_chord_force(chord_force)
-    }
-}
-
-/// The cable of least tension at A; `first` has a chord force [N].
-///
-/// Weight per length times `chord` [m] is the scale of chord forces. It is the chord of a plain cable; over a
-/// guide, where the chord from the leave point covers the horizontal distance h' of the whole one, c over h,
-/// it is `c h'/h`, because both have the same fx.
-pub(crate) fn least_tension_from<Held: ByChordForce>(
-    cable: &Cable,
-    chord: f64,
-    first: impl FnOnce(f64) -> Result<Held, CableError>,
-) -> Result<Held, CableError> {
-    let w = cable.weight_per_length;
-    check("weight_per_length", w, w >= SMALLEST, "a weight per length from 1e-30 to 1e30 [N/m]")?;
-    let folded = FOLDED * w * chord;
-    // The least tension of a level cable, w h/2 coth u with u tanh u = 1.
-    let mut now = first(w * chord / 2.4)?;
-    let (mut low, mut high) = (folded, f64::INFINITY);
-    for _ in 0..100 {
-        let (sigma, [slope, second]) = (now.chord_force(), now.tension_slopes());
-        *(if slope > 0.0 { &mut high } else { &mut low }) = sigma;
-        // Newton's method for dt/d(ln σ) = 0, within a factor of e and the bounds.
-        let curvature = slope + sigma * second;
-        let step = if curvature > 0.0 { -slope / curvature } else { -slope.signum() };
-        let mut next = sigma * step.clamp(-1.0, 1.0).exp();
-        if next <= low || next >= high {
-            next = if high.is_finite() { 0.5 * (low + high) } else { 2.0 * sigma };
-        }
-        if next <= 1.001 * folded {
-            return Ok(now);
-        }
-        now = now.to(next)?;
-        // The step squares this one.
-        if (next - sigma).abs() <= 1e-8 * sigma {
-            return Ok(now);
-        }
-    }
-    Ok(now)
-}
-
-/// The quantities of (C17) and (C18) over any kind of number.
-#[derive(Clone, Copy)]
-struct InPlane<T> {
-    end: [T; 2],
-    numbers: Numbers<T>,
-    chord_force: T,
-    fz: T,
-}
-
-impl<T: Real> InPlane<T> {
-    fn chord(&self) -> T {
-        (self.end[0] * self.end[0] + self.end[1] * self.end[1]).sqrt()
-    }
-
-    /// h, or what stands for it where the cable is vertical.
-    fn horizontal(&self) -> T {
-        let chord = self.chord();
-        if self.end[0].value() > VERTICAL * chord.value() { self.end[0] } else { chord * VERTICAL }
-    }
-
-    fn fx(&self) -> T {
-        self.chord_force * self.horizontal() / self.chord()
-    }
-
-    /// The response, and what it does not tell of a cable on a guide.
-    fn response(&self, catenary: &Catenary) -> (Response<T>, Option<OnGuide<T>>) {
-        catenary.cable.whole_response(&self.numbers, [self.fx(), self.fz])
-    }
-
-    /// c/σ - x/fx and the height that is missing, (C17).
-    fn misclosure(&self, response: &Response<T>) -> [T; 2] {
-        [self.chord() / self.chord_force - response.lateral_flexibility, self.end[1] - response.end[1]]
-    }
-
-    /// (fx', fz', L'), (C18).
-    fn slopes(&self, (response, on_guide): &(Response<T>, Option<OnGuide<T>>)) -> [T; 3] {
-        let (fx, fx_slope) = (self.fx(), self.horizontal() / self.chord());
-        let ([xx, shear, zz], mut determinant) = (response.flexibility, response.determinant);
-        let (mut xz, mut zx) = (shear, shear);
-        if let Some(OnGuide { asymmetry, .. }) = *on_guide {
-            (xz, zx) = (shear + asymmetry, shear - asymmetry);
-            determinant = determinant + asymmetry * asymmetry;
-        }
-        // The cable enters along the tangent at B: the slope there is V0/fx.
-        let [entering, rising] = response.end_per_length;
-        let k = entering / fx;
-        let v0 = rising / k;
-        let m = (zz - v0 * xz / fx).recip();
-        let fz_slope = (v0 * xx / self.chord_force - zx * fx_slope) * m;
-        [fx_slope, fz_slope, -(determinant * m) / (self.chord_force * k)]
-    }
-}
-
-impl InPlane<f64> {
-    /// The response of a cable with these numbers.
-    #[inline]
-    fn whole_response(&self, catenary: &Catenary) -> (Response<f64>, Option<OnGuide<f64>>) {
-        match catenary.cable.guide {
-            None => (catenary.response(), None),
-            Some(_) => self.response(catenary),
-        }
-    }
-}
-
-/// The derivative of (x/fx, z) with respect to (fz, L).
-struct ClosureMatrix {
-    across: [f64; 2],
-    height: [f64; 2],
-}
-
-impl ClosureMatrix {
-    fn of(cable: &InPlane<f64>, (response, on_guide): &(Response<f64>, Option<OnGuide<f64>>)) -> Self {
-        let fx = cable.fx();
-        let asymmetry = on_guide.as_ref().map_or(0.0, |on_guide| on_guide.asymmetry);
-        Self {
-            across: [(response.flexibility[1] + asymmetry) / fx, response.end_per_length[0] / fx],
-            height: [response.flexibility[2], response.end_per_length[1]],
-        }
-    }
-
-    /// The change of (fz, L) that makes up for a misclosure.
-    fn solve(&self, [across, height]: [f64; 2]) -> [f64; 2] {
-        let ([a, b], [c, d]) = (self.across, self.height);
-        let determinant = a * d - b * c;
-        [(across * d - b * height) / determinant, (a * height - across * c) / determinant]
     }
 }

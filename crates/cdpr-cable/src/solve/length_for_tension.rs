@@ -16,6 +16,7 @@ use crate::catenary::Catenary;
 use crate::error::{CableError, SMALLEST, check};
 use crate::guide::Straight;
 use crate::solve::end_force::{Solution, check_end, end_force, straightened};
+use crate::solve::held::HeldCable;
 use nalgebra::Vector2;
 
 /// The cable from the origin to `end = (x, z)` [m], `x >= 0`, with the tension `tension` [N] at A.
@@ -60,16 +61,14 @@ pub fn length_for_tension_near<'a>(
     }
 }
 
-/// The cable from the origin to `end = (x, z)` [m], `x >= 0`, with the least tension of all lengths at A.
-///
-/// # Errors
-/// [`CableError::InvalidInput`] for an invalid value, and for a cable without weight, which may be slack.
-pub fn least_tension<'a>(cable: &Cable<'a>, end: Vector2<f64>) -> Result<Catenary<'a>, CableError> {
-    let w = cable.weight_per_length;
-    check("weight_per_length", w, w >= SMALLEST, "a weight per length from 1e-30 to 1e30 [N/m]")?;
-    // The check of the tension is met by any valid one.
-    check_inputs(cable, end, 1.0)?;
-    lowest(cable, end, 0.0)
+impl HeldCable<'_> {
+    /// The same cable with the tension `tension` [N] at A, on its taut branch.
+    ///
+    /// # Errors
+    /// As [`length_for_tension`].
+    pub fn with_tension(&self, tension: f64) -> Result<Self, CableError> {
+        Ok(Self::of(length_for_tension_near(&self.catenary, self.end, tension)?.catenary, self.end))
+    }
 }
 
 fn check_inputs(cable: &Cable, end: Vector2<f64>, tension: f64) -> Result<(), CableError> {

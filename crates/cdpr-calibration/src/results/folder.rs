@@ -2,9 +2,9 @@
 
 use crate::error::CalibrationError;
 use crate::fitted::Fit;
-use crate::results::summary::{CalibrationSummary, Context};
-use cdpr_robot::Pose;
-use cdpr_study::{IfExists, ResultsFolder, ResultsOf, StudyError};
+use crate::results::summary::CalibrationSummary;
+use cdpr_robot::{Pose, Robot};
+use cdpr_study::{ErrorsFile, IfExists, ResultsFolder, ResultsOf, StudyError};
 use std::path::Path;
 
 /// Name of the calibrated robot in a folder of results.
@@ -24,11 +24,26 @@ const REPORT_NAME: &str = "report.html";
 /// Columns of a pose.
 const COORDINATES: [&str; 7] = ["x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"];
 
+/// What a calibration has made.
+#[derive(Clone, Debug)]
+pub struct Calibrated {
+    /// The fit.
+    pub fit: Fit,
+    /// The robot that was found, with where its values come from.
+    pub robot: Robot,
+    /// What is known of its errors.
+    pub posterior: ErrorsFile,
+    /// The summary.
+    pub summary: CalibrationSummary,
+    /// Time of the fit [s].
+    pub seconds: f64,
+}
+
 /// Makes a folder for a calibration, or takes one of an earlier calibration: before anything is computed.
 ///
 /// # Errors
 /// As [`ResultsFolder::begin`].
-pub fn begin_calibration(folder: &Path, if_exists: IfExists) -> Result<ResultsFolder, StudyError> {
+pub(crate) fn begin_calibration(folder: &Path, if_exists: IfExists) -> Result<ResultsFolder, StudyError> {
     let names = [CALIBRATED_NAME, POSTERIOR_NAME, SUMMARY_NAME, RESIDUALS_NAME, POSES_NAME, REPORT_NAME];
     ResultsFolder::begin(folder, ResultsOf::Calibration, if_exists, |name| names.contains(&name))
 }
@@ -38,18 +53,15 @@ pub fn begin_calibration(folder: &Path, if_exists: IfExists) -> Result<ResultsFo
 ///
 /// # Errors
 /// As [`ResultsFolder::claim`].
-pub fn write_calibration(
+pub(crate) fn write_calibration(
     folder: &ResultsFolder,
-    found: &Fit,
-    summary: &CalibrationSummary,
-    context: &Context,
-    measurements: &str,
-    report: Option<&str>,
+    made: &Calibrated,
+    report: &str,
 ) -> Result<(), CalibrationError> {
+    let Calibrated { fit: found, robot, posterior, summary, .. } = made;
     folder.remove(SUMMARY_NAME)?;
-    let robot = found.calibrated(context, measurements).to_json() + "\n";
-    folder.write(CALIBRATED_NAME, robot.as_bytes())?;
-    folder.write_json(POSTERIOR_NAME, &found.posterior(context))?;
+    folder.write(CALIBRATED_NAME, (robot.to_json() + "\n").as_bytes())?;
+    folder.write_json(POSTERIOR_NAME, posterior)?;
     let header =
         ["line", "column", "unit", "before", "after", "std", "standardized_after"].map(str::to_owned);
     let rows = found.before.iter().zip(&found.after).map(|(before, after)| {
@@ -76,9 +88,7 @@ pub fn write_calibration(
         [line.to_string()].into_iter().chain(numbers(after)).chain(numbers(before)).collect()
     });
     folder.write_csv(POSES_NAME, header.collect(), rows)?;
-    if let Some(report) = report {
-        folder.write(REPORT_NAME, report.as_bytes())?;
-    }
+    folder.write(REPORT_NAME, report.as_bytes())?;
     folder.conclude(SUMMARY_NAME, summary, &[])?;
     Ok(())
 }

@@ -1,45 +1,56 @@
-//! `cdpr catenary`: one cable between two points, from two of its length, end, force and tension.
+//! `cdpr cable catenary`: one cable between two points, from two of its length, end, force and tension.
 
 use crate::answer::vector;
-use crate::arguments::{self, Format};
+use crate::arguments::{self, Named, Printing, named};
 use crate::error::ProgramError;
 use crate::questions;
 use cdpr_cable::{Cable, Known, Vector2};
-use cdpr_robot::plausible;
+use cdpr_robot::{Gravity, plausible};
+use cdpr_study::open_cable;
 use serde::Serialize;
+use std::path::Path;
 
 /// The cable and what is known of it.
 #[derive(clap::Args)]
 pub(crate) struct Settings {
-    /// Weight per unstrained length [N/m]; 0 makes the cable a straight spring.
-    #[arg(long, value_parser = arguments::number, allow_hyphen_values = true)]
-    weight: f64,
-    /// Axial stiffness EA [N].
-    #[arg(long, value_parser = arguments::number, allow_hyphen_values = true)]
-    stiffness: f64,
+    /// Cable: a name of `cdpr robot list` or a cable file (JSON, `cdpr-cable/1`) under 9.80665 m/s², or
+    /// weight and axial stiffness EA, weight=0.9957,stiffness=1.28e6 [N/m, N]; without weight it is a
+    /// straight spring.
+    cable: String,
     /// Unstrained length [m].
     #[arg(long, value_parser = arguments::number, allow_hyphen_values = true)]
     length: Option<f64>,
     /// Position x,z of the anchor point [m]; the exit point is the origin, x >= 0, z up.
     #[arg(long, value_parser = arguments::components::<2>, allow_hyphen_values = true)]
     end: Option<[f64; 2]>,
-    /// Force fx,fz on the cable at the anchor point [N], with --length, in place of --end.
+    /// Force fx,fz on the cable at the anchor point [N], with --length, instead of --end.
     #[arg(long, value_parser = arguments::components::<2>, allow_hyphen_values = true)]
-    force: Option<[f64; 2]>,
-    /// Tension at the anchor point [N], with --end, in place of --length.
+    end_force: Option<[f64; 2]>,
+    /// Tension at the anchor point [N], with --end, instead of --length.
     #[arg(long, value_parser = arguments::number, allow_hyphen_values = true)]
     tension: Option<f64>,
-    /// How the results are printed.
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    format: Format,
+    #[command(flatten)]
+    printing: Printing,
 }
 
-pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
-    let Settings { weight, stiffness, length, end, .. } = settings;
-    let chord = end.map(|[x, z]| x.hypot(z));
-    questions::ask(plausible::span(*weight, *stiffness, *length, chord));
-    let answer = Answer::new(settings)?;
-    Ok(settings.format.print(&answer, Answer::print)?)
+pub(super) fn run(settings: &Settings) -> Result<(), ProgramError> {
+    let chord = settings.end.map(|[x, z]| x.hypot(z));
+    let [weight, stiffness] = properties(&settings.cable)?;
+    questions::ask(plausible::span(weight, stiffness, settings.length, chord));
+    let answer = Answer::new(settings, &Cable::linear(weight, stiffness))?;
+    Ok(settings.printing.format().print(&answer, Answer::print)?)
+}
+
+/// Weight per unstrained length [N/m] and axial stiffness [N].
+fn properties(cable: &str) -> Result<[f64; 2], ProgramError> {
+    if !cable.contains('=') || Path::new(cable).exists() {
+        let cable = open_cable(Path::new(cable))?.properties;
+        return Ok([cable.linear_density * Gravity::STANDARD, cable.axial_stiffness()]);
+    }
+    let typed: Named = named(cable).map_err(|error| ProgramError::Usage(format!("{cable}: {error}")))?;
+    let [weight, stiffness] = typed.all("the cable", ["weight", "stiffness"])?;
+    let missing = || ProgramError::Usage(format!("{cable}: expected weight=N/m,stiffness=N"));
+    Ok([weight.unwrap_or_default(), stiffness.ok_or_else(missing)?])
 }
 
 /// The cable in equilibrium, in SI units.
@@ -65,15 +76,14 @@ struct Tension {
 }
 
 impl Answer {
-    fn new(settings: &Settings) -> Result<Self, ProgramError> {
-        let Settings { weight, stiffness, length, end, force, tension, .. } = *settings;
-        let cable = Cable::linear(weight, stiffness);
-        let [end, force] = [end, force].map(|vector| vector.map(Vector2::from));
+    fn new(settings: &Settings, cable: &Cable) -> Result<Self, ProgramError> {
+        let Settings { length, end, end_force, tension, .. } = *settings;
+        let [end, force] = [end, end_force].map(|vector| vector.map(Vector2::from));
         let known = Known::from_given(length, end, force, tension).ok_or_else(|| {
-            let expected = "--length and --end, --length and --force, or --end and --tension";
+            let expected = "--length and --end, --length and --end-force, or --end and --tension";
             ProgramError::Usage(format!("expected two of what is known: {expected}"))
         })?;
-        let solution = known.solve(&cable)?;
+        let solution = known.solve(cable)?;
         let catenary = &solution.catenary;
         Ok(Self {
             force: catenary.force.into(),

@@ -1,9 +1,7 @@
-//! `cdpr modulus`: the moduli of a cable from a load-elongation record.
+//! `cdpr cable modulus`: the moduli of a cable from a load-elongation record.
 
-mod published;
-
-use crate::arguments::{Format, Overwrite, number};
-use crate::endings;
+use crate::arguments::endings;
+use crate::arguments::{Named, Printing, named, number};
 use crate::error::ProgramError;
 use crate::output::{patiently, table};
 use crate::questions;
@@ -11,57 +9,39 @@ use cdpr_cable::{Phase, Record, SecantModulus, Specimen};
 use cdpr_report::{Cycle, CycleBranch, cycle};
 use cdpr_robot::plausible;
 use cdpr_study::{CableLaw, law_json, open_record};
-use published::{Entry, Published, percent};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
 /// The record and its specimen.
 #[derive(clap::Args)]
 pub(crate) struct Settings {
-    /// Record (CSV with the columns force_n, elongation_mm, phase: loading or unloading).
+    /// Record: a table with the columns force_n, elongation_mm, phase (loading or unloading); - for the
+    /// standard input.
     record: PathBuf,
     /// Breaking force [N]; ranges of load are percentages of it.
-    #[arg(long, value_parser = number, allow_hyphen_values = true, required_unless_present = "published")]
-    breaking_force: Option<f64>,
+    #[arg(long, value_parser = number, allow_hyphen_values = true)]
+    breaking_force: f64,
     /// Section of the specimen [m²].
-    #[arg(long, value_parser = number, allow_hyphen_values = true, required_unless_present = "published")]
-    section: Option<f64>,
+    #[arg(long, value_parser = number, allow_hyphen_values = true)]
+    section: f64,
     /// Length of the specimen between its clamps [m].
     #[arg(long, value_parser = number, allow_hyphen_values = true)]
     length: f64,
     /// Range of load in percent of the breaking force, such as 10-30; may be given several times.
-    #[arg(long = "range", value_parser = range, required_unless_present = "published")]
+    #[arg(long = "range", value_parser = range, required = true)]
     ranges: Vec<(f64, f64)>,
-    /// Published table to compare with (JSON as data/cables/caroca-4mm.json).
-    ///
-    /// Breaking force, section and ranges are those of the table.
-    #[arg(long, conflicts_with_all = ["breaking_force", "section", "ranges"])]
-    published: Option<PathBuf>,
-    /// Error of each force [N].
-    #[arg(long, value_parser = number, allow_hyphen_values = true, default_value_t = 1.0)]
-    force_error: f64,
-    /// Error of each elongation [mm].
-    #[arg(long, value_parser = number, allow_hyphen_values = true, default_value_t = 0.03)]
-    elongation_error: f64,
-    /// Error of the length [m].
-    #[arg(long, value_parser = number, allow_hyphen_values = true, default_value_t = 0.0)]
-    length_error: f64,
-    /// Error of the section [m²].
-    #[arg(long, value_parser = number, allow_hyphen_values = true, default_value_t = 0.0)]
-    section_error: f64,
+    /// Greatest errors in SI units: of each force [N] and elongation [m], of length [m] and section [m²].
+    #[arg(long, value_parser = named, default_value = "force=1,elongation=3e-5,length=0,section=0")]
+    errors: Named,
     /// File for a figure of the loop (SVG).
     #[arg(long, value_parser = endings::svg)]
     figure: Option<PathBuf>,
-    /// File for the record's law (JSON, `cdpr-law/1`).
-    ///
-    /// `cdpr hysteresis --law` and an operating point of a study take such a law.
-    #[arg(long, value_parser = endings::json())]
+    /// File for the record's law (JSON, `cdpr-law/1`), which `cdpr hysteresis --law` and an operating point
+    /// of a study take.
+    #[arg(long, value_name = "FILE", value_parser = endings::json())]
     law: Option<PathBuf>,
     #[command(flatten)]
-    overwrite: Overwrite,
-    /// How the results are printed.
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    format: Format,
+    printing: Printing,
 }
 
 /// A range `p-q` [%].
@@ -74,8 +54,6 @@ fn range(text: &str) -> Result<(f64, f64), String> {
 struct Found {
     ranges: Vec<InRange>,
     dissipated_energy_j: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    published: Option<Vec<Entry>>,
 }
 
 #[derive(Serialize)]
@@ -104,27 +82,20 @@ impl From<SecantModulus> for Modulus {
     }
 }
 
-pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
+pub(super) fn run(settings: &Settings) -> Result<(), ProgramError> {
     let record = patiently("reading the record", || open_record(&settings.record))?;
-    let published = settings.published.as_deref().map(Published::open).transpose()?;
-    let (breaking_force, section, ranges) = match (&published, settings.breaking_force, settings.section) {
-        (Some(table), ..) => (table.breaking_force, table.section, &table.ranges),
-        (None, Some(breaking_force), Some(section)) => (breaking_force, section, &settings.ranges),
-        _ => {
-            let expected = "expected --breaking-force, --section and --range, or --published";
-            return Err(ProgramError::Usage(expected.to_owned()));
-        }
-    };
+    let names = ["force", "elongation", "length", "section"];
+    let [force, elongation, length, section] = settings.errors.all("--errors", names)?;
     let specimen = Specimen {
-        breaking_force,
-        section,
+        breaking_force: settings.breaking_force,
+        section: settings.section,
         length: settings.length,
-        force_error: settings.force_error,
-        elongation_error: 1e-3 * settings.elongation_error,
-        length_error: settings.length_error,
-        section_error: settings.section_error,
+        force_error: force.unwrap_or(1.0),
+        elongation_error: elongation.unwrap_or(3e-5),
+        length_error: length.unwrap_or_default(),
+        section_error: section.unwrap_or_default(),
     };
-    let ranges = ranges.iter().map(|&(from_percent, to_percent)| {
+    let ranges = settings.ranges.iter().map(|&(from_percent, to_percent)| {
         let of = |phase| record.modulus(&specimen, phase, from_percent, to_percent).map(Modulus::from);
         Ok(InRange {
             from_percent,
@@ -133,26 +104,18 @@ pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
             unloading: of(Phase::Unloading)?,
         })
     });
-    let mut found = Found {
+    let found = Found {
         ranges: ranges.collect::<Result<_, cdpr_cable::RecordError>>()?,
         dissipated_energy_j: record.dissipated_energy(),
-        published: None,
     };
-    let moduli = found.ranges.iter().map(|range| [range.loading.modulus_gpa, range.unloading.modulus_gpa]);
     let asked =
         |range: &InRange| plausible::modulus("modulus of the record", 1e9 * range.loading.modulus_gpa);
     questions::ask(found.ranges.iter().find_map(asked));
-    found.published = published.as_ref().map(|table| table.beside(moduli));
-    settings.format.print(&found, |found| {
-        print(found);
-        if let (Some(table), Some(entries)) = (&published, &found.published) {
-            published::print(table, entries);
-        }
-    })?;
+    settings.printing.format().print(&found, print)?;
     if let Some(path) = &settings.law {
         write_law(&record, &specimen, settings, path)?;
     }
-    let write = |path| settings.overwrite.write(path, &draw(&record, &found)?);
+    let write = |path| settings.printing.overwrite.write(path, &draw(&record, &found)?);
     settings.figure.as_deref().map_or(Ok(()), write)
 }
 
@@ -171,7 +134,7 @@ fn print(found: &Found) {
             [of.modulus_gpa, of.standard_uncertainty_gpa, of.greatest_uncertainty_gpa]
                 .map(|value| format!("{value:.2}"))
         };
-        let name = percent(range.from_percent, range.to_percent);
+        let name = format!("{} to {}", range.from_percent, range.to_percent);
         rows.add_row([name].into_iter().chain(cells(&range.loading)).chain(cells(&range.unloading)));
     }
     println!("{rows}\nthe loop dissipates {:.4} J", found.dissipated_energy_j);
@@ -186,7 +149,7 @@ fn write_law(
     let law = CableLaw::of_record(record, specimen.length, specimen.section)?;
     let source =
         format!("load-elongation record {}, specimen of {} m", settings.record.display(), specimen.length);
-    settings.overwrite.write(path, &(law_json(Some(source), law)? + "\n"))
+    settings.printing.overwrite.write(path, &(law_json(Some(source), law)? + "\n"))
 }
 
 fn draw(record: &Record, found: &Found) -> Result<String, ProgramError> {

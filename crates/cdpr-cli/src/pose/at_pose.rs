@@ -1,46 +1,48 @@
 //! A robot at a pose, or at each pose of a file: arguments and answers of several commands.
 
 use crate::answer::OutOfLimits;
-use crate::arguments::{Format, FreeArguments, LoadArguments, Preference};
+use crate::arguments::poses::{COLUMNS, PoseArguments, place, pose_numbers};
+use crate::arguments::{
+    Format, FreeArguments, LoadArguments, Preference, Printing, RobotArgument, print_record,
+};
 use crate::error::ProgramError;
-use crate::lists::pose_file;
+use crate::lists::{PoseTable, pose_file};
 use crate::output::{Ending, patiently, progress};
-use crate::poses::{Angles, COLUMNS, place, pose, pose_numbers};
 use crate::questions;
 use cdpr_robot::{Pose, Robot, shown};
 use cdpr_statics::StaticsError;
 use cdpr_study::is_not_finite;
+use indexmap::IndexMap;
 use indicatif::ProgressBar;
 use rayon::prelude::*;
 use serde::Serialize;
+use serde_json::Value;
 use std::path::{Path, PathBuf};
 
 /// Why a cell is empty at a pose that has an answer.
 const NOT_FINITE: &str = "numbers that are too large for the computer are left out";
+
+const POSE_EXPECTED: &str = "expected --pose x,y,z, or --poses with a table of poses";
 
 /// Poses that are answered before their rows are printed.
 const CHUNK: usize = 1024;
 
 /// A robot at a pose or at each of a file with a load, and how the answer is printed.
 #[derive(clap::Args)]
-#[command(group = clap::ArgGroup::new("where").required(true).args(["pose", "poses"]))]
 pub(crate) struct RobotAtPose {
-    /// Robot file (JSON, `cdpr-robot/1`).
-    robot: PathBuf,
-    /// Pose that the lengths hold: x,y,z [m], or x,y,z,qw,qx,qy,qz with a quaternion.
-    #[arg(long, value_parser = pose, allow_hyphen_values = true)]
-    pose: Option<Pose>,
     #[command(flatten)]
-    angles: Angles,
-    /// File of poses (CSV): x_m,y_m,z_m, then qw,qx,qy,qz or roll_deg,pitch_deg,yaw_deg or nothing.
+    robot: RobotArgument,
+    #[command(flatten)]
+    pose: PoseArguments,
+    /// Table of poses: x_m,y_m,z_m, then qw,qx,qy,qz or roll_deg,pitch_deg,yaw_deg or nothing; - for the
+    /// standard input.
     ///
     /// The answers are lines of CSV, or of JSON with `--format json`. A pose without an answer has a line
     /// with the reason, and the exit code is 3.
-    #[arg(long, value_name = "FILE", conflicts_with = "rpy")]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["pose", "rpy"])]
     poses: Option<PathBuf>,
-    /// How the results are printed.
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    format: Format,
+    #[command(flatten)]
+    pub(crate) printing: Printing,
     #[command(flatten)]
     pub(crate) load: LoadArguments,
     #[command(flatten)]
@@ -132,6 +134,9 @@ impl From<StaticsError> for Failure {
 #[derive(Serialize)]
 struct Line<'a, T> {
     pose: [f64; 7],
+    /// Further columns of the table of poses.
+    #[serde(skip_serializing_if = "IndexMap::is_empty")]
+    given: IndexMap<&'a str, Value>,
     #[serde(flatten)]
     answer: Option<&'a T>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -148,8 +153,8 @@ impl RobotAtPose {
         text: impl FnOnce(&T, &str),
     ) -> Result<Ending, ProgramError> {
         let robot = self.robot()?;
-        let pose = match (&self.pose, &self.poses) {
-            (_, Some(path)) => {
+        let pose = match &self.poses {
+            Some(path) => {
                 let solve = |pose: &Pose, progress: &ProgressBar| {
                     let answer = solve(&robot, pose);
                     progress.inc(1);
@@ -159,27 +164,44 @@ impl RobotAtPose {
                     poses.par_iter().map(|pose| solve(pose, progress)).collect()
                 });
             }
-            (Some(pose), None) => self.angles.of(pose)?,
-            (None, None) => return Err(ProgramError::Usage("expected --pose or --poses".to_owned())),
+            None => self.pose.given()?.ok_or_else(|| ProgramError::Usage(POSE_EXPECTED.to_owned()))?,
         };
+        let format = self.printing.format();
         match patiently("solving", || solve(&robot, &pose)) {
-            Err(error @ StaticsError::BranchEnds(_)) => print_fall(self.format, &robot, &pose, error),
-            answer => self.print(&answer?, |answer| text(answer, &heading(&robot, &pose))),
+            Err(error @ StaticsError::BranchEnds(_)) => print_fall(format, &robot, &pose, error),
+            answer => self.print(&robot, &pose, &answer?, |answer| text(answer, &heading(&robot, &pose))),
         }
     }
 
-    /// Prints a single answer.
-    pub(crate) fn print<T: Row>(&self, answer: &T, text: impl FnOnce(&T)) -> Result<Ending, ProgramError> {
-        self.format.print(answer, text)?;
+    /// Prints the answer at a pose.
+    pub(crate) fn print<T: Row>(
+        &self,
+        robot: &Robot,
+        pose: &Pose,
+        answer: &T,
+        text: impl FnOnce(&T),
+    ) -> Result<Ending, ProgramError> {
+        match self.printing.format() {
+            Format::Csv => {
+                print_names::<T>(robot, &[]);
+                print_row(pose, &[], Ok(answer), 0);
+            }
+            format => format.print(answer, text)?,
+        }
         Ok(answer.ending())
+    }
+
+    /// The pose, if one is given.
+    pub(crate) fn pose(&self) -> Result<Option<Pose>, ProgramError> {
+        self.pose.given()
     }
 
     /// The robot of the file, once load and pose have been compared with it.
     pub(crate) fn robot(&self) -> Result<Robot, ProgramError> {
-        let robot = self.preference.open_robot(&self.robot)?;
+        let robot = self.preference.open_robot(self.robot.path())?;
         questions::about_load(&robot, &self.load.load());
-        if let Some(pose) = &self.pose {
-            questions::about_pose(&robot, "--pose", pose);
+        if let Some(pose) = self.pose.given()? {
+            questions::about_pose(&robot, "--pose", &pose);
         }
         Ok(robot)
     }
@@ -207,43 +229,49 @@ impl RobotAtPose {
         path: &Path,
         mut solve: impl FnMut(&[Pose], &ProgressBar) -> Vec<Result<T, StaticsError>>,
     ) -> Result<Ending, ProgramError> {
-        let poses = pose_file(path)?;
+        let PoseTable { poses, further } = pose_file(path)?;
         questions::about_poses(robot, "--poses", &poses);
-        let columns = T::columns(robot);
+        let (columns, format) = (T::columns(robot).len(), self.printing.format());
         let mut ending = Ending::Well;
         let progress = progress(poses.len(), "poses");
         for (number, chunk) in poses.chunks(CHUNK).enumerate() {
             let answers = solve(chunk, &progress).into_iter().map(at_one).collect::<Result<Vec<_>, _>>()?;
-            if number == 0 && self.format == Format::Text {
-                let names = COLUMNS.iter().map(ToString::to_string).chain(["status".to_owned()]);
-                print_record(names.chain(columns.clone()).chain(["reason".to_owned()]));
+            if number == 0 && format != Format::Json {
+                print_names::<T>(robot, &further);
             }
             for answer in &answers {
                 ending = ending.and(answer.as_ref().map_or(Ending::SomethingWrong, Row::ending));
             }
             let print = || {
-                let mut rows = chunk.iter().zip(&answers);
-                rows.try_for_each(|(pose, answer)| self.print_answer(pose, answer, columns.len()))
+                let given = |k: usize| -> Vec<(&str, &str)> {
+                    let row = number * CHUNK + k;
+                    further.iter().map(|(name, cells)| (name.as_str(), cells[row].as_str())).collect()
+                };
+                let mut rows = chunk.iter().zip(&answers).enumerate();
+                rows.try_for_each(|(k, (pose, answer))| {
+                    print_answer(format, pose, &given(k), answer, columns)
+                })
             };
             progress.suspend(print)?;
         }
         progress.finish_and_clear();
         Ok(ending)
     }
+}
 
-    /// Prints the answer at one of many poses; where the pose has no answer, `columns` cells stay empty.
-    fn print_answer<T: Row>(
-        &self,
-        pose: &Pose,
-        answer: &Result<T, Failure>,
-        columns: usize,
-    ) -> Result<(), ProgramError> {
-        match self.format {
-            Format::Json => print_line(pose, answer.as_ref())?,
-            Format::Text => print_row(pose, answer, columns),
-        }
-        Ok(())
+/// Prints the answer at one of many poses; where the pose has no answer, `columns` cells stay empty.
+fn print_answer<T: Row>(
+    format: Format,
+    pose: &Pose,
+    given: &[(&str, &str)],
+    answer: &Result<T, Failure>,
+    columns: usize,
+) -> Result<(), ProgramError> {
+    match format {
+        Format::Json => print_line(pose, given, answer.as_ref())?,
+        Format::Text | Format::Csv => print_row(pose, given, answer.as_ref(), columns),
     }
+    Ok(())
 }
 
 /// The answer at one of many poses. Free coordinates that are missing are missing at all of them.
@@ -267,21 +295,26 @@ pub(crate) fn print_fall(
 ) -> Result<Ending, ProgramError> {
     let failure = Failure::from(error);
     match format {
-        Format::Text => println!("{}\n{}", heading(robot, pose), failure.message),
-        Format::Json => print_line::<()>(pose, Err(&failure))?,
+        Format::Json => print_line::<()>(pose, &[], Err(&failure))?,
+        Format::Text | Format::Csv => println!("{}\n{}", heading(robot, pose), failure.message),
     }
     Ok(Ending::SomethingWrong)
 }
 
 /// Prints the line of JSON of a pose.
-fn print_line<T: Serialize>(pose: &Pose, answer: Result<&T, &Failure>) -> Result<(), ProgramError> {
-    let line = Line { pose: pose_numbers(pose), answer: answer.ok(), error: answer.err() };
+fn print_line<T: Serialize>(
+    pose: &Pose,
+    given: &[(&str, &str)],
+    answer: Result<&T, &Failure>,
+) -> Result<(), ProgramError> {
+    let given = given.iter().map(|(name, text)| (*name, cell_value(text))).collect();
+    let line = Line { pose: pose_numbers(pose), given, answer: answer.ok(), error: answer.err() };
     println!("{}", questions::added_to(serde_json::to_string(&line)?)?);
     Ok(())
 }
 
 /// Prints the line of CSV of a pose; `columns` of them are empty where there is no answer.
-fn print_row<T: Row>(pose: &Pose, answer: &Result<T, Failure>, columns: usize) {
+fn print_row<T: Row>(pose: &Pose, given: &[(&str, &str)], answer: Result<&T, &Failure>, columns: usize) {
     let (status, found, reason) = match answer {
         Ok(answer) => {
             let (cells, remark) = (answer.cells(), answer.remark());
@@ -292,16 +325,30 @@ fn print_row<T: Row>(pose: &Pose, answer: &Result<T, Failure>, columns: usize) {
         Err(Failure { kind, message, .. }) => (*kind, vec![String::new(); columns], message.clone()),
     };
     let pose = cells(&pose_numbers(pose));
-    print_record(pose.into_iter().chain([status.to_owned()]).chain(found).chain([reason]));
+    let given = given.iter().map(|(_, text)| (*text).to_owned());
+    let row = pose.into_iter().chain(given).chain([status.to_owned()]).chain(found).chain([reason]);
+    print_record(&row.collect::<Vec<_>>());
 }
 
-/// Prints a line of CSV; what is not finite is left out.
-fn print_record(cells: impl Iterator<Item = String>) {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    // Writing to memory cannot fail.
-    let _ = writer.write_record(cells.map(|cell| if is_not_finite(&cell) { String::new() } else { cell }));
-    let line = writer.into_inner().unwrap_or_default();
-    println!("{}", String::from_utf8_lossy(&line).trim_end_matches('\n'));
+/// Prints the names of the columns.
+fn print_names<T: Row>(robot: &Robot, further: &[(String, Vec<String>)]) {
+    let own: Vec<String> =
+        ["status".to_owned()].into_iter().chain(T::columns(robot)).chain(["reason".to_owned()]).collect();
+    // A table may be the answer to another question.
+    let given = |(name, _): &(String, Vec<String>)| match own.contains(name) {
+        true => format!("given_{name}"),
+        false => name.clone(),
+    };
+    let names = COLUMNS.iter().map(ToString::to_string).chain(further.iter().map(given));
+    print_record(&names.chain(own.clone()).collect::<Vec<_>>());
+}
+
+/// The number or the text of a cell.
+fn cell_value(text: &str) -> Value {
+    match text.parse::<f64>() {
+        Ok(number) if number.is_finite() => number.into(),
+        _ => text.into(),
+    }
 }
 
 /// Names with numbers from 1, such as `tension_1_n`, of `count` values each.

@@ -1,7 +1,7 @@
 //! `cdpr capacity`: what a robot can carry at a pose, and how far its tensions are from their limits.
 
 use crate::answer::{OutOfLimits, decimal, vector};
-use crate::arguments::FreeArguments;
+use crate::arguments::{FreeArguments, With, count, with};
 use crate::error::ProgramError;
 use crate::output::{Ending, narrow_table, table};
 use crate::pose::at_pose::{Failure, RobotAtPose, Row};
@@ -25,17 +25,20 @@ pub(crate) struct Settings {
     free: FreeArguments,
     #[command(flatten)]
     set: WrenchArguments,
-    /// How far the platform may tilt under the load, to 0.01 degrees, towards so many directions.
-    #[arg(long, value_name = "DIRECTIONS", num_args = 0..=1, default_missing_value = "8")]
-    #[arg(value_parser = clap::value_parser!(u16).range(1..=360))]
-    tilt: Option<u16>,
+    /// Further figures: tilt or tilt=N, how far the platform may tilt under the load, to 0.01 degrees,
+    /// towards N directions (8).
+    #[arg(long, value_name = "NAMES", value_parser = with)]
+    with: Option<With>,
 }
 
 /// Accuracy of the tilt [degrees].
 const TILT_ACCURACY: f64 = 0.01;
 
-pub(crate) fn run(Settings { at, free, set, tilt }: &Settings) -> Result<Ending, ProgramError> {
+pub(crate) fn run(Settings { at, free, set, with }: &Settings) -> Result<Ending, ProgramError> {
     let (load, set) = (at.load.load(), set.set()?);
+    let with = with.clone().unwrap_or_default();
+    with.check(&["tilt"])?;
+    let tilt = with.value("tilt", Some(8), count::<1, 360>)?;
     questions::about_wrenches(&at.robot()?, set.wrenches());
     let solve = |robot: &Robot, pose: &_| {
         let found = capacity_at(robot, WantedPose::at(pose).free(&free.free), &load, &set);
@@ -44,7 +47,7 @@ pub(crate) fn run(Settings { at, free, set, tilt }: &Settings) -> Result<Ending,
             return Err(error.clone());
         }
         let clearance = clearance_under(robot, WantedPose::at(pose).free(&free.free), &load).ok();
-        let tilted = |count: &u16| tilt_at(robot, pose, &load, (*count).into(), TILT_ACCURACY.to_radians());
+        let tilted = |count: &usize| tilt_at(robot, pose, &load, *count, TILT_ACCURACY.to_radians());
         let tilt = tilt.as_ref().map(tilted).transpose()?;
         let ends = tilt.iter().flat_map(|tilt| &tilt.directions);
         let tilt = ends.map(|towards| Towards::new(robot, pose, &load, towards)).collect();

@@ -23,7 +23,7 @@ struct Answer {
     /// Displacement dp of P, Eq. (4).
     deflection_mm: [f64; 3],
     /// Its norm |dp|; zero where it is not above rounding.
-    rms_mm: f64,
+    magnitude_mm: f64,
     /// Error of dp by rounding.
     rounding_mm: f64,
     /// Rotation vector from the unloaded to the loaded platform.
@@ -37,7 +37,7 @@ struct Answer {
 impl Row for Answer {
     fn columns(robot: &Robot) -> Vec<String> {
         let cables = robot.cables.len();
-        let motion = ["dx_mm", "dy_mm", "dz_mm", "rms_mm", "rx_deg", "ry_deg", "rz_deg"];
+        let motion = ["dx_mm", "dy_mm", "dz_mm", "magnitude_mm", "rx_deg", "ry_deg", "rz_deg"];
         let motion = motion.iter().map(ToString::to_string);
         let tensions = ["unloaded_tension", "loaded_tension", "unloaded_exit_tension", "loaded_exit_tension"];
         let tensions = tensions.into_iter().flat_map(|name| numbered(name, "n", cables));
@@ -45,7 +45,7 @@ impl Row for Answer {
     }
 
     fn cells(&self) -> Vec<String> {
-        let motion = self.deflection_mm.iter().chain([&self.rms_mm]).chain(&self.rotation_deg);
+        let motion = self.deflection_mm.iter().chain([&self.magnitude_mm]).chain(&self.rotation_deg);
         let tensions = self.unloaded.tensions.iter().chain(&self.loaded.tensions);
         let exit_tensions = self.unloaded.exit_tensions.iter().chain(&self.loaded.exit_tensions);
         cells(motion.chain(&self.lengths).chain(tensions).chain(exit_tensions))
@@ -59,11 +59,11 @@ impl Row for Answer {
 impl Answer {
     fn new(robot: &Robot, found: &Deflection) -> Self {
         let rounding = found.rounding(robot);
-        let displacement = if found.rms() > rounding { found.displacement() } else { Vector3::zeros() };
+        let displacement = if found.magnitude() > rounding { found.displacement() } else { Vector3::zeros() };
         let motion = found.unloaded.equilibrium.pose.motion_to(&found.loaded.equilibrium.pose);
         Self {
             deflection_mm: (1e3 * displacement).into(),
-            rms_mm: 1e3 * displacement.norm(),
+            magnitude_mm: 1e3 * displacement.norm(),
             rounding_mm: 1e3 * rounding,
             rotation_deg: [3, 4, 5].map(|row| motion[row].to_degrees()),
             lengths: found.lengths.clone(),
@@ -74,8 +74,8 @@ impl Answer {
 
     fn print(&self, heading: &str) {
         println!("{heading}");
-        println!("dp = {} mm, |dp| = {:.5} mm", vector(&self.deflection_mm, 5), self.rms_mm);
-        if self.rms_mm == 0.0 {
+        println!("dp = {} mm, |dp| = {:.5} mm", vector(&self.deflection_mm, 5), self.magnitude_mm);
+        if self.magnitude_mm == 0.0 {
             println!("no displacement above rounding, {:.1e} mm", self.rounding_mm);
         }
         println!("rotated by {} degrees", vector(&self.rotation_deg, 5));

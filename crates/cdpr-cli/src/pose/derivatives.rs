@@ -1,7 +1,7 @@
 //! `cdpr derivatives`: the derivatives of lengths and deflection with respect to each parameter.
 
 use crate::answer::{OutOfLimits, bound_name, decimal};
-use crate::arguments::ErrorModelArguments;
+use crate::arguments::UncertaintyArgument;
 use crate::error::ProgramError;
 use crate::output::{Ending, table};
 use crate::pose::at_pose::{RobotAtFreePose, Row, cells};
@@ -18,7 +18,7 @@ pub(crate) struct Settings {
     #[command(flatten)]
     at: RobotAtFreePose,
     #[command(flatten)]
-    errors: ErrorModelArguments,
+    errors: UncertaintyArgument,
 }
 
 pub(crate) fn run(
@@ -51,7 +51,8 @@ const NAMED: usize = 5;
 
 impl Uncertainty {
     fn new(model: &ErrorModel, found: &Derivatives) -> Result<Self, StaticsError> {
-        let [left, right] = [found.rms()?, found.right().rms()?].map(|slopes| model.variances(&slopes));
+        let [left, right] =
+            [found.magnitude()?, found.right().magnitude()?].map(|slopes| model.variances(&slopes));
         let parts: Vec<f64> = left.iter().zip(&right).map(|(left, right)| 0.5 * (left + right)).collect();
         let variance: f64 = parts.iter().sum();
         let share = |part: f64| if variance > 0.0 { part / variance } else { 0.0 };
@@ -76,12 +77,12 @@ impl Uncertainty {
 struct Slopes {
     /// |dp| under the load [mm].
     #[serde(skip)]
-    deflection_rms_mm: f64,
+    deflection_magnitude_mm: f64,
     #[serde(skip)]
     inputs: Vec<Parameter>,
     parameters: Vec<String>,
     /// Derivative of |dp| [mm].
-    rms_mm: Vec<f64>,
+    magnitude_mm: Vec<f64>,
     /// Derivative of dp [mm].
     deflection_mm: Vec<[f64; 3]>,
     /// Derivative of the unstrained length of each cable [m].
@@ -135,7 +136,7 @@ struct TwoSlopes {
 /// The derivative with respect to one parameter.
 #[derive(Clone, Serialize)]
 struct Slope {
-    rms_mm: f64,
+    magnitude_mm: f64,
     deflection_mm: [f64; 3],
     unstrained_lengths: Vec<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -150,15 +151,15 @@ fn slopes(
     load: &Load,
     found: &Derivatives,
 ) -> Result<(Vec<Slope>, Vec<String>), StaticsError> {
-    let each = found.rms()?.into_iter().enumerate().take(found.inputs.parameters.len());
+    let each = found.magnitude()?.into_iter().enumerate().take(found.inputs.parameters.len());
     let displacement = found.displacement();
     let softest = [found.least_stiffness(robot, load), found.frequency(robot, load)];
     let softest = softest.map(|found| found.map(|(_, slopes)| slopes));
-    let slope = |(j, rms): (usize, f64)| {
+    let slope = |(j, magnitude): (usize, f64)| {
         let [least_stiffness, frequency_hz] =
             softest.each_ref().map(|slopes| slopes.as_ref().ok().map(|slopes| slopes[j]));
         Slope {
-            rms_mm: 1e3 * rms,
+            magnitude_mm: 1e3 * magnitude,
             deflection_mm: (1e3 * displacement.column(j)).into(),
             unstrained_lengths: found.lengths.column(j).iter().copied().collect(),
             least_stiffness,
@@ -193,10 +194,10 @@ impl Slopes {
             lowest_frequency_hz,
             lowest_cable_frequency_hz: slowest.map(|cable| cable.frequency),
             warning: slowest.zip(lowest_frequency_hz).and_then(|(cable, platform)| cable.warning(platform)),
-            deflection_rms_mm: 1e3 * found.deflection.rms(),
+            deflection_magnitude_mm: 1e3 * found.deflection.magnitude(),
             inputs: parameters.clone(),
             parameters: parameters.iter().map(ToString::to_string).collect(),
-            rms_mm: left.iter().map(|slope| slope.rms_mm).collect(),
+            magnitude_mm: left.iter().map(|slope| slope.magnitude_mm).collect(),
             deflection_mm: left.iter().map(|slope| slope.deflection_mm).collect(),
             one_sided: of_parameter.map(both).collect(),
             least_stiffness: left.iter().map(|slope| slope.least_stiffness).collect(),
@@ -218,7 +219,7 @@ impl Slopes {
                 return vec![left, (format!("{name}, right"), index, both.right.clone())];
             }
             let slope = Slope {
-                rms_mm: self.rms_mm[index],
+                magnitude_mm: self.magnitude_mm[index],
                 deflection_mm: self.deflection_mm[index],
                 unstrained_lengths: self.unstrained_lengths[index].clone(),
                 least_stiffness: self.least_stiffness.as_ref().map(|slopes| slopes[index]),
@@ -230,7 +231,7 @@ impl Slopes {
     }
 
     fn print(&self, heading: &str) {
-        println!("{heading}: |dp| = {:.5} mm under the load", self.deflection_rms_mm);
+        println!("{heading}: |dp| = {:.5} mm under the load", self.deflection_magnitude_mm);
         let mut header = vec![
             "parameter",
             "d|dp| [\u{b5}m]",
@@ -244,7 +245,7 @@ impl Slopes {
         header.extend(self.frequency_hz.as_ref().map(|_| "d frequency [mHz]"));
         let units: Vec<_> = self.inputs.iter().map(handy_unit).collect();
         let mut rows = self.rows();
-        let size = |(_, index, slope): &(String, usize, Slope)| (slope.rms_mm * units[*index].1).abs();
+        let size = |(_, index, slope): &(String, usize, Slope)| (slope.magnitude_mm * units[*index].1).abs();
         rows.sort_by(|one, other| size(other).total_cmp(&size(one)));
         let mut lines = table(&header);
         for (name, index, slope) in rows {
@@ -256,7 +257,7 @@ impl Slopes {
             let softest = [slope.least_stiffness, slope.frequency_hz.map(|slope| 1e3 * slope)];
             let row = [
                 name,
-                micrometres(slope.rms_mm),
+                micrometres(slope.magnitude_mm),
                 unit.to_owned(),
                 dx,
                 dy,
@@ -287,7 +288,7 @@ impl Row for Slopes {
     fn columns(robot: &Robot) -> Vec<String> {
         let parameters = Parameter::of(robot);
         let lengths = (1..=robot.cables.len()).map(|i| format!("length_{i}_m"));
-        let displacement = ["rms_mm", "dx_mm", "dy_mm", "dz_mm"].map(str::to_owned);
+        let displacement = ["magnitude_mm", "dx_mm", "dy_mm", "dz_mm"].map(str::to_owned);
         let softest = ["least_stiffness", "frequency_hz"].map(str::to_owned);
         let outputs: Vec<_> = displacement.into_iter().chain(lengths).chain(softest).collect();
         let slopes = |parameter| {
@@ -304,7 +305,7 @@ impl Row for Slopes {
     fn cells(&self) -> Vec<String> {
         let softest = |slopes: &Option<Vec<f64>>, index: usize| slopes.as_ref().map(|slopes| slopes[index]);
         let of = |index: usize| {
-            let displacement = [self.rms_mm[index]].into_iter().chain(self.deflection_mm[index]);
+            let displacement = [self.magnitude_mm[index]].into_iter().chain(self.deflection_mm[index]);
             let lengths = self.unstrained_lengths[index].iter().copied();
             let softest = [softest(&self.least_stiffness, index), softest(&self.frequency_hz, index)];
             let softest = softest.map(|slope| slope.map_or_else(String::new, |slope| format!("{slope:?}")));

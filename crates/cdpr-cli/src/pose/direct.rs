@@ -3,15 +3,16 @@
 //! Cases come one from the arguments, or one or many from a file.
 
 use crate::answer::Found;
-use crate::arguments::{self, Format};
+use crate::arguments::poses::{self, PoseArguments};
+use crate::arguments::{self, Printing, RobotArgument};
 use crate::error::ProgramError;
 use crate::output::{Ending, patiently, progress};
 use crate::pose::at_pose::Failure;
-use crate::poses::{self, Angles};
 use crate::questions;
-use cdpr_robot::{Pose, Robot, Vector3, Wrench, from_json, plausible};
+use cdpr_robot::{Robot, Vector3, Wrench, from_json, plausible};
 use cdpr_statics::{Certificate, DirectProblem, DirectStart, Load, StaticsError, check_lengths, rough_pose};
 use cdpr_study::{InputKind, StudyError, other_kind, read_text};
+use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
@@ -19,8 +20,8 @@ use std::path::{Path, PathBuf};
 #[derive(clap::Args)]
 #[command(group = clap::ArgGroup::new("what").required(true).args(["lengths", "from"]))]
 pub(crate) struct Settings {
-    /// Robot file (JSON, `cdpr-robot/1`).
-    robot: PathBuf,
+    #[command(flatten)]
+    robot: RobotArgument,
     /// Unstrained lengths of the cables, in the order of the file: l1,..,ln [m].
     #[arg(long, value_parser = arguments::list, allow_hyphen_values = true)]
     lengths: Option<arguments::List>,
@@ -36,43 +37,52 @@ pub(crate) struct Settings {
     /// Mass added at the platform's centre of mass [kg].
     #[arg(long, value_parser = arguments::mass, allow_hyphen_values = true)]
     payload: Option<f64>,
-    /// DirectStart of the search: x,y,z [m], or x,y,z,qw,qx,qy,qz.
-    ///
-    /// If left out, the search starts where straight cables would hold a point.
-    #[arg(long, value_parser = poses::pose, allow_hyphen_values = true)]
-    start: Option<Pose>,
+    /// Where the search starts; if left out, where straight cables would hold a point.
     #[command(flatten)]
-    angles: Angles,
+    pose: PoseArguments,
     /// Prove how close the exact equilibrium is.
     #[arg(long)]
     certify: bool,
-    /// JSON file with one case or a list of cases, in place of the arguments.
+    /// JSON file with cases: one, a list, or one a line, as `cdpr inverse --format json` prints them; - for
+    /// the standard input.
     ///
-    /// A case: {"lengths": [..], "mass": .., "force": [..], "moment": [..], "payload": .., "start": [..]}.
-    #[arg(long, conflicts_with_all = ["lengths", "mass", "force", "moment", "payload", "start", "rpy"])]
+    /// A case: {"lengths": [..], "mass": .., "force": [..], "moment": [..], "payload": .., "pose": [..]}.
+    #[arg(long, value_name = "FILE")]
+    #[arg(conflicts_with_all = ["lengths", "mass", "force", "moment", "payload", "pose", "rpy"])]
     from: Option<PathBuf>,
-    /// How the results are printed.
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    format: Format,
+    #[command(flatten)]
+    printing: Printing,
 }
 
-/// A direct problem, also as it stands in a file.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
+/// A direct problem, also as a file has it. The fields behind `certify` are those of an answer of the inverse
+/// model, which are of no importance here.
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
 struct Case {
     lengths: Vec<f64>,
     mass: Option<f64>,
     force: Option<[f64; 3]>,
     moment: Option<[f64; 3]>,
     payload: Option<f64>,
-    /// Position, or position and quaternion: three or seven numbers.
-    start: Option<Vec<f64>>,
-    #[serde(default)]
+    /// Start of the search: position, or position and quaternion, three or seven numbers.
+    pose: Option<Vec<f64>>,
     certify: bool,
+    tensions: IgnoredAny,
+    exit_tensions: IgnoredAny,
+    cable_forces: IgnoredAny,
+    stable: IgnoredAny,
+    least_stiffness: IgnoredAny,
+    neutral: IgnoredAny,
+    report: IgnoredAny,
+    out_of_limits: IgnoredAny,
+    jump: IgnoredAny,
+    questions: IgnoredAny,
+    /// Why the inverse model has no lengths.
+    error: Option<CaseError>,
 }
 
 pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
-    let robot = questions::open_robot(&settings.robot)?;
+    let robot = questions::open_robot(settings.robot.path())?;
     let cases = match (&settings.from, &settings.lengths) {
         (Some(path), _) => Cases::read(path)?,
         (None, lengths) => Cases::One(Box::new(settings.case(lengths.as_ref())?)),
@@ -85,7 +95,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
                 Some(path) => answer.map_err(ProgramError::in_file(path))?,
                 None => answer?,
             };
-            settings.format.print(&answer, |answer| answer.print(&case.lengths))?;
+            settings.printing.format().print(&answer, |answer| answer.print(&case.lengths))?;
             Ok(answer.ending())
         }
         Cases::List(cases) => {
@@ -99,7 +109,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
             };
             let answers: Vec<Entry> = cases.iter().enumerate().map(answer).collect();
             progress.finish_and_clear();
-            settings.format.print(&answers, |answers| {
+            settings.printing.format().print(&answers, |answers| {
                 for (i, (entry, case)) in answers.iter().zip(&cases).enumerate() {
                     println!("case {}", i + 1);
                     entry.print(&case.lengths);
@@ -113,21 +123,16 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
 
 impl Settings {
     fn case(&self, lengths: Option<&arguments::List>) -> Result<Case, ProgramError> {
-        let start = match (&self.start, self.angles.rotation()) {
-            (Some(start), _) => Some(poses::pose_numbers(&self.angles.of(start)?).to_vec()),
-            (None, None) => None,
-            (None, Some(_)) => {
-                return Err(ProgramError::Usage("--rpy rotates --start: expected --start, too".to_owned()));
-            }
-        };
+        let pose = self.pose.given()?.map(|pose| poses::pose_numbers(&pose).to_vec());
         Ok(Case {
             lengths: lengths.map(|arguments::List(lengths)| lengths.clone()).unwrap_or_default(),
             mass: self.mass,
             force: self.force,
             moment: self.moment,
             payload: self.payload,
-            start,
+            pose,
             certify: self.certify,
+            ..Case::default()
         })
     }
 }
@@ -138,8 +143,8 @@ impl Case {
         questions::about_lengths(robot, &self.lengths);
         questions::ask(self.mass.and_then(|mass| plausible::mass("mass", mass)));
         questions::about_load(robot, &self.load());
-        if let Some(start) = self.start.as_ref().and_then(|numbers| poses::pose_of(numbers).ok()) {
-            questions::about_pose(robot, "start", &start);
+        if let Some(start) = self.pose.as_ref().and_then(|numbers| poses::pose_of(numbers).ok()) {
+            questions::about_pose(robot, "pose", &start);
         }
     }
 
@@ -150,6 +155,12 @@ impl Case {
     }
 }
 
+/// Why a case has no lengths.
+#[derive(Deserialize)]
+struct CaseError {
+    message: String,
+}
+
 enum Cases {
     One(Box<Case>),
     List(Vec<Case>),
@@ -158,8 +169,12 @@ enum Cases {
 impl Cases {
     fn read(path: &Path) -> Result<Self, StudyError> {
         let text = read_text(path, InputKind::Cases)?;
+        let lines: Vec<&str> = text.lines().filter(|line| !line.trim().is_empty()).collect();
+        let is_one_a_line = lines.len() > 1 && lines.iter().all(|line| line.trim_end().ends_with('}'));
         let cases = if text.trim_start().starts_with('[') {
             from_json(&text).map(Self::List)
+        } else if is_one_a_line && lines.iter().all(|line| line.starts_with('{')) {
+            from_json(&format!("[{}]", lines.join(",\n"))).map(Self::List)
         } else {
             from_json(&text).map(|case| Self::One(Box::new(case)))
         };
@@ -202,10 +217,17 @@ fn solve(robot: &Robot, case: &Case, name: &str, prove: bool) -> Result<Answer, 
         robot.platform.mass = mass;
         robot.validate()?;
     }
+    if let Some(CaseError { message }) = &case.error {
+        return Err(StaticsError::Invalid {
+            field: "lengths".to_owned(),
+            value: "missing".to_owned(),
+            expected: format!("lengths; the inverse model has none: {message}"),
+        });
+    }
     let load = case.load();
-    let start = match &case.start {
+    let start = match &case.pose {
         Some(numbers) => poses::pose_of(numbers).map_err(|_| StaticsError::Invalid {
-            field: "start".to_owned(),
+            field: "pose".to_owned(),
             value: format!("{numbers:?}"),
             expected: "x,y,z [m] or x,y,z,qw,qx,qy,qz, with a unit quaternion, qw first".to_owned(),
         })?,

@@ -1,43 +1,40 @@
 //! `cdpr hysteresis`: where a payload that is put on and taken off again leaves the platform.
 
 use crate::answer::{OutOfLimits, vector};
-use crate::arguments::{self, Format, FreeArguments, Overwrite, Preference, number, payload};
-use crate::endings;
+use crate::arguments::endings;
+use crate::arguments::poses::PoseArguments;
+use crate::arguments::{
+    self, FreeArguments, Preference, Printing, RobotArgument, With, number, payload, with,
+};
 use crate::error::ProgramError;
 use crate::output::{Ending, patiently, table};
 use crate::pose::at_pose::print_fall;
-use crate::poses::{self, Angles};
 use crate::questions;
 use cdpr_report::{Cycle, CycleBranch, cycle};
-use cdpr_robot::{Pose, Robot};
+use cdpr_robot::Robot;
 use cdpr_statics::hysteresis::{CycleStep, HysteresisLaw, LoadCycle, Unloading, load_cycle};
 use cdpr_statics::{Load, StaticsError, WantedPose};
-use cdpr_study::{CableLaw, elastic_laws, open_law, open_record};
+use cdpr_study::{CableLaw, InputKind, StudyError, elastic_laws, open_law, open_record};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
 /// The robot, its cables and its load.
 #[derive(clap::Args)]
 pub(crate) struct Settings {
-    /// Robot file (JSON, `cdpr-robot/1`).
-    robot: PathBuf,
-    /// Record of its cables (CSV with the columns force_n, elongation_mm, phase: loading or unloading).
-    #[arg(long, requires = "length")]
-    record: Option<PathBuf>,
+    #[command(flatten)]
+    robot: RobotArgument,
+    /// Law of its cables (JSON, `cdpr-law/1`), or a record of them with --length (columns force_n,
+    /// elongation_mm, phase: loading or unloading). Without it: the laws in the robot file.
+    #[arg(long, value_name = "FILE")]
+    law: Option<PathBuf>,
     /// Length of the record's specimen between its clamps [m].
-    #[arg(long, value_parser = number, allow_hyphen_values = true, requires = "record")]
+    #[arg(long, value_parser = number, allow_hyphen_values = true, requires = "law")]
     length: Option<f64>,
     /// Section of the record's specimen [m²]; that of the cables if left out.
-    #[arg(long, value_parser = number, allow_hyphen_values = true, requires = "record")]
+    #[arg(long, value_parser = number, allow_hyphen_values = true, requires = "length")]
     section: Option<f64>,
-    /// Law of its cables (JSON, `cdpr-law/1`). Without record and law: the laws in the robot file.
-    #[arg(long, conflicts_with = "record")]
-    law: Option<PathBuf>,
-    /// Pose under the platform's own weight: x,y,z [m], or x,y,z,qw,qx,qy,qz with a quaternion.
-    #[arg(long, value_parser = poses::pose, allow_hyphen_values = true)]
-    pose: Pose,
     #[command(flatten)]
-    angles: Angles,
+    pose: PoseArguments,
     #[command(flatten)]
     free: FreeArguments,
     /// Mass put on the platform's centre of mass and taken off again [kg].
@@ -45,29 +42,15 @@ pub(crate) struct Settings {
     payload: f64,
     #[command(flatten)]
     preference: Preference,
-    /// The part of the unloading curve that a cable follows.
-    #[arg(long, value_enum, default_value_t = Branch::TurningPoint)]
-    unloading: Branch,
-    /// Steps of the payload each way.
-    #[arg(long, default_value_t = 50, value_parser = arguments::count::<1, 100_000>)]
-    steps: usize,
+    /// How the cycle is followed: steps=N of the payload each way (50); same-tension, where a cable follows
+    /// the part of the unloading curve with the same tensions and not the part from its start.
+    #[arg(long, value_name = "NAMES", value_parser = with)]
+    with: Option<With>,
     /// File for a figure of payload over height (SVG).
     #[arg(long, value_parser = endings::svg)]
     figure: Option<PathBuf>,
     #[command(flatten)]
-    overwrite: Overwrite,
-    /// How the results are printed.
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    format: Format,
-}
-
-/// The part of the unloading curve that a cable follows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-enum Branch {
-    /// The part with the same tensions.
-    SameTension,
-    /// The part from its start, which is moved to the turning point of the tension.
-    TurningPoint,
+    printing: Printing,
 }
 
 #[derive(Serialize)]
@@ -94,26 +77,26 @@ struct InCable {
 }
 
 pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
-    let robot = settings.preference.open_robot(&settings.robot)?;
-    let laws = laws(&robot, settings)?;
-    let pose = settings.angles.of(&settings.pose)?;
+    let with = settings.with.clone().unwrap_or_default();
+    with.check(&["steps", "same-tension"])?;
+    let steps = with.value("steps", None, arguments::count::<1, 100_000>)?.unwrap_or(50);
+    let pose = settings.pose.needed()?;
+    let robot = settings.preference.open_robot(settings.robot.path())?;
+    let unloading = if with.has("same-tension")? { Unloading::SameTension } else { Unloading::TurningPoint };
+    let laws = laws(&robot, settings, unloading)?;
     questions::about_pose(&robot, "--pose", &pose);
     questions::about_load(&robot, &Load::payload(settings.payload));
     let cycle = || {
-        load_cycle(
-            &robot,
-            WantedPose::at(&pose).free(&settings.free.free),
-            &laws,
-            settings.payload,
-            settings.steps,
-        )
+        load_cycle(&robot, WantedPose::at(&pose).free(&settings.free.free), &laws, settings.payload, steps)
     };
     let cycle = match patiently("following the load", cycle) {
-        Err(error @ StaticsError::BranchEnds(_)) => return print_fall(settings.format, &robot, &pose, error),
+        Err(error @ StaticsError::BranchEnds(_)) => {
+            return print_fall(settings.printing.format(), &robot, &pose, error);
+        }
         cycle => cycle?,
     };
     let found = Found::new(&robot, &laws, &cycle);
-    settings.format.print(&found, print)?;
+    settings.printing.format().print(&found, print)?;
     if found.cables.iter().any(|cable| cable.dissipated_j < 0.0) {
         eprintln!(
             "warning: the loop of a cable runs the wrong way round and gives energy: in its range of tension \
@@ -122,25 +105,31 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
         );
     }
     if let Some(path) = &settings.figure {
-        settings.overwrite.write(path, &draw(&robot, &cycle, &found)?)?;
+        settings.printing.overwrite.write(path, &draw(&robot, &cycle, &found)?)?;
     }
     Ok(OutOfLimits::ending(&found.out_of_limits))
 }
 
 /// The hysteresis of each cable.
-fn laws(robot: &Robot, settings: &Settings) -> Result<Vec<HysteresisLaw>, ProgramError> {
-    let law = match (&settings.record, &settings.length, &settings.law) {
-        (Some(record), Some(length), _) => of_record(robot, record, *length, settings.section)?,
-        (_, _, Some(law)) => open_law(law)?,
-        _ => return elastic_laws(robot)?.ok_or(ProgramError::NoLaw),
-    };
-    let from = match settings.unloading {
-        Branch::SameTension => Unloading::SameTension,
-        Branch::TurningPoint => Unloading::TurningPoint,
+fn laws(
+    robot: &Robot,
+    settings: &Settings,
+    unloading: Unloading,
+) -> Result<Vec<HysteresisLaw>, ProgramError> {
+    let law = match (&settings.law, settings.length) {
+        (Some(record), Some(length)) => of_record(robot, record, length, settings.section)?,
+        (Some(law), None) => open_law(law).map_err(|error| match error {
+            StudyError::OtherKind { found: InputKind::Table, .. } => ProgramError::Usage(format!(
+                "--law {}: a record and no law: expected --length, that of its specimen",
+                law.display()
+            )),
+            error => error.into(),
+        })?,
+        (None, _) => return elastic_laws(robot)?.ok_or(ProgramError::NoLaw),
     };
     let cables = robot.cables.iter().enumerate();
     let curves = cables.map(|(i, cable)| {
-        let curves = law.curves(&cable.properties, from);
+        let curves = law.curves(&cable.properties, unloading);
         curves.map_err(|source| ProgramError::OfCable { cable: i + 1, source })
     });
     curves.collect()
@@ -156,7 +145,14 @@ fn of_record(
     if section.is_none() && robot.cables.iter().any(|cable| cable.properties.section != of_cables) {
         return Err(ProgramError::DifferentSections);
     }
-    let law = CableLaw::of_record(&open_record(record)?, length, section.unwrap_or(of_cables));
+    let opened = open_record(record).map_err(|error| match error {
+        StudyError::OtherKind { found: InputKind::Law, .. } => ProgramError::Usage(format!(
+            "--law {}: a law and no record: expected no --length",
+            record.display()
+        )),
+        error => error.into(),
+    })?;
+    let law = CableLaw::of_record(&opened, length, section.unwrap_or(of_cables));
     law.map_err(ProgramError::in_file(record))
 }
 

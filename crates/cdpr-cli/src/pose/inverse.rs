@@ -1,11 +1,11 @@
 //! `cdpr inverse`: the unstrained lengths that hold a pose.
 
 use crate::answer::{self, Neutral, OutOfLimits, Residual, bound_name};
-use crate::arguments::FreeArguments;
+use crate::arguments::poses::{COLUMNS, pose_numbers};
+use crate::arguments::{FreeArguments, With, with};
 use crate::error::ProgramError;
 use crate::output::Ending;
 use crate::pose::at_pose::{RobotAtPose, Row, cells, numbered};
-use crate::poses::{COLUMNS, pose_numbers};
 use cdpr_robot::{Pose, Robot};
 use cdpr_statics::free_coordinates::{FreeSolution, FreeSolutions, free_solutions};
 use cdpr_statics::{
@@ -26,13 +26,16 @@ pub(crate) struct Settings {
     /// before, as long as it exists between them, even where another becomes better.
     #[arg(long, requires = "poses", conflicts_with = "free")]
     path: bool,
-    /// Also take solutions whose cables hang in loops, of any length.
-    #[arg(long, requires = "free")]
-    loops: bool,
+    /// With free coordinates also solutions of a kind: loops, whose cables are of any length.
+    #[arg(long, value_name = "NAMES", value_parser = with, requires = "free")]
+    with: Option<With>,
 }
 
-pub(crate) fn run(Settings { at, free, path, loops }: &Settings) -> Result<Ending, ProgramError> {
+pub(crate) fn run(Settings { at, free, path, with }: &Settings) -> Result<Ending, ProgramError> {
     let load = at.load.load();
+    let with = with.clone().unwrap_or_default();
+    with.check(&["loops"])?;
+    let loops = with.has("loops")?;
     if *path {
         let robot = at.robot()?;
         let mut path = InversePath::new(&robot);
@@ -43,7 +46,7 @@ pub(crate) fn run(Settings { at, free, path, loops }: &Settings) -> Result<Endin
     }
     if !free.free.is_empty() {
         let solve = |robot: &Robot, pose: &Pose| {
-            let wanted = WantedPose { free: &free.free, loops: *loops, ..pose.into() };
+            let wanted = WantedPose { free: &free.free, loops, ..pose.into() };
             Ok(Rest::new(robot, &free_solutions(robot, wanted, &load)?))
         };
         return at.answer(solve, Rest::print);

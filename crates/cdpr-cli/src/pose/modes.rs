@@ -1,155 +1,233 @@
-//! `cdpr modes`: natural frequencies and motions of the platform on its cables.
+//! `cdpr modes`: natural frequencies and motions of platform and cables.
 
-use crate::answer::{self, OutOfLimits, decimal};
+mod massless;
+
+use crate::answer::{OutOfLimits, decimal};
+use crate::arguments::poses;
 use crate::arguments::{self, FreeArguments};
 use crate::error::ProgramError;
 use crate::output::{Ending, table};
-use crate::pose::at_pose::{RobotAtPose, Row, cells, numbered};
-use crate::poses;
+use crate::pose::at_pose::{RobotAtPose, Row};
 use crate::questions;
-use cdpr_robot::{Pose, Robot, shown};
-use cdpr_statics::vibration::{PoseModes, modes_at};
-use cdpr_statics::{DirectProblem, DirectStart, StaticsError, WantedPose, rough_pose};
+use crate::said::note;
+use cdpr_dynamics::{Mode, Modes, Wanted};
+use cdpr_robot::{Platform, Pose, Robot, shown};
+use cdpr_statics::vibration::PoseModes;
+use cdpr_statics::{DirectProblem, DirectStart, Equilibrium, StaticsError, WantedPose, inverse, rough_pose};
+use massless::Massless;
 use serde::Serialize;
+use std::borrow::Cow;
+use std::sync::Once;
 
-/// A robot at a pose or with lengths, and a load.
+/// Motions that are listed where nothing else is asked for.
+const NUMBER: usize = 12;
+
+/// A robot at a pose or with lengths, a load, and which motions are looked for.
 #[derive(clap::Args)]
 pub(crate) struct Settings {
     #[command(flatten)]
     at: RobotAtPose,
     #[command(flatten)]
     free: FreeArguments,
-    /// Unstrained lengths of the cables in place of a pose, in the order of the file: l1,..,ln [m].
-    #[arg(long, group = "where", value_parser = arguments::list, allow_hyphen_values = true)]
+    /// Unstrained lengths of the cables, in the order of the file: l1,..,ln [m]. The search for their pose
+    /// starts from --pose, or where straight cables would hold a point.
+    #[arg(long, value_parser = arguments::list, conflicts_with = "poses", allow_hyphen_values = true)]
     lengths: Option<arguments::List>,
-    /// DirectStart of the search for the pose of the lengths: x,y,z [m], or x,y,z,qw,qx,qy,qz.
-    ///
-    /// If left out, the search starts where straight cables would hold a point.
-    #[arg(long, value_parser = poses::pose, requires = "lengths", allow_hyphen_values = true)]
-    start: Option<Pose>,
+    /// All natural motions up to this frequency [Hz].
+    #[arg(long, value_name = "HZ", conflicts_with_all = ["number", "massless"])]
+    below: Option<f64>,
+    /// This many natural motions, the slowest; 12 if left out.
+    #[arg(long, value_name = "N", conflicts_with = "massless")]
+    number: Option<usize>,
+    /// Cables without mass: the platform alone, with the shares of weight and cables in the energy.
+    #[arg(long)]
+    massless: bool,
 }
 
 pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
-    let Settings { at, free, lengths, start } = settings;
-    let load = at.load.load();
-    let Some(arguments::List(lengths)) = lengths else {
-        let solve = |robot: &Robot, pose: &Pose| {
-            Ok(Answer::new(robot, &modes_at(robot, WantedPose::at(pose).free(&free.free), &load)?))
+    if settings.massless {
+        let solve = |robot: &Cow<'_, Robot>, problem: &DirectProblem<'_>, rest| {
+            Ok(Massless::new(robot, &PoseModes::new(problem, rest)?))
         };
-        return at.answer(solve, Answer::print);
+        return settings.answer(solve, Massless::print);
+    }
+    let wanted = settings.below.map_or(Wanted::Number(settings.number.unwrap_or(NUMBER)), Wanted::Below);
+    let solve = |robot: &Cow<'_, Robot>, problem: &DirectProblem<'_>, rest| {
+        Ok(Answer::new(robot, &Modes::new(problem, &rest, wanted)?))
     };
-    let robot = at.robot()?;
-    questions::about_lengths(&robot, lengths);
-    let solve = || -> Result<_, StaticsError> {
+    settings.answer(solve, Answer::print)
+}
+
+impl Settings {
+    /// Prints what `solve` finds at the equilibrium of the lengths, or at each pose.
+    fn answer<T: Row>(
+        &self,
+        solve: impl Fn(&Cow<'_, Robot>, &DirectProblem<'_>, Equilibrium) -> Result<T, StaticsError> + Sync,
+        print: impl Fn(&T, &str),
+    ) -> Result<Ending, ProgramError> {
+        let load = self.at.load.load();
+        let Some(arguments::List(lengths)) = &self.lengths else {
+            let at_pose = |robot: &Robot, pose: &Pose| {
+                let robot = with_inertia(robot);
+                let held = inverse(&robot, WantedPose::at(pose).free(&self.free.free), &load)?;
+                let problem = DirectProblem::new(&robot, &held.lengths, &load)?;
+                let rest = problem.direct_any(DirectStart::Near(&held.equilibrium))?;
+                solve(&robot, &problem, rest.equilibrium)
+            };
+            return self.at.answer(at_pose, print);
+        };
+        let (robot, start) = (self.at.robot()?, self.at.pose()?);
+        questions::about_lengths(&robot, lengths);
+        let robot = with_inertia(&robot);
         let problem = DirectProblem::new(&robot, lengths, &load)?;
         let start = start.unwrap_or_else(|| rough_pose(&robot, lengths));
         let found = problem.direct(DirectStart::Pose(&start))?;
         questions::about_rest(&robot, "the equilibrium", (lengths, &load), &found, &start);
-        PoseModes::new(&problem, found.equilibrium)
-    };
-    let found = solve()?;
-    let answer = Answer::new(&robot, &found);
-    let heading = format!("{} at {}", shown(&robot.name), poses::place(&found.equilibrium.pose));
-    at.print(&answer, |answer| answer.print(&heading))
+        let pose = found.equilibrium.pose;
+        let answer = solve(&robot, &problem, found.equilibrium)?;
+        let heading = format!("{} at {}", shown(&robot.name), poses::place(&pose));
+        self.at.print(&robot, &pose, &answer, |answer| print(answer, &heading))
+    }
 }
 
-/// The natural motions.
+/// The robot, with an assumed inertia where it has none and rotates.
+fn with_inertia(robot: &Robot) -> Cow<'_, Robot> {
+    if robot.platform.inertia.is_some() || (3..6).all(|k| !robot.freedoms().contains(k)) {
+        return Cow::Borrowed(robot);
+    }
+    static NOTED: Once = Once::new();
+    NOTED.call_once(|| {
+        note(format_args!(
+            "the robot has no inertia: that of a ball with the radius {:.3} m is assumed",
+            robot.platform_size()
+        ));
+    });
+    let platform = Platform { inertia: Some(robot.assumed_inertia()), ..robot.platform };
+    Cow::Owned(Robot { platform, ..robot.clone() })
+}
+
+/// The natural motions of platform and cables.
 #[derive(Serialize)]
 struct Answer {
-    /// Natural frequencies, ascending [Hz].
-    frequencies_hz: Vec<f64>,
-    /// The motion of each frequency.
-    modes: Vec<Mode>,
-    /// The lowest of each cable between ends at rest [Hz]; `null` for one without mass.
-    cable_frequencies_hz: Vec<Option<f64>>,
-    /// The lowest of these [Hz].
-    lowest_cable_frequency_hz: Option<f64>,
-    /// What follows where that is less than twice the lowest of the platform.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    warning: Option<String>,
+    /// The motions, the slowest first.
+    modes: Vec<Motion>,
+    /// How many there are up to this frequency [Hz], by a count that shares no eigenvalues with them.
+    counted: usize,
+    complete_below_hz: f64,
+    /// Whether the inertia of the platform is assumed.
+    inertia_assumed: bool,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     out_of_limits: Vec<OutOfLimits>,
 }
 
 /// A natural motion of unit mass.
 #[derive(Serialize)]
-struct Mode {
+struct Motion {
+    frequency_hz: f64,
+    /// Greatest relative error of the frequency that the counts leave.
+    within: f64,
+    /// Share of platform and payload in the kinetic energy.
+    platform_share: f64,
+    cable_shares: Vec<f64>,
     /// Translation of P [1/√kg].
     translation: [f64; 3],
     /// Rotation vector [rad/(m √kg)].
     rotation: [f64; 3],
-    /// Share of each cable in the energy of the motion.
-    cable_shares: Vec<f64>,
-    /// Share of the weight.
-    weight_share: f64,
 }
 
 impl Row for Answer {
-    fn columns(robot: &Robot) -> Vec<String> {
-        let platform = numbered("frequency", "hz", robot.freedoms().count());
-        platform.chain(["lowest_cable_frequency_hz".to_owned()]).collect()
+    fn columns(_: &Robot) -> Vec<String> {
+        ["lowest_frequency_hz", "platform_frequency_hz", "platform_share", "counted", "complete_below_hz"]
+            .map(str::to_owned)
+            .into()
     }
 
     fn cells(&self) -> Vec<String> {
-        let lowest = self.lowest_cable_frequency_hz.map(|frequency| format!("{frequency:?}"));
-        cells(&self.frequencies_hz).into_iter().chain([lowest.unwrap_or_default()]).collect()
+        let number = |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:?}"));
+        let platform = self.of_platform();
+        vec![
+            number(self.modes.first().map(|mode| mode.frequency_hz)),
+            number(platform.map(|mode| mode.frequency_hz)),
+            number(platform.map(|mode| mode.platform_share)),
+            self.counted.to_string(),
+            number(Some(self.complete_below_hz)),
+        ]
     }
 
     fn out_of_limits(&self) -> Vec<&[OutOfLimits]> {
         vec![&self.out_of_limits]
     }
-
-    fn warning(&self) -> Option<&str> {
-        self.warning.as_deref()
-    }
 }
 
 impl Answer {
-    fn new(robot: &Robot, found: &PoseModes) -> Self {
-        let PoseModes { modes, lengths, equilibrium, cable_frequencies } = found;
-        let (slowest, platform) = found.lowest();
+    fn new(robot: &Cow<'_, Robot>, found: &Modes) -> Self {
+        let motion = |mode: &Mode| Motion {
+            frequency_hz: mode.frequency,
+            within: mode.within,
+            platform_share: mode.platform_share,
+            cable_shares: mode.cable_shares.clone(),
+            translation: mode.translation.into(),
+            rotation: mode.rotation.into(),
+        };
         Self {
-            cable_frequencies_hz: cable_frequencies.clone(),
-            lowest_cable_frequency_hz: slowest.map(|cable| cable.frequency),
-            warning: slowest.zip(platform).and_then(|(cable, platform)| cable.warning(platform)),
-            out_of_limits: OutOfLimits::all(robot, lengths, &[equilibrium]),
-            frequencies_hz: modes.iter().map(|mode| mode.frequency).collect(),
-            modes: modes
-                .iter()
-                .map(|mode| Mode {
-                    translation: mode.translation.into(),
-                    rotation: mode.rotation.into(),
-                    cable_shares: mode.cables.clone(),
-                    weight_share: mode.weight,
-                })
-                .collect(),
+            modes: found.modes.iter().map(motion).collect(),
+            counted: found.counted,
+            complete_below_hz: found.complete_below,
+            inertia_assumed: matches!(robot, Cow::Owned(_)),
+            out_of_limits: OutOfLimits::all(robot, &found.lengths, &[&found.equilibrium]),
         }
     }
 
+    /// The motion in which the platform has the largest share.
+    fn of_platform(&self) -> Option<&Motion> {
+        self.modes.iter().max_by(|one, other| one.platform_share.total_cmp(&other.platform_share))
+    }
+
     fn print(&self, heading: &str) {
-        println!("{heading}: natural motions, of unit mass");
-        let names = [
-            "frequency [Hz]",
-            "translation [1/\u{221a}kg]",
-            "rotation [rad/(m \u{221a}kg)]",
-            "weight [%]",
-            "cables [%]",
-        ];
+        println!("{heading}: {} natural motions up to {:.4} Hz.", self.counted, self.complete_below_hz);
+        if let Some(Motion { frequency_hz, platform_share, .. }) = self.of_platform() {
+            let share = decimal(100.0 * platform_share, 1);
+            println!("The platform has its largest share, {share} %, at {frequency_hz:.4} Hz.");
+        }
+        let names = ["frequency [Hz]", "platform [%]", "cables [%]", "moves most", "within"];
         let mut rows = table(&names);
-        for (frequency, mode) in self.frequencies_hz.iter().zip(&self.modes) {
-            let words = |vector: &[f64; 3]| answer::vector(vector, 4);
-            let percent = |share: &f64| decimal(100.0 * share, 1);
-            let cables: Vec<_> = mode.cable_shares.iter().map(percent).collect();
-            let (translation, rotation) = (words(&mode.translation), words(&mode.rotation));
-            let weight = percent(&mode.weight_share);
-            rows.add_row([format!("{frequency:.4}"), translation, rotation, weight, cables.join(" ")]);
+        for mode in &self.modes {
+            let cells = [
+                format!("{:.4}", mode.frequency_hz),
+                decimal(100.0 * mode.platform_share, 1),
+                most(&mode.cable_shares),
+                mode.direction(),
+                format!("{:.0e}", mode.within),
+            ];
+            rows.add_row(cells);
         }
         println!("{rows}");
-        println!("weight and cables: share of each in the energy of the motion");
-        let of_cable = |frequency: &Option<f64>| frequency.map_or("-".to_owned(), |f| format!("{f:.3}"));
-        let cables: Vec<_> = self.cable_frequencies_hz.iter().map(of_cable).collect();
-        println!("lowest of each cable itself, between ends at rest: {} Hz", cables.join(" "));
-        self.warning.iter().for_each(|warning| println!("warning: {warning}"));
+        println!("shares of the kinetic energy, of the cables the two largest by number");
         OutOfLimits::print(&self.out_of_limits);
     }
+}
+
+impl Motion {
+    /// The direction in which the platform moves most, and the axis about which it turns most.
+    fn direction(&self) -> String {
+        let largest = |vector: &[f64; 3]| {
+            let axis = (0..3).max_by(|one, other| vector[*one].abs().total_cmp(&vector[*other].abs()));
+            ["x", "y", "z"][axis.unwrap_or_default()]
+        };
+        let still = |vector: &[f64; 3]| vector.iter().all(|component| *component == 0.0);
+        match (still(&self.translation), still(&self.rotation)) {
+            (_, true) => format!("along {}", largest(&self.translation)),
+            (true, false) => format!("about {}", largest(&self.rotation)),
+            _ => format!("along {}, about {}", largest(&self.translation), largest(&self.rotation)),
+        }
+    }
+}
+
+/// The cables with the largest shares, by number.
+fn most(shares: &[f64]) -> String {
+    let mut order: Vec<_> = shares.iter().enumerate().collect();
+    order.sort_by(|one, other| other.1.total_cmp(one.1));
+    let named = order.iter().take(2).filter(|(_, share)| **share >= 0.0005);
+    let named = named.map(|(i, share)| format!("{}: {}", i + 1, decimal(100.0 * **share, 1)));
+    named.collect::<Vec<_>>().join(", ")
 }

@@ -1,8 +1,8 @@
 //! `cdpr path`: what a robot does along a path of poses.
 
 use crate::answer::{OutOfLimits, warn_of_cables};
-use crate::arguments::{ErrorModelArguments, Overwrite};
-use crate::endings;
+use crate::arguments::UncertaintyArgument;
+use crate::arguments::endings;
 use crate::error::ProgramError;
 use crate::output::Ending;
 use crate::pose::at_pose::{RobotAtPose, Row, cells, numbered};
@@ -19,15 +19,13 @@ pub(crate) struct Settings {
     #[command(flatten)]
     at: RobotAtPose,
     #[command(flatten)]
-    errors: ErrorModelArguments,
+    errors: UncertaintyArgument,
     /// File for a figure of the path (SVG), with bands of two standard deviations if an error model is given.
     #[arg(long, value_name = "FILE", value_parser = endings::svg)]
     figure: Option<PathBuf>,
-    #[command(flatten)]
-    overwrite: Overwrite,
 }
 
-pub(crate) fn run(Settings { at, errors, figure, overwrite }: &Settings) -> Result<Ending, ProgramError> {
+pub(crate) fn run(Settings { at, errors, figure }: &Settings) -> Result<Ending, ProgramError> {
     let (robot, load) = (at.robot()?, at.load.load());
     let model = errors.model(&robot)?;
     let mut path = Path::new(&robot, load, model.as_ref())?;
@@ -52,7 +50,7 @@ pub(crate) fn run(Settings { at, errors, figure, overwrite }: &Settings) -> Resu
     along.tell();
     warn_of_cables(frequencies.into_iter());
     if let Some(file) = figure {
-        overwrite.write(file, &path_view(&robot, &load, &passed)?)?;
+        at.printing.overwrite.write(file, &path_view(&robot, &load, &passed)?)?;
     }
     Ok(ending)
 }
@@ -115,7 +113,7 @@ struct Passed {
     /// dp under the load.
     deflection_mm: [f64; 3],
     /// |dp|.
-    rms_mm: f64,
+    magnitude_mm: f64,
     /// Stiffness of the softest motion with the load.
     least_stiffness: f64,
     /// With the load; `null` for a robot that lacks `platform.inertia`.
@@ -143,7 +141,7 @@ impl Passed {
             exit_tensions,
             sags,
             deflection_mm: dp.into(),
-            rms_mm: dp.norm(),
+            magnitude_mm: dp.norm(),
             least_stiffness: loaded.stability.least_stiffness(),
             lowest_frequency_hz: found.lowest_frequency,
             lowest_cable_frequency_hz: found.lowest_cable_frequency.map(|cable| cable.frequency),
@@ -164,7 +162,7 @@ impl Row for Passed {
             "dx_mm",
             "dy_mm",
             "dz_mm",
-            "rms_mm",
+            "magnitude_mm",
             "least_stiffness",
             "lowest_frequency_hz",
             "lowest_cable_frequency_hz",
@@ -177,7 +175,7 @@ impl Row for Passed {
     fn cells(&self) -> Vec<String> {
         let Self { lengths, tensions, exit_tensions, sags, deflection_mm, .. } = self;
         let of_cables = lengths.iter().chain(tensions).chain(exit_tensions).chain(sags);
-        let numbers = of_cables.chain(deflection_mm).chain([&self.rms_mm, &self.least_stiffness]);
+        let numbers = of_cables.chain(deflection_mm).chain([&self.magnitude_mm, &self.least_stiffness]);
         let slack: Vec<_> = self.slack_cables.iter().map(ToString::to_string).collect();
         let frequencies = [self.lowest_frequency_hz, self.lowest_cable_frequency_hz];
         let frequencies = frequencies.map(|of| of.map_or_else(String::new, |of| format!("{of:?}")));
@@ -200,7 +198,8 @@ impl Row for Banded {
         let of_cables = [("std_length", "m"), ("std_tension", "n")];
         let of_cables =
             of_cables.into_iter().flat_map(|(name, unit)| numbered(name, unit, robot.cables.len()));
-        let of_platform = ["dx_mm", "dy_mm", "dz_mm", "rms_mm", "least_stiffness", "lowest_frequency_hz"];
+        let of_platform =
+            ["dx_mm", "dy_mm", "dz_mm", "magnitude_mm", "least_stiffness", "lowest_frequency_hz"];
         let platform = of_platform.into_iter().map(|name| format!("std_{name}"));
         Passed::columns(robot).into_iter().chain(of_cables).chain(platform).collect()
     }
@@ -211,10 +210,10 @@ impl Row for Banded {
             let empty = vec![String::new(); 2 * passed.lengths.len() + 6];
             return passed.cells().into_iter().chain(empty).collect();
         };
-        let Bands { lengths, tensions, displacement, rms, least_stiffness, lowest_frequency } = bands;
+        let Bands { lengths, tensions, displacement, magnitude, least_stiffness, lowest_frequency } = bands;
         let displacement = displacement.map(|std| 1e3 * std);
         let numbers = cells(lengths.iter().chain(tensions).chain(&displacement));
-        let others = [rms.map(|std| 1e3 * std), *least_stiffness, *lowest_frequency];
+        let others = [magnitude.map(|std| 1e3 * std), *least_stiffness, *lowest_frequency];
         let others = others.map(|std| std.map(|std| format!("{std:?}")).unwrap_or_default());
         passed.cells().into_iter().chain(numbers).chain(others).collect()
     }

@@ -1,7 +1,7 @@
 //! `cdpr explore`: a robot that computes in the browser, as one HTML file.
 
+use crate::arguments::endings;
 use crate::arguments::{Format, Overwrite, named_after};
-use crate::endings;
 use crate::error::ProgramError;
 use crate::output::patiently;
 use crate::questions;
@@ -14,11 +14,11 @@ use std::path::{Path, PathBuf};
 /// What is explored, and the file.
 #[derive(clap::Args)]
 pub(crate) struct Settings {
-    /// Robot file, name of a robot of the library, study file, or folder of results.
+    /// Robot, a file or a name of `cdpr robot list`, study file, or folder of results.
     #[arg(value_name = "ROBOT|STUDY|RESULTS", default_value = "caroca")]
     input: PathBuf,
     /// File for the page; NAME-explorer.html in the current folder if left out.
-    #[arg(long, value_name = "FILE", value_parser = endings::html())]
+    #[arg(short, long, value_name = "FILE", value_parser = endings::html())]
     out: Option<PathBuf>,
     #[command(flatten)]
     overwrite: Overwrite,

@@ -1,7 +1,7 @@
-//! `cdpr import`: a robot file made of the files of another program.
+//! `cdpr robot import`: a robot file made of the files of another program.
 
+use crate::arguments::endings;
 use crate::arguments::{self, Overwrite, components};
-use crate::endings;
 use crate::error::ProgramError;
 use crate::output::Ending;
 use crate::questions;
@@ -15,11 +15,11 @@ use std::path::{Path, PathBuf};
 pub(crate) struct Settings {
     /// Files: bodies and cables of CASPR or the folder that has them, a .wcrfx file of WireX, a model of
     /// MuJoCo, YAML of oKermorgant's cdpr or the SDF made of it, JSON of IRMA, a system of MoorPy or MoorDyn,
-    /// or a table of points (CSV).
+    /// or a table of points (CSV). FILE:SET is another cable set of CASPR than the default one.
     #[arg(required = true)]
     files: Vec<PathBuf>,
     /// Robot file to write; if left out, it is printed.
-    #[arg(long, value_parser = endings::json())]
+    #[arg(short, long, value_parser = endings::json())]
     out: Option<PathBuf>,
     #[command(flatten)]
     overwrite: Overwrite,
@@ -35,15 +35,15 @@ pub(crate) struct Settings {
     /// Least and greatest tension of every cable: min,max [N], in place of those in the files.
     #[arg(long, value_parser = components::<2>, allow_hyphen_values = true)]
     tension_limits: Option<[f64; 2]>,
-    /// Cable set of CASPR; the default one if left out.
-    #[arg(long)]
-    cable_set: Option<String>,
 }
 
 pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     let mut files = Vec::new();
+    let mut cable_set = None;
     for path in &settings.files {
-        for path in of_folder(path)? {
+        let (path, set) = with_set(path);
+        cable_set = set.or(cable_set);
+        for path in of_folder(&path)? {
             let text = read_text(&path, InputKind::Foreign)?;
             if let Some(own) = other_kind(&path, &text, InputKind::Foreign) {
                 return Err(own.into());
@@ -56,7 +56,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
         mass: settings.mass,
         center_of_mass: settings.center_of_mass.map(Into::into),
         tension_limits: settings.tension_limits.map(|[min, max]| TensionLimits { min, max }),
-        cable_set: settings.cable_set.clone(),
+        cable_set,
     };
     let Imported { robot, notes } = import(&files, &options)?;
     questions::ask(plausible::robot(&robot));
@@ -85,6 +85,17 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     }
     let questioned = notes.iter().any(|note| note.kind == NoteKind::Questioned);
     Ok(if questioned { Ending::SomethingWrong } else { Ending::Well })
+}
+
+/// The path and the cable set in `PATH:SET`.
+fn with_set(path: &Path) -> (PathBuf, Option<String>) {
+    let text = path.to_string_lossy();
+    match text.rsplit_once(':') {
+        Some((before, set)) if !path.exists() && Path::new(before).exists() => {
+            (PathBuf::from(before), Some(set.to_owned()))
+        }
+        _ => (path.to_owned(), None),
+    }
 }
 
 /// The files of CASPR in a folder; any other path itself.

@@ -1,33 +1,33 @@
-//! `cdpr robots`: the robots and cables that come with the program.
+//! `cdpr robot list`: the robots and cables that come with the program.
 
-use crate::arguments::Format;
+use crate::arguments::Printing;
 use crate::error::ProgramError;
 use crate::output::table;
 use crate::questions;
 use cdpr_robot::library::{CABLES, ROBOTS};
-use cdpr_robot::{Grade, Robot, shown};
+use cdpr_robot::{Grade, Robot, Vector3, shown};
 use cdpr_study::open_cable;
 use serde::Serialize;
 use std::path::Path;
 
-/// What is listed.
+/// How the lists are printed.
 #[derive(clap::Args)]
 pub(crate) struct Settings {
-    /// Name of one robot, of which source and assumptions are printed; all robots if left out.
-    #[arg(conflicts_with = "cables")]
-    name: Option<String>,
-    /// List the cables of the catalogue instead.
-    #[arg(long)]
-    cables: bool,
-    /// How the list is printed.
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    format: Format,
+    #[command(flatten)]
+    printing: Printing,
+}
+
+/// All that comes with the program.
+#[derive(Serialize)]
+struct Library {
+    robots: Vec<RobotEntry>,
+    cables: Vec<CableEntry>,
 }
 
 /// A robot of the library.
 #[derive(Serialize)]
 struct RobotEntry {
-    name: String,
+    name: &'static str,
     title: String,
     cables: usize,
     /// Mass of the platform [kg].
@@ -35,8 +35,6 @@ struct RobotEntry {
     /// Sides of the box around the exit points [m].
     extent_m: [f64; 3],
     grade: Option<Grade>,
-    source: Option<String>,
-    assumed: Vec<String>,
 }
 
 /// A cable of the catalogue.
@@ -51,34 +49,26 @@ struct CableEntry {
     source: Option<String>,
 }
 
-pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
-    let format = settings.format;
-    match &settings.name {
-        Some(name) => format.print(&RobotEntry::open(name)?, print_one)?,
-        None if settings.cables => {
-            let entries = CABLES.iter().map(|file| CableEntry::open(file.name));
-            format.print(&entries.collect::<Result<Vec<_>, _>>()?, |entries| print_cables(entries))?;
-        }
-        None => {
-            let entries = ROBOTS.iter().map(|file| RobotEntry::open(file.name));
-            format.print(&entries.collect::<Result<Vec<_>, _>>()?, |entries| print_robots(entries))?;
-        }
-    }
-    Ok(())
+pub(super) fn run(settings: &Settings) -> Result<(), ProgramError> {
+    let robots = ROBOTS.iter().map(|file| RobotEntry::open(file.name)).collect::<Result<_, _>>()?;
+    let cables = CABLES.iter().map(|file| CableEntry::open(file.name)).collect::<Result<_, _>>()?;
+    Ok(settings.printing.format().print(&Library { robots, cables }, |Library { robots, cables }| {
+        print_robots(robots);
+        print_cables(cables);
+        println!("cdpr robot show NAME prints what a robot is, where it is from and what is assumed");
+    })?)
 }
 
 impl RobotEntry {
-    fn open(name: &str) -> Result<Self, ProgramError> {
+    fn open(name: &'static str) -> Result<Self, ProgramError> {
         let robot = questions::open_robot(Path::new(name))?;
         Ok(Self {
-            name: name.to_owned(),
+            name,
             cables: robot.cables.len(),
             mass_kg: robot.platform.mass,
-            extent_m: extent(&robot),
+            extent_m: extent(&exit_points(&robot)),
             grade: robot.provenance.grade,
             title: robot.name,
-            source: robot.provenance.source,
-            assumed: robot.provenance.assumed,
         })
     }
 }
@@ -99,11 +89,17 @@ impl CableEntry {
     }
 }
 
-fn extent(robot: &Robot) -> [f64; 3] {
-    let coordinates = |axis: usize| robot.cables.iter().map(move |cable| cable.exit_point[axis]);
+/// Sides of the box around points [m].
+pub(super) fn extent(points: &[Vector3<f64>]) -> [f64; 3] {
     std::array::from_fn(|axis| {
-        coordinates(axis).fold(f64::NEG_INFINITY, f64::max) - coordinates(axis).fold(f64::INFINITY, f64::min)
+        let coordinates = || points.iter().map(|point| point[axis]);
+        coordinates().fold(f64::NEG_INFINITY, f64::max) - coordinates().fold(f64::INFINITY, f64::min)
     })
+}
+
+/// The exit points [m].
+pub(super) fn exit_points(robot: &Robot) -> Vec<Vector3<f64>> {
+    robot.cables.iter().map(|cable| cable.exit_point).collect()
 }
 
 fn print_robots(robots: &[RobotEntry]) {
@@ -111,7 +107,7 @@ fn print_robots(robots: &[RobotEntry]) {
     for robot in robots {
         let [x, y, z] = robot.extent_m;
         table.add_row([
-            robot.name.clone(),
+            robot.name.to_owned(),
             shown(&robot.title).to_string(),
             robot.cables.to_string(),
             robot.mass_kg.to_string(),
@@ -121,18 +117,6 @@ fn print_robots(robots: &[RobotEntry]) {
     }
     println!("{table}");
     println!("grade: surveyed on the robot itself; from a paper or a file of its makers; nominal values");
-    println!("cdpr robots NAME prints source and assumptions; every command takes a name for a robot file");
-}
-
-fn print_one(robot: &RobotEntry) {
-    let [x, y, z] = robot.extent_m;
-    let grade = robot.grade.map_or_else(|| "not graded".to_owned(), |grade| grade.to_string());
-    println!("{}: {} cables, {grade}", shown(&robot.title), robot.cables);
-    println!("platform of {} kg, exit points in a box of {x:.1} x {y:.1} x {z:.1} m", robot.mass_kg);
-    println!("\nsource: {}", shown(robot.source.as_deref().unwrap_or("not known")));
-    for assumed in &robot.assumed {
-        println!("assumed: {}", shown(assumed));
-    }
 }
 
 fn print_cables(cables: &[CableEntry]) {

@@ -1,12 +1,13 @@
 //! `cdpr workspace`: where the cables hold the platform, and how far it gives there, over a plane or a box.
 
 use crate::answer::warn_of_cables;
+use crate::arguments::poses::Angles;
 use crate::arguments::{
-    self, ErrorModelArguments, Format, FreeArguments, LoadArguments, Overwrite, Preference, Threads,
+    self, Format, FreeArguments, LoadArguments, Overwrite, Preference, Region, RobotArgument, Threads,
+    UncertaintyArgument, With, count, region, with,
 };
 use crate::error::ProgramError;
 use crate::output::{Details, Ending, drawn, narrow_table, patiently, progress, table};
-use crate::poses::{self, Angles};
 use crate::questions;
 use crate::wrenches::WrenchArguments;
 use cdpr_assess::{
@@ -14,32 +15,24 @@ use cdpr_assess::{
     compute_workspace, workspace_boundary, write_workspace,
 };
 use cdpr_report::{layers, workspace_maps};
-use cdpr_robot::{Axis, Rotation3, broken, counted, listing, shown, significant};
-use cdpr_study::{Extremes, Grid};
+use cdpr_robot::{Rotation3, broken, counted, listing, shown, significant};
+use cdpr_study::Extremes;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::time::Instant;
 
 /// The robot, the positions and the load.
 #[derive(clap::Args)]
-#[command(group = clap::ArgGroup::new("where").required(true).args(["plane", "box"]))]
 pub(crate) struct Settings {
-    /// Robot file (JSON, `cdpr-robot/1`).
-    robot: PathBuf,
-    /// Plane over the frame of the exit points: x=, y= or z= a coordinate [m].
-    #[arg(long, value_parser = plane, allow_hyphen_values = true)]
-    plane: Option<Plane>,
-    /// Points of the plane along its two axes.
-    #[arg(long, value_parser = points, default_value = "41x41", conflicts_with = "box")]
-    grid: [usize; 2],
-    /// Box, or a part of a plane: min:max:points of x, y and z [m], such as -2:2:9,-1:1:5,1.75:1.75:1.
-    #[arg(long = "box", id = "box", value_name = "BOX", value_parser = arguments::grid)]
-    #[arg(allow_hyphen_values = true)]
-    within: Option<Grid>,
-    /// Orientation of the platform at all positions, a quaternion: qw,qx,qy,qz; level if left out.
-    #[arg(long, value_parser = poses::rotation, allow_hyphen_values = true, default_value = "1,0,0,0")]
-    #[arg(conflicts_with = "rpy")]
-    rotation: Rotation3<f64>,
+    #[command(flatten)]
+    robot: RobotArgument,
+    /// Where the platform is mapped: a plane, z=1.75, or x, y and z, each of them a coordinate, min:max or
+    /// min:max:points [m], such as -2:2:9,-1:1:5,1.75.
+    ///
+    /// What is left out, such as in ::11,::7,1.75, is that of the frame of the exit points, and 41 points in
+    /// a plane or 11 in a box.
+    #[arg(long, value_parser = region, allow_hyphen_values = true)]
+    region: Region,
     #[command(flatten)]
     angles: Angles,
     #[command(flatten)]
@@ -49,14 +42,21 @@ pub(crate) struct Settings {
     #[command(flatten)]
     preference: Preference,
     #[command(flatten)]
-    errors: ErrorModelArguments,
+    errors: UncertaintyArgument,
     #[command(flatten)]
-    further: FurtherArguments,
-    /// Layers of a box that are drawn, spread evenly from the lowest to the highest one; 0 draws nothing.
-    #[arg(long, value_name = "LAYERS", default_value = "12", value_parser = arguments::count::<0, 10_000>)]
-    draw: usize,
+    set: WrenchArguments,
+    /// Further results, which take longer: capacity, distances, tilt=N, boundary, layers=N.
+    ///
+    /// capacity: greatest payload and margins of the tensions, for each --wrench on top of the load.
+    /// distances: of the nearest two cables, and of the cable nearest to the platform. tilt: how far the
+    /// platform may tilt, to 0.1 degrees, in the worst of N directions (4). boundary: of the positions that
+    /// are held under the load with the tensions distributed again, or boundary=kept, with the lengths kept:
+    /// polygons in a plane, a mesh in a box (STL). layers: of a box that are drawn, spread evenly (12); 0
+    /// draws nothing.
+    #[arg(long, value_name = "NAMES", value_parser = with)]
+    with: Option<With>,
     /// Folder for the results, made if missing; NAME-workspace in the current folder if left out.
-    #[arg(long)]
+    #[arg(short, long)]
     out: Option<PathBuf>,
     #[command(flatten)]
     overwrite: Overwrite,
@@ -69,107 +69,65 @@ pub(crate) struct Settings {
     format: Format,
 }
 
-/// Columns of the table that take longer than the others, and the boundary.
-#[derive(clap::Args)]
-struct FurtherArguments {
-    /// Greatest payload and margins of the tensions at each position, for the wrenches beside the load.
-    #[arg(long)]
+/// What is computed besides the map.
+struct Wanted {
     capacity: bool,
-    #[command(flatten)]
-    set: WrenchArguments,
-    /// Distances of the nearest two cables, and of the cable nearest to the platform, as they hang.
-    #[arg(long)]
     distances: bool,
-    /// How far the platform may tilt, to 0.1 degrees, in the worst of so many directions.
-    #[arg(long, value_name = "DIRECTIONS", num_args = 0..=1, default_missing_value = "4")]
-    #[arg(value_parser = clap::value_parser!(u16).range(1..=360))]
-    tilt: Option<u16>,
-    /// Boundary of the positions that are held under the load: polygons in a plane, a mesh in a box (STL).
-    #[arg(long, value_enum, value_name = "WAY", num_args = 0..=1, default_missing_value = "anew")]
-    boundary: Option<BoundaryWay>,
+    /// Directions of the tilt.
+    tilt: Option<usize>,
+    boundary: Option<Way>,
+    /// Layers of a box that are drawn.
+    layers: usize,
 }
 
-/// How the load is borne at the boundary.
-#[derive(Clone, Copy, Debug, clap::ValueEnum)]
-enum BoundaryWay {
-    /// Tensions distributed anew.
-    Anew,
-    /// Lengths kept.
-    Kept,
-}
-
-impl From<BoundaryWay> for Way {
-    fn from(way: BoundaryWay) -> Self {
-        match way {
-            BoundaryWay::Anew => Self::Anew,
-            BoundaryWay::Kept => Self::Kept,
-        }
+impl Wanted {
+    fn new(with: &With) -> Result<Self, ProgramError> {
+        with.check(&["capacity", "distances", "tilt", "boundary", "layers"])?;
+        let way = |text: &str| match text {
+            "kept" => Ok(Way::Kept),
+            _ => Err("expected boundary or boundary=kept".to_owned()),
+        };
+        Ok(Self {
+            capacity: with.has("capacity")?,
+            distances: with.has("distances")?,
+            tilt: with.value("tilt", Some(4), count::<1, 360>)?,
+            boundary: with.value("boundary", Some(Way::Anew), way)?,
+            layers: with.value("layers", None, count::<0, 10_000>)?.unwrap_or(12),
+        })
     }
 }
 
 /// Accuracy of the tilt in a map [degrees].
 const TILT_ACCURACY: f64 = 0.1;
 
-/// A plane on which one coordinate is constant.
-#[derive(Clone, Copy)]
-struct Plane {
-    normal: Axis,
-    coordinate: f64,
-}
-
-fn plane(text: &str) -> Result<Plane, String> {
-    let parts = text.split_once('=').and_then(|(name, coordinate)| {
-        let normal = Axis::from_letter(name.trim())?;
-        Some(Plane { normal, coordinate: arguments::number(coordinate).ok()? })
-    });
-    parts.ok_or_else(|| "expected x=, y= or z= a coordinate [m], such as z=1.75".to_owned())
-}
-
-fn points(text: &str) -> Result<[usize; 2], String> {
-    let parts: Vec<_> =
-        text.split('x').map(|count| count.trim().parse().ok().filter(|count| *count > 1)).collect();
-    match parts[..] {
-        [Some(first), Some(second)] => Ok([first, second]),
-        _ => Err("expected two numbers of points, 2 or more, such as 41x41".to_owned()),
-    }
-}
-
 pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     settings.threads.start()?;
-    let robot = settings.preference.open_robot(&settings.robot)?;
-    let grid = match (&settings.within, settings.plane) {
-        (Some(grid), _) => *grid,
-        (None, Some(Plane { normal, coordinate })) => {
-            Grid::over_frame(&robot, normal, coordinate, settings.grid)?
-        }
-        (None, None) => return Err(ProgramError::Usage("expected --plane or --box".to_owned())),
-    };
+    let wanted = Wanted::new(&settings.with.clone().unwrap_or_default())?;
+    let robot = settings.preference.open_robot(settings.robot.path())?;
+    let grid = settings.region.grid(&robot)?;
     questions::about_poses(&robot, "the map", &grid.corners());
     questions::about_load(&robot, &settings.load.load());
     let tolerances = settings.errors.model(&robot)?;
-    if settings.further.set.are_given() && !settings.further.capacity {
-        let usage =
-            "--wrench, --wrenches and --wrench-box: expected with --capacity, whose figures they change";
+    if settings.set.are_given() && !wanted.capacity {
+        let usage = "--wrench: expected --with capacity, too, whose figures it changes";
         return Err(ProgramError::Usage(usage.to_owned()));
     }
-    let out = settings.out.clone().unwrap_or_else(|| arguments::named_after(&settings.robot, "workspace"));
+    let out =
+        settings.out.clone().unwrap_or_else(|| arguments::named_after(settings.robot.path(), "workspace"));
     let folder = begin_workspace(&out, settings.overwrite.if_exists())?;
-    let set = settings.further.set.set()?;
+    let set = settings.set.set()?;
     questions::about_wrenches(&robot, set.wrenches());
-    let further = &settings.further;
     let workspace = Workspace {
         robot: &robot,
         grid,
-        rotation: settings.angles.rotation().unwrap_or(settings.rotation),
+        rotation: settings.angles.rotation().unwrap_or_else(Rotation3::identity),
         load: settings.load.load(),
         tolerances: tolerances.as_ref(),
         free: &settings.free.free,
         further: Further {
-            capacity: further.capacity.then_some(&set),
-            distances: further.distances,
-            tilt: further
-                .tilt
-                .map(|count| TiltDirections { count: count.into(), accuracy: TILT_ACCURACY.to_radians() }),
+            capacity: wanted.capacity.then_some(&set),
+            distances: wanted.distances,
+            tilt: wanted.tilt.map(|count| TiltDirections { count, accuracy: TILT_ACCURACY.to_radians() }),
         },
     };
     let progress = progress(grid.poses().len(), "poses");
@@ -182,12 +140,12 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     let mut summary = WorkspaceSummary::new(&workspace, &poses);
     questions::about_map(&summary);
     let mut boundary = None;
-    if let Some(way) = further.boundary {
-        let found = patiently("boundary", || workspace_boundary(&workspace, way.into(), &|| false))?;
-        summary.boundary = Some(BoundarySummary::new(way.into(), &found));
+    if let Some(way) = wanted.boundary {
+        let found = patiently("boundary", || workspace_boundary(&workspace, way, &|| false))?;
+        summary.boundary = Some(BoundarySummary::new(way, &found));
         boundary = Some(found);
     }
-    let maps = workspace_maps(&robot, &summary, settings.draw).into_iter();
+    let maps = workspace_maps(&robot, &summary, wanted.layers).into_iter();
     let maps: Vec<_> = maps.filter_map(|map| drawn(&map.name, map.svg)).collect();
     write_workspace(&folder, &summary, &maps, boundary.as_ref())?;
     settings.format.print(&summary, |summary| {
@@ -195,13 +153,15 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
         if settings.details.details {
             print_details(summary);
         }
-        let (drawn, all) = (settings.draw, layers(summary));
+        let (drawn, all) = (wanted.layers, layers(summary));
         if drawn < all {
-            println!("{drawn} of {all} layers are drawn: --draw {all} draws all of them");
+            println!("{drawn} of {all} layers are drawn: --with layers={all} draws all of them");
         }
         println!("{} in {seconds:.2} s; results in {}", counted(poses.len(), "pose"), out.display());
     })?;
-    Ok(if summary.too_much > 0 { Ending::SomethingWrong } else { Ending::Well })
+    let few = questions::few_held(&summary);
+    few.iter().for_each(|few| eprintln!("warning: {few}"));
+    Ok(if summary.too_much > 0 || few.is_some() { Ending::SomethingWrong } else { Ending::Well })
 }
 
 /// The share of the positions that is held, and what ranges over them.
@@ -244,7 +204,7 @@ fn say(sentence: &str) {
 /// What ranges over the positions held.
 fn ranges(summary: &WorkspaceSummary) -> [(&'static str, Option<Extremes>); 14] {
     [
-        ("|dp| [mm]", summary.rms_mm),
+        ("|dp| [mm]", summary.magnitude_mm),
         ("least stiffness [N/m]", summary.least_stiffness),
         ("lowest natural frequency [Hz]", summary.lowest_frequency_hz),
         ("that of the slowest cable [Hz]", summary.lowest_cable_frequency_hz),

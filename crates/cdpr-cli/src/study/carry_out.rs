@@ -8,6 +8,7 @@ use crate::arguments::Format;
 use crate::error::ProgramError;
 use crate::output::{Ending, progress};
 use crate::questions;
+use crate::said;
 use cdpr_report::{draw, report_with};
 use cdpr_study::{
     Blocks, Plan, REPORT_NAME, Run, STUDY_NAME, Session, Shard, Study, StudyError, Summary, TableFormat,
@@ -62,7 +63,7 @@ pub(super) fn whole(
         begin: &|name| progress.set_message(name.to_owned()),
         tick: &|done| progress.inc(done as u64),
         warn: &warn(&progress),
-        note: &|note| progress.suspend(|| eprintln!("note: {note}")),
+        note: &|note| progress.suspend(|| said::note(format_args!("{note}"))),
         stop: &|| false,
     };
     let format = common.table.map(TableFormat::from);
@@ -93,7 +94,7 @@ const LONG: f64 = 20.0;
 /// Says before the run which samplings take long because the scalar models observe them.
 fn announce_slow(study: &Study) -> Result<(), ProgramError> {
     let slow = study.scalar_samplings()?.into_iter().filter(|sampling| sampling.seconds > LONG);
-    slow.for_each(|sampling| eprintln!("note: {sampling}; `--observations N` makes fewer"));
+    slow.for_each(|sampling| said::note(format_args!("{sampling}; `--observations N` makes fewer")));
     Ok(())
 }
 

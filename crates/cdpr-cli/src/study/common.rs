@@ -12,7 +12,7 @@ pub(crate) struct RunSettings {
     /// Study file (JSON, `cdpr-study/1`).
     pub(super) study: PathBuf,
     /// Folder for the results; made if missing.
-    #[arg(long, default_value = "results")]
+    #[arg(short, long, default_value = "results")]
     pub(super) out: PathBuf,
     /// Number of observations of each sampling, in place of the file's.
     ///

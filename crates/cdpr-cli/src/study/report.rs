@@ -1,7 +1,7 @@
-//! `cdpr report`: the report of a study, from its folder of results.
+//! `cdpr study report`: the report of a study, from its folder of results.
 
+use crate::arguments::endings;
 use crate::arguments::{Format, Overwrite};
-use crate::endings;
 use crate::error::ProgramError;
 use crate::output::patiently;
 use cdpr_assess::read_region;
@@ -15,15 +15,14 @@ use std::path::PathBuf;
 pub(crate) struct Settings {
     /// Folder that `cdpr study run` has written.
     folder: PathBuf,
+    /// Folder that `cdpr workspace --with boundary` has written for the robot: its region is drawn around the
+    /// robot.
+    workspace: Option<PathBuf>,
     /// File for the report; `report.html` in the folder if left out.
-    #[arg(long, value_parser = endings::html())]
+    #[arg(short, long, value_parser = endings::html())]
     out: Option<PathBuf>,
     #[command(flatten)]
     overwrite: Overwrite,
-    /// Folder that `cdpr workspace --boundary` has written for the robot: its region is drawn around the
-    /// robot.
-    #[arg(long, value_name = "FOLDER")]
-    workspace: Option<PathBuf>,
     /// How the path of the report is printed.
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
@@ -34,7 +33,7 @@ struct Written {
     report: String,
 }
 
-pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
+pub(super) fn run(settings: &Settings) -> Result<(), ProgramError> {
     let Settings { folder, out, overwrite, workspace, format } = settings;
     let (results, page) = patiently("drawing the report", || -> Result<_, ProgramError> {
         let results = Results::read(folder)?;

@@ -1,6 +1,6 @@
 //! `cdpr study status`: how far a study in a folder is.
 
-use crate::arguments::Format;
+use crate::arguments::Printing;
 use crate::error::ProgramError;
 use crate::output::{narrow_table, patiently};
 use cdpr_robot::{counted, shown, significant};
@@ -12,9 +12,8 @@ use std::path::PathBuf;
 pub(crate) struct Settings {
     /// Folder of the results.
     folder: PathBuf,
-    /// How the status is printed.
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    format: Format,
+    #[command(flatten)]
+    printing: Printing,
 }
 
 pub(super) fn run(settings: &Settings) -> Result<(), ProgramError> {
@@ -22,7 +21,7 @@ pub(super) fn run(settings: &Settings) -> Result<(), ProgramError> {
         let StoredStudy { study, blocks } = open_results(&settings.folder)?;
         status(&study, &blocks)
     })?;
-    Ok(settings.format.print(&found, print)?)
+    Ok(settings.printing.format().print(&found, print)?)
 }
 
 fn print(status: &Status) {

@@ -1,11 +1,11 @@
-//! `cdpr tolerances`: the tolerances to tighten so that an error stays below a limit.
+//! `cdpr study tolerances`: the tolerances to tighten so that an error stays below a limit.
 
-use crate::arguments::{self, Format, Named, Preference, Threads};
+use crate::arguments::{self, Named, Preference, Printing, Threads};
 use crate::error::ProgramError;
 use crate::output::{Details, narrow_table, patiently, table};
 use cdpr_assess::{Limit, Limited, Reached, ToleranceBudget, tolerance_budget};
 use cdpr_robot::shown;
-use cdpr_study::Estimate;
+use cdpr_study::{Estimate, OutputLimit};
 use std::path::PathBuf;
 
 /// The study, the sampling and the limit.
@@ -16,14 +16,10 @@ pub(crate) struct Settings {
     /// Name of the sampling: pose, load and error model.
     #[arg(long)]
     sampling: String,
-    /// Limit of the error [mm].
-    #[arg(long, value_parser = arguments::number, allow_hyphen_values = true)]
-    limit: f64,
-    /// The error: the static deflection under the load, or the distance from the wanted pose without load.
-    ///
-    /// Without this option it is the study's `output`.
-    #[arg(long, value_enum)]
-    of: Option<Of>,
+    /// What is limited: deflection_mm<VALUE, the static deflection under the load, or position_mm<VALUE, the
+    /// distance from the wanted pose without load [mm].
+    #[arg(long, value_name = "COLUMN<VALUE", value_parser = arguments::limit)]
+    limit: (String, OutputLimit),
     /// Share of the robots that are to keep the limit.
     #[arg(long, value_parser = arguments::number, default_value = "0.95", allow_hyphen_values = true)]
     quantile: f64,
@@ -41,30 +37,19 @@ pub(crate) struct Settings {
     threads: Threads,
     #[command(flatten)]
     details: Details,
-    /// How the results are printed.
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    format: Format,
+    #[command(flatten)]
+    printing: Printing,
 }
 
-/// The error that is limited.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-enum Of {
-    /// |dp| under the study's load.
-    Deflection,
-    /// Distance of P from the wanted pose where the deviating robot gets the nominal robot's lengths.
-    Position,
-}
-
-pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
+pub(super) fn run(settings: &Settings) -> Result<(), ProgramError> {
     settings.threads.start()?;
     let study = patiently("checking the study", || settings.preference.open_study(&settings.study))?;
     let sampling = study.sampling(&settings.sampling)?;
+    let (column, limit_mm) =
+        arguments::upper(&settings.limit, &["deflection_mm", "position_mm"]).map_err(ProgramError::Usage)?;
     let limit = Limit {
-        of: settings.of.map(|of| match of {
-            Of::Deflection => Limited::Deflection,
-            Of::Position => Limited::Position,
-        }),
-        limit_mm: settings.limit,
+        of: Some(if column == "position_mm" { Limited::Position } else { Limited::Deflection }),
+        limit_mm,
         quantile: settings.quantile,
         costs: settings.costs.clone().map(|Named(costs)| costs.into_iter().collect()).unwrap_or_default(),
         verified_with: settings.observations,
@@ -76,7 +61,7 @@ pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
             print_details(sampling.title, budget);
         }
     };
-    Ok(settings.format.print(&budget, text)?)
+    Ok(settings.printing.format().print(&budget, text)?)
 }
 
 /// The answer, and each tolerance as it is and as it is to be.

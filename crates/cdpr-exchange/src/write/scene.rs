@@ -19,8 +19,7 @@ pub(crate) fn inertia(robot: &Robot, notes: &mut Vec<String>) -> Matrix3<f64> {
         notes.push(
             "the inertia is that of a ball as large as the platform: the robot file has none".to_owned(),
         );
-        let radius = robot.platform_size().max(0.01);
-        Matrix3::identity() * (0.4 * robot.platform.mass * radius * radius)
+        robot.assumed_inertia()
     })
 }
 

@@ -9,7 +9,7 @@ an answer raises.
 >>> import cdpr
 >>> robot = cdpr.Robot.from_file("data/robots/caroca.json")
 >>> given = robot.deflection([0, 0, 1.75], payload=50)
->>> print(f"{1e3 * given.rms:.4f} mm")
+>>> print(f"{1e3 * given.magnitude:.4f} mm")
 1.3312 mm
 """
 
@@ -17,6 +17,7 @@ from . import errors
 from ._core import (
     VERSION as __version__,
     Boundary,
+    Cable,
     Capacity,
     Catenary,
     Certificate,
@@ -26,11 +27,14 @@ from ._core import (
     InverseSolution,
     Modes,
     Observations,
+    OtherSolution,
+    PathDeviations,
     PathStates,
     Robot,
     Stiffness,
     Workspace,
     catenary,
+    pose,
 )
 from .errors import CdprError, FaultError, FileError, InputError, NoSolutionError
 
@@ -41,6 +45,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "Boundary",
+    "Cable",
     "Capacity",
     "Catenary",
     "CdprError",
@@ -54,6 +59,8 @@ __all__ = [
     "InverseSolution",
     "NoSolutionError",
     "Observations",
+    "OtherSolution",
+    "PathDeviations",
     "PathStates",
     "Robot",
     "Modes",
@@ -67,6 +74,7 @@ __all__ = [
     "catenary",
     "errors",
     "exchange",
+    "pose",
     "sensitivity",
     "study",
 ]

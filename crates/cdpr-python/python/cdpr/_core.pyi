@@ -1,11 +1,14 @@
 # Types of the native half of the package. `help(cdpr.Robot)` explains each argument and field.
 
+from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
 from pathlib import Path
-from typing import Any, Callable, TypeAlias, final
+from types import GenericAlias
+from typing import Any, Generic, TypeAlias, final, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from typing_extensions import TypeVar
 
 __all__ = [
     "Boundary",
@@ -35,7 +38,12 @@ __all__ = [
     "analyse",
     "begin",
     "calibrate",
-    "calibration_plan",
+    "plan",
+    "pose",
+    "template",
+    "Cable",
+    "OtherSolution",
+    "PathDeviations",
     "carry_out",
     "check",
     "check_file",
@@ -63,14 +71,20 @@ __all__ = [
 VERSION: str
 
 _Floats: TypeAlias = NDArray[np.float64]
-#: A number for one case, an array (m,) for m cases. A union would refuse what only one of the two can do.
-_Float: TypeAlias = Any
-_Bool: TypeAlias = Any
-_Int: TypeAlias = Any
-#: A word for one case, a list for m cases.
-_Word: TypeAlias = Any
-_Words: TypeAlias = list[str | None] | None
+_Bools: TypeAlias = NDArray[np.bool_]
+_Ints: TypeAlias = NDArray[np.int64]
+_Words: TypeAlias = list[str | None]
+#: One row of numbers; what has more axes, or any number of them, is an ArrayLike.
+_Row: TypeAlias = Sequence[float] | np.ndarray[tuple[int], np.dtype[Any]]
+#: The types of an answer's numbers, truth values, counts, words, and reasons: those of one case, or of several.
+_N = TypeVar("_N", default=Any)
+_B = TypeVar("_B", default=Any)
+_I = TypeVar("_I", default=Any)
+_W = TypeVar("_W", default=Any)
+_R = TypeVar("_R", default=Any)
 _Path: TypeAlias = str | PathLike[str]
+#: A file, or a text with its name.
+_Source: TypeAlias = str | tuple[str, str]
 _Law: TypeAlias = dict[str, Any]
 #: A coordinate [m], or from, to and the number of points.
 _Places: TypeAlias = float | tuple[float, float, int] | NDArray[Any]
@@ -82,29 +96,67 @@ class Robot:
     A robot does not change: `with_parameters` makes another one. Units are SI, and z points up in the base
     frame. A pose is x, y, z [m], or x, y, z, qw, qx, qy, qz.
 
-    anchor_points: (n, 3), points A_i in the platform frame [m].
-    exit_points: (n, 3), points B_i in the base frame [m].
-    mass: mass of the platform [kg].
-    section: section that carries the tension [m²]; one number, or one for each cable, as for the next two.
-    linear_density: mass per unstrained length [kg/m].
-    youngs_modulus: Young's modulus [Pa].
-    tension_limits: least and greatest tension of a cable [N], (2,), or one row for each cable, (n, 2).
-    max_at: the end at which the greatest tension is limited, "anchor", on the platform, or "exit", where the
-        limit is the winch's.
-    tension_reference: tensions that those of the inverse model come as near to as they can: a number for all
-        cables [N], one for each, or "mid", the middle of the limits; the least norm if left out.
-    distribution: which tensions the inverse model chooses: "nearest" to tension_reference, or of "least_1_norm",
-        "least_2_norm" or "least_infinity_norm". Derivatives, paths and studies refuse the 1-norm and the
-        infinity-norm, whose tensions jump from pose to pose.
-    center_of_mass: centre of mass in the platform frame [m]; P if left out.
-    gravity: acceleration due to gravity [m/s²], a number along -z of the base frame or a vector in it, (3,);
+    Parameters
+    ----------
+    anchor_points : array_like
+        (n, 3), points A_i in the platform frame [m].
+    exit_points : array_like
+        (n, 3), points B_i in the base frame [m].
+    mass : float
+        Mass of the platform [kg].
+    section : array_like
+        Section that carries the tension [m²]; one number, or one for each cable, as for the next two.
+    linear_density : array_like
+        Mass per unstrained length [kg/m].
+    youngs_modulus : array_like
+        Young's modulus [Pa].
+    tension_limits : array_like
+        Least and greatest tension of a cable [N], (2,), or one row for each cable, (n, 2).
+    center_of_mass : array_like, optional
+        Centre of mass in the platform frame [m]; P if left out.
+    gravity : array_like, optional
+        Acceleration due to gravity [m/s²], a number along -z of the base frame or a vector in it, (3,);
         9.81 if left out.
-    point: whether the platform is a point mass: its rotation is held.
-    plane: "xy", "xz" or "yz" for a planar robot, whose platform moves in this plane of the base frame.
-    ground_z: height of the ground in the base frame [m]: with free coordinates no cable and no anchor point is
-        below it.
+    name : str, optional
+        Name of the robot; "robot" if left out.
+    max_at : str, default 'anchor'
+        The end at which the greatest tension is limited, "anchor", on the platform, or "exit", where
+        the limit is the winch's.
+    tension_reference : array_like or str, optional
+        Tensions that those of the inverse model come as near to as they can: a number for all cables
+        [N], one for each, or "mid", the middle of the limits; the least norm if left out.
+    distribution : str, default 'nearest'
+        Which tensions the inverse model chooses: "nearest" to tension_reference, or of "least_1_norm",
+        "least_2_norm" or "least_infinity_norm". Derivatives, paths and studies refuse the 1-norm and
+        the infinity-norm, whose tensions jump from pose to pose.
+    point : bool, default False
+        Whether the platform is a point mass: its rotation is held.
+    plane : str, optional
+        "xy", "xz" or "yz" for a planar robot, whose platform moves in this plane of the base frame.
+    ground_z : float, optional
+        Height of the ground in the base frame [m]: with free coordinates no cable and no anchor point
+        is below it.
 
-    Raises InputError naming the field, its value and what would be right.
+    Raises
+    ------
+    InputError
+        The message names the field, its value and what would be right.
+
+    Examples
+    --------
+    >>> import cdpr
+    >>> robot = cdpr.Robot(
+    ...     [[0, 0, 0], [0, 0, 0], [0, 0, 0]],
+    ...     [[0, 0, 3], [4, 0, 3], [2, 3, 3]],
+    ...     mass=10.0,
+    ...     section=1.26e-5,
+    ...     linear_density=0.1,
+    ...     youngs_modulus=1e11,
+    ...     tension_limits=(1.0, 5000.0),
+    ...     point=True,
+    ... )
+    >>> robot.inverse([2, 1, 1]).tensions.shape  # [N]
+    (3,)
     """
 
     def __new__(
@@ -131,27 +183,113 @@ class Robot:
     def from_file(path: _Path) -> Robot:
         """Reads a robot file (`cdpr-robot/1`), or a robot of the library by its name, `cogiro`.
 
-        Raises FileError, and InputError with line, column, field and what would be right.
+        Parameters
+        ----------
+        path : path
+            Path of the file.
+
+        Returns
+        -------
+        Robot
+            The robot.
+
+        Raises
+        ------
+        FileError
+            For a file or folder that cannot be read, written or used.
+        InputError
+            The message has line, column, field and what would be right.
+
+        Examples
+        --------
+        >>> cdpr.Robot.from_file("cogiro").n_cables
+        8
         """
     @staticmethod
     def from_json(text: str) -> Robot:
-        """Makes a robot from the text of a robot file."""
+        """Makes a robot from the text of a robot file.
+
+        Parameters
+        ----------
+        text : str
+            Text of a robot file.
+
+        Returns
+        -------
+        Robot
+            The robot.
+
+        Examples
+        --------
+        >>> import cdpr
+        >>> robot = cdpr.Robot.from_file("cogiro")
+        >>> cdpr.Robot.from_json(robot.to_json()) == robot
+        True
+        """
     @staticmethod
     def from_dict(content: dict[str, Any]) -> Robot:
         """Makes a robot from the dictionary that `json.loads` makes of a robot file.
 
         It may hold numbers and arrays of NumPy.
+
+        Parameters
+        ----------
+        content : dict
+            The dictionary.
+
+        Returns
+        -------
+        Robot
+            The robot.
+
+        Examples
+        --------
+        >>> import cdpr
+        >>> robot = cdpr.Robot.from_file("cogiro")
+        >>> content = robot.to_dict()
+        >>> content["platform"]["mass"] = 100  # [kg]
+        >>> cdpr.Robot.from_dict(content).mass
+        100.0
         """
     def to_json(self) -> str:
-        """The robot file as text."""
+        """The robot file as text.
+
+        Returns
+        -------
+        str
+            The text.
+
+        Examples
+        --------
+        >>> import cdpr
+        >>> robot = cdpr.Robot.from_file("cogiro")
+        >>> robot.to_json()[0]
+        '{'
+        """
     def to_dict(self) -> dict[str, Any]:
-        """The robot file as a dictionary."""
+        """The robot file as a dictionary.
+
+        Returns
+        -------
+        dict
+            The dictionary.
+
+        Examples
+        --------
+        >>> import cdpr
+        >>> robot = cdpr.Robot.from_file("cogiro")
+        >>> robot.to_dict()["format"]
+        'cdpr-robot/1'
+        """
     @property
     def name(self) -> str:
         """Name of the robot."""
     @property
-    def cables(self) -> int:
+    def n_cables(self) -> int:
         """Number of cables n."""
+    @property
+    def cables(self) -> list[Cable]:
+        """The cables, n of them."""
     @property
     def anchor_points(self) -> _Floats:
         """Points A_i in the platform frame [m], (n, 3)."""
@@ -193,10 +331,28 @@ class Robot:
     def with_tension_reference(self, reference: ArrayLike | str | None) -> Robot:
         """Makes a robot whose inverse model prefers other tensions.
 
-        reference: a number for all cables [N], one for each, "mid" for the middle of the limits, or None for
-            the least norm.
+        Parameters
+        ----------
+        reference : array_like or str, optional
+            A number for all cables [N], one for each, "mid" for the middle of the limits, or None for the
+            least norm.
 
-        Raises InputError for a negative tension or another number of them than of cables.
+        Returns
+        -------
+        Robot
+            The robot.
+
+        Raises
+        ------
+        InputError
+            For a negative tension or another number of them than of cables.
+
+        Examples
+        --------
+        >>> import cdpr
+        >>> robot = cdpr.Robot.from_file("cogiro")
+        >>> robot.with_tension_reference(500).tension_reference[0]  # [N]
+        np.float64(500.0)
         """
     @property
     def distribution(self) -> str:
@@ -206,9 +362,27 @@ class Robot:
     def with_distribution(self, distribution: str) -> Robot:
         """Makes a robot whose inverse model chooses tensions in another way. A norm drops the tension reference.
 
-        distribution: "nearest", "least_1_norm", "least_2_norm" or "least_infinity_norm".
+        Parameters
+        ----------
+        distribution : str
+            "nearest", "least_1_norm", "least_2_norm" or "least_infinity_norm".
 
-        Raises InputError for another name.
+        Returns
+        -------
+        Robot
+            The robot.
+
+        Raises
+        ------
+        InputError
+            For another name.
+
+        Examples
+        --------
+        >>> import cdpr
+        >>> robot = cdpr.Robot.from_file("cogiro")
+        >>> robot.with_distribution("least_2_norm").distribution
+        'least_2_norm'
         """
     @property
     def gravity(self) -> Any:
@@ -224,29 +398,136 @@ class Robot:
         tilt1.v ... (tilts of swivel axes, zero) and gravity.x ... of a vector. All cables share one linear
         density and one modulus here: the value is the first cable's.
         """
-    def with_parameters(self, values: dict[str, float]) -> Robot:
+    def with_parameters(self, values: Mapping[str, float]) -> Robot:
         """Makes a robot with other values of some parameters [SI units]: `{"mass": 185.0, "a1.x": 0.25}`.
 
         Names are those in `parameters`. `linear_density` and `youngs_modulus` are set for all cables. Offsets
         dt belong to a set-point and not to a robot: they can only be zero here; `deflection` takes them as
         `tension_offsets`.
 
-        Raises InputError for a name or value that no such robot has.
+        Parameters
+        ----------
+        values : dict of float
+            New values by name [SI units].
+
+        Returns
+        -------
+        Robot
+            The robot.
+
+        Raises
+        ------
+        InputError
+            For a name or value that no such robot has.
+
+        Examples
+        --------
+        >>> import cdpr
+        >>> robot = cdpr.Robot.from_file("cogiro")
+        >>> robot.with_parameters({"mass": 100, "a1.x": 0.5}).mass  # [kg], [m]
+        100.0
         """
     def __eq__(self, value: object, /) -> bool: ...
     def __hash__(self) -> int: ...
     def explore(self, *, state: dict[str, Any] | None = None) -> Any:
         """Shows the robot in a notebook, where it computes as it is moved: a widget of the package anywidget.
 
-        state: what is shown first, as `Explorer.state` has it.
+        Parameters
+        ----------
+        state : dict, optional
+            What is shown first, as `Explorer.state` has it.
+
+        Returns
+        -------
+        Any
+            The widget.
+
+        Examples
+        --------
+        >>> import cdpr
+        >>> robot = cdpr.Robot.from_file("cogiro")
+        >>> widget = robot.explore()  # doctest: +SKIP
         """
     def write_explorer(self, path: _Path, *, overwrite: bool = False) -> None:
         """Writes the page of `cdpr explore`: one HTML file on which the robot computes in any browser.
 
-        path: the file. overwrite: whether a file that exists is replaced.
+        Parameters
+        ----------
+        path : path
+            The file. overwrite: whether a file that exists is replaced.
+        overwrite : bool, default False
+            Whether what is there is replaced.
 
-        Raises FileError.
+        Raises
+        ------
+        FileError
+            For a file or folder that cannot be read, written or used.
+
+        Examples
+        --------
+        >>> import cdpr
+        >>> robot = cdpr.Robot.from_file("cogiro")
+        >>> robot.write_explorer("cogiro.html")  # doctest: +SKIP
         """
+    @overload
+    def inverse(  # type: ignore[overload-overlap]
+        self,
+        pose: _Row,
+        *,
+        force: _Row | None = None,
+        moment: _Row | None = None,
+        payload: float | None = None,
+        reference: _Row | None = None,
+        path: bool = False,
+        free: Sequence[str] | None = None,
+    ) -> InverseSolution[bool, int, None]:
+        """Computes the unstrained lengths that hold the platform at a pose under its weight and a load.
+
+        The tensions are those within their limits that come nearest to a reference. Arguments are of one
+        case, or have a first axis of m cases.
+
+        Parameters
+        ----------
+        pose : array_like
+            x, y, z [m], or x, y, z, qw, qx, qy, qz, (3,) or (7,).
+        force, moment : array_like, optional
+            On the platform in the base frame, about P [N, N m], (3,).
+        payload : array_like, optional
+            Mass added at the platform's centre of mass [kg].
+        reference : array_like, optional
+            Tensions that the tensions are nearest to [N], (n,), in place of the robot's own
+            `tension_reference`; zeros for the least norm.
+        path : bool, default False
+            Whether the cases are a path, so that each keeps to the branch of tensions of the one before as
+            long as it exists on the straight way between them.
+        free : sequence of str, optional
+            Names of the coordinates of the pose that are found, for a robot with fewer cables than free
+            motions: as many of x, y, z, roll, pitch, yaw as cables are missing, with R = Rz(yaw) Ry(pitch)
+            Rx(roll). They start from the pose and end where the platform rests, within the limits, with no
+            cable longer than three chords or below `ground_z`; a reference does not matter.
+
+        Returns
+        -------
+        InverseSolution
+            Lengths and tensions.
+
+        Raises
+        ------
+        InputError
+            For an invalid value; the message names it and what would be right.
+        NoSolutionError
+            For one case without an answer; of several, its row has NaN and a reason.
+
+        Examples
+        --------
+        >>> import cdpr
+        >>> robot = cdpr.Robot.from_file("cogiro")
+        >>> robot.inverse([0, 0, 2]).lengths.shape  # [m]
+        (8,)
+        >>> robot.inverse([[0, 0, 2], [1, 0, 2]], payload=50).lengths.shape
+        (2, 8)
+        """
+    @overload
     def inverse(
         self,
         pose: ArrayLike,
@@ -256,28 +537,54 @@ class Robot:
         payload: ArrayLike | None = None,
         reference: ArrayLike | None = None,
         path: bool = False,
-        free: list[str] | None = None,
-    ) -> InverseSolution:
-        """Computes the unstrained lengths that hold the platform at a pose under its weight and a load.
+        free: Sequence[str] | None = None,
+    ) -> InverseSolution[_Bools, _Ints, _Words]: ...
+    @overload
+    def direct(  # type: ignore[overload-overlap]
+        self,
+        lengths: _Row,
+        *,
+        force: _Row | None = None,
+        moment: _Row | None = None,
+        payload: float | None = None,
+        start: _Row | None = None,
+    ) -> DirectSolution[float, bool, int, str, None]:
+        """Finds where the platform stands for given unstrained lengths: a stable equilibrium.
 
-        The tensions are those within their limits that come nearest to a reference. Arguments are of one
-        case, or have a first axis of m cases.
+        Arguments are of one case, or have a first axis of m cases.
 
-        pose: x, y, z [m], or x, y, z, qw, qx, qy, qz, (3,) or (7,).
-        force, moment: on the platform in the base frame, about P [N, N m], (3,).
-        payload: mass added at the platform's centre of mass [kg].
-        reference: tensions that the tensions are nearest to [N], (n,), in place of the robot's own
-            `tension_reference`; zeros for the least norm.
-        path: whether the cases are a path, so that each keeps to the branch of tensions of the one before as
-            long as it exists on the straight way between them.
-        free: names of the coordinates of the pose that are found, for a robot with fewer cables than free
-            motions: as many of x, y, z, roll, pitch, yaw as cables are missing, with
-            R = Rz(yaw) Ry(pitch) Rx(roll). They start from the pose and end where the platform rests,
-            within the limits, with no cable longer than three chords or below `ground_z`; a reference does
-            not matter.
+        Parameters
+        ----------
+        lengths : array_like
+            Unstrained lengths of the cables [m], (n,).
+        force, moment : array_like, optional
+            On the platform in the base frame, about P [N, N m], (3,).
+        payload : array_like, optional
+            Mass added at the platform's centre of mass [kg].
+        start : array_like, optional
+            Start of the search, (3,) or (7,); if left out, where straight cables would hold a point.
 
-        Raises InputError; for one case NoSolutionError.
+        Returns
+        -------
+        DirectSolution
+            The equilibria.
+
+        Raises
+        ------
+        InputError
+            For an invalid value; the message names it and what would be right.
+        NoSolutionError
+            For one case without an answer; of several, its row has NaN and a reason.
+
+        Examples
+        --------
+        >>> import cdpr
+        >>> robot = cdpr.Robot.from_file("cogiro")
+        >>> found = robot.direct(robot.inverse([0, 0, 2]).lengths)
+        >>> found.position.round(6).tolist()  # [m]
+        [0.0, 0.0, 2.0]
         """
+    @overload
     def direct(
         self,
         lengths: ArrayLike,
@@ -286,18 +593,58 @@ class Robot:
         moment: ArrayLike | None = None,
         payload: ArrayLike | None = None,
         start: ArrayLike | None = None,
-    ) -> DirectSolution:
-        """Finds where the platform stands for given unstrained lengths: a stable equilibrium.
+    ) -> DirectSolution[_Floats, _Bools, _Ints, _Words, _Words]: ...
+    @overload
+    def deflection(  # type: ignore[overload-overlap]
+        self,
+        pose: _Row,
+        *,
+        payload: float | None = None,
+        force: _Row | None = None,
+        moment: _Row | None = None,
+        tension_offsets: _Row | None = None,
+        free: Sequence[str] | None = None,
+    ) -> Deflection[float, bool, int, str, None]:
+        """Computes how far a load displaces and rotates the platform.
 
-        Arguments are of one case, or have a first axis of m cases.
+        The cables are wound so that the platform rests at the pose under its own weight; then the load is
+        added. Arguments are of one case, or have a first axis of m cases.
 
-        lengths: unstrained lengths of the cables [m], (n,).
-        force, moment: on the platform in the base frame, about P [N, N m], (3,).
-        payload: mass added at the platform's centre of mass [kg].
-        start: start of the search, (3,) or (7,); if left out, where straight cables would hold a point.
+        Parameters
+        ----------
+        pose : array_like
+            Wanted pose under the platform's own weight, (3,) or (7,).
+        payload : array_like, optional
+            Mass added at the platform's centre of mass [kg].
+        force, moment : array_like, optional
+            On the platform in the base frame, about P [N, N m], (3,).
+        tension_offsets : array_like, optional
+            Offsets added to the tension set-points [N], (n,).
+        free : sequence of str, optional
+            Names of the coordinates of the pose that are found, for a robot with fewer cables than free
+            motions, as `Robot.inverse` takes them.
 
-        Raises InputError; for one case NoSolutionError.
+        Returns
+        -------
+        Deflection
+            Displacements and rotations, and the equilibria without and with the load.
+
+        Raises
+        ------
+        InputError
+            For an invalid value; the message names it and what would be right.
+        NoSolutionError
+            For one case without an answer; of several, its row has NaN and a reason.
+
+        Examples
+        --------
+        >>> import cdpr
+        >>> robot = cdpr.Robot.from_file("cogiro")
+        >>> given = robot.deflection([0, 0, 2], payload=50)
+        >>> print(f"{1e3 * given.magnitude:.1f} mm")
+        7.7 mm
         """
+    @overload
     def deflection(
         self,
         pose: ArrayLike,
@@ -306,22 +653,54 @@ class Robot:
         force: ArrayLike | None = None,
         moment: ArrayLike | None = None,
         tension_offsets: ArrayLike | None = None,
-        free: list[str] | None = None,
-    ) -> Deflection:
-        """Computes how far a load displaces and rotates the platform.
+        free: Sequence[str] | None = None,
+    ) -> Deflection[_Floats, _Bools, _Ints, _Words, _Words]: ...
+    @overload
+    def stiffness(  # type: ignore[overload-overlap]
+        self,
+        pose: _Row,
+        *,
+        payload: float | None = None,
+        force: _Row | None = None,
+        moment: _Row | None = None,
+        free: Sequence[str] | None = None,
+    ) -> Stiffness[float, bool, None]:
+        """Computes the Cartesian stiffness at a pose with a load, including the sag and weight of the cables.
 
-        The cables are wound so that the platform rests at the pose under its own weight; then the load is
-        added. Arguments are of one case, or have a first axis of m cases.
+        Arguments are of one case, or have a first axis of m cases.
 
-        pose: wanted pose under the platform's own weight, (3,) or (7,).
-        payload: mass added at the platform's centre of mass [kg].
-        force, moment: on the platform in the base frame, about P [N, N m], (3,).
-        tension_offsets: offsets added to the tension set-points [N], (n,).
-        free: names of the coordinates of the pose that are found, for a robot with fewer cables than free
+        Parameters
+        ----------
+        pose : array_like
+            x, y, z [m], or x, y, z, qw, qx, qy, qz, (3,) or (7,).
+        payload : array_like, optional
+            Mass that the platform carries there, at its centre of mass [kg].
+        force, moment : array_like, optional
+            On the platform in the base frame, about P [N, N m], (3,).
+        free : sequence of str, optional
+            Names of the coordinates of the pose that are found, for a robot with fewer cables than free
             motions, as `Robot.inverse` takes them.
 
-        Raises InputError; for one case NoSolutionError.
+        Returns
+        -------
+        Stiffness
+            Stiffness matrices and their eigenvalues.
+
+        Raises
+        ------
+        InputError
+            For an invalid value; the message names it and what would be right.
+        NoSolutionError
+            For one case without an answer; of several, its row has NaN and a reason.
+
+        Examples
+        --------
+        >>> import cdpr
+        >>> robot = cdpr.Robot.from_file("cogiro")
+        >>> robot.stiffness([0, 0, 2]).matrix.shape
+        (6, 6)
         """
+    @overload
     def stiffness(
         self,
         pose: ArrayLike,
@@ -329,20 +708,55 @@ class Robot:
         payload: ArrayLike | None = None,
         force: ArrayLike | None = None,
         moment: ArrayLike | None = None,
-        free: list[str] | None = None,
-    ) -> Stiffness:
-        """Computes the Cartesian stiffness at a pose with a load, including the sag and weight of the cables.
+        free: Sequence[str] | None = None,
+    ) -> Stiffness[_Floats, _Bools, _Words]: ...
+    @overload
+    def modes(  # type: ignore[overload-overlap]
+        self,
+        pose: _Row,
+        *,
+        payload: float | None = None,
+        force: _Row | None = None,
+        moment: _Row | None = None,
+        free: Sequence[str] | None = None,
+    ) -> Modes[None]:
+        """Computes the natural frequencies and motions at a pose with a load; the lengths are held.
 
         Arguments are of one case, or have a first axis of m cases.
 
-        pose: x, y, z [m], or x, y, z, qw, qx, qy, qz, (3,) or (7,).
-        payload: mass that the platform carries there, at its centre of mass [kg].
-        force, moment: on the platform in the base frame, about P [N, N m], (3,).
-        free: names of the coordinates of the pose that are found, for a robot with fewer cables than free
+        Parameters
+        ----------
+        pose : array_like
+            x, y, z [m], or x, y, z, qw, qx, qy, qz, (3,) or (7,).
+        payload : array_like, optional
+            Mass that the platform carries there, at its centre of mass [kg].
+        force, moment : array_like, optional
+            On the platform in the base frame, about P [N, N m], (3,).
+        free : sequence of str, optional
+            Names of the coordinates of the pose that are found, for a robot with fewer cables than free
             motions, as `Robot.inverse` takes them.
 
-        Raises InputError; for one case NoSolutionError.
+        Returns
+        -------
+        Modes
+            Frequencies and motions.
+
+        Raises
+        ------
+        InputError
+            For an invalid value; the message names it and what would be right; also where the robot has no
+            inertia.
+        NoSolutionError
+            For one case without an answer; of several, its row has NaN and a reason.
+
+        Examples
+        --------
+        >>> import cdpr
+        >>> robot = cdpr.Robot.from_file("cogiro")
+        >>> robot.modes([0, 0, 2]).frequencies_hz.shape  # [Hz]
+        (6,)
         """
+    @overload
     def modes(
         self,
         pose: ArrayLike,
@@ -350,20 +764,56 @@ class Robot:
         payload: ArrayLike | None = None,
         force: ArrayLike | None = None,
         moment: ArrayLike | None = None,
-        free: list[str] | None = None,
-    ) -> Modes:
-        """Computes the natural frequencies and motions at a pose with a load; the lengths are held.
+        free: Sequence[str] | None = None,
+    ) -> Modes[_Words]: ...
+    @overload
+    def derivatives(  # type: ignore[overload-overlap]
+        self,
+        pose: _Row,
+        *,
+        payload: float | None = None,
+        force: _Row | None = None,
+        moment: _Row | None = None,
+        free: Sequence[str] | None = None,
+    ) -> Derivatives[float, bool, int, str, None]:
+        """Computes the exact derivatives of lengths, tensions and deflection under a load.
 
         Arguments are of one case, or have a first axis of m cases.
 
-        pose: x, y, z [m], or x, y, z, qw, qx, qy, qz, (3,) or (7,).
-        payload: mass that the platform carries there, at its centre of mass [kg].
-        force, moment: on the platform in the base frame, about P [N, N m], (3,).
-        free: names of the coordinates of the pose that are found, for a robot with fewer cables than free
+        Parameters
+        ----------
+        pose : array_like
+            Wanted pose under the platform's own weight, (3,) or (7,).
+        payload : array_like, optional
+            Mass added at the platform's centre of mass [kg].
+        force, moment : array_like, optional
+            On the platform in the base frame, about P [N, N m], (3,).
+        free : sequence of str, optional
+            Names of the coordinates of the pose that are found, for a robot with fewer cables than free
             motions, as `Robot.inverse` takes them.
 
-        Raises InputError, also where the robot has no inertia; for one case NoSolutionError.
+        Returns
+        -------
+        Derivatives
+            Derivatives by each input.
+
+        Raises
+        ------
+        InputError
+            For an invalid value; the message names it and what would be right.
+        NoSolutionError
+            For one case without an answer; of several, its row has NaN and a reason; also where a
+            derivative does not exist.
+
+        Examples
+        --------
+        >>> import cdpr
+        >>> robot = cdpr.Robot.from_file("cogiro")
+        >>> slopes = robot.derivatives([0, 0, 2], payload=50)
+        >>> slopes.inputs[0], len(slopes.magnitude) == len(slopes.inputs)
+        ('mass', True)
         """
+    @overload
     def derivatives(
         self,
         pose: ArrayLike,
@@ -371,20 +821,58 @@ class Robot:
         payload: ArrayLike | None = None,
         force: ArrayLike | None = None,
         moment: ArrayLike | None = None,
-        free: list[str] | None = None,
-    ) -> Derivatives:
-        """Computes the exact derivatives of lengths, tensions and deflection under a load.
+        free: Sequence[str] | None = None,
+    ) -> Derivatives[_Floats, _Bools, _Ints, _Words, _Words]: ...
+    @overload
+    def observe(  # type: ignore[overload-overlap]
+        self,
+        pose: _Row,
+        deviations: _Row,
+        *,
+        payload: float | None = None,
+        force: _Row | None = None,
+        moment: _Row | None = None,
+        free: Sequence[str] | None = None,
+    ) -> Observations[float, None]:
+        """Computes the deflections under a load of robots whose k parameters deviate from those of this robot.
 
-        Arguments are of one case, or have a first axis of m cases.
+        This is what a study observes; each robot has its cables wound for the pose. Several robots go through
+        the vector unit at once: the answers agree with `deflection` to rounding, and each depends on its own
+        row alone.
 
-        pose: wanted pose under the platform's own weight, (3,) or (7,).
-        payload: mass added at the platform's centre of mass [kg].
-        force, moment: on the platform in the base frame, about P [N, N m], (3,).
-        free: names of the coordinates of the pose that are found, for a robot with fewer cables than free
-            motions, as `Robot.inverse` takes them.
+        Parameters
+        ----------
+        pose : array_like
+            Wanted pose under the platform's own weight, (3,) or (7,).
+        deviations : array_like
+            Deviations of the parameters, in the order of `parameters` [SI units], (k,) or (m, k).
+        payload, force, moment : array_like, optional
+            One load for all, as in `deflection`.
+        free : sequence of str, optional
+            Names of the coordinates of the pose that this robot finds, as `Robot.inverse` takes them, for
+            one with fewer cables than free motions; deviating robots are wound for the pose that it finds.
 
-        Raises InputError; for one case NoSolutionError, also where a derivative does not exist.
+        Returns
+        -------
+        Observations
+            Displacements, a row for each robot.
+
+        Raises
+        ------
+        InputError
+            For an invalid value; the message names it and what would be right.
+        NoSolutionError
+            For one robot without an answer; of several, its row has NaN and a reason.
+
+        Examples
+        --------
+        >>> import cdpr
+        >>> robot = cdpr.Robot.from_file("cogiro")
+        >>> deviations = [[0.0] * len(robot.parameters)] * 3
+        >>> robot.observe([0, 0, 2], deviations, payload=50).displacement.shape  # [m]
+        (3, 3)
         """
+    @overload
     def observe(
         self,
         pose: ArrayLike,
@@ -393,22 +881,8 @@ class Robot:
         payload: ArrayLike | None = None,
         force: ArrayLike | None = None,
         moment: ArrayLike | None = None,
-        free: list[str] | None = None,
-    ) -> Observations:
-        """Computes the deflections under a load of robots whose k parameters deviate from those of this robot.
-
-        This is what a study observes; each robot has its cables wound for the pose. Several robots go through
-        the vector unit at once: the answers agree with `deflection` to rounding, and each depends on its own
-        row alone.
-
-        pose: wanted pose under the platform's own weight, (3,) or (7,).
-        deviations: deviations of the parameters, in the order of `parameters` [SI units], (k,) or (m, k).
-        payload, force, moment: one load for all, as in `deflection`.
-        free: names of the coordinates of the pose that this robot finds, as `Robot.inverse` takes them, for
-            one with fewer cables than free motions; deviating robots are wound for the pose that it finds.
-
-        Raises InputError; for one robot NoSolutionError.
-        """
+        free: Sequence[str] | None = None,
+    ) -> Observations[_Floats, _Words]: ...
     def boundary(
         self,
         *,
@@ -419,21 +893,105 @@ class Robot:
         grid: tuple[int, int] | None = None,
         payload: float,
         way: str = "anew",
-        free: list[str] | None = None,
+        free: Sequence[str] | None = None,
     ) -> Boundary:
         """Finds the boundary of the region that the cables hold under a payload, with the platform level.
 
         Bisection moves it between the positions of a grid to where it is, so that a coarse grid does; a hole or
         an island that lies between the positions is not seen.
 
-        x, y, z, plane, grid: as `Robot.workspace` takes them: a plane or a box.
-        payload: mass added at the platform's centre of mass [kg].
-        way: how the load is borne: "anew", the winches distribute the tensions, or "kept", with the lengths.
-        free: names of the coordinates of the pose that are found, for a robot with fewer cables than free
+        Parameters
+        ----------
+        x : float or (float, float, int), optional
+            as `Robot.workspace` takes them: a plane or a box.
+        y : float or (float, float, int), optional
+            as `Robot.workspace` takes them: a plane or a box.
+        z : float or (float, float, int), optional
+            as `Robot.workspace` takes them: a plane or a box.
+        plane : (str, float), optional
+            as `Robot.workspace` takes them: a plane or a box.
+        grid : (int, int), optional
+            as `Robot.workspace` takes them: a plane or a box.
+        payload : float
+            Mass added at the platform's centre of mass [kg].
+        way : str, default 'anew'
+            How the load is borne: "anew", the winches distribute the tensions, or "kept", with the lengths.
+        free : sequence of str, optional
+            Names of the coordinates of the pose that are found, for a robot with fewer cables than free
             motions.
 
-        Raises InputError.
+        Returns
+        -------
+        Boundary
+            Polygons or triangles, and their area or volume.
+
+        Raises
+        ------
+        InputError
+            For an invalid value; the message names it and what would be right.
+
+        Examples
+        --------
+        >>> import cdpr
+        >>> robot = cdpr.Robot.from_file("cogiro")
+        >>> region = robot.boundary(plane=("z", 2), grid=(4, 4), payload=50)
+        >>> region.polygons[0].shape[1], region.measure > 0  # [m], [m²]
+        (3, True)
         """
+    @overload
+    def capacity(  # type: ignore[overload-overlap]
+        self,
+        pose: _Row,
+        *,
+        payload: float | None = None,
+        force: _Row | None = None,
+        moment: _Row | None = None,
+        wrenches: ArrayLike | None = None,
+        tilt: int = 0,
+        free: Sequence[str] | None = None,
+    ) -> Capacity[float, None]:
+        """Finds what the cables can carry at a pose besides the platform, and how far the limits are.
+
+        Arguments are of one case, or have a first axis of m cases.
+
+        Parameters
+        ----------
+        pose : array_like
+            x, y, z [m], or x, y, z, qw, qx, qy, qz, (3,) or (7,).
+        payload : array_like, optional
+            Mass that the platform carries there, at its centre of mass [kg].
+        force, moment : array_like, optional
+            On the platform in the base frame, about P [N, N m], (3,).
+        wrenches : array_like, optional
+            Wrenches that may act beside the load, fx to mz about P [N, N m], (k, 6); all poses have the
+            same.
+        tilt : int, default 0
+            Number of azimuths, from x to y, towards which the platform is tilted as far as tensions within
+            the limits hold it; 0 leaves it out.
+        free : sequence of str, optional
+            Names of the coordinates of the pose that are found, for a robot with fewer cables than free
+            motions, as `Robot.inverse` takes them.
+
+        Returns
+        -------
+        Capacity
+            Payloads, margins and distances.
+
+        Raises
+        ------
+        InputError
+            For an invalid value; the message names it and what would be right.
+        NoSolutionError
+            For one case without an answer; of several, its row has NaN and a reason.
+
+        Examples
+        --------
+        >>> import cdpr
+        >>> robot = cdpr.Robot.from_file("cogiro")
+        >>> robot.capacity([[0, 0, 2], [1, 0, 2]]).payload_anew.shape  # [kg]
+        (2,)
+        """
+    @overload
     def capacity(
         self,
         pose: ArrayLike,
@@ -443,24 +1001,56 @@ class Robot:
         moment: ArrayLike | None = None,
         wrenches: ArrayLike | None = None,
         tilt: int = 0,
-        free: list[str] | None = None,
-    ) -> Capacity:
-        """Finds what the cables can carry at a pose besides the platform, and how far the limits are.
+        free: Sequence[str] | None = None,
+    ) -> Capacity[_Floats, _Words]: ...
+    @overload
+    def certify(  # type: ignore[overload-overlap]
+        self,
+        lengths: _Row,
+        *,
+        force: _Row | None = None,
+        moment: _Row | None = None,
+        payload: float | None = None,
+        start: _Row | None = None,
+    ) -> Certificate[float, bool, None]:
+        """Proves how close the exact equilibrium is to that of `Robot.direct`, and that it is stable.
 
-        Arguments are of one case, or have a first axis of m cases.
+        It is for six free motions, plain cables and a level base. Arguments are those of `Robot.direct`.
 
-        pose: x, y, z [m], or x, y, z, qw, qx, qy, qz, (3,) or (7,).
-        payload: mass that the platform carries there, at its centre of mass [kg].
-        force, moment: on the platform in the base frame, about P [N, N m], (3,).
-        wrenches: wrenches that may act beside the load, fx to mz about P [N, N m], (k, 6); all poses have the
-            same.
-        tilt: number of azimuths, from x to y, towards which the platform is tilted as far as tensions within
-            the limits hold it; 0 leaves it out.
-        free: names of the coordinates of the pose that are found, for a robot with fewer cables than free
-            motions, as `Robot.inverse` takes them.
+        Parameters
+        ----------
+        lengths : array_like
+            Unstrained lengths of the cables [m], (n,).
+        force : array_like, optional
+            Force on the platform in the base frame [N], (3,).
+        moment : array_like, optional
+            Moment on the platform in the base frame, about P [N m], (3,).
+        payload : array_like, optional
+            Mass added at the platform's centre of mass [kg].
+        start : array_like, optional
+            Start of the search, (3,) or (7,).
 
-        Raises InputError; for one case NoSolutionError.
+        Returns
+        -------
+        Certificate
+            Bounds.
+
+        Raises
+        ------
+        InputError
+            For an invalid value; the message names it and what would be right.
+        NoSolutionError
+            For one case without an answer; of several, its row has NaN and a reason, of the kind
+            `not_certified` where nothing is proved.
+
+        Examples
+        --------
+        >>> import cdpr
+        >>> robot = cdpr.Robot.from_file("cogiro")
+        >>> robot.certify(robot.inverse([0, 0, 2]).lengths).position < 1e-9  # [m]
+        True
         """
+    @overload
     def certify(
         self,
         lengths: ArrayLike,
@@ -469,13 +1059,7 @@ class Robot:
         moment: ArrayLike | None = None,
         payload: ArrayLike | None = None,
         start: ArrayLike | None = None,
-    ) -> Certificate:
-        """Proves how close the exact equilibrium is to that of `Robot.direct`, and that it is stable.
-
-        It is for six free motions, plain cables and a level base. Arguments are those of `Robot.direct`.
-
-        Raises InputError; for one case NoSolutionError, of the kind `not_certified` where nothing is proved.
-        """
+    ) -> Certificate[_Floats, _Bools, _Words]: ...
     def path(
         self,
         poses: ArrayLike,
@@ -483,19 +1067,41 @@ class Robot:
         payload: ArrayLike | None = None,
         force: ArrayLike | None = None,
         moment: ArrayLike | None = None,
-        uncertainty: dict[str, float] | None = None,
+        uncertainty: Mapping[str, float] | None = None,
     ) -> PathStates:
         """Follows a path of poses, as `cdpr path` does.
 
         Strongly sagging cables may hold a pose with several sets of tensions. Along a path each pose keeps to
         the set of the pose before, as long as it exists. A pose without an answer is left out of the path.
 
-        poses: x, y, z [m], or x, y, z, qw, qx, qy, qz, (m, 3) or (m, 7).
-        payload: mass that the platform carries, at its centre of mass [kg].
-        force, moment: on the platform in the base frame, about P [N, N m], (3,).
-        uncertainty: standard deviations of parameters or groups [SI units]: {"a": 0.002, "mass": 0.5}.
+        Parameters
+        ----------
+        poses : array_like
+            x, y, z [m], or x, y, z, qw, qx, qy, qz, (m, 3) or (m, 7).
+        payload : array_like, optional
+            Mass that the platform carries, at its centre of mass [kg].
+        force, moment : array_like, optional
+            On the platform in the base frame, about P [N, N m], (3,).
+        uncertainty : dict of float, optional
+            Standard deviations of parameters or groups [SI units]: {"a": 0.002, "mass": 0.5}.
 
-        Raises InputError.
+        Returns
+        -------
+        PathStates
+            States along the path.
+
+        Raises
+        ------
+        InputError
+            For an invalid value; the message names it and what would be right.
+
+        Examples
+        --------
+        >>> import cdpr
+        >>> robot = cdpr.Robot.from_file("cogiro")
+        >>> states = robot.path([[x, 0, 2] for x in (0, 0.1, 0.2)], payload=50, uncertainty={"a": 0.002})
+        >>> states.tensions.shape, states.std.magnitude.shape  # [N], [m]
+        ((3, 8), (3,))
         """
     def workspace(
         self,
@@ -506,26 +1112,181 @@ class Robot:
         plane: tuple[str, float] | None = None,
         grid: tuple[int, int] | None = None,
         payload: float,
-        uncertainty: dict[str, float] | None = None,
-        free: list[str] | None = None,
+        uncertainty: Mapping[str, float] | None = None,
+        free: Sequence[str] | None = None,
     ) -> Workspace:
         """Finds where the cables hold the platform under a payload, and how far it gives there.
 
         Positions are on a grid, with the platform level.
 
-        x, y, z: coordinates along each axis [m]: a number, or (from, to, points).
-        plane: in place of x, y and z, a plane over the frame of the exit points, ("z", 1.75).
-        grid: points of the plane along its two axes; (41, 41) if left out.
-        payload: mass added at the platform's centre of mass [kg]; with 0 there is no deflection.
-        uncertainty: standard deviations of parameters or groups [SI units]: {"a": 0.002, "mass": 0.5}.
-        free: names of the coordinates of the pose that are found, for a robot with fewer cables than free
+        Parameters
+        ----------
+        x, y, z : float or (float, float, int), optional
+            Coordinates along each axis [m]: a number, or (from, to, points).
+        plane : (str, float), optional
+            In place of x, y and z, a plane over the frame of the exit points, ("z", 1.75).
+        grid : (int, int), optional
+            Points of the plane along its two axes; (41, 41) if left out.
+        payload : float
+            Mass added at the platform's centre of mass [kg]; with 0 there is no deflection.
+        uncertainty : dict of float, optional
+            Standard deviations of parameters or groups [SI units]: {"a": 0.002, "mass": 0.5}.
+        free : sequence of str, optional
+            Names of the coordinates of the pose that are found, for a robot with fewer cables than free
             motions, as `Robot.inverse` takes them.
 
-        Raises InputError. A position that is not held is no error.
+        Returns
+        -------
+        Workspace
+            Results at each position of the grid.
+
+        Raises
+        ------
+        InputError
+            For an invalid value; the message names it and what would be right. A position that is not held
+            is no error.
+
+        Examples
+        --------
+        >>> import cdpr
+        >>> robot = cdpr.Robot.from_file("cogiro")
+        >>> found = robot.workspace(plane=("z", 2), grid=(4, 3), payload=50)
+        >>> found.shape, found.magnitude.shape  # [m]
+        ((4, 3, 1), (12,))
         """
 
 @final
-class Catenary:
+class Cable:
+    """A cable of a robot."""
+
+    def __new__(cls, *fields: Any) -> Cable: ...
+    def __class_getitem__(cls, number: Any) -> GenericAlias: ...
+    def to_dataframe(self) -> Any:
+        """Makes a frame with a row for each case and columns of numbers and words.
+
+        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
+        name: `magnitude/a1.x`.
+
+        Returns
+        -------
+        pandas.DataFrame
+            The frame.
+        """
+    @property
+    def number(self) -> int:
+        """Number of the cable, from 1."""
+    @property
+    def anchor_point(self) -> _Floats:
+        """Point A_i in the platform frame [m], (3,)."""
+    @property
+    def exit_point(self) -> _Floats:
+        """Point B_i in the base frame [m], (3,)."""
+    @property
+    def section(self) -> float:
+        """Section that carries the tension [m²]."""
+    @property
+    def linear_density(self) -> float:
+        """Mass per unstrained length [kg/m]."""
+    @property
+    def youngs_modulus(self) -> float:
+        """Young's modulus [Pa]."""
+    @property
+    def tension_limits(self) -> _Floats:
+        """Least and greatest tension [N], (2,)."""
+    @property
+    def max_at(self) -> str:
+        """The end at which the greatest tension is limited: "anchor" or "exit"."""
+
+@final
+class OtherSolution:
+    """A further rest of a platform with `free` coordinates."""
+
+    def __new__(cls, *fields: Any) -> OtherSolution: ...
+    def __class_getitem__(cls, number: Any) -> GenericAlias: ...
+    def plot(self) -> Any:
+        """Draws the answer: of one case a bar for each element, of several a line over the cases.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            The figure.
+        """
+    def to_dataframe(self) -> Any:
+        """Makes a frame with a row for each case and columns of numbers and words.
+
+        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
+        name: `magnitude/a1.x`.
+
+        Returns
+        -------
+        pandas.DataFrame
+            The frame.
+        """
+    @property
+    def pose(self) -> _Floats:
+        """Pose at which the platform rests, (7,)."""
+    @property
+    def lengths(self) -> _Floats:
+        """Unstrained length of each cable [m], (n,)."""
+    @property
+    def tensions(self) -> _Floats:
+        """Tension of each cable at the platform [N], (n,)."""
+    @property
+    def out_of_limits(self) -> NDArray[np.int8]:
+        """Whether its tension, at either end, is out of limits, as in `InverseSolution`, (n,)."""
+    @property
+    def stable(self) -> bool:
+        """Whether the platform stays there with these lengths."""
+
+@final
+class PathDeviations:
+    """Standard deviations at the m poses of a path, NaN where there are no derivatives."""
+
+    def __new__(cls, *fields: Any) -> PathDeviations: ...
+    def __class_getitem__(cls, number: Any) -> GenericAlias: ...
+    def plot(self) -> Any:
+        """Draws the answer: of one case a bar for each element, of several a line over the cases.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            The figure.
+        """
+    def to_dataframe(self) -> Any:
+        """Makes a frame with a row for each case and columns of numbers and words.
+
+        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
+        name: `magnitude/a1.x`.
+
+        Returns
+        -------
+        pandas.DataFrame
+            The frame.
+        """
+    @property
+    def lengths(self) -> _Floats:
+        """Of the unstrained lengths [m], (m, n)."""
+    @property
+    def tensions(self) -> _Floats:
+        """Of the tensions at the platform without the load [N], (m, n)."""
+    @property
+    def displacement(self) -> _Floats:
+        """Of the displacement [m], (m, 3)."""
+    @property
+    def magnitude(self) -> _Floats:
+        """Of its magnitude [m], (m,)."""
+    @property
+    def least_stiffness(self) -> _Floats:
+        """Of the least stiffness [N/m], (m,)."""
+    @property
+    def lowest_frequency(self) -> _Floats:
+        """Of the lowest natural frequency [Hz], (m,)."""
+    @property
+    def reasons(self) -> _Words:
+        """Why there is no answer, None where there is one, (m,)."""
+
+@final
+class Catenary(Generic[_N, _R]):
     """Cables in equilibrium, in their vertical planes.
 
     The exit point is the origin, the anchor point is at (x, z), and z points up.
@@ -535,48 +1296,62 @@ class Catenary:
     """
 
     def __new__(cls, *fields: Any) -> Catenary: ...
+    def __class_getitem__(cls, number: Any) -> GenericAlias: ...
+    def plot(self) -> Any:
+        """Draws the answer: of one case a bar for each element, of several a line over the cases.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            The figure.
+        """
     def to_dataframe(self) -> Any:
-        """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+        """Makes a frame with a row for each case and columns of numbers and words.
 
         Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `rms/a1.x`.
+        name: `magnitude/a1.x`.
+
+        Returns
+        -------
+        pandas.DataFrame
+            The frame.
         """
     @property
     def force(self) -> _Floats:
         """Force (fx, fz) on the cable at the anchor point [N], (2,)."""
     @property
-    def anchor_tension(self) -> _Float:
+    def anchor_tension(self) -> _N:
         """Tension at the anchor point [N]."""
     @property
-    def exit_tension(self) -> _Float:
+    def exit_tension(self) -> _N:
         """Tension at the exit point [N]."""
     @property
-    def sag(self) -> _Float:
+    def sag(self) -> _N:
         """Greatest height of the chord above the cable [m]."""
     @property
-    def energy(self) -> _Float:
+    def energy(self) -> _N:
         """Elastic energy plus potential energy of the weight, zero at the height of the exit point [J]."""
     @property
-    def unstrained_length(self) -> _Float:
+    def unstrained_length(self) -> _N:
         """Unstrained length [m]."""
     @property
     def end(self) -> _Floats:
         """Position (x, z) of the anchor point [m], (2,)."""
     @property
-    def residual(self) -> _Float:
+    def residual(self) -> _N:
         """Closure residual: distance between the given end and that of the catenary [m]."""
     @property
     def shape(self) -> _Floats:
         """Points (x, z) from exit to anchor point, at equal unstrained distances [m], (points, 2)."""
     @property
-    def reasons(self) -> _Words:
+    def reasons(self) -> _R:
         """Why there is no answer, None where there is one; None for one cable."""
     @property
-    def kinds(self) -> _Words:
+    def kinds(self) -> _R:
         """The kind of each failure, in the same form: `infeasible_tension`, ..."""
 
 @final
-class InverseSolution:
+class InverseSolution(Generic[_B, _I, _R]):
     """Unstrained lengths that hold poses.
 
     The answer is of one pose, or of m: then every field has a first axis of m, with NaN where there is no
@@ -584,11 +1359,25 @@ class InverseSolution:
     """
 
     def __new__(cls, *fields: Any) -> InverseSolution: ...
+    def __class_getitem__(cls, number: Any) -> GenericAlias: ...
+    def plot(self) -> Any:
+        """Draws the answer: of one case a bar for each element, of several a line over the cases.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            The figure.
+        """
     def to_dataframe(self) -> Any:
-        """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+        """Makes a frame with a row for each case and columns of numbers and words.
 
         Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `rms/a1.x`.
+        name: `magnitude/a1.x`.
+
+        Returns
+        -------
+        pandas.DataFrame
+            The frame.
         """
     @property
     def lengths(self) -> _Floats:
@@ -614,43 +1403,57 @@ class InverseSolution:
     def residual(self) -> _Floats:
         """Residuals of the 6 + 2n equations: closure of the cables [m], force [N], moment [N m], (3,)."""
     @property
-    def iterations(self) -> _Int:
+    def iterations(self) -> _I:
         """Iterations of distribution and Newton's method; 0 where there is no answer."""
     @property
-    def jump(self) -> NDArray[np.bool_] | bool | None:
+    def jump(self) -> _B | None:
         """Where the lengths may jump, because the branch of the pose before ends; only along a path, ()."""
     @property
     def pose(self) -> _Floats:
         """Pose at which the platform rests, (7,): the given one but for `free` coordinates."""
     @property
-    def stable(self) -> NDArray[np.bool_] | bool | None:
+    def stable(self) -> _B | None:
         """Whether the platform stays there with these lengths; only with `free` coordinates."""
     @property
     def others(self) -> list[Any] | None:
-        """Further solutions with `free` coordinates, those within the limits first: a list of dicts of pose,
-        lengths, tensions, stable and out_of_limits, or for m poses a list of m such lists.
+        """Further solutions with `free` coordinates, those within the limits first: a list of `OtherSolution`,
+        or for m poses a list of m such lists.
         """
     @property
-    def reasons(self) -> _Words:
+    def reasons(self) -> _R:
         """Why there is no answer, None where there is one; None for one pose."""
     @property
-    def kinds(self) -> _Words:
+    def kinds(self) -> _R:
         """The kind of each failure, in the same form: `infeasible_tension`, ..."""
 
 @final
-class DirectSolution:
+class DirectSolution(Generic[_N, _B, _I, _W, _R]):
     """Stable equilibria of the platform.
 
     The answer is of one case, or of m: then every field has a first axis of m, with NaN (or False, None)
     where there is no answer, and `reasons` says why.
     """
 
-    def __new__(cls, *fields: Any) -> DirectSolution: ...
+    def __new__(cls, *fields: Any) -> DirectSolution[_N, _B, _I, _W, _R]: ...
+    def __class_getitem__(cls, number: Any) -> GenericAlias: ...
+    def plot(self) -> Any:
+        """Draws the answer: of one case a bar for each element, of several a line over the cases.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            The figure.
+        """
     def to_dataframe(self) -> Any:
-        """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+        """Makes a frame with a row for each case and columns of numbers and words.
 
         Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `rms/a1.x`.
+        name: `magnitude/a1.x`.
+
+        Returns
+        -------
+        pandas.DataFrame
+            The frame.
         """
     @property
     def position(self) -> _Floats:
@@ -679,7 +1482,7 @@ class DirectSolution:
         greatest tension, -1 below the least one, 0 within, (n,).
         """
     @property
-    def stable(self) -> _Bool:
+    def stable(self) -> _B:
         """Whether the equilibrium is stable."""
     @property
     def neutral(self) -> _Floats:
@@ -687,7 +1490,7 @@ class DirectSolution:
         the rows beyond.
         """
     @property
-    def least_stiffness(self) -> _Float:
+    def least_stiffness(self) -> _N:
         """Stiffness of the softest motion that is resisted [N/m]."""
     @property
     def slack(self) -> NDArray[np.bool_]:
@@ -696,38 +1499,52 @@ class DirectSolution:
     def residual(self) -> _Floats:
         """Residuals of the 6 + 2n equations: closure of the cables [m], force [N], moment [N m], (3,)."""
     @property
-    def method(self) -> _Word:
+    def method(self) -> _W:
         """Method that found the equilibrium: newton, trust_region or continuation."""
     @property
-    def iterations(self) -> _Int:
+    def iterations(self) -> _I:
         """Iterations of that method; 0 where there is no answer."""
     @property
-    def reasons(self) -> _Words:
+    def reasons(self) -> _R:
         """Why there is no answer, None where there is one; None for one case."""
     @property
-    def kinds(self) -> _Words:
+    def kinds(self) -> _R:
         """The kind of each failure, in the same form: `infeasible_tension`, ..."""
 
 @final
-class Deflection:
+class Deflection(Generic[_N, _B, _I, _W, _R]):
     """Static deflections.
 
     The answer is of one case, or of m: then every field has a first axis of m, with NaN where there is no
     answer, and `reasons` says why.
     """
 
-    def __new__(cls, *fields: Any) -> Deflection: ...
+    def __new__(cls, *fields: Any) -> Deflection[_N, _B, _I, _W, _R]: ...
+    def __class_getitem__(cls, number: Any) -> GenericAlias: ...
+    def plot(self) -> Any:
+        """Draws the answer: of one case a bar for each element, of several a line over the cases.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            The figure.
+        """
     def to_dataframe(self) -> Any:
-        """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+        """Makes a frame with a row for each case and columns of numbers and words.
 
         Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `rms/a1.x`.
+        name: `magnitude/a1.x`.
+
+        Returns
+        -------
+        pandas.DataFrame
+            The frame.
         """
     @property
     def displacement(self) -> _Floats:
         """Displacement dp of P, the position with the load minus that without [m], (3,)."""
     @property
-    def rms(self) -> _Float:
+    def magnitude(self) -> _N:
         """Norm |dp| of the displacement, the paper's RMS [m]."""
     @property
     def rotation(self) -> _Floats:
@@ -736,20 +1553,20 @@ class Deflection:
     def lengths(self) -> _Floats:
         """Unstrained lengths of the cables [m], (n,)."""
     @property
-    def unloaded(self) -> DirectSolution:
+    def unloaded(self) -> DirectSolution[_N, _B, _I, _W, _R]:
         """The platform under its own weight."""
     @property
-    def loaded(self) -> DirectSolution:
+    def loaded(self) -> DirectSolution[_N, _B, _I, _W, _R]:
         """The platform with the load added."""
     @property
-    def reasons(self) -> _Words:
+    def reasons(self) -> _R:
         """Why there is no answer, None where there is one; None for one case."""
     @property
-    def kinds(self) -> _Words:
+    def kinds(self) -> _R:
         """The kind of each failure, in the same form: `infeasible_tension`, ..."""
 
 @final
-class Modes:
+class Modes(Generic[_R]):
     """Natural motions of the platform, of unit mass.
 
     The answer is of one pose, or of m: then every field has a first axis of m, with NaN where there is no
@@ -757,11 +1574,25 @@ class Modes:
     """
 
     def __new__(cls, *fields: Any) -> Modes: ...
+    def __class_getitem__(cls, number: Any) -> GenericAlias: ...
+    def plot(self) -> Any:
+        """Draws the answer: of one case a bar for each element, of several a line over the cases.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            The figure.
+        """
     def to_dataframe(self) -> Any:
-        """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+        """Makes a frame with a row for each case and columns of numbers and words.
 
         Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `rms/a1.x`.
+        name: `magnitude/a1.x`.
+
+        Returns
+        -------
+        pandas.DataFrame
+            The frame.
         """
     @property
     def frequencies_hz(self) -> _Floats:
@@ -784,14 +1615,14 @@ class Modes:
         motions take cables without mass: they hold where this is at least twice as high.
         """
     @property
-    def reasons(self) -> _Words:
+    def reasons(self) -> _R:
         """Why there is no answer, None where there is one; None for one pose."""
     @property
-    def kinds(self) -> _Words:
+    def kinds(self) -> _R:
         """The kind of each failure, in the same form: `infeasible_tension`, ..."""
 
 @final
-class Capacity:
+class Capacity(Generic[_N, _R]):
     """What can be carried at a pose, for the wrench that leaves the least.
 
     The answer is of one pose, or of m: then every field has a first axis of m, with NaN where there is no
@@ -800,44 +1631,58 @@ class Capacity:
     """
 
     def __new__(cls, *fields: Any) -> Capacity: ...
+    def __class_getitem__(cls, number: Any) -> GenericAlias: ...
+    def plot(self) -> Any:
+        """Draws the answer: of one case a bar for each element, of several a line over the cases.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            The figure.
+        """
     def to_dataframe(self) -> Any:
-        """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+        """Makes a frame with a row for each case and columns of numbers and words.
 
         Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `rms/a1.x`.
+        name: `magnitude/a1.x`.
+
+        Returns
+        -------
+        pandas.DataFrame
+            The frame.
         """
     @property
-    def payload_anew(self) -> _Float:
+    def payload_anew(self) -> _N:
         """Greatest mass at the centre of mass [kg]."""
     @property
-    def payload_kept(self) -> _Float:
+    def payload_kept(self) -> _N:
         """Greatest mass at the centre of mass until a tension reaches any of its limits [kg]."""
     @property
-    def payload_kept_slack(self) -> _Float:
+    def payload_kept_slack(self) -> _N:
         """The same, whichever cables become slack [kg]."""
     @property
-    def margin_anew(self) -> _Float:
+    def margin_anew(self) -> _N:
         """Distance of the tensions from the nearest limit [N]."""
     @property
-    def margin_kept(self) -> _Float:
+    def margin_kept(self) -> _N:
         """Distance of the tensions from the nearest limit [N]."""
     @property
-    def blocked_by(self) -> list[str] | list[list[str] | None]:
+    def blocked_by(self) -> list[Any]:
         """What blocks each of these five, in words, or why it does not exist; a list of five."""
     @property
-    def nearest_cables(self) -> _Float:
+    def nearest_cables(self) -> _N:
         """Distance of the surfaces of the nearest two cables [m]."""
     @property
-    def nearest_to_platform(self) -> _Float:
+    def nearest_to_platform(self) -> _N:
         """Distance of the cable nearest to the platform's hull [m]."""
     @property
     def tilt(self) -> _Floats:
         """How far the platform may tilt towards each azimuth [rad], (tilt,); (0,) if not asked for."""
     @property
-    def reasons(self) -> _Words:
+    def reasons(self) -> _R:
         """Why there is no answer, None where there is one; None for one pose."""
     @property
-    def kinds(self) -> _Words:
+    def kinds(self) -> _R:
         """The kind of each failure, in the same form: `infeasible_tension`, ..."""
 
 @final
@@ -845,11 +1690,25 @@ class Boundary:
     """The boundary of the region that the cables hold."""
 
     def __new__(cls, *fields: Any) -> Boundary: ...
+    def __class_getitem__(cls, number: Any) -> GenericAlias: ...
+    def plot(self) -> Any:
+        """Draws the answer: of one case a bar for each element, of several a line over the cases.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            The figure.
+        """
     def to_dataframe(self) -> Any:
-        """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+        """Makes a frame with a row for each case and columns of numbers and words.
 
         Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `rms/a1.x`.
+        name: `magnitude/a1.x`.
+
+        Returns
+        -------
+        pandas.DataFrame
+            The frame.
         """
     @property
     def measure(self) -> float:
@@ -868,7 +1727,7 @@ class Boundary:
         """Number of positions that were asked for."""
 
 @final
-class Certificate:
+class Certificate(Generic[_N, _B, _R]):
     """Bounds on how far the exact equilibrium is from the one that was found, proved by interval arithmetic.
 
     The answer is of one case, or of m: then every field has a first axis of m, with NaN (or False) where
@@ -876,35 +1735,49 @@ class Certificate:
     """
 
     def __new__(cls, *fields: Any) -> Certificate: ...
+    def __class_getitem__(cls, number: Any) -> GenericAlias: ...
+    def plot(self) -> Any:
+        """Draws the answer: of one case a bar for each element, of several a line over the cases.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            The figure.
+        """
     def to_dataframe(self) -> Any:
-        """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+        """Makes a frame with a row for each case and columns of numbers and words.
 
         Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `rms/a1.x`.
+        name: `magnitude/a1.x`.
+
+        Returns
+        -------
+        pandas.DataFrame
+            The frame.
         """
     @property
     def pose(self) -> _Floats:
         """Position and quaternion that were found, (7,)."""
     @property
-    def position(self) -> _Float:
+    def position(self) -> _N:
         """Bound on the distance of P from there [m]."""
     @property
-    def rotation(self) -> _Float:
+    def rotation(self) -> _N:
         """Bound on the angle [rad]."""
     @property
-    def force(self) -> _Float:
+    def force(self) -> _N:
         """Bound on the error of the force of every cable [N]."""
     @property
-    def least_stiffness(self) -> _Float:
+    def least_stiffness(self) -> _N:
         """Lower bound of the stiffness of the softest motion [N/m]."""
     @property
-    def stable(self) -> _Bool:
+    def stable(self) -> _B:
         """Whether the exact equilibrium is proved stable."""
     @property
-    def reasons(self) -> _Words:
+    def reasons(self) -> _R:
         """Why there is no proof, None where there is one; None for one case."""
     @property
-    def kinds(self) -> _Words:
+    def kinds(self) -> _R:
         """The kind of each failure, in the same form: `not_certified`, ..."""
 
 @final
@@ -916,11 +1789,25 @@ class PathStates:
     """
 
     def __new__(cls, *fields: Any) -> PathStates: ...
+    def __class_getitem__(cls, number: Any) -> GenericAlias: ...
+    def plot(self) -> Any:
+        """Draws the answer: of one case a bar for each element, of several a line over the cases.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            The figure.
+        """
     def to_dataframe(self) -> Any:
-        """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+        """Makes a frame with a row for each case and columns of numbers and words.
 
         Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `rms/a1.x`.
+        name: `magnitude/a1.x`.
+
+        Returns
+        -------
+        pandas.DataFrame
+            The frame.
         """
     @property
     def jump(self) -> NDArray[np.bool_]:
@@ -941,7 +1828,7 @@ class PathStates:
     def displacement(self) -> _Floats:
         """Displacement of P by the load [m], (m, 3)."""
     @property
-    def rms(self) -> _Floats:
+    def magnitude(self) -> _Floats:
         """Its length [m], (m,)."""
     @property
     def least_stiffness(self) -> _Floats:
@@ -953,12 +1840,10 @@ class PathStates:
     def lowest_cable_frequency(self) -> _Floats:
         """That of the slowest cable between ends at rest [Hz], (m,); NaN without a lowest frequency."""
     @property
-    def std(self) -> dict[str, _Floats] | None:
-        """Standard deviations of lengths, tensions, displacement, rms, least stiffness and lowest frequency
-        by their names; NaN where there are no derivatives. None without an uncertainty.
-        """
+    def std(self) -> PathDeviations | None:
+        """Standard deviations by the uncertainty; None without one."""
     @property
-    def loaded(self) -> DirectSolution:
+    def loaded(self) -> DirectSolution[_Floats, _Bools, _Ints, _Words, _Words]:
         """The equilibria with the load."""
     @property
     def reasons(self) -> list[str | None]:
@@ -968,7 +1853,7 @@ class PathStates:
         """The kind of each failure: `infeasible_tension`, ..."""
 
 @final
-class Stiffness:
+class Stiffness(Generic[_N, _B, _R]):
     """Cartesian stiffness.
 
     The answer is of one pose, or of m: then every field has a first axis of m, with NaN where there is no
@@ -976,11 +1861,25 @@ class Stiffness:
     """
 
     def __new__(cls, *fields: Any) -> Stiffness: ...
+    def __class_getitem__(cls, number: Any) -> GenericAlias: ...
+    def plot(self) -> Any:
+        """Draws the answer: of one case a bar for each element, of several a line over the cases.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            The figure.
+        """
     def to_dataframe(self) -> Any:
-        """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+        """Makes a frame with a row for each case and columns of numbers and words.
 
         Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `rms/a1.x`.
+        name: `magnitude/a1.x`.
+
+        Returns
+        -------
+        pandas.DataFrame
+            The frame.
         """
     @property
     def matrix(self) -> _Floats:
@@ -1005,23 +1904,23 @@ class Stiffness:
     def rotations(self) -> _Floats:
         """Rotation in each of these motions [rad/m], (6, 3)."""
     @property
-    def least_stiffness(self) -> _Float:
+    def least_stiffness(self) -> _N:
         """Stiffness of the softest motion [N/m]."""
     @property
-    def stable(self) -> _Bool:
+    def stable(self) -> _B:
         """Whether the equilibrium is stable."""
     @property
-    def characteristic_length(self) -> _Float:
+    def characteristic_length(self) -> _N:
         """Characteristic length, which makes rotations comparable with translations [m]."""
     @property
-    def reasons(self) -> _Words:
+    def reasons(self) -> _R:
         """Why there is no answer, None where there is one; None for one pose."""
     @property
-    def kinds(self) -> _Words:
+    def kinds(self) -> _R:
         """The kind of each failure, in the same form: `infeasible_tension`, ..."""
 
 @final
-class Derivatives:
+class Derivatives(Generic[_N, _B, _I, _W, _R]):
     """A deflection with its exact derivatives, per SI unit of the k inputs.
 
     Where a cable leaves a bound on one side of an input only, the derivatives as the input falls (left)
@@ -1033,11 +1932,17 @@ class Derivatives:
     """
 
     def __new__(cls, *fields: Any) -> Derivatives: ...
+    def __class_getitem__(cls, number: Any) -> GenericAlias: ...
     def to_dataframe(self) -> Any:
-        """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+        """Makes a frame with a row for each case and columns of numbers and words.
 
         Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `rms/a1.x`.
+        name: `magnitude/a1.x`.
+
+        Returns
+        -------
+        pandas.DataFrame
+            The frame.
         """
     @property
     def inputs(self) -> list[str]:
@@ -1049,7 +1954,7 @@ class Derivatives:
     def one_sided(self) -> NDArray[np.bool_]:
         """Inputs whose left and right derivatives differ, (k,)."""
     @property
-    def rms(self) -> _Floats:
+    def magnitude(self) -> _Floats:
         """Derivatives of |dp| [m per unit], (k,)."""
     @property
     def displacement(self) -> _Floats:
@@ -1074,7 +1979,7 @@ class Derivatives:
         motions have it, and without inertia of the platform.
         """
     @property
-    def rms_right(self) -> _Floats:
+    def magnitude_right(self) -> _Floats:
         """Right derivatives of |dp| [m per unit], (k,)."""
     @property
     def displacement_right(self) -> _Floats:
@@ -1095,37 +2000,51 @@ class Derivatives:
     def frequency_right(self) -> _Floats:
         """Right derivatives of the lowest natural frequency [Hz per unit], (k,)."""
     @property
-    def deflection(self) -> Deflection:
+    def deflection(self) -> Deflection[_N, _B, _I, _W, _R]:
         """The deflection itself."""
     @property
-    def reasons(self) -> _Words:
+    def reasons(self) -> _R:
         """Why there is no answer, None where there is one; None for one case."""
     @property
-    def kinds(self) -> _Words:
+    def kinds(self) -> _R:
         """The kind of each failure, in the same form: `infeasible_tension`, ..."""
 
 @final
-class Observations:
+class Observations(Generic[_N, _R]):
     """Deflections of m robots, or of one; NaN where there is no answer, and `reasons` says why."""
 
     def __new__(cls, *fields: Any) -> Observations: ...
+    def __class_getitem__(cls, number: Any) -> GenericAlias: ...
+    def plot(self) -> Any:
+        """Draws the answer: of one case a bar for each element, of several a line over the cases.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            The figure.
+        """
     def to_dataframe(self) -> Any:
-        """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+        """Makes a frame with a row for each case and columns of numbers and words.
 
         Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `rms/a1.x`.
+        name: `magnitude/a1.x`.
+
+        Returns
+        -------
+        pandas.DataFrame
+            The frame.
         """
     @property
     def displacement(self) -> _Floats:
         """Displacement dp of P [m], (3,)."""
     @property
-    def rms(self) -> _Float:
+    def magnitude(self) -> _N:
         """Norm |dp| of the displacement [m]."""
     @property
-    def reasons(self) -> _Words:
+    def reasons(self) -> _R:
         """Why there is no answer, None where there is one; None for one robot."""
     @property
-    def kinds(self) -> _Words:
+    def kinds(self) -> _R:
         """The kind of each failure, in the same form: `infeasible_tension`, ..."""
 
 @final
@@ -1133,11 +2052,25 @@ class Workspace:
     """Results at level positions on a grid, x slowest and z fastest; NaN where there is no answer."""
 
     def __new__(cls, *fields: Any) -> Workspace: ...
+    def __class_getitem__(cls, number: Any) -> GenericAlias: ...
+    def plot(self) -> Any:
+        """Draws the answer: of one case a bar for each element, of several a line over the cases.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            The figure.
+        """
     def to_dataframe(self) -> Any:
-        """Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+        """Makes a frame with a row for each case and columns of numbers and words.
 
         Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-        name: `rms/a1.x`.
+        name: `magnitude/a1.x`.
+
+        Returns
+        -------
+        pandas.DataFrame
+            The frame.
         """
     @property
     def shape(self) -> tuple[int, int, int]:
@@ -1165,7 +2098,7 @@ class Workspace:
     def displacement(self) -> _Floats:
         """Displacement dp of P under the payload [m], (m, 3)."""
     @property
-    def rms(self) -> _Floats:
+    def magnitude(self) -> _Floats:
         """Norm |dp| of the displacement [m], (m,)."""
     @property
     def least_stiffness(self) -> _Floats:
@@ -1200,6 +2133,95 @@ class Workspace:
     def anew_greatest_tension(self) -> _Floats:
         """Greatest tension, distributed anew [N], (m,)."""
 
+def pose(
+    position: ArrayLike, rotation: ArrayLike | Any | None = None, *, rpy_deg: ArrayLike | None = None
+) -> _Floats:
+    """Makes poses of positions and rotations, as all calls take them.
+
+    Arguments are of one pose, or have a first axis of m poses. The rotation turns the platform frame into the
+    base frame; the platform is level if it is left out.
+
+    Parameters
+    ----------
+    position : array_like
+        x, y, z [m], (3,) or (m, 3).
+    rotation : array_like or Rotation, optional
+        A quaternion qw, qx, qy, qz, (4,) or (m, 4), with the scalar first; or a
+        `scipy.spatial.transform.Rotation`, whose own order does not matter then.
+    rpy_deg : array_like, optional
+        roll, pitch, yaw [degrees], (3,) or (m, 3), in place of a rotation: R = Rz(yaw) Ry(pitch)
+        Rx(roll).
+
+    Returns
+    -------
+    ndarray
+        Poses x, y, z [m], qw, qx, qy, qz, (7,) or (m, 7).
+
+    Raises
+    ------
+    InputError
+        For an invalid value; the message names it and what would be right; also for a quaternion whose
+        scalar seems to be the last component, as SciPy has it.
+
+    Examples
+    --------
+    >>> import cdpr
+    >>> cdpr.pose([0, 0, 2], rpy_deg=[0, 0, 60]).round(3).tolist()
+    [0.0, 0.0, 2.0, 0.866, 0.0, 0.0, 0.5]
+    """
+@overload
+def catenary(
+    weight: float,
+    stiffness: float,
+    *,
+    length: float | None = None,
+    end: _Row | None = None,
+    force: _Row | None = None,
+    tension: float | None = None,
+    points: int = 51,
+) -> Catenary[float, None]:
+    """Computes an elastic cable from two of its unstrained length, end, force and tension.
+
+    Given are `length` and `end`, `length` and `force`, or `end` and `tension`. Arguments are of one cable, or
+    have a first axis of m cables.
+
+    Parameters
+    ----------
+    weight : array_like
+        Weight per unstrained length [N/m]; 0 makes the cable a straight spring.
+    stiffness : array_like
+        Axial stiffness EA [N].
+    length : array_like, optional
+        Unstrained length [m].
+    end : array_like, optional
+        Position (x, z) of the anchor point [m], (2,); x >= 0, z up.
+    force : array_like, optional
+        Force (fx, fz) on the cable at the anchor point [N], (2,).
+    tension : array_like, optional
+        Tension at the anchor point [N].
+    points : int, default 51
+        Number of points of `shape`, at least 2.
+
+    Returns
+    -------
+    Catenary
+        Forces, tensions and shapes.
+
+    Raises
+    ------
+    InputError
+        For an invalid value; the message names it and what would be right.
+    NoSolutionError
+        For one cable without an answer; of several, its row has NaN and a reason.
+
+    Examples
+    --------
+    >>> import cdpr
+    >>> cable = cdpr.catenary(1.0, 1e6, length=5.0, end=[4.0, 1.0])  # [N/m], [N], [m], [m]
+    >>> cable.shape.shape
+    (51, 2)
+    """
+@overload
 def catenary(
     weight: ArrayLike,
     stiffness: ArrayLike,
@@ -1209,22 +2231,7 @@ def catenary(
     force: ArrayLike | None = None,
     tension: ArrayLike | None = None,
     points: int = 51,
-) -> Catenary:
-    """Computes an elastic cable from two of its unstrained length, end, force and tension.
-
-    Given are `length` and `end`, `length` and `force`, or `end` and `tension`. Arguments are of one cable, or
-    have a first axis of m cables.
-
-    weight: weight per unstrained length [N/m]; 0 makes the cable a straight spring.
-    stiffness: axial stiffness EA [N].
-    length: unstrained length [m].
-    end: position (x, z) of the anchor point [m], (2,); x >= 0, z up.
-    force: force (fx, fz) on the cable at the anchor point [N], (2,).
-    tension: tension at the anchor point [N].
-    points: number of points of `shape`, at least 2.
-
-    Raises InputError; for one cable NoSolutionError.
-    """
+) -> Catenary[_Floats, _Words]: ...
 
 #: Inputs: name, law and steps.
 _Inputs: TypeAlias = list[tuple[str, Any, Any]]
@@ -1345,7 +2352,8 @@ def check(robot: Robot) -> str:
 def check_file(path: _Path) -> str:
     """The same of a robot file, whatever its units."""
 def tolerances(
-    study: _Path,
+    study: _Source,
+    robot: Robot | None,
     sampling: str,
     limit_mm: float,
     of: str | None,
@@ -1372,10 +2380,10 @@ def hysteresis(
     robot: Robot,
     pose: ArrayLike,
     payload: float,
-    record: _Path | None,
+    record: _Source | None,
     length: float | None,
     section: float | None,
-    law: _Path | None,
+    law: _Source | None,
     unloading: str,
     steps: int,
     free: list[str] | None,
@@ -1385,7 +2393,7 @@ def hysteresis(
     The cables follow a record (with length and section of its specimen), a law file, or the robot's own laws.
     """
 def modulus(
-    record: _Path,
+    record: _Source,
     length: float,
     section: float,
     breaking_force: float,
@@ -1419,7 +2427,8 @@ def import_robot(
 def export_robot(robot: Robot, pose: ArrayLike, to: str) -> tuple[list[tuple[str, str]], list[str]]:
     """The files of a robot for another program by the ends of their names, and notes."""
 def begin(
-    study: _Path,
+    study: _Source,
+    robot: Robot | None,
     out: _Path,
     observations: int | None,
     resume: bool,
@@ -1460,10 +2469,10 @@ def status(out: _Path) -> str:
     """Returns how far the study in a folder is, as `cdpr study status --format json` prints it."""
 def calibrate(
     robot: Robot,
-    measurements: _Path,
-    out: _Path,
+    measurements: _Source,
+    out: _Path | None,
     noise: list[tuple[str, float]],
-    model: _Path | None,
+    model: _Source | None,
     parameters: list[str],
     share: list[str],
     unknown: list[tuple[str, float | None]],
@@ -1476,13 +2485,17 @@ def calibrate(
     folds: int,
     overwrite: bool,
     threads: int | None,
-) -> str:
-    """Fits the parameters of a robot to measurements and writes all results; returns `summary.json`."""
+) -> tuple[Robot, str]:
+    """Fits the parameters of a robot to measurements, and writes all results to a folder if one is given.
+
+    Returns the calibrated robot, and as JSON the summary, what is known of the robot's errors, the residuals
+    and the poses.
+    """
 def simulate(
     robot: Robot,
     poses: ArrayLike,
-    out: _Path,
-    model: _Path,
+    out: _Path | None,
+    model: _Source,
     noise: list[tuple[str, float]],
     unknown: list[tuple[str, float]],
     markers: Any,
@@ -1491,9 +2504,9 @@ def simulate(
     free: list[str] | None,
     seed: int,
     overwrite: bool,
-) -> Robot:
-    """What a campaign would read at poses with a robot that deviates from its file: writes the measurements as CSV
-    and returns the robot as it truly is.
+) -> tuple[Robot, str]:
+    """What a campaign would read at poses with a robot that deviates from its file, written to a file if one is
+    given: the robot as it truly is, and the measurements as CSV.
     """
 def identify(
     robot: Robot,
@@ -1504,7 +2517,7 @@ def identify(
     free: list[str] | None,
 ) -> str:
     """What measurements at poses tell of uncertain parameters, as JSON."""
-def calibration_plan(
+def plan(
     robot: Robot,
     poses: ArrayLike,
     uncertainty: list[tuple[str, float]],
@@ -1518,5 +2531,9 @@ def calibration_plan(
     seed: int,
 ) -> str:
     """The set of candidate poses that leaves least uncertainty, as JSON."""
+def template(
+    robot: Robot, position: ArrayLike | None, payload: float | None, free: list[str] | None
+) -> str:
+    """The text of a study file for a robot, with usual tolerances."""
 def explorer_parts() -> dict[str, Any]:
     """The packed script, the worker, the style and the packed module of the explorer, for its widget."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, Callable, TypeVar, Union
+from typing import TYPE_CHECKING, Any, Callable, Optional, TypeVar, Union, overload
 
 if TYPE_CHECKING:
     import numpy
@@ -18,10 +18,17 @@ class Column:
     def __init__(self, path: str, doc: str, rows: str = "inputs") -> None:
         self.path, self.rows, self.__doc__ = [key for key in path.split(".") if key], rows, doc
 
-    def __get__(self, of: Any, owner: Any = None) -> Any:
+    @overload
+    def __get__(self, of: None, owner: Any = None) -> Column: ...
+    @overload
+    def __get__(self, of: Table, owner: Any = None) -> NDArray[numpy.float64]: ...
+    def __get__(self, of: Optional[Table], owner: Any = None) -> Union[Column, NDArray[numpy.float64]]:
+        return self if of is None else self._array(of)
+
+    def _array(self, of: Table) -> NDArray[numpy.float64]:
         import numpy
 
-        return self if of is None else numpy.array(self._numbers(of, self.path), dtype=float)
+        return numpy.array(self._numbers(of, self.path), dtype=float)
 
     def _numbers(self, of: Table, path: list[str]) -> list[float]:
         def number(row: Any) -> float:
@@ -35,11 +42,9 @@ class Column:
 class Interval(Column):
     """Intervals of estimates, (k, 2)."""
 
-    def __get__(self, of: Any, owner: Any = None) -> Any:
+    def _array(self, of: Table) -> NDArray[numpy.float64]:
         import numpy
 
-        if of is None:
-            return self
         ends = [self._numbers(of, [*self.path, end]) for end in ("low", "high")]
         return numpy.array(ends, dtype=float).T
 
@@ -86,7 +91,13 @@ class Table:
         return numpy.argsort(-numpy.nan_to_num(numpy.abs(getattr(self, self._drawn[0]))), kind="stable")[:most]
 
     def to_dataframe(self) -> Any:
-        """Returns a pandas.DataFrame with a row for each input; ends of intervals are `.._low`, `.._high`."""
+        """Makes a frame with a row for each input; ends of intervals are `.._low`, `.._high`.
+
+        Returns
+        -------
+        pandas.DataFrame
+            The frame.
+        """
         import pandas
 
         columns: dict[str, NDArray[Any]] = {}
@@ -99,7 +110,18 @@ class Table:
         return pandas.DataFrame(columns, index=pandas.Index(self.inputs, name=self._name))
 
     def plot(self, most: int = 20) -> Any:
-        """Draws bars of the leading inputs with their intervals, and returns the matplotlib Figure."""
+        """Draws bars of the leading inputs with their intervals.
+
+        Parameters
+        ----------
+        most : int, default 20
+            Greatest number of inputs.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            The figure.
+        """
         import numpy
         from matplotlib import pyplot
 

@@ -32,7 +32,7 @@ __all__ = ["Analysis", "analyse"]
 
 
 class Analysis(Table):
-    """What a table says of one output. `content` holds all of it, as `cdpr analyse --json` prints it.
+    """What a table says of one output. `content` holds all of it, as `cdpr analyse --format json` prints it.
 
     Arrays have an element for each of the k inputs, NaN where a measure cannot be computed (see `notes`).
     """
@@ -110,13 +110,30 @@ class Analysis(Table):
     target_p_value = Column("limit.target.p_value", "Probability of such a dependence without any.")
 
     def to_dataframe(self) -> Any:
-        """Returns a pandas.DataFrame with a row for each input; ends of intervals are `.._low`, `.._high`."""
+        """Returns a pandas.DataFrame with a row for each input; ends of intervals are `.._low`, `.._high`.
+
+        Returns
+        -------
+        pandas.DataFrame
+            The frame.
+        """
         frame = super().to_dataframe()
         given = self.content["limit"] is not None
         return frame if given else frame.drop(columns=["target", "target_p_value"])
 
     def plot(self, most: int = 9) -> Any:
-        """Draws the output against the leading inputs, and returns the matplotlib Figure."""
+        """Draws the output against the leading inputs, and returns the matplotlib Figure.
+
+        Parameters
+        ----------
+        most : int, default 9
+            Greatest number of inputs.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            The figure.
+        """
         from matplotlib import pyplot
 
         order = self._leading(most)
@@ -166,8 +183,8 @@ def _numbers(X: ArrayLike) -> tuple[NDArray[Any], list[list[str]]]:
 
 
 def analyse(
-    X: ArrayLike,
-    Y: Union[ArrayLike, Mapping[str, ArrayLike]],
+    rows: ArrayLike,
+    outputs: Union[ArrayLike, Mapping[str, ArrayLike]],
     names: Sequence[str] | None = None,
     *,
     problem: Mapping[str, Any] | None = None,
@@ -178,25 +195,49 @@ def analyse(
 ) -> Annotated[Any, Analysis]:
     """Analyses rows of inputs and their outputs: which inputs matter, and how.
 
-    X: values of the inputs, (n, k), or a pandas.DataFrame. Columns of texts are categories.
-    Y: outputs, (n,), NaN where a row failed; or several outputs: a dictionary, a pandas.DataFrame or (n, m).
-    names: names of the inputs; those of the DataFrame, of `problem`, or x1, x2, ... if left out.
-    problem: SALib's dictionary of a problem, for its `names`.
-    limit: what the outputs are to satisfy, such as ("<", 1.4), with <, <=, > or >=.
-    level: confidence level of the intervals.
-    seed: seed of all that is random.
-    dependence_rows: rows of the dependences (HSIC), whose time grows with the square.
+    Parameters
+    ----------
+    rows : array_like
+        Values of the inputs, (n, k), or a pandas.DataFrame. Columns of texts are categories.
+    outputs : array_like, dict or DataFrame
+        One output a row, (n,), NaN where a row failed; or several outputs: a dictionary, a
+        pandas.DataFrame or (n, m).
+    names : sequence of str, optional
+        Names of the inputs; those of the DataFrame, of `problem`, or x1, x2, ... if left out.
+    problem : dict, optional
+        SALib's dictionary of a problem, for its `names`.
+    limit : (str, float), optional
+        What the outputs are to satisfy, such as ("<", 1.4), with <, <=, > or >=.
+    level : float, default 0.95
+        Confidence level of the intervals.
+    seed : int, default 2017
+        Seed of all that is random.
+    dependence_rows : int, default 2000
+        Rows of the dependences (HSIC), whose time grows with the square.
 
-    Returns an Analysis; for several outputs a dictionary of these by their names. Rows in which an input is
-    not finite are left out.
+    Returns
+    -------
+    Analysis
+        An Analysis; for several outputs a dictionary of these by their names. Rows in which an input is
+        not finite are left out.
 
-    Raises InputError.
+    Raises
+    ------
+    InputError
+        For an invalid value; the message names it and what would be right.
+
+    Examples
+    --------
+    >>> import cdpr
+    >>> x = numpy.random.default_rng(1).uniform(-1, 1, (200, 2))
+    >>> cdpr.analyse(x, x[:, 0] ** 3, names=["a", "b"]).certain
+    ['a']
     """
-    x, labels = _numbers(X)
+    x, labels = _numbers(rows)
     if names is None and problem is not None:
         names = problem["names"]
     if names is None:
-        columns = getattr(X, "columns", None)
+        columns = getattr(rows, "columns", None)
         names = [f"x{k + 1}" for k in range(x.shape[-1])] if columns is None else list(columns)
     listed = [str(name) for name in names]
 
@@ -204,4 +245,4 @@ def analyse(
         text = _analyse(x, values, listed, labels, limit, level, seed, dependence_rows)
         return Analysis(output, json.loads(text), x, values)
 
-    return by_output(Y, one)
+    return by_output(outputs, one)

@@ -34,20 +34,53 @@ macro_rules! answer {
                 $crate::convert::answer::summary(slf.as_any(), &[$(stringify!($field)),*])
             }
 
-            /// Returns a pandas.DataFrame with a row for each case and columns of numbers and words.
+            /// Makes a frame with a row for each case and columns of numbers and words.
             ///
             /// Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
-            /// name: `rms/a1.x`.
+            /// name: `magnitude/a1.x`.
+            ///
+            /// Returns
+            /// -------
+            /// pandas.DataFrame
+            ///     The frame.
             fn to_dataframe<'py>(
                 slf: &pyo3::Bound<'py, Self>,
             ) -> pyo3::PyResult<pyo3::Bound<'py, pyo3::PyAny>> {
                 let table = slf.py().import("cdpr._table")?;
                 table.call_method1("frame_of", (slf, [$(stringify!($field)),*]))
             }
+
+            /// `Deflection[float]` for one case, `Deflection[NDArray]` for several: types for type checkers.
+            #[classmethod]
+            fn __class_getitem__<'py>(
+                class: &pyo3::Bound<'py, pyo3::types::PyType>,
+                number: pyo3::Bound<'py, pyo3::PyAny>,
+            ) -> pyo3::PyResult<pyo3::Bound<'py, pyo3::PyAny>> {
+                class.py().import("types")?.call_method1("GenericAlias", (class, number))
+            }
         }
     };
 }
 pub(crate) use answer;
+
+/// Declares that an answer can be drawn.
+macro_rules! plotted {
+    ($class:ident) => {
+        #[pyo3::pymethods]
+        impl $class {
+            /// Draws the answer: of one case a bar for each element, of several a line over the cases.
+            ///
+            /// Returns
+            /// -------
+            /// matplotlib.figure.Figure
+            ///     The figure.
+            fn plot<'py>(slf: &pyo3::Bound<'py, Self>) -> pyo3::PyResult<pyo3::Bound<'py, pyo3::PyAny>> {
+                slf.py().import("cdpr._figures")?.call_method1("figure_of", (slf,))
+            }
+        }
+    };
+}
+pub(crate) use plotted;
 
 /// Takes the value of the next field.
 pub(crate) fn next<'py>(fields: &mut BoundTupleIterator<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
@@ -62,7 +95,7 @@ pub(crate) fn fields<'py>(answer: &Bound<'py, PyAny>, names: &[&str]) -> PyResul
     PyTuple::new(answer.py(), values)
 }
 
-/// Summarizes an answer: `<cdpr.Deflection displacement (40, 3), rms (40,), ..., reasons [40]>`.
+/// Summarizes an answer: `<cdpr.Deflection displacement (40, 3), magnitude (40,), ..., reasons [40]>`.
 ///
 /// Numbers, and vectors of up to three of a single case, show their values, other arrays their shapes, lists
 /// their lengths; fields that are None are left out, and right derivatives, which
@@ -70,7 +103,7 @@ pub(crate) fn fields<'py>(answer: &Bound<'py, PyAny>, names: &[&str]) -> PyResul
 pub(crate) fn summary(answer: &Bound<PyAny>, names: &[&str]) -> PyResult<String> {
     let class = answer.get_type();
     let module = class.module()?.to_string();
-    let single = answer.getattr("reasons").is_ok_and(|reasons| reasons.is_none());
+    let single = answer.getattr("reasons").map_or(true, |reasons| reasons.is_none());
     let mut parts = Vec::new();
     for (name, value) in names.iter().zip(fields(answer, names)?) {
         let shown = if value.is_none() || name.ends_with("_right") {

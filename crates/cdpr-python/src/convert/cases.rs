@@ -68,6 +68,14 @@ impl Rows {
         }
     }
 
+    /// The same, if all of them are finite.
+    pub(crate) fn finite(self) -> Answer<Self> {
+        match self.values.iter().find(|value| !value.is_finite()) {
+            Some(value) => Err(Raised::Input(format!("{} has {value}: expected finite numbers", self.name))),
+            None => Ok(self),
+        }
+    }
+
     /// Poses: x, y, z [m], or x, y, z, qw, qx, qy, qz.
     pub(crate) fn poses(name: &'static str, numbers: &Numbers, robot: &Robot) -> Answer<Self> {
         let rows = Self::vectors(name, numbers)?;

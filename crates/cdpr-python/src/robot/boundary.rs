@@ -1,6 +1,6 @@
 //! `Robot.boundary`: where the region that the cables hold ends.
 
-use crate::convert::{Answer, Numbers, Raised, answer, run};
+use crate::convert::{Answer, Numbers, Raised, answer, plotted, run};
 use crate::robot::Robot;
 use crate::robot::inverse::coordinates;
 use crate::robot::workspace::grid_of;
@@ -28,6 +28,8 @@ answer! {
     }
 }
 
+plotted!(Boundary);
+
 #[pymethods]
 impl Robot {
     /// Finds the boundary of the region that the cables hold under a payload, with the platform level.
@@ -35,13 +37,43 @@ impl Robot {
     /// Bisection moves it between the positions of a grid to where it is, so that a coarse grid does; a hole or
     /// an island that lies between the positions is not seen.
     ///
-    /// x, y, z, plane, grid: as `Robot.workspace` takes them: a plane or a box.
-    /// payload: mass added at the platform's centre of mass [kg].
-    /// way: how the load is borne: "anew", the winches distribute the tensions, or "kept", with the lengths.
-    /// free: names of the coordinates of the pose that are found, for a robot with fewer cables than free
+    /// Parameters
+    /// ----------
+    /// x : float or (float, float, int), optional
+    ///     as `Robot.workspace` takes them: a plane or a box.
+    /// y : float or (float, float, int), optional
+    ///     as `Robot.workspace` takes them: a plane or a box.
+    /// z : float or (float, float, int), optional
+    ///     as `Robot.workspace` takes them: a plane or a box.
+    /// plane : (str, float), optional
+    ///     as `Robot.workspace` takes them: a plane or a box.
+    /// grid : (int, int), optional
+    ///     as `Robot.workspace` takes them: a plane or a box.
+    /// payload : float
+    ///     Mass added at the platform's centre of mass [kg].
+    /// way : str, default 'anew'
+    ///     How the load is borne: "anew", the winches distribute the tensions, or "kept", with the lengths.
+    /// free : sequence of str, optional
+    ///     Names of the coordinates of the pose that are found, for a robot with fewer cables than free
     ///     motions.
     ///
-    /// Raises InputError.
+    /// Returns
+    /// -------
+    /// Boundary
+    ///     Polygons or triangles, and their area or volume.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     For an invalid value; the message names it and what would be right.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import cdpr
+    /// >>> robot = cdpr.Robot.from_file("cogiro")
+    /// >>> region = robot.boundary(plane=("z", 2), grid=(4, 4), payload=50)
+    /// >>> region.polygons[0].shape[1], region.measure > 0  # [m], [m²]
+    /// (3, True)
     #[pyo3(signature = (*, x=None, y=None, z=None, plane=None, grid=None, payload, way="anew", free=None))]
     #[allow(clippy::too_many_arguments)]
     fn boundary(

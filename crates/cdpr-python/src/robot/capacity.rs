@@ -1,6 +1,6 @@
 //! `Robot.capacity`: what a robot can carry at a pose, and how far its tensions are from their limits.
 
-use crate::convert::{Answer, Array, Columns, Loads, Numbers, Raised, Rows, answer, each};
+use crate::convert::{Answer, Array, Columns, Loads, Numbers, Raised, Rows, answer, each, plotted};
 use crate::robot::Robot;
 use crate::robot::inverse::coordinates;
 use cdpr_assess::{Clearance, Figure, Tilt, WrenchSet, capacity_at, clearance_under, tilt_at};
@@ -41,6 +41,8 @@ answer! {
     }
 }
 
+plotted!(Capacity);
+
 /// Accuracy of the tilt [rad].
 const TILT_ACCURACY: f64 = 1e-4;
 
@@ -66,17 +68,42 @@ impl Robot {
     ///
     /// Arguments are of one case, or have a first axis of m cases.
     ///
-    /// pose: x, y, z [m], or x, y, z, qw, qx, qy, qz, (3,) or (7,).
-    /// payload: mass that the platform carries there, at its centre of mass [kg].
-    /// force, moment: on the platform in the base frame, about P [N, N m], (3,).
-    /// wrenches: wrenches that may act beside the load, fx to mz about P [N, N m], (k, 6); all poses have the
+    /// Parameters
+    /// ----------
+    /// pose : array_like
+    ///     x, y, z [m], or x, y, z, qw, qx, qy, qz, (3,) or (7,).
+    /// payload : array_like, optional
+    ///     Mass that the platform carries there, at its centre of mass [kg].
+    /// force, moment : array_like, optional
+    ///     On the platform in the base frame, about P [N, N m], (3,).
+    /// wrenches : array_like, optional
+    ///     Wrenches that may act beside the load, fx to mz about P [N, N m], (k, 6); all poses have the
     ///     same.
-    /// tilt: number of azimuths, from x to y, towards which the platform is tilted as far as tensions within
+    /// tilt : int, default 0
+    ///     Number of azimuths, from x to y, towards which the platform is tilted as far as tensions within
     ///     the limits hold it; 0 leaves it out.
-    /// free: names of the coordinates of the pose that are found, for a robot with fewer cables than free
+    /// free : sequence of str, optional
+    ///     Names of the coordinates of the pose that are found, for a robot with fewer cables than free
     ///     motions, as `Robot.inverse` takes them.
     ///
-    /// Raises InputError; for one case NoSolutionError.
+    /// Returns
+    /// -------
+    /// Capacity
+    ///     Payloads, margins and distances.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     For an invalid value; the message names it and what would be right.
+    /// NoSolutionError
+    ///     For one case without an answer; of several, its row has NaN and a reason.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import cdpr
+    /// >>> robot = cdpr.Robot.from_file("cogiro")
+    /// >>> robot.capacity([[0, 0, 2], [1, 0, 2]]).payload_anew.shape  # [kg]
+    /// (2,)
     #[pyo3(signature = (pose, *, payload=None, force=None, moment=None, wrenches=None, tilt=0, free=None))]
     #[allow(clippy::too_many_arguments)]
     fn capacity(

@@ -1,6 +1,6 @@
 //! `Robot.certify`: proofs of how close the exact equilibrium is.
 
-use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each, question};
+use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each, plotted, question};
 use crate::robot::Robot;
 use cdpr_robot::plausible;
 use cdpr_statics::{
@@ -34,13 +34,46 @@ answer! {
     }
 }
 
+plotted!(Certificate);
+
 #[pymethods]
 impl Robot {
     /// Proves how close the exact equilibrium is to that of `Robot.direct`, and that it is stable.
     ///
     /// It is for six free motions, plain cables and a level base. Arguments are those of `Robot.direct`.
     ///
-    /// Raises InputError; for one case NoSolutionError, of the kind `not_certified` where nothing is proved.
+    /// Parameters
+    /// ----------
+    /// lengths : array_like
+    ///     Unstrained lengths of the cables [m], (n,).
+    /// force : array_like, optional
+    ///     Force on the platform in the base frame [N], (3,).
+    /// moment : array_like, optional
+    ///     Moment on the platform in the base frame, about P [N m], (3,).
+    /// payload : array_like, optional
+    ///     Mass added at the platform's centre of mass [kg].
+    /// start : array_like, optional
+    ///     Start of the search, (3,) or (7,).
+    ///
+    /// Returns
+    /// -------
+    /// Certificate
+    ///     Bounds.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     For an invalid value; the message names it and what would be right.
+    /// NoSolutionError
+    ///     For one case without an answer; of several, its row has NaN and a reason, of the kind
+    ///     `not_certified` where nothing is proved.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import cdpr
+    /// >>> robot = cdpr.Robot.from_file("cogiro")
+    /// >>> robot.certify(robot.inverse([0, 0, 2]).lengths).position < 1e-9  # [m]
+    /// True
     #[pyo3(signature = (lengths, *, force=None, moment=None, payload=None, start=None))]
     fn certify(
         &self,

@@ -1,6 +1,6 @@
 //! `Robot.deflection`: how far a load displaces and rotates the platform.
 
-use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each};
+use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each, plotted};
 use crate::robot::Robot;
 use crate::robot::direct::{DirectSolution, Found};
 use crate::robot::inverse::coordinates;
@@ -18,7 +18,7 @@ answer! {
         /// Displacement dp of P, the position with the load minus that without [m], (3,).
         displacement: Py<PyAny>,
         /// Norm |dp| of the displacement, the paper's RMS [m].
-        rms: Py<PyAny>,
+        magnitude: Py<PyAny>,
         /// Rotation vector from the unloaded to the loaded platform, in the base frame [rad], (3,).
         rotation: Py<PyAny>,
         /// Unstrained lengths of the cables [m], (n,).
@@ -34,9 +34,11 @@ answer! {
     }
 }
 
+plotted!(Deflection);
+
 /// A deflection with its derived quantities, which are computed in parallel.
 pub(crate) struct Given {
-    rms: f64,
+    magnitude: f64,
     displacement: [f64; 3],
     motion: Vector6<f64>,
     lengths: Vec<f64>,
@@ -47,7 +49,7 @@ pub(crate) struct Given {
 impl Given {
     pub(crate) fn new(robot: &cdpr_robot::Robot, found: cdpr_statics::Deflection) -> Self {
         Self {
-            rms: found.rms(),
+            magnitude: found.magnitude(),
             displacement: found.displacement().into(),
             motion: found.unloaded.equilibrium.pose.motion_to(&found.loaded.equilibrium.pose),
             unloaded: Found::new(robot, &found.lengths, found.unloaded),
@@ -64,14 +66,39 @@ impl Robot {
     /// The cables are wound so that the platform rests at the pose under its own weight; then the load is
     /// added. Arguments are of one case, or have a first axis of m cases.
     ///
-    /// pose: wanted pose under the platform's own weight, (3,) or (7,).
-    /// payload: mass added at the platform's centre of mass [kg].
-    /// force, moment: on the platform in the base frame, about P [N, N m], (3,).
-    /// tension_offsets: offsets added to the tension set-points [N], (n,).
-    /// free: names of the coordinates of the pose that are found, for a robot with fewer cables than free
+    /// Parameters
+    /// ----------
+    /// pose : array_like
+    ///     Wanted pose under the platform's own weight, (3,) or (7,).
+    /// payload : array_like, optional
+    ///     Mass added at the platform's centre of mass [kg].
+    /// force, moment : array_like, optional
+    ///     On the platform in the base frame, about P [N, N m], (3,).
+    /// tension_offsets : array_like, optional
+    ///     Offsets added to the tension set-points [N], (n,).
+    /// free : sequence of str, optional
+    ///     Names of the coordinates of the pose that are found, for a robot with fewer cables than free
     ///     motions, as `Robot.inverse` takes them.
     ///
-    /// Raises InputError; for one case NoSolutionError.
+    /// Returns
+    /// -------
+    /// Deflection
+    ///     Displacements and rotations, and the equilibria without and with the load.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     For an invalid value; the message names it and what would be right.
+    /// NoSolutionError
+    ///     For one case without an answer; of several, its row has NaN and a reason.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import cdpr
+    /// >>> robot = cdpr.Robot.from_file("cogiro")
+    /// >>> given = robot.deflection([0, 0, 2], payload=50)
+    /// >>> print(f"{1e3 * given.magnitude:.1f} mm")
+    /// 7.7 mm
     #[pyo3(signature = (pose, *, payload=None, force=None, moment=None, tension_offsets=None, free=None))]
     #[allow(clippy::too_many_arguments)]
     fn deflection(
@@ -113,7 +140,7 @@ impl Deflection {
         let loaded = DirectSolution::new(&all.part(|given| &given.loaded), cables)?;
         Ok(Self {
             displacement: all.vector(|given| given.displacement)?,
-            rms: all.number(|given| given.rms)?,
+            magnitude: all.number(|given| given.magnitude)?,
             rotation: all.vector(|given| [3, 4, 5].map(|row| given.motion[row]))?,
             lengths: all.numbers(&[cables], |given, out| out.copy_from_slice(&given.lengths))?,
             unloaded: Py::new(py, unloaded)?,

@@ -26,7 +26,7 @@ answer! {
         /// Inputs whose left and right derivatives differ, (k,).
         one_sided: Py<PyAny>,
         /// Derivatives of |dp| [m per unit], (k,).
-        rms: Py<PyAny>,
+        magnitude: Py<PyAny>,
         /// Derivatives of dp [m per unit], (3, k).
         displacement: Py<PyAny>,
         /// Derivatives of the unstrained lengths [m per unit], (n, k).
@@ -42,7 +42,7 @@ answer! {
         /// motions have it, and without inertia of the platform.
         frequency: Py<PyAny>,
         /// Right derivatives of |dp| [m per unit], (k,).
-        rms_right: Py<PyAny>,
+        magnitude_right: Py<PyAny>,
         /// Right derivatives of dp [m per unit], (3, k).
         displacement_right: Py<PyAny>,
         /// Right derivatives of the unstrained lengths [m per unit], (n, k).
@@ -74,7 +74,7 @@ struct Sides {
 
 /// The matrices of derivatives, row by row.
 struct Slopes {
-    rms: Vec<f64>,
+    magnitude: Vec<f64>,
     displacement: Vec<f64>,
     lengths: Vec<f64>,
     set_points: Vec<f64>,
@@ -94,7 +94,7 @@ impl Slopes {
         };
         // nalgebra stores matrices column by column.
         Ok(Self {
-            rms: found.rms()?,
+            magnitude: found.magnitude()?,
             displacement: found.displacement().transpose().as_slice().to_vec(),
             lengths: found.lengths.transpose().as_slice().to_vec(),
             set_points: found.set_points.transpose().as_slice().to_vec(),
@@ -111,13 +111,38 @@ impl Robot {
     ///
     /// Arguments are of one case, or have a first axis of m cases.
     ///
-    /// pose: wanted pose under the platform's own weight, (3,) or (7,).
-    /// payload: mass added at the platform's centre of mass [kg].
-    /// force, moment: on the platform in the base frame, about P [N, N m], (3,).
-    /// free: names of the coordinates of the pose that are found, for a robot with fewer cables than free
+    /// Parameters
+    /// ----------
+    /// pose : array_like
+    ///     Wanted pose under the platform's own weight, (3,) or (7,).
+    /// payload : array_like, optional
+    ///     Mass added at the platform's centre of mass [kg].
+    /// force, moment : array_like, optional
+    ///     On the platform in the base frame, about P [N, N m], (3,).
+    /// free : sequence of str, optional
+    ///     Names of the coordinates of the pose that are found, for a robot with fewer cables than free
     ///     motions, as `Robot.inverse` takes them.
     ///
-    /// Raises InputError; for one case NoSolutionError, also where a derivative does not exist.
+    /// Returns
+    /// -------
+    /// Derivatives
+    ///     Derivatives by each input.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     For an invalid value; the message names it and what would be right.
+    /// NoSolutionError
+    ///     For one case without an answer; of several, its row has NaN and a reason; also where a
+    ///     derivative does not exist.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import cdpr
+    /// >>> robot = cdpr.Robot.from_file("cogiro")
+    /// >>> slopes = robot.derivatives([0, 0, 2], payload=50)
+    /// >>> slopes.inputs[0], len(slopes.magnitude) == len(slopes.inputs)
+    /// ('mass', True)
     #[pyo3(signature = (pose, *, payload=None, force=None, moment=None, free=None))]
     #[allow(clippy::too_many_arguments)]
     fn derivatives(
@@ -154,7 +179,7 @@ impl Robot {
         let numbers = |side: &Columns<Slopes>, shape: &[usize], field: fn(&Slopes) -> &[f64]| {
             side.numbers(shape, |slopes: &Slopes, out| out.copy_from_slice(field(slopes)))
         };
-        let rms = |side| numbers(side, &[count], |slopes| &slopes.rms);
+        let magnitude = |side| numbers(side, &[count], |slopes| &slopes.magnitude);
         let displacement = |side| numbers(side, &[3, count], |slopes| &slopes.displacement);
         let lengths = |side| numbers(side, &[cables, count], |slopes| &slopes.lengths);
         let set_points = |side| numbers(side, &[cables, count], |slopes| &slopes.set_points);
@@ -166,14 +191,14 @@ impl Robot {
             one_sided: all.array(false, &[count], |sides, out| {
                 sides.one_sided.iter().for_each(|column| out[*column] = true);
             })?,
-            rms: rms(&left)?,
+            magnitude: magnitude(&left)?,
             displacement: displacement(&left)?,
             lengths: lengths(&left)?,
             set_points: set_points(&left)?,
             tensions: tensions(&left)?,
             least_stiffness: least_stiffness(&left)?,
             frequency: frequency(&left)?,
-            rms_right: rms(&right)?,
+            magnitude_right: magnitude(&right)?,
             displacement_right: displacement(&right)?,
             lengths_right: lengths(&right)?,
             set_points_right: set_points(&right)?,

@@ -1,6 +1,6 @@
 //! `Robot.direct`: where the platform stands for given unstrained lengths.
 
-use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each, question};
+use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each, plotted, question};
 use crate::robot::Robot;
 use cdpr_assess::doubtful_rest;
 use cdpr_robot::{Rotation3, plausible};
@@ -54,6 +54,8 @@ answer! {
     }
 }
 
+plotted!(DirectSolution);
+
 /// An equilibrium with its least stiffness, which is computed in parallel.
 pub(crate) struct Found {
     solution: cdpr_statics::DirectSolution,
@@ -95,12 +97,36 @@ impl Robot {
     ///
     /// Arguments are of one case, or have a first axis of m cases.
     ///
-    /// lengths: unstrained lengths of the cables [m], (n,).
-    /// force, moment: on the platform in the base frame, about P [N, N m], (3,).
-    /// payload: mass added at the platform's centre of mass [kg].
-    /// start: start of the search, (3,) or (7,); if left out, where straight cables would hold a point.
+    /// Parameters
+    /// ----------
+    /// lengths : array_like
+    ///     Unstrained lengths of the cables [m], (n,).
+    /// force, moment : array_like, optional
+    ///     On the platform in the base frame, about P [N, N m], (3,).
+    /// payload : array_like, optional
+    ///     Mass added at the platform's centre of mass [kg].
+    /// start : array_like, optional
+    ///     Start of the search, (3,) or (7,); if left out, where straight cables would hold a point.
     ///
-    /// Raises InputError; for one case NoSolutionError.
+    /// Returns
+    /// -------
+    /// DirectSolution
+    ///     The equilibria.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     For an invalid value; the message names it and what would be right.
+    /// NoSolutionError
+    ///     For one case without an answer; of several, its row has NaN and a reason.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import cdpr
+    /// >>> robot = cdpr.Robot.from_file("cogiro")
+    /// >>> found = robot.direct(robot.inverse([0, 0, 2]).lengths)
+    /// >>> found.position.round(6).tolist()  # [m]
+    /// [0.0, 0.0, 2.0]
     #[pyo3(signature = (lengths, *, force=None, moment=None, payload=None, start=None))]
     fn direct(
         &self,

@@ -1,6 +1,6 @@
 //! `Robot.inverse`: the unstrained lengths that hold a pose.
 
-use crate::convert::{Answer, Cases, Columns, Loads, Numbers, Rows, answer, each, run};
+use crate::convert::{Answer, Cases, Columns, Loads, Numbers, Rows, answer, each, plotted, run};
 use crate::robot::Robot;
 use crate::robot::direct::numbers_of_limits;
 use cdpr_robot::{Coordinate, Pose, RobotError};
@@ -10,8 +10,9 @@ use cdpr_statics::{
     Bound, Equilibrium, InversePath, InverseSolution as InverseModel, PathSolution, Residual, StaticsError,
     WantedPose, inverse,
 };
+use numpy::PyArray1;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyList};
+use pyo3::types::PyList;
 use std::sync::atomic::Ordering::Relaxed;
 
 answer! {
@@ -44,8 +45,8 @@ answer! {
         pose: Py<PyAny>,
         /// Whether the platform stays there with these lengths; only with `free` coordinates.
         stable: Py<PyAny>,
-        /// Further solutions with `free` coordinates, those within the limits first: a list of dicts of pose,
-        /// lengths, tensions, stable and out_of_limits, or for m poses a list of m such lists.
+        /// Further solutions with `free` coordinates, those within the limits first: a list of `OtherSolution`,
+        /// or for m poses a list of m such lists.
         others: Py<PyAny>,
         /// Why there is no answer, None where there is one; None for one pose.
         reasons: Py<PyAny>,
@@ -53,6 +54,27 @@ answer! {
         kinds: Py<PyAny>,
     }
 }
+
+plotted!(InverseSolution);
+
+answer! {
+    /// A further rest of a platform with `free` coordinates.
+    #[pyclass(frozen, get_all, module = "cdpr")]
+    pub(crate) struct OtherSolution {
+        /// Pose at which the platform rests, (7,).
+        pose: Py<PyAny>,
+        /// Unstrained length of each cable [m], (n,).
+        lengths: Py<PyAny>,
+        /// Tension of each cable at the platform [N], (n,).
+        tensions: Py<PyAny>,
+        /// Whether its tension, at either end, is out of limits, as in `InverseSolution`, (n,).
+        out_of_limits: Py<PyAny>,
+        /// Whether the platform stays there with these lengths.
+        stable: bool,
+    }
+}
+
+plotted!(OtherSolution);
 
 /// A pose that is held, or at which the platform rests.
 struct Solved {
@@ -89,7 +111,7 @@ pub(crate) fn coordinates(names: Option<Vec<String>>) -> Answer<Vec<Coordinate>>
     Ok(names.iter().map(|name| name.parse()).collect::<Result<_, RobotError>>()?)
 }
 
-/// Further solutions: a list of dicts, or one for each case; None where no coordinate is free.
+/// Further solutions: a list, or one for each case; None where no coordinate is free.
 fn others_of(
     py: Python,
     robot: &cdpr_robot::Robot,
@@ -100,22 +122,24 @@ fn others_of(
     if !free {
         return Ok(py.None());
     }
-    let dict = |other: &FreeSolution| -> PyResult<_> {
+    let made = |other: &FreeSolution| -> PyResult<Py<OtherSolution>> {
         let Pose { position, .. } = other.equilibrium.pose;
         let quaternion = other.equilibrium.pose.quaternion();
-        let dict = PyDict::new(py);
-        dict.set_item("pose", [position.as_slice(), &quaternion].concat())?;
-        dict.set_item("lengths", &other.lengths)?;
-        dict.set_item("tensions", &other.tensions)?;
-        dict.set_item("stable", other.stability.is_stable())?;
+        let array = |values: &[f64]| PyArray1::from_slice(py, values).into_any().unbind();
         let mut limits = vec![0_i8; other.lengths.len()];
         numbers_of_limits(&out_of_limits(robot, &other.lengths, &[&other.equilibrium]), &mut limits);
-        dict.set_item("out_of_limits", limits)?;
-        Ok(dict)
+        let solution = OtherSolution {
+            pose: array(&[position.as_slice(), &quaternion].concat()),
+            lengths: array(&other.lengths),
+            tensions: array(&other.tensions),
+            out_of_limits: PyArray1::from_vec(py, limits).into_any().unbind(),
+            stable: other.stability.is_stable(),
+        };
+        Py::new(py, solution)
     };
     let lists = outcomes.iter().map(|outcome| -> PyResult<_> {
         let others = outcome.as_ref().map_or(&[][..], |solved| &solved.others);
-        PyList::new(py, others.iter().map(dict).collect::<PyResult<Vec<_>>>()?)
+        PyList::new(py, others.iter().map(made).collect::<PyResult<Vec<_>>>()?)
     });
     let mut lists = lists.collect::<PyResult<Vec<_>>>()?;
     match lists.pop() {
@@ -189,20 +213,46 @@ impl Robot {
     /// The tensions are those within their limits that come nearest to a reference. Arguments are of one
     /// case, or have a first axis of m cases.
     ///
-    /// pose: x, y, z [m], or x, y, z, qw, qx, qy, qz, (3,) or (7,).
-    /// force, moment: on the platform in the base frame, about P [N, N m], (3,).
-    /// payload: mass added at the platform's centre of mass [kg].
-    /// reference: tensions that the tensions are nearest to [N], (n,), in place of the robot's own
+    /// Parameters
+    /// ----------
+    /// pose : array_like
+    ///     x, y, z [m], or x, y, z, qw, qx, qy, qz, (3,) or (7,).
+    /// force, moment : array_like, optional
+    ///     On the platform in the base frame, about P [N, N m], (3,).
+    /// payload : array_like, optional
+    ///     Mass added at the platform's centre of mass [kg].
+    /// reference : array_like, optional
+    ///     Tensions that the tensions are nearest to [N], (n,), in place of the robot's own
     ///     `tension_reference`; zeros for the least norm.
-    /// path: whether the cases are a path, so that each keeps to the branch of tensions of the one before as
+    /// path : bool, default False
+    ///     Whether the cases are a path, so that each keeps to the branch of tensions of the one before as
     ///     long as it exists on the straight way between them.
-    /// free: names of the coordinates of the pose that are found, for a robot with fewer cables than free
-    ///     motions: as many of x, y, z, roll, pitch, yaw as cables are missing, with
-    ///     R = Rz(yaw) Ry(pitch) Rx(roll). They start from the pose and end where the platform rests,
-    ///     within the limits, with no cable longer than three chords or below `ground_z`; a reference does
-    ///     not matter.
+    /// free : sequence of str, optional
+    ///     Names of the coordinates of the pose that are found, for a robot with fewer cables than free
+    ///     motions: as many of x, y, z, roll, pitch, yaw as cables are missing, with R = Rz(yaw) Ry(pitch)
+    ///     Rx(roll). They start from the pose and end where the platform rests, within the limits, with no
+    ///     cable longer than three chords or below `ground_z`; a reference does not matter.
     ///
-    /// Raises InputError; for one case NoSolutionError.
+    /// Returns
+    /// -------
+    /// InverseSolution
+    ///     Lengths and tensions.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     For an invalid value; the message names it and what would be right.
+    /// NoSolutionError
+    ///     For one case without an answer; of several, its row has NaN and a reason.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import cdpr
+    /// >>> robot = cdpr.Robot.from_file("cogiro")
+    /// >>> robot.inverse([0, 0, 2]).lengths.shape  # [m]
+    /// (8,)
+    /// >>> robot.inverse([[0, 0, 2], [1, 0, 2]], payload=50).lengths.shape
+    /// (2, 8)
     #[pyo3(signature = (pose, *, force=None, moment=None, payload=None, reference=None, path=false,
         free=None))]
     #[allow(clippy::too_many_arguments)]

@@ -1,6 +1,6 @@
 //! `Robot.modes`: natural frequencies and motions at a pose.
 
-use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each};
+use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each, plotted};
 use crate::robot::Robot;
 use crate::robot::inverse::coordinates;
 use cdpr_robot::Vector3;
@@ -35,19 +35,45 @@ answer! {
     }
 }
 
+plotted!(Modes);
+
 #[pymethods]
 impl Robot {
     /// Computes the natural frequencies and motions at a pose with a load; the lengths are held.
     ///
     /// Arguments are of one case, or have a first axis of m cases.
     ///
-    /// pose: x, y, z [m], or x, y, z, qw, qx, qy, qz, (3,) or (7,).
-    /// payload: mass that the platform carries there, at its centre of mass [kg].
-    /// force, moment: on the platform in the base frame, about P [N, N m], (3,).
-    /// free: names of the coordinates of the pose that are found, for a robot with fewer cables than free
+    /// Parameters
+    /// ----------
+    /// pose : array_like
+    ///     x, y, z [m], or x, y, z, qw, qx, qy, qz, (3,) or (7,).
+    /// payload : array_like, optional
+    ///     Mass that the platform carries there, at its centre of mass [kg].
+    /// force, moment : array_like, optional
+    ///     On the platform in the base frame, about P [N, N m], (3,).
+    /// free : sequence of str, optional
+    ///     Names of the coordinates of the pose that are found, for a robot with fewer cables than free
     ///     motions, as `Robot.inverse` takes them.
     ///
-    /// Raises InputError, also where the robot has no inertia; for one case NoSolutionError.
+    /// Returns
+    /// -------
+    /// Modes
+    ///     Frequencies and motions.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     For an invalid value; the message names it and what would be right; also where the robot has no
+    ///     inertia.
+    /// NoSolutionError
+    ///     For one case without an answer; of several, its row has NaN and a reason.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import cdpr
+    /// >>> robot = cdpr.Robot.from_file("cogiro")
+    /// >>> robot.modes([0, 0, 2]).frequencies_hz.shape  # [Hz]
+    /// (6,)
     #[pyo3(signature = (pose, *, payload=None, force=None, moment=None, free=None))]
     fn modes(
         &self,

@@ -1,6 +1,6 @@
 //! `Robot.observe`: the deflections of robots that deviate from the nominal one, which every study observes.
 
-use crate::convert::{Answer, Cases, Columns, Loads, Numbers, Raised, Rows, answer, run};
+use crate::convert::{Answer, Cases, Columns, Loads, Numbers, Raised, Rows, answer, plotted, run};
 use crate::robot::Robot;
 use crate::robot::inverse::coordinates;
 use cdpr_robot::{Deviations, ParameterLayout, Vector3};
@@ -17,13 +17,15 @@ answer! {
         /// Displacement dp of P [m], (3,).
         displacement: Py<PyAny>,
         /// Norm |dp| of the displacement [m].
-        rms: Py<PyAny>,
+        magnitude: Py<PyAny>,
         /// Why there is no answer, None where there is one; None for one robot.
         reasons: Py<PyAny>,
         /// The kind of each failure, in the same form: `infeasible_tension`, ...
         kinds: Py<PyAny>,
     }
 }
+
+plotted!(Observations);
 
 /// Number of robots that a thread takes at a time.
 const PART: usize = 256;
@@ -36,13 +38,37 @@ impl Robot {
     /// the vector unit at once: the answers agree with `deflection` to rounding, and each depends on its own
     /// row alone.
     ///
-    /// pose: wanted pose under the platform's own weight, (3,) or (7,).
-    /// deviations: deviations of the parameters, in the order of `parameters` [SI units], (k,) or (m, k).
-    /// payload, force, moment: one load for all, as in `deflection`.
-    /// free: names of the coordinates of the pose that this robot finds, as `Robot.inverse` takes them, for
+    /// Parameters
+    /// ----------
+    /// pose : array_like
+    ///     Wanted pose under the platform's own weight, (3,) or (7,).
+    /// deviations : array_like
+    ///     Deviations of the parameters, in the order of `parameters` [SI units], (k,) or (m, k).
+    /// payload, force, moment : array_like, optional
+    ///     One load for all, as in `deflection`.
+    /// free : sequence of str, optional
+    ///     Names of the coordinates of the pose that this robot finds, as `Robot.inverse` takes them, for
     ///     one with fewer cables than free motions; deviating robots are wound for the pose that it finds.
     ///
-    /// Raises InputError; for one robot NoSolutionError.
+    /// Returns
+    /// -------
+    /// Observations
+    ///     Displacements, a row for each robot.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     For an invalid value; the message names it and what would be right.
+    /// NoSolutionError
+    ///     For one robot without an answer; of several, its row has NaN and a reason.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import cdpr
+    /// >>> robot = cdpr.Robot.from_file("cogiro")
+    /// >>> deviations = [[0.0] * len(robot.parameters)] * 3
+    /// >>> robot.observe([0, 0, 2], deviations, payload=50).displacement.shape  # [m]
+    /// (3, 3)
     #[pyo3(signature = (pose, deviations, *, payload=None, force=None, moment=None, free=None))]
     #[allow(clippy::too_many_arguments)]
     fn observe(
@@ -84,7 +110,7 @@ impl Robot {
         let all = Columns::new(py, cases, &outcomes)?;
         Ok(Observations {
             displacement: all.vector(|found: &Vector3<f64>| (*found).into())?,
-            rms: all.number(|found: &Vector3<f64>| found.norm())?,
+            magnitude: all.number(|found: &Vector3<f64>| found.norm())?,
             reasons: all.reasons(),
             kinds: all.kinds(),
         })

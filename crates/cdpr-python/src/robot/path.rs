@@ -1,6 +1,6 @@
 //! `Robot.path`: what a robot does along a path of poses.
 
-use crate::convert::{Answer, Cases, Columns, Loads, Numbers, Raised, Rows, answer, run};
+use crate::convert::{Answer, Cases, Columns, Loads, Numbers, Raised, Rows, answer, plotted, run};
 use crate::robot::Robot;
 use crate::robot::direct::{DirectSolution, Found};
 use crate::robot::workspace::tolerances;
@@ -30,16 +30,15 @@ answer! {
         /// Displacement of P by the load [m], (m, 3).
         displacement: Py<PyAny>,
         /// Its length [m], (m,).
-        rms: Py<PyAny>,
+        magnitude: Py<PyAny>,
         /// Stiffness of the softest motion with the load [N/m], (m,).
         least_stiffness: Py<PyAny>,
         /// Lowest natural frequency with the load [Hz], (m,); NaN for a robot without `inertia`.
         lowest_frequency: Py<PyAny>,
         /// That of the slowest cable between ends at rest [Hz], (m,); NaN without a lowest frequency.
         lowest_cable_frequency: Py<PyAny>,
-        /// Standard deviations of lengths, tensions, displacement, rms, least stiffness and lowest frequency
-        /// by their names; NaN where there are no derivatives. None without an uncertainty.
-        std: Py<PyAny>,
+        /// Standard deviations by the uncertainty; None without one.
+        std: Option<Py<PathDeviations>>,
         /// The equilibria with the load.
         loaded: Py<DirectSolution>,
         /// Why there is no answer, None where there is one, (m,).
@@ -48,6 +47,31 @@ answer! {
         kinds: Py<PyAny>,
     }
 }
+
+plotted!(PathStates);
+
+answer! {
+    /// Standard deviations at the m poses of a path, NaN where there are no derivatives.
+    #[pyclass(frozen, get_all, module = "cdpr")]
+    pub(crate) struct PathDeviations {
+        /// Of the unstrained lengths [m], (m, n).
+        lengths: Py<PyAny>,
+        /// Of the tensions at the platform without the load [N], (m, n).
+        tensions: Py<PyAny>,
+        /// Of the displacement [m], (m, 3).
+        displacement: Py<PyAny>,
+        /// Of its magnitude [m], (m,).
+        magnitude: Py<PyAny>,
+        /// Of the least stiffness [N/m], (m,).
+        least_stiffness: Py<PyAny>,
+        /// Of the lowest natural frequency [Hz], (m,).
+        lowest_frequency: Py<PyAny>,
+        /// Why there is no answer, None where there is one, (m,).
+        reasons: Py<PyAny>,
+    }
+}
+
+plotted!(PathDeviations);
 
 struct Passed {
     at: PathPose,
@@ -61,12 +85,34 @@ impl Robot {
     /// Strongly sagging cables may hold a pose with several sets of tensions. Along a path each pose keeps to
     /// the set of the pose before, as long as it exists. A pose without an answer is left out of the path.
     ///
-    /// poses: x, y, z [m], or x, y, z, qw, qx, qy, qz, (m, 3) or (m, 7).
-    /// payload: mass that the platform carries, at its centre of mass [kg].
-    /// force, moment: on the platform in the base frame, about P [N, N m], (3,).
-    /// uncertainty: standard deviations of parameters or groups [SI units]: {"a": 0.002, "mass": 0.5}.
+    /// Parameters
+    /// ----------
+    /// poses : array_like
+    ///     x, y, z [m], or x, y, z, qw, qx, qy, qz, (m, 3) or (m, 7).
+    /// payload : array_like, optional
+    ///     Mass that the platform carries, at its centre of mass [kg].
+    /// force, moment : array_like, optional
+    ///     On the platform in the base frame, about P [N, N m], (3,).
+    /// uncertainty : dict of float, optional
+    ///     Standard deviations of parameters or groups [SI units]: {"a": 0.002, "mass": 0.5}.
     ///
-    /// Raises InputError.
+    /// Returns
+    /// -------
+    /// PathStates
+    ///     States along the path.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     For an invalid value; the message names it and what would be right.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import cdpr
+    /// >>> robot = cdpr.Robot.from_file("cogiro")
+    /// >>> states = robot.path([[x, 0, 2] for x in (0, 0.1, 0.2)], payload=50, uncertainty={"a": 0.002})
+    /// >>> states.tensions.shape, states.std.magnitude.shape  # [N], [m]
+    /// ((3, 8), (3,))
     #[pyo3(signature = (poses, *, payload=None, force=None, moment=None, uncertainty=None))]
     fn path(
         &self,
@@ -108,13 +154,18 @@ impl Robot {
                 None => out.fill(f64::NAN),
             })
         };
-        let stds = PyDict::new(py);
-        stds.set_item("lengths", std(&[cables], |bands| bands.lengths.clone())?)?;
-        stds.set_item("tensions", std(&[cables], |bands| bands.tensions.clone())?)?;
-        stds.set_item("displacement", std(&[3], |bands| bands.displacement.to_vec())?)?;
-        stds.set_item("rms", std(&[], |bands| number(bands.rms))?)?;
-        stds.set_item("least_stiffness", std(&[], |bands| number(bands.least_stiffness))?)?;
-        stds.set_item("lowest_frequency", std(&[], |bands| number(bands.lowest_frequency))?)?;
+        let deviations = || -> Answer<Py<PathDeviations>> {
+            let deviations = PathDeviations {
+                lengths: std(&[cables], |bands| bands.lengths.clone())?,
+                tensions: std(&[cables], |bands| bands.tensions.clone())?,
+                displacement: std(&[3], |bands| bands.displacement.to_vec())?,
+                magnitude: std(&[], |bands| number(bands.magnitude))?,
+                least_stiffness: std(&[], |bands| number(bands.least_stiffness))?,
+                lowest_frequency: std(&[], |bands| number(bands.lowest_frequency))?,
+                reasons: all.reasons(),
+            };
+            Ok(Py::new(py, deviations)?)
+        };
         Ok(PathStates {
             jump: all.array(false, &[], |passed, out| out[0] = passed.at.jump)?,
             lengths: of_cables(|at| &at.deflection.lengths)?,
@@ -122,13 +173,13 @@ impl Robot {
             exit_tensions: of_cables(|at| &at.exit_tensions)?,
             sags: of_cables(|at| &at.sags)?,
             displacement: all.vector(|passed| passed.at.deflection.displacement().into())?,
-            rms: all.number(|passed| passed.at.deflection.displacement().norm())?,
+            magnitude: all.number(|passed| passed.at.deflection.displacement().norm())?,
             least_stiffness: all.number(|passed| passed.at.deflection.loaded.stability.least_stiffness())?,
             lowest_frequency: all.number(|passed| passed.at.lowest_frequency.unwrap_or(f64::NAN))?,
             lowest_cable_frequency: all.number(|passed| {
                 passed.at.lowest_cable_frequency.map_or(f64::NAN, |cable| cable.frequency)
             })?,
-            std: if model.is_some() { stds.into_any().unbind() } else { py.None() },
+            std: model.as_ref().map(|_| deviations()).transpose()?,
             loaded: Py::new(py, DirectSolution::new(&all.part(|passed| &passed.loaded), cables)?)?,
             reasons: all.reasons(),
             kinds: all.kinds(),

@@ -1,6 +1,6 @@
 //! `Robot.stiffness`: the Cartesian stiffness at a pose.
 
-use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each};
+use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each, plotted};
 use crate::robot::Robot;
 use crate::robot::inverse::coordinates;
 use cdpr_robot::Vector3;
@@ -43,6 +43,8 @@ answer! {
     }
 }
 
+plotted!(Stiffness);
+
 /// A stiffness with its motions.
 struct Found {
     stiffness: PoseStiffness,
@@ -56,13 +58,36 @@ impl Robot {
     ///
     /// Arguments are of one case, or have a first axis of m cases.
     ///
-    /// pose: x, y, z [m], or x, y, z, qw, qx, qy, qz, (3,) or (7,).
-    /// payload: mass that the platform carries there, at its centre of mass [kg].
-    /// force, moment: on the platform in the base frame, about P [N, N m], (3,).
-    /// free: names of the coordinates of the pose that are found, for a robot with fewer cables than free
+    /// Parameters
+    /// ----------
+    /// pose : array_like
+    ///     x, y, z [m], or x, y, z, qw, qx, qy, qz, (3,) or (7,).
+    /// payload : array_like, optional
+    ///     Mass that the platform carries there, at its centre of mass [kg].
+    /// force, moment : array_like, optional
+    ///     On the platform in the base frame, about P [N, N m], (3,).
+    /// free : sequence of str, optional
+    ///     Names of the coordinates of the pose that are found, for a robot with fewer cables than free
     ///     motions, as `Robot.inverse` takes them.
     ///
-    /// Raises InputError; for one case NoSolutionError.
+    /// Returns
+    /// -------
+    /// Stiffness
+    ///     Stiffness matrices and their eigenvalues.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     For an invalid value; the message names it and what would be right.
+    /// NoSolutionError
+    ///     For one case without an answer; of several, its row has NaN and a reason.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import cdpr
+    /// >>> robot = cdpr.Robot.from_file("cogiro")
+    /// >>> robot.stiffness([0, 0, 2]).matrix.shape
+    /// (6, 6)
     #[pyo3(signature = (pose, *, payload=None, force=None, moment=None, free=None))]
     fn stiffness(
         &self,

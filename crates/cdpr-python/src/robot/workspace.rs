@@ -1,6 +1,6 @@
 //! `Robot.workspace`: where the cables hold the platform, and how far it gives there, over a plane or a box.
 
-use crate::convert::{Answer, Array, Numbers, Raised, answer, question, run};
+use crate::convert::{Answer, Array, Numbers, Raised, answer, plotted, question, run};
 use crate::robot::Robot;
 use crate::robot::inverse::coordinates;
 use cdpr_assess::{WorkspaceRow, compute_workspace};
@@ -34,7 +34,7 @@ answer! {
         /// Displacement dp of P under the payload [m], (m, 3).
         displacement: Py<PyAny>,
         /// Norm |dp| of the displacement [m], (m,).
-        rms: Py<PyAny>,
+        magnitude: Py<PyAny>,
         /// Stiffness of the softest motion with the load [N/m], (m,).
         least_stiffness: Py<PyAny>,
         /// Lowest natural frequency with the load [Hz], (m,); NaN for a robot without inertia.
@@ -59,6 +59,8 @@ answer! {
     }
 }
 
+plotted!(Workspace);
+
 /// Number of points of a plane along its two axes.
 const POINTS: (usize, usize) = (41, 41);
 
@@ -68,15 +70,40 @@ impl Robot {
     ///
     /// Positions are on a grid, with the platform level.
     ///
-    /// x, y, z: coordinates along each axis [m]: a number, or (from, to, points).
-    /// plane: in place of x, y and z, a plane over the frame of the exit points, ("z", 1.75).
-    /// grid: points of the plane along its two axes; (41, 41) if left out.
-    /// payload: mass added at the platform's centre of mass [kg]; with 0 there is no deflection.
-    /// uncertainty: standard deviations of parameters or groups [SI units]: {"a": 0.002, "mass": 0.5}.
-    /// free: names of the coordinates of the pose that are found, for a robot with fewer cables than free
+    /// Parameters
+    /// ----------
+    /// x, y, z : float or (float, float, int), optional
+    ///     Coordinates along each axis [m]: a number, or (from, to, points).
+    /// plane : (str, float), optional
+    ///     In place of x, y and z, a plane over the frame of the exit points, ("z", 1.75).
+    /// grid : (int, int), optional
+    ///     Points of the plane along its two axes; (41, 41) if left out.
+    /// payload : float
+    ///     Mass added at the platform's centre of mass [kg]; with 0 there is no deflection.
+    /// uncertainty : dict of float, optional
+    ///     Standard deviations of parameters or groups [SI units]: {"a": 0.002, "mass": 0.5}.
+    /// free : sequence of str, optional
+    ///     Names of the coordinates of the pose that are found, for a robot with fewer cables than free
     ///     motions, as `Robot.inverse` takes them.
     ///
-    /// Raises InputError. A position that is not held is no error.
+    /// Returns
+    /// -------
+    /// Workspace
+    ///     Results at each position of the grid.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     For an invalid value; the message names it and what would be right. A position that is not held
+    ///     is no error.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import cdpr
+    /// >>> robot = cdpr.Robot.from_file("cogiro")
+    /// >>> found = robot.workspace(plane=("z", 2), grid=(4, 3), payload=50)
+    /// >>> found.shape, found.magnitude.shape  # [m]
+    /// ((4, 3, 1), (12,))
     #[pyo3(signature = (*, x=None, y=None, z=None, plane=None, grid=None, payload, uncertainty=None,
         free=None))]
     #[allow(clippy::too_many_arguments)]
@@ -124,7 +151,7 @@ impl Robot {
             least_tension: column(&|row| Some(held(row)?.least_tension)),
             greatest_tension: column(&|row| Some(held(row)?.greatest_tension)),
             displacement: vectors(&|row| Some(loaded(row)?.displacement.into()))?,
-            rms: column(&|row| Some(loaded(row)?.displacement.norm())),
+            magnitude: column(&|row| Some(loaded(row)?.displacement.norm())),
             least_stiffness: column(&|row| Some(held(row)?.least_stiffness)),
             lowest_frequency: column(&|row| held(row)?.lowest_frequency),
             lowest_cable_frequency: column(&|row| Some(held(row)?.lowest_cable_frequency?.frequency)),

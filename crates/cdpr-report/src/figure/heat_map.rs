@@ -126,7 +126,7 @@ impl MapQuantity {
     /// Value in the unit of the label.
     fn value(self, row: &WorkspaceRow) -> Option<f64> {
         match self {
-            Self::Deflection => row.rms_mm,
+            Self::Deflection => row.magnitude_mm,
             Self::LeastStiffness => row.least_stiffness.map(|stiffness| 1e-3 * stiffness),
             Self::LowestFrequency => row.lowest_frequency_hz,
             Self::GreatestTension => row.greatest_tension,

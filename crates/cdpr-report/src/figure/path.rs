@@ -113,11 +113,11 @@ fn quantities(robot: &Robot, load: &Load, poses: &[Option<PathPose>]) -> Result<
     let one = |label, curve| Quantity { label, curves: vec![curve], limits: Vec::new() };
     let mut all = vec![tensions];
     if *load != Load::none() {
-        let rms = |pose: &PathPose| {
-            let std = of(pose.bands.as_ref(), |bands| Some(1e3 * bands.rms?));
-            Some((1e3 * pose.deflection.rms(), std))
+        let magnitude = |pose: &PathPose| {
+            let std = of(pose.bands.as_ref(), |bands| Some(1e3 * bands.magnitude?));
+            Some((1e3 * pose.deflection.magnitude(), std))
         };
-        all.push(one("|dp| [mm]", curve("deflection", &rms)?));
+        all.push(one("|dp| [mm]", curve("deflection", &magnitude)?));
     }
     let stiffness = |pose: &PathPose| {
         let std = of(pose.bands.as_ref(), |bands| bands.least_stiffness);

@@ -2,9 +2,6 @@
 "use strict";
 const packed = (() => {
   const text = (id) => document.getElementById(id)?.textContent;
-  // The smallest module that uses the vector unit: v128.const, dropped.
-  const WITH_LANES = [0, 97, 115, 109, 1, 0, 0, 0, 1, 4, 1, 96, 0, 0, 3, 2, 1, 0, 10, 23, 1, 21, 0, 253, 12,
-    ...new Array(16).fill(0), 26, 11];
 
   async function bytes(id) {
     if (typeof DecompressionStream === "undefined") {
@@ -40,11 +37,7 @@ const packed = (() => {
   async function explore(element, options) {
     try {
       if (typeof WebAssembly === "undefined") throw new Error("this browser has no WebAssembly");
-      const id = WebAssembly.validate(new Uint8Array(WITH_LANES)) ? "module" : "module-scalar";
-      if (text(id) === undefined) {
-        throw new Error("WebAssembly has no vector unit here; the page of cdpr explore needs none");
-      }
-      const [module] = await Promise.all([bytes(id), run("explorer-script")]);
+      const [module] = await Promise.all([bytes("module"), run("explorer-script")]);
       return cdprExplorer.mount(element, { ...options, module, worker: text("worker") });
     } catch (error) {
       const note = document.createElement("p");

@@ -168,7 +168,7 @@ fn the_robot_of_a_report_moves_and_goes_on_where_it_was_left() {
         page.wait_for("document.querySelector('#live-robot canvas')");
         // The numbers of the report's own robot at its pose, by the module.
         let nominal = results.study.nominal(&results.study.sampling_names().next().unwrap()).unwrap();
-        let expected = format!("{:.3}", 1e3 * nominal.deflection.rms());
+        let expected = format!("{:.3}", 1e3 * nominal.deflection.magnitude());
         page.wait_for(&format!("({ON_SCREEN}).includes('{expected}')"));
         for (width, scheme) in [(1400, "dark"), (390, "light"), (1400, "light")] {
             page.surround(width, scheme);

@@ -12,7 +12,6 @@
 //! at its least tension, and <= 0 at its greatest; b_i is the change of the bound. The directions +d and -d,
 //! the right and the left derivative, may keep different cables on their bounds.
 
-use crate::equations::solve;
 use crate::error::StaticsError;
 use cdpr_robot::{Freedoms, Matrix6xX};
 use cdpr_tension::Bound;
@@ -55,6 +54,10 @@ const DISTRIBUTION: &str = "the tension distribution";
 /// More cables than these without a multiplier have too many combinations.
 const MOST_UNDECIDED: usize = 12;
 
+/// A matrix of (D6) whose other rows explain all but this share of a row is singular to rounding: too few
+/// cables are between their bounds, and the multipliers are not unique.
+const NEARLY_SINGULAR: f64 = 1e-12;
+
 /// A change below this, relative to the largest in its column, is rounding.
 pub(super) const ROUNDING: f64 = 1e-9;
 
@@ -77,7 +80,7 @@ impl Optimum {
             for (k, at) in undecided.iter().enumerate() {
                 on_bound[at.cable] = (released >> k) & 1 == 0;
             }
-            // With too many cables on their bounds the equations are singular.
+            // With too many cables on their bounds the equations have no solution.
             let Ok((tensions, multipliers)) = self.with(&on_bound) else { continue };
             for column in 0..columns {
                 let size = tensions.column(column).amax();
@@ -128,7 +131,14 @@ impl Optimum {
             false if i == j => 1.0,
             _ => matrix[(i, j)],
         });
-        solve(matrix, &mut multipliers, DISTRIBUTION)?;
+        let is_regular = |inverse: &Matrix6<f64>| {
+            (0..6).all(|k| (matrix[(k, k)] * inverse[(k, k)]).abs() <= 1.0 / NEARLY_SINGULAR)
+        };
+        let Some(inverse) = matrix.try_inverse().filter(is_regular) else {
+            let reason = "the cables between their bounds do not act on all motions of the platform there";
+            return Err(StaticsError::NoDerivative { quantity: DISTRIBUTION, reason });
+        };
+        multipliers = inverse * multipliers;
         tensions.gemm(1.0, &answers, &multipliers, 1.0);
         Ok((tensions, multipliers))
     }

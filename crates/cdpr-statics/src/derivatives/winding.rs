@@ -32,6 +32,32 @@ pub(super) struct SetPoints {
     pub(super) one_sided: Vec<OneSided>,
 }
 
+impl SetPoints {
+    /// The left derivatives, and by how much the right ones exceed them where a cable of `doubtful` leaves a
+    /// bound on one side.
+    fn of_sides(left: DMatrix<f64>, right: &DMatrix<f64>, doubtful: &[AtBound]) -> Self {
+        let (mut rows, count) = (left, right.ncols());
+        let mut one_sided = Vec::new();
+        for column in 0..count {
+            let size = rows.column(column).amax().max(right.column(column).amax());
+            let differs = |at: &&AtBound| {
+                let change = right[(at.cable, column)] - rows[(at.cable, column)];
+                change.abs() > ROUNDING * size
+            };
+            let cables: Vec<AtBound> = doubtful.iter().filter(differs).copied().collect();
+            if !cables.is_empty() {
+                one_sided.push(OneSided { column, cables });
+            }
+        }
+        rows.resize_horizontally_mut(count + one_sided.len(), 0.0);
+        for (k, OneSided { column, .. }) in one_sided.iter().enumerate() {
+            let more = right.column(*column) - rows.column(*column);
+            rows.set_column(count + k, &more);
+        }
+        Self { rows, one_sided }
+    }
+}
+
 /// What a set-point is.
 #[derive(Clone, Copy, PartialEq)]
 enum SetPoint {
@@ -226,28 +252,10 @@ impl Winding<'_> {
             return Ok(SetPoints { rows: side(tensions.left, left), one_sided: Vec::new() });
         }
         let right = side(tensions.right.unwrap_or_else(|| tensions.left.clone()), right);
-        let mut rows = side(tensions.left, left);
+        let left = side(tensions.left, left);
         let decided = |at: &&AtBound| !matches!(set_points[at.cable], SetPoint::Either(_));
         doubtful.extend(undecided.iter().filter(decided));
-        let count = self.inputs.count();
-        let mut one_sided = Vec::new();
-        for column in 0..count {
-            let size = rows.column(column).amax().max(right.column(column).amax());
-            let differs = |at: &&AtBound| {
-                let change = right[(at.cable, column)] - rows[(at.cable, column)];
-                change.abs() > ROUNDING * size
-            };
-            let cables: Vec<AtBound> = doubtful.iter().filter(differs).copied().collect();
-            if !cables.is_empty() {
-                one_sided.push(OneSided { column, cables });
-            }
-        }
-        rows.resize_horizontally_mut(count + one_sided.len(), 0.0);
-        for (k, OneSided { column, .. }) in one_sided.iter().enumerate() {
-            let more = right.column(*column) - rows.column(*column);
-            rows.set_column(count + k, &more);
-        }
-        Ok(SetPoints { rows, one_sided })
+        Ok(SetPoints::of_sides(left, &right, &doubtful))
     }
 
     /// Derivatives of the tensions that the weights of the cables in `which` demand; zero rows for all

@@ -6,18 +6,10 @@
 
 use crate::direct::newton::Converged;
 use crate::direct::stability::Stability;
+use crate::local::branch::{KEPT, MAX_CORRECTION, SAME_POSE};
 use crate::problem::DirectProblem;
 use crate::state::Equilibrium;
 use cdpr_robot::Vector6;
-
-/// Largest correction of a prediction, relative to it.
-pub(crate) const MAX_CORRECTION: f64 = 0.2;
-
-/// Distance of poses, relative to the robot's size, that a correction may have beside that.
-pub(crate) const SAME_POSE: f64 = 1e-7;
-
-/// Share of the stiffness of every motion that is left where a branch does not end.
-pub(crate) const KEPT: f64 = 0.5;
 
 /// Whether the iteration ended near what its first step predicted.
 pub(super) fn is_near_prediction(problem: &DirectProblem, from: &Equilibrium, found: &Converged) -> bool {

@@ -1,6 +1,6 @@
 //! Newton's method on the `6 + 2n` equations, with the cables eliminated.
 //!
-//! Linearised at forces f_i that need not yet fit the pose, cable i gives `df_i = K_i (c_i + d(h_i, z_i))`,
+//! Linearized at forces f_i that need not yet fit the pose, cable i gives `df_i = K_i (c_i + d(h_i, z_i))`,
 //! (S2) of `equations/cable.rs`.
 //!
 //! Put into the balance of the platform this leaves six equations for (dp, dφ), whose matrix is the stiffness
@@ -12,12 +12,12 @@
 //! left out, so that they stay where they started.
 
 use crate::direct::stability::Stability;
-use crate::equations::{
-    Balance, LinearizedCable, SpannedCable, SpannedStiffness, Turned, forces, per_length,
-};
+use crate::equations::{Balance, LinearizedInSpace, SpannedCable, forces, per_length};
+use crate::local::one_robot::{Solved, solve};
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Residual};
 use cdpr_robot::{Vector2, Vector3, Vector6};
+use nalgebra::Matrix6;
 
 /// An equilibrium to which the iteration converged, stable or not.
 pub(crate) struct Converged {
@@ -25,7 +25,7 @@ pub(crate) struct Converged {
     pub(crate) iterations: usize,
     pub(crate) residual: Residual,
     pub(crate) stability: Stability,
-    /// The first step (dp, ℓ dφ), which the linearisation at the start predicts [m].
+    /// The first step (dp, ℓ dφ), which the linearization at the start predicts [m].
     pub(crate) first_step: Vector6<f64>,
 }
 
@@ -39,84 +39,56 @@ const LAST_STEP: f64 = 1e-7;
 const NEARLY_ZERO: f64 = 1e-10;
 const ROUNDED_FORCE: f64 = 1e-13;
 
-/// The linearised model at a state: the platform's balance with predicted forces, the cables, and the
+/// The linearized model at a state: the platform's balance with predicted forces, the cables, and the
 /// residual of the state itself.
-struct Linearised<'a> {
-    balance: Balance,
-    /// s_i [m] and the linearised cable in the plane of its span; one that resists nothing is slack.
-    cables: Vec<([f64; 3], LinearizedCable<f64>)>,
-    /// Those of a tilted base or over tilted axes, which take the place of the others.
-    turned: Vec<Option<Box<Turned<'a>>>>,
+struct Linearized<'a> {
+    /// Gradient and stiffness along the motions that are free.
+    gradient: Vector6<f64>,
+    hessian: Matrix6<f64>,
+    symmetric_hessian: Matrix6<f64>,
+    /// s_i [m] and each cable; none that resists nothing.
+    cables: Vec<([f64; 3], Option<LinearizedInSpace<'a>>)>,
     residual: Residual,
 }
 
-impl<'a> Linearised<'a> {
+impl<'a> Linearized<'a> {
     fn new(problem: &DirectProblem<'a>, state: &Equilibrium) -> Self {
-        let balance = Balance::of_load(problem, &state.pose);
-        let mut unbalanced = balance.gradient;
-        let cables = Vec::with_capacity(problem.cables());
-        let residual = Residual { closure: 0.0, force: 0.0, moment: 0.0 };
-        let mut linearised = Self { balance, cables, turned: Vec::new(), residual };
+        let (freedoms, mut balance) = (problem.robot.freedoms(), Balance::of_load(problem, &state.pose));
+        let (mut unbalanced, mut closure) = (balance.gradient, 0.0);
+        let mut cables = Vec::with_capacity(problem.cables());
         for (i, force) in state.cable_forces.iter().enumerate() {
-            let (robot, catenary) = (problem.robot, problem.catenary(i, *force));
-            // The compiler writes the usual cable out without the questions that the others ask.
-            match SpannedCable::plain(robot, &state.pose, i, &catenary) {
-                Some(cable) => linearised.add(&cable, &mut unbalanced),
-                None => {
-                    let cable = SpannedCable::of(robot, &state.pose, i, &catenary);
-                    linearised.add_other(&cable, &mut unbalanced);
-                }
+            let cable = SpannedCable::of(problem.robot, &state.pose, i, &problem.catenary(i, *force));
+            closure = f64::max(closure, Vector2::from(cable.misclosure()).norm());
+            let linearized = cable.linearized();
+            if let Some(linearized) = &linearized {
+                unbalanced -= Vector6::from(cable.wrench());
+                let stiffness = linearized.stiffness().into();
+                balance.add_cable(&cable.anchor_arm, &linearized.predicted(), &stiffness);
             }
+            cables.push((cable.anchor_arm, linearized));
         }
-        let freedoms = problem.robot.freedoms();
-        if !freedoms.are_all() {
-            linearised.balance.hold(freedoms);
-            unbalanced = freedoms.of_vector(&unbalanced);
-        }
-        linearised.residual.force = unbalanced.fixed_rows::<3>(0).norm();
-        linearised.residual.moment = unbalanced.fixed_rows::<3>(3).norm();
-        linearised
-    }
-
-    /// Adds the next cable; `unbalanced` is the wrench at the state itself, against its sign.
-    #[inline(always)]
-    fn add(&mut self, cable: &SpannedCable<'a, f64>, unbalanced: &mut Vector6<f64>) {
-        self.residual.closure = self.residual.closure.max(Vector2::from(cable.misclosure()).norm());
-        let (plane, arm) = (cable.span.plane, cable.anchor_arm);
-        let limp =
-            LinearizedCable { plane, predicted: [0.0; 2], stiffness: [0.0; 3], lateral_stiffness: 0.0 };
-        let Some(linearized) = cable.linearized() else {
-            self.cables.push((arm, limp));
-            return;
-        };
-        *unbalanced -= Vector6::from(cable.wrench());
-        self.balance.add_cable(&arm, &linearized.predicted(), linearized.stiffness());
-        match linearized {
-            SpannedStiffness::Level(linearized) => self.cables.push((arm, linearized)),
-            SpannedStiffness::Turned(other) => {
-                self.turned.resize_with(self.cables.len(), || None);
-                self.turned.push(Some(other));
-                self.cables.push((arm, limp));
-            }
+        let unbalanced = freedoms.of_vector(&unbalanced);
+        let [force, moment] = [0, 3].map(|row| unbalanced.fixed_rows::<3>(row).norm());
+        Self {
+            gradient: balance.free_gradient(freedoms),
+            hessian: balance.hessian(freedoms),
+            symmetric_hessian: balance.symmetric_hessian(freedoms),
+            cables,
+            residual: Residual { closure, force, moment },
         }
     }
 
-    #[cold]
-    fn add_other(&mut self, cable: &SpannedCable<'a, f64>, unbalanced: &mut Vector6<f64>) {
-        self.add(cable, unbalanced);
-    }
-
-    /// The motion (dp, dφ) that balances the linearised platform. `None` if its stiffness is singular.
+    /// The motion (dp, dφ) that balances the linearized platform. `None` if its stiffness is singular.
     fn step(&self) -> Option<Vector6<f64>> {
-        Some(-self.balance.hessian.lu().solve(&self.balance.gradient)?)
+        Some(-self.hessian.lu().solve(&self.gradient)?)
     }
 
-    /// The motion that balances the linearised platform without that along which neither stiffness nor force
+    /// The motion that balances the linearized platform without that along which neither stiffness nor force
     /// is more than rounding; `None` where this is the whole motion.
     fn pinned_step(&self, problem: &DirectProblem, state: &Equilibrium) -> Option<Vector6<f64>> {
         let scale = per_length(problem.characteristic_length());
-        let stiffness = self.balance.hessian.component_mul(&(scale * scale.transpose()));
-        let gradient = self.balance.gradient.component_mul(&scale);
+        let stiffness = self.hessian.component_mul(&(scale * scale.transpose()));
+        let gradient = self.gradient.component_mul(&scale);
         if !stiffness.iter().chain(gradient.iter()).all(|entry| entry.is_finite()) {
             return None;
         }
@@ -141,18 +113,22 @@ impl<'a> Linearised<'a> {
     }
 }
 
-/// Newton's method from `start`. `None` if it does not converge.
-pub(crate) fn newton(problem: &DirectProblem, start: Equilibrium) -> Option<Converged> {
+/// Newton's method from `start`, in the lanes where it converges there. `None` if it does not converge.
+pub(crate) fn newton(problem: &DirectProblem, mut start: Equilibrium) -> Option<Converged> {
     let robot = problem.robot;
+    if let Some(Solved { iterations, residual, first_step, stiffness }) = solve(problem, &mut start) {
+        let stability = Stability::new(problem, &start, &stiffness);
+        return Some(Converged { equilibrium: start, iterations, residual, stability, first_step });
+    }
     if robot.freedoms().are_all() && robot.is_fully_actuated() {
-        return iterate(problem, start, MAX_ITERATIONS, |linearised, _| linearised.step());
+        return iterate(problem, start, MAX_ITERATIONS, |linearized, _| linearized.step());
     }
     pinned_newton(problem, start)
 }
 
 /// Newton's method for a robot with motions that nothing resists, or that are held.
 pub(crate) fn pinned_newton(problem: &DirectProblem, start: Equilibrium) -> Option<Converged> {
-    iterate(problem, start, 2 * MAX_ITERATIONS, |linearised, now| linearised.pinned_step(problem, now))
+    iterate(problem, start, 2 * MAX_ITERATIONS, |linearized, now| linearized.pinned_step(problem, now))
 }
 
 #[inline(always)]
@@ -160,7 +136,7 @@ fn iterate(
     problem: &DirectProblem,
     start: Equilibrium,
     most: usize,
-    step: impl Fn(&Linearised, &Equilibrium) -> Option<Vector6<f64>>,
+    step: impl Fn(&Linearized, &Equilibrium) -> Option<Vector6<f64>>,
 ) -> Option<Converged> {
     let (size, arm) = (problem.size(), problem.characteristic_length());
     let mut now = start;
@@ -168,37 +144,32 @@ fn iterate(
     let mut last = false;
     for iteration in 0..=most {
         tighten(problem, &mut now)?;
-        let linearised = Linearised::new(problem, &now);
-        if last && linearised.residual.is_rounding(problem, &now) {
-            let stability = Stability::new(problem, &now, &linearised.balance.symmetric_hessian());
+        let linearized = Linearized::new(problem, &now);
+        if last && linearized.residual.is_rounding(problem, &now) {
+            let stability = Stability::new(problem, &now, &linearized.symmetric_hessian);
             return Some(Converged {
                 equilibrium: now,
                 iterations: iteration,
-                residual: linearised.residual,
+                residual: linearized.residual,
                 stability,
                 first_step: first_step.unwrap_or_else(Vector6::zeros),
             });
         }
-        let step = step(&linearised, &now)?;
+        let step = step(&linearized, &now)?;
         let (dp, dphi): (Vector3<f64>, Vector3<f64>) =
             (step.fixed_rows::<3>(0).into(), step.fixed_rows::<3>(3).into());
         let moved = dp.norm() + arm * dphi.norm();
-        // The linearisation is invalid farther away. The comparison is false for NaN, too.
+        // The linearization is invalid farther away. The comparison is false for NaN, too.
         if !(moved < 0.3 * size && dphi.norm() < 0.7) {
             return None;
         }
         let pose = now.pose.moved(dp, dphi);
-        for (i, (force, (arm, cable))) in now.cable_forces.iter_mut().zip(&linearised.cables).enumerate() {
-            let displacement = (dp + dphi.cross(&Vector3::from(*arm))).into();
-            let turned = linearised.turned.get(i).and_then(Option::as_ref);
-            *force = match turned {
-                None => cable.force_after(displacement).into(),
-                Some(cable) => cable.force_after(displacement).into(),
-            };
+        for (i, (force, (arm, cable))) in now.cable_forces.iter_mut().zip(&linearized.cables).enumerate() {
+            let Some(cable) = cable else { continue };
+            *force = cable.force_after((dp + dphi.cross(&Vector3::from(*arm))).into()).into();
             if force.x < 0.0 {
                 // The cable passed the vertical: in its new plane the same force points forwards.
-                let plane = turned.map_or(&cable.plane, |cable| &cable.plane);
-                let in_space = plane.lift((*force).into());
+                let in_space = cable.plane.lift((*force).into());
                 [force.x, _] = problem.span(&pose, i).plane.project(in_space);
                 if force.x < -1e-12 * force.y.abs() {
                     return None;
@@ -229,6 +200,6 @@ impl DirectProblem<'_> {
     /// that of the assembled equations; `None` where the stiffness is singular.
     #[doc(hidden)]
     pub fn newton_step(&self, from: &Equilibrium) -> Option<Vector6<f64>> {
-        Linearised::new(self, from).step()
+        Linearized::new(self, from).step()
     }
 }

@@ -64,26 +64,19 @@ impl Point {
         let mut noise = f64::EPSILON * potential.abs();
         for (i, force) in equilibrium.cable_forces.iter().enumerate() {
             let catenary = problem.catenary(i, *force);
-            let mut add = |cable: SpannedCable<f64>, energy: f64| {
-                let Some(linearized) = cable.linearized() else { return };
-                potential += energy;
-                // The span itself is rounded, and the force is the slope of the energy over it.
-                noise += f64::EPSILON * force.norm() * (cable.span.chord() + pose.position.norm());
-                balance.add_cable(&cable.anchor_arm, &cable.force_on_platform(), linearized.stiffness());
-            };
-            match SpannedCable::plain(problem.robot, pose, i, &catenary) {
-                Some(cable) => add(cable, catenary.potential_energy()),
-                None => {
-                    let energy = problem.catenary_at(pose, i, *force).potential_energy();
-                    add(SpannedCable::of(problem.robot, pose, i, &catenary), energy);
-                }
-            }
+            let cable = SpannedCable::of(problem.robot, pose, i, &catenary);
+            let Some(linearized) = cable.linearized() else { continue };
+            potential += problem.catenary_at(pose, i, *force).potential_energy();
+            // The span itself is rounded, and the force is the slope of the energy over it.
+            noise += f64::EPSILON * force.norm() * (cable.span.chord() + pose.position.norm());
+            let stiffness = linearized.stiffness().into();
+            balance.add_cable(&cable.anchor_arm, &cable.force_on_platform(), &stiffness);
         }
-        balance.hold(problem.robot.freedoms());
+        let freedoms = problem.robot.freedoms();
         let scale = scale(problem);
         Self {
-            gradient: balance.gradient.component_mul(&scale),
-            hessian: balance.symmetric_hessian().component_mul(&(scale * scale.transpose())),
+            gradient: balance.free_gradient(freedoms).component_mul(&scale),
+            hessian: balance.symmetric_hessian(freedoms).component_mul(&(scale * scale.transpose())),
             potential,
             noise,
             equilibrium,

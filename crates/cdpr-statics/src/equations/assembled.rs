@@ -112,8 +112,10 @@ pub(crate) fn jacobian<T: Element>(problem: &DirectProblem, state: &State<T>) ->
     let size = 6 + 2 * problem.cables();
     let mut jacobian = DMatrix::from_element(size, size, T::zero());
     let (weight, center) = weight(problem, state);
-    let mut platform = Matrix6::zeros();
-    platform.fixed_view_mut::<3, 3>(3, 3).copy_from(&-(skew(&weight) * skew(&center)));
+    let zero = T::zero();
+    let mut upper = [[zero; 6]; 6];
+    add_stiffness(&mut upper, &center.into(), &(-weight).into(), &[[zero; 3]; 3]);
+    let mut moment = center.cross(&weight);
     for i in 0..problem.cables() {
         let cable = state.cable(problem, i);
         let at = closure_row(i);
@@ -128,7 +130,9 @@ pub(crate) fn jacobian<T: Element>(problem: &DirectProblem, state: &State<T>) ->
         let near_vertical = Real::value(h) <= NEAR_VERTICAL * Real::value(z).abs();
         let lateral = if near_vertical { T::one() / lateral_flexibility } else { cable.force[0] / h };
         let swing = sideways * sideways.transpose() * lateral;
-        add_stiffness(&mut platform, &cable.anchor_arm, &cable.force_on_platform(), swing.into());
+        let force = cable.force_on_platform();
+        moment += Vector3::from(cross(&cable.anchor_arm, &force));
+        add_stiffness(&mut upper, &cable.anchor_arm, &force.map(|component| -component), &swing.into());
         for (j, axis) in [[T::one(), T::zero()], [T::zero(), T::one()]].into_iter().enumerate() {
             let axis = plane.lift(axis);
             let [axis, turned] = [axis, cross(&cable.anchor_arm, &axis)].map(Vector3::from);
@@ -142,7 +146,11 @@ pub(crate) fn jacobian<T: Element>(problem: &DirectProblem, state: &State<T>) ->
         let flexibility = nalgebra::Matrix2::new(-xx, -(xz + asymmetry), -(xz - asymmetry), -zz);
         jacobian.fixed_view_mut::<2, 2>(at, at).copy_from(&flexibility);
     }
+    let platform = Matrix6::from_fn(|i, j| upper[i.min(j)][i.max(j)]);
     jacobian.fixed_view_mut::<6, 6>(0, 0).copy_from(&platform);
+    // The skew part of (S5).
+    let mut rotations = jacobian.fixed_view_mut::<3, 3>(3, 3);
+    rotations += skew(&(moment * T::of(0.5)));
     jacobian
 }
 

@@ -13,25 +13,29 @@
 //! H_pp = sum K3_i                    H_pr = -sum K3_i [s_i]
 //! H_rp = sum [s_i] K3_i              H_rr = -sum( [s_i] K3_i [s_i] + [F_i][s_i] ) - [F_w][R c]      (S5)
 //! ```
+//!
+//! Its skew part is half of the cross-product matrix of the moment of cables and weight.
 
 use crate::problem::DirectProblem;
 use cdpr_number::Number;
 use cdpr_number::vector::{cross, wrench};
-use cdpr_robot::{Matrix3, Pose, Vector6};
-use nalgebra::{ClosedAddAssign, Matrix6, Scalar};
+use cdpr_robot::{Freedoms, Pose, Vector3, Vector6};
+use nalgebra::Matrix6;
 
 /// Platform wrench and stiffness at a pose, from the cables' forces and stiffnesses.
 pub(crate) struct Balance {
     /// -G [N, N m], equation (S4): the gradient of the potential.
     pub(crate) gradient: Vector6<f64>,
-    /// H, equation (S5); symmetric where the gradient vanishes without an external moment.
-    pub(crate) hessian: Matrix6<f64>,
+    /// Upper triangle of the symmetric part of H, by rows.
+    upper: [[f64; 6]; 6],
+    /// Moment of the load, which does not turn with the platform [N m].
+    moment: Vector3<f64>,
 }
 
 impl Balance {
     /// No force and no stiffness.
     pub(crate) fn nothing() -> Self {
-        Self { gradient: Vector6::zeros(), hessian: Matrix6::zeros() }
+        Self { gradient: Vector6::zeros(), upper: [[0.0; 6]; 6], moment: Vector3::zeros() }
     }
 
     /// Weight and load alone.
@@ -39,22 +43,39 @@ impl Balance {
         let total = problem.load.total(problem.robot, pose);
         let weight = problem.robot.weight(pose, problem.load.payload).force;
         let center = pose.rotation * problem.robot.platform.center_of_mass;
-        let mut hessian = Matrix6::zeros();
-        hessian.fixed_view_mut::<3, 3>(3, 3).copy_from(&(-weight.cross_matrix() * center.cross_matrix()));
-        Self { gradient: -total.to_vector(), hessian }
+        let moment = problem.load.wrench.moment;
+        let mut balance = Self { gradient: -total.to_vector(), moment, ..Self::nothing() };
+        add_stiffness(&mut balance.upper, &center.into(), &(-weight).into(), &[[0.0; 3]; 3]);
+        balance
     }
 
     /// Adds a cable with the force F [N] on the platform and the stiffness K3 [N/m] at the arm s [m] from P.
     #[inline(always)]
-    pub(crate) fn add_cable(&mut self, s: &[f64; 3], force: &[f64; 3], stiffness: [[f64; 3]; 3]) {
+    pub(crate) fn add_cable(&mut self, s: &[f64; 3], force: &[f64; 3], stiffness: &[[f64; 3]; 3]) {
         // Eq. (3) with the opposite sign: -w_i t_i.
         self.gradient -= Vector6::from(wrench(s, force));
-        add_stiffness(&mut self.hessian, s, force, stiffness);
+        add_stiffness(&mut self.upper, s, &force.map(|component| -component), stiffness);
+    }
+
+    /// H, equation (S5), along the motions that are free; symmetric where the gradient vanishes without an
+    /// external moment.
+    pub(crate) fn hessian(&self, freedoms: Freedoms) -> Matrix6<f64> {
+        let mut hessian = self.symmetric_hessian(freedoms);
+        let moment = -(self.gradient.fixed_rows::<3>(3) + self.moment);
+        let mut rotations = hessian.fixed_view_mut::<3, 3>(3, 3);
+        rotations += 0.5 * moment.cross_matrix();
+        if freedoms.are_all() { hessian } else { freedoms.of_matrix(&hessian) }
     }
 
     /// The Hessian of the potential: symmetric, in the increment `R <- exp(dφ) R`.
-    pub(crate) fn symmetric_hessian(&self) -> Matrix6<f64> {
-        symmetric_part(&self.hessian)
+    pub(crate) fn symmetric_hessian(&self, freedoms: Freedoms) -> Matrix6<f64> {
+        let hessian = Matrix6::from_fn(|i, j| self.upper[i.min(j)][i.max(j)]);
+        if freedoms.are_all() { hessian } else { freedoms.of_matrix(&hessian) }
+    }
+
+    /// The gradient along the motions that are free.
+    pub(crate) fn free_gradient(&self, freedoms: Freedoms) -> Vector6<f64> {
+        if freedoms.are_all() { self.gradient } else { freedoms.of_vector(&self.gradient) }
     }
 }
 
@@ -62,26 +83,35 @@ pub(crate) fn symmetric_part(matrix: &Matrix6<f64>) -> Matrix6<f64> {
     0.5 * (matrix + matrix.transpose())
 }
 
-/// Adds a cable with the stiffness K3 and the force F on the platform at the arm s, equation (S5).
+/// Adds a cable with the stiffness K3 = `k` and the force -F_i = `f` at the arm s to the upper triangle of
+/// the symmetric part of the stiffness, equation (S5).
 #[inline(always)]
-pub(crate) fn add_stiffness<T: Number + Scalar + ClosedAddAssign>(
-    hessian: &mut Matrix6<T>,
-    s: &[T; 3],
-    force: &[T; 3],
-    stiffness: [[T; 3]; 3],
-) {
-    let mut add = |row: usize, column: usize, block: Matrix3<T>| {
-        let mut view = hessian.fixed_view_mut::<3, 3>(row, column);
-        view += block;
-    };
-    let turned = |matrix: Matrix3<T>| Matrix3::from(matrix.data.0.map(|column| cross(s, &column)));
-    let sk = turned(stiffness.into());
-    add(0, 0, stiffness.into());
-    add(0, 3, sk.transpose());
-    add(3, 0, sk);
-    // [s] K3 [s] = -[s] ([s] K3)ᵀ and [F][s] = s Fᵀ - (s·F) 1.
-    add(3, 3, turned(sk.transpose()));
-    let ([sx, sy, sz], [fx, fy, fz]) = (*s, *force);
-    let (x, y, z) = (sx * fx, sy * fy, sz * fz);
-    add(3, 3, Matrix3::new(y + z, -sx * fy, -sx * fz, -sy * fx, x + z, -sy * fz, -sz * fx, -sz * fy, x + y));
+pub(crate) fn add_stiffness<T: Number>(upper: &mut [[T; 6]; 6], s: &[T; 3], f: &[T; 3], k: &[[T; 3]; 3]) {
+    let [sx, sy, sz] = *s;
+    // K [s], row by row: k x s.
+    let ks = [cross(&k[0], s), cross(&k[1], s), cross(&k[2], s)];
+    for row in 0..3 {
+        for column in 0..3 {
+            upper[row][3 + column] = upper[row][3 + column] - ks[row][column];
+        }
+        for column in row..3 {
+            upper[row][column] = upper[row][column] + k[row][column];
+            // [s] K [s], column by column: s x K [s].
+            let swung = match row {
+                0 => sy * ks[2][column] - sz * ks[1][column],
+                1 => sz * ks[0][column] - sx * ks[2][column],
+                _ => sx * ks[1][column] - sy * ks[0][column],
+            };
+            upper[3 + row][3 + column] = upper[3 + row][3 + column] - swung;
+        }
+    }
+    // The symmetric part of s fᵀ - (s·f) 1.
+    let (x, y, z) = (sx * f[0], sy * f[1], sz * f[2]);
+    upper[3][3] = upper[3][3] - (y + z);
+    upper[4][4] = upper[4][4] - (x + z);
+    upper[5][5] = upper[5][5] - (x + y);
+    let half = [sx * 0.5, sy * 0.5, sz * 0.5];
+    upper[3][4] = upper[3][4] + (half[0] * f[1] + half[1] * f[0]);
+    upper[3][5] = upper[3][5] + (half[0] * f[2] + half[2] * f[0]);
+    upper[4][5] = upper[4][5] + (half[1] * f[2] + half[2] * f[1]);
 }

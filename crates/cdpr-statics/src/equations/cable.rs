@@ -48,6 +48,12 @@ impl<T: Number> CablePlane<T> {
         [self.azimuth[0] * x + self.azimuth[1] * y, z]
     }
 
+    /// The component of a vector of the base frame across the plane, along e_l.
+    #[inline(always)]
+    pub(crate) fn across(&self, [x, y, _]: [T; 3]) -> T {
+        self.azimuth[0] * y - self.azimuth[1] * x
+    }
+
     /// Force F_i on the platform [N] of a cable with the force (fx, fz) at A, equation (S1).
     #[inline(always)]
     pub(crate) fn force_on_platform(&self, [x, z]: [T; 2]) -> [T; 3] {
@@ -70,6 +76,13 @@ impl<T: Number> Span<T> {
         let h = (x * x + y * y).sqrt();
         let inverse = h.recip();
         Self { plane: CablePlane { azimuth: [x * inverse, y * inverse] }, end: [h, z] }
+    }
+
+    /// The same vector in another vertical plane, and its component across that [m].
+    #[inline(always)]
+    pub(crate) fn seen_in(&self, plane: CablePlane<T>) -> (Self, T) {
+        let r = self.plane.lift(self.end);
+        (Self { plane, end: plane.project(r) }, plane.across(r))
     }
 
     /// Distance of the two points [m].

@@ -12,8 +12,8 @@
 //! are here to be compared.
 
 use crate::equations::balance::{Balance, symmetric_part};
+use crate::equations::cable_derivatives::wrench;
 use crate::equations::motions::Pins;
-use crate::equations::partials::wrench;
 use crate::equations::spanned::SpannedCable;
 use crate::error::StaticsError;
 use crate::problem::DirectProblem;
@@ -39,6 +39,7 @@ impl DirectProblem<'_> {
     pub fn linearize(&self, equilibrium: &Equilibrium) -> Result<Linearization, StaticsError> {
         self.check("equilibrium", equilibrium)?;
         let mut balance = Balance::of_load(self, &equilibrium.pose);
+        let mut of_guides = Matrix6::zeros();
         let mut wrench_per_length = Vec::with_capacity(self.cables());
         for (i, force) in equilibrium.cable_forces.iter().enumerate() {
             let catenary = self.catenary(i, *force);
@@ -48,25 +49,26 @@ impl DirectProblem<'_> {
                 wrench_per_length.push(Vector6::zeros());
                 continue;
             };
-            balance.add_cable(&cable.anchor_arm, &cable.force_on_platform(), linearized.stiffness());
-            let mut stiffness = Matrix3::from(linearized.stiffness());
+            let mut stiffness = linearized.stiffness();
+            balance.add_cable(&cable.anchor_arm, &cable.force_on_platform(), &stiffness.into());
             if let Some(skew) = cable.skew_stiffness(&catenary) {
                 stiffness += skew;
                 // dr_i = dp - [s_i] dφ
                 let arm = Vector3::from(cable.anchor_arm).cross_matrix();
                 for (row, left) in [(0, Matrix3::identity()), (3, arm)] {
                     for (column, right) in [(0, Matrix3::identity()), (3, -arm)] {
-                        let mut block = balance.hessian.fixed_view_mut::<3, 3>(row, column);
+                        let mut block = of_guides.fixed_view_mut::<3, 3>(row, column);
                         block += left * skew * right;
                     }
                 }
             }
             wrench_per_length.push(wrench(&cable.anchor_arm.into(), &(stiffness * cable.end_per_length())));
         }
-        balance.hold(self.robot.freedoms());
-        let pins = Pins::new(self, equilibrium, &balance.symmetric_hessian());
-        let flexibility = pins.pinned(&balance.hessian, 1.0).try_inverse();
-        Ok(Linearization { stiffness: balance.hessian, pins, flexibility, wrench_per_length })
+        let freedoms = self.robot.freedoms();
+        let stiffness = balance.hessian(freedoms) + freedoms.of_matrix(&of_guides);
+        let pins = Pins::new(self, equilibrium, &symmetric_part(&stiffness));
+        let flexibility = pins.pinned(&stiffness, 1.0).try_inverse();
+        Ok(Linearization { stiffness, pins, flexibility, wrench_per_length })
     }
 }
 

@@ -7,7 +7,6 @@
 //! cables has one, too. So the platform is moved along v by a finite screw motion, and the balance is looked
 //! at again.
 
-use crate::equations::balance::Balance;
 use crate::equations::rounding::forces;
 use crate::error::StaticsError;
 use crate::problem::DirectProblem;
@@ -31,17 +30,6 @@ pub(crate) fn cables_at(problem: &DirectProblem, pose: &Pose) -> Result<Equilibr
         .map(|i| problem.force_at(pose, i, None).map_err(StaticsError::cable(i)))
         .collect::<Result<_, _>>()?;
     Ok(Equilibrium { pose: *pose, cable_forces })
-}
-
-impl Balance {
-    /// Leaves out held motions.
-    #[inline]
-    pub(crate) fn hold(&mut self, freedoms: Freedoms) {
-        if !freedoms.are_all() {
-            self.gradient = freedoms.of_vector(&self.gradient);
-            self.hessian = freedoms.of_matrix(&self.hessian);
-        }
-    }
 }
 
 /// From (dp, l dφ) to (dp, dφ).

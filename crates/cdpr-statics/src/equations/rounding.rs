@@ -22,8 +22,8 @@ impl DirectProblem<'_> {
 
     /// The largest coordinates of a cable's points at a pose [m], whose rounding its closure shows.
     pub(crate) fn coordinates(&self, pose: &Pose) -> f64 {
-        let far = |i: usize| pose.position.norm() + self.robot.cables[i].exit_point.norm();
-        (0..self.cables()).map(far).fold(0.0, f64::max)
+        let exits = self.robot.cables.iter().map(|cable| cable.exit_point.norm_squared());
+        pose.position.norm() + exits.fold(0.0, f64::max).sqrt()
     }
 }
 

@@ -11,12 +11,13 @@ mod stiffness;
 
 use crate::equations::cable::{CablePlane, LinearizedCable, Span, between};
 use crate::problem::DirectProblem;
+pub(crate) use alone::in_its_plane;
 use cdpr_cable::kernel::{Response, closure_of_limp, response};
-use cdpr_cable::{Catenary, ElasticLaw, Guide, SpatialCable, SpatialResponse};
+use cdpr_cable::{Catenary, Guide, SpatialCable, SpatialResponse};
 use cdpr_number::Real;
 use cdpr_number::vector::{dot, wrench};
 use cdpr_robot::{Matrix3, Pose, Robot, Vector2, Vector3};
-pub(crate) use stiffness::{SpannedStiffness, Turned};
+pub(crate) use stiffness::LinearizedInSpace;
 
 /// A cable with a force that need not fit its two points.
 pub(crate) struct SpannedCable<'a, T> {
@@ -128,26 +129,6 @@ fn hanging(
 }
 
 impl<'a> SpannedCable<'a, f64> {
-    /// [`SpannedCable::of`] for a cable without guide that carries a force, on a level base.
-    #[inline(always)]
-    pub(crate) fn plain(robot: &'a Robot, pose: &Pose, i: usize, catenary: &Catenary) -> Option<Self> {
-        let Catenary { cable, unstrained_length: length, force } = *catenary;
-        if robot.gravity.level().is_some() || cable.guide.is_some() || force == Vector2::zeros() {
-            return None;
-        }
-        let anchor_arm = robot.anchor_arm(pose, i).into();
-        let r = between(&pose.position.into(), &anchor_arm, &robot.cables[i].exit_point.into());
-        let force = force.into();
-        let response = match cable.law {
-            ElasticLaw::Linear => {
-                response(cable.weight_per_length, 1.0 / cable.axial_stiffness, length, force)
-            }
-            ElasticLaw::Piecewise(_) => catenary.response(),
-        };
-        let answer = Answer::Planar(response);
-        Some(Self { anchor_arm, span: Span::new(r), force, answer, level: None })
-    }
-
     /// Cable i of a robot at a pose, in the shape of `catenary`.
     #[inline(always)]
     pub(crate) fn of(robot: &'a Robot, pose: &Pose, i: usize, catenary: &Catenary) -> Self {

@@ -1,6 +1,6 @@
-//! Following an optimum of the inverse model from one question to another.
+//! Following an optimum of the inverse model from one problem to another.
 //!
-//! Pose, load and reference go straight from the old question to the new one, in steps. After each step
+//! Pose, load and reference go straight from the old problem to the new one, in steps. After each step
 //! Newton's method starts from the last optimum, on the equations of (I2) and the balance with the exact
 //! second derivatives. With the cables at a limit as a set W it solves
 //!
@@ -14,9 +14,9 @@
 //! at each. Otherwise the step is halved. A strict minimum with a regular balance can always be followed by
 //! steps that are small enough; where the least step fails, the branch has ended.
 
-use super::held::Strand;
+use super::cable::CableAtPose;
 use super::optimum::{ELASTICITY, NEARLY_ROUNDING, Optimum, Point, ROUNDING};
-use super::question::Question;
+use super::problem::InverseProblem;
 use crate::state::Load;
 use cdpr_robot::{Pose, Vector6, Wrench};
 use cdpr_tension::Bound;
@@ -33,51 +33,47 @@ const CONTRACTION: f64 = 0.5;
 /// Changes that contract so often are rounding.
 const MAX_ITERATIONS: usize = 60;
 
-/// A question and its optimum, from which others are followed.
+/// A problem with its optimum, from which others are followed.
 #[derive(Clone, Debug)]
-pub(super) struct Answered {
+pub(super) struct KnownOptimum {
     pose: Pose,
     load: Load,
     reference: Vec<f64>,
     /// [N]
     chord_forces: Vec<f64>,
-    /// The limit of each cable, 0 the least and 1 the greatest, that it rests on.
-    limits: Vec<Option<usize>>,
+    /// The limit of each cable that is active.
+    limits: Vec<Option<Bound>>,
     /// λ of forces [N] and moments [N/m].
     multipliers: Vector6<f64>,
 }
 
-impl Answered {
-    pub(super) fn new(question: &Question, optimum: &Optimum) -> Self {
-        let side = |bound: Bound| match bound {
-            Bound::Min => 0,
-            Bound::Max => 1,
-        };
+impl KnownOptimum {
+    pub(super) fn new(problem: &InverseProblem, optimum: &Optimum) -> Self {
         Self {
-            pose: *question.pose,
-            load: *question.load,
-            reference: question.reference.clone(),
+            pose: *problem.pose,
+            load: *problem.load,
+            reference: problem.reference.clone(),
             chord_forces: optimum.chord_forces.clone(),
-            limits: optimum.active.iter().map(|bound| bound.map(side)).collect(),
+            limits: optimum.active.clone(),
             multipliers: optimum.multipliers,
         }
     }
 
-    /// The optimum of `question` on the branch of this answer; `None` where the branch ends on the way.
-    pub(super) fn followed<'a>(&self, question: &Question<'a>) -> Option<Optimum<'a>> {
+    /// The optimum of `problem` on the branch of this answer; `None` where the branch ends on the way.
+    pub(super) fn followed<'a>(&self, problem: &InverseProblem<'a>) -> Option<Optimum<'a>> {
         let mut iterations = 0;
         let mut passed = None;
         let (mut share, mut step) = (0.0, 1.0);
         loop {
             let last = passed.as_ref().unwrap_or(self);
             if share + step >= 1.0 {
-                if let Some(point) = last.corrected(question, &mut iterations) {
+                if let Some(point) = last.corrected(problem, &mut iterations) {
                     return Some(Optimum { iterations, ..point.optimum() });
                 }
                 step = 1.0 - share;
             } else {
-                let (pose, load, reference) = self.towards(question, share + step);
-                let between = question.nearby(&pose, &load, reference);
+                let (pose, load, reference) = self.towards(problem, share + step);
+                let between = problem.nearby(&pose, &load, reference);
                 if let Some(point) = last.corrected(&between, &mut iterations) {
                     passed = Some(Self::new(&between, &point.optimum()));
                     share += step;
@@ -92,44 +88,48 @@ impl Answered {
         }
     }
 
-    /// The question at a share of the way to another.
-    fn towards(&self, question: &Question, share: f64) -> (Pose, Load, Vec<f64>) {
-        let motion = self.pose.motion_to(question.pose) * share;
+    /// The problem at a share of the way to another.
+    fn towards(&self, problem: &InverseProblem, share: f64) -> (Pose, Load, Vec<f64>) {
+        let motion = self.pose.motion_to(problem.pose) * share;
         let pose = self.pose.moved(motion.fixed_rows::<3>(0).into(), motion.fixed_rows::<3>(3).into());
         let change = |from: f64, to: f64| from + share * (to - from);
-        let (a, b) = (&self.load, question.load);
+        let (a, b) = (&self.load, problem.load);
         let wrench = a.wrench.to_vector().zip_map(&b.wrench.to_vector(), change);
         let load = Load { payload: change(a.payload, b.payload), wrench: Wrench::from_vector(&wrench) };
-        let references = self.reference.iter().zip(&question.reference);
+        let references = self.reference.iter().zip(&problem.reference);
         (pose, load, references.map(|(from, to)| change(*from, *to)).collect())
     }
 
-    /// The optimum of a question nearby to which Newton's method with a merit function leads; it may be on
+    /// The optimum of a problem nearby to which Newton's method with a merit function leads; it may be on
     /// another branch.
-    pub(super) fn optimised<'a>(&self, question: &Question<'a>) -> Option<Point<'a>> {
-        let mut point = self.start(question)?;
-        point.optimise().then_some(point)
+    pub(super) fn optimized<'a>(&self, problem: &InverseProblem<'a>) -> Option<Point<'a>> {
+        let mut point = self.start(problem)?;
+        point.optimize().then_some(point)
     }
 
-    /// The cables as they are here, at the ends of a question nearby.
-    fn start<'a>(&self, question: &Question<'a>) -> Option<Point<'a>> {
+    /// The cables as they are here, at the ends of a problem nearby.
+    fn start<'a>(&self, problem: &InverseProblem<'a>) -> Option<Point<'a>> {
         let each = self.chord_forces.iter().zip(&self.limits).enumerate();
-        let strands = each.map(|(i, (force, limit))| Strand::near(question, i, *force, *limit));
-        let mut point = Point::of(question, strands.collect::<Result<Vec<_>, _>>().ok()?);
+        let cables = each.map(|(i, (force, limit))| CableAtPose::near(problem, i, *force, *limit));
+        let mut point = Point::of(problem, cables.collect::<Result<Vec<_>, _>>().ok()?);
         point.multipliers = self.multipliers;
-        point.multipliers.fixed_rows_mut::<3>(3).scale_mut(point.arm);
+        point.multipliers.fixed_rows_mut::<3>(3).scale_mut(point.characteristic_length);
         Some(point)
     }
 
-    /// The optimum of a question nearby, if it is on the same branch.
-    pub(super) fn corrected<'a>(&self, question: &Question<'a>, iterations: &mut usize) -> Option<Point<'a>> {
-        let mut point = self.start(question)?;
+    /// The optimum of a problem nearby, if it is on the same branch.
+    pub(super) fn corrected<'a>(
+        &self,
+        problem: &InverseProblem<'a>,
+        iterations: &mut usize,
+    ) -> Option<Point<'a>> {
+        let mut point = self.start(problem)?;
         let (mut error_before, mut greatest) = (f64::INFINITY, GREATEST_CHANGE);
         for _ in 0..MAX_ITERATIONS {
             let (error, size) = (point.residual().norm().max(point.stationarity()), point.size());
             let nearly = error <= NEARLY_ROUNDING * size;
             if (error <= ROUNDING * size || (nearly && error >= 0.5 * error_before))
-                && !point.learns_violated()?
+                && !point.compute_violated_limits()?
             {
                 return Some(point);
             }
@@ -137,10 +137,10 @@ impl Answered {
             *iterations += 1;
             let (step, multipliers) = point.newton()?;
             let relative =
-                point.strands.iter().zip(&step).map(|(strand, d)| d.abs() / strand.held.chord_force());
+                point.cables.iter().zip(&step).map(|(cable, d)| d.abs() / cable.held.chord_force());
             let change = relative.fold(0.0, f64::max);
             if change > greatest {
-                return (nearly && !point.learns_violated()?).then_some(point);
+                return (nearly && !point.compute_violated_limits()?).then_some(point);
             }
             greatest = CONTRACTION * change;
             let moved = point.moved(&step)?;
@@ -159,32 +159,35 @@ impl Point<'_> {
     fn newton(&mut self) -> Option<(Vec<f64>, Vector6<f64>)> {
         let hessian = self.hessian();
         let rounding = ROUNDING * self.size();
-        let mut fixed: Vec<Option<usize>> = self.strands.iter().map(Strand::at_limit).collect();
+        let mut fixed: Vec<Option<Bound>> = self.cables.iter().map(CableAtPose::at_limit).collect();
         for _ in 0..=2 * fixed.len() {
-            let way = |(strand, side): (&Strand, &Option<usize>)| side.map(|side| strand.room()[side]);
-            let ways: Vec<Option<f64>> = self.strands.iter().zip(&fixed).map(way).collect();
+            let way = |(cable, bound): (&CableAtPose, &Option<Bound>)| {
+                bound.map(|bound| cable.step_bounds()[bound as usize])
+            };
+            let ways: Vec<Option<f64>> = self.cables.iter().zip(&fixed).map(way).collect();
             let (step, multipliers) = self.newton_step(&hessian, &ways, ELASTICITY)?;
             let mut changed = false;
-            for (i, strand) in self.strands.iter_mut().enumerate() {
-                let passed = |strand: &Strand| {
-                    let [low, high] = strand.room();
-                    [step[i] < low, step[i] > high].iter().position(|passed| *passed)
+            for (i, cable) in self.cables.iter_mut().enumerate() {
+                let passed = |cable: &CableAtPose| {
+                    let [low, high] = cable.step_bounds();
+                    let passed = [step[i] < low, step[i] > high];
+                    Bound::BOTH.into_iter().find(|bound| passed[*bound as usize])
                 };
                 match fixed[i] {
                     None => {
-                        // The room towards a limit that has not been asked for is an estimate.
-                        if let Some(side) = passed(strand)
-                            && !strand.knows(side)
+                        // The way to a limit that is not known is an estimate.
+                        if let Some(bound) = passed(cable)
+                            && !cable.limit_known(bound)
                         {
-                            strand.learn(side).ok()?;
+                            cable.compute_limit(bound).ok()?;
                         }
-                        fixed[i] = passed(strand);
+                        fixed[i] = passed(cable);
                         changed |= fixed[i].is_some();
                     }
-                    Some(side) => {
+                    Some(bound) => {
                         let row = &self.rows[i];
                         let slope = row.gradient() + hessian[i] * step[i] + row.slope.dot(&multipliers);
-                        if [-slope, slope][side] > rounding {
+                        if [-slope, slope][bound as usize] > rounding {
                             fixed[i] = None;
                             changed = true;
                         }

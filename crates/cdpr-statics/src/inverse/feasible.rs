@@ -1,11 +1,12 @@
 //! From where the inverse model is searched, and when a pose is called infeasible.
 //!
-//! The first start is the optimum of the straight-cable problem, by `start`: directions along the chords, and
-//! where no tensions balance the wrench in these directions, those that come nearest. Where the search from
-//! there fails, the residual of the balance itself is made least, by steps
+//! The first start is the closed form of the straight-cable problem, each tension moved into its limits, by
+//! `start`. Where the search from there fails, the second one is Clarabel's optimum of that problem, with
+//! directions along the chords, and where no tensions balance the wrench in these directions, those that come
+//! nearest. Where that fails, too, the residual of the balance itself is made least, by steps
 //!
 //! ```text
-//! minimise  |J d + F|² + sum (max(F·w_i'', 0) + η/σ_i²) d_i²   within the limits,          (I4)
+//! minimize  |J d + F|² + sum (max(F·w_i'', 0) + η/σ_i²) d_i²   within the limits,          (I4)
 //! ```
 //!
 //! from that start, from the reference, from the middle of the limits and from tensions spread over them,
@@ -31,12 +32,12 @@
 //! tried first; next to a pose that was refused it is tried from the tensions that came nearest there.
 
 use super::optimum::{Optimum, Point};
-use super::question::Question;
+use super::problem::InverseProblem;
 use super::start::{Goal, StraightStart};
 use crate::error::{Blocked, StaticsError};
 use cdpr_cable::CableError;
 use cdpr_robot::{Matrix6xX, TensionLimits, Vector6};
-use cdpr_tension::{Bound, BoxUnknown, bounded_least_squares};
+use cdpr_tension::{BoxUnknown, bounded_least_squares};
 
 /// A residual below this, relative to wrench and tensions, balances.
 pub(super) const BALANCED: f64 = 1e-8;
@@ -56,27 +57,38 @@ const MUCH: f64 = 0.4;
 
 /// The optimum: of cables that sag little from the first start that leads to one, else the best of all
 /// starts.
-pub(super) fn search<'a>(question: &Question<'a>) -> Result<Optimum<'a>, StaticsError> {
-    let StraightStart { tensions, residue, certificate, .. } = question.straight(&Goal::Nearest);
-    let first = Point::new(question, &tensions)?;
-    if residue > CLEAR_RESIDUE
-        && let Some(refusal) = refused(question, &first, certificate.as_ref())
+pub(super) fn search<'a>(problem: &InverseProblem<'a>) -> Result<Optimum<'a>, StaticsError> {
+    let mut iterations = 0;
+    let closed_form = problem.closed_form();
+    let start = closed_form.as_ref().map(|tensions| Point::new(problem, tensions)).transpose()?;
+    let mut best = start.and_then(|start| start.optimized(&mut iterations));
+    if let Some(best) = &mut best
+        && best.needs_no_other_start(problem, &mut iterations)?
     {
-        return Err(refusal);
+        return Ok(Optimum { iterations, ..best.optimum() });
     }
-    let mut nearest = first.clone();
-    let mut best = nearest.optimise().then(|| nearest.clone());
-    let mut iterations = nearest.iterations;
-    if let Some(best) = &mut best {
-        let proved = best.sags(SOME) && best.lessened(question, &mut iterations)?;
-        if proved || !best.sags(MUCH) {
-            return Ok(Optimum { iterations, ..best.optimum() });
+    let StraightStart { tensions, residue, certificate, .. } = problem.straight(&Goal::Nearest);
+    let first = Point::new(problem, &tensions)?;
+    if best.is_none() {
+        if residue > CLEAR_RESIDUE
+            && let Some(refusal) = refused(problem, &first, certificate.as_ref())
+        {
+            return Err(refusal);
+        }
+        if closed_form != Some(tensions) {
+            best = first.clone().optimized(&mut iterations);
+            if let Some(best) = &mut best
+                && best.needs_no_other_start(problem, &mut iterations)?
+            {
+                return Ok(Optimum { iterations, ..best.optimum() });
+            }
         }
     }
-    let others = starts(question).map(|tensions| Point::new(question, &tensions));
+    let mut nearest = first.clone();
+    let others = starts(problem).map(|tensions| Point::new(problem, &tensions));
     for (k, start) in std::iter::once(Ok(first)).chain(others).enumerate() {
         let mut point = start?;
-        let found = point.balance(LEAST_GAIN) && point.optimise();
+        let found = point.balance(LEAST_GAIN) && point.optimize();
         iterations += point.iterations;
         if found {
             if best.as_ref().is_none_or(|best| point.objective() < (1.0 - 1e-12) * best.objective()) {
@@ -85,42 +97,47 @@ pub(super) fn search<'a>(question: &Question<'a>) -> Result<Optimum<'a>, Statics
         } else if best.is_none() && (k == 0 || point.residue() < nearest.residue()) {
             nearest = point;
             if nearest.residue() > BALANCED && nearest.is_refuted(certificate.as_ref()) {
-                return Err(nearest.refusal(question, k + 2, iterations, true));
+                return Err(nearest.refusal(problem, k + 2, iterations, true));
             }
         }
     }
     match best {
         Some(mut best) => {
-            best.lessened(question, &mut iterations)?;
+            best.improved(problem, &mut iterations)?;
             Ok(Optimum { iterations, ..best.optimum() })
         }
-        None => Err(nearest.refusal(question, STARTS, iterations, false)),
+        None => Err(nearest.refusal(problem, STARTS, iterations, false)),
     }
 }
 
 /// The refusal of a pose that a certificate of straight cables, or the least residual near `start`, proves to
 /// be infeasible.
 pub(super) fn refused<'a>(
-    question: &Question<'a>,
+    problem: &InverseProblem<'a>,
     start: &Point<'a>,
     certificate: Option<&Vector6<f64>>,
 ) -> Option<StaticsError> {
     let mut point = start.clone();
     let refuted = !point.balance(LEAST_GAIN) && point.is_refuted(certificate);
-    refuted.then(|| point.refusal(question, 1, point.iterations, true))
+    refuted.then(|| point.refusal(problem, 1, point.iterations, true))
 }
 
 /// Whether tensions within the limits that hold the pose are found from those of straight cables alone.
-pub(super) fn holds(question: &Question) -> Result<bool, StaticsError> {
-    Ok(Point::new(question, &question.straight(&Goal::Nearest).tensions)?.balance(CLEAR_GAIN))
+pub(super) fn holds(problem: &InverseProblem) -> Result<bool, StaticsError> {
+    if let Some(tensions) = problem.closed_form()
+        && Point::new(problem, &tensions)?.balance(CLEAR_GAIN)
+    {
+        return Ok(true);
+    }
+    Ok(Point::new(problem, &problem.straight(&Goal::Nearest).tensions)?.balance(CLEAR_GAIN))
 }
 
-/// The first start, a balance from there, and those of [`starts`].
+/// Straight cables, a balance from there, and those of [`starts`].
 const STARTS: usize = 9;
 
-/// Tensions to start from besides: the reference, the middle, and others spread over the limits.
-fn starts(question: &Question) -> [Vec<f64>; STARTS - 2] {
-    let middle = question.limits.iter().map(|limits| 0.5 * (limits.min + limits.max)).collect();
+/// Further tensions to start from: the reference, the middle, and others spread over the limits.
+fn starts(problem: &InverseProblem) -> [Vec<f64>; STARTS - 2] {
+    let middle = problem.limits.iter().map(|limits| 0.5 * (limits.min + limits.max)).collect();
     // Multiples of a step that is another one for each cable, but for whole numbers: on the unit interval
     // these are spread evenly (additive recurrence of the plastic number).
     let spread = |k: u32| {
@@ -128,13 +145,31 @@ fn starts(question: &Question) -> [Vec<f64>; STARTS - 2] {
             let step = ((i + 1) as f64 * 0.754_877_666_246_692_7).fract();
             limits.min * (limits.max / limits.min).powf((f64::from(k) * step).fract())
         };
-        question.limits.iter().enumerate().map(tension).collect()
+        problem.limits.iter().enumerate().map(tension).collect()
     };
     let [a, b, c, d, e] = [1, 2, 3, 4, 5].map(spread);
-    [question.reference.clone(), middle, a, b, c, d, e]
+    [problem.reference.clone(), middle, a, b, c, d, e]
 }
 
 impl<'a> Point<'a> {
+    /// The optimum to which Newton's method leads from here.
+    fn optimized(mut self, iterations: &mut usize) -> Option<Self> {
+        let found = self.optimize();
+        *iterations += self.iterations;
+        found.then_some(self)
+    }
+
+    /// Whether an optimum is the one to return: cables sag little, or (I11) proves it to be the least of all,
+    /// to which it may lead.
+    fn needs_no_other_start(
+        &mut self,
+        problem: &InverseProblem<'a>,
+        iterations: &mut usize,
+    ) -> Result<bool, StaticsError> {
+        let proved = self.sags(SOME) && self.improved(problem, iterations)?;
+        Ok(proved || !self.sags(MUCH))
+    }
+
     /// Makes the residual of the balance least, and forgets the multipliers, until a step gains less than a
     /// share of it. Returns whether it balances.
     fn balance(&mut self, least_gain: f64) -> bool {
@@ -151,11 +186,11 @@ impl<'a> Point<'a> {
             let largest = self.rows.iter().map(|row| row.tension).fold(0.0, f64::max);
             let open = self.residual();
             let curvature: Vec<f64> = self
-                .strands
+                .cables
                 .iter()
-                .map(|strand| {
-                    damping * (1.0 + largest / strand.held.chord_force()).powi(2)
-                        + strand.bend(&open, self.arm).max(0.0)
+                .map(|cable| {
+                    damping * (1.0 + largest / cable.held.chord_force()).powi(2)
+                        + cable.bend(&open, self.characteristic_length).max(0.0)
                 })
                 .collect();
             let Some(step) = self.least_step(&curvature) else { return false };
@@ -185,24 +220,24 @@ impl<'a> Point<'a> {
         residual <= BALANCED * self.size()
     }
 
-    /// Solves (I4) for a step, and asks for the chord forces of all limits that it meets.
+    /// Solves (I4) for a step, and computes the chord forces of all limits that it meets.
     fn least_step(&mut self, curvature: &[f64]) -> Option<Vec<f64>> {
         let residual = self.residual();
         loop {
-            let each = self.rows.iter().zip(curvature).zip(&self.strands);
+            let each = self.rows.iter().zip(curvature).zip(&self.cables);
             let unknowns: Vec<BoxUnknown> = each
-                .map(|((row, curvature), strand)| BoxUnknown {
+                .map(|((row, curvature), cable)| BoxUnknown {
                     gradient: 0.0,
                     curvature: *curvature,
                     column: row.slope,
-                    bounds: strand.room(),
+                    bounds: cable.step_bounds(),
                 })
                 .collect();
             let step = bounded_least_squares(&unknowns, &residual)?;
             if !step.iter().all(|d| d.is_finite()) {
                 return None;
             }
-            if !self.learns_reached(&step, &unknowns)? {
+            if !self.compute_reached_limits(&step, &unknowns)? {
                 return Some(step);
             }
         }
@@ -215,12 +250,16 @@ impl<'a> Point<'a> {
 
     /// Whether a cable has more than this slackness.
     fn sags(&self, slackness: f64) -> bool {
-        self.strands.iter().any(|strand| strand.held.slackness() > slackness)
+        self.cables.iter().any(|cable| cable.held.slackness() > slackness)
     }
 
     /// Moves an optimum to better ones as long as (I11) leads to them. Returns whether (I11) proves the last
     /// one to be the least of all.
-    fn lessened(&mut self, question: &Question<'a>, iterations: &mut usize) -> Result<bool, StaticsError> {
+    fn improved(
+        &mut self,
+        problem: &InverseProblem<'a>,
+        iterations: &mut usize,
+    ) -> Result<bool, StaticsError> {
         const MOST: usize = 4;
         /// A smaller gain may be rounding of the same optimum, where cables on their bounds leave few others.
         const BETTER: f64 = 1e-9;
@@ -230,8 +269,8 @@ impl<'a> Point<'a> {
                 Ok(None) => return Ok(true),
                 Err(_) => break,
             };
-            let mut point = Point::new(question, &tensions)?;
-            let found = point.balance(LEAST_GAIN) && point.optimise();
+            let mut point = Point::new(problem, &tensions)?;
+            let found = point.balance(LEAST_GAIN) && point.optimize();
             *iterations += point.iterations;
             if !found || point.objective() >= (1.0 - BETTER) * self.objective() {
                 break;
@@ -248,8 +287,9 @@ impl<'a> Point<'a> {
         const ROUNDING: f64 = 1e-9;
         let mut most = 0.0;
         let mut changed = None;
-        for (i, strand) in self.strands.iter_mut().enumerate() {
-            let (here, (tension, least)) = strand.lagrangians(&self.multipliers, self.arm)?;
+        for (i, cable) in self.cables.iter_mut().enumerate() {
+            let (here, (tension, least)) =
+                cable.lagrangians(&self.multipliers, self.characteristic_length)?;
             let gain = here - least;
             if gain > most && gain > ROUNDING * (here.abs() + least.abs()) {
                 most = gain;
@@ -257,7 +297,7 @@ impl<'a> Point<'a> {
             }
         }
         Ok(changed.map(|(i, tension)| {
-            let mut tensions: Vec<f64> = self.strands.iter().map(|strand| strand.held.tension()).collect();
+            let mut tensions: Vec<f64> = self.cables.iter().map(|cable| cable.held.tension()).collect();
             tensions[i] = tension;
             tensions
         }))
@@ -274,13 +314,13 @@ impl<'a> Point<'a> {
     pub(super) fn is_refuted_along(&mut self, direction: &Vector6<f64>) -> bool {
         let clear = 1e-9 * self.size();
         let along = direction.dot(&self.external);
-        let bounds = self.strands.iter().map(|strand| strand.bound_along(direction, self.arm));
+        let bounds = self.cables.iter().map(|cable| cable.bound_along(direction, self.characteristic_length));
         if bounds.sum::<Option<f64>>().is_some_and(|least| along + least > clear) {
             return true;
         }
         let mut least = along;
-        for strand in &mut self.strands {
-            match strand.least_along(direction, self.arm) {
+        for cable in &mut self.cables {
+            match cable.least_along(direction, self.characteristic_length) {
                 Ok(value) => least += value,
                 Err(_) => return false,
             }
@@ -290,7 +330,7 @@ impl<'a> Point<'a> {
 
     pub(super) fn refusal(
         &self,
-        question: &Question,
+        problem: &InverseProblem,
         starts: usize,
         iterations: usize,
         refuted: bool,
@@ -302,33 +342,30 @@ impl<'a> Point<'a> {
                 stationarity: self.optimum().stationarity,
             };
         }
-        let blocked = self.strands.iter().enumerate().filter_map(|(index, strand)| {
-            let side = strand.at_limit()?;
-            Some(Blocked {
-                index,
-                bound: [Bound::Min, Bound::Max][side],
-                tension: [strand.limits.min, strand.limits.max][side],
-            })
+        let blocked = self.cables.iter().enumerate().filter_map(|(index, cable)| {
+            let bound = cable.at_limit()?;
+            Some(Blocked { index, bound, tension: cable.limit(bound) })
         });
         // Of straight cables: those that sag have no slope along a residual that is the least one.
         let rank_deficient = {
-            let columns: Vec<_> = self.strands.iter().map(|strand| strand.chord_wrench(self.arm)).collect();
+            let columns: Vec<_> =
+                self.cables.iter().map(|cable| cable.chord_wrench(self.characteristic_length)).collect();
             let matrix = Matrix6xX::from_columns(&columns);
             // The singular values of a matrix that is not finite are never found.
             matrix.iter().all(|entry| entry.is_finite()) && {
-                let values = matrix.select_rows(&question.robot.freedoms().components()).singular_values();
+                let values = matrix.select_rows(&problem.robot.freedoms().components()).singular_values();
                 values.min() < 1e-9 * values.max()
             }
         };
         StaticsError::NoTensions {
-            position: question.pose.position.into(),
-            min: question.limits.iter().map(|limits| limits.min).fold(f64::INFINITY, f64::min),
-            max: question.limits.iter().map(|limits| limits.max).fold(0.0, f64::max),
+            position: problem.pose.position.into(),
+            min: problem.limits.iter().map(|limits| limits.min).fold(f64::INFINITY, f64::min),
+            max: problem.limits.iter().map(|limits| limits.max).fold(0.0, f64::max),
             starts,
             refuted,
             rank_deficient,
             force: residual.fixed_rows::<3>(0).norm(),
-            moment: residual.fixed_rows::<3>(3).norm() * self.arm,
+            moment: residual.fixed_rows::<3>(3).norm() * self.characteristic_length,
             tensions: self.rows.iter().map(|row| row.tension).collect(),
             blocked: blocked.collect(),
         }

@@ -22,7 +22,7 @@ mod sound;
 mod straight;
 mod unique;
 
-use super::question::Question;
+use super::problem::InverseProblem;
 use super::{HeldPose, inverse_at, refuse_offsets};
 use crate::error::StaticsError;
 use crate::out_of_limits::out_of_limits;
@@ -148,7 +148,7 @@ impl Search<'_> {
 
     /// What a solution decides that is no farther than `reach` from the given coordinates.
     fn decided(&self, point: Point, iterations: usize, reach: f64) -> Result<Beside, StaticsError> {
-        let Question { robot, pose, load, .. } = self.question;
+        let InverseProblem { robot, pose, load, .. } = self.problem;
         if self.distance(pose, &point.held.equilibrium.pose) > reach {
             return Ok(Beside::Open);
         }

@@ -3,7 +3,7 @@
 //! Both are the greatest z for which tensions exist,
 //!
 //! ```text
-//! maximise  z   subject to   sum w_i(t_i) + w_ex + z w_z = 0,   min_i + κ z <= t_i <= max_i - κ z    (I7)
+//! maximize  z   subject to   sum w_i(t_i) + w_ex + z w_z = 0,   min_i + κ z <= t_i <= max_i - κ z    (I7)
 //! ```
 //!
 //! - The payload: w_z is the weight of 1 kg at the centre of mass, κ = 0 and z >= 0. A pose that a robot
@@ -19,18 +19,19 @@
 //! Both end at [`cdpr_cable::MAX_STRAIN`], too: no cable gets a tension that strains it more.
 //!
 //! Of straight cables w_i = u_i t_i and (I7) is a linear program. Sagging ones pull in a direction that
-//! depends on the tension: the program linearised at the last chord forces is solved again and again, and the
+//! depends on the tension: the program linearized at the last chord forces is solved again and again, and the
 //! limits that it rests on give Newton's method its equations (Fletcher and Sainz de la Maza, *Nonlinear
 //! programming and nonsmooth optimization by successive linear programming*, Math. Programming 43, 1989).
 
 use super::HeldPose;
 use super::limits::strain_limit;
 use super::maximization::{Aim, Maximization, Maximum};
-use super::question::Question;
+use super::problem::InverseProblem;
+use super::wanted::whole;
 use crate::error::StaticsError;
 use crate::out_of_limits::Limit;
 use crate::problem::DirectProblem;
-use crate::state::{Equilibrium, Load, Residual};
+use crate::state::{Equilibrium, Load, Residual, Wanted, one_by_one};
 use cdpr_robot::{Pose, Robot, TensionLimits, Wrench};
 
 /// The greatest value that the limits of tension allow, with the tensions that reach it.
@@ -65,15 +66,25 @@ pub struct Blocking {
     pub gain: f64,
 }
 
-/// The greatest mass [kg] at the platform's centre of mass that tensions within the limits hold at `pose`,
-/// together with the `wrench` [N, N m] about P.
+/// The greatest mass [kg] at the platform's centre of mass that tensions within the limits hold at a wanted
+/// pose, or at each of many, together with the `wrench` [N, N m] about P. A reference of the tensions does not
+/// act.
 ///
 /// It is zero or more. Where the platform is held with a mass only, not by its own weight, it is that mass or
 /// more.
 ///
 /// # Errors
-/// Those of [`crate::inverse`]; [`StaticsError::NoTensions`] where no mass is held.
-pub fn greatest_payload(robot: &Robot, pose: &Pose, wrench: &Wrench) -> Result<Greatest, StaticsError> {
+/// Those of [`crate::inverse`]; [`StaticsError::NoTensions`] where no mass is held; [`StaticsError::Invalid`]
+/// for free coordinates, which leave no choice of the tensions.
+pub fn greatest_payload<W: Wanted>(
+    robot: &Robot,
+    wanted: W,
+    wrench: &Wrench,
+) -> W::Answers<Result<Greatest, StaticsError>> {
+    one_by_one(wanted, |wanted| payload_at(robot, &whole(*wanted)?.pose, wrench))
+}
+
+fn payload_at(robot: &Robot, pose: &Pose, wrench: &Wrench) -> Result<Greatest, StaticsError> {
     let gravity = robot.gravity.magnitude();
     let load = Load::wrench(*wrench);
     if gravity == 0.0 {
@@ -84,40 +95,50 @@ pub fn greatest_payload(robot: &Robot, pose: &Pose, wrench: &Wrench) -> Result<G
         ));
     }
     let bounded = Bounded::new(robot, pose, &load)?;
-    let heaviest = bounded.question.limits.iter().map(|limits| limits.max).sum();
+    let heaviest = bounded.problem.limits.iter().map(|limits| limits.max).sum();
     // Of a weight of 1 N.
     let mut direction = robot.weight(pose, 0.0).to_vector() / (robot.platform.mass * gravity);
-    direction.fixed_rows_mut::<3>(3).unscale_mut(bounded.question.arm);
+    direction.fixed_rows_mut::<3>(3).unscale_mut(bounded.problem.characteristic_length);
     let direction = robot.freedoms().of_vector(&direction);
     let components = robot.freedoms().components();
     let maximization = Maximization { aim: Aim::Wrench(direction), range: [0.0, heaviest], components };
-    let found = maximization.solve(&bounded.question, &bounded.question);
+    let found = maximization.solve(&bounded.problem, &bounded.problem);
     let found = found.map_err(|refusal| bounded.reason(refusal))?;
     let payload = found.value / gravity;
     let load = Load { payload, ..load };
     bounded.greatest(&load, Scale { value: payload, unit: 1.0 / gravity }, found, None)
 }
 
-/// By how much every tension can stay away from its limits at `pose` under `load` [N].
+/// By how much every tension can stay away from its limits at a wanted pose, or at each of many, under `load`
+/// [N]. A reference of the tensions does not act.
 ///
 /// Cables whose own weight demands more than their least tension rest on what it demands.
 ///
 /// # Errors
 /// Those of [`crate::inverse`]; [`StaticsError::NoTensions`] where the load cannot be balanced by any pull of
 /// the cables, whatever their limits; [`StaticsError::InverseNotConverged`] where tensions hold the pose and
-/// their margin was not found.
-pub fn tension_margin(robot: &Robot, pose: &Pose, load: &Load) -> Result<Greatest, StaticsError> {
-    let own = Question::of_whole_pose(robot, pose, load, None)?;
+/// their margin was not found; [`StaticsError::Invalid`] for free coordinates, which leave no choice of the
+/// tensions.
+pub fn tension_margin<W: Wanted>(
+    robot: &Robot,
+    wanted: W,
+    load: &Load,
+) -> W::Answers<Result<Greatest, StaticsError>> {
+    one_by_one(wanted, |wanted| margin_at(robot, &whole(*wanted)?.pose, load))
+}
+
+fn margin_at(robot: &Robot, pose: &Pose, load: &Load) -> Result<Greatest, StaticsError> {
+    let own = InverseProblem::of_whole_pose(robot, pose, load, None)?;
     let limits = own.limits.clone();
     let largest = limits.iter().map(|limits| limits.max).fold(own.external.norm(), f64::max);
     // Wider than any margin: strains and the least tensions that the cables' weight demands are left.
     let wide = |limits: &TensionLimits| TensionLimits { min: 1e-9 * limits.min, max: 1.5 * WIDEST * largest };
-    let question = Question { limits: limits.iter().map(wide).collect(), ..own.clone() };
-    let bounded = Bounded::within_strains(question)?;
+    let problem = InverseProblem { limits: limits.iter().map(wide).collect(), ..own.clone() };
+    let bounded = Bounded::within_strains(problem)?;
     let range = [-WIDEST * largest, largest];
     let components = robot.freedoms().components();
     let maximization = Maximization { aim: Aim::Margin(limits.clone()), range, components };
-    let found = maximization.solve(&bounded.question, &own)?;
+    let found = maximization.solve(&bounded.problem, &own)?;
     let scale = Scale { value: found.value, unit: 1.0 };
     bounded.greatest(load, scale, found, Some(&limits))
 }
@@ -125,9 +146,9 @@ pub fn tension_margin(robot: &Robot, pose: &Pose, load: &Load) -> Result<Greates
 /// Greatest tension over the greatest limit where a margin is looked for.
 const WIDEST: f64 = 20.0;
 
-/// A question whose greatest tensions strain no cable too much.
+/// A problem whose greatest tensions strain no cable too much.
 struct Bounded<'a> {
-    question: Question<'a>,
+    problem: InverseProblem<'a>,
     /// The cables whose greatest tension is that of the greatest strain.
     strained: Vec<bool>,
 }
@@ -142,24 +163,24 @@ struct Scale {
 
 impl<'a> Bounded<'a> {
     fn new(robot: &'a Robot, pose: &'a Pose, load: &'a Load) -> Result<Self, StaticsError> {
-        Self::within_strains(Question::of_whole_pose(robot, pose, load, None)?)
+        Self::within_strains(InverseProblem::of_whole_pose(robot, pose, load, None)?)
     }
 
-    fn within_strains(mut question: Question<'a>) -> Result<Self, StaticsError> {
-        let mut strained = vec![false; question.cables()];
+    fn within_strains(mut problem: InverseProblem<'a>) -> Result<Self, StaticsError> {
+        let mut strained = vec![false; problem.cables()];
         for (i, strained) in strained.iter_mut().enumerate() {
-            let limits = question.limits[i];
-            if let Some(max) = strain_limit(question.robot, question.pose, i, limits)? {
-                question.limits[i].max = max.max(limits.min);
+            let limits = problem.limits[i];
+            if let Some(max) = strain_limit(problem.robot, problem.pose, i, limits)? {
+                problem.limits[i].max = max.max(limits.min);
                 *strained = true;
             }
         }
-        Ok(Self { question, strained })
+        Ok(Self { problem, strained })
     }
 
     /// The refusal of a pose that is held only by tensions that strain a cable too much says so.
     fn reason(&self, refusal: StaticsError) -> StaticsError {
-        let Question { robot, pose, load, .. } = self.question;
+        let InverseProblem { robot, pose, load, .. } = self.problem;
         if !self.strained.contains(&true) {
             return refusal;
         }
@@ -178,12 +199,12 @@ impl<'a> Bounded<'a> {
     ) -> Result<Greatest, StaticsError> {
         let Maximum { ref point, iterations, .. } = found;
         let HeldPose { lengths, equilibrium } = HeldPose::new(
-            self.question.pose,
-            &point.strands.iter().map(|s| s.held.catenary()).collect::<Vec<_>>(),
+            self.problem.pose,
+            &point.cables.iter().map(|s| s.held.catenary()).collect::<Vec<_>>(),
         );
-        let problem = DirectProblem::new(self.question.robot, &lengths, load)?;
-        problem.check_strains(&equilibrium)?;
-        let residual = Residual::of(&problem, &equilibrium);
+        let direct = DirectProblem::new(self.problem.robot, &lengths, load)?;
+        direct.check_strains(&equilibrium)?;
+        let residual = Residual::of(&direct, &equilibrium);
         let tensions = point.rows.iter().map(|row| row.tension).collect();
         let blocking = self.blocking(&found, unit, drawn);
         Ok(Greatest { value, tensions, lengths, equilibrium, blocking, iterations, residual })
@@ -196,13 +217,13 @@ impl<'a> Bounded<'a> {
         unit: f64,
         drawn: Option<&[TensionLimits]>,
     ) -> Vec<Blocking> {
-        let n = point.strands.len();
+        let n = point.cables.len();
         let mut blocking = Vec::new();
-        for (index, (row, strand)) in point.rows.iter().zip(&point.strands).enumerate() {
+        for (index, (row, cable)) in point.rows.iter().zip(&point.cables).enumerate() {
             // A bound on the chord force, and those on the tension that z draws closer.
             let slope = unit * solution.slopes[index] / row.tension_slope;
             let greatest = if self.strained[index] { Limit::Strain } else { Limit::Max };
-            let TensionLimits { min, max } = strand.limits;
+            let TensionLimits { min, max } = cable.limits;
             let mut each = vec![(Limit::Min, min, -slope), (greatest, max, slope)];
             if let Some(TensionLimits { min, max }) = drawn.map(|drawn| drawn[index]) {
                 let gain = |side: usize| -unit * solution.slopes[n + 1 + 2 * index + side];

@@ -5,7 +5,7 @@
 
 use super::feasible::refused;
 use super::optimum::Point;
-use super::question::Question;
+use super::problem::InverseProblem;
 use super::{InverseSolution, inverse_at};
 use crate::error::StaticsError;
 use crate::state::Load;
@@ -35,8 +35,8 @@ impl<'a> InTurn<'a> {
     /// The proof that a pose has no tensions, from the last pose that had none.
     pub(crate) fn refusal(&mut self, pose: &Pose) -> Option<StaticsError> {
         let nearest = self.nearest.as_ref()?;
-        let question = Question::of_whole_pose(self.robot, pose, self.load, None).ok()?;
-        let refusal = refused(&question, &Point::new(&question, nearest).ok()?, None)?;
+        let problem = InverseProblem::of_whole_pose(self.robot, pose, self.load, None).ok()?;
+        let refusal = refused(&problem, &Point::new(&problem, nearest).ok()?, None)?;
         self.keep(&refusal);
         Some(refusal)
     }

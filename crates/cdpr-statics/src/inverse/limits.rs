@@ -4,17 +4,28 @@
 //! difference in height adds to it, (C26) of `cdpr_cable`: it depends on the pose and not on the sag. With a
 //! pulley the height is that above the leave point, which moves a little with the tension.
 
+use super::wanted::pose_alone;
 use crate::equations::Ends;
 use crate::error::StaticsError;
+use crate::state::{Wanted, one_by_one};
 use cdpr_cable::{LONGEST_TAUT, MAX_STRAIN};
 use cdpr_robot::{CableEnd, Pose, Robot, TensionLimits};
 
-/// The limits of every cable's tension at the platform, which stands at `pose`.
+/// The limits of every cable's tension at the platform, at a wanted pose or at each of many.
 ///
 /// # Errors
+/// [`StaticsError::Invalid`] for free coordinates, offsets or a reference of the tensions, which do not act;
 /// [`StaticsError::ExitLimit`] where the greatest tension at an exit point leaves less than the least one at
 /// the platform; [`StaticsError::Cable`] where the weight of a cable on a pulley demands more than either.
-pub fn limits_at(robot: &Robot, pose: &Pose) -> Result<Vec<TensionLimits>, StaticsError> {
+pub fn limits_at<W: Wanted>(
+    robot: &Robot,
+    wanted: W,
+) -> W::Answers<Result<Vec<TensionLimits>, StaticsError>> {
+    one_by_one(wanted, |wanted| platform_limits(robot, &pose_alone(*wanted)?))
+}
+
+/// [`limits_at`] at one pose.
+pub(super) fn platform_limits(robot: &Robot, pose: &Pose) -> Result<Vec<TensionLimits>, StaticsError> {
     let at_platform = |i: usize| {
         let limits = robot.limits(i);
         match robot.max_at(i) {

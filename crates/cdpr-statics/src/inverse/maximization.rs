@@ -1,7 +1,7 @@
 //! The maximization (I7) by linear programs, and the least norms of the tensions, (I13), which are maxima,
 //! too.
 //!
-//! Every iteration linearises the balance at the cables' chord forces and solves a linear program within a
+//! Every iteration linearizes the balance at the cables' chord forces and solves a linear program within a
 //! region about them. With the multipliers y of the balance in that program, steps are judged by
 //!
 //! ```text
@@ -17,20 +17,20 @@
 //! The least 1-norm and infinity-norm of the tensions are -z of
 //!
 //! ```text
-//! maximise  z   subject to   sum w_i(t_i) + w_ex = 0,   min_i <= t_i <= max_i,
+//! maximize  z   subject to   sum w_i(t_i) + w_ex = 0,   min_i <= t_i <= max_i,
 //!           sum t_i + z = 0,   or   t_i <= 0 - z  for all i                                        (I13)
 //! ```
 
 mod newton;
 
 use crate::error::StaticsError;
+use crate::inverse::cable::CableAtPose;
 use crate::inverse::feasible::{BALANCED, search};
-use crate::inverse::held::Strand;
-use crate::inverse::optimum::{ELASTICITY, Optimum, Point};
-use crate::inverse::question::Question;
+use crate::inverse::optimum::{Optimum, Point};
+use crate::inverse::problem::InverseProblem;
 use crate::inverse::start::{Goal, StraightStart};
 use cdpr_robot::{TensionLimits, Vector6};
-use cdpr_tension::{BoxProblem, BoxUnknown, LinearProgram, LinearSolution};
+use cdpr_tension::{Bound, BoxProblem, BoxUnknown, LinearProgram, LinearSolution};
 
 /// What z of (I7) and (I13) is.
 pub(super) enum Aim {
@@ -89,7 +89,7 @@ const GREATEST_COST: f64 = 1e6;
 /// Share of its last value that M of (I12) keeps at least.
 const KEPT_PENALTY: f64 = 0.3;
 
-/// Steps that hardly bring the balance nearer while even the linearised cables do not balance.
+/// Steps that hardly bring the balance nearer while even the linearized cables do not balance.
 const MOST_STALLED: usize = 3;
 
 /// Steps back to the balance that follow a long one.
@@ -118,11 +118,11 @@ struct Trust {
 }
 
 impl Maximization {
-    /// The greatest z and the cables there; `own` is the question with the limits of the robot.
+    /// The greatest z and the cables there; `own` is the problem with the limits of the robot.
     pub(super) fn solve<'a>(
         &self,
-        question: &Question<'a>,
-        own: &Question<'a>,
+        problem: &InverseProblem<'a>,
+        own: &InverseProblem<'a>,
     ) -> Result<Maximum<'a>, StaticsError> {
         let (goal, sign) = match &self.aim {
             Aim::Wrench(direction) => (Goal::Wrench(direction), 1.0),
@@ -130,8 +130,8 @@ impl Maximization {
             Aim::Sum => (Goal::LeastSum, -1.0),
             Aim::Greatest(_) => (Goal::LeastGreatest, -1.0),
         };
-        let StraightStart { tensions, value, certificate, .. } = question.straight(&goal);
-        let (mut point, found) = self.climb(question, &tensions, sign * value.unwrap_or(0.0))?;
+        let StraightStart { tensions, value, certificate, .. } = problem.straight(&goal);
+        let (mut point, found) = self.climb(problem, &tensions, sign * value.unwrap_or(0.0))?;
         if let Some(found) = found {
             return Ok(found);
         }
@@ -141,14 +141,14 @@ impl Maximization {
         let directions = [certificate, Some(point.residual().normalize())].into_iter().flatten();
         let directions: Vec<_> = directions.filter(pulls_away).collect();
         if point.residue() > BALANCED && directions.iter().any(|y| point.is_refuted_along(y)) {
-            return Err(point.refusal(question, 1, point.iterations, true));
+            return Err(point.refusal(problem, 1, point.iterations, true));
         }
         // Far from a balance within wide limits, another start is not worth its time.
         if matches!(self.aim, Aim::Margin(_)) && point.residue() > NEARLY_BALANCED {
-            return Err(point.refusal(question, 1, point.iterations, false));
+            return Err(point.refusal(problem, 1, point.iterations, false));
         }
         let Optimum { tensions, iterations, stationarity, .. } = search(own)?;
-        let (_, found) = self.climb(question, &tensions, 0.0)?;
+        let (_, found) = self.climb(problem, &tensions, 0.0)?;
         found.ok_or(StaticsError::InverseNotConverged { iterations, stationarity })
     }
 
@@ -173,12 +173,12 @@ impl Maximization {
     /// Climbs from some tensions and z [N]; returns where it ends, and the maximum if it is one.
     fn climb<'a>(
         &self,
-        question: &Question<'a>,
+        problem: &InverseProblem<'a>,
         tensions: &[f64],
         z: f64,
     ) -> Result<(Point<'a>, Option<Maximum<'a>>), StaticsError> {
         let mut at =
-            Iterate { point: Point::new(question, tensions)?, z: z.clamp(self.range[0], self.range[1]) };
+            Iterate { point: Point::new(problem, tensions)?, z: z.clamp(self.range[0], self.range[1]) };
         let mut trust = Trust { region: REGION, cost: LEAST_COST, penalty: 0.0 };
         let mut stalled = 0;
         for iterations in 1..=MAX_ITERATIONS {
@@ -257,25 +257,20 @@ impl Maximization {
     /// The least relative change of the chord forces that leads back to the balance, to first order.
     fn balanced<'a>(&self, at: &Iterate<'a>) -> Option<Iterate<'a>> {
         let point = &at.point;
-        let largest = point.strands.iter().map(|strand| strand.held.chord_force()).fold(0.0, f64::max);
-        let unknown = |(i, strand): (usize, &Strand)| {
+        let largest = point.cables.iter().map(|cable| cable.held.chord_force()).fold(0.0, f64::max);
+        let unknown = |(i, cable): (usize, &CableAtPose)| {
             let row = &point.rows[i];
-            let [mut low, mut high] = strand.room();
+            let [mut low, mut high] = cable.step_bounds();
             if let Some(limits) = self.drawn().map(|drawn| drawn[i]) {
                 low = low.max((limits.min + at.z - row.tension) / row.tension_slope);
                 high = high.min((limits.max - at.z - row.tension) / row.tension_slope);
             }
-            let curvature = (largest / strand.held.chord_force()).powi(2);
+            let curvature = (largest / cable.held.chord_force()).powi(2);
             BoxUnknown { gradient: 0.0, curvature, column: row.slope, bounds: [low.min(high), high.max(low)] }
         };
-        let unknowns: Vec<BoxUnknown> = point.strands.iter().enumerate().map(unknown).collect();
+        let unknowns: Vec<BoxUnknown> = point.cables.iter().enumerate().map(unknown).collect();
         let residual = point.residual() + self.direction() * at.z;
-        let program = BoxProblem {
-            unknowns: &unknowns,
-            residual,
-            elasticity: ELASTICITY,
-            multipliers: Vector6::zeros(),
-        };
+        let program = BoxProblem { unknowns: &unknowns, residual, multipliers: Vector6::zeros() };
         at.moved(&program.solve().values, at.z)
     }
 
@@ -304,35 +299,35 @@ impl Maximization {
     ) -> Result<Option<LinearSolution>, StaticsError> {
         loop {
             let Some(solution) = self.program(point, size, trust).solve() else { return Ok(None) };
-            let mut learned = false;
-            for (i, strand) in point.strands.iter_mut().enumerate() {
-                for side in 0..2 {
-                    let room = strand.room()[side] / size;
-                    let met = [solution.values[i] <= room, solution.values[i] >= room][side];
-                    if met && !strand.knows(side) {
-                        strand.learn(side).map_err(StaticsError::cable(i))?;
-                        learned = true;
+            let mut computed = false;
+            for (i, cable) in point.cables.iter_mut().enumerate() {
+                for bound in Bound::BOTH {
+                    let way = cable.step_bounds()[bound as usize] / size;
+                    let met = [solution.values[i] <= way, solution.values[i] >= way][bound as usize];
+                    if met && !cable.limit_known(bound) {
+                        cable.compute_limit(bound).map_err(StaticsError::cable(i))?;
+                        computed = true;
                     }
                 }
             }
-            if !learned {
+            if !computed {
                 return Ok(Some(solution));
             }
         }
     }
 
-    /// The program linearised at the cables, its forces in units of `size` [N]: unknowns are the changes of
+    /// The program linearized at the cables, its forces in units of `size` [N]: unknowns are the changes of
     /// the chord forces, z, and the distances of tensions from limits drawn closer.
     fn program(&self, point: &Point, size: f64, trust: &Trust) -> LinearProgram {
-        let n = point.strands.len();
+        let n = point.cables.len();
         let slacks = self.drawn().map_or(0, |limits| 2 * limits.len());
-        let within = |strand: &Strand| {
-            let at = strand.held.chord_force();
-            let [low, high] = strand.room();
+        let within = |cable: &CableAtPose| {
+            let at = cable.held.chord_force();
+            let [low, high] = cable.step_bounds();
             let least = low.max((1.0 / (1.0 + trust.region)).max(LEAST_SHARE) * at - at);
             [least, high.min(trust.region * at).max(least)].map(|d| d / size)
         };
-        let mut bounds: Vec<[f64; 2]> = point.strands.iter().map(within).collect();
+        let mut bounds: Vec<[f64; 2]> = point.cables.iter().map(within).collect();
         bounds.push(self.range.map(|z| z / size));
         bounds.extend(vec![[0.0, f64::INFINITY]; slacks]);
         let mut objective = vec![0.0; n + 1 + slacks];
@@ -378,9 +373,9 @@ struct Step {
 
 impl Step {
     fn new(solution: &LinearSolution, point: &Point, size: f64) -> Self {
-        let n = point.strands.len();
+        let n = point.cables.len();
         let changes: Vec<f64> = solution.values[..n].iter().map(|x| x * size).collect();
-        let relative = point.strands.iter().zip(&changes).map(|(s, d)| d.abs() / s.held.chord_force());
+        let relative = point.cables.iter().zip(&changes).map(|(s, d)| d.abs() / s.held.chord_force());
         let change = relative.fold(0.0, f64::max);
         Self { changes, z: solution.values[n] * size, change }
     }

@@ -3,29 +3,29 @@
 use super::feasible::search;
 use super::maximization::{Aim, Maximization, Maximum};
 use super::optimum::Optimum;
-use super::question::Question;
+use super::problem::InverseProblem;
 use crate::error::StaticsError;
 use cdpr_robot::{Robot, TensionDistribution, TensionLimits, Vector6};
 
-/// The tensions that the question asks for.
-pub(super) fn chosen<'a>(question: &Question<'a>) -> Result<Optimum<'a>, StaticsError> {
-    let largest = question.limits.iter().map(|limits| limits.max).fold(0.0, f64::max);
-    let (aim, least) = match question.distribution {
-        TensionDistribution::Nearest | TensionDistribution::LeastTwoNorm => return search(question),
-        TensionDistribution::LeastOneNorm => (Aim::Sum, largest * question.cables() as f64),
+/// The tensions that the problem asks for.
+pub(super) fn chosen<'a>(problem: &InverseProblem<'a>) -> Result<Optimum<'a>, StaticsError> {
+    let largest = problem.limits.iter().map(|limits| limits.max).fold(0.0, f64::max);
+    let (aim, least) = match problem.distribution {
+        TensionDistribution::Nearest | TensionDistribution::LeastTwoNorm => return search(problem),
+        TensionDistribution::LeastOneNorm => (Aim::Sum, largest * problem.cables() as f64),
         TensionDistribution::LeastInfinityNorm => {
             let below = TensionLimits { min: -4.0 * largest, max: 0.0 };
-            (Aim::Greatest(vec![below; question.cables()]), largest)
+            (Aim::Greatest(vec![below; problem.cables()]), largest)
         }
     };
-    let components = question.robot.freedoms().components();
+    let components = problem.robot.freedoms().components();
     let maximization = Maximization { aim, range: [-least, 0.0], components };
-    let Maximum { value, mut point, solution, iterations } = maximization.solve(question, question)?;
+    let Maximum { value, mut point, solution, iterations } = maximization.solve(problem, problem)?;
     point.multipliers = Vector6::zeros();
     for (k, y) in maximization.components.iter().zip(&solution.multipliers) {
         point.multipliers[*k] = *y;
     }
-    let stationarity = (solution.values[question.cables()] * point.size() - value).max(0.0);
+    let stationarity = (solution.values[problem.cables()] * point.size() - value).max(0.0);
     Ok(Optimum { iterations, stationarity, ..point.optimum() })
 }
 

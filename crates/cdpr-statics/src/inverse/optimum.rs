@@ -4,7 +4,7 @@
 //! each step d solves
 //!
 //! ```text
-//! minimise  sum (c_i d_i + h_i d_i²/2),   J d + F = 0,   bounds on σ + d                            (I3)
+//! minimize  sum (c_i d_i + h_i d_i²/2),   J d + F = 0,   bounds on σ + d                            (I3)
 //! c_i = (t_i - r_i) t_i',      h_i = t_i'² + (t_i - r_i) t_i'' + λ·w_i''
 //! ```
 //!
@@ -13,15 +13,15 @@
 //! the exact one is known to lead to a minimum. A merit function, the objective plus a multiple of |F|,
 //! shortens steps that lead too far.
 
-use super::held::{Row, Strand};
-use super::question::Question;
-use crate::dense::Indefinite;
+mod free_cables;
+
+use super::cable::{CableAtPose, Row};
+use super::problem::InverseProblem;
 use crate::equations::Held;
 use crate::error::StaticsError;
 use cdpr_cable::Catenary;
 use cdpr_robot::Vector6;
 use cdpr_tension::{Bound, BoxProblem, BoxUnknown};
-use nalgebra::{DMatrix, DVector};
 
 /// The optimum, or the best near a start.
 pub(super) struct Optimum<'a> {
@@ -41,12 +41,12 @@ pub(super) struct Optimum<'a> {
 /// All cables at their chord forces.
 #[derive(Clone)]
 pub(super) struct Point<'a> {
-    pub(super) strands: Vec<Strand<'a>>,
+    pub(super) cables: Vec<CableAtPose<'a>>,
     pub(super) rows: Vec<Row>,
-    /// w_ex, moments divided by the arm.
+    /// w_ex, moments divided by the characteristic length.
     pub(super) external: Vector6<f64>,
     /// Length [m] by which moments are divided.
-    pub(super) arm: f64,
+    pub(super) characteristic_length: f64,
     pub(super) multipliers: Vector6<f64>,
     pub(super) iterations: usize,
 }
@@ -72,16 +72,22 @@ const UNBALANCED: f64 = 1e-6;
 
 impl<'a> Point<'a> {
     /// All cables at the chord forces nearest to `tensions` [N].
-    pub(super) fn new(question: &Question<'a>, tensions: &[f64]) -> Result<Self, StaticsError> {
-        let strands = tensions.iter().enumerate().map(|(i, tension)| Strand::new(question, i, *tension));
-        Ok(Self::of(question, strands.collect::<Result<Vec<_>, _>>()?))
+    pub(super) fn new(problem: &InverseProblem<'a>, tensions: &[f64]) -> Result<Self, StaticsError> {
+        let cables = tensions.iter().enumerate().map(|(i, tension)| CableAtPose::new(problem, i, *tension));
+        Ok(Self::of(problem, cables.collect::<Result<Vec<_>, _>>()?))
     }
 
     /// The cables as they are, without multipliers.
-    pub(super) fn of(question: &Question<'a>, strands: Vec<Strand<'a>>) -> Self {
-        let arm = question.arm;
-        let rows = strands.iter().map(|strand| strand.row(&strand.held, arm)).collect();
-        Self { strands, rows, external: question.external, arm, multipliers: Vector6::zeros(), iterations: 0 }
+    pub(super) fn of(problem: &InverseProblem<'a>, cables: Vec<CableAtPose<'a>>) -> Self {
+        let rows = cables.iter().map(|cable| cable.row(&cable.held, problem.characteristic_length)).collect();
+        Self {
+            cables,
+            rows,
+            external: problem.external,
+            characteristic_length: problem.characteristic_length,
+            multipliers: Vector6::zeros(),
+            iterations: 0,
+        }
     }
 
     /// F [N].
@@ -96,12 +102,12 @@ impl<'a> Point<'a> {
 
     /// What is left of (I2) in the worst cable, in units of its own tension [N].
     pub(super) fn stationarity(&self) -> f64 {
-        let each = self.rows.iter().zip(&self.strands).map(|(row, strand)| {
+        let each = self.rows.iter().zip(&self.cables).map(|(row, cable)| {
             let slope = row.gradient() + row.slope.dot(&self.multipliers);
-            match strand.at_limit() {
+            match cable.at_limit() {
                 None => slope.abs(),
-                Some(0) => (-slope).max(0.0),
-                Some(_) => slope.max(0.0),
+                Some(Bound::Min) => (-slope).max(0.0),
+                Some(Bound::Max) => slope.max(0.0),
             }
         });
         each.fold(0.0, f64::max)
@@ -110,30 +116,34 @@ impl<'a> Point<'a> {
     /// Moves every cable by a change of its chord force, within its limits. `None` where a cable cannot be
     /// closed.
     pub(super) fn moved(&self, step: &[f64]) -> Option<Vec<Held<'a>>> {
-        let moved = self.strands.iter().zip(step).map(|(strand, d)| {
-            let to = strand.held.chord_force() + d;
+        let moved = self.cables.iter().zip(step).map(|(cable, d)| {
+            let to = cable.held.chord_force() + d;
             // A step to first order towards a limit does not leave the taut branch.
-            strand.at(to.max(0.1 * strand.held.chord_force())).ok()
+            cable.at(to.max(0.1 * cable.held.chord_force())).ok()
         });
         moved.collect()
     }
 
     /// The rows of the cables as they would be.
     pub(super) fn rows_of(&self, moved: &[Held<'a>]) -> Vec<Row> {
-        self.strands.iter().zip(moved).map(|(strand, held)| strand.row(held, self.arm)).collect()
+        self.cables
+            .iter()
+            .zip(moved)
+            .map(|(cable, held)| cable.row(held, self.characteristic_length))
+            .collect()
     }
 
     /// Moves the cables, whose rows are those of [`Point::rows_of`].
     pub(super) fn set(&mut self, moved: Vec<Held<'a>>, rows: Vec<Row>) {
-        for (strand, held) in self.strands.iter_mut().zip(moved) {
-            strand.held = held;
+        for (cable, held) in self.cables.iter_mut().zip(moved) {
+            cable.held = held;
         }
         self.rows = rows;
     }
 
-    /// Solves a program for a step, and asks for the chord forces of all limits that it meets.
+    /// Solves a program for a step, and computes the chord forces of all limits that it meets.
     fn step(&mut self, curvature: &[f64]) -> Option<(Vec<f64>, Vector6<f64>)> {
-        let (elasticity, multipliers, residual) = (ELASTICITY, self.multipliers, self.residual());
+        let (multipliers, residual) = (self.multipliers, self.residual());
         let each = self.rows.iter().zip(curvature);
         let mut unknowns: Vec<BoxUnknown> = each
             .map(|(row, curvature)| BoxUnknown {
@@ -144,31 +154,31 @@ impl<'a> Point<'a> {
             })
             .collect();
         loop {
-            for (unknown, strand) in unknowns.iter_mut().zip(&self.strands) {
-                unknown.bounds = strand.room();
+            for (unknown, cable) in unknowns.iter_mut().zip(&self.cables) {
+                unknown.bounds = cable.step_bounds();
             }
-            let solution = BoxProblem { unknowns: &unknowns, residual, elasticity, multipliers }.solve();
+            let solution = BoxProblem { unknowns: &unknowns, residual, multipliers }.solve();
             if !solution.values.iter().all(|d| d.is_finite()) {
                 return None;
             }
-            if !self.learns_reached(&solution.values, &unknowns)? {
+            if !self.compute_reached_limits(&solution.values, &unknowns)? {
                 return Some((solution.values, solution.multipliers));
             }
         }
     }
 
-    /// Whether a step reaches a limit that has not been asked for; asks for it.
-    pub(super) fn learns_reached(&mut self, values: &[f64], unknowns: &[BoxUnknown]) -> Option<bool> {
-        let mut learned = false;
-        for ((strand, d), unknown) in self.strands.iter_mut().zip(values).zip(unknowns) {
-            for side in 0..2 {
-                if *d == unknown.bounds[side] && !strand.knows(side) {
-                    strand.learn(side).ok()?;
-                    learned = true;
+    /// Computes the chord force of each limit that a step reaches for the first time; true if there was one.
+    pub(super) fn compute_reached_limits(&mut self, values: &[f64], unknowns: &[BoxUnknown]) -> Option<bool> {
+        let mut computed = false;
+        for ((cable, d), unknown) in self.cables.iter_mut().zip(values).zip(unknowns) {
+            for bound in Bound::BOTH {
+                if *d == unknown.bounds[bound as usize] && !cable.limit_known(bound) {
+                    cable.compute_limit(bound).ok()?;
+                    computed = true;
                 }
             }
         }
-        Some(learned)
+        Some(computed)
     }
 
     /// The sum of all tensions [N].
@@ -187,20 +197,20 @@ impl<'a> Point<'a> {
         objective + penalty * residual.norm()
     }
 
-    /// Whether a limit is violated that has not been asked for; asks for it.
-    pub(super) fn learns_violated(&mut self) -> Option<bool> {
-        let mut learned = false;
-        for strand in &mut self.strands {
-            if let Some(side) = strand.unknown_limit() {
-                strand.learn(side).ok()?;
-                learned = true;
+    /// Computes the chord force of each limit that is violated for the first time; true if there was one.
+    pub(super) fn compute_violated_limits(&mut self) -> Option<bool> {
+        let mut computed = false;
+        for cable in &mut self.cables {
+            if let Some(bound) = cable.unknown_limit() {
+                cable.compute_limit(bound).ok()?;
+                computed = true;
             }
         }
-        Some(learned)
+        Some(computed)
     }
 
     /// Newton's method from here. Returns whether it ended at an optimum.
-    pub(super) fn optimise(&mut self) -> bool {
+    pub(super) fn optimize(&mut self) -> bool {
         let mut before = f64::INFINITY;
         let (mut stalled, mut polished) = (0, false);
         for _ in 0..MAX_ITERATIONS {
@@ -208,7 +218,7 @@ impl<'a> Point<'a> {
             let error = residual.norm().max(self.stationarity());
             let nearly = error <= NEARLY_ROUNDING * size && error >= 0.5 * before;
             if error <= ROUNDING * size || (nearly && polished) {
-                match self.learns_violated() {
+                match self.compute_violated_limits() {
                     Some(false) => return true,
                     Some(true) => {}
                     None => return false,
@@ -303,112 +313,38 @@ impl<'a> Point<'a> {
 
     /// A step whose end balances, to second order: the least change of free cables that makes up for `end`.
     fn corrected(&self, step: &[f64], end: Vector6<f64>) -> Option<Vec<f64>> {
-        let each = self.strands.iter().zip(&self.rows).zip(step);
+        let each = self.cables.iter().zip(&self.rows).zip(step);
         let unknowns: Vec<BoxUnknown> = each
-            .map(|((strand, row), d)| BoxUnknown {
+            .map(|((cable, row), d)| BoxUnknown {
                 gradient: 0.0,
                 curvature: 1.0,
                 column: row.slope,
-                bounds: strand.room().map(|room| room - d),
+                bounds: cable.step_bounds().map(|room| room - d),
             })
             .collect();
         let multipliers = Vector6::zeros();
-        let program = BoxProblem { unknowns: &unknowns, residual: end, elasticity: ELASTICITY, multipliers };
-        let change = program.solve().values;
+        let change = BoxProblem { unknowns: &unknowns, residual: end, multipliers }.solve().values;
         Some(step.iter().zip(change).map(|(d, change)| d + change).collect())
-    }
-
-    /// Newton's step on the free cables with the exact Hessian; `None` unless it leads to a minimum and stays
-    /// within the limits.
-    fn exact_step(&self, hessian: &[f64]) -> Option<(Vec<f64>, Vector6<f64>)> {
-        self.step_on_free_cables(hessian, ELASTICITY)
-    }
-
-    /// The same with the balance held exactly, which needs cables that can pull in all directions.
-    fn inelastic_step(&self, hessian: &[f64]) -> Option<(Vec<f64>, Vector6<f64>)> {
-        let free = self.strands.iter().filter(|strand| strand.at_limit().is_none()).count();
-        let balanced = (0..6).filter(|row| !self.is_held(*row)).count();
-        let (step, multipliers) = self.step_on_free_cables(hessian, 0.0).filter(|_| free >= balanced)?;
-        let small =
-            step.iter().zip(&self.strands).all(|(d, strand)| d.abs() <= 1e-3 * strand.held.chord_force());
-        small.then_some((step, multipliers))
-    }
-
-    fn step_on_free_cables(&self, hessian: &[f64], elasticity: f64) -> Option<(Vec<f64>, Vector6<f64>)> {
-        let fixed: Vec<_> = self.strands.iter().map(|strand| strand.at_limit().map(|_| 0.0)).collect();
-        let (step, multipliers) = self.newton_step(hessian, &fixed, elasticity)?;
-        let within = self.strands.iter().zip(&step).zip(&fixed).all(|((strand, d), fixed)| {
-            let [low, high] = strand.room();
-            fixed.is_some() || (low..=high).contains(d)
-        });
-        within.then_some((step, multipliers))
-    }
-
-    /// Whether a row of the balance is of a motion that is held: no cable takes part in it.
-    fn is_held(&self, row: usize) -> bool {
-        self.rows.iter().all(|of_cable| of_cable.slope[row] == 0.0)
     }
 
     /// Second derivatives of the Lagrangian, h of (I3).
     pub(super) fn hessian(&self) -> Vec<f64> {
-        let each = self.strands.iter().zip(&self.rows);
-        each.map(|(strand, row)| strand.hessian(row, &self.multipliers, self.arm)).collect()
-    }
-
-    /// Newton's step and the new multipliers, with the steps of some cables given: the others are free.
-    /// `None` unless it leads to a minimum over the free cables.
-    pub(super) fn newton_step(
-        &self,
-        hessian: &[f64],
-        fixed: &[Option<f64>],
-        elasticity: f64,
-    ) -> Option<(Vec<f64>, Vector6<f64>)> {
-        let mut step: Vec<f64> = fixed.iter().map(|fixed| fixed.unwrap_or(0.0)).collect();
-        let residual =
-            self.rows.iter().zip(&step).fold(self.residual(), |sum, (row, d)| sum + row.slope * *d);
-        let free: Vec<usize> = (0..fixed.len()).filter(|i| fixed[*i].is_none()).collect();
-        let k = free.len();
-        let mut kkt = DMatrix::zeros(k + 6, k + 6);
-        let mut right = DVector::zeros(k + 6);
-        for (column, &i) in free.iter().enumerate() {
-            kkt[(column, column)] = hessian[i];
-            right[column] = -self.rows[i].gradient();
-            for row in 0..6 {
-                kkt[(k + row, column)] = self.rows[i].slope[row];
-                kkt[(column, k + row)] = self.rows[i].slope[row];
-            }
-        }
-        for row in 0..6 {
-            let elasticity = if self.is_held(row) { ELASTICITY } else { elasticity };
-            kkt[(k + row, k + row)] = -elasticity;
-            right[k + row] = -residual[row] - elasticity * self.multipliers[row];
-        }
-        // The reduced Hessian is positive where the matrix has as many positive eigenvalues as free cables.
-        let factors = Indefinite::new(&kkt);
-        if free.iter().any(|i| hessian[*i] <= 0.0) && factors.eigenvalues_by_sign().0 != k {
-            return None;
-        }
-        let solution = factors.solve(&right)?;
-        for (row, &i) in free.iter().enumerate() {
-            step[i] = solution[row];
-        }
-        Some((step, solution.fixed_rows::<6>(k).into()))
+        let each = self.cables.iter().zip(&self.rows);
+        each.map(|(cable, row)| cable.hessian(row, &self.multipliers, self.characteristic_length)).collect()
     }
 
     /// The answer at an optimum.
     pub(super) fn optimum(&self) -> Optimum<'a> {
         let mut multipliers = self.multipliers;
-        multipliers.fixed_rows_mut::<3>(3).unscale_mut(self.arm);
-        let bound = |strand: &Strand| strand.at_limit().map(|side| [Bound::Min, Bound::Max][side]);
-        let tension = |strand: &Strand| {
-            let limits = [strand.limits.min, strand.limits.max];
-            strand.at_limit().map_or_else(|| strand.held.tension(), |side| limits[side])
+        multipliers.fixed_rows_mut::<3>(3).unscale_mut(self.characteristic_length);
+        let tension = |cable: &CableAtPose| {
+            cable.at_limit().map_or_else(|| cable.held.tension(), |bound| cable.limit(bound))
         };
         Optimum {
-            catenaries: self.strands.iter().map(|strand| strand.held.catenary()).collect(),
-            chord_forces: self.strands.iter().map(|strand| strand.held.chord_force()).collect(),
-            tensions: self.strands.iter().map(tension).collect(),
-            active: self.strands.iter().map(bound).collect(),
+            catenaries: self.cables.iter().map(|cable| cable.held.catenary()).collect(),
+            chord_forces: self.cables.iter().map(|cable| cable.held.chord_force()).collect(),
+            tensions: self.cables.iter().map(tension).collect(),
+            active: self.cables.iter().map(CableAtPose::at_limit).collect(),
             multipliers,
             iterations: self.iterations,
             stationarity: self.stationarity(),

@@ -1,13 +1,14 @@
 //! Tensions of straight cables, from which the inverse model and the maxima are searched.
 //!
-//! In directions along the chords the balance is linear: `cdpr_tension` finds the tensions nearest to the
-//! reference, the greatest payload and the greatest margin there, or a direction along which no tensions
-//! within the limits balance the wrench. Sagging cables need not keep it: `feasible` checks whether they do.
+//! In directions along the chords the balance is linear. The tensions nearest to the reference have a closed
+//! form without regard to limits. With limits Clarabel finds them, the greatest payload and the greatest
+//! margin, or a direction along which no tensions within the limits balance the wrench. Sagging cables need
+//! not keep it: `feasible` checks whether they do.
 
-use super::question::Question;
+use super::problem::InverseProblem;
 use cdpr_robot::{Matrix6xX, TensionLimits, Vector3, Vector6};
 use cdpr_tension::{Distribution, Objective, Problem, TensionError, distribute};
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
 
 /// Where a search begins.
 pub(super) struct StraightStart {
@@ -36,44 +37,71 @@ pub(super) enum Goal<'a> {
     LeastGreatest,
 }
 
-impl Question<'_> {
+/// Wrench matrix and wrench of straight cables, for the motions that the platform has.
+struct Straight {
+    matrix: DMatrix<f64>,
+    wrench: DVector<f64>,
+}
+
+impl InverseProblem<'_> {
+    /// The tensions of straight cables nearest to the reference in closed form, each moved into its limits;
+    /// `None` where the cables do not pull in all directions.
+    pub(super) fn closed_form(&self) -> Option<Vec<f64>> {
+        let nearest = self.straight_problem(&self.balance()).closed_form(&self.reference)?;
+        Some(self.within_limits(nearest.as_slice()))
+    }
+
     /// The tensions of straight cables that meet a goal, or those nearest to a balance.
     pub(super) fn straight(&self, goal: &Goal) -> StraightStart {
-        let components = self.robot.freedoms().components();
-        let wrench_matrix = self.straight_matrix().select_rows(&components);
-        let pick = |wrench: &Vector6<f64>| {
-            DVector::from_iterator(components.len(), components.iter().map(|k| wrench[*k]))
-        };
-        let wrench = pick(&self.external);
+        let balance = self.balance();
         let direction;
         let objective = match goal {
             Goal::Nearest => Objective::Nearest(&self.reference),
             Goal::Wrench(along) => {
-                direction = pick(along);
+                direction = self.components_of(along);
                 Objective::GreatestWrench(&direction)
             }
             Goal::Margin(limits) => Objective::GreatestMargin(limits),
             Goal::LeastSum => Objective::LeastSum,
             Goal::LeastGreatest => Objective::LeastGreatest,
         };
-        let problem = Problem { wrench_matrix: &wrench_matrix, wrench: &wrench, limits: &self.limits };
-        match distribute(&problem, objective) {
+        match distribute(&self.straight_problem(&balance), objective) {
             Ok(Distribution { tensions, value, .. }) => {
                 StraightStart { tensions, value: Some(value), residue: 0.0, certificate: None }
             }
             Err(TensionError::Infeasible { tensions, residual, certificate, .. }) => {
                 let mut direction = Vector6::zeros();
+                let components = self.robot.freedoms().components();
                 components.iter().zip(&certificate).for_each(|(k, y)| direction[*k] = *y);
-                let residue = residual / (wrench.norm() + tensions.iter().sum::<f64>());
+                let residue = residual / (balance.wrench.norm() + tensions.iter().sum::<f64>());
                 StraightStart { tensions, value: None, residue, certificate: Some(direction) }
             }
             // A start is no answer: without one from Clarabel the search begins at the reference.
             Err(_) => {
-                let each = self.reference.iter().zip(&self.limits);
-                let tensions = each.map(|(t, limits)| t.max(limits.min).min(limits.max)).collect();
+                let tensions = self.within_limits(&self.reference);
                 StraightStart { tensions, value: None, residue: 0.0, certificate: None }
             }
         }
+    }
+
+    fn balance(&self) -> Straight {
+        let matrix = self.straight_matrix().select_rows(&self.robot.freedoms().components());
+        Straight { matrix, wrench: self.components_of(&self.external) }
+    }
+
+    fn straight_problem<'b>(&'b self, straight: &'b Straight) -> Problem<'b> {
+        Problem { wrench_matrix: &straight.matrix, wrench: &straight.wrench, limits: &self.limits }
+    }
+
+    /// The components of a wrench along the motions that the platform has.
+    fn components_of(&self, wrench: &Vector6<f64>) -> DVector<f64> {
+        let components = self.robot.freedoms().components();
+        DVector::from_iterator(components.len(), components.iter().map(|k| wrench[*k]))
+    }
+
+    fn within_limits(&self, tensions: &[f64]) -> Vec<f64> {
+        let each = tensions.iter().zip(&self.limits);
+        each.map(|(t, limits)| t.max(limits.min).min(limits.max)).collect()
     }
 
     /// Wrench matrix of cables along their chords, moments divided by the characteristic length.
@@ -81,7 +109,7 @@ impl Question<'_> {
         let (robot, pose) = (self.robot, self.pose);
         let pulls: Vec<Vector3<f64>> = (0..self.cables()).map(|i| -robot.span(pose, i).normalize()).collect();
         let mut matrix = robot.wrench_matrix(pose, &pulls);
-        matrix.fixed_rows_mut::<3>(3).unscale_mut(self.arm);
+        matrix.fixed_rows_mut::<3>(3).unscale_mut(self.characteristic_length);
         matrix
     }
 }

@@ -9,7 +9,7 @@
 //! ```
 //!
 //! so that one twist y stands for all parameters; it moves anchor point i by `y_p + y_r x s_i`. H is
-//! symmetric but under a moment and for cables over guides (`lanes/skew.rs`). What y takes from the lengths,
+//! symmetric but under a moment and for cables over guides (`local/skew.rs`). What y takes from the lengths,
 //! Λ_i, goes over (L9) to the set-points and, with `a_i = Λ_i dL_i/dt_i`, to the inverse model. With c_i and
 //! D_i of (D6) and the tensions without active bound free,
 //!
@@ -30,9 +30,9 @@ pub(crate) use crate::lanes::adjoint::cable::GuideSlopes;
 use crate::lanes::adjoint::cable::{CableSlopes, torque};
 use crate::lanes::chain::Trace;
 use crate::lanes::chain::shared::Shared;
-use crate::lanes::load::PlatformLoad;
-use crate::lanes::platform::{LinearizedPlatform, Robots};
-use crate::lanes::skew::{Skew, SkewCable};
+use crate::local::load::PlatformLoad;
+use crate::local::platform::{LinearizedPlatform, Robots};
+use crate::local::skew::{Skew, SkewCable};
 use cdpr_number::Number;
 use cdpr_number::dense::{Lanes3, Lanes6, halves};
 use cdpr_number::lanes::{Lanes, Mask, Simd, WithSimd};
@@ -121,7 +121,7 @@ fn adjoint_of<S: Simd>(
     let zero = placed.weight.all(0.0);
     let square = dot(displacement, displacement);
     let least = NO_DEFLECTION * shared.scale.size;
-    let rms_inv = square.sqrt().recip();
+    let magnitude_inv = square.sqrt().recip();
     let none = CableAdjoint {
         exit: [zero; 3],
         anchor: [zero; 3],
@@ -141,7 +141,7 @@ fn adjoint_of<S: Simd>(
     let mut lengths = vec![zero; placed.cables.len()];
     let own = PlatformLoad::weight(unloaded.weight);
     let load = payload.on(unloaded.weight);
-    let back = three!(|k| -(displacement[k] * rms_inv));
+    let back = three!(|k| -(displacement[k] * magnitude_inv));
     let arm = shared.scale.characteristic_length;
     // One body of code for both equilibria.
     for (robots, load, sign) in [(unloaded, &own, 1.0), (loaded, &load, -1.0)] {

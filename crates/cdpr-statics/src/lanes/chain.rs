@@ -1,13 +1,12 @@
 //! The chain of an observation, one robot in each lane.
 //!
 //! Its links are the inverse model (`chain/tensions.rs`, `chain/lengths.rs`), with free coordinates
-//! `chain/free.rs`, and the direct model without and with the load (`newton.rs`).
+//! `chain/free.rs`, and the direct model without and with the load (`local/newton.rs`).
 
 pub(crate) mod free;
 pub(crate) mod lengths;
 pub(crate) mod limits;
 pub(crate) mod minimum;
-mod program;
 pub(crate) mod shared;
 pub(crate) mod tensions;
 
@@ -15,9 +14,9 @@ use crate::lanes::chain::free::{FreeMotion, rest};
 use crate::lanes::chain::lengths::FindLengths;
 use crate::lanes::chain::shared::Shared;
 use crate::lanes::chain::tensions::{CableTension, Distribute, Distributed};
-use crate::lanes::freedoms::hold;
-use crate::lanes::load::PlatformLoad;
-use crate::lanes::platform::{LaneResidual, LinearizedPlatform, Robots};
+use crate::local::freedoms::hold;
+use crate::local::load::PlatformLoad;
+use crate::local::platform::{LaneResidual, LinearizedPlatform, Robots};
 use cdpr_number::dense::{Lanes3, Lanes6};
 use cdpr_number::lanes::{Lanes, MAX_LANES, Mask, Simd, WithSimd};
 use cdpr_number::{six, three};
@@ -185,7 +184,7 @@ fn chain<'a, S: Simd>(
 
     let own = PlatformLoad::weight(robots.weight);
     robots.assemble(&own, &mut platform, zero.less_or_equal(zero));
-    let (standing, unloaded) = robots.settle(&own, &mut platform, &shared.scale, converged & sound & held);
+    let (standing, unloaded) = robots.solve(&own, &mut platform, &shared.scale, converged & sound & held);
     let (stood, stiffness) = (robots.position, platform.factored);
     let frame = robots.frame.clone();
     keep(robots);
@@ -194,7 +193,7 @@ fn chain<'a, S: Simd>(
     // The first step follows the linearization at hand.
     let added = hold(freedoms, payload.wrench(&robots.center));
     platform.gradient = six!(|k| platform.gradient[k] - added[k]);
-    let (answered, loaded) = robots.settle(&load, &mut platform, &shared.scale, standing);
+    let (answered, loaded) = robots.solve(&load, &mut platform, &shared.scale, standing);
     let answered = robots.on_branch(&load, &platform, &stiffness, &shared.scale, answered);
     keep(robots);
     let mut failures = Failures::none(zero);

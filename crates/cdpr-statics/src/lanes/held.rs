@@ -1,10 +1,12 @@
 //! A cable at its held ends, one in each lane.
 
 use crate::equations::Span;
-use crate::lanes::cable::{Guided, LaneCable};
+use crate::local::cable::LaneCable;
+use crate::local::guided::{FixedInSpace, Guided};
 use cdpr_cable::kernel::{LeavePoint, Response, TAUT};
-use cdpr_number::dense::{Lanes2, replace};
+use cdpr_number::dense::{Lanes2, Lanes3, replace};
 use cdpr_number::lanes::{Lanes, Mask, Simd, WithSimd};
+use cdpr_number::vector::dot;
 use cdpr_number::{Lanewise, Number};
 
 /// Part of a tension by which it has to exceed the least one of the span, as its slope and curvature tell.
@@ -38,8 +40,10 @@ pub(crate) struct HeldCable<S: Simd> {
     pub(crate) length_slope: Lanes<S>,
     /// t'.
     pub(crate) tension_slope: Lanes<S>,
-    /// t'' and fz''.
+    /// t'' and fz''; over a tilted axis those of the part beyond the leave point.
     pub(crate) curvatures: Lanes2<S>,
+    /// Force across the plane by which a cable over a tilted axis closes, and by fx, (L19); else zero.
+    pub(crate) across: Lanes2<S>,
 }
 
 impl<S: Simd> HeldCable<S> {
@@ -73,6 +77,7 @@ impl<S: Simd> HeldCable<S> {
             length_slope: held.length_slope,
             tension_slope: held.tension_slope,
             curvatures: [held.curvatures[0], held.curvatures[1]],
+            across: [held.across[0], held.across[1]],
         }
     }
 
@@ -110,6 +115,7 @@ impl<S: Simd> HeldCable<S> {
             length_slope: -(response.determinant * inverse),
             tension_slope,
             curvatures: [bent, bent],
+            across: [fx_inv.all(0.0); 2],
         };
         let taut = response.slackness.at_most(TAUT);
         if !<Lanes<S> as Lanewise>::all(taut) {
@@ -173,54 +179,107 @@ impl<S: Simd> HeldCable<S> {
         (tension - self.closed) / self.tension_slope
     }
 
+    /// The force of the closed cable on the platform [N].
+    #[inline(always)]
+    pub(crate) fn pull(&self, cable: &LaneCable<'_, S>, span: &Span<Lanes<S>>) -> Lanes3<S> {
+        let [fx, fz] = cable.force;
+        self.in_space(cable, span, [fx, fz + self.closing[0]], self.across[0])
+    }
+
+    /// Its derivative by fx.
+    #[inline(always)]
+    pub(crate) fn pull_slope(&self, cable: &LaneCable<'_, S>, span: &Span<Lanes<S>>) -> Lanes3<S> {
+        self.in_space(cable, span, [self.rise.all(1.0), self.rise], self.across[1])
+    }
+
+    #[inline(always)]
+    fn in_space(
+        &self,
+        cable: &LaneCable<'_, S>,
+        span: &Span<Lanes<S>>,
+        force: Lanes2<S>,
+        across: Lanes<S>,
+    ) -> Lanes3<S> {
+        let plane = cable.plane(span);
+        let mut pull = plane.force_on_platform(force);
+        if cable.is_tilted() {
+            pull[0] += across * plane.azimuth[1];
+            pull[1] -= across * plane.azimuth[0];
+        }
+        pull
+    }
+
     /// Whether the steps that follow the change `d` of fx change no force by more than about `share` of
     /// itself. With y the relative change of force and length, closing included, they are y² of what is not
-    /// linear, and y q² of the sag that is neglected in t' and w''.
+    /// linear, and y q² of the sag that is neglected in t' and w''. Over a tilted axis w'' is not known so
+    /// well.
     #[inline(always)]
     pub(crate) fn is_last(&self, cable: &LaneCable<'_, S>, d: Lanes<S>, share: f64) -> Mask<S> {
         let ([fx, _], length) = (cable.force, cable.length);
+        if cable.is_tilted() {
+            return !fx.less_or_equal(fx);
+        }
         let whole = fx * length;
         let change = (d.abs() + self.closing[0].abs()) * length + self.closing[1].abs() * fx;
         let sag = self.slackness.at_most(NEARLY_CHORD).select(self.slackness, fx.all(1.0));
         (change * (change + sag * whole)).less_or_equal(whole * whole * share)
     }
 
-    /// Changes fx by `d` where `going`. Returns the largest relative change made.
+    /// Changes fx by `d` where `active`. Returns the largest relative change made.
     #[inline(always)]
     pub(crate) fn change(
         &self,
         cable: &mut LaneCable<'_, S>,
         d: Lanes<S>,
-        going: Mask<S>,
+        active: Mask<S>,
         [tension, size]: [f64; 2],
     ) -> Lanes<S> {
         let [fx, fz] = cable.force;
         let d = d.max(fx * -GREATEST_LOSS);
         let rise = self.closing[0] + self.rise * d;
         let longer = self.closing[1] + self.length_slope * d;
-        replace(&mut cable.force, &[fx + d, fz + rise], going);
-        cable.length.replace(cable.length + longer, going);
-        let force = (d.abs() + rise.abs()) * (1.0 / tension);
-        force.max(longer.abs() * (1.0 / size))
+        replace(&mut cable.force, &[fx + d, fz + rise], active);
+        cable.length.replace(cable.length + longer, active);
+        let mut force = d.abs() + rise.abs();
+        if let Some(guided) = &mut cable.guided {
+            let across = self.across[0] + self.across[1] * d;
+            guided.swing(across / (fx + d), active);
+            force += across.abs();
+        }
+        (force * (1.0 / tension)).max(longer.abs() * (1.0 / size))
     }
 }
 
-/// How a cable at its held ends answers to a motion of its anchor point in its plane, at constant fx.
+/// How a cable at its held ends responds to a motion of its anchor point along its plane, across it and
+/// upwards, at constant fx.
 #[derive(Clone, Copy)]
 pub(crate) struct EndSlopes<S: Simd> {
-    /// dz by (d_h, d_z) [N/m].
-    pub(crate) rise: Lanes2<S>,
+    /// The force across the plane by (d_h, d_l, d_z) [N/m].
+    pub(crate) across: Lanes3<S>,
+    /// dz by it [N/m].
+    pub(crate) rise: Lanes3<S>,
     /// dL by it.
-    pub(crate) length: Lanes2<S>,
+    pub(crate) length: Lanes3<S>,
 }
 
 impl<S: Simd> EndSlopes<S> {
     /// A cable without guide, from its response: the solution of (L1) for any c.
     #[inline(always)]
-    fn plain(response: &Response<Lanes<S>>) -> Self {
+    fn plain(cable: &LaneCable<'_, S>, span: &Span<Lanes<S>>, response: &Response<Lanes<S>>) -> Self {
         let ([_, xz, zz], [ex, ez]) = (response.flexibility, response.end_per_length);
-        let inverse = (ex * zz - ez * xz).recip();
-        Self { rise: [-(ez * inverse), ex * inverse], length: [zz * inverse, -(xz * inverse)] }
+        let (inverse, zero) = ((ex * zz - ez * xz).recip(), ex.all(0.0));
+        Self {
+            across: [zero, cable.force[0] / span.end[0], zero],
+            rise: [-(ez * inverse), zero, ex * inverse],
+            length: [zz * inverse, zero, -(xz * inverse)],
+        }
+    }
+
+    /// The change of the force on the platform by a motion of the anchor point [N].
+    #[inline(always)]
+    pub(crate) fn pull(&self, [x, y]: Lanes2<S>, moved: &Lanes3<S>) -> Lanes3<S> {
+        let across = dot(&self.across, moved);
+        [across * y, -(across * x), -dot(&self.rise, moved)]
     }
 }
 
@@ -230,7 +289,8 @@ impl<S: Simd> HeldCable<S> {
     pub(crate) fn with_end_slopes(cable: &LaneCable<'_, S>, span: &Span<Lanes<S>>) -> (Self, EndSlopes<S>) {
         let response = cable.response();
         match &cable.guided {
-            None => (Self::plain(cable, span, &response), EndSlopes::plain(&response)),
+            None => (Self::plain(cable, span, &response), EndSlopes::plain(cable, span, &response)),
+            Some(guided) if guided.is_tilted() => Leaving { guided, cable, span }.in_space(&response),
             Some(guided) => Leaving { guided, cable, span }.leave(&response),
         }
     }
@@ -259,7 +319,10 @@ impl<S: Simd> WithSimd for Leaving<'_, '_, S> {
     #[inline(always)]
     fn with_simd<Same: Simd>(self, _: Same) -> HeldCable<S> {
         let response = self.cable.response();
-        self.leave(&response).0
+        match self.guided.is_tilted() {
+            true => self.in_space(&response).0,
+            false => self.leave(&response).0,
+        }
     }
 }
 
@@ -267,10 +330,10 @@ impl<S: Simd> Leaving<'_, '_, S> {
     #[inline(always)]
     fn leave(&self, response: &Response<Lanes<S>>) -> (HeldCable<S>, EndSlopes<S>) {
         let Self { guided, cable, span } = self;
-        let LeavePoint { position, tangent: [tx, tz], tension_inv, .. } = guided.leave_point(cable);
+        let LeavePoint { position, tangent: [tx, tz], tension_inv, .. } = guided.leave_point(&cable.free());
+        let mut ends = EndSlopes::plain(cable, span, response);
         let span = Span { plane: span.plane, end: span.misclosure(position) };
         let mut held = HeldCable::plain(cable, &span, response);
-        let mut ends = EndSlopes::plain(response);
         let ([_, xz, zz], [ex, ez]) = (response.flexibility, response.end_per_length);
         let signed = guided.guide.signed_radius();
         let per_turn = signed / (ex * tx + ez * tz);
@@ -278,7 +341,7 @@ impl<S: Simd> Leaving<'_, '_, S> {
         let whole = (per_turn * falling + 1.0).recip();
         let [dz, longer] = held.closing;
         held.closing[1] += per_turn * whole * (tx * tension_inv * dz - falling * longer);
-        for k in 0..2 {
+        for k in [0, 2] {
             let turn = tx * tension_inv * ends.rise[k] - falling * ends.length[k];
             ends.length[k] += per_turn * whole * turn;
         }
@@ -289,5 +352,25 @@ impl<S: Simd> Leaving<'_, '_, S> {
         held.curvatures[0] -= uz * bend;
         held.curvatures[1] -= bend;
         (held, ends)
+    }
+
+    /// The same over a tilted axis, (L19).
+    #[inline(always)]
+    fn in_space(&self, response: &Response<Lanes<S>>) -> (HeldCable<S>, EndSlopes<S>) {
+        let Self { guided, cable, span } = self;
+        let FixedInSpace { closing, per_force, per_end: [across, rise, length], beyond } =
+            FixedInSpace::new(guided, &cable.free(), span, response);
+        let held = HeldCable::plain(cable, &beyond, response);
+        let [ux, uz] = response.direction;
+        let held = HeldCable {
+            closed: response.tension + uz * closing[1],
+            closing: [closing[1], closing[2]],
+            rise: per_force[1],
+            length_slope: per_force[2],
+            tension_slope: ux + uz * per_force[1],
+            across: [closing[0], per_force[0]],
+            ..held
+        };
+        (held, EndSlopes { across, rise, length })
     }
 }

@@ -1,8 +1,7 @@
 //! Deflections of a robot with deviations of its parameters, many at a time.
 //!
 //! Robots with cables that are linear or have an elastic law, taut or sagging, at their limits or not, behind
-//! leads and over pulleys with vertical axes or without, are observed in the lanes of the vector unit
-//! (`lanes/chain.rs`), each from the tensions of the nominal robot, and with fewer cables than free motions
+//! leads and over pulleys or without, are observed in the lanes of the vector unit (`lanes/chain.rs`), each from the tensions of the nominal robot, and with fewer cables than free motions
 //! also from its free coordinates (`lanes/chain/free.rs`). Any other robot is observed by the scalar models,
 //! which decide on every failure.
 //!
@@ -46,7 +45,7 @@ pub struct Observation {
 
 impl Observation {
     /// |dp| [m], which the paper calls the RMS of the static deflection.
-    pub fn rms(&self) -> f64 {
+    pub fn magnitude(&self) -> f64 {
         self.displacement.norm()
     }
 
@@ -241,12 +240,52 @@ impl WithSimd for Batch<'_> {
         for rows in self.deviations.chunks(Lanes::<S>::COUNT * parameters) {
             let count = rows.len() / parameters;
             let rows = Rows::new(simd, rows, layout);
-            let (mut start, level, valid) = rows.robots(robot, pose, load, nominal);
-            let (outcome, _) = observe(&mut start, &nominal.shared, false);
-            let answers = read(&outcome, level.as_ref(), valid, nominal);
-            found.extend(answers.into_iter().take(count));
+            let mut answers = Answers::none();
+            for axes in nominal.axes() {
+                let (mut start, level, valid) = rows.robots(robot, pose, load, nominal, *axes);
+                if valid[1].any() {
+                    let (outcome, _) = observe(&mut start, &nominal.shared, false);
+                    answers.assign(valid[1], read(&outcome, level.as_ref(), valid, nominal));
+                }
+                if answers.are_complete() {
+                    break;
+                }
+            }
+            found.extend(answers.take(count));
         }
         found
+    }
+}
+
+/// Answers in lanes that are evaluated one kind of axes after the other.
+struct Answers<T>([Option<Result<T, ScalarReason>>; MAX_LANES]);
+
+impl<T: Copy> Answers<T> {
+    fn none() -> Self {
+        Self([None; MAX_LANES])
+    }
+
+    /// Assigns the answers of the lanes that have these axes and no answer yet.
+    #[inline(always)]
+    fn assign<S: Simd>(&mut self, own: Mask<S>, found: [Result<T, ScalarReason>; MAX_LANES]) {
+        let own = own.to_array();
+        for lane in 0..Lanes::<S>::COUNT {
+            if own[lane] && self.0[lane].is_none() {
+                self.0[lane] = Some(found[lane]);
+            }
+        }
+        for lane in Lanes::<S>::COUNT..MAX_LANES {
+            self.0[lane] = Some(found[lane]);
+        }
+    }
+
+    fn are_complete(&self) -> bool {
+        self.0.iter().all(Option::is_some)
+    }
+
+    /// The first of them.
+    fn take(self, count: usize) -> impl Iterator<Item = Result<T, ScalarReason>> {
+        self.0.into_iter().flatten().take(count)
     }
 }
 

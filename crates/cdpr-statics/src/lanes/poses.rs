@@ -8,35 +8,25 @@
 //! next one is first asked for a proof that it has none, from the tensions that came nearest there. No answer
 //! depends on the vector unit, because no sequence of a block knows another.
 
+mod in_lanes;
 mod loaded;
+mod loaded_pose;
 mod placed;
 mod slopes;
 
-use crate::equations::Span;
 use crate::error::StaticsError;
 #[cfg(doc)]
 use crate::inverse::free_solutions;
 use crate::inverse::{InTurn, InverseSolution, inverse_at, refuse_offsets, rest};
-use crate::lanes::cable::Shape;
-use crate::lanes::chain::lengths::FindLengths;
-use crate::lanes::chain::minimum::is_least;
-use crate::lanes::chain::shared::Shared;
-use crate::lanes::chain::tensions::{CableTension, Distribute, Distributed, SAGGING};
-use crate::lanes::freedoms::hold;
-use crate::lanes::held::HeldCable;
-use crate::lanes::load::PlatformLoad;
-use crate::lanes::platform::{LinearizedPlatform, Robots};
-use crate::lanes::poses::placed::{PlacedRobot, each};
+use crate::lanes::poses::in_lanes::{Answer, Asked, InLanes, Near, Setting};
+use crate::lanes::poses::placed::PlacedRobot;
+use crate::local::cable::Shape;
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load, Residual, Wanted, WantedPose};
-use cdpr_number::dense::{Lanes2, Lanes6};
-use cdpr_number::lanes::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
-use cdpr_number::six;
-use cdpr_number::vector::{dot, wrench};
-use cdpr_robot::{Pose, Robot, Vector2, Vector3, Vector6};
-use cdpr_tension::Bound;
-pub use loaded::{Loaded, LoadedPose, PoseSlopes, loaded_poses};
-use smallvec::SmallVec;
+use cdpr_number::lanes::{Lanes, MAX_LANES, Simd, WithSimd, dispatch};
+use cdpr_robot::{Pose, Robot};
+pub use loaded::loaded_poses;
+pub use loaded_pose::{Loaded, LoadedPose, PoseSlopes};
 
 /// Poses that are cut into sequences together.
 const BLOCK: usize = 64;
@@ -57,8 +47,7 @@ const STATIONARY: f64 = 1e-10;
 /// pose is taken without a search for others, else the first one of [`free_solutions`].
 ///
 /// **Many poses** should follow each other closely, as along the lines of a grid: robots with a cable for
-/// each free motion, over pulleys with vertical axes or none, are then answered in the lanes of the vector
-/// unit, each pose from the one before it, and all others one by one. An answer found in lanes counts no
+/// each free motion are then answered in the lanes of the vector unit, each pose from the one before it, and all others one by one. An answer found in lanes counts no
 /// iterations. It depends on the poses before it in the same call, in the last digits; it does not depend on
 /// the vector unit. Where (I1) has several minima, the answer to one pose is the best that several starts
 /// lead to; one in lanes with a cable that sags is proved to be the least of all on a grid of its tensions.
@@ -118,35 +107,12 @@ fn inverse_all(robot: &Robot, poses: &[Pose], load: &Load) -> Vec<Result<Inverse
     }
 }
 
-/// What all poses have in common.
-struct Setting<'a> {
-    placed: PlacedRobot<'a>,
-    load: &'a Load,
-    shared: Shared,
-}
-
-/// An answer, from which the next one is found.
-#[derive(Clone)]
-struct Near {
-    /// Of the platform [m].
-    position: Vector3<f64>,
-    shapes: Vec<Shape<f64>>,
-    /// λ in the level frame.
-    multipliers: Vector6<f64>,
-}
-
 /// Poses in a row.
 struct Sequence<'a> {
     poses: &'a [Pose],
     near: Near,
     scalar: InTurn<'a>,
     answers: Vec<Result<InverseSolution, StaticsError>>,
-}
-
-/// A pose with what its lane starts from.
-struct Asked<'a> {
-    pose: &'a Pose,
-    near: &'a Near,
 }
 
 impl<'a> Setting<'a> {
@@ -252,21 +218,6 @@ impl<'a> Setting<'a> {
     }
 }
 
-/// What a lane says of a pose.
-struct Answer {
-    cables: SmallVec<[CableAnswer; 8]>,
-    multipliers: Vector6<f64>,
-}
-
-struct CableAnswer {
-    length: f64,
-    force: Vector2<f64>,
-    tension: f64,
-    active: Option<Bound>,
-    stationarity: f64,
-    shape: Shape<f64>,
-}
-
 /// Poses for the lanes.
 struct Batch<'a> {
     setting: &'a Setting<'a>,
@@ -289,171 +240,5 @@ impl WithSimd for Batch<'_> {
             }));
         }
         found
-    }
-}
-
-/// Poses, one for each lane; lanes without a pose of their own repeat the last one.
-struct InLanes<'a, S> {
-    simd: S,
-    setting: &'a Setting<'a>,
-    asked: &'a [Asked<'a>],
-}
-
-impl<S: Simd> InLanes<'_, S> {
-    #[inline(always)]
-    fn answers(&self) -> Vec<Option<Answer>> {
-        let Setting { placed, load, shared } = self.setting;
-        let (robot, zero) = (placed.robot, self.all(0.0));
-        let (mut robots, spans) = self.shaped();
-        let weight = self.all((robot.platform.mass + load.payload) * robot.gravity.magnitude());
-        let whole = PlatformLoad::new(weight, &placed.wrench_to_level(&load.wrench));
-        let external = hold(robots.freedoms, whole.wrench(&robots.center));
-        let mut multipliers = six!(|k| self.each(&|asked| asked.near.multipliers[k]));
-        let mut set_points = vec![zero; spans.len()];
-        let Distributed { converged, sound, cables } = zero.apart(Distribute {
-            robots: &mut robots,
-            external: &external,
-            multipliers: &mut multipliers,
-            offsets: &mut set_points,
-            spans: &spans,
-            shared,
-        });
-        let (demanded, limits): (Vec<_>, Vec<_>) =
-            cables.iter().map(|CableTension { demanded, limits, .. }| (*demanded, *limits)).unzip();
-        let mut platform = LinearizedPlatform::new(zero, spans.len());
-        let held = zero.apart(FindLengths {
-            robots: &mut robots,
-            platform: &mut platform,
-            set_points: &set_points,
-            spans: &spans,
-            demanded: &demanded,
-            shared,
-        });
-        let found = converged & sound & held;
-        let found = found & self.is_least(&robots, &spans, &multipliers, &limits);
-        self.read(found, &robots, &spans, &multipliers, &set_points, &limits)
-    }
-
-    #[inline(always)]
-    fn all(&self, value: f64) -> Lanes<S> {
-        Lanes::splat(self.simd, value)
-    }
-
-    #[inline(always)]
-    fn each(&self, value: &dyn Fn(&Asked) -> f64) -> Lanes<S> {
-        each(self.simd, self.asked, value)
-    }
-
-    /// The robot at the poses, its cables as they were at the poses before, between their new ends.
-    #[inline(always)]
-    fn shaped(&self) -> (Robots<'_, S>, Vec<Span<Lanes<S>>>) {
-        let poses: SmallVec<[&Pose; MAX_LANES]> = self.asked.iter().map(|asked| asked.pose).collect();
-        let (mut robots, _) = self.setting.placed.at(self.simd, &poses);
-        let mut spans = Vec::with_capacity(robots.cables.len());
-        for (i, cable) in robots.cables.iter_mut().enumerate() {
-            let span = cable.span(&robots.position);
-            let mut tangent = [self.all(0.0); 2];
-            if cable.guided.is_some() {
-                tangent = [
-                    self.each(&|asked| asked.near.shapes[i].tangent[0]),
-                    self.each(&|asked| asked.near.shapes[i].tangent[1]),
-                ];
-            }
-            let shape = Shape {
-                tangent,
-                chord_force: self.each(&|asked| asked.near.shapes[i].chord_force),
-                sag_force: self.each(&|asked| asked.near.shapes[i].sag_force),
-                longer: self.each(&|asked| asked.near.shapes[i].longer),
-            };
-            cable.take(&shape, &span);
-            spans.push(span);
-        }
-        (robots, spans)
-    }
-
-    /// The lanes without another minimum: no cable sags, or none has another tension that is better.
-    #[inline(always)]
-    fn is_least(
-        &self,
-        robots: &Robots<'_, S>,
-        spans: &[Span<Lanes<S>>],
-        multipliers: &Lanes6<S>,
-        limits: &[Lanes2<S>],
-    ) -> Mask<S> {
-        let zero = self.all(0.0);
-        let mut straight = zero.less_or_equal(zero);
-        for cable in &robots.cables {
-            straight = straight & cable.end().slackness.less_or_equal(self.all(SAGGING));
-        }
-        let mut least = zero.less_or_equal(zero);
-        if (!straight).any() {
-            let choices = &self.setting.shared.choices;
-            for ((cable, span), (choice, limits)) in
-                robots.cables.iter().zip(spans).zip(choices.iter().zip(limits))
-            {
-                least = least & is_least(cable, span, multipliers, choice.reference, limits);
-            }
-        }
-        straight | least
-    }
-
-    /// The answers of the lanes that `found` one.
-    #[inline(always)]
-    fn read(
-        &self,
-        found: Mask<S>,
-        robots: &Robots<'_, S>,
-        spans: &[Span<Lanes<S>>],
-        multipliers: &Lanes6<S>,
-        set_points: &[Lanes<S>],
-        limits: &[Lanes2<S>],
-    ) -> Vec<Option<Answer>> {
-        let found = found.to_array();
-        let multipliers_of = multipliers.map(Lanes::to_array);
-        let answer = |lane: usize| Answer {
-            cables: SmallVec::new(),
-            multipliers: Vector6::from_fn(|k, _| multipliers_of[k][lane]),
-        };
-        let mut answers: Vec<_> =
-            (0..self.asked.len()).map(|lane| found[lane].then(|| answer(lane))).collect();
-        let choices = &self.setting.shared.choices;
-        for (i, (cable, span)) in robots.cables.iter().zip(spans).enumerate() {
-            let held = HeldCable::new(cable, span);
-            let along = span.plane.force_on_platform([self.all(1.0), held.rise]);
-            let pull = wrench(&cable.anchor_arm, &along);
-            // (I2)
-            let slope = (held.tension + -choices[i].reference) + dot(multipliers, &pull) / held.tension_slope;
-            let shape = cable.shape(span);
-            let length = cable.guided.as_ref().map_or(cable.length, |guided| guided.whole_length);
-            let [slope, length, tension, x, z, least, greatest] =
-                [slope, length, set_points[i], cable.force[0], cable.force[1], limits[i][0], limits[i][1]]
-                    .map(Lanes::to_array);
-            let [tx, tz, chord_force, sag_force, longer] =
-                [shape.tangent[0], shape.tangent[1], shape.chord_force, shape.sag_force, shape.longer]
-                    .map(Lanes::to_array);
-            for (lane, answer) in answers.iter_mut().enumerate() {
-                let Some(answer) = answer else { continue };
-                let (active, stationarity) = match tension[lane] {
-                    t if t == least[lane] => (Some(Bound::Min), (-slope[lane]).max(0.0)),
-                    t if t == greatest[lane] => (Some(Bound::Max), slope[lane].max(0.0)),
-                    _ => (None, slope[lane].abs()),
-                };
-                let shape = Shape {
-                    tangent: [tx[lane], tz[lane]],
-                    chord_force: chord_force[lane],
-                    sag_force: sag_force[lane],
-                    longer: longer[lane],
-                };
-                answer.cables.push(CableAnswer {
-                    length: length[lane],
-                    force: Vector2::new(x[lane], z[lane]),
-                    tension: tension[lane],
-                    active,
-                    stationarity,
-                    shape,
-                });
-            }
-        }
-        answers
     }
 }

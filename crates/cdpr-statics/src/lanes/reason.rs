@@ -16,8 +16,6 @@ pub enum ScalarReason {
     /// There are fewer cables than free motions and no coordinate is free, or one cable alone, or the
     /// platform moves in a plane and gravity is a vector.
     FewCables,
-    /// Cables run over pulleys whose axes are not vertical.
-    Pulleys,
     /// The nominal robot has no tensions at the pose.
     NominalRobot,
     /// The parameters of the perturbed robot are out of their ranges.
@@ -34,7 +32,7 @@ pub enum ScalarReason {
     /// No stable equilibrium with the load was found that is close to what the unloaded one predicts, so
     /// that the platform may fall while the load is raised.
     Loaded,
-    /// Derivatives were asked for that lanes do not have: with free coordinates, where those by some
+    /// Derivatives were asked for that lanes do not have: with free coordinates, over tilted axes, where those by some
     /// parameter may differ on its two sides or do not exist, and where a tension is at its greatest value at
     /// the leave point of a pulley.
     Derivatives,
@@ -48,12 +46,11 @@ impl fmt::Display for ScalarReason {
 
 impl ScalarReason {
     /// All reasons with their names in files.
-    const NAMES: [(Self, &'static str); 13] = [
+    const NAMES: [(Self, &'static str); 12] = [
         (Self::OneByOne, "one_by_one"),
         (Self::Output, "output"),
         (Self::FreeCoordinates, "free_coordinates"),
         (Self::FewCables, "few_cables"),
-        (Self::Pulleys, "pulleys"),
         (Self::NominalRobot, "nominal_robot"),
         (Self::InvalidRobot, "invalid_robot"),
         (Self::Tensions, "tensions"),
@@ -76,7 +73,6 @@ impl ScalarReason {
             Self::Output => "only the output \"deflection\" has the fast models",
             Self::FreeCoordinates => "no stable rest with taut cables within their limits was found nearby",
             Self::FewCables => "there are fewer cables than free motions and no coordinate is free",
-            Self::Pulleys => "the fast models have pulleys with vertical axes only",
             Self::NominalRobot => "the nominal robot has no tensions at the pose",
             Self::InvalidRobot => "parameters are out of their ranges",
             Self::Tensions => "the best tensions were not found by the fast models",
@@ -99,10 +95,11 @@ impl ScalarReason {
         let inclined = robot.plane.is_some() && robot.gravity.is_vector();
         // Nothing resists the rotation about a single cable.
         let enough = robot.is_fully_actuated() || (robot.cables.len() > 1 && !free.is_empty());
-        let reasons = [
-            (inclined || !enough, Self::FewCables),
-            ((0..robot.cables.len()).any(|i| robot.cable(i).leaves_its_plane()), Self::Pulleys),
-        ];
-        reasons.into_iter().find(|(holds, _)| *holds).map(|(_, reason)| reason)
+        (inclined || !enough).then_some(Self::FewCables)
     }
+}
+
+/// Whether cables of a robot run over pulleys whose axes are not vertical.
+pub(crate) fn has_tilted_axes(robot: &Robot) -> bool {
+    (0..robot.cables.len()).any(|i| robot.cable(i).leaves_its_plane())
 }

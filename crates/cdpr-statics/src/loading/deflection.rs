@@ -39,7 +39,7 @@ impl Deflection {
     }
 
     /// Euclidean norm of dp [m], which the paper calls the RMS of the static deflection.
-    pub fn rms(&self) -> f64 {
+    pub fn magnitude(&self) -> f64 {
         self.displacement().norm()
     }
 

@@ -22,12 +22,12 @@
 //! whether they do: [`CableFrequency`].
 
 use crate::direct::{DirectStart, Stability};
-use crate::equations::{Balance, SpannedCable};
 use crate::error::StaticsError;
 use crate::inverse::{held_at, refuse_offsets};
+use crate::loading::small_motions::SmallMotions;
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load, WantedPose};
-use cdpr_robot::{Matrix3, Pose, Robot, Vector3, Vector6};
+use cdpr_robot::{Robot, Vector3, Vector6};
 use nalgebra::Matrix6;
 use std::f64::consts::TAU;
 
@@ -141,22 +141,8 @@ impl DirectProblem<'_> {
     /// [`StaticsError::Invalid`] for a robot that rotates without `platform.inertia`, an equilibrium that is
     /// not finite or has not one force for each cable, and one that is not stable.
     pub fn modes(&self, equilibrium: &Equilibrium) -> Result<Vec<NaturalMode>, StaticsError> {
-        self.check("equilibrium", equilibrium)?;
-        let mass = self.mass_matrix(&equilibrium.pose)?;
-        let weight = Balance::of_load(self, &equilibrium.pose).symmetric_hessian();
-        let cables: Vec<_> = equilibrium
-            .cable_forces
-            .iter()
-            .enumerate()
-            .map(|(i, force)| {
-                let cable = SpannedCable::of(self.robot, &equilibrium.pose, i, &self.catenary(i, *force));
-                let mut own = Balance::nothing();
-                if let Some(linearized) = cable.linearized() {
-                    own.add_cable(&cable.anchor_arm, &cable.force_on_platform(), linearized.stiffness());
-                }
-                own.symmetric_hessian()
-            })
-            .collect();
+        let SmallMotions { mass, weight, cables, free } = self.small_motions(equilibrium)?;
+        let cables: Vec<_> = cables.iter().map(|cable| cable.stiffness).collect();
         let freedoms = self.robot.freedoms();
         let stiffness = freedoms.of_matrix(&cables.iter().fold(weight, |sum, cable| sum + cable));
         let neutral = Stability::new(self, equilibrium, &stiffness).neutral().len();
@@ -167,7 +153,6 @@ impl DirectProblem<'_> {
         let factor = mass.cholesky().ok_or_else(not_positive)?.l();
         let inverse = factor.try_inverse().ok_or_else(not_positive)?;
         let eigen = freedoms.block(&(inverse * stiffness * inverse.transpose())).symmetric_eigen();
-        let free = freedoms.components();
         let mut order: Vec<_> = (0..free.len()).collect();
         let rounding = ROUNDING * eigen.eigenvalues.amax();
         // The squares of neutral motions are rounding, of either sign.
@@ -235,33 +220,6 @@ impl DirectProblem<'_> {
         equilibrium: &Equilibrium,
     ) -> Result<Option<CableFrequency>, StaticsError> {
         Ok(CableFrequency::slowest(self.cable_frequencies(equilibrium)?.into_iter()))
-    }
-
-    /// M of (V1) [kg, kg m, kg m²].
-    fn mass_matrix(&self, pose: &Pose) -> Result<Matrix6<f64>, StaticsError> {
-        let platform = &self.robot.platform;
-        let freedoms = self.robot.freedoms();
-        let inertia = match platform.inertia {
-            Some(inertia) => inertia,
-            // A platform that does not rotate needs none.
-            None if (3..6).all(|k| !freedoms.contains(k)) => Matrix3::zeros(),
-            None => {
-                let expected = "the inertia about the centre of mass, 3 x 3 in the platform frame [kg m²]";
-                return Err(StaticsError::invalid("platform.inertia".to_owned(), "missing", expected));
-            }
-        };
-        let mass = platform.mass + self.load.payload;
-        let lever = (pose.rotation * platform.center_of_mass).cross_matrix();
-        let rotation = pose.rotation.matrix();
-        let about_p: Matrix3<f64> = rotation * inertia * rotation.transpose() - mass * lever * lever;
-        let mut matrix = Matrix6::zeros();
-        matrix.fixed_view_mut::<3, 3>(0, 0).copy_from(&(mass * Matrix3::identity()));
-        matrix.fixed_view_mut::<3, 3>(0, 3).copy_from(&(-mass * lever));
-        matrix.fixed_view_mut::<3, 3>(3, 0).copy_from(&(mass * lever));
-        matrix.fixed_view_mut::<3, 3>(3, 3).copy_from(&about_p);
-        let mut matrix = freedoms.of_matrix(&matrix);
-        (0..6).filter(|k| !freedoms.contains(*k)).for_each(|k| matrix[(k, k)] = mass);
-        Ok(matrix)
     }
 }
 

@@ -1,6 +1,6 @@
-//! Names in files that carry the unit of the output: `rms_mm`, `mean_mm`, ... of deflections, `frequency_hz`,
-//! `mean_hz`, ... of frequencies. Results are serialized under the names that deflections have; here they
-//! take those of other outputs, and back.
+//! Names in files that carry the unit of the output: `magnitude_mm`, `mean_mm`, ... of deflections,
+//! `frequency_hz`, `mean_hz`, ... of frequencies. Results are serialized under the names that deflections
+//! have; here they take those of other outputs, and back.
 
 use crate::file::output::Output;
 use serde::ser::Error;
@@ -9,7 +9,7 @@ use serde_json::{Map, Value};
 
 /// The names that change, as deflections have them.
 const NAMES: [&str; 13] = [
-    "rms_mm",
+    "magnitude_mm",
     "signed_effects_mm",
     "nominal_mm",
     "mean_mm",
@@ -107,6 +107,6 @@ mod tests {
             }
         }
         assert_eq!(To::File.name(Output::Frequency, "mean_mm"), "mean_hz");
-        assert_eq!(To::File.name(Output::Frequency, "rms_mm"), "frequency_hz");
+        assert_eq!(To::File.name(Output::Frequency, "magnitude_mm"), "frequency_hz");
     }
 }

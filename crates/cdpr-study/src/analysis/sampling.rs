@@ -44,7 +44,7 @@ pub struct SamplingSummary {
     #[serde(default)]
     pub scalar: ScalarCount,
     /// Summary of the output; absent if fewer than two observations succeeded.
-    #[serde(rename = "rms_mm")]
+    #[serde(rename = "magnitude_mm")]
     pub values: Option<ValueSummary>,
     /// The nominal robot at this pose.
     pub nominal: NominalSummary,
@@ -84,7 +84,7 @@ pub struct NominalSummary {
     pub displacement_mm: [f64; 3],
     /// |dp| that the stiffness at the unloaded pose predicts [mm]. Section 3.3 of the paper says why it
     /// differs.
-    pub small_displacement_rms_mm: Option<f64>,
+    pub small_displacement_magnitude_mm: Option<f64>,
     /// Tension of every cable under the platform's own weight [N].
     pub unloaded_tensions: Vec<f64>,
     /// Tension of every cable with the payload [N].
@@ -136,7 +136,7 @@ impl NominalSummary {
         let small = nominal.small_displacement(robot, load).map(|dp| 1e3 * dp.norm()).ok();
         Self {
             displacement_mm: (1e3 * nominal.displacement()).into(),
-            small_displacement_rms_mm: small,
+            small_displacement_magnitude_mm: small,
             unloaded_tensions: nominal.unloaded.equilibrium.tensions(),
             loaded_tensions: nominal.loaded.equilibrium.tensions(),
             out_of_limits: too_much(robot, nominal),

@@ -44,7 +44,7 @@ pub struct SurfaceSummary {
     /// Parameters of the two axes.
     pub parameters: [String; 2],
     /// Extremes of the output and its nominal value.
-    #[serde(rename = "rms_mm")]
+    #[serde(rename = "magnitude_mm")]
     pub values: SurfaceValues,
     /// Tensions of the nominal robot above their limits or breaking forces, without or with the payload.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]

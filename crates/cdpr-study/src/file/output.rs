@@ -8,7 +8,7 @@ use std::fmt;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Output {
-    /// Length of the displacement of P under the payload [mm], the RMS of the static deflection.
+    /// Length of the displacement of P under the payload [mm]: the magnitude of the static deflection.
     #[default]
     Deflection,
     /// Distance of P from where the nominal robot stands, if the robot is given the nominal robot's
@@ -100,11 +100,11 @@ impl Output {
     const fn words(self) -> Words {
         match self {
             Self::Deflection => Words {
-                columns: &["dx_mm", "dy_mm", "dz_mm", "rms_mm"],
+                columns: &["dx_mm", "dy_mm", "dz_mm", "magnitude_mm"],
                 unit: "mm",
                 ending: "_mm",
-                label: "RMS of the static deflection",
-                short: "RMS",
+                label: "magnitude of the static deflection",
+                short: "magnitude",
                 fine: ("\u{b5}m", 1e3),
             },
             Self::Position => Words {
@@ -178,8 +178,8 @@ impl Output {
         self.words().fine
     }
 
-    /// The name in files of a quantity of this output, from the one that it has for deflections: `rms_mm` and
-    /// `mean_mm` are `frequency_hz` and `mean_hz` of a frequency.
+    /// The name in files of a quantity of this output, from the one that it has for deflections:
+    /// `magnitude_mm` and `mean_mm` are `frequency_hz` and `mean_hz` of a frequency.
     pub fn named(self, of_deflection: &str) -> String {
         if let Some(before) = of_deflection.strip_suffix(Self::Deflection.name()) {
             return format!("{before}{}", self.name());

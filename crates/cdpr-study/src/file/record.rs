@@ -1,99 +1,88 @@
-//! Load-elongation records as files: CSV with the columns `force_n`, `elongation_mm` and `phase` (`loading`
-//! or `unloading`), or with semicolons or tabs between the cells and decimal commas. Lines that begin with `#`
-//! are comments.
+//! Load-elongation records as files: tables with a force, an elongation and a phase (`loading` or `unloading`),
+//! such as `force_n`, `elongation_mm`, `phase`. Further columns are of no importance.
 
 use crate::error::StudyError;
-use crate::fs::input::{other_kind, read_text};
+use crate::fs::input::{check_table, read_bytes};
 use crate::kind::InputKind;
+use crate::table::{Column, Dimension, Table, TableError};
 use cdpr_cable::{Phase, Record, RecordError, Sample};
-use csv::{ReaderBuilder, StringRecord, Trim};
 use std::path::Path;
 
-const COLUMNS: [&str; 3] = ["force_n", "elongation_mm", "phase"];
+/// What is wrong with the text of a record.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum RecordTextError {
+    /// It is no table, or a cell is no number.
+    #[error(transparent)]
+    Table(#[from] TableError),
+    /// Its columns or samples make no record.
+    #[error(transparent)]
+    Record(#[from] RecordError),
+}
 
 /// Reads and checks a record.
 ///
 /// # Errors
-/// [`StudyError::Read`]; [`StudyError::Record`] names the line.
+/// [`StudyError::Read`]; [`StudyError::OtherKind`] for a file of another kind; [`StudyError::Table`] and
+/// [`StudyError::Record`] name the line.
 pub fn open_record(path: &Path) -> Result<Record, StudyError> {
-    let text = read_text(path, InputKind::Record)?;
-    read_record(&text).map_err(|source| {
-        let other = other_kind(path, &text, InputKind::Record);
-        other.unwrap_or_else(|| StudyError::Record { path: path.to_owned(), source })
+    let bytes = read_bytes(path, InputKind::Record)?;
+    check_table(path, &bytes, InputKind::Record)?;
+    let path = || path.to_owned();
+    read_record(&bytes).map_err(|error| match error {
+        RecordTextError::Table(source) => StudyError::Table { path: path(), source },
+        RecordTextError::Record(source) => StudyError::Record { path: path(), source },
     })
 }
 
-/// Reads and checks a record from the text of a file.
+/// Reads and checks a record from the content of a file.
 ///
 /// # Errors
-/// [`RecordError`] naming the line.
-pub fn read_record(text: &str) -> Result<Record, RecordError> {
-    let mut samples = Vec::new();
-    let mut columns = None;
-    let mut separator = b',';
-    for (i, text) in text.lines().enumerate() {
-        if text.starts_with('#') || text.trim().is_empty() {
-            continue;
-        }
-        if columns.is_none() {
-            separator = [b';', b'\t'].into_iter().find(|of| text.contains(char::from(*of))).unwrap_or(b',');
-        }
-        let row = cells(text, separator);
-        match columns {
-            None => columns = Some(header(&row, i + 1)?),
-            Some(columns) => samples.push(sample(&row, columns, separator != b',', i + 1)?),
-        }
-    }
-    if columns.is_none() {
-        return Err(invalid(1, "header", "missing", &COLUMNS.join(",")));
-    }
-    Record::new(&samples)
+/// [`RecordTextError`] naming the line.
+pub fn read_record(bytes: &[u8]) -> Result<Record, RecordTextError> {
+    let table = Table::read(bytes)?;
+    let (force, to_newtons) = numbers(&table, "force_n", Dimension::Force)?;
+    let (elongation, to_metres) = numbers(&table, "elongation_mm", Dimension::Length)?;
+    let phases = column(&table, "phase")?;
+    let samples = (0..table.rows()).map(|row| {
+        let phase = match phases.text(row).as_str() {
+            "loading" => Phase::Loading,
+            "unloading" => Phase::Unloading,
+            _ => return Err(table.cell_error(row, phases, "loading or unloading").into()),
+        };
+        Ok(Sample {
+            line: table.lines[row],
+            force: force[row] * to_newtons,
+            elongation: elongation[row] * to_metres,
+            phase,
+        })
+    });
+    Ok(Record::new(&samples.collect::<Result<Vec<_>, RecordTextError>>()?)?)
 }
 
-/// The cells of a line, without the blanks around them. Lines are read one by one, so that the line numbers
-/// of errors count comments, too.
-fn cells(line: &str, separator: u8) -> StringRecord {
-    let mut reader = ReaderBuilder::new()
-        .delimiter(separator)
-        .has_headers(false)
-        .trim(Trim::All)
-        .from_reader(line.as_bytes());
-    reader.records().find_map(Result::ok).unwrap_or_default()
+/// The finite numbers of the column that is called so, or has another unit, and the factor to SI units.
+fn numbers<'a>(
+    table: &'a Table,
+    name: &'static str,
+    dimension: Dimension,
+) -> Result<(&'a [f64], f64), RecordTextError> {
+    let found = column(table, name)?;
+    let (_, unit) = found.quantity();
+    let factor = unit.filter(|unit| unit.dimension == dimension).map(|unit| unit.factor);
+    Ok((table.finite(found)?, factor.ok_or_else(|| missing(table, name))?))
 }
 
-/// Positions of the three columns. Another unit has another name, so that `force_kn` is refused.
-fn header(row: &StringRecord, line: usize) -> Result<[usize; 3], RecordError> {
-    let mut columns = [0; 3];
-    for (position, wanted) in columns.iter_mut().zip(COLUMNS) {
-        *position = row.iter().position(|name| name == wanted).ok_or_else(|| {
-            let names = row.iter().collect::<Vec<_>>().join(",");
-            invalid(line, "header", names, &format!("a column `{wanted}`"))
-        })?;
-    }
-    Ok(columns)
+/// The column of a quantity, which another unit may follow than in this name.
+fn column<'a>(table: &'a Table, name: &'static str) -> Result<&'a Column, RecordTextError> {
+    let quantity = name.split('_').next().unwrap_or(name);
+    let found = table.columns.iter().find(|column| column.quantity().0 == quantity);
+    found.ok_or_else(|| missing(table, name))
 }
 
-fn sample(
-    row: &StringRecord,
-    columns: [usize; 3],
-    has_commas: bool,
-    line: usize,
-) -> Result<Sample, RecordError> {
-    let text = |k: usize| row.get(columns[k]).unwrap_or_default();
-    let number = |k: usize| -> Result<f64, RecordError> {
-        let decimal = if has_commas { text(k).replacen(',', ".", 1) } else { text(k).to_owned() };
-        decimal.parse().map_err(|_| invalid(line, COLUMNS[k], format!("`{}`", text(k)), "a number"))
-    };
-    let phase = match text(2) {
-        "loading" => Phase::Loading,
-        "unloading" => Phase::Unloading,
-        other => return Err(invalid(line, "phase", format!("`{other}`"), "loading or unloading")),
-    };
-    Ok(Sample { line, force: number(0)?, elongation: 1e-3 * number(1)?, phase })
-}
-
-fn invalid(line: usize, field: &'static str, value: impl ToString, expected: &str) -> RecordError {
-    RecordError::Invalid { line, field, value: value.to_string(), expected: expected.to_owned() }
+fn missing(table: &Table, name: &'static str) -> RecordTextError {
+    let names: Vec<&str> = table.columns.iter().map(|column| column.name.as_str()).collect();
+    let value = if names.is_empty() { "missing".to_owned() } else { names.join(",") };
+    let expected = format!("a column `{name}`");
+    RecordError::Invalid { line: table.header.unwrap_or(1), field: "header", value, expected }.into()
 }
 
 #[cfg(test)]
@@ -105,7 +94,7 @@ mod tests {
 
     #[test]
     fn columns_may_stand_in_any_order_among_comments() {
-        let record = read_record(GOOD).unwrap();
+        let record = read_record(GOOD.as_bytes()).unwrap();
         assert_eq!(record.samples(Phase::Loading).len(), 2);
         assert_eq!(
             record.samples(Phase::Unloading)[2],
@@ -116,10 +105,29 @@ mod tests {
     #[test]
     fn a_record_may_have_semicolons_and_decimal_commas() {
         let record =
-            read_record(&GOOD.replace(',', ";").replace("0.5", "0,5").replace("0.2", "0,2")).unwrap();
-        let plain = read_record(GOOD).unwrap();
+            read_record(GOOD.replace(',', ";").replace("0.5", "0,5").replace("0.2", "0,2").as_bytes())
+                .unwrap();
+        let plain = read_record(GOOD.as_bytes()).unwrap();
         assert_eq!(record.samples(Phase::Unloading), plain.samples(Phase::Unloading));
         assert_eq!(record.samples(Phase::Loading), plain.samples(Phase::Loading));
+    }
+
+    #[test]
+    fn the_unit_is_that_of_the_name_and_further_columns_are_of_no_importance() {
+        let plain = read_record(GOOD.as_bytes()).unwrap();
+        let other = "Force [kN];elongation_m;t_s;phase\r\n0,1;0;0;loading\r\n1;0,002;1;loading\r\n\
+            0,1;0,0005;2;unloading\r\n0,05;0,0002;3;unloading\r\n";
+        let wide: Vec<u8> =
+            [0xff, 0xfe].into_iter().chain(other.encode_utf16().flat_map(u16::to_le_bytes)).collect();
+        for text in [other.as_bytes(), &wide] {
+            let record = read_record(text).unwrap();
+            for phase in [Phase::Loading, Phase::Unloading] {
+                for (one, other) in record.samples(phase).iter().zip(plain.samples(phase)) {
+                    assert!((one.force - other.force).abs() < 1e-9, "{one:?}");
+                    assert!((one.elongation - other.elongation).abs() < 1e-15, "{one:?}");
+                }
+            }
+        }
     }
 
     #[test]
@@ -127,26 +135,34 @@ mod tests {
         for (good, bad, words) in [
             (
                 "force_n",
-                "force_kn",
-                "line 2: header is phase,force_kn,elongation_mm: expected a column `force_n`",
+                "force_kg",
+                "line 2: header is phase,force_kg,elongation_mm: expected a column `force_n`",
             ),
-            ("unloading,100,0.5", "unloading,100", "line 5: elongation_mm is ``: expected a number"),
-            ("loading, 1000, 2", "loading, 1000, 2 mm", "line 4: elongation_mm is `2 mm`: expected a number"),
-            ("loading, 1000, 2", ", 1000, 2", "line 4: phase is ``: expected loading or unloading"),
-            ("loading, 1000, 2", "loading, NaN, 2", "line 4: force_n is NaN: expected a finite number"),
+            ("unloading,100,0.5", "unloading,100", "line 5: 2 cells: expected 3, as many as in line 2"),
+            (
+                "loading, 1000, 2",
+                "loading, 1000, 2 mm",
+                "line 4, column elongation_mm: `2 mm`: expected 2, and the unit in the name",
+            ),
+            ("loading, 1000, 2", ", 1000, 2", "line 4, column phase: ``: expected loading or unloading"),
+            (
+                "loading, 1000, 2",
+                "loading, NaN, 2",
+                "line 4, column force_n: `NaN`: expected a finite number",
+            ),
             ("loading, 1000, 2", "loading, 50, 2", "line 4: force_n is 50: expected more than 100 of line 3"),
         ] {
-            let message = read_record(&GOOD.replace(good, bad)).unwrap_err().to_string();
+            let message = read_record(GOOD.replace(good, bad).as_bytes()).unwrap_err().to_string();
             assert!(message.starts_with(words), "{message}");
         }
         for (text, words) in [
-            ("", "line 1: header is missing"),
+            ("", "line 1: header is missing: expected a column `force_n`"),
             (
                 "force_n,elongation_mm,phase\n1,1,loading\n2,2,loading\n",
                 "the record ends at line 3 with 0 samples of phase unloading",
             ),
         ] {
-            let message = read_record(text).unwrap_err().to_string();
+            let message = read_record(text.as_bytes()).unwrap_err().to_string();
             assert!(message.starts_with(words), "{message}");
         }
     }

@@ -72,7 +72,8 @@ fn has_no_file(path: &Path) -> bool {
 
 /// A path that could be a name in a library: without folders and extension.
 fn plain_name(path: &Path) -> Option<&str> {
-    path.to_str().filter(|name| !name.contains(['/', '\\']) && !name.ends_with(".json"))
+    let is_name = |name: &&str| !name.contains(['/', '\\']) && !name.ends_with(".json") && *name != "-";
+    path.to_str().filter(is_name)
 }
 
 fn read_robot(path: &Path, read: fn(&str) -> Result<Robot, RobotError>) -> Result<Robot, StudyError> {

@@ -1,5 +1,5 @@
-//! The one place where inputs are opened: regular files only, of a size that their kind can have, without
-//! waiting for anybody to write. A device or a pipe could feed a reader for ever.
+//! The one place where inputs are opened: regular files, pipes and the standard input, `-`, of a size that their
+//! kind can have. A pipe that nobody writes into is not waited for, and a device could feed a reader for ever.
 
 use crate::error::StudyError;
 use crate::kind::InputKind;
@@ -8,11 +8,13 @@ use serde::de::IgnoredAny;
 use std::fs::File;
 use std::io::{self, ErrorKind, Read};
 use std::path::Path;
+use std::sync::OnceLock;
+use std::time::Duration;
 
 /// The text of a file, without the byte order mark that some editors put before it.
 ///
 /// # Errors
-/// [`StudyError::Read`]; [`StudyError::NotRegular`] for a folder, a pipe or a device;
+/// [`StudyError::Read`]; [`StudyError::NotRegular`] for a folder, a device or a pipe without content;
 /// [`StudyError::TooLarge`].
 pub fn read_text(path: &Path, kind: InputKind) -> Result<String, StudyError> {
     text_of(path, read_bytes(path, kind)?)
@@ -73,15 +75,74 @@ pub(crate) fn text_of(path: &Path, bytes: Vec<u8>) -> Result<String, StudyError>
 /// As [`read_text`].
 pub fn read_bytes(path: &Path, kind: InputKind) -> Result<Vec<u8>, StudyError> {
     let unread = |source| StudyError::Read { path: path.to_owned(), source };
-    let file = open(path, kind)?;
     let too_large = || StudyError::TooLarge { path: path.to_owned(), kind, most: kind.most_bytes() };
+    let fits =
+        |bytes: Vec<u8>| if bytes.len() as u64 > kind.most_bytes() { Err(too_large()) } else { Ok(bytes) };
+    if is_standard_input(path) {
+        return fits(standard_input().map_err(unread)?.to_vec());
+    }
+    if let Some(pipe) = open_pipe(path).map_err(unread)? {
+        return match read_pipe(pipe, kind.most_bytes() + 1).map_err(unread)? {
+            bytes if bytes.is_empty() => {
+                Err(StudyError::NotRegular { path: path.to_owned(), found: "a pipe without content", kind })
+            }
+            bytes => fits(bytes),
+        };
+    }
+    let file = open(path, kind)?;
     if file.metadata().map_err(unread)?.len() > kind.most_bytes() {
         return Err(too_large());
     }
     let mut bytes = Vec::new();
     // A file may grow while it is read, and those of the system do not tell their size.
     file.take(kind.most_bytes() + 1).read_to_end(&mut bytes).map_err(unread)?;
-    if bytes.len() as u64 > kind.most_bytes() { Err(too_large()) } else { Ok(bytes) }
+    fits(bytes)
+}
+
+/// Whether a path stands for the standard input, `-`.
+pub fn is_standard_input(path: &Path) -> bool {
+    path == Path::new("-")
+}
+
+/// All of the standard input, which is read once.
+fn standard_input() -> io::Result<&'static [u8]> {
+    static INPUT: OnceLock<Vec<u8>> = OnceLock::new();
+    if let Some(bytes) = INPUT.get() {
+        return Ok(bytes);
+    }
+    let mut bytes = Vec::new();
+    io::stdin().lock().take(InputKind::MOST_BYTES + 1).read_to_end(&mut bytes)?;
+    Ok(INPUT.get_or_init(|| bytes))
+}
+
+/// A pipe, opened without waiting for a writer; `None` for anything else.
+fn open_pipe(path: &Path) -> io::Result<Option<File>> {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::{FileTypeExt, OpenOptionsExt};
+        if std::fs::metadata(path).is_ok_and(|found| found.file_type().is_fifo()) {
+            return File::options().read(true).custom_flags(libc::O_NONBLOCK).open(path).map(Some);
+        }
+    }
+    let _ = path;
+    Ok(None)
+}
+
+/// What is written into a pipe, up to a number of bytes; nothing where there is no writer.
+fn read_pipe(mut pipe: File, most: u64) -> io::Result<Vec<u8>> {
+    let (mut bytes, mut part) = (Vec::new(), [0; 65_536]);
+    while (bytes.len() as u64) < most {
+        match pipe.read(&mut part) {
+            Ok(0) => break,
+            Ok(count) => bytes.extend_from_slice(&part[..count]),
+            Err(error) if error.kind() == ErrorKind::WouldBlock => {
+                std::thread::sleep(Duration::from_millis(1));
+            }
+            Err(error) if error.kind() == ErrorKind::Interrupted => {}
+            Err(error) => return Err(error),
+        }
+    }
+    Ok(bytes)
 }
 
 /// The error of a text that was not read as one kind because it is of another.
@@ -174,15 +235,31 @@ mod tests {
 
     #[cfg(unix)]
     #[test]
-    fn pipes_devices_and_folders_are_refused_at_once() {
+    fn empty_pipes_devices_and_folders_are_refused_at_once() {
         let folder = tempfile::tempdir().unwrap();
         let pipe = folder.path().join("pipe");
         assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
-        for (path, found) in
-            [(pipe.as_path(), "a pipe"), (folder.path(), "a folder"), (Path::new("/dev/zero"), "a device")]
-        {
+        for (path, found) in [
+            (pipe.as_path(), "a pipe without content"),
+            (folder.path(), "a folder"),
+            (Path::new("/dev/zero"), "a device"),
+        ] {
             let error = read_text(path, InputKind::Study).unwrap_err().to_string();
             assert!(error.ends_with(&format!("is {found}: expected a study file")), "{error}");
         }
+        let mut writer = std::process::Command::new("sh");
+        let write = format!("(sleep 0.05; echo begun; sleep 0.05; echo done) > {}", pipe.display());
+        let mut writer = writer.args(["-c", &write]).spawn().unwrap();
+        // A pipe is not waited for before it has a writer.
+        let begun = std::time::Instant::now();
+        let text = loop {
+            match read_text(&pipe, InputKind::Study) {
+                Ok(text) => break text,
+                Err(error) if begun.elapsed() > Duration::from_secs(20) => panic!("{error}"),
+                Err(_) => std::thread::sleep(Duration::from_millis(1)),
+            }
+        };
+        assert_eq!(text, "begun\ndone\n");
+        assert!(writer.wait().unwrap().success());
     }
 }

@@ -178,10 +178,11 @@ impl GivenTable {
             .find(|column| !deviations.contains(column) && !self.columns[*column].is_words())
     }
 
-    /// Inputs that nobody named and whose names are those of outputs: `y1` where the output is `y2`, `rms_mm`.
+    /// Inputs that nobody named and whose names are those of outputs: `y1` where the output is `y2`, or
+    /// `magnitude_mm`.
     /// The deviations of a study are inputs, such as `d_a1.y`.
     pub(super) fn like_outputs(&self, inputs: &[usize], output: usize) -> Vec<String> {
-        const WORDS: [&str; 14] = [
+        const WORDS: [&str; 15] = [
             "y",
             "out",
             "output",
@@ -189,6 +190,7 @@ impl GivenTable {
             "response",
             "target",
             "objective",
+            "magnitude",
             "rms",
             "error",
             "deflection",

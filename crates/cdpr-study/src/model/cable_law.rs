@@ -96,11 +96,18 @@ pub fn elastic_laws(robot: &Robot) -> Result<Option<Vec<HysteresisLaw>>, CableEr
 /// Reads and checks a law file.
 ///
 /// # Errors
-/// [`StudyError::Read`], [`StudyError::Format`]; [`StudyError::Invalid`] for an invalid law.
+/// [`StudyError::Read`], and as [`read_law`].
 pub fn open_law(path: &Path) -> Result<CableLaw, StudyError> {
-    let text = read_text(path, InputKind::Law)?;
-    let file: LawFile = from_json(&text).map_err(|source| {
-        let other = other_kind(path, &text, InputKind::Law);
+    read_law(&read_text(path, InputKind::Law)?, path)
+}
+
+/// Reads and checks a law from the text of a law file; `path` names it in errors.
+///
+/// # Errors
+/// [`StudyError::Format`]; [`StudyError::Invalid`] for an invalid law.
+pub fn read_law(text: &str, path: &Path) -> Result<CableLaw, StudyError> {
+    let file: LawFile = from_json(text).map_err(|source| {
+        let other = other_kind(path, text, InputKind::Law);
         other.unwrap_or_else(|| StudyError::Format { path: path.to_owned(), source })
     })?;
     let wrong = if file.format == LAW_FORMAT {
@@ -112,7 +119,7 @@ pub fn open_law(path: &Path) -> Result<CableLaw, StudyError> {
         None => Ok(file.law),
         Some((field, value, expected)) => {
             let expected = expected.to_owned();
-            Err(StudyError::Invalid { path: path.to_owned(), field, value, expected }.placed(&text))
+            Err(StudyError::Invalid { path: path.to_owned(), field, value, expected }.placed(text))
         }
     }
 }

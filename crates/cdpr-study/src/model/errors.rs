@@ -13,7 +13,7 @@ use std::borrow::Cow;
 use std::path::Path;
 
 /// The text of a study in which error models of the form `{"file": "posterior.json"}` are replaced by those
-/// of these files, beside the study.
+/// of these files, next to the study, and correlated errors (`cdpr-errors/1`) by the entries that they mean.
 ///
 /// # Errors
 /// As [`read_text`]; [`StudyError::Format`] and [`StudyError::Invalid`] for what such a file says.
@@ -23,13 +23,16 @@ pub(crate) fn with_error_files<'t>(text: &'t str, path: &Path) -> Result<Cow<'t,
     let mut replaced = false;
     if let Some(models) = study.get_mut("error_models").and_then(Value::as_object_mut) {
         for model in models.values_mut() {
-            let named = match model.as_object() {
-                Some(fields) if fields.len() == 1 => fields.get("file").and_then(Value::as_str),
-                _ => None,
+            let Some(fields) = model.as_object() else { continue };
+            let named = fields.get("file").and_then(Value::as_str).filter(|_| fields.len() == 1);
+            let entries = match named {
+                Some(named) => {
+                    let file = path.parent().unwrap_or(Path::new(".")).join(named);
+                    entries_of(&read_text(&file, InputKind::Errors)?, &file)?
+                }
+                None if is_correlated(model) => entries_of(&model.to_string(), path)?,
+                None => continue,
             };
-            let Some(named) = named else { continue };
-            let file = path.parent().unwrap_or(Path::new(".")).join(named);
-            let entries = read_entries(&file)?;
             *model = serde_json::to_value(entries).unwrap_or_default();
             replaced = true;
         }
@@ -37,31 +40,41 @@ pub(crate) fn with_error_files<'t>(text: &'t str, path: &Path) -> Result<Cow<'t,
     Ok(if replaced { study.to_string().into() } else { text.into() })
 }
 
-/// The entries of an error model in a file of its own: `cdpr-errors/1`, or an object as a study has it in
+/// Whether an error model is one of correlated errors, which states its format.
+fn is_correlated(model: &Value) -> bool {
+    model.get("format").is_some()
+}
+
+/// The entries of an error model from its text: `cdpr-errors/1`, or an object as a study has it in
 /// `error_models`.
-fn read_entries(path: &Path) -> Result<IndexMap<String, InputSpec>, StudyError> {
-    let text = read_text(path, InputKind::Errors)?;
+fn entries_of(text: &str, path: &Path) -> Result<IndexMap<String, InputSpec>, StudyError> {
     let unread = |source| {
-        let other = other_kind(path, &text, InputKind::Errors);
+        let other = other_kind(path, text, InputKind::Errors);
         other.unwrap_or_else(|| StudyError::Format { path: path.to_owned(), source })
     };
-    let is_errors = serde_json::from_str::<Value>(&text).is_ok_and(|value| value.get("format").is_some());
-    if !is_errors {
-        return from_json(&text).map_err(unread);
+    if !serde_json::from_str::<Value>(text).is_ok_and(|value| is_correlated(&value)) {
+        return from_json(text).map_err(unread);
     }
-    let file: ErrorsFile = from_json(&text).map_err(unread)?;
+    let file: ErrorsFile = from_json(text).map_err(unread)?;
     file.entries().map_err(|(field, value, expected)| {
-        StudyError::Invalid { path: path.to_owned(), field, value, expected }.placed(&text)
+        StudyError::Invalid { path: path.to_owned(), field, value, expected }.placed(text)
     })
 }
 
 /// The error model of a file for a robot: `cdpr-errors/1`, or an object as a study has it in `error_models`.
 ///
 /// # Errors
-/// As [`read_text`]; [`StudyError::Format`], [`StudyError::Invalid`] and [`StudyError::Statistics`] for what
-/// it says.
+/// As [`read_text`] and [`read_errors`].
 pub fn open_errors(path: &Path, robot: &Robot) -> Result<ErrorModel, StudyError> {
-    let entries = read_entries(path)?;
+    read_errors(&read_text(path, InputKind::Errors)?, path, robot)
+}
+
+/// The same from its text; `path` names it in errors.
+///
+/// # Errors
+/// [`StudyError::Format`], [`StudyError::Invalid`] and [`StudyError::Statistics`] for what it says.
+pub fn read_errors(text: &str, path: &Path, robot: &Robot) -> Result<ErrorModel, StudyError> {
+    let entries = entries_of(text, path)?;
     if let Some((key, _)) = entries.iter().find(|(_, spec)| spec.operating_point.is_some()) {
         return Err(StudyError::Invalid {
             path: path.to_owned(),

@@ -13,6 +13,29 @@ pub struct Grid {
     z: GridAxis,
 }
 
+/// What is given of the coordinates along an axis.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct GridSpan {
+    /// First coordinate [m].
+    pub min: Option<f64>,
+    /// Last coordinate [m].
+    pub max: Option<f64>,
+    /// Number of coordinates.
+    pub points: Option<usize>,
+}
+
+impl GridSpan {
+    /// Positions along an axis of a plane or line for which no number is given.
+    pub const IN_PLANE: usize = 41;
+    /// The same of a box.
+    pub const IN_BOX: usize = 11;
+
+    /// Whether it is a single coordinate.
+    fn is_point(&self) -> bool {
+        self.points == Some(1) || self.min.is_some() && self.min == self.max
+    }
+}
+
 /// Positions of a grid, whose results are held in memory as a whole.
 const MOST: usize = 4_000_000;
 
@@ -64,24 +87,37 @@ impl Grid {
         value: f64,
         points: [usize; 2],
     ) -> Result<Self, StudyError> {
+        let mut points = points.into_iter();
+        let span = |axis: Axis| match axis == normal {
+            true => GridSpan { min: Some(value), max: Some(value), points: Some(1) },
+            false => GridSpan { points: points.next(), ..GridSpan::default() },
+        };
+        Self::within(robot, Axis::ALL.map(span))
+    }
+
+    /// The positions between these ends along x, y and z. A missing end is that of the frame, the ranges of the
+    /// exit points; where all exit points are at about one height, heights begin at the floor of the base
+    /// frame, z = 0. Missing numbers of positions are [`GridSpan::IN_PLANE`] where the region is a plane or a
+    /// line, else [`GridSpan::IN_BOX`].
+    ///
+    /// # Errors
+    /// [`StudyError::Setting`] where the exit points do not span a missing range, and as [`Grid::new`].
+    pub fn within(robot: &Robot, spans: [GridSpan; 3]) -> Result<Self, StudyError> {
         let frame = frame(robot);
         let size = frame.iter().map(|[low, high]| high - low).fold(0.0, f64::max);
-        let mut points = points.into_iter();
-        let mut axes = [GridAxis { min: value, max: value, points: 1 }; 3];
-        for (axis, [low, high]) in Axis::ALL.into_iter().zip(frame) {
-            if axis == normal {
-                continue;
-            }
+        let is_flat = spans.iter().any(GridSpan::is_point);
+        let usual = if is_flat { GridSpan::IN_PLANE } else { GridSpan::IN_BOX };
+        let mut axes = [GridAxis { min: 0.0, max: 0.0, points: 1 }; 3];
+        for ((axis, span), [low, high]) in Axis::ALL.into_iter().zip(spans).zip(frame) {
             let flat = high - low < FLAT * size;
-            let (min, max) = if flat && axis == Axis::Z { (0.0, high) } else { (low, high) };
-            if max - min < FLAT * size {
-                return Err(StudyError::setting(
-                    "plane",
-                    format!("{normal}={value}"),
-                    format!("a plane that the exit points span: along {axis} they do not; give a box"),
-                ));
+            let low = if flat && axis == Axis::Z { 0.0 } else { low };
+            if (span.min.is_none() || span.max.is_none()) && high - low < FLAT * size {
+                let expected = "min:max [m]: the exit points do not span this axis";
+                return Err(StudyError::setting(format!("region along {axis}"), "without ends", expected));
             }
-            axes[axis as usize] = GridAxis { min, max, points: points.next().unwrap_or(1) };
+            let (min, max) = (span.min.unwrap_or(low), span.max.unwrap_or(high));
+            let points = span.points.unwrap_or(if span.is_point() { 1 } else { usual });
+            axes[axis as usize] = GridAxis { min, max, points };
         }
         Self::new(axes)
     }
@@ -193,7 +229,23 @@ mod tests {
         let mut sunk = robot.clone();
         sunk.cables.iter_mut().for_each(|cable| cable.exit_point.z -= 3.5);
         let message = Grid::over_frame(&sunk, Axis::X, 0.0, [5, 3]).unwrap_err().to_string();
-        assert!(message.starts_with("plane is x=0: expected a plane that the exit points span"), "{message}");
+        assert!(message.starts_with("region along z is without ends: expected min:max"), "{message}");
+    }
+
+    #[test]
+    fn what_is_not_given_of_a_region_is_that_of_the_frame() {
+        let robot = Robot::from_json(include_str!("../../../../data/robots/caroca.json")).unwrap();
+        let open = GridSpan::default();
+        let at = GridSpan { min: Some(1.75), max: Some(1.75), points: None };
+        let plane = Grid::within(&robot, [open, GridSpan { points: Some(7), ..open }, at]).unwrap();
+        assert_eq!(
+            (plane.x, plane.y, plane.z),
+            (axis(-3.5, 3.5, GridSpan::IN_PLANE), axis(-2.0, 2.0, 7), axis(1.75, 1.75, 1))
+        );
+        let inner = GridSpan { min: Some(1.0), max: Some(2.0), points: None };
+        let inside = Grid::within(&robot, [open, open, inner]).unwrap();
+        assert_eq!(inside.z, axis(1.0, 2.0, GridSpan::IN_BOX));
+        assert_eq!(inside.x, axis(-3.5, 3.5, GridSpan::IN_BOX));
     }
 
     #[test]

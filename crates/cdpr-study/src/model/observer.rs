@@ -219,7 +219,7 @@ impl<'a> OutputObserver<'a> {
     ) -> Vec<Result<(f64, Vec<f64>), StaticsError>> {
         if self.output == Output::Deflection && self.free.is_empty() {
             let in_unit = |found: ObservationSlopes| {
-                (1e3 * found.observation.rms(), scaled(1e3, errors.gradient(&found.rms)))
+                (1e3 * found.observation.magnitude(), scaled(1e3, errors.gradient(&found.magnitude)))
             };
             let outcomes = self.lanes.observe(deviations).into_iter();
             return outcomes.map(|found| found.map(in_unit)).collect();
@@ -243,7 +243,9 @@ impl<'a> OutputObserver<'a> {
                 let length = self.characteristic_length();
                 (found.least_stiffness_with(&perturbed.robot, &self.load, length)?, 1.0)
             }
-            Output::Deflection | Output::Position => ((found.deflection.rms(), found.rms()?), 1e3),
+            Output::Deflection | Output::Position => {
+                ((found.deflection.magnitude(), found.magnitude()?), 1e3)
+            }
         };
         Ok((per_unit * value, scaled(per_unit, errors.gradient(&slopes))))
     }

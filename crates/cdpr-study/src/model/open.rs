@@ -45,13 +45,28 @@ impl Study {
     }
 
     /// Reads and checks a study from its text. `path` names the text in errors, and the robot file is
-    /// searched beside it.
+    /// searched in its folder.
     ///
     /// # Errors
     /// As [`Study::open`].
     pub fn from_json(text: &str, path: &Path) -> Result<Self, StudyError> {
+        Self::read(text, path, None)
+    }
+
+    /// The same for a robot that is at hand, whatever robot the text names.
+    ///
+    /// # Errors
+    /// As [`Study::open`].
+    pub fn with_robot(text: &str, path: &Path, robot: Robot) -> Result<Self, StudyError> {
+        Self::read(text, path, Some(robot))
+    }
+
+    fn read(text: &str, path: &Path, robot: Option<Robot>) -> Result<Self, StudyError> {
         let whole = with_error_files(text, path)?;
-        let study = Self::unchecked(&whole, path)?;
+        let study = match robot {
+            Some(robot) => Self::of(file_of(&whole, path)?, robot, path),
+            None => Self::unchecked(&whole, path)?,
+        };
         // Where files were put in, places are not those of the user's text.
         let is_own = matches!(whole, Cow::Borrowed(_));
         study.validate().map_err(|error| if is_own { error.placed(text) } else { error })?;
@@ -71,10 +86,7 @@ impl Study {
 
     /// A study and its robot whose values together are not checked yet: enough to know them by their hash.
     pub(crate) fn unchecked(text: &str, path: &Path) -> Result<Self, StudyError> {
-        let file: StudyFile = from_json(text).map_err(|source| {
-            let other = other_kind(path, text, InputKind::Study);
-            other.unwrap_or_else(|| StudyError::Format { path: path.to_owned(), source })
-        })?;
+        let file = file_of(text, path)?;
         let robot = open_robot_from(path.parent().unwrap_or(Path::new(".")), &file.robot)?;
         Ok(Self::of(file, robot, path))
     }
@@ -299,4 +311,12 @@ impl Study {
         self.correlation(name, spec, &design)?;
         self.check_poses(name, &set)
     }
+}
+
+/// The study file of a text.
+fn file_of(text: &str, path: &Path) -> Result<StudyFile, StudyError> {
+    from_json(text).map_err(|source| {
+        let other = other_kind(path, text, InputKind::Study);
+        other.unwrap_or_else(|| StudyError::Format { path: path.to_owned(), source })
+    })
 }

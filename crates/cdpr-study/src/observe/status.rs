@@ -73,7 +73,7 @@ pub struct SoFar {
 
 impl Serialize for SoFar {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_map([(self.output.named("provisional_rms_mm"), self.moments)])
+        serializer.collect_map([(self.output.named("provisional_magnitude_mm"), self.moments)])
     }
 }
 

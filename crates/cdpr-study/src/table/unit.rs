@@ -17,6 +17,20 @@ pub enum Dimension {
     Time,
 }
 
+impl Dimension {
+    /// Its name in a sentence.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Length => "length",
+            Self::Angle => "angle",
+            Self::Force => "force",
+            Self::Moment => "moment",
+            Self::Mass => "mass",
+            Self::Time => "time",
+        }
+    }
+}
+
 /// A unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Unit {

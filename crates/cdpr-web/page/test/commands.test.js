@@ -26,7 +26,7 @@ const texts = (change, more = {}) =>
 test("a level pose with a payload", () => {
   const [deflection, , modes, study] = texts({});
   assert.equal(deflection, "cdpr deflection cogiro.json --pose=-1,0.5,2 --payload=50");
-  assert.equal(modes, "cdpr modes cogiro.json --lengths=9.5,8 --start=-1,0.5,2 --payload=50");
+  assert.equal(modes, "cdpr modes cogiro.json --lengths=9.5,8 --pose=-1,0.5,2 --payload=50");
   assert.equal(study, "cdpr study run cogiro-study.json --out results");
 });
 
@@ -41,14 +41,14 @@ test("angles, force, moment, free coordinates and tension reference", () => {
   });
   assert.equal(
     deflection,
-    "cdpr deflection cogiro.json --pose=-1,0.5,2 --rpy -3 0 2 --free=roll,pitch --payload=50 " +
+    "cdpr deflection cogiro.json --pose=-1,0.5,2 --rpy=-3,0,2 --free=roll,pitch --payload=50 " +
       "--force=-10,0,0 --moment=0,0,4 --tension-reference=mid",
   );
 });
 
 test("lengths that are kept", () => {
   const [direct] = texts({ way: "kept" });
-  assert.equal(direct, "cdpr direct cogiro.json --lengths=9.5,8 --start=-1,0.5,2 --payload=50");
+  assert.equal(direct, "cdpr direct cogiro.json --lengths=9.5,8 --pose=-1,0.5,2 --payload=50");
 });
 
 test("a study that is of another state is no command", () => {
@@ -61,7 +61,7 @@ test("a slice has its normal as a range of one position", () => {
   const list = texts({}, { slice });
   assert.equal(
     list.at(-1),
-    "cdpr workspace cogiro.json --box=-2:2:9,0.5:0.5:1,0:3:7 --payload=50 --out workspace",
+    "cdpr workspace cogiro.json --region=-2:2:9,0.5:0.5:1,0:3:7 --payload=50 --out workspace",
   );
 });
 

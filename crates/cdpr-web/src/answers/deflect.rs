@@ -36,7 +36,7 @@ pub(crate) fn hold(robot: &Robot, given: &Hold) -> Result<Held, Failure> {
     Ok(Held {
         limits: limits.iter().map(|limits| [limits.min, limits.max]).collect(),
         displacement: found.displacement().into(),
-        rms: found.rms(),
+        rms: found.magnitude(),
         rounding: found.rounding(robot),
         rotation: [motion[3], motion[4], motion[5]],
         unloaded: State::new(robot, lengths, &Load::none(), unloaded)?,

@@ -88,7 +88,7 @@ impl Cells {
         };
         let found = found.ok();
         self.held.push(u8::from(held));
-        self.deflection_mm.push(found.as_ref().map(|found| 1e3 * found.rms()));
+        self.deflection_mm.push(found.as_ref().map(|found| 1e3 * found.magnitude()));
         self.least_stiffness.push(found.as_ref().map(|found| found.loaded.stability.least_stiffness()));
         let tensions = found.as_ref().map(|found| {
             let states = [&found.unloaded, &found.loaded];

@@ -18,14 +18,6 @@ array([0.2, 0.8])
 from __future__ import annotations
 
 from .blocks import MorrisDesign, SaltelliDesign, ShapleyDesign
-from .designs import (
-    HaltonDesign,
-    LatinHypercubeDesign,
-    RandomDesign,
-    SobolDesign,
-    effect_intervals,
-    wasserstein_bures,
-)
 from .estimates import (
     ActiveSubspace,
     Brackets,
@@ -39,30 +31,31 @@ from .estimates import (
     SobolIndices,
     WassersteinBures,
 )
+from .fits import Fits, allocate, fit
 from .inputs import laws_of_problem
+from .law_functions import cdf, mean, pdf, poincare_constant, quantile, std
 from .laws import (
-    Fits,
     Law,
-    allocate,
     beta,
-    cdf,
     exponential,
-    fit,
     gumbel,
     laplace,
     logistic,
     lognormal,
-    mean,
     normal,
-    pdf,
-    poincare_constant,
-    quantile,
-    std,
     stepped,
     triangular,
     truncated_normal,
     uniform,
     weibull,
+)
+from .samples import (
+    HaltonDesign,
+    LatinHypercubeDesign,
+    RandomDesign,
+    SobolDesign,
+    effect_intervals,
+    wasserstein_bures,
 )
 
 __all__ = [

@@ -22,10 +22,27 @@ class SaltelliDesign(Design):
     With a seed half of the blocks lie on one scrambled sequence, the others on 8 replicates of it, which show
     the error; without a seed they lie on the plain one. Other arguments are as of `SobolDesign`.
 
-    blocks: number of blocks N, at least 16.
-    pairs: whether indices of pairs of inputs are wanted.
-    groups: names of the inputs of each group, {"cable 1": ["x", "y"]}: the indices are those of groups, and k
-        is their number. SALib's dictionary of a problem may have them.
+    Parameters
+    ----------
+    inputs : dict
+        Law of each input by its name, or SALib's dictionary of a problem.
+    blocks : int
+        Number of blocks N, at least 16.
+    seed : int, optional
+        Seed of all that is random.
+    pairs : bool, default False
+        Whether indices of pairs of inputs are wanted.
+    first_index : int, default 0
+        Index of the first row in the plain sequence.
+    groups : dict of sequence of str, optional
+        Names of the inputs of each group, {"cable 1": ["x", "y"]}: the indices are those of groups, and
+        k is their number. SALib's dictionary of a problem may have them.
+
+    Examples
+    --------
+    >>> design = SaltelliDesign({"x": uniform(0, 1), "y": uniform(0, 1)}, 64, seed=1)
+    >>> design.rows().shape
+    (256, 2)
     """
 
     def __init__(
@@ -51,8 +68,22 @@ class SaltelliDesign(Design):
 
         It warns where the intervals do not have their level: without a seed, or with fewer than 64 blocks.
 
-        level: confidence of the intervals.
-        resamples, seed: of the bootstrap; the same outputs have the same intervals.
+        Parameters
+        ----------
+        outputs : array_like, dict or DataFrame
+            Output of each row, (n,), NaN where the model failed; or several, a dictionary, a DataFrame or
+            (n, m).
+        level : float, default 0.95
+            Confidence of the intervals.
+        resamples : int, default 1000
+            of the bootstrap; the same outputs have the same intervals.
+        seed : int, default 0
+            of the bootstrap; the same outputs have the same intervals.
+
+        Returns
+        -------
+        SobolIndices
+            The indices; of several outputs a dictionary of these.
         """
         return by_output(
             outputs, lambda _, y: _warned(json.loads(self._native.indices(y, level, resamples, seed)))
@@ -64,6 +95,23 @@ class SaltelliDesign(Design):
         """Estimates generalized Sobol' indices of one output of several components in a common unit, (n, m).
 
         They are shares of the trace of its covariance, such as of a displacement (dx, dy, dz).
+
+        Parameters
+        ----------
+        outputs : array_like
+            Output of each row, (n,), NaN where the model failed; or several, a dictionary, a DataFrame or
+            (n, m).
+        level : float, default 0.95
+            Confidence of the intervals.
+        resamples : int, default 1000
+            Number of samples of the bootstrap behind the intervals.
+        seed : int, default 0
+            Seed of all that is random.
+
+        Returns
+        -------
+        SobolIndices
+            The indices; of several outputs a dictionary of these.
         """
         return _warned(json.loads(self._native.vector_indices(outputs, level, resamples, seed)), depth=3)
 
@@ -73,6 +121,23 @@ class SaltelliDesign(Design):
         """Estimates the indices of the first eighth, quarter and half of the blocks, and of all.
 
         The number of blocks is a power of two from 128 on.
+
+        Parameters
+        ----------
+        outputs : array_like, dict or DataFrame
+            Output of each row, (n,), NaN where the model failed; or several, a dictionary, a DataFrame or
+            (n, m).
+        level : float, default 0.95
+            Confidence of the intervals.
+        resamples : int, default 1000
+            Number of samples of the bootstrap behind the intervals.
+        seed : int, default 0
+            Seed of all that is random.
+
+        Returns
+        -------
+        list[SobolIndices]
+            The indices of each number of blocks; of several outputs a dictionary of these.
         """
 
         def one(_: str, y: Any) -> list[SobolIndices]:
@@ -81,7 +146,18 @@ class SaltelliDesign(Design):
         return by_output(outputs, one)
 
     def resized(self, blocks: int) -> SaltelliDesign:
-        """Returns the design with another number of blocks. The blocks that both have are the same."""
+        """Returns the design with another number of blocks. The blocks that both have are the same.
+
+        Parameters
+        ----------
+        blocks : int
+            Number of blocks of the other design.
+
+        Returns
+        -------
+        SaltelliDesign
+            The design.
+        """
         return self._again(blocks=blocks)
 
 
@@ -89,10 +165,23 @@ class MorrisDesign(Design):
     """Blocks of k + 1 rows for Morris's elementary effects: radial ones on points of the scrambled Sobol
     sequence, or trajectories.
 
-    blocks: number of blocks, at least 2.
-    seed: seed of the scrambling or of the trajectories.
-    levels: levels of the trajectories, an even number; None for radial blocks.
-    groups: as `SaltelliDesign` takes them: the inputs of a group move together.
+    Parameters
+    ----------
+    inputs : dict
+        Law of each input by its name, or SALib's dictionary of a problem.
+    blocks : int
+        Number of blocks, at least 2.
+    seed : int
+        Seed of the scrambling or of the trajectories.
+    levels : int, optional
+        Levels of the trajectories, an even number; None for radial blocks.
+    groups : dict of sequence of str, optional
+        As `SaltelliDesign` takes them: the inputs of a group move together.
+
+    Examples
+    --------
+    >>> MorrisDesign({"x": uniform(0, 1), "y": uniform(0, 1)}, 8, seed=1).rows().shape
+    (24, 2)
     """
 
     def __init__(
@@ -109,7 +198,21 @@ class MorrisDesign(Design):
         self._native = _core.Morris(native_inputs(laws), blocks, seed, levels, indices_of(groups, laws))
 
     def effects(self, outputs: Outputs, *, level: float = 0.95) -> Annotated[Any, MorrisEffects]:
-        """Estimates elementary effects from one output a row."""
+        """Estimates elementary effects from one output a row.
+
+        Parameters
+        ----------
+        outputs : array_like, dict or DataFrame
+            Output of each row, (n,), NaN where the model failed; or several, a dictionary, a DataFrame or
+            (n, m).
+        level : float, default 0.95
+            Confidence of the intervals.
+
+        Returns
+        -------
+        MorrisEffects
+            The effects; of several outputs a dictionary of these.
+        """
         return by_output(
             outputs, lambda _, y: MorrisEffects({"inputs": json.loads(self._native.effects(y, level))})
         )
@@ -118,10 +221,23 @@ class MorrisDesign(Design):
 class ShapleyDesign(Design):
     """Walks of k + 1 rows for Shapley effects, also of correlated inputs.
 
-    walks: number of walks, at least 16 for an estimate.
-    seed: seed of the walks.
-    correlation: as `SobolDesign` takes it.
-    groups: as `SaltelliDesign` takes them; each input is in one group.
+    Parameters
+    ----------
+    inputs : dict
+        Law of each input by its name, or SALib's dictionary of a problem.
+    walks : int
+        Number of walks, at least 16 for an estimate.
+    seed : int
+        Seed of the walks.
+    correlation : array_like or dict, optional
+        As `SobolDesign` takes it.
+    groups : dict of sequence of str, optional
+        As `SaltelliDesign` takes them; each input is in one group.
+
+    Examples
+    --------
+    >>> ShapleyDesign({"x": uniform(0, 1), "y": uniform(0, 1)}, 32, seed=1).rows().shape
+    (96, 2)
     """
 
     def __init__(
@@ -139,7 +255,21 @@ class ShapleyDesign(Design):
         self._native = _core.Shapley(native_inputs(laws), walks, seed, matrix, indices_of(groups, laws))
 
     def effects(self, outputs: Outputs, *, level: float = 0.95) -> Annotated[Any, ShapleyEffects]:
-        """Estimates Shapley effects from one output a row."""
+        """Estimates Shapley effects from one output a row.
+
+        Parameters
+        ----------
+        outputs : array_like, dict or DataFrame
+            Output of each row, (n,), NaN where the model failed; or several, a dictionary, a DataFrame or
+            (n, m).
+        level : float, default 0.95
+            Confidence of the intervals.
+
+        Returns
+        -------
+        ShapleyEffects
+            The effects; of several outputs a dictionary of these.
+        """
         return by_output(
             outputs, lambda _, y: ShapleyEffects({"inputs": json.loads(self._native.effects(y, level))})
         )

@@ -8,16 +8,13 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Optional, TypeVar, U
 
 from .. import _core
 from .._table import by_output
-from ..errors import InputError
 from .estimates import (
     ActiveSubspace,
     Brackets,
     DerivativeMeasures,
-    EffectIntervals,
     Effects,
     Expansion,
     Regression,
-    WassersteinBures,
 )
 from .inputs import Correlation, Inputs, laws_of, matrix_of, native_inputs
 from .laws import Law
@@ -49,11 +46,23 @@ class Design:
         return dict(self._settings["inputs"])
 
     def rows(self) -> NDArray[Any]:
-        """Returns the values of the inputs, (rows, k)."""
+        """Returns the values of the inputs, (rows, k).
+
+        Returns
+        -------
+        numpy.ndarray
+            Values, (rows, k).
+        """
         return self._native.rows()  # type: ignore[no-any-return]
 
     def to_dataframe(self) -> Any:
-        """Returns the rows as a pandas.DataFrame with a column for each input."""
+        """Returns the rows as a pandas.DataFrame with a column for each input.
+
+        Returns
+        -------
+        pandas.DataFrame
+            The frame.
+        """
         import pandas
 
         return pandas.DataFrame(self.rows(), columns=list(self.inputs))
@@ -97,15 +106,52 @@ class _Sample(Design):
         self._native = _core.Sample(centred + self._class, native_inputs(laws), points, first_index, seed, matrix)
 
     def replicate(self: _Self, seed: int) -> _Self:
-        """Returns the design of the same inputs and size under another seed."""
+        """Returns the design of the same inputs and size under another seed.
+
+        Parameters
+        ----------
+        seed : int
+            Seed of the other design.
+
+        Returns
+        -------
+        same class
+            The design.
+        """
         return self._again(seed=seed, **({"first_index": 0} if "first_index" in self._settings else {}))
 
     def effects(self, outputs: Outputs) -> Annotated[Any, Effects]:
-        """Estimates the effect of each input from one output a row."""
+        """Estimates the effect of each input from one output a row.
+
+        Parameters
+        ----------
+        outputs : array_like, dict or DataFrame
+            Output of each row, (n,), NaN where the model failed; or several, a dictionary, a DataFrame or
+            (n, m).
+
+        Returns
+        -------
+        Effects
+            Effects of the inputs; of several outputs a dictionary of these.
+        """
         return by_output(outputs, lambda _, y: Effects(json.loads(self._native.effects(y))))
 
     def regression(self, outputs: Outputs, *, ranks: bool = False) -> Annotated[Any, Regression]:
-        """Fits a linear model (SRC, PCC), or one of ranks (SRRC, PRCC). The inputs may be correlated."""
+        """Fits a linear model (SRC, PCC), or one of ranks (SRRC, PRCC). The inputs may be correlated.
+
+        Parameters
+        ----------
+        outputs : array_like, dict or DataFrame
+            Output of each row, (n,), NaN where the model failed; or several, a dictionary, a DataFrame or
+            (n, m).
+        ranks : bool, default False
+            Whether values are replaced by their ranks.
+
+        Returns
+        -------
+        Regression
+            The model; of several outputs a dictionary of these.
+        """
         return by_output(outputs, lambda _, y: Regression(json.loads(self._native.regression(y, ranks))))
 
     def expansion(
@@ -113,9 +159,22 @@ class _Sample(Design):
     ) -> Annotated[Any, Expansion]:
         """Fits a sparse polynomial chaos expansion, which gives all Sobol' indices and predicts.
 
-        max_degree: largest degree that is tried.
-        norm: q in (0, 1] of the hyperbolic truncation; 1 for all products up to the degree.
-        interactions: largest number of inputs in one product.
+        Parameters
+        ----------
+        outputs : array_like, dict or DataFrame
+            Output of each row, (n,), NaN where the model failed; or several, a dictionary, a DataFrame or
+            (n, m).
+        max_degree : int, default 5
+            Largest degree that is tried.
+        norm : float, default 1.0
+            Q in (0, 1] of the hyperbolic truncation; 1 for all products up to the degree.
+        interactions : int, default 2
+            Largest number of inputs in one product.
+
+        Returns
+        -------
+        Expansion
+            The expansion; of several outputs a dictionary of these.
         """
         return by_output(
             outputs, lambda _, y: Expansion(self._native.expansion(y, max_degree, norm, interactions))
@@ -135,7 +194,24 @@ class _Sample(Design):
         `derivatives` of the result says whether the gradients took part: they are left out where the outputs
         alone predict better. Other arguments are as of `expansion`.
 
-        gradients: as `derivative_measures` takes them.
+        Parameters
+        ----------
+        outputs : array_like, dict or DataFrame
+            Output of each row, (n,), NaN where the model failed; or several, a dictionary, a DataFrame or
+            (n, m).
+        gradients : object
+            As `derivative_measures` takes them.
+        max_degree : int, default 5
+            Largest degree that is tried.
+        norm : float, default 1.0
+            Exponent q in (0, 1] of the hyperbolic truncation; 1 for all products up to the degree.
+        interactions : int, default 2
+            Largest number of inputs in one product.
+
+        Returns
+        -------
+        Expansion
+            The expansion; of several outputs a dictionary of these.
         """
 
         def one(_: str, y: Any, slopes: Any) -> Expansion:
@@ -148,8 +224,21 @@ class _Sample(Design):
     ) -> Annotated[Any, DerivativeMeasures]:
         """Estimates derivative-based measures (DGSM) and the upper bounds that they set on total indices.
 
-        gradients: derivatives of the output by each input, (n, k), NaN where there are none; of several
-            outputs (n, m, k), or a dictionary.
+        Parameters
+        ----------
+        outputs : array_like, dict or DataFrame
+            Output of each row, (n,), NaN where the model failed; or several, a dictionary, a DataFrame or
+            (n, m).
+        gradients : object
+            Derivatives of the output by each input, (n, k), NaN where there are none; of several outputs
+            (n, m, k), or a dictionary.
+        level : float, default 0.95
+            Confidence of the intervals.
+
+        Returns
+        -------
+        DerivativeMeasures
+            The measures; of several outputs a dictionary of these.
         """
 
         def one(_: str, y: Any, slopes: Any) -> DerivativeMeasures:
@@ -162,8 +251,22 @@ class _Sample(Design):
     ) -> Annotated[Any, Brackets]:
         """Bounds the Sobol' indices from both sides, from at least 40 outputs with gradients.
 
-        gradients: as `derivative_measures` takes them.
-        seed: deals the rows to the groups of the jackknife, which makes the intervals.
+        Parameters
+        ----------
+        outputs : array_like, dict or DataFrame
+            Output of each row, (n,), NaN where the model failed; or several, a dictionary, a DataFrame or
+            (n, m).
+        gradients : object
+            As `derivative_measures` takes them.
+        level : float, default 0.95
+            Confidence of the intervals.
+        seed : int, default 2017
+            Deals the rows to the groups of the jackknife, which makes the intervals.
+
+        Returns
+        -------
+        Brackets
+            The bounds; of several outputs a dictionary of these.
         """
 
         def one(_: str, y: Any, slopes: Any) -> Brackets:
@@ -183,9 +286,26 @@ class _Sample(Design):
     ) -> Annotated[Any, ActiveSubspace]:
         """Finds the directions of all inputs along which the output varies.
 
-        gradients: as `derivative_measures` takes them.
-        shares: shares of the sum of all eigenvalues for which `needed` counts the directions.
-        resamples, seed: of the bootstrap behind the intervals.
+        Parameters
+        ----------
+        outputs : array_like, dict or DataFrame
+            Output of each row, (n,), NaN where the model failed; or several, a dictionary, a DataFrame or
+            (n, m).
+        gradients : object
+            As `derivative_measures` takes them.
+        shares : sequence of float, default (0.9, 0.99)
+            Shares of the sum of all eigenvalues for which `needed` counts the directions.
+        level : float, default 0.95
+            Confidence of the intervals.
+        resamples : int, default 200
+            of the bootstrap behind the intervals.
+        seed : int, default 2017
+            of the bootstrap behind the intervals.
+
+        Returns
+        -------
+        ActiveSubspace
+            The directions; of several outputs a dictionary of these.
         """
         wanted = [float(share) for share in shares]
 
@@ -198,125 +318,3 @@ class _Sample(Design):
             return ActiveSubspace(content)
 
         return by_output(outputs, one, gradients)
-
-
-class SobolDesign(_Sample):
-    """Consecutive points of Sobol's sequence in the laws of k inputs.
-
-    The sequence is plain or, with a seed, under a nested scrambling. Sizes of 2^m, from index 0, keep its
-    balance.
-
-    inputs: law of each input by its name (see `uniform`, `normal` and the other laws), or SALib's dictionary
-        of a problem, whose groups are for the designs that have groups.
-    points: number of rows.
-    first_index: index of the first row in the plain sequence; 1 where a law has no lower end.
-    seed: seed of the scrambling; None for the plain sequence.
-    correlation: of the normal scores of the inputs (Gaussian copula), a matrix (k, k) or those of pairs,
-        {("x", "y"): 0.5}; independent inputs if left out.
-
-    Raises InputError.
-    """
-
-    _class = "SobolDesign"
-
-    def __init__(
-        self,
-        inputs: Inputs,
-        points: int,
-        *,
-        first_index: int = 0,
-        seed: Optional[int] = None,
-        correlation: Optional[Correlation] = None,
-    ) -> None:
-        self._made(inputs, points, correlation, first_index=first_index, seed=seed)
-
-
-class HaltonDesign(_Sample):
-    """Consecutive points of Halton's sequence, plain or, with a seed, under random permutations of digits.
-
-    Arguments are as of `SobolDesign`.
-    """
-
-    _class = "HaltonDesign"
-
-    def __init__(
-        self,
-        inputs: Inputs,
-        points: int,
-        *,
-        first_index: int = 0,
-        seed: Optional[int] = None,
-        correlation: Optional[Correlation] = None,
-    ) -> None:
-        self._made(inputs, points, correlation, first_index=first_index, seed=seed)
-
-
-class LatinHypercubeDesign(_Sample):
-    """A Latin hypercube: each input has one value in each of as many cells of equal probability as rows.
-
-    centred: whether the values lie in the middle of their cells. Other arguments are as of `SobolDesign`.
-    """
-
-    _class = "LatinHypercube"
-
-    def __init__(
-        self,
-        inputs: Inputs,
-        points: int,
-        *,
-        seed: int,
-        centred: bool = False,
-        correlation: Optional[Correlation] = None,
-    ) -> None:
-        self._made(inputs, points, correlation, seed=seed, centred=centred)
-
-
-class RandomDesign(_Sample):
-    """Independent random rows. Arguments are as of `SobolDesign`."""
-
-    _class = "RandomDesign"
-
-    def __init__(
-        self, inputs: Inputs, points: int, *, seed: int, correlation: Optional[Correlation] = None
-    ) -> None:
-        self._made(inputs, points, correlation, seed=seed)
-
-
-def effect_intervals(
-    replicates: Sequence[tuple[_Sample, ArrayLike]], *, level: float = 0.95
-) -> EffectIntervals:
-    """Estimates effects with intervals from designs that differ in their seeds, with an output a row of each.
-
-    replicates: at least two designs with their outputs; see `SobolDesign.replicate`.
-
-    Raises InputError.
-    """
-    samples, outputs = [design._native for design, _ in replicates], [given for _, given in replicates]
-    return EffectIntervals({"inputs": json.loads(_core.effect_intervals(samples, outputs, level))})
-
-
-def wasserstein_bures(
-    rows: ArrayLike,
-    outputs: ArrayLike,
-    names: Optional[Sequence[str]] = None,
-    *,
-    level: float = 0.95,
-    seed: int = 2017,
-) -> WassersteinBures:
-    """Estimates how much each input moves the law of a vector, its mean and its covariance, from any table.
-
-    The rows are independent of each other, as those of `RandomDesign`: rows of a sequence are refused. The
-    inputs may be correlated.
-
-    rows: values of the inputs, (n, k), at least 64 rows.
-    outputs: components in a common unit, (n, m); a row with NaN has failed.
-    names: of the inputs; x1, x2, ... if left out.
-    seed: deals the rows to the groups of the jackknife, which makes the intervals.
-
-    Raises InputError.
-    """
-    found = json.loads(_core.wasserstein_bures(rows, outputs, level, seed))
-    given = [f"x{i + 1}" for i in range(len(found))] if names is None else list(names)
-    if len(given) != len(found):
-        raise InputError(f"names has {len(given)} names: expected {len(found)}, one for each input")
-    return WassersteinBures({"inputs": [{"input": name, **of} for name, of in zip(given, found)]})

@@ -212,13 +212,39 @@ class Expansion(Table):
     def group(self, names: Sequence[str]) -> tuple[float, float]:
         """Returns the shares of the variance that inputs cause among themselves, and take part in.
 
-        Raises InputError for a name that no input has.
+        Parameters
+        ----------
+        names : sequence of str
+            Names of the inputs of the group.
+
+        Returns
+        -------
+        tuple
+            The shares: closed, and total.
+
+        Raises
+        ------
+        InputError
+            For a name that no input has.
         """
         return self._native.group(list(names))
 
     def predict(self, rows: ArrayLike) -> NDArray[Any]:
         """Evaluates the expansion at rows of values of the inputs, (m, k): m outputs.
 
-        Raises InputError.
+        Parameters
+        ----------
+        rows : array_like
+            Values of the inputs, (m, k).
+
+        Returns
+        -------
+        numpy.ndarray
+            Outputs, (m,).
+
+        Raises
+        ------
+        InputError
+            For an invalid value; the message names it and what would be right.
         """
         return self._native.predict(rows)

@@ -43,13 +43,26 @@ def is_problem(inputs: Mapping[str, Any]) -> bool:
 def laws_of_problem(problem: Mapping[str, Any]) -> dict[str, Law]:
     """Makes laws by name from SALib's dictionary of a problem.
 
-    problem: `names`, `bounds`, and `dists` (`unif` if left out); `num_vars` is compared with these, and
+    Parameters
+    ----------
+    problem : dict
+        `names`, `bounds`, and `dists` (`unif` if left out); `num_vars` is compared with these, and
         everything else is left to others.
 
+    Returns
+    -------
+    dict of dict
+        The laws, in the order of `names`.
+
+    Raises
+    ------
+    InputError
+        For a distribution that has no law here.
+
+    Examples
+    --------
     >>> laws_of_problem({"num_vars": 1, "names": ["x"], "bounds": [[0, 3, 0.5]], "dists": ["triang"]})
     {'x': {'triangular': {'min': 0.0, 'mode': 1.5, 'max': 3.0}}}
-
-    Raises InputError for a distribution that has no law here.
     """
     names = [str(name) for name in problem["names"]]
     bounds = list(problem["bounds"])

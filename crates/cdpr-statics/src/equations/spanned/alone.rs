@@ -55,7 +55,7 @@ impl<'a> DirectProblem<'a> {
 
 /// Cable i of a robot at a pose, its pulley seen in the plane that it hangs in.
 #[inline]
-fn in_its_plane<'a>(robot: &Robot, pose: &Pose, i: usize, catenary: Catenary<'a>) -> Catenary<'a> {
+pub(crate) fn in_its_plane<'a>(robot: &Robot, pose: &Pose, i: usize, catenary: Catenary<'a>) -> Catenary<'a> {
     if !catenary.cable.leaves_its_plane() {
         return catenary;
     }

@@ -11,19 +11,8 @@ impl<'a> SpannedCable<'a, f64> {
         self.span.plane.lift(self.misclosure()).into()
     }
 
-    /// The cable linearised about its force; `None` for a slack cable without weight, which resists nothing.
-    #[inline(always)]
-    pub(crate) fn linearized(&self) -> Option<SpannedStiffness<'a>> {
-        match &self.answer {
-            Answer::Planar(response) if self.level.is_none() => {
-                Some(SpannedStiffness::Level(LinearizedCable::new(&self.span, self.force, response)))
-            }
-            _ => self.turned(),
-        }
-    }
-
-    #[cold]
-    fn turned(&self) -> Option<SpannedStiffness<'a>> {
+    /// The cable linearized about its force; `None` for a slack cable without weight, which resists nothing.
+    pub(crate) fn linearized(&self) -> Option<LinearizedInSpace<'a>> {
         let (plane, level) = (self.span.plane, self.level);
         let (predicted, stiffness) = match &self.answer {
             Answer::Planar(response) => {
@@ -38,7 +27,7 @@ impl<'a> SpannedCable<'a, f64> {
             Answer::Limp(_) => return None,
         };
         let leaves = matches!(self.answer, Answer::Spatial(_));
-        Some(SpannedStiffness::Turned(Box::new(Turned { plane, predicted, stiffness, leaves, level })))
+        Some(LinearizedInSpace { plane, predicted, stiffness, leaves, level })
     }
 
     /// Skew part of the stiffness in space [N/m], in the base frame, besides the symmetric one of
@@ -64,18 +53,10 @@ impl<'a> SpannedCable<'a, f64> {
     }
 }
 
-/// The stiffness of a cable in space, with the force on which it bears.
-pub(crate) enum SpannedStiffness<'a> {
-    /// In the vertical plane of its span, on a level base.
-    Level(LinearizedCable<f64>),
-    /// Any other.
-    Turned(Box<Turned<'a>>),
-}
-
-/// A cable in the level frame, and the way to the base frame.
-pub(crate) struct Turned<'a> {
+/// A cable linearized in the level frame, and the way to the base frame.
+pub(crate) struct LinearizedInSpace<'a> {
     pub(crate) plane: CablePlane<f64>,
-    /// Force on the cable at A [N].
+    /// Force on the cable at A that it would have if it fitted its points [N].
     predicted: Vector3<f64>,
     /// Symmetric part of the stiffness [N/m].
     stiffness: Matrix3<f64>,
@@ -84,34 +65,18 @@ pub(crate) struct Turned<'a> {
     level: Option<&'a Matrix3<f64>>,
 }
 
-impl SpannedStiffness<'_> {
+impl LinearizedInSpace<'_> {
     /// Stiffness K3 [N/m] in the base frame, equation (S3): a symmetric matrix.
-    #[inline(always)]
-    pub(crate) fn stiffness(&self) -> [[f64; 3]; 3] {
-        match self {
-            Self::Level(cable) => cable.stiffness_in_space(),
-            Self::Turned(cable) => cable.stiffness(),
-        }
+    pub(crate) fn stiffness(&self) -> Matrix3<f64> {
+        self.level.map_or(self.stiffness, |level| level.transpose() * self.stiffness * level)
     }
 
     /// The force on the platform that the cable would have if it fitted its points [N].
-    #[inline(always)]
     pub(crate) fn predicted(&self) -> [f64; 3] {
-        match self {
-            Self::Level(cable) => cable.plane.force_on_platform(cable.predicted),
-            Self::Turned(cable) => to_base(cable.level, (-cable.predicted).into()),
-        }
-    }
-}
-
-impl Turned<'_> {
-    #[cold]
-    fn stiffness(&self) -> [[f64; 3]; 3] {
-        self.level.map_or(self.stiffness, |level| level.transpose() * self.stiffness * level).into()
+        to_base(self.level, (-self.predicted).into())
     }
 
     /// The force (fx, fz) on the cable [N] after a displacement of A in space [m].
-    #[cold]
     pub(crate) fn force_after(&self, displacement: [f64; 3]) -> [f64; 2] {
         let force = self.predicted + self.stiffness * Vector3::from(to_level(self.level, displacement));
         if self.leaves { [force.xy().norm(), force.z] } else { self.plane.project(force.into()) }

@@ -213,7 +213,7 @@ impl Search<'_> {
     fn in_proportion(&self, chord_forces: Vec<f64>) -> Vec<f64> {
         let changes = vec![0.0; self.free.len()];
         let Some(point) = self.point(&changes, &chord_forces) else { return chord_forces };
-        let external = self.question.external;
+        let external = self.problem.external;
         let ratio = external.norm() / (point.residual - external).norm();
         if !(ratio.is_finite() && ratio > 0.0) {
             return chord_forces;

@@ -6,7 +6,7 @@ use super::sound::{Loops, longest};
 use super::straight::{STRAIGHT_STARTS, StraightRoot};
 use crate::error::StaticsError;
 use crate::inverse::HeldPose;
-use crate::inverse::question::Question;
+use crate::inverse::problem::InverseProblem;
 use crate::out_of_limits::out_of_limits;
 use crate::rest_fault::RestFault;
 use cdpr_cable::LONGEST_TAUT;
@@ -81,7 +81,7 @@ impl<'s, 'a> Roots<'s, 'a> {
     fn sagging(&self, root: &StraightRoot) -> Outcome {
         let start = root.unknowns(self.search.least_force());
         let direct = self.search.descend(start.clone());
-        let Question { robot, .. } = self.search.question;
+        let InverseProblem { robot, .. } = self.search.problem;
         let is_sound = |point: &Point| self.loops.fault(robot, &point.held).is_none();
         match &direct {
             Outcome::Found(point, ..) if is_sound(point) => direct,
@@ -90,7 +90,7 @@ impl<'s, 'a> Roots<'s, 'a> {
     }
 
     fn add(&mut self, outcome: Outcome) -> Result<(), StaticsError> {
-        let Question { robot, load, .. } = self.search.question;
+        let InverseProblem { robot, load, .. } = self.search.problem;
         let (point, unknowns, iterations) = match outcome {
             Outcome::Found(point, unknowns, iterations) => (point, unknowns, iterations),
             Outcome::Stuck(point) => {
@@ -117,7 +117,7 @@ impl<'s, 'a> Roots<'s, 'a> {
             return Ok(());
         }
         let is_turned_about = self.search.is_turned_about(&unknowns.changes);
-        let angle = self.search.question.pose.rotation.angle_to(&solution.equilibrium.pose.rotation);
+        let angle = self.search.problem.pose.rotation.angle_to(&solution.equilibrium.pose.rotation);
         let is_stable = solution.stability.is_stable();
         let is_turned_over = is_turned_about || (angle > TURNED_OVER && !is_stable);
         let fault = fault.or(is_turned_over.then_some(RestFault::TurnedOver { angle, is_stable }));
@@ -144,7 +144,7 @@ impl<'s, 'a> Roots<'s, 'a> {
     }
 
     fn chosen(mut self, straight: &[StraightRoot]) -> Result<FreeSolutions, StaticsError> {
-        let Question { robot, pose, .. } = self.search.question;
+        let InverseProblem { robot, pose, .. } = self.search.problem;
         let order = |Root { solution, fault, .. }: &Root| {
             let FreeSolution { stability, lengths, equilibrium, .. } = solution;
             let is_taut =
@@ -189,7 +189,7 @@ impl Search<'_> {
     /// Whether the weight of the cables may make up for what pushes.
     pub(super) fn may_sag(&self, root: &StraightRoot) -> bool {
         let (cable, tension) = root.slackest();
-        tension > -self.question.robot.cable(cable).weight_per_length * self.size
+        tension > -self.problem.robot.cable(cable).weight_per_length * self.size
     }
 
     /// The solution to which a root of straight cables leads while their weight grows to its value; `None`
@@ -197,7 +197,7 @@ impl Search<'_> {
     fn raised(&self, start: Unknowns) -> Option<Outcome> {
         const FIRST: f64 = 0.25;
         const LEAST: f64 = 1.0 / 128.0;
-        let Question { robot, pose, load, .. } = self.question;
+        let InverseProblem { robot, pose, load, .. } = self.problem;
         let (mut at, mut share, mut step) = (start, 0.0, FIRST);
         while step >= LEAST {
             let next = (share + step).min(1.0);

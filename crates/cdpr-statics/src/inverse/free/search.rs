@@ -7,9 +7,8 @@
 
 use crate::error::StaticsError;
 use crate::inverse::HeldPose;
-use crate::inverse::held::{Row, Strand};
-use crate::inverse::optimum::ELASTICITY;
-use crate::inverse::question::Question;
+use crate::inverse::cable::{CableAtPose, Row};
+use crate::inverse::problem::InverseProblem;
 use crate::rest_fault::RestFault;
 use crate::state::Load;
 use cdpr_robot::{Coordinate, Plane, Pose, Robot, Rotation3, Vector3, Vector6};
@@ -38,7 +37,7 @@ const GREATEST_STEP: f64 = 0.3;
 
 /// A robot with a pose of which some coordinates are looked for.
 pub(super) struct Search<'a> {
-    pub(super) question: Question<'a>,
+    pub(super) problem: InverseProblem<'a>,
     pub(super) free: &'a [Coordinate],
     /// roll, pitch and yaw of the given pose [rad].
     angles: [f64; 3],
@@ -50,7 +49,7 @@ pub(super) struct Search<'a> {
 pub(super) struct Point {
     pub(super) held: HeldPose,
     rows: Vec<Row>,
-    /// F, moments divided by the arm [N].
+    /// F, moments divided by the characteristic length [N].
     pub(super) residual: Vector6<f64>,
     /// The forces that the residual is compared with [N].
     pub(super) forces: f64,
@@ -81,10 +80,10 @@ impl<'a> Search<'a> {
         load: &'a Load,
         free: &'a [Coordinate],
     ) -> Result<Self, StaticsError> {
-        let question = Question::with_platform_limits(robot, pose, load, None)?;
+        let problem = InverseProblem::with_platform_limits(robot, pose, load, None)?;
         let (roll, pitch, yaw) = pose.rotation.euler_angles();
         let size = (0..robot.cables.len()).map(|i| robot.span(pose, i).norm()).fold(0.0, f64::max);
-        Ok(Self { question, free, angles: [roll, pitch, yaw], size })
+        Ok(Self { problem, free, angles: [roll, pitch, yaw], size })
     }
 
     /// roll, pitch and yaw [rad] where the free coordinates differ by `changes` from the given ones.
@@ -98,7 +97,7 @@ impl<'a> Search<'a> {
 
     /// The pose whose free coordinates differ by `changes`, in their units, from the given ones.
     pub(super) fn pose(&self, changes: &[f64]) -> Pose {
-        let mut pose = *self.question.pose;
+        let mut pose = *self.problem.pose;
         for (coordinate, change) in self.free.iter().zip(changes).filter(|(one, _)| !one.is_angle()) {
             pose.position[coordinate.component()] += change * self.size;
         }
@@ -107,7 +106,7 @@ impl<'a> Search<'a> {
             return pose;
         }
         let [roll, pitch, yaw] = angles;
-        pose.rotation = match self.question.robot.plane.map(Plane::normal) {
+        pose.rotation = match self.problem.robot.plane.map(Plane::normal) {
             None => Rotation3::from_euler_angles(roll, pitch, yaw),
             // The one rotation of a planar robot is about an axis of the base frame.
             Some(axis) => {
@@ -124,37 +123,38 @@ impl<'a> Search<'a> {
         let free = |coordinate| self.free.contains(&coordinate);
         let are_all_free = [Coordinate::Roll, Coordinate::Pitch, Coordinate::Yaw].into_iter().all(free);
         let is_of_others = free(Coordinate::Pitch) && !are_all_free;
-        self.question.robot.plane.is_none() && is_of_others && pitch.cos() < 0.0
+        self.problem.robot.plane.is_none() && is_of_others && pitch.cos() < 0.0
     }
 
     /// Motion (dp, dφ) of the platform per unit of a free coordinate.
     pub(super) fn motion(&self, coordinate: Coordinate, changes: &[f64]) -> Vector6<f64> {
         let [_, pitch, yaw] = self.angles(changes);
-        match (coordinate.is_angle(), self.question.robot.plane) {
+        match (coordinate.is_angle(), self.problem.robot.plane) {
             (false, _) => Vector6::ith(coordinate.component(), self.size),
             (true, Some(_)) => Vector6::ith(coordinate.component(), 1.0),
             (true, None) => coordinate.motion(yaw, pitch),
         }
     }
 
-    fn question_at<'b>(&'b self, pose: &'b Pose) -> Question<'b> {
-        self.question.nearby(pose, self.question.load, self.question.reference.clone())
+    fn problem_at<'b>(&'b self, pose: &'b Pose) -> InverseProblem<'b> {
+        self.problem.nearby(pose, self.problem.load, self.problem.reference.clone())
     }
 
     /// The cables at a pose with given chord forces [N]; `None` where one of them has no shape.
     pub(super) fn point(&self, changes: &[f64], chord_forces: &[f64]) -> Option<Point> {
         let pose = self.pose(changes);
-        let arm = self.question.arm;
-        let question = self.question_at(&pose);
-        let strand = |(i, force): (usize, &f64)| Strand::near(&question, i, *force, None).ok();
-        let strands: Vec<Strand> = chord_forces.iter().enumerate().map(strand).collect::<Option<_>>()?;
-        let rows: Vec<Row> = strands.iter().map(|strand| strand.row(&strand.held, arm)).collect();
-        let mut external = self.question.load.total(self.question.robot, &pose).to_vector();
-        external.fixed_rows_mut::<3>(3).unscale_mut(arm);
-        let external = self.question.robot.freedoms().of_vector(&external);
+        let characteristic_length = self.problem.characteristic_length;
+        let problem = self.problem_at(&pose);
+        let cable = |(i, force): (usize, &f64)| CableAtPose::near(&problem, i, *force, None).ok();
+        let cables: Vec<CableAtPose> = chord_forces.iter().enumerate().map(cable).collect::<Option<_>>()?;
+        let rows: Vec<Row> =
+            cables.iter().map(|cable| cable.row(&cable.held, characteristic_length)).collect();
+        let mut external = self.problem.load.total(self.problem.robot, &pose).to_vector();
+        external.fixed_rows_mut::<3>(3).unscale_mut(characteristic_length);
+        let external = self.problem.robot.freedoms().of_vector(&external);
         let residual = rows.iter().fold(external, |sum, row| sum + row.wrench);
         let forces = external.norm() + rows.iter().map(|row| row.wrench.norm()).sum::<f64>();
-        let catenaries: Vec<_> = strands.iter().map(|strand| strand.held.catenary()).collect();
+        let catenaries: Vec<_> = cables.iter().map(|cable| cable.held.catenary()).collect();
         let held = HeldPose::new(&pose, &catenaries);
         residual.iter().all(|entry| entry.is_finite()).then_some(Point { held, rows, residual, forces })
     }
@@ -188,25 +188,25 @@ impl<'a> Search<'a> {
     /// free motions balance the wrench at few poses only.
     pub(super) fn straight_forces(&self, changes: &[f64]) -> Vec<f64> {
         let pose = self.pose(changes);
-        let question = self.question_at(&pose);
-        let matrix = question.straight_matrix();
-        let each = matrix.column_iter().zip(&question.reference).zip(&question.limits);
+        let problem = self.problem_at(&pose);
+        let matrix = problem.straight_matrix();
+        let each = matrix.column_iter().zip(&problem.reference).zip(&problem.limits);
         let unknowns: Vec<BoxUnknown> = each
             .map(|((column, reference), limits)| BoxUnknown {
                 gradient: -reference,
                 curvature: 1.0,
-                column: question.robot.freedoms().of_vector(&column.into()),
+                column: problem.robot.freedoms().of_vector(&column.into()),
                 bounds: [limits.min, limits.max],
             })
             .collect();
-        let (residual, multipliers) = (question.external, Vector6::zeros());
-        let program = BoxProblem { unknowns: &unknowns, residual, elasticity: ELASTICITY, multipliers };
+        let (residual, multipliers) = (problem.external, Vector6::zeros());
+        let program = BoxProblem { unknowns: &unknowns, residual, multipliers };
         program.solve().values.into_iter().map(|t| t.max(self.least_force())).collect()
     }
 
     /// The least chord force that a search starts from [N].
     pub(super) fn least_force(&self) -> f64 {
-        1e-2 * self.question.external.norm() / self.question.cables() as f64
+        1e-2 * self.problem.external.norm() / self.problem.cables() as f64
     }
 
     /// The solution that the steps lead to from these unknowns.
@@ -219,7 +219,7 @@ impl<'a> Search<'a> {
             }
             let next = self.slopes(&changes, &chord_forces, &point);
             let next =
-                next.and_then(|slopes| self.lessened(&changes, &chord_forces, &point, &slopes, &mut damping));
+                next.and_then(|slopes| self.improved(&changes, &chord_forces, &point, &slopes, &mut damping));
             let Some(next) = next else {
                 return self.ended(point, Unknowns { changes, chord_forces }, iteration);
             };
@@ -238,7 +238,7 @@ impl<'a> Search<'a> {
     }
 
     /// The point after a step that makes |F| less, with the damping that it takes.
-    fn lessened(
+    fn improved(
         &self,
         changes: &[f64],
         chord_forces: &[f64],
@@ -315,13 +315,13 @@ impl<'a> Search<'a> {
     /// What an attempt leaves of the balance.
     pub(super) fn left(&self, point: &Point) -> RestFault {
         let [force, moment] = [0, 3].map(|row| point.residual.fixed_rows::<3>(row).norm());
-        RestFault::Residual { force, moment: moment * self.question.arm }
+        RestFault::Residual { force, moment: moment * self.problem.characteristic_length }
     }
 
     /// What no attempt leaves of it: all of the load.
     pub(super) fn unbalanced(&self) -> RestFault {
-        let [force, moment] = [0, 3].map(|row| self.question.external.fixed_rows::<3>(row).norm());
-        RestFault::Residual { force, moment: moment * self.question.arm }
+        let [force, moment] = [0, 3].map(|row| self.problem.external.fixed_rows::<3>(row).norm());
+        RestFault::Residual { force, moment: moment * self.problem.characteristic_length }
     }
 
     /// Distance of two poses in radians and longest spans.

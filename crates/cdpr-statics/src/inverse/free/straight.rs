@@ -70,12 +70,12 @@ impl Search<'_> {
 
     fn are_same(&self, one: &StraightRoot, other: &StraightRoot) -> bool {
         let near = |a: f64, b: f64, size: f64| (a - b).abs() <= SAME * size;
-        let force = self.question.external.norm();
+        let force = self.problem.external.norm();
         let [at, to] = [one, other].map(|root| self.pose(&root.changes));
         // Along its neutral motions a root is the same.
         let neutral = || {
-            let chord = |pose, i| self.question.robot.span(pose, i).norm();
-            let cables = 0..self.question.cables();
+            let chord = |pose, i| self.problem.robot.span(pose, i).norm();
+            let cables = 0..self.problem.cables();
             one.is_neutral
                 && one.tensions.iter().zip(&other.tensions).all(|(a, b)| near(*a, *b, force))
                 && cables.into_iter().all(|i| near(chord(&at, i), chord(&to, i), self.size))
@@ -85,7 +85,7 @@ impl Search<'_> {
 
     /// The root that steps lead to from these changes of the free coordinates.
     pub(super) fn straight_root(&self, mut changes: Vec<f64>) -> Option<StraightRoot> {
-        let cables = self.question.cables();
+        let cables = self.problem.cables();
         let mut tensions = self.least_squares(&changes);
         let mut at = self.straight_equations(&changes, &tensions);
         let mut damping = 1e-3;
@@ -105,7 +105,7 @@ impl Search<'_> {
                 let step = step / largest.max(1.0);
                 let moved: Vec<f64> =
                     changes.iter().zip(&step.as_slice()[cables..]).map(|(a, b)| a + b).collect();
-                let force = self.question.external.norm();
+                let force = self.problem.external.norm();
                 let pulls: Vec<f64> =
                     tensions.iter().zip(step.as_slice()).map(|(t, change)| t + force * change).collect();
                 let next = self.straight_equations(&moved, &pulls);
@@ -128,34 +128,34 @@ impl Search<'_> {
         if !is_root {
             return None;
         }
-        let unknowns = self.question.cables() + self.free.len();
+        let unknowns = self.problem.cables() + self.free.len();
         let values = at.slopes.singular_values();
         let is_neutral = values[unknowns - 1] <= NEUTRAL * values[0];
-        let distance = self.distance(self.question.pose, &self.pose(&changes));
+        let distance = self.distance(self.problem.pose, &self.pose(&changes));
         Some(StraightRoot { changes, tensions, distance, is_neutral })
     }
 
     /// Tensions of straight cables that hold the pose best, of either sign [N].
     fn least_squares(&self, changes: &[f64]) -> Vec<f64> {
-        let cables = self.question.cables();
+        let cables = self.problem.cables();
         let at = self.straight_equations(changes, &vec![0.0; cables]);
         let mut columns = at.slopes;
         (cables..6).for_each(|k| columns.column_mut(k).fill(0.0));
         let normal = columns.transpose() * columns + Matrix6::from_diagonal_element(1e-9);
-        let force = self.question.external.norm();
+        let force = self.problem.external.norm();
         let found = normal.cholesky().map(|factor| factor.solve(&-(columns.transpose() * at.residual)));
         (0..cables).map(|i| found.map_or(0.0, |found| force * found[i])).collect()
     }
 
     fn straight_equations(&self, changes: &[f64], tensions: &[f64]) -> Equations {
-        let (robot, arm, cables) = (self.question.robot, self.question.arm, self.question.cables());
+        let (robot, cables) = (self.problem.robot, self.problem.cables());
         let (pose, freedoms) = (self.pose(changes), robot.freedoms());
         let scaled = |force: Vector3<f64>, moment: Vector3<f64>| {
-            let moment = moment / arm;
+            let moment = moment / self.problem.characteristic_length;
             freedoms.of_vector(&Vector6::new(force.x, force.y, force.z, moment.x, moment.y, moment.z))
         };
-        let unit = self.question.external.norm();
-        let load = self.question.load;
+        let unit = self.problem.external.norm();
+        let load = self.problem.load;
         let external = load.total(robot, &pose);
         let external = scaled(external.force, external.moment) / unit;
         let weight = robot.weight(&pose, load.payload).force / unit;

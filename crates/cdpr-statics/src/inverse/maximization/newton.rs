@@ -13,10 +13,10 @@
 //! converge.
 
 use crate::dense::Indefinite;
-use crate::inverse::held::Strand;
+use crate::inverse::cable::CableAtPose;
 use crate::inverse::maximization::{BALANCE, Iterate, Maximization};
 use cdpr_robot::Vector6;
-use cdpr_tension::LinearSolution;
+use cdpr_tension::{Bound, LinearSolution};
 use nalgebra::{DMatrix, DVector};
 
 const MAX_ITERATIONS: usize = 20;
@@ -33,10 +33,10 @@ const ON_LIMIT: f64 = 1e-12;
 
 /// The limits that a program rests on.
 struct Active {
-    /// Of each cable the limit, 0 the least and 1 the greatest.
-    fixed: Vec<Option<usize>>,
+    /// The limit of each cable that is active.
+    fixed: Vec<Option<Bound>>,
     /// Cables at a limit that z draws closer, and which.
-    drawn: Vec<(usize, usize)>,
+    drawn: Vec<(usize, Bound)>,
 }
 
 /// Multipliers of (I10).
@@ -65,9 +65,9 @@ impl Maximization {
         let mut before = f64::INFINITY;
         for _ in 0..MAX_ITERATIONS {
             let (step, factors, next) = self.newton_step(&at, &active, &multipliers)?;
-            let n = at.point.strands.len();
+            let n = at.point.cables.len();
             let relative =
-                at.point.strands.iter().zip(&step).map(|(strand, d)| d.abs() / strand.held.chord_force());
+                at.point.cables.iter().zip(&step).map(|(cable, d)| d.abs() / cable.held.chord_force());
             let change = relative.fold(0.0, f64::max);
             if change > GREATEST_CHANGE || !self.stays_within(&mut at, &active, &step)? {
                 return None;
@@ -90,15 +90,18 @@ impl Maximization {
     }
 
     fn active(&self, at: &Iterate, solution: &LinearSolution, size: f64) -> Active {
-        let n = at.point.strands.len();
-        let fixed = |(strand, d): (&Strand, &f64)| {
-            let [low, high] = strand.room().map(|room| room / size);
+        let n = at.point.cables.len();
+        let fixed = |(cable, d): (&CableAtPose, &f64)| {
+            let [low, high] = cable.step_bounds().map(|room| room / size);
             let met = [*d <= low, *d >= high];
-            (0..2).find(|side| met[*side] && strand.knows(*side))
+            Bound::BOTH.into_iter().find(|bound| met[*bound as usize] && cable.limit_known(*bound))
         };
-        let fixed = at.point.strands.iter().zip(&solution.values[..n]).map(fixed).collect();
+        let fixed = at.point.cables.iter().zip(&solution.values[..n]).map(fixed).collect();
         let slacks = solution.values[n + 1..].iter().enumerate();
-        let drawn = slacks.filter(|(_, slack)| **slack <= ON_LIMIT).map(|(k, _)| (k / 2, k % 2)).collect();
+        let drawn = slacks
+            .filter(|(_, slack)| **slack <= ON_LIMIT)
+            .map(|(k, _)| (k / 2, Bound::BOTH[k % 2]))
+            .collect();
         Active { fixed, drawn }
     }
 
@@ -107,9 +110,9 @@ impl Maximization {
         for (k, y) in self.components.iter().zip(&solution.multipliers) {
             balance[*k] = -y;
         }
-        let of_drawn = |(i, side): &(usize, usize)| {
-            let multiplier = solution.multipliers[self.components.len() + 2 * i + side];
-            if *side == 0 { -multiplier } else { multiplier }
+        let of_drawn = |(i, bound): &(usize, Bound)| {
+            let multiplier = solution.multipliers[self.components.len() + 2 * i + *bound as usize];
+            if *bound == Bound::Min { -multiplier } else { multiplier }
         };
         let total = if self.is_sum() { -solution.multipliers[self.components.len()] } else { 0.0 };
         Multipliers { balance, drawn: active.drawn.iter().map(of_drawn).collect(), total }
@@ -123,10 +126,10 @@ impl Maximization {
         multipliers: &Multipliers,
     ) -> Option<(Vec<f64>, Indefinite, Multipliers)> {
         let point = &at.point;
-        let n = point.strands.len();
+        let n = point.cables.len();
         let free: Vec<usize> = (0..n).filter(|i| active.fixed[*i].is_none()).collect();
-        let mut step: Vec<f64> = (point.strands.iter().zip(&active.fixed))
-            .map(|(strand, fixed)| fixed.map_or(0.0, |side| strand.room()[side]))
+        let mut step: Vec<f64> = (point.cables.iter().zip(&active.fixed))
+            .map(|(cable, fixed)| fixed.map_or(0.0, |bound| cable.step_bounds()[bound as usize]))
             .collect();
         let (k, m) = (free.len(), self.components.len());
         let (fixed_rows, is_sum) = (m + active.drawn.len(), self.is_sum());
@@ -135,12 +138,12 @@ impl Maximization {
         let mut right = DVector::zeros(k + 1 + rows);
         right[k] = -1.0;
         for (column, &i) in free.iter().enumerate() {
-            let strand = &point.strands[i];
+            let cable = &point.cables[i];
             let of_cable = active.drawn.iter().zip(&multipliers.drawn).filter(|((j, _), _)| *j == i);
             let of_tension =
-                of_cable.map(|((_, side), mu)| [*mu, -mu][*side]).sum::<f64>() + multipliers.total;
-            matrix[(column, column)] =
-                strand.bend(&multipliers.balance, point.arm) + of_tension * strand.tension_curvature();
+                of_cable.map(|((_, bound), mu)| [*mu, -mu][*bound as usize]).sum::<f64>() + multipliers.total;
+            matrix[(column, column)] = cable.bend(&multipliers.balance, point.characteristic_length)
+                + of_tension * cable.tension_curvature();
         }
         let residual = point
             .rows
@@ -158,11 +161,11 @@ impl Maximization {
             set(row, k, self.direction()[component]);
             right[k + 1 + row] = -residual[component];
         }
-        for (row, &(i, side)) in active.drawn.iter().enumerate() {
+        for (row, &(i, bound)) in active.drawn.iter().enumerate() {
             let limits = self.drawn()?[i];
-            let sign = [1.0, -1.0][side];
+            let sign = [1.0, -1.0][bound as usize];
             let slope = sign * point.rows[i].tension_slope;
-            let limit = [limits.min, limits.max][side];
+            let limit = [limits.min, limits.max][bound as usize];
             if let Some(column) = free.iter().position(|j| *j == i) {
                 set(m + row, column, slope);
             }
@@ -195,19 +198,19 @@ impl Maximization {
 
     /// Whether cables between their limits stay there; computes the limits that a step meets.
     fn stays_within(&self, at: &mut Iterate, active: &Active, step: &[f64]) -> Option<bool> {
-        for ((strand, d), fixed) in at.point.strands.iter_mut().zip(step).zip(&active.fixed) {
+        for ((cable, d), fixed) in at.point.cables.iter_mut().zip(step).zip(&active.fixed) {
             if fixed.is_some() {
                 continue;
             }
-            for side in 0..2 {
-                let passed = |strand: &Strand| {
-                    let room = strand.room()[side];
-                    [*d < room, *d > room][side]
+            for bound in Bound::BOTH {
+                let passed = |cable: &CableAtPose| {
+                    let way = cable.step_bounds()[bound as usize];
+                    [*d < way, *d > way][bound as usize]
                 };
-                if passed(strand) && !strand.knows(side) {
-                    strand.learn(side).ok()?;
+                if passed(cable) && !cable.limit_known(bound) {
+                    cable.compute_limit(bound).ok()?;
                 }
-                if passed(strand) {
+                if passed(cable) {
                     return Some(false);
                 }
             }

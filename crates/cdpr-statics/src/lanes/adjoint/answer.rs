@@ -22,7 +22,8 @@
 //! K = K_s + k_a (e_z e_hᵀ - e_h e_zᵀ),      k_a = a/det C                                         (L17)
 //! ```
 
-use crate::lanes::cable::{Guided, LaneCable};
+use crate::local::cable::LaneCable;
+use crate::local::guided::Guided;
 use cdpr_cable::kernel::{GuideTerms, GuidedEndSlopes, Material, Response, SwivelAxis};
 use cdpr_number::dense::Lanes3;
 use cdpr_number::lanes::{Lanes, Simd, WithSimd};
@@ -203,7 +204,7 @@ impl<S: Simd> WithSimd for First<'_, '_, S> {
     #[inline(always)]
     fn with_simd<Same: Simd>(self, _: Same) -> Lanes3<S> {
         let Self(guided, cable) = self;
-        let way = guided.way(cable);
+        let way = guided.way(&cable.free());
         let (response, a) = (way.response(cable.force[0], &cable.response()), way.asymmetry());
         let [_, mixed, _] = response.flexibility;
         let determinant = response.determinant + a * a;

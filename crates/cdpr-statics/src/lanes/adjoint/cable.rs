@@ -6,9 +6,9 @@
 
 use crate::equations::{CablePlane, LinearizedCable, Span};
 use crate::lanes::adjoint::answer::{Answer, GuideAnswer, Held};
-use crate::lanes::cable::LaneCable;
 use crate::lanes::chain::limits::at_platform;
 use crate::lanes::chain::shared::Choice;
+use crate::local::cable::LaneCable;
 use cdpr_number::dense::{Lanes2, Lanes3};
 use cdpr_number::lanes::{Lanes, Simd};
 use cdpr_number::three;

@@ -3,11 +3,11 @@
 use crate::equations::Span;
 use crate::lanes::adjoint::cable::{TensionSlopes, torque};
 use crate::lanes::adjoint::{Adjoint, Record, add};
-use crate::lanes::cable::LaneCable;
 use crate::lanes::chain::shared::Shared;
 use crate::lanes::chain::tensions::CableTension;
-use crate::lanes::freedoms::{hold, hold_matrix};
-use crate::lanes::platform::Robots;
+use crate::local::cable::LaneCable;
+use crate::local::freedoms::{hold, hold_matrix};
+use crate::local::platform::Robots;
 use cdpr_number::dense::{Lanes3, Lanes6, Lanes6x6, SymmetricFactors, halves};
 use cdpr_number::lanes::{Lanes, Mask, Simd};
 use cdpr_number::vector::{cross, dot, wrench};

@@ -3,7 +3,7 @@
 //! Unknowns of the balance (I6) of `inverse/free.rs` are the horizontal forces of the cables, as in (L1), and
 //! the free coordinates q. A free coordinate shifts the platform or turns it about an axis ω; its anchor
 //! points then move by d, in the plane of the cable (d_h, d_z) and across it d_l. At constant fx this changes
-//! the closed force of a cable, with h the horizontal distance of its ends, by
+//! the closed force of a cable, with h the horizontal distance of its ends, by (L19) over a tilted axis, else by
 //!
 //! ```text
 //! dF = -(dz e_z + (fx/h) d_l e_l),      C (0, dz) + e dL = (d_h, d_z)                             (L15)
@@ -22,14 +22,14 @@
 
 use crate::equations::Span;
 use crate::inverse::{BESIDE, NEARLY_ROUNDING};
-use crate::lanes::cable::FOLDED;
 use crate::lanes::chain::limits::limits_at;
 use crate::lanes::chain::shared::{LAST_DISTRIBUTION, MAX_DISTRIBUTIONS, Shared};
-use crate::lanes::freedoms::hold;
 use crate::lanes::held::HeldCable;
-use crate::lanes::load::PlatformLoad;
-use crate::lanes::newton::rotate;
-use crate::lanes::platform::{LinearizedPlatform, Robots};
+use crate::local::cable::FOLDED;
+use crate::local::freedoms::hold;
+use crate::local::load::PlatformLoad;
+use crate::local::newton::rotate;
+use crate::local::platform::{LinearizedPlatform, Robots};
 use cdpr_cable::MAX_STRAIN;
 use cdpr_number::Number;
 use cdpr_number::dense::{Lanes3, Lanes6, add, solve_columns};
@@ -126,16 +126,16 @@ impl<S: Simd> WithSimd for Rest<'_, '_, S> {
             size = size.max(span.chord());
         }
         let (start, everywhere) = (self.robots.position, zero.less_or_equal(zero));
-        let (mut going, mut found) = (everywhere, !everywhere);
+        let (mut active, mut found) = (everywhere, !everywhere);
         let mut before = zero.all(GREATEST_STEP / CONTRACTION);
         for _ in 0..MAX_DISTRIBUTIONS {
-            let (moved, balanced) = self.step(going);
+            let (moved, balanced) = self.step(active);
             let small = zero.all(LAST_DISTRIBUTION);
-            let last = going & balanced & moved.less_or_equal(small);
+            let last = active & balanced & moved.less_or_equal(small);
             found = found | last;
-            going = going & !last & moved.less_or_equal((before * CONTRACTION).max(small));
+            active = active & !last & moved.less_or_equal((before * CONTRACTION).max(small));
             before = moved;
-            if !going.any() {
+            if !active.any() {
                 break;
             }
         }
@@ -154,10 +154,10 @@ impl<S: Simd> WithSimd for Rest<'_, '_, S> {
 }
 
 impl<S: Simd> Rest<'_, '_, S> {
-    /// Newton's step where `going`. Returns the greatest change relative to the sum of tensions, the longest
+    /// Newton's step where `active`. Returns the greatest change relative to the sum of tensions, the longest
     /// cable and an angle of 1, and the lanes that were balanced before it.
     #[inline(always)]
-    fn step(&mut self, going: Mask<S>) -> (Lanes<S>, Mask<S>) {
+    fn step(&mut self, active: Mask<S>) -> (Lanes<S>, Mask<S>) {
         let Self { robots, free, spans, frame, shared, .. } = self;
         let zero = robots.weight.all(0.0);
         let (cables, compared) = (spans.len(), [shared.tension, shared.scale.size]);
@@ -167,20 +167,14 @@ impl<S: Simd> Rest<'_, '_, S> {
         let mut all_held = Vec::with_capacity(cables);
         for (i, (span, cable)) in spans.iter().zip(&robots.cables).enumerate() {
             let (held, ends) = HeldCable::with_end_slopes(cable, span);
-            let [fx, fz] = cable.force;
-            let arm = &cable.anchor_arm;
-            let pull = span.plane.force_on_platform([fx, fz + held.closing[0]]);
+            let (arm, plane) = (&cable.anchor_arm, cable.plane(span));
+            let pull = held.pull(cable, span);
             add(&mut balance, arm, &pull);
-            add(&mut columns[i], arm, &span.plane.force_on_platform([zero.all(1.0), held.rise]));
-            let [ex, ey] = span.plane.azimuth;
-            let swing = fx / span.end[0];
+            add(&mut columns[i], arm, &held.pull_slope(cable, span));
             for (motion, column) in free.iter().zip(&mut columns[cables..]) {
                 let moved = motion.of(arm);
-                let along = span.plane.project(moved);
-                // e_l = (-e_y, e_x, 0)
-                let across = swing * (moved[1] * ex - moved[0] * ey);
-                let change = [across * ey, -(across * ex), -dot(&ends.rise, &along)];
-                add(column, arm, &change);
+                let [h, z] = plane.project(moved);
+                add(column, arm, &ends.pull(plane.azimuth, &[h, plane.across(moved), z]));
                 motion.add_lever(column, &moved, &pull);
             }
             all_held.push((held, ends));
@@ -208,13 +202,16 @@ impl<S: Simd> Rest<'_, '_, S> {
                 let of = motion.of(&cable.anchor_arm);
                 displacement = three!(|k| displacement[k] + of[k] * *change);
             }
-            let along = span.plane.project(displacement);
+            let plane = cable.plane(span);
+            let [h, z] = plane.project(displacement);
+            let along = [h, plane.across(displacement), z];
+            held.across[0] += dot(&ends.across, &along);
             held.closing[0] += dot(&ends.rise, &along);
             held.closing[1] += dot(&ends.length, &along);
-            moved = moved.max(held.change(cable, step[i], going, compared));
+            moved = moved.max(held.change(cable, step[i], active, compared));
         }
         for k in 0..free.len() {
-            let change = going.select(step[cables + k], zero);
+            let change = active.select(step[cables + k], zero);
             moved = moved.max(match free[k] {
                 FreeMotion::Along(_) => change.abs() * (1.0 / shared.scale.size),
                 FreeMotion::About(_) => change.abs(),

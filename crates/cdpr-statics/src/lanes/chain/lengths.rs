@@ -1,10 +1,11 @@
 //! The lengths that give the tensions of set-points at the wanted pose, one robot in each lane.
 
 use crate::equations::{LinearizedCable, Span};
-use crate::lanes::cable::FOLDED;
 use crate::lanes::chain::shared::Shared;
 use crate::lanes::held::HeldCable;
-use crate::lanes::platform::{LinearizedPlatform, Robots};
+use crate::local::cable::FOLDED;
+use crate::local::guided::GuidedLinearization;
+use crate::local::platform::{LinearizedPlatform, Robots};
 use cdpr_number::Number;
 use cdpr_number::lanes::{Lanes, Mask, Simd, WithSimd};
 
@@ -50,39 +51,45 @@ fn find_lengths<S: Simd>(task: FindLengths<'_, '_, S>) -> Mask<S> {
     let cables = robots.cables.iter_mut().zip(&mut platform.cables);
     for (i, ((span, set_point), (cable, linearized))) in spans.iter().zip(set_points).zip(cables).enumerate()
     {
-        let (mut going, mut taut) = (all, all);
+        let (mut active, mut taut) = (all, all);
         for _ in 0..MAX_ITERATIONS {
             let held = match &cable.guided {
                 None => {
                     let response = cable.response();
-                    linearized.replace(&LinearizedCable::new(span, cable.force, &response), going);
+                    linearized.replace(&LinearizedCable::new(span, cable.force, &response), active);
                     HeldCable::plain(cable, span, &response)
                 }
                 Some(guided) => HeldCable::leaving(guided, cable, span),
             };
             let folds = zero.all(FOLDED).less_or_equal(held.slackness);
-            taut = (!going & taut) | (going & held.is_taut(cable, demanded[i]) & !folds);
+            taut = (!active & taut) | (active & held.is_taut(cable, demanded[i]) & !folds);
             let fx = cable.force[0];
             let inverse = (fx * held.tension_slope).recip();
             let d = (*set_point - held.closed) * fx * inverse;
             // What a step leaves grows with its curvature over its slope.
             let own = d.abs() + held.closing[0].abs() * held.flatness * held.tension_slope;
             let own = own * inverse * (LAST_CHANGE / LAST_OWN_CHANGE);
-            let moved = held.change(cable, d, going, compared).max(own);
-            going = going & !moved.less_or_equal(zero.all(LAST_CHANGE));
-            if !going.any() {
+            let moved = held.change(cable, d, active, compared).max(own);
+            active = active & !moved.less_or_equal(zero.all(LAST_CHANGE));
+            if !active.any() {
                 break;
             }
         }
         cable.keep_length();
+        let mut swivel = platform.swivels.get_mut(i);
         if let Some(guided) = &cable.guided {
             let everywhere = zero.less_or_equal(zero);
-            guided.linearize(cable, span, linearized, &mut platform.free[i], everywhere);
+            let (free, swivel) = (&mut platform.free[i], swivel.as_deref_mut());
+            let places = GuidedLinearization { cable: linearized, free, swivel };
+            guided.linearize(&cable.free(), span, places, everywhere);
         }
         // The last change closes the cable to rounding.
         linearized.predicted = cable.force;
+        if let Some(swivel) = swivel {
+            swivel.predicted = zero;
+        }
         // A root with a cable of negative length is invalid.
-        all = all & !going & taut & zero.less_or_equal(cable.length) & zero.less_or_equal(cable.force[0]);
+        all = all & !active & taut & zero.less_or_equal(cable.length) & zero.less_or_equal(cable.force[0]);
         let [fx, fz] = cable.force;
         all = all & !cable.may_be_overstrained((fx * fx + fz * fz).sqrt());
     }

@@ -9,8 +9,8 @@
 //! tension rises again. Newton's method for its slope over the logarithm of that force finds it.
 
 use crate::equations::{ABOVE_LEAST, Span};
-use crate::lanes::cable::LaneCable;
 use crate::lanes::held::HeldCable;
+use crate::local::cable::LaneCable;
 use cdpr_number::Number;
 use cdpr_number::dense::{Lanes2, replace};
 use cdpr_number::lanes::{Lanes, Mask, Simd, WithSimd};
@@ -100,24 +100,25 @@ impl<S: Simd> WithSimd for Demand<'_, '_, S> {
         let Self { cable, span, held, limits, compared } = self;
         let zero = cable.length.all(0.0);
         let (length, force) = (cable.length, cable.force);
+        let azimuth = cable.guided.as_ref().map(|guided| guided.azimuth());
         let near = may_be_slack(cable, held);
-        let (mut at_least, mut going) = (*held, near);
+        let (mut at_least, mut active) = (*held, near);
         for _ in 0..MAX_ITERATIONS {
             let fx = cable.force[0];
             let slope = fx * at_least.tension_slope;
             let curvature = slope + fx * fx * at_least.curvatures[0];
             let change = (-(slope / curvature)).max(zero.all(-LONGEST_CHANGE));
             let change = change.less_or_equal(zero.all(LONGEST_CHANGE)).select(change, zero + LONGEST_CHANGE);
-            let moved = at_least.change(cable, fx * change, going, compared);
-            going = going & !moved.max(change.abs()).less_or_equal(zero.all(LAST_CHANGE));
+            let moved = at_least.change(cable, fx * change, active, compared);
+            active = active & !moved.max(change.abs()).less_or_equal(zero.all(LAST_CHANGE));
             at_least = HeldCable::new(cable, span);
-            if !going.any() {
+            if !active.any() {
                 break;
             }
         }
         let least = zero.all(ABOVE_LEAST) * at_least.closed;
         limits[0].replace(limits[0].max(least), near);
-        limits[1].replace(zero.all(-1.0), near & going);
+        limits[1].replace(zero.all(-1.0), near & active);
         // Beside the least tension, where it has no slope: t = t_0 + t'' d²/2.
         let rise = (limits[0] - at_least.closed) * 2.0;
         let d = (rise / at_least.curvatures[0]).max(zero).sqrt();
@@ -125,6 +126,9 @@ impl<S: Simd> WithSimd for Demand<'_, '_, S> {
         let keeps = !near | (zero.less_or_equal(held.tension_slope) & limits[0].less_or_equal(held.closed));
         cable.length.replace(length, keeps);
         replace(&mut cable.force, &force, keeps);
+        if let (Some(guided), Some(azimuth)) = (&mut cable.guided, &azimuth) {
+            guided.return_to(azimuth, keeps);
+        }
         near
     }
 }
@@ -154,17 +158,17 @@ impl<S: Simd> WithSimd for WithLaw<'_, '_, S> {
     fn with_simd<Same: Simd>(self, _: Same) -> Lanes<S> {
         let Self { cable, exit, height } = self;
         let work = exit + cable.energy(exit) + cable.weight_per_length * height;
-        let (mut tension, mut going) = (exit, exit.less_or_equal(exit));
+        let (mut tension, mut active) = (exit, exit.less_or_equal(exit));
         for _ in 0..MAX_ITERATIONS_OF_LAW {
             let open = tension + cable.energy(tension) - work;
             let step = open / (cable.strain(tension) + 1.0);
-            tension.replace(tension - step, going);
-            going = going & !step.abs().less_or_equal(tension.abs() * (4.0 * f64::EPSILON));
-            if !going.any() {
+            tension.replace(tension - step, active);
+            active = active & !step.abs().less_or_equal(tension.abs() * (4.0 * f64::EPSILON));
+            if !active.any() {
                 break;
             }
         }
-        (going | work.less_or_equal(work.all(0.0))).select(exit.all(-1.0), tension)
+        (active | work.less_or_equal(work.all(0.0))).select(exit.all(-1.0), tension)
     }
 }
 
@@ -183,8 +187,10 @@ impl<S: Simd> WithSimd for BelowPulley<'_, '_, S> {
     fn with_simd<Same: Simd>(self, _: Same) -> Lanes<S> {
         let Self { cable, span, greatest, compared } = self;
         let (length, force) = (cable.length, cable.force);
-        let mut going = length.less_or_equal(length);
-        let (mut found, mut taut) = (greatest, going);
+        let (azimuth, everywhere) =
+            (cable.guided.as_ref().map(|guided| guided.azimuth()), greatest.less_or_equal(greatest));
+        let mut active = length.less_or_equal(length);
+        let (mut found, mut taut) = (greatest, active);
         // From a cable that is slack Newton's method may lead to a longer one of the same tension.
         let slack = may_be_slack(cable, &HeldCable::new(cable, span));
         if slack.any() {
@@ -195,19 +201,22 @@ impl<S: Simd> WithSimd for BelowPulley<'_, '_, S> {
         }
         for _ in 0..MAX_ITERATIONS {
             let Some(guided) = &cable.guided else { break };
-            let [_, rise] = guided.leave_point(cable).position;
-            found.replace(at_platform(cable, greatest, span.end[1] - rise), going);
+            let [_, rise] = guided.leave_point(&cable.free()).position;
+            found.replace(at_platform(cable, greatest, span.end[1] - rise), active);
             let held = HeldCable::leaving(guided, cable, span);
-            taut = (!going & taut) | (going & greatest.all(0.0).less_or_equal(held.tension_slope));
+            taut = (!active & taut) | (active & greatest.all(0.0).less_or_equal(held.tension_slope));
             let way = held.way_to(found);
             let own = way.abs() / cable.force[0];
-            let moved = held.change(cable, way, going, compared).max(own);
-            going = going & !moved.less_or_equal(moved.all(LAST_CHANGE));
-            if !going.any() {
+            let moved = held.change(cable, way, active, compared).max(own);
+            active = active & !moved.less_or_equal(moved.all(LAST_CHANGE));
+            if !active.any() {
                 break;
             }
         }
         (cable.length, cable.force) = (length, force);
-        (going | !taut).select(length.all(-1.0), found)
+        if let (Some(guided), Some(azimuth)) = (&mut cable.guided, &azimuth) {
+            guided.return_to(azimuth, everywhere);
+        }
+        (active | !taut).select(length.all(-1.0), found)
     }
 }

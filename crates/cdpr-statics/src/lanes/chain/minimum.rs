@@ -12,7 +12,7 @@
 //! pulley with that from the point where the one before would leave it.
 
 use crate::equations::Span;
-use crate::lanes::cable::LaneCable;
+use crate::local::cable::LaneCable;
 use cdpr_number::Number;
 use cdpr_number::dense::{Lanes2, Lanes6};
 use cdpr_number::lanes::{Lanes, Mask, Simd};
@@ -60,8 +60,9 @@ pub(crate) fn is_least<S: Simd>(
 ) -> Mask<S> {
     // λ·w of a unit force at A: w is linear in the force.
     let (zero, one) = (cable.length.all(0.0), cable.length.all(1.0));
-    let level = wrench(&cable.anchor_arm, &span.plane.force_on_platform([one, zero]));
-    let upright = wrench(&cable.anchor_arm, &span.plane.force_on_platform([zero, one]));
+    let plane = cable.plane(span);
+    let level = wrench(&cable.anchor_arm, &plane.force_on_platform([one, zero]));
+    let upright = wrench(&cable.anchor_arm, &plane.force_on_platform([zero, one]));
     let gain = [dot(multipliers, &level), dot(multipliers, &upright)];
     let here = lagrangian(dot(&cable.force, &cable.force).sqrt(), &cable.force, &gain, reference);
     let half_weight = cable.weight_per_length * 0.5;
@@ -72,13 +73,14 @@ pub(crate) fn is_least<S: Simd>(
         let force = match &cable.guided {
             None => catenary(span.end, half_weight, [u, coth, stretch]).1,
             Some(guided) => {
-                let mut tangent = guided.leave_point(cable).tangent;
+                let ((span, _), guide) = (guided.seen(span), guided.in_plane());
+                let mut position = guided.leave_point(&cable.free()).position;
                 let mut force = cable.force;
                 for _ in 0..LEAVING {
-                    let end = span.misclosure(guided.guide.leave_position(tangent));
+                    let end = span.misclosure(position);
                     let (length, closed) = catenary(end, half_weight, [u, coth, stretch]);
                     force = closed;
-                    tangent = guided.guide.leave_point(cable.weight_per_length, length, force).tangent;
+                    position = guide.leave_point(cable.weight_per_length, length, force).position;
                 }
                 force
             }

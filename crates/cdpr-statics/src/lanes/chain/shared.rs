@@ -1,10 +1,8 @@
 //! What all robots of a batch share.
 
-use crate::lanes::cable::Shape;
-use crate::lanes::platform::Scale;
-use cdpr_cable::PiecewiseLaw;
-use cdpr_cable::kernel::LawSegment;
-use cdpr_robot::{CableEnd, Robot, RobotCable, TensionLimits};
+use crate::local::cable::Shape;
+use crate::local::platform::Scale;
+use cdpr_robot::{CableEnd, Robot, TensionLimits};
 
 /// A change of tensions that are still to be offset below this, relative to the longest cable or the sum of
 /// tensions, is the last one: their error then changes no position by more than 1e-12 m.
@@ -72,10 +70,4 @@ impl Shared {
             Some(height) => height,
         }
     }
-}
-
-/// Segments of the elastic law of a cable; none of a linear one.
-#[inline]
-pub(crate) fn law(cable: &RobotCable) -> &[LawSegment] {
-    cable.properties.law.as_ref().map_or(&[], PiecewiseLaw::terms)
 }

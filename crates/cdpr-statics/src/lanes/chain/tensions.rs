@@ -20,7 +20,7 @@
 //!      R1 = (t + û_z dz - r) t' + J·λ,   R2 = sum w + w_ex,   h = t'² + (t - r) t'' + λ·w''
 //! ```
 //!
-//! Where steps pass limits of the tensions, `chain/program.rs` finds those within them.
+//! Where steps pass limits of the tensions, `cdpr_tension::box_problem` finds those within them.
 //!
 //! For a parabola fz is linear in fx and w'' zero; what sag adds is that of the inextensible catenary
 //! ([`HeldCable::curvature`]). A cable that begins near the least tension of its span has it for a limit, as
@@ -30,19 +30,19 @@
 
 use crate::equations::Span;
 use crate::inverse::NEARLY_ROUNDING;
-use crate::lanes::cable::{FOLDED, LaneCable};
 use crate::lanes::chain::limits::{demand, limits_at, may_be_slack};
 use crate::lanes::chain::minimum::is_least;
-use crate::lanes::chain::program::{Row, newton, within_limits};
 use crate::lanes::chain::shared::{LAST_DISTRIBUTION, LAST_REMAINDER, LAST_SHARE, MAX_DISTRIBUTIONS, Shared};
-use crate::lanes::freedoms::hold;
 use crate::lanes::held::HeldCable;
-use crate::lanes::platform::Robots;
+use crate::local::cable::{FOLDED, LaneCable};
+use crate::local::freedoms::hold;
+use crate::local::platform::Robots;
 use cdpr_number::Number;
 use cdpr_number::dense::{Lanes2, Lanes6, halves, replace};
 use cdpr_number::lanes::{Lanes, Mask, Simd, WithSimd};
 use cdpr_number::six;
 use cdpr_number::vector::{dot, wrench};
+use cdpr_tension::box_problem::{BoundedUnknown, solve_within_bounds, unbounded_step};
 
 /// Step of a cable that sags, relative to its horizontal force, from which on the point that it leads to is
 /// compared with others. Without the comparison 14 of 15 040 rows of random robots in `tests/any_lanes.rs`
@@ -52,6 +52,9 @@ const LONGEST_STEP: f64 = 0.3;
 
 /// q² from which a cable sags.
 pub(crate) const SAGGING: f64 = 0.02;
+
+/// Iterations for the bounds that are active in a step.
+const MAX_ITERATIONS: usize = 16;
 
 /// Least curvature of a step, relative to that of a straight cable.
 const LEAST_CURVATURE: f64 = 0.01;
@@ -102,7 +105,7 @@ impl<S: Simd> CableTension<S> {
         Self { length, force, limits, at_limits: [never; 2], demanded: never }
     }
 
-    /// Takes over the state of a cable in the lanes `last`.
+    /// Assigns the state of a cable in the lanes `last`.
     #[inline(always)]
     fn keep(&mut self, cable: &LaneCable<'_, S>, at_limits: [Mask<S>; 2], last: Mask<S>) {
         self.length.replace(cable.length, last);
@@ -135,12 +138,12 @@ impl<S: Simd> WithSimd for Distribute<'_, '_, S> {
             if last.any() {
                 search.conclude(last);
             }
-            search.going = search.going & !last;
-            if !search.going.any() {
+            search.active = search.active & !last;
+            if !search.active.any() {
                 break;
             }
         }
-        Distributed { converged: !search.going, sound: search.sound, cables: search.cables }
+        Distributed { converged: !search.active, sound: search.sound, cables: search.cables }
     }
 }
 
@@ -150,10 +153,10 @@ struct Search<'b, 'a, S: Simd> {
     cables: Vec<CableTension<S>>,
     /// The cables where they are, and their rows of (L3).
     held: Vec<HeldCable<S>>,
-    rows: Vec<Row<S>>,
+    rows: Vec<BoundedUnknown<S>>,
     /// For each cable the lanes where its curvature is positive.
     convex: Vec<Mask<S>>,
-    going: Mask<S>,
+    active: Mask<S>,
     sound: Mask<S>,
     /// The lanes that have made a long step.
     jumped: Mask<S>,
@@ -174,7 +177,7 @@ impl<'b, 'a, S: Simd> Search<'b, 'a, S> {
     #[inline(always)]
     fn new(mut task: Distribute<'b, 'a, S>) -> Self {
         let zero = task.robots.weight.all(0.0);
-        let (going, count) = (zero.less_or_equal(zero), task.spans.len());
+        let (active, count) = (zero.less_or_equal(zero), task.spans.len());
         let mut cables = Vec::with_capacity(count);
         let Distribute { robots, spans, shared, .. } = &mut task;
         let compared = [shared.tension, shared.scale.size];
@@ -188,9 +191,9 @@ impl<'b, 'a, S: Simd> Search<'b, 'a, S> {
             held: Vec::with_capacity(count),
             rows: Vec::with_capacity(count),
             convex: Vec::with_capacity(count),
-            going,
-            sound: going,
-            jumped: !going,
+            active,
+            sound: active,
+            jumped: !active,
             before: zero.all(1.0),
         }
     }
@@ -205,7 +208,7 @@ impl<'b, 'a, S: Simd> Search<'b, 'a, S> {
     #[inline(always)]
     fn linearize(&mut self) -> Lanes6<S> {
         let Distribute { robots, external, multipliers, spans, shared, .. } = &self.task;
-        let (zero, freedoms) = (self.before.all(0.0), robots.freedoms);
+        let freedoms = robots.freedoms;
         self.held.clear();
         self.rows.clear();
         self.convex.clear();
@@ -213,13 +216,11 @@ impl<'b, 'a, S: Simd> Search<'b, 'a, S> {
         let cables = spans.iter().zip(&robots.cables).zip(&shared.choices);
         for ((span, cable), choice) in cables {
             let held = HeldCable::new(cable, span);
-            let [fx, fz] = cable.force;
-            let closed = [fx, fz + held.closing[0]];
-            let pull = wrench(&cable.anchor_arm, &span.plane.force_on_platform(closed));
+            let pull = wrench(&cable.anchor_arm, &held.pull(cable, span));
             for k in 0..6 {
                 balance[k] += pull[k];
             }
-            let along = span.plane.force_on_platform([zero.all(1.0), held.rise]);
+            let along = held.pull_slope(cable, span);
             // w''·λ of a vertical force.
             let [sx, sy, _] = cable.anchor_arm;
             let lifted = multipliers[2] + sy * multipliers[3] - sx * multipliers[4];
@@ -228,7 +229,7 @@ impl<'b, 'a, S: Simd> Search<'b, 'a, S> {
                 - lifted * held.curvatures[1];
             self.convex.push((square * LEAST_CURVATURE).less_or_equal(curvature));
             let curvature = curvature.abs().max(square * LEAST_CURVATURE);
-            self.rows.push(Row::new(
+            self.rows.push(BoundedUnknown::new(
                 wrench(&cable.anchor_arm, &along),
                 (held.closed + -choice.reference) * held.tension_slope,
                 curvature.recip(),
@@ -239,7 +240,7 @@ impl<'b, 'a, S: Simd> Search<'b, 'a, S> {
         if !freedoms.are_all() {
             balance = hold(freedoms, balance);
             for row in &mut self.rows {
-                row.slope = hold(freedoms, row.slope);
+                row.column = hold(freedoms, row.column);
             }
         }
         balance
@@ -268,26 +269,26 @@ impl<'b, 'a, S: Simd> Search<'b, 'a, S> {
     /// The step of (L3), within the limits.
     #[inline(always)]
     fn step(&mut self, balance: &Lanes6<S>) -> Step<S> {
-        let (mut multipliers, _) = newton(&self.rows, balance);
-        let mut outside = !self.going & self.going;
+        let mut multipliers = unbounded_step(&self.rows, balance);
+        let mut outside = !self.active & self.active;
         for ((row, held), found) in self.rows.iter_mut().zip(&self.held).zip(&self.cables) {
-            row.raise(&multipliers);
+            row.prepare(&multipliers);
             let [least, greatest] = found.limits;
-            let tension = held.closed + held.tension_slope * (row.wanted - row.change);
+            let tension = held.closed + held.tension_slope * (row.free - row.change);
             outside = outside | !(least.less_or_equal(tension) & tension.less_or_equal(greatest));
         }
         // Limits change nothing in the other lanes.
-        let (mut settled, bounded) = (!outside, self.going & outside);
+        let (mut settled, bounded) = (!outside, self.active & outside);
         if bounded.any() {
             for ((row, held), found) in self.rows.iter_mut().zip(&self.held).zip(&self.cables) {
-                row.ways = found.limits.map(|limit| held.way_to(limit));
+                row.bounds = found.limits.map(|limit| held.way_to(limit));
             }
-            let (raised, solved) = within_limits(&mut self.rows, balance, bounded);
+            let (raised, solved) = solve_within_bounds(&mut self.rows, balance, bounded, MAX_ITERATIONS);
             replace(&mut multipliers, &raised, bounded);
             settled = settled | solved;
         }
         for row in &mut self.rows {
-            row.sides = [bounded & row.sides[0], bounded & row.sides[1]];
+            row.active = [bounded & row.active[0], bounded & row.active[1]];
         }
         Step { multipliers, bounded, settled }
     }
@@ -295,23 +296,23 @@ impl<'b, 'a, S: Simd> Search<'b, 'a, S> {
     /// Takes a step. Returns its greatest change, relative to what changes are compared with.
     #[inline(always)]
     fn advance(&mut self, step: &Step<S>) -> Lanes<S> {
-        let (compared, going) = (self.compared(), self.going);
+        let (compared, active) = (self.compared(), self.active);
         let Distribute { robots, multipliers, spans, .. } = &mut self.task;
         let mut moved = self.before.all(0.0);
         let cables = spans.iter().zip(&mut robots.cables);
         for ((row, held), (span, cable)) in self.rows.iter().zip(&self.held).zip(cables) {
-            let d = row.taken(step.bounded);
+            let d = row.solution(step.bounded);
             let near = d.abs().less_or_equal(cable.force[0] * LONGEST_STEP);
-            let far = going & !near & !held.slackness.less_or_equal(d.all(SAGGING));
+            let far = active & !near & !held.slackness.less_or_equal(d.all(SAGGING));
             self.jumped = self.jumped | far;
             let end = far.any().then(|| cable.held_end(span));
-            moved = moved.max(held.change(cable, d, going, compared));
+            moved = moved.max(held.change(cable, d, active, compared));
             if let Some(end) = end {
                 cable.hang(end, far);
             }
         }
         let raised = six!(|k| multipliers[k] + step.multipliers[k]);
-        replace(multipliers, &raised, going);
+        replace(multipliers, &raised, active);
         moved
     }
 
@@ -322,19 +323,19 @@ impl<'b, 'a, S: Simd> Search<'b, 'a, S> {
         let small = moved.less_or_equal(moved.all(LAST_DISTRIBUTION))
             & (moved * moved).less_or_equal(self.before * LAST_REMAINDER);
         // A part of the sum of tensions is a greater one of a cable's own.
-        let mut ends = self.going & moved.less_or_equal(moved.all(LAST_SHARE.sqrt()));
+        let mut ends = self.active & moved.less_or_equal(moved.all(LAST_SHARE.sqrt()));
         if ends.any() {
             for ((row, held), cable) in self.rows.iter().zip(&self.held).zip(&robots.cables) {
-                ends = ends & held.is_last(cable, row.taken(step.bounded), LAST_SHARE);
+                ends = ends & held.is_last(cable, row.solution(step.bounded), LAST_SHARE);
             }
         }
-        let last = step.settled & (ends | (self.going & small));
+        let last = step.settled & (ends | (self.active & small));
         if !last.any() {
             return last;
         }
         for row in &self.rows {
-            let d = row.taken(step.bounded);
-            balance = six!(|k| balance[k] + row.slope[k] * d);
+            let d = row.solution(step.bounded);
+            balance = six!(|k| balance[k] + row.column[k] * d);
         }
         let (force, moment) = halves(&balance);
         let unbalanced = NEARLY_ROUNDING * shared.forces;
@@ -353,8 +354,8 @@ impl<'b, 'a, S: Simd> Search<'b, 'a, S> {
         let cables = self.rows.iter().zip(&self.held).zip(&mut robots.cables).zip(&mut **offsets);
         for ((((row, held), cable), offset), found) in cables.zip(&mut self.cables) {
             let [least, greatest] = found.limits;
-            let [low, high] = row.sides;
-            found.keep(cable, row.sides, last);
+            let [low, high] = row.active;
+            found.keep(cable, row.active, last);
             let tension = dot(&cable.force, &cable.force).sqrt();
             let chosen = low.select(least, high.select(greatest, tension));
             let set_point = (chosen + *offset).max(least);
@@ -365,7 +366,8 @@ impl<'b, 'a, S: Simd> Search<'b, 'a, S> {
                 & least.less_or_equal(greatest);
             self.sound = self.sound & (sound | !last);
             offset.replace(set_point, last);
-            let there = HeldCable { closed: tension, closing: [zero; 2], ..*held };
+            let across = [zero, held.across[1]];
+            let there = HeldCable { closed: tension, closing: [zero; 2], across, ..*held };
             there.change(cable, there.way_to(set_point), last, compared);
         }
     }
@@ -376,7 +378,7 @@ impl<'b, 'a, S: Simd> Search<'b, 'a, S> {
         let Distribute { robots, multipliers, spans, shared, .. } = &self.task;
         // Elsewhere a stationary point may be no minimum.
         for (row, convex) in self.rows.iter().zip(&self.convex) {
-            self.sound = self.sound & (*convex | row.sides[0] | row.sides[1] | !last);
+            self.sound = self.sound & (*convex | row.active[0] | row.active[1] | !last);
         }
         // Long steps may have led to another minimum.
         let doubted = last & self.jumped;

@@ -1,6 +1,6 @@
 //! Observations with the rotation of the platform under the load.
 
-use super::{Batch, Observation, Observed, Observer, read};
+use super::{Answers, Batch, Observation, Observed, Observer, read};
 use crate::error::StaticsError;
 use crate::lanes::chain::observe;
 use crate::lanes::level::LevelFrame;
@@ -10,6 +10,7 @@ use cdpr_number::dense::Lanes3;
 use cdpr_number::lanes::{Lanes, MAX_LANES, Simd, WithSimd, dispatch};
 use cdpr_robot::{Matrix3, Pose, Vector3, orthonormalized};
 use smallvec::SmallVec;
+use std::array::from_fn;
 
 /// The deflection of one perturbed robot, with the rotation that belongs to it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,22 +56,41 @@ impl WithSimd for MotionBatch<'_> {
         for rows in deviations.chunks(Lanes::<S>::COUNT * parameters) {
             let count = rows.len() / parameters;
             let rows = Rows::new(simd, rows, layout);
-            let (mut start, level, valid) = rows.robots(robot, pose, load, nominal);
-            start.robots.frame.extend(rows.frame(pose, level.as_ref()));
-            let (outcome, _) = observe(&mut start, &nominal.shared, false);
-            let [unloaded, loaded] = outcome.frames.each_ref().map(|of| in_base(of, level.as_ref()));
-            let answers = read(&outcome, level.as_ref(), valid, nominal).into_iter().enumerate().take(count);
-            found.extend(answers.map(|(lane, answer)| {
-                let at = |frame: &Columns| {
-                    let rotation = Matrix3::from_fn(|row, column| frame[column][row][lane]);
-                    Pose { position: Vector3::zeros(), rotation: orthonormalized(&rotation) }
-                };
-                let rotation = at(&unloaded).motion_to(&at(&loaded)).fixed_rows::<3>(3).into();
-                answer.map(|observation| ObservationMotion { observation, rotation })
-            }));
+            let mut answers = Answers::none();
+            for axes in nominal.axes() {
+                let (mut start, level, valid) = rows.robots(robot, pose, load, nominal, *axes);
+                if valid[1].any() {
+                    start.robots.frame.extend(rows.frame(pose, level.as_ref()));
+                    let (outcome, _) = observe(&mut start, &nominal.shared, false);
+                    let frames = outcome.frames.each_ref().map(|of| in_base(of, level.as_ref()));
+                    let observed = read(&outcome, level.as_ref(), valid, nominal);
+                    let moved = from_fn(|lane| with_rotation(observed[lane], &frames, lane));
+                    answers.assign(valid[1], moved);
+                }
+                if answers.are_complete() {
+                    break;
+                }
+            }
+            found.extend(answers.take(count));
         }
         found
     }
+}
+
+/// Adds the rotation in a lane from the first of the frames to the second one.
+fn with_rotation(
+    observed: Result<Observation, ScalarReason>,
+    frames: &[Columns; 2],
+    lane: usize,
+) -> Result<ObservationMotion, ScalarReason> {
+    let at = |frame: &Columns| {
+        let rotation = Matrix3::from_fn(|row, column| frame[column][row][lane]);
+        Pose { position: Vector3::zeros(), rotation: orthonormalized(&rotation) }
+    };
+    observed.map(|observation| {
+        let rotation = at(&frames[0]).motion_to(&at(&frames[1])).fixed_rows::<3>(3).into();
+        ObservationMotion { observation, rotation }
+    })
 }
 
 /// The components of a platform frame in the base frame, by its columns, in each lane.

@@ -2,15 +2,16 @@
 
 use crate::equations::Ends;
 use crate::inverse::HeldPose;
-use crate::lanes::cable::{Guided, LaneCable, Shape};
 use crate::lanes::chain::free::FreeMotion;
-use crate::lanes::chain::shared::{Choice, Shared, law};
+use crate::lanes::chain::shared::{Choice, Shared};
 use crate::lanes::chain::{ChainStart, Stage};
-use crate::lanes::freedoms::hold;
 use crate::lanes::level::LevelFrame;
-use crate::lanes::load::PlatformLoad;
-use crate::lanes::platform::{Layout, Robots, Scale};
-use crate::lanes::reason::ScalarReason;
+use crate::lanes::reason::{ScalarReason, has_tilted_axes};
+use crate::local::cable::{LaneCable, Shape, law};
+use crate::local::freedoms::hold;
+use crate::local::guided::Guided;
+use crate::local::load::PlatformLoad;
+use crate::local::platform::{Layout, Robots, Scale};
 use crate::problem::DirectProblem;
 use crate::state::{Load, rounding_of_closure};
 use cdpr_cable::kernel::{GuideTerms, SwivelAxis};
@@ -19,8 +20,10 @@ use cdpr_number::dense::{Frame, rotated};
 use cdpr_number::lanes::{Lanes, MAX_LANES, Mask, Simd};
 use cdpr_number::{six, three};
 use cdpr_robot::{
-    Axis, Coordinate, Parameter, ParameterLayout, Pose, Pulley, Robot, RobotCable, TiltAxis, Vector3, Vector6,
+    Axis, Coordinate, Parameter, ParameterLayout, Pose, Pulley, Robot, RobotCable, Rotation3, TiltAxis,
+    Vector3, Vector6,
 };
+use nalgebra::Unit;
 use smallvec::SmallVec;
 use std::array::from_fn;
 
@@ -33,6 +36,8 @@ pub(crate) struct Nominal {
     multipliers: Vector6<f64>,
     /// The free coordinates in the order of [`Coordinate::ALL`].
     pub(crate) free: Vec<Coordinate>,
+    /// Whether pulleys have tilted axes.
+    pub(crate) is_tilted: bool,
     pub(crate) shared: Shared,
 }
 
@@ -70,14 +75,19 @@ impl Nominal {
         };
         let mut free = free.to_vec();
         free.sort_unstable();
-        Ok(Self { multipliers, free, shared })
+        Ok(Self { multipliers, free, is_tilted: has_tilted_axes(robot), shared })
+    }
+
+    /// The axes with which lanes are evaluated, one after the other, until each lane has its own.
+    pub(crate) fn axes(&self) -> &'static [Axes] {
+        if self.is_tilted { &[Axes::Any] } else { &[Axes::Vertical, Axes::Any] }
     }
 
     /// Why a lane is left that fails at a stage.
     pub(crate) fn why(&self, stage: Stage) -> ScalarReason {
         match stage {
             Stage::Parameters => ScalarReason::InvalidRobot,
-            Stage::Axes => ScalarReason::Pulleys,
+            Stage::Axes => ScalarReason::Derivatives,
             Stage::Tensions | Stage::Limits if !self.free.is_empty() => ScalarReason::FreeCoordinates,
             Stage::Tensions => ScalarReason::Tensions,
             Stage::Limits => ScalarReason::Folded,
@@ -86,6 +96,15 @@ impl Nominal {
             Stage::Loaded => ScalarReason::Loaded,
         }
     }
+}
+
+/// The swivel axes of the pulleys in all lanes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Axes {
+    /// Vertical ones: other lanes are invalid.
+    Vertical,
+    /// Any.
+    Any,
 }
 
 /// Rows of deviations, one for each lane; lanes without a row of their own repeat the last one.
@@ -131,7 +150,7 @@ impl<'a, S: Simd> Rows<'a, S> {
     }
 
     /// The perturbed robots in their level frames, these frames where they are not the base frame, and the
-    /// lanes whose robot is valid, and whose pulleys have vertical axes.
+    /// lanes whose robot is valid, and whose pulleys have such axes.
     #[inline(always)]
     pub(crate) fn robots<'n>(
         &self,
@@ -139,6 +158,7 @@ impl<'a, S: Simd> Rows<'a, S> {
         pose: &Pose,
         load: &Load,
         nominal: &'n Nominal,
+        axes: Axes,
     ) -> (ChainStart<'n, S>, Option<LevelFrame<S>>, [Mask<S>; 2]) {
         let n = robot.cables.len();
         let (layout, frame) = (self.layout, self.frame(pose, None));
@@ -193,9 +213,15 @@ impl<'a, S: Simd> Rows<'a, S> {
         let mut upright = zero.less_or_equal(zero);
         for (i, cable) in robot.cables.iter().enumerate() {
             if cable.pulley.is_some() || cable.lead != 0.0 {
-                let (guide, valid, vertical) = self.guide(i, cable, level.as_ref());
-                start.robots.cables[i].guided = Some(Box::new(Guided { guide, whole_length: zero }));
-                (sound, upright) = (sound & valid, upright & vertical);
+                let (mut guide, valid, vertical) = self.guide(i, cable, level.as_ref());
+                sound = sound & valid;
+                match (axes, &cable.pulley) {
+                    (Axes::Any, Some(pulley)) => {
+                        guide.axis = self.axis(i, pulley, guide.radius, level.as_ref());
+                    }
+                    _ => upright = upright & vertical,
+                }
+                start.robots.cables[i].guided = Some(Box::new(Guided::new(guide)));
             }
         }
         start.multipliers = hold(robot.freedoms(), start.multipliers);
@@ -268,6 +294,43 @@ impl<'a, S: Simd> Rows<'a, S> {
             guide = GuideTerms { radius, axis, ..guide };
         }
         (guide, zero.less_or_equal(guide.lead) & zero.less_or_equal(guide.radius), vertical)
+    }
+}
+
+impl<'a, S: Simd> Rows<'a, S> {
+    /// The swivel axis of a pulley of this radius [m], of any direction: as unit vectors in the level frames.
+    #[cold]
+    #[inline(never)]
+    fn axis(
+        &self,
+        i: usize,
+        pulley: &Pulley,
+        radius: Lanes<S>,
+        level: Option<&LevelFrame<S>>,
+    ) -> SwivelAxis<Lanes<S>> {
+        let (mut axes, nominal) = ([[0.0; MAX_LANES]; 3], pulley.axis.normalize());
+        let tilts =
+            TiltAxis::ALL.map(|about| (about.of(pulley), self.layout.index(Parameter::Tilt(i, about))));
+        for (lane, row) in self.rows[..Lanes::<S>::COUNT].iter().enumerate() {
+            let mut axis = nominal;
+            for (about, index) in &tilts {
+                if let Some(index) = index {
+                    axis = Rotation3::from_axis_angle(&Unit::new_unchecked(*about), row[*index]) * axis;
+                }
+            }
+            for k in 0..3 {
+                axes[k][lane] = axis[k];
+            }
+        }
+        let axis = three!(|k| Lanes::from_array(self.simd, &axes[k]));
+        let axis = level.map_or(axis, |level| level.to_level(&axis));
+        // A pulley without radius does not matter.
+        let (none, zero) = (radius.less_or_equal(radius.all(0.0)), radius.all(0.0));
+        SwivelAxis::Along([
+            none.select(zero, axis[0]),
+            none.select(zero, axis[1]),
+            none.select(zero + 1.0, axis[2]),
+        ])
     }
 }
 

@@ -6,9 +6,9 @@ use crate::error::StaticsError;
 use crate::lanes::adjoint::{Adjoint, GuideSlopes, Record, adjoint};
 use crate::lanes::chain::observe;
 use crate::lanes::level::LevelFrame;
-use crate::lanes::observer::rows::Rows;
-use crate::lanes::platform::Robots;
+use crate::lanes::observer::rows::{Axes, Rows};
 use crate::lanes::reason::ScalarReason;
+use crate::local::platform::Robots;
 use crate::state::WantedPose;
 use cdpr_number::Number;
 use cdpr_number::lanes::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
@@ -21,9 +21,9 @@ use cdpr_robot::{Axis, Parameter, Robot, RobotCable, TiltAxis};
 pub struct ObservationSlopes {
     /// The deflection. [`Observation::scalar`] says why its derivatives were left to the scalar models.
     pub observation: Observation,
-    /// d|dp| by every parameter in the order of [`Parameter::of`] [m per unit], as [`Derivatives::rms`]; left
-    /// derivatives where the scalar models found them.
-    pub rms: Vec<f64>,
+    /// d|dp| by every parameter in the order of [`Parameter::of`] [m per unit], as
+    /// [`Derivatives::magnitude`]; left derivatives where the scalar models found them.
+    pub magnitude: Vec<f64>,
 }
 
 impl Observed for ObservationSlopes {
@@ -45,9 +45,9 @@ impl Observed for ObservationSlopes {
             Wanted::Pose(None) => derivatives(robot, wanted_pose, load)?,
             Wanted::Rest(branch) => derivatives(robot, wanted_pose.free(branch.coordinates()), load)?,
         };
-        let rms = found.rms()?.into_iter().take(layout.count()).collect();
+        let magnitude = found.magnitude()?.into_iter().take(layout.count()).collect();
         let Derivatives { deflection, .. } = found;
-        Ok(Self { observation: Observation::of(&deflection, why), rms })
+        Ok(Self { observation: Observation::of(&deflection, why), magnitude })
     }
 }
 
@@ -65,7 +65,7 @@ impl WithSimd for SlopesBatch<'_> {
             Ok(nominal) => nominal,
             Err(why) => return vec![Err(*why); deviations.len() / parameters],
         };
-        if !nominal.free.is_empty() {
+        if nominal.is_tilted || !nominal.free.is_empty() {
             return vec![Err(ScalarReason::Derivatives); deviations.len() / parameters];
         }
         let mut found = Vec::with_capacity(deviations.len() / parameters);
@@ -73,7 +73,7 @@ impl WithSimd for SlopesBatch<'_> {
         for rows in deviations.chunks(Lanes::<S>::COUNT * parameters) {
             let count = rows.len() / parameters;
             let rows = Rows::new(simd, rows, layout);
-            let (mut start, level, valid) = rows.robots(robot, pose, load, nominal);
+            let (mut start, level, valid) = rows.robots(robot, pose, load, nominal, Axes::Vertical);
             start.robots.frame.extend(rows.frame(pose, level.as_ref()));
             let payload = start.payload.clone();
             let rolling = rows.rolling(robot, &start.robots);
@@ -91,8 +91,8 @@ impl WithSimd for SlopesBatch<'_> {
                 found.push(match answer {
                     Ok(_) if !decided[lane] => Err(ScalarReason::Derivatives),
                     Ok(observation) => {
-                        let rms = slopes.iter().map(|slope| slope[lane]).collect();
-                        Ok(ObservationSlopes { observation, rms })
+                        let magnitude = slopes.iter().map(|slope| slope[lane]).collect();
+                        Ok(ObservationSlopes { observation, magnitude })
                     }
                     Err(why) => Err(why),
                 });

@@ -1,161 +1,41 @@
 //! What a load does to one robot at many poses with the lengths kept, one pose in each lane.
 //!
 //! From the cables that the inverse model wound, both equilibria follow by Newton's method of
-//! `lanes/newton.rs`. The stiffness K of the loaded platform is linearized at the second one. Its least
+//! `local/newton.rs`. The stiffness K of the loaded platform is linearized at the second one. Its least
 //! eigenvalue in (dp, ℓ dφ) is the stiffness of the softest motion, as [`crate::Stability`] has it, and
 //! that of `K v = (2π f)² M v` with the mass matrix of (V1) gives the lowest natural frequency. What a lane
 //! does not decide is left to the scalar models.
 
-use crate::derivatives::derivatives_from;
+use crate::equations::{SpannedCable, in_its_plane};
 use crate::error::StaticsError;
 use crate::inverse::InverseSolution;
 use crate::lanes::adjoint::adjoint;
-use crate::lanes::freedoms::{hold, hold_matrix};
-use crate::lanes::load::PlatformLoad;
-use crate::lanes::platform::{LaneResidual, LinearizedPlatform, Robots};
+use crate::lanes::poses::loaded_pose::{Loaded, LoadedPose, PoseSlopes};
 use crate::lanes::poses::placed::{PlacedRobot, each};
 use crate::lanes::poses::slopes::{Nominal, SlopesOfLanes};
 use crate::lanes::reason::ScalarReason;
-use crate::loading::{CableFrequency, Deflection, deflection_from};
-use crate::problem::DirectProblem;
-use crate::state::{Load, Residual};
+use crate::loading::CableFrequency;
+#[cfg(doc)]
+use crate::loading::deflection_from;
+use crate::local::freedoms::{hold, hold_matrix};
+use crate::local::load::PlatformLoad;
+use crate::local::platform::{LaneResidual, LinearizedPlatform, Robots};
+use crate::state::{Equilibrium, Load};
 use cdpr_cable::{Catenary, is_slack};
 use cdpr_number::Number;
 use cdpr_number::dense::{Lanes3, Lanes6x6, SymmetricFactors};
 use cdpr_number::eigen::least_eigenvalue;
 use cdpr_number::lanes::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
 use cdpr_number::{six, three};
-use cdpr_robot::{Freedoms, Matrix3, ParameterLayout, Pose, Robot, Vector3};
+use cdpr_robot::{Freedoms, Matrix3, Pose, Robot, Vector3};
 use smallvec::SmallVec;
 use std::f64::consts::TAU;
-
-/// A robot at a pose with a load on it that its cables, of kept lengths, yield to.
-#[derive(Clone, Debug, PartialEq)]
-pub struct LoadedPose {
-    /// dp, Eq. (4) [m].
-    pub displacement: Vector3<f64>,
-    /// Tension of every cable at the platform and at its exit point, over a pulley where the cable leaves it
-    /// [N]: without the load, and with it.
-    pub tensions: [Vec<[f64; 2]>; 2],
-    /// Residuals of both equilibria.
-    pub residuals: [Residual; 2],
-    /// Stiffness of the softest motion with the load [N/m], see [`crate::Stability::least_stiffness`].
-    pub least_stiffness: f64,
-    /// Lowest natural frequency with the load [Hz], see [`DirectProblem::lowest_frequency`]; `None` for a
-    /// robot that lacks `platform.inertia`.
-    pub lowest_frequency: Option<f64>,
-    /// The slowest cable, between ends at rest, where there is a lowest frequency.
-    pub lowest_cable_frequency: Option<CableFrequency>,
-    /// Cables (from 0) that are slack with the load.
-    pub slack: Vec<usize>,
-    /// Why the scalar models found it; `None` for one found in lanes.
-    pub scalar: Option<ScalarReason>,
-}
-
-impl LoadedPose {
-    /// That of a deflection, by the scalar models.
-    pub fn of(robot: &Robot, load: &Load, deflection: &Deflection) -> Self {
-        let Deflection { lengths, unloaded, loaded } = deflection;
-        let problem = DirectProblem::new(robot, lengths, load).ok();
-        let lowest_frequency = problem.and_then(|problem| problem.lowest_frequency(&loaded.equilibrium).ok());
-        let of_cables = || problem?.lowest_cable_frequency(&loaded.equilibrium).ok()?;
-        Self {
-            displacement: deflection.displacement(),
-            tensions: [unloaded, loaded].map(|solution| solution.equilibrium.end_tensions(robot, lengths)),
-            residuals: [unloaded, loaded].map(|solution| solution.report.residual),
-            least_stiffness: loaded.stability.least_stiffness(),
-            lowest_frequency,
-            lowest_cable_frequency: lowest_frequency.and_then(|_| of_cables()),
-            slack: loaded.report.slack.clone(),
-            scalar: Some(ScalarReason::OneByOne),
-        }
-    }
-}
-
-/// A loaded robot at a pose with the derivatives of its deflection.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PoseSlopes {
-    /// The robot. [`LoadedPose::scalar`] says why its derivatives were left to the scalar models.
-    pub loaded: LoadedPose,
-    /// Derivatives of |dp| by every parameter, in the order of [`cdpr_robot::Parameter::of`] [m per unit];
-    /// `None` where |dp| is not differentiable.
-    pub rms: Option<Vec<f64>>,
-}
-
-/// What is found of a robot at a pose with a load on it: [`LoadedPose`] or [`PoseSlopes`].
-pub trait Loaded: Sized {
-    /// Whether the derivatives are among it.
-    #[doc(hidden)]
-    const WITH_SLOPES: bool;
-
-    /// From what the lanes find.
-    #[doc(hidden)]
-    fn in_lanes(found: PoseSlopes) -> Self;
-
-    /// By the scalar models.
-    #[doc(hidden)]
-    fn by_scalar_models(
-        robot: &Robot,
-        wanted: &InverseSolution,
-        load: &Load,
-        why: ScalarReason,
-    ) -> Result<Self, StaticsError>;
-}
-
-impl Loaded for LoadedPose {
-    const WITH_SLOPES: bool = false;
-
-    fn in_lanes(found: PoseSlopes) -> Self {
-        found.loaded
-    }
-
-    fn by_scalar_models(
-        robot: &Robot,
-        wanted: &InverseSolution,
-        load: &Load,
-        why: ScalarReason,
-    ) -> Result<Self, StaticsError> {
-        let deflection = deflection_from(robot, wanted.lengths.clone(), load, &wanted.equilibrium)?;
-        Ok(Self { scalar: Some(why), ..Self::of(robot, load, &deflection) })
-    }
-}
-
-impl Loaded for PoseSlopes {
-    const WITH_SLOPES: bool = true;
-
-    fn in_lanes(found: PoseSlopes) -> Self {
-        found
-    }
-
-    fn by_scalar_models(
-        robot: &Robot,
-        wanted: &InverseSolution,
-        load: &Load,
-        why: ScalarReason,
-    ) -> Result<Self, StaticsError> {
-        let found = derivatives_from(robot, &wanted.equilibrium.pose, load, wanted.clone());
-        let (deflection, rms) = match found {
-            Ok(found) => {
-                let parameters = ParameterLayout::of(robot).count();
-                let rms = found.rms().ok().map(|slopes| slopes.into_iter().take(parameters).collect());
-                (found.deflection, rms)
-            }
-            // A pose without a derivative is held nevertheless.
-            Err(StaticsError::NoDerivative { .. }) => {
-                (deflection_from(robot, wanted.lengths.clone(), load, &wanted.equilibrium)?, None)
-            }
-            Err(error) => return Err(error),
-        };
-        let loaded = LoadedPose { scalar: Some(why), ..LoadedPose::of(robot, load, &deflection) };
-        Ok(Self { loaded, rms })
-    }
-}
 
 /// What `load` does at every pose that the inverse model answered without it, the lengths kept: the figures
 /// of [`deflection_from`], and those of [`crate::derivatives`] where they exist.
 ///
-/// Robots with a cable for every free motion, over pulleys with vertical axes or none, are answered
-/// in the lanes of the vector unit. No answer depends on the others.
+/// Robots with a cable for every free motion are answered in the lanes of the vector unit; derivatives over
+/// tilted axes are those of the scalar models. No answer depends on the others.
 ///
 /// # Errors
 /// Those of [`deflection_from`], for each pose.
@@ -181,6 +61,9 @@ fn in_lanes(
 ) -> Vec<Result<PoseSlopes, ScalarReason>> {
     let reason = ScalarReason::of_all(robot, &[]).or(load.validate().err().map(|_| ScalarReason::OneByOne));
     match (reason, PlacedRobot::of(robot)) {
+        (None, Some(placed)) if placed.is_tilted && with_slopes => {
+            vec![Err(ScalarReason::Derivatives); wanted.len()]
+        }
         (None, Some(placed)) => {
             let slopes = with_slopes.then(|| Nominal::new(&placed, load));
             dispatch(Batch { placed: &placed, wanted, load, slopes: slopes.as_ref() })
@@ -307,13 +190,15 @@ impl<S: Simd> InLanes<'_, S> {
                 each(simd, wanted, &|wanted| wanted.equilibrium.cable_forces[i].x),
                 each(simd, wanted, &|wanted| wanted.equilibrium.cable_forces[i].y),
             ];
-            cable.length = match &mut cable.guided {
-                None => length,
-                Some(guided) => {
-                    guided.whole_length = length;
-                    each(simd, wanted, &|wanted| free_length(placed.robot, i, wanted))
-                }
-            };
+            cable.length = length;
+            if let Some(guided) = &mut cable.guided {
+                let places: SmallVec<[GuidedPlace; MAX_LANES]> =
+                    wanted.iter().map(|wanted| GuidedPlace::of(placed.robot, i, wanted)).collect();
+                guided.whole_length = length;
+                let azimuth = [0, 1].map(|k: usize| each(simd, &places, &|place| place.azimuth[k]));
+                guided.return_to(&azimuth, length.less_or_equal(length));
+                cable.length = each(simd, &places, &|place| place.free_length);
+            }
         }
         robots
     }
@@ -327,7 +212,7 @@ impl<S: Simd> InLanes<'_, S> {
         carried: &PlatformLoad<S>,
         alive: Mask<S>,
     ) -> Settled<S> {
-        let (found, residual) = robots.settle(carried, platform, &self.placed.scale, alive);
+        let (found, residual) = robots.solve(carried, platform, &self.placed.scale, alive);
         let mut tensions = SmallVec::new();
         for cable in &robots.cables {
             let [fx, fz] = cable.force;
@@ -426,13 +311,13 @@ impl<S: Simd> InLanes<'_, S> {
                 answers.push(Err(if stands[lane] { ScalarReason::Loaded } else { ScalarReason::Unloaded }));
                 continue;
             }
-            let mut rms = None;
+            let mut magnitude = None;
             if self.slopes.is_some() {
                 let Some((slopes, _)) = slopes.as_ref().filter(|(_, decided)| decided[lane]) else {
                     answers.push(Err(ScalarReason::Derivatives));
                     continue;
                 };
-                rms = Some(slopes.iter().map(|slope| slope[lane]).collect());
+                magnitude = Some(slopes.iter().map(|slope| slope[lane]).collect());
             }
             let of_lane = |ends: &[[f64; MAX_LANES]; 2]| ends.map(|of| of[lane]);
             let ends = |i: usize| of_lane(&tensions[1][i]);
@@ -452,7 +337,7 @@ impl<S: Simd> InLanes<'_, S> {
                 slack: (0..robot.cables.len()).filter(is_slack).collect(),
                 scalar: None,
             };
-            answers.push(Ok(PoseSlopes { loaded, rms }));
+            answers.push(Ok(PoseSlopes { loaded, magnitude }));
         }
     }
 }
@@ -469,8 +354,20 @@ fn least<S: Simd>(freedoms: Freedoms, mut matrix: Lanes6x6<S>) -> Lanes<S> {
     least_eigenvalue(matrix)
 }
 
-/// Unstrained length beyond the leave point of a cable over a guide [m].
-fn free_length(robot: &Robot, i: usize, wanted: &InverseSolution) -> f64 {
-    let (unstrained_length, force) = (wanted.lengths[i], wanted.equilibrium.cable_forces[i]);
-    Catenary { cable: robot.cable(i), unstrained_length, force }.free().unstrained_length
+/// Where a cable over a guide is at a pose.
+struct GuidedPlace {
+    /// Azimuth of the plane that it hangs in.
+    azimuth: [f64; 2],
+    /// Unstrained length beyond the leave point [m].
+    free_length: f64,
+}
+
+impl GuidedPlace {
+    fn of(robot: &Robot, i: usize, wanted: &InverseSolution) -> Self {
+        let (unstrained_length, Equilibrium { pose, cable_forces }) =
+            (wanted.lengths[i], &wanted.equilibrium);
+        let catenary = Catenary { cable: robot.cable(i), unstrained_length, force: cable_forces[i] };
+        let azimuth = SpannedCable::of(robot, pose, i, &catenary).span.plane.azimuth;
+        Self { azimuth, free_length: in_its_plane(robot, pose, i, catenary).free_length() }
+    }
 }

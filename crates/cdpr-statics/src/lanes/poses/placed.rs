@@ -1,9 +1,10 @@
 //! One robot at several poses, one in each lane, in its level frame.
 
-use crate::lanes::cable::{Guided, LaneCable, Shape};
-use crate::lanes::chain::shared::{Choice, Shared, law};
-use crate::lanes::platform::{Layout, Robots, Scale};
-use crate::lanes::reason::ScalarReason;
+use crate::lanes::chain::shared::{Choice, Shared};
+use crate::lanes::reason::{ScalarReason, has_tilted_axes};
+use crate::local::cable::{LaneCable, Shape, law};
+use crate::local::guided::Guided;
+use crate::local::platform::{Layout, Robots, Scale};
 use crate::state::{Load, rounding_of_closure};
 use cdpr_cable::kernel::{GuideTerms, SwivelAxis};
 use cdpr_number::Number;
@@ -20,6 +21,8 @@ const NARROWER: f64 = 0.01;
 /// A robot whose poses fill the lanes.
 pub(crate) struct PlacedRobot<'a> {
     pub(crate) robot: &'a Robot,
+    /// Whether pulleys have tilted axes.
+    pub(crate) is_tilted: bool,
     /// Lengths that positions are compared with, at any pose.
     pub(crate) scale: Scale,
 }
@@ -40,14 +43,15 @@ impl<'a> PlacedRobot<'a> {
             // stiffness, and those of slack cables end at the bound: a fifth of it.
             rounding: rounding_of_closure(0.1 * size, farthest),
         };
-        Some(Self { robot, scale })
+        Some(Self { robot, is_tilted: has_tilted_axes(robot), scale })
     }
 
     /// What its poses under `load` share, from whatever shape their cables begin.
     pub(crate) fn shared(&self, load: &Load) -> Shared {
         let Self { robot, scale, .. } = *self;
         let reference = robot.reference();
-        let nowhere = Shape { tangent: [0.0; 2], chord_force: 0.0, sag_force: 0.0, longer: 0.0 };
+        let nowhere =
+            Shape { turn: [1.0, 0.0], tangent: [0.0; 2], chord_force: 0.0, sag_force: 0.0, longer: 0.0 };
         let choice = |(i, reference): (usize, &f64)| Choice::new(robot, i, *reference, nowhere);
         let choices: Vec<_> = reference.iter().enumerate().map(choice).collect();
         // No more than the sum of all tensions, or twice as much.
@@ -117,10 +121,13 @@ impl<'a> PlacedRobot<'a> {
         };
         for cable in &robot.cables {
             let properties = &cable.properties;
-            let guide = cable.guide(robot.gravity.level()).map(|guide| GuideTerms {
-                lead: all(guide.lead),
-                radius: all(guide.radius),
-                axis: SwivelAxis::Vertical(all(guide.radius * guide.entry.axis()[2])),
+            let guide = cable.guide(robot.gravity.level()).map(|guide| {
+                let [x, y, z] = guide.entry.axis();
+                let axis = match self.is_tilted && guide.radius > 0.0 {
+                    true => SwivelAxis::Along([all(x), all(y), all(z)]),
+                    false => SwivelAxis::Vertical(all(guide.radius * z)),
+                };
+                GuideTerms { lead: all(guide.lead), radius: all(guide.radius), axis }
             });
             robots.cables.push(LaneCable {
                 law: law(cable),
@@ -130,7 +137,7 @@ impl<'a> PlacedRobot<'a> {
                 anchor_arm: rotated(&frame, &point(cable.anchor_point)),
                 length: all(0.0),
                 force: [all(0.0); 2],
-                guided: guide.map(|guide| Box::new(Guided { guide, whole_length: all(0.0) })),
+                guided: guide.map(|guide| Box::new(Guided::new(guide))),
             });
         }
         (robots, frame)

@@ -1,0 +1,43 @@
+//! How much is said on the standard error: `--quiet` and `--verbose`.
+
+use std::fmt;
+use std::sync::OnceLock;
+
+/// How much is said.
+static SAID: OnceLock<Said> = OnceLock::new();
+
+/// How much is said besides answers, questions, warnings and errors.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Said {
+    /// No progress, no notes.
+    Less,
+    Usual,
+    /// Also what is read, and how long the command takes.
+    More,
+}
+
+/// Sets how much is said.
+pub(crate) fn say(said: Said) {
+    // It is set once, at the beginning.
+    let _ = SAID.set(said);
+}
+
+/// Whether what is said at least at this setting is said.
+pub(crate) fn is_said(least: Said) -> bool {
+    let said = *SAID.get().unwrap_or(&Said::Usual);
+    said != Said::Less && (said == Said::More || least == Said::Usual)
+}
+
+/// Says something that `--quiet` leaves out.
+pub(crate) fn note(text: fmt::Arguments) {
+    if is_said(Said::Usual) {
+        eprintln!("note: {text}");
+    }
+}
+
+/// Says something that only `--verbose` asks for.
+pub(crate) fn detail(text: fmt::Arguments) {
+    if is_said(Said::More) {
+        eprintln!("{text}");
+    }
+}

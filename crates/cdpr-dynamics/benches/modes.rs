@@ -1,0 +1,40 @@
+//! Natural motions with the mass of the cables: at one pose, with and without the counts.
+
+use cdpr_dynamics::{Modes, MovingPlatform, Wanted};
+use cdpr_robot::{Pose, Robot};
+use cdpr_statics::{DirectProblem, DirectStart, Load, inverse};
+use criterion::{Criterion, criterion_group, criterion_main};
+use std::hint::black_box;
+
+/// Robots, poses and bounds [Hz]: light and heavy cables, long ones with much sag, and pulleys.
+const CASES: [(&str, &str, [f64; 3], f64); 4] = [
+    ("cogiro", include_str!("../../../data/robots/cogiro.json"), [0.0, 0.0, 2.0], 20.0),
+    ("caroca", include_str!("../../../data/robots/caroca.json"), [0.4, 0.3, 1.75], 40.0),
+    ("ipanema-3", include_str!("../../../data/robots/ipanema-3.json"), [0.5, 0.2, 1.5], 20.0),
+    ("fast", include_str!("../../../data/robots/fast.json"), [0.0, 0.0, 140.0], 1.0),
+];
+
+#[allow(clippy::unwrap_used)]
+fn modes(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("modes");
+    for (name, file, [x, y, z], bound) in CASES {
+        let mut robot = Robot::from_json(file).unwrap();
+        let inertia = robot.platform.inertia.unwrap_or_else(|| robot.assumed_inertia());
+        robot.platform.inertia = Some(inertia);
+        let load = Load::none();
+        let held = inverse(&robot, &Pose::at(x, y, z), &load).unwrap();
+        let problem = DirectProblem::new(&robot, &held.lengths, &load).unwrap();
+        let rest = problem.direct(DirectStart::Near(&held.equilibrium)).unwrap().equilibrium;
+        group.bench_function(name, |bencher| {
+            bencher.iter(|| Modes::new(&problem, black_box(&rest), Wanted::Below(bound)).unwrap());
+        });
+        let platform = MovingPlatform::new(&problem, &rest, bound).unwrap();
+        group.bench_function(format!("{name}/count"), |bencher| {
+            bencher.iter(|| platform.count(black_box(bound)))
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(benches, modes);
+criterion_main!(benches);

@@ -1,0 +1,144 @@
+//! Stiffness and mass of a cable about its shape, by polynomials.
+//!
+//! With the unstrained length s, the tension n(s), which points along growing s, `N = |n|`, its direction t,
+//! the strain ε and the mass μ per unstrained length, a small motion `y(s) sin ωt` of the cable obeys
+//!
+//! ```text
+//! (A y')' + μ ω² y = 0,    A⁻¹ = (1 + ε)/N (1 - t tᵀ) + dε/dN t tᵀ                                 (N2)
+//! ```
+//!
+//! The stretch of t along s couples motions along and across the cable: no shallow sag is assumed. Those in
+//! the vertical plane of the cable and those across it are independent of each other.
+//!
+//! On elements of the length h, with `s = s_0 + h ξ`, y is a sum of the functions (N1), which gives
+//!
+//! ```text
+//! K = (1/h) ∫ N'ᵀ A N' dξ,     M = μ h ∫ Nᵀ N dξ                                                   (N3)
+//! ```
+
+use crate::polynomial::{functions, gauss};
+use nalgebra::DMatrix;
+
+/// A part of a cable on which its motion is one polynomial.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Element {
+    /// Where it begins and ends, as unstrained length from the exit [m].
+    pub(crate) ends: [f64; 2],
+    pub(crate) degree: usize,
+}
+
+/// Where the cable begins: motions of that point, each along a direction, with matrices whose first rows are
+/// theirs; further rows are those of unknowns beyond the point. Without directions it is fixed.
+pub(crate) struct Beginning<const D: usize> {
+    pub(crate) directions: Vec<[f64; D]>,
+    pub(crate) matrices: Matrices,
+}
+
+/// Stiffness [N/m] and mass [kg] of the unknowns.
+pub(crate) struct Matrices {
+    pub(crate) stiffness: DMatrix<f64>,
+    pub(crate) mass: DMatrix<f64>,
+}
+
+impl Matrices {
+    pub(crate) fn zeros(size: usize) -> Self {
+        Self { stiffness: DMatrix::zeros(size, size), mass: DMatrix::zeros(size, size) }
+    }
+}
+
+impl<const D: usize> Beginning<D> {
+    /// A point that does not move.
+    pub(crate) fn fixed() -> Self {
+        Self { directions: Vec::new(), matrices: Matrices::zeros(0) }
+    }
+}
+
+/// An unknown and the direction in which it moves the cable.
+type Unknown<const D: usize> = (usize, [f64; D]);
+
+/// The matrices of a cable in D dimensions. The first D unknowns are the motion of its end; `modulus` is A at
+/// an unstrained length [N], `density` the mass per length [kg/m].
+pub(crate) fn assemble<const D: usize>(
+    elements: &[Element],
+    beginning: &Beginning<D>,
+    density: f64,
+    modulus: impl Fn(f64) -> [[f64; D]; D],
+) -> Matrices {
+    let hidden = beginning.matrices.stiffness.nrows();
+    let bubbles: usize = elements.iter().map(|element| element.degree - 1).sum();
+    let mut all = Matrices::zeros(D + hidden + D * (elements.len() - 1 + bubbles));
+    for j in 0..hidden {
+        for i in 0..hidden {
+            all.stiffness[(D + i, D + j)] += beginning.matrices.stiffness[(i, j)];
+            all.mass[(D + i, D + j)] += beginning.matrices.mass[(i, j)];
+        }
+    }
+    let along = |first: usize| -> Vec<Unknown<D>> {
+        (0..D).map(|k| (first + k, std::array::from_fn(|c| f64::from(u8::from(c == k))))).collect()
+    };
+    let mut next = D + hidden;
+    let mut before: Vec<Unknown<D>> =
+        beginning.directions.iter().enumerate().map(|(k, direction)| (D + k, *direction)).collect();
+    for (e, element) in elements.iter().enumerate() {
+        let mut take = || {
+            let unknowns = along(next);
+            next += D;
+            unknowns
+        };
+        let after = if e + 1 == elements.len() { along(0) } else { take() };
+        let mut unknowns = vec![before, after.clone()];
+        unknowns.extend((2..=element.degree).map(|_| take()));
+        add(&mut all, element, &unknowns, density, &modulus);
+        before = after;
+    }
+    all
+}
+
+/// Adds an element: `unknowns` are those of each of its functions.
+fn add<const D: usize>(
+    all: &mut Matrices,
+    element: &Element,
+    unknowns: &[Vec<Unknown<D>>],
+    density: f64,
+    modulus: &impl Fn(f64) -> [[f64; D]; D],
+) {
+    /// Points beyond the degree: A is no polynomial.
+    const MORE_POINTS: usize = 12;
+    let [from, to] = element.ends;
+    let length = to - from;
+    let points: Vec<_> = gauss(element.degree + MORE_POINTS)
+        .into_iter()
+        .map(|[x, weight]| {
+            let s = from + 0.5 * (1.0 + x) * length;
+            let modulus = modulus(s).map(|row| row.map(|a| 0.5 * weight / length * a));
+            (functions(element.degree, x), modulus, 0.5 * weight * length * density)
+        })
+        .collect();
+    for (a, first) in unknowns.iter().enumerate() {
+        for (b, second) in unknowns.iter().enumerate().take(a + 1) {
+            let mut stiffness = [[0.0; D]; D];
+            let mut mass = 0.0;
+            for (functions, modulus, weight) in &points {
+                let ([value, slope], [other, other_slope]) = (functions[a], functions[b]);
+                mass += weight * value * other;
+                let slopes = slope * other_slope;
+                for (sums, row) in stiffness.iter_mut().zip(modulus) {
+                    sums.iter_mut().zip(row).for_each(|(sum, a)| *sum += slopes * a);
+                }
+            }
+            for (i, along) in first {
+                for (j, other) in second {
+                    let product = |c: usize| -> f64 { (0..D).map(|d| stiffness[c][d] * other[d]).sum() };
+                    let k: f64 = (0..D).map(|c| along[c] * product(c)).sum();
+                    let m = mass * along.iter().zip(other).map(|(a, b)| a * b).sum::<f64>();
+                    all.stiffness[(*i, *j)] += k;
+                    all.mass[(*i, *j)] += m;
+                    if a != b {
+                        all.stiffness[(*j, *i)] += k;
+                        all.mass[(*j, *i)] += m;
+                    }
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,69 @@
+//! Why there is no answer.
+
+use cdpr_robot::RobotError;
+use cdpr_statics::StaticsError;
+
+/// An error of this crate.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum DynamicsError {
+    /// The equilibrium is none, or is not stable.
+    #[error(transparent)]
+    Statics(#[from] StaticsError),
+    /// The robot is invalid.
+    #[error(transparent)]
+    Robot(#[from] RobotError),
+    /// What is asked for is not possible.
+    #[error("{field} is {value}: expected {expected}")]
+    Invalid {
+        /// Name of the input.
+        field: &'static str,
+        /// Its value.
+        value: String,
+        /// Values that are valid.
+        expected: String,
+    },
+    /// A cable with mass that nothing stretches.
+    #[error(
+        "cable {} hangs without tension at a point: a cable that cannot be bent has no natural frequency there; \
+         change the pose or the lengths",
+        cable + 1
+    )]
+    Folded {
+        /// Its number, from 0.
+        cable: usize,
+    },
+    /// The equilibrium is not stable once the cables have mass, or a matrix cannot be factored.
+    #[error("the platform has no natural frequencies here: {what}")]
+    NotStable {
+        /// What was found.
+        what: String,
+    },
+}
+
+impl From<DynamicsError> for StaticsError {
+    fn from(error: DynamicsError) -> Self {
+        let text = error.to_string();
+        let invalid = |field: &str, value: String, expected: String| Self::Invalid {
+            field: field.to_owned(),
+            value,
+            expected,
+        };
+        match error {
+            DynamicsError::Statics(error) => error,
+            DynamicsError::Robot(error) => error.into(),
+            DynamicsError::Invalid { field, value, expected } => invalid(field, value, expected),
+            DynamicsError::Folded { .. } | DynamicsError::NotStable { .. } => {
+                invalid("equilibrium", text, "one with natural motions".to_owned())
+            }
+        }
+    }
+}
+
+/// Refuses numbers that are not finite and above zero.
+pub(crate) fn positive(field: &'static str, value: f64, expected: &str) -> Result<(), DynamicsError> {
+    if value.is_finite() && value > 0.0 {
+        return Ok(());
+    }
+    Err(DynamicsError::Invalid { field, value: value.to_string(), expected: expected.to_owned() })
+}

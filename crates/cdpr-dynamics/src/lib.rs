@@ -1,0 +1,34 @@
+//! Natural motions of cable-driven parallel robots whose sagging, elastic cables have mass.
+//!
+//! A platform on cables without mass has six natural frequencies. Cables with mass vibrate themselves, and
+//! where they do so about as fast as the platform, the two move together: CoGiRo has 76 natural motions below
+//! 20 Hz, and none of them is the platform's alone. [`Mode::platform_share`] tells them apart.
+//!
+//! ```
+//! use cdpr_dynamics::{Wanted, modes_at};
+//! use cdpr_robot::{Pose, Robot};
+//! use cdpr_statics::Load;
+//!
+//! let robot = Robot::from_json(include_str!("../../../data/robots/cogiro.json"))?;
+//! let found = modes_at(&robot, &Pose::at(0.0, 0.0, 2.0), &Load::none(), Wanted::Below(6.0))?;
+//! assert_eq!(found.modes.len(), found.counted);
+//! let platform = found.of_platform().map(|mode| mode.frequency);
+//! println!("{} motions below 6 Hz, most of the platform moves at {platform:?} Hz", found.counted);
+//! # Ok::<(), cdpr_dynamics::DynamicsError>(())
+//! ```
+//!
+//! The cables are those of `cdpr-cable`: sag, elasticity, laws, leads and pulleys. Cable on a pulley and
+//! behind it has no mass here; nothing is damped; winches hold.
+
+mod cable;
+mod condensed;
+mod dense;
+mod element;
+mod error;
+mod modes;
+mod platform;
+mod polynomial;
+
+pub use error::DynamicsError;
+pub use modes::{Mode, Modes, Wanted, modes_at};
+pub use platform::MovingPlatform;

@@ -1,0 +1,6 @@
+//! Tests of this crate.
+
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout)]
+
+mod reference;
+mod robots;

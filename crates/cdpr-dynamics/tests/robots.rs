@@ -1,0 +1,101 @@
+//! Robots of the library: what holds whatever the numbers are.
+
+use cdpr_dynamics::{DynamicsError, Modes, Wanted, modes_at};
+use cdpr_robot::{Gravity, Pose, Robot, Rotation3};
+use cdpr_statics::{DirectProblem, DirectStart, Load, StaticsError, WantedPose, inverse};
+
+/// Robots with a pose that they hold and the coordinates that are found there.
+const ROBOTS: [(&str, [f64; 3], &str); 6] = [
+    (include_str!("../../../data/robots/caroca.json"), [0.4, 0.3, 1.75], ""),
+    (include_str!("../../../data/robots/cogiro.json"), [0.0, 0.0, 2.0], ""),
+    (include_str!("../../../data/robots/fast.json"), [0.0, 0.0, 140.0], ""),
+    (include_str!("../../../data/robots/ipanema-1.json"), [0.0, 0.0, 1.0], ""),
+    (include_str!("../../../data/robots/ipanema-3.json"), [0.5, 0.2, 1.5], ""),
+    (include_str!("../../../data/robots/four-cables.json"), [0.3, 0.2, 2.0], "roll,pitch"),
+];
+
+fn robot(file: &str) -> Robot {
+    let mut robot = Robot::from_json(file).unwrap();
+    robot.platform.inertia = Some(robot.platform.inertia.unwrap_or_else(|| robot.assumed_inertia()));
+    robot
+}
+
+fn wanted<'a>(pose: &'a Pose, free: &'a [cdpr_robot::Coordinate]) -> WantedPose<'a> {
+    WantedPose::at(pose).free(free)
+}
+
+#[test]
+fn the_first_motions_are_the_same_by_number_and_below_a_frequency() {
+    for (file, [x, y, z], free) in ROBOTS {
+        let (robot, pose) = (robot(file), Pose::at(x, y, z));
+        let free = free_coordinates(free);
+        let found = |what: Wanted| modes_at(&robot, wanted(&pose, &free), &Load::none(), what).unwrap();
+        let first = found(Wanted::Number(10));
+        assert_eq!((first.modes.len(), first.counted), (10, 10), "{}", robot.name);
+        let below = found(Wanted::Below(first.complete_below));
+        assert_eq!(below.counted, 10, "{}", robot.name);
+        for (one, other) in first.modes.iter().zip(&below.modes) {
+            let off = (one.frequency / other.frequency - 1.0).abs();
+            assert!(off <= 1e-6, "{}: {} {}", robot.name, one.frequency, other.frequency);
+            assert!(one.within <= 1e-6 && one.platform_share > -1e-9, "{}", robot.name);
+            let sum = one.platform_share + one.cable_shares.iter().sum::<f64>();
+            assert!((sum - 1.0).abs() < 1e-8, "{}: {sum}", robot.name);
+        }
+        let platform = first.of_platform().unwrap();
+        println!("{}: {:.4} Hz, {:.1} %", robot.name, platform.frequency, 100.0 * platform.platform_share);
+    }
+}
+
+fn free_coordinates(names: &str) -> Vec<cdpr_robot::Coordinate> {
+    names.split(',').filter(|name| !name.is_empty()).map(|name| name.parse().unwrap()).collect()
+}
+
+#[test]
+fn a_robot_vibrates_alike_however_its_base_is_turned() {
+    let turn = Rotation3::from_euler_angles(0.4, -0.9, 2.0);
+    for (file, [x, y, z], _) in ROBOTS.into_iter().filter(|robot| robot.2.is_empty()) {
+        let (robot, pose) = (robot(file), Pose::at(x, y, z));
+        let held = inverse(&robot, &pose, &Load::none()).unwrap();
+        let mut turned = robot.clone();
+        turned.gravity = Gravity::from(turn * robot.gravity.vector());
+        turned.ground_z = None;
+        for cable in &mut turned.cables {
+            cable.exit_point = turn * cable.exit_point;
+            if let Some(pulley) = &mut cable.pulley {
+                pulley.axis = turn * pulley.axis;
+            }
+        }
+        let turned_pose = Pose { position: turn * pose.position, rotation: turn * pose.rotation };
+        let modes = |robot: &Robot, pose: &Pose| {
+            let problem = DirectProblem::new(robot, &held.lengths, &Load::none()).unwrap();
+            let rest = problem.direct(DirectStart::Pose(pose)).unwrap();
+            Modes::new(&problem, &rest.equilibrium, Wanted::Number(8)).unwrap()
+        };
+        let (one, other) = (modes(&robot, &pose), modes(&turned, &turned_pose));
+        for (one, other) in one.modes.iter().zip(&other.modes) {
+            let off = (one.frequency / other.frequency - 1.0).abs();
+            assert!(off < 2e-6, "{}: {} {}", robot.name, one.frequency, other.frequency);
+        }
+    }
+}
+
+#[test]
+fn what_has_no_natural_motions_is_refused_with_its_reason() {
+    let robot = robot(ROBOTS[1].0);
+    let pose = Pose::at(0.0, 0.0, 2.0);
+    let refused = |what: Wanted| modes_at(&robot, pose, &Load::none(), what).unwrap_err();
+    for bound in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        assert!(refused(Wanted::Below(bound)).to_string().contains("a frequency [Hz] above zero"));
+    }
+    assert!(refused(Wanted::Number(0)).to_string().contains("one at least"));
+    let too_high = refused(Wanted::Below(1e6));
+    assert!(too_high.to_string().contains("Hz at most, where cable"), "{too_high}");
+    let mut without = robot.clone();
+    without.platform.inertia = None;
+    let error = modes_at(&without, pose, &Load::none(), Wanted::Number(3)).unwrap_err();
+    assert!(
+        matches!(&error, DynamicsError::Statics(StaticsError::Invalid { field, .. })
+        if field == "platform.inertia"),
+        "{error}"
+    );
+}

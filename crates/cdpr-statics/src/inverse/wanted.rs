@@ -1,0 +1,56 @@
+//! What a model takes of a wanted pose.
+
+use crate::error::StaticsError;
+use crate::state::WantedPose;
+use cdpr_robot::Pose;
+
+/// A wanted pose without offsets.
+///
+/// # Errors
+/// [`StaticsError::Invalid`] for offsets: they are of set-points, which this model does not set.
+pub(crate) fn refuse_offsets(wanted: WantedPose) -> Result<WantedPose, StaticsError> {
+    match wanted.tension_offsets {
+        [] => Ok(wanted),
+        given => {
+            let expected = "none here: deflections, their derivatives and `wound_lengths` take them";
+            Err(StaticsError::invalid(
+                "tension_offsets".to_owned(),
+                format!("a list of {}", given.len()),
+                expected,
+            ))
+        }
+    }
+}
+
+/// A whole pose without offsets.
+///
+/// # Errors
+/// Those of [`refuse_offsets`]; [`StaticsError::Invalid`] for free coordinates, which leave no choice of the
+/// tensions.
+pub(super) fn whole(wanted: WantedPose) -> Result<WantedPose, StaticsError> {
+    let wanted = refuse_offsets(wanted)?;
+    match wanted.free {
+        [] => Ok(wanted),
+        given => Err(StaticsError::invalid(
+            "free".to_owned(),
+            format!("a list of {}", given.len()),
+            "none here: it takes whole poses, at which tensions are chosen",
+        )),
+    }
+}
+
+/// A whole pose of which no more is wanted.
+///
+/// # Errors
+/// Those of [`whole`]; [`StaticsError::Invalid`] for a reference of the tensions, which would not act.
+pub(super) fn pose_alone(wanted: WantedPose) -> Result<Pose, StaticsError> {
+    let WantedPose { pose, tension_reference, .. } = whole(wanted)?;
+    match tension_reference {
+        None => Ok(pose),
+        Some(given) => Err(StaticsError::invalid(
+            "tension_reference".to_owned(),
+            format!("a list of {}", given.len()),
+            "none here: no tensions are chosen",
+        )),
+    }
+}

@@ -1,0 +1,133 @@
+//! What is found of a robot at a pose with a load on it, in lanes or by the scalar models.
+
+use crate::derivatives::derivatives_from;
+use crate::error::StaticsError;
+use crate::inverse::InverseSolution;
+use crate::lanes::reason::ScalarReason;
+use crate::loading::{CableFrequency, Deflection, deflection_from};
+use crate::problem::DirectProblem;
+use crate::state::{Load, Residual};
+use cdpr_robot::{ParameterLayout, Robot, Vector3};
+
+/// A robot at a pose with a load on it that its cables, of kept lengths, yield to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LoadedPose {
+    /// dp, Eq. (4) [m].
+    pub displacement: Vector3<f64>,
+    /// Tension of every cable at the platform and at its exit point, over a pulley where the cable leaves it
+    /// [N]: without the load, and with it.
+    pub tensions: [Vec<[f64; 2]>; 2],
+    /// Residuals of both equilibria.
+    pub residuals: [Residual; 2],
+    /// Stiffness of the softest motion with the load [N/m], see [`crate::Stability::least_stiffness`].
+    pub least_stiffness: f64,
+    /// Lowest natural frequency with the load [Hz], see [`DirectProblem::lowest_frequency`]; `None` for a
+    /// robot that lacks `platform.inertia`.
+    pub lowest_frequency: Option<f64>,
+    /// The slowest cable, between ends at rest, where there is a lowest frequency.
+    pub lowest_cable_frequency: Option<CableFrequency>,
+    /// Cables (from 0) that are slack with the load.
+    pub slack: Vec<usize>,
+    /// Why the scalar models found it; `None` for one found in lanes.
+    pub scalar: Option<ScalarReason>,
+}
+
+impl LoadedPose {
+    /// That of a deflection, by the scalar models.
+    pub fn of(robot: &Robot, load: &Load, deflection: &Deflection) -> Self {
+        let Deflection { lengths, unloaded, loaded } = deflection;
+        let problem = DirectProblem::new(robot, lengths, load).ok();
+        let lowest_frequency = problem.and_then(|problem| problem.lowest_frequency(&loaded.equilibrium).ok());
+        let of_cables = || problem?.lowest_cable_frequency(&loaded.equilibrium).ok()?;
+        Self {
+            displacement: deflection.displacement(),
+            tensions: [unloaded, loaded].map(|solution| solution.equilibrium.end_tensions(robot, lengths)),
+            residuals: [unloaded, loaded].map(|solution| solution.report.residual),
+            least_stiffness: loaded.stability.least_stiffness(),
+            lowest_frequency,
+            lowest_cable_frequency: lowest_frequency.and_then(|_| of_cables()),
+            slack: loaded.report.slack.clone(),
+            scalar: Some(ScalarReason::OneByOne),
+        }
+    }
+}
+
+/// A loaded robot at a pose with the derivatives of its deflection.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PoseSlopes {
+    /// The robot. [`LoadedPose::scalar`] says why its derivatives were left to the scalar models.
+    pub loaded: LoadedPose,
+    /// Derivatives of |dp| by every parameter, in the order of [`cdpr_robot::Parameter::of`] [m per unit];
+    /// `None` where |dp| is not differentiable.
+    pub magnitude: Option<Vec<f64>>,
+}
+
+/// What is found of a robot at a pose with a load on it: [`LoadedPose`] or [`PoseSlopes`].
+pub trait Loaded: Sized {
+    /// Whether the derivatives are among it.
+    #[doc(hidden)]
+    const WITH_SLOPES: bool;
+
+    /// From what the lanes find.
+    #[doc(hidden)]
+    fn in_lanes(found: PoseSlopes) -> Self;
+
+    /// By the scalar models.
+    #[doc(hidden)]
+    fn by_scalar_models(
+        robot: &Robot,
+        wanted: &InverseSolution,
+        load: &Load,
+        why: ScalarReason,
+    ) -> Result<Self, StaticsError>;
+}
+
+impl Loaded for LoadedPose {
+    const WITH_SLOPES: bool = false;
+
+    fn in_lanes(found: PoseSlopes) -> Self {
+        found.loaded
+    }
+
+    fn by_scalar_models(
+        robot: &Robot,
+        wanted: &InverseSolution,
+        load: &Load,
+        why: ScalarReason,
+    ) -> Result<Self, StaticsError> {
+        let deflection = deflection_from(robot, wanted.lengths.clone(), load, &wanted.equilibrium)?;
+        Ok(Self { scalar: Some(why), ..Self::of(robot, load, &deflection) })
+    }
+}
+
+impl Loaded for PoseSlopes {
+    const WITH_SLOPES: bool = true;
+
+    fn in_lanes(found: PoseSlopes) -> Self {
+        found
+    }
+
+    fn by_scalar_models(
+        robot: &Robot,
+        wanted: &InverseSolution,
+        load: &Load,
+        why: ScalarReason,
+    ) -> Result<Self, StaticsError> {
+        let found = derivatives_from(robot, &wanted.equilibrium.pose, load, wanted.clone());
+        let (deflection, magnitude) = match found {
+            Ok(found) => {
+                let parameters = ParameterLayout::of(robot).count();
+                let magnitude =
+                    found.magnitude().ok().map(|slopes| slopes.into_iter().take(parameters).collect());
+                (found.deflection, magnitude)
+            }
+            // A pose without a derivative is held nevertheless.
+            Err(StaticsError::NoDerivative { .. }) => {
+                (deflection_from(robot, wanted.lengths.clone(), load, &wanted.equilibrium)?, None)
+            }
+            Err(error) => return Err(error),
+        };
+        let loaded = LoadedPose { scalar: Some(why), ..LoadedPose::of(robot, load, &deflection) };
+        Ok(Self { loaded, magnitude })
+    }
+}

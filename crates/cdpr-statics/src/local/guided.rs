@@ -1,0 +1,340 @@
+//! Cables over guides, one in each lane: a lead, and a pulley whose axis is vertical or tilted.
+//!
+//! The length of such a cable is that beyond its leave point, which closes with the force in the same
+//! iteration: at the force F and the whole length L that it was given,
+//!
+//! ```text
+//! dLf = (L - L(F, Lf))/β + q·dF/β,      A(F, L) = A(F, Lf) + dA/dL (L - L(F, Lf))                   (L12)
+//! ```
+//!
+//! with (C21) to (C23) of `cdpr_cable`; what is left out is of second order.
+//!
+//! Over a tilted axis the cable hangs in a vertical plane that does not contain its entry point. The azimuth
+//! e_h of that plane is an unknown of the cable, as its force is: with the components of r_i along e_h, across
+//! it to the left and upwards,
+//!
+//! ```text
+//! (h, l, z) - A(F, L) = 0,      dF = (dfx, fx dθ, dfz)                                              (L19)
+//! ```
+//!
+//! with the leave point and the flexibility of (C19) and (C22) in these axes; a turn by dθ is the force
+//! `fx dθ` across the plane.
+
+use crate::equations::{CablePlane, LinearizedCable, Span};
+use crate::local::free::FreeCable;
+use crate::local::swivel::{Swivel, in_space};
+use cdpr_cable::kernel::{GuideTerms, GuidedInSpace, LaneEnd, LeavePoint, Response, SwivelAxis, Way};
+use cdpr_number::Number;
+use cdpr_number::dense::{Lanes2, Lanes3, replace};
+use cdpr_number::lanes::{Lanes, Mask, Simd, WithSimd};
+use cdpr_number::three;
+use cdpr_number::vector::{cross, dot};
+
+/// Horizontal distance of a cable's end from its leave point, in radii of its wheel, within which a slack
+/// cable may hang from either side of the wheel.
+const NEXT_TO_WHEEL: f64 = 4.0;
+
+/// A guide, and the cable that was given to it.
+#[derive(Clone)]
+pub(crate) struct Guided<S: Simd> {
+    /// The guide; a tilted axis has the components along x, y and z of the level frame.
+    pub(crate) guide: GuideTerms<Lanes<S>>,
+    /// Unstrained length L, lead and arc included [m].
+    pub(crate) whole_length: Lanes<S>,
+    /// Direction e_h of the plane that a cable over a tilted axis hangs in.
+    azimuth: Lanes2<S>,
+}
+
+/// How the length beyond the leave point follows the force, (L12).
+#[derive(Clone, Copy)]
+pub(crate) struct FreeLength<S: Simd> {
+    /// (L - L(F, Lf))/β [m].
+    missing: Lanes<S>,
+    /// q/β [m/N].
+    per_force: Lanes2<S>,
+}
+
+impl<S: Simd> FreeLength<S> {
+    /// A length that does not change.
+    #[inline(always)]
+    pub(crate) fn fixed(zero: Lanes<S>) -> Self {
+        Self { missing: zero, per_force: [zero; 2] }
+    }
+
+    /// Assigns another one in the lanes that are `active`.
+    #[inline(always)]
+    fn replace(&mut self, other: &Self, active: Mask<S>) {
+        self.update(other.missing, active);
+        replace(&mut self.per_force, &other.per_force, active);
+    }
+
+    /// Assigns a missing length in the lanes that are `active`.
+    #[inline(always)]
+    pub(crate) fn update(&mut self, missing: Lanes<S>, active: Mask<S>) {
+        self.missing.replace(missing, active);
+    }
+
+    /// dLf for a change of the force in the plane.
+    #[inline(always)]
+    pub(crate) fn change(&self, from: &Lanes2<S>, to: &Lanes2<S>) -> Lanes<S> {
+        self.missing + self.per_force[0] * (to[0] - from[0]) + self.per_force[1] * (to[1] - from[1])
+    }
+}
+
+/// The end of a whole cable.
+pub(crate) struct GuidedEnd<S: Simd> {
+    /// Its span in the plane that it hangs in.
+    pub(crate) span: Span<Lanes<S>>,
+    pub(crate) end: LaneEnd<Lanes<S>>,
+    /// Misclosure across the plane [m]; zero under a vertical axis.
+    pub(crate) across: Lanes<S>,
+    /// Missing length beyond the leave point [m].
+    pub(crate) missing: Lanes<S>,
+}
+
+impl<S: Simd> Guided<S> {
+    #[inline(always)]
+    pub(crate) fn new(guide: GuideTerms<Lanes<S>>) -> Self {
+        let zero = guide.radius.all(0.0);
+        Self { guide, whole_length: zero, azimuth: [zero + 1.0, zero] }
+    }
+
+    /// Whether its axis is a tilted one, in any lane.
+    #[inline(always)]
+    pub(crate) fn is_tilted(&self) -> bool {
+        matches!(self.guide.axis, SwivelAxis::Along(_))
+    }
+
+    /// The guide as it is in the plane of the cable.
+    #[inline(always)]
+    pub(crate) fn in_plane(&self) -> GuideTerms<Lanes<S>> {
+        match self.guide.axis {
+            SwivelAxis::Vertical(_) => self.guide,
+            SwivelAxis::Along([x, y, z]) => {
+                let [c, s] = self.azimuth;
+                GuideTerms { axis: SwivelAxis::Along([c * x + s * y, c * y - s * x, z]), ..self.guide }
+            }
+        }
+    }
+
+    /// The plane of a cable over a tilted axis.
+    #[inline(always)]
+    pub(crate) fn plane(&self) -> CablePlane<Lanes<S>> {
+        CablePlane { azimuth: self.azimuth }
+    }
+
+    /// The span in the plane that the cable hangs in, and its component across that [m].
+    #[inline(always)]
+    pub(crate) fn seen(&self, span: &Span<Lanes<S>>) -> (Span<Lanes<S>>, Lanes<S>) {
+        match self.is_tilted() {
+            true => span.seen_in(self.plane()),
+            false => (*span, self.whole_length.all(0.0)),
+        }
+    }
+
+    /// Turns the plane of a cable over a tilted axis from that of its two points, by cosine and sine.
+    #[inline(always)]
+    pub(crate) fn turn(&mut self, [c, s]: Lanes2<S>, plane: &CablePlane<Lanes<S>>) {
+        let [x, y] = plane.azimuth;
+        self.azimuth = [c * x - s * y, c * y + s * x];
+    }
+
+    /// Turns the plane by an angle that has the tangent `tangent`, in the lanes that are `active`.
+    #[inline(always)]
+    pub(crate) fn swing(&mut self, tangent: Lanes<S>, active: Mask<S>) {
+        if self.is_tilted() {
+            let c = (tangent * tangent + 1.0).sqrt().recip();
+            let ([x, y], s) = (self.azimuth, tangent * c);
+            replace(&mut self.azimuth, &[c * x - s * y, c * y + s * x], active);
+        }
+    }
+
+    /// Its azimuth, to go back to with [`Guided::return_to`].
+    #[inline(always)]
+    pub(crate) fn azimuth(&self) -> Lanes2<S> {
+        self.azimuth
+    }
+
+    /// Assigns an azimuth in the lanes that are `active`.
+    #[inline(always)]
+    pub(crate) fn return_to(&mut self, azimuth: &Lanes2<S>, active: Mask<S>) {
+        replace(&mut self.azimuth, azimuth, active);
+    }
+
+    /// Where the cable leaves its guide.
+    #[inline(always)]
+    pub(crate) fn leave_point(&self, free: &FreeCable<'_, S>) -> LeavePoint<Lanes<S>> {
+        self.in_plane().leave_point(free.material.weight_per_length, free.length, free.force)
+    }
+
+    /// The lanes in which it has no pulley, and the leave point does not move.
+    #[inline(always)]
+    pub(crate) fn fixed(&self) -> Mask<S> {
+        self.guide.radius.less_or_equal(self.guide.radius.all(0.0))
+    }
+
+    #[inline(always)]
+    pub(crate) fn way(&self, free: &FreeCable<'_, S>) -> Way<Lanes<S>> {
+        let (guide, weight_per_length) = (self.in_plane(), free.material.weight_per_length);
+        let leave = guide.leave_point(weight_per_length, free.length, free.force);
+        let stretch = free.material.stretch(leave.tension);
+        guide.way(weight_per_length, free.length, leave, stretch)
+    }
+
+    /// Linearizes the whole cable of this guide in the lanes that are `active`, with the end of (L12).
+    #[cold]
+    #[inline(never)]
+    pub(crate) fn linearize(
+        &self,
+        free: &FreeCable<'_, S>,
+        span: &Span<Lanes<S>>,
+        linearized: GuidedLinearization<'_, S>,
+        active: Mask<S>,
+    ) {
+        free.length.apart(Linearize { guided: self, free: *free, span: *span, linearized, active });
+    }
+
+    /// The lanes in which the cable over `span` ends within [`NEXT_TO_WHEEL`] radii of its leave point.
+    #[cold]
+    #[inline(never)]
+    pub(crate) fn is_next_to(&self, free: &FreeCable<'_, S>, span: &Span<Lanes<S>>) -> Mask<S> {
+        free.length.apart(IsNextTo(self, *free, *span))
+    }
+
+    /// The end of the whole cable of this guide, (L12). A cable that is too short for its guide has a
+    /// slackness of 2.
+    #[cold]
+    #[inline(never)]
+    pub(crate) fn end(&self, free: &FreeCable<'_, S>, span: &Span<Lanes<S>>) -> GuidedEnd<S> {
+        free.length.apart(WholeEnd(self, *free, *span))
+    }
+}
+
+/// The places of a guided cable in the linearized platform.
+pub(crate) struct GuidedLinearization<'a, S: Simd> {
+    pub(crate) cable: &'a mut LinearizedCable<Lanes<S>>,
+    pub(crate) free: &'a mut FreeLength<S>,
+    /// Of robots with tilted axes.
+    pub(crate) swivel: Option<&'a mut Swivel<S>>,
+}
+
+struct Linearize<'a, 'b, S: Simd> {
+    guided: &'a Guided<S>,
+    free: FreeCable<'b, S>,
+    span: Span<Lanes<S>>,
+    linearized: GuidedLinearization<'a, S>,
+    active: Mask<S>,
+}
+
+impl<S: Simd> WithSimd for Linearize<'_, '_, S> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<Same: Simd>(self, _: Same) {
+        let Self { guided, free, span, linearized, active } = self;
+        let (way, fx) = (guided.way(&free), free.force[0]);
+        let missing = guided.whole_length - way.length;
+        let change = FreeLength { missing: missing * way.free_per_length, per_force: way.free_per_force };
+        linearized.free.replace(&change, active);
+        match linearized.swivel {
+            Some(swivel) if guided.is_tilted() => {
+                let (span, across) = guided.seen(&span);
+                let space = way.in_space(fx, &free.response());
+                let (cable, own) = in_space(&span, across, free.force, missing, &space);
+                linearized.cable.replace(&cable, active);
+                swivel.replace(&own, active);
+            }
+            _ => {
+                let response = way.response(fx, &free.response());
+                let response = Response { end: moved(response.end, &way, missing), ..response };
+                let cable = LinearizedCable::new(&span, free.force, &response);
+                linearized.cable.replace(&cable, active);
+            }
+        }
+    }
+}
+
+struct IsNextTo<'a, 'b, S: Simd>(&'a Guided<S>, FreeCable<'b, S>, Span<Lanes<S>>);
+
+impl<S: Simd> WithSimd for IsNextTo<'_, '_, S> {
+    type Output = Mask<S>;
+
+    #[inline(always)]
+    fn with_simd<Same: Simd>(self, _: Same) -> Mask<S> {
+        let Self(guided, free, span) = self;
+        let [beyond, _] = guided.seen(&span).0.misclosure(guided.leave_point(&free).position);
+        beyond.less_or_equal(guided.guide.radius * NEXT_TO_WHEEL)
+    }
+}
+
+struct WholeEnd<'a, 'b, S: Simd>(&'a Guided<S>, FreeCable<'b, S>, Span<Lanes<S>>);
+
+impl<S: Simd> WithSimd for WholeEnd<'_, '_, S> {
+    type Output = GuidedEnd<S>;
+
+    #[inline(always)]
+    fn with_simd<Same: Simd>(self, _: Same) -> Self::Output {
+        let Self(guided, free, span) = self;
+        let zero = free.length.all(0.0);
+        let (way, LaneEnd { end: [x, z], tension, slackness }) = (guided.way(&free), free.end());
+        let missing = guided.whole_length - way.length;
+        let (span, mut across) = guided.seen(&span);
+        if guided.is_tilted() {
+            let [leave, per_length] = way.across();
+            across = across - leave - per_length * missing;
+        }
+        let [from_x, from_z] = way.leave.position;
+        let end = moved([from_x + x, from_z + z], &way, missing);
+        let slackness = zero.less_or_equal(free.length).select(slackness, zero.all(2.0));
+        let end = LaneEnd { end, tension, slackness };
+        GuidedEnd { span, end, across, missing: missing * way.free_per_length }
+    }
+}
+
+#[inline(always)]
+fn moved<S: Simd>([x, z]: Lanes2<S>, way: &Way<Lanes<S>>, missing: Lanes<S>) -> Lanes2<S> {
+    [x + way.end_per_length[0] * missing, z + way.end_per_length[1] * missing]
+}
+
+/// A whole cable over a tilted axis at fixed ends: what closes it, and how it responds there, (L19).
+pub(crate) struct FixedInSpace<S: Simd> {
+    /// (dF_l, dfz, dLf) that close the cable at the same fx.
+    pub(crate) closing: Lanes3<S>,
+    /// The same by fx.
+    pub(crate) per_force: Lanes3<S>,
+    /// The rows of (dF_l, dfz, dLf) by the motion of A along e_h, across and upwards, at the same fx.
+    pub(crate) per_end: [Lanes3<S>; 3],
+    /// Its span beyond the leave point, in its plane.
+    pub(crate) beyond: Span<Lanes<S>>,
+}
+
+impl<S: Simd> FixedInSpace<S> {
+    #[inline(always)]
+    pub(crate) fn new(
+        guided: &Guided<S>,
+        free: &FreeCable<'_, S>,
+        span: &Span<Lanes<S>>,
+        response: &Response<Lanes<S>>,
+    ) -> Self {
+        let way = guided.way(free);
+        let GuidedInSpace { end, flexibility: c, end_per_length, free_per_force: q, .. } =
+            way.in_space(free.force[0], response);
+        let (span, across) = guided.seen(span);
+        let open = [span.end[0] - end[0], across - end[1], span.end[1] - end[2]];
+        let [across, upwards] = [three!(|k| c[k][1]), three!(|k| c[k][2])];
+        // The rows of the inverse of [C e_l, C e_z, dA/dL].
+        let [first, second, third] =
+            [cross(&upwards, &end_per_length), cross(&end_per_length, &across), cross(&across, &upwards)];
+        let inverse = dot(&across, &first).recip();
+        let [across, upwards, whole] =
+            [three!(|k| first[k] * inverse), three!(|k| second[k] * inverse), three!(|k| third[k] * inverse)];
+        let free = three!(|k| whole[k] * way.free_per_length + q[1] * across[k] + q[2] * upwards[k]);
+        let forwards = three!(|k| -c[k][0]);
+        Self {
+            closing: [dot(&across, &open), dot(&upwards, &open), dot(&free, &open)],
+            per_force: [dot(&across, &forwards), dot(&upwards, &forwards), dot(&free, &forwards) + q[0]],
+            per_end: [across, upwards, free],
+            beyond: Span { plane: span.plane, end: span.misclosure(way.leave.position) },
+        }
+    }
+}

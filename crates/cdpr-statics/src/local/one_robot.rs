@@ -1,0 +1,257 @@
+//! One robot whose cables fill the lanes: Newton's method for one direct problem.
+
+use crate::equations::{SpannedCable, in_its_plane};
+use crate::local::cable::{LaneCable, law};
+use crate::local::guided::Guided;
+use crate::local::load::PlatformLoad;
+use crate::local::platform::{Layout, LinearizedPlatform, Robots, Scale};
+use crate::problem::DirectProblem;
+use crate::state::{Equilibrium, Residual, rounding_of_closure};
+use cdpr_cable::kernel::{GuideTerms, SwivelAxis};
+use cdpr_number::lanes::{Lanes, MAX_LANES, Simd, WithSimd, dispatch};
+use cdpr_robot::{Matrix3, Robot, Vector3, Vector6, Wrench, orthonormalized};
+use nalgebra::Matrix6;
+use smallvec::SmallVec;
+
+/// A stable equilibrium to which Newton's method converged.
+pub(crate) struct Solved {
+    pub(crate) iterations: usize,
+    pub(crate) residual: Residual,
+    /// The first step (dp, ℓ dφ), which the linearization at the start predicts [m].
+    pub(crate) first_step: Vector6<f64>,
+    /// Symmetric part of the stiffness, (S5); zero for held motions.
+    pub(crate) stiffness: Matrix6<f64>,
+}
+
+/// Whether the lanes have the mechanics of this robot: enough cables for its free motions, all of the same
+/// material, and a level base under a planar robot.
+pub(crate) fn fits_lanes(robot: &Robot) -> bool {
+    let Some(of_first) = robot.cables.first().map(law) else { return false };
+    // The level frame, which deviates with gravity, holds other motions than the base frame.
+    let inclined = robot.plane.is_some() && robot.gravity.is_vector();
+    robot.is_fully_actuated() && !inclined && robot.cables.iter().all(|cable| law(cable) == of_first)
+}
+
+/// The stable equilibrium to which Newton's method converges from `state`, which it assigns: `None` where it
+/// does not converge to one near, with cables that carry forces and are neither folded nor overstrained.
+pub(crate) fn solve(problem: &DirectProblem, state: &mut Equilibrium) -> Option<Solved> {
+    if fits_lanes(problem.robot) { dispatch(Solve { problem, state }) } else { None }
+}
+
+struct Solve<'a, 'b> {
+    problem: &'a DirectProblem<'b>,
+    state: &'a mut Equilibrium,
+}
+
+impl WithSimd for Solve<'_, '_> {
+    type Output = Option<Solved>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
+        let Self { problem, state } = self;
+        let zero = Lanes::splat(simd, 0.0);
+        let everywhere = zero.less_or_equal(zero);
+        let (mut robots, mut platform, load) = problem.linearized(simd, state);
+        let scale = problem.scale(state);
+        let (found, residual) = robots.solve(&load, &mut platform, &scale, everywhere);
+        if !found.any() {
+            return None;
+        }
+        problem.take(&robots, state);
+        let upper = robots.stiffness(&load, &mut platform);
+        let level = problem.robot.gravity.level();
+        let turned = |v: Vector6<f64>| match level {
+            None => v,
+            Some(level) => {
+                let [first, second] = [0, 3].map(|row| level.tr_mul(&v.fixed_rows::<3>(row)));
+                Vector6::new(first.x, first.y, first.z, second.x, second.y, second.z)
+            }
+        };
+        let mut stiffness = Matrix6::from_fn(|i, j| upper[i.min(j)][i.max(j)].first());
+        if level.is_some() {
+            // Both sides, one after the other: the matrix is symmetric.
+            for _ in 0..2 {
+                let columns: Vec<_> = stiffness.column_iter().map(|column| turned(column.into())).collect();
+                stiffness = Matrix6::from_columns(&columns).transpose();
+            }
+        }
+        let first = &platform.steps.first;
+        Some(Solved {
+            iterations: platform.steps.count,
+            residual: residual.norms()[0],
+            first_step: turned(Vector6::from_fn(|k, _| first[k].first())),
+            stiffness: problem.robot.freedoms().of_matrix(&stiffness),
+        })
+    }
+}
+
+impl<'a> DirectProblem<'a> {
+    /// The robot linearized at an equilibrium that need not be its own, with its cables in the lanes, and
+    /// what acts on it.
+    #[inline(always)]
+    pub(crate) fn linearized<S: Simd>(
+        &self,
+        simd: S,
+        at: &Equilibrium,
+    ) -> (Robots<'a, S>, LinearizedPlatform<S>, PlatformLoad<S>) {
+        let zero = Lanes::splat(simd, 0.0);
+        let robots = self.in_lanes(simd, at);
+        let mut platform = LinearizedPlatform::new(zero, robots.cables.len());
+        platform.follow_guides(&robots);
+        let load = self.load_in_lanes(&robots);
+        robots.linearize(&load, &mut platform, zero.less_or_equal(zero));
+        (robots, platform, load)
+    }
+
+    /// Coordinates in the level frame, which the lanes hold.
+    #[inline(always)]
+    fn to_level(&self, v: Vector3<f64>) -> Vector3<f64> {
+        self.robot.gravity.level().map_or(v, |level| level * v)
+    }
+
+    /// Lengths that positions are compared with.
+    #[inline(always)]
+    pub(crate) fn scale(&self, near: &Equilibrium) -> Scale {
+        let size = self.size();
+        let rounding = rounding_of_closure(size, self.coordinates(&near.pose));
+        Scale { size, characteristic_length: self.characteristic_length(), rounding }
+    }
+
+    #[inline(always)]
+    fn in_lanes<S: Simd>(&self, simd: S, at: &Equilibrium) -> Robots<'a, S> {
+        let (robot, Equilibrium { pose, cable_forces }) = (self.robot, at);
+        let (n, count, zero) = (self.cables(), Lanes::<S>::COUNT, Lanes::splat(simd, 0.0));
+        let in_last = n - (n - 1) / count * count;
+        let last = Lanes::from_fn(simd, |lane| lane as f64).less_or_equal(zero.all(in_last as f64 - 0.5));
+        let mut robots = Robots {
+            layout: Layout::Cables(last),
+            freedoms: robot.freedoms(),
+            cables: SmallVec::new(),
+            position: vector(simd, &self.to_level(pose.position)),
+            center: vector(simd, &self.to_level(pose.rotation * robot.platform.center_of_mass)),
+            frame: SmallVec::new(),
+            weight: zero.all(robot.platform.mass * robot.gravity.magnitude()),
+        };
+        for k in 0..3 {
+            robots.frame.push(vector(simd, &self.to_level(pose.rotation.matrix().column(k).into())));
+        }
+        for first in (0..n).step_by(count) {
+            let mut values = [[0.0; MAX_LANES]; 11];
+            for lane in 0..count {
+                // Lanes beyond the last cable repeat it and do not count.
+                let i = (first + lane).min(n - 1);
+                let (properties, force) = (&robot.cables[i].properties, cable_forces[i]);
+                let exit = self.to_level(robot.cables[i].exit_point);
+                let arm = self.to_level(robot.anchor_arm(pose, i));
+                let of_cable = [
+                    properties.linear_density * robot.gravity.magnitude(),
+                    1.0 / properties.axial_stiffness(),
+                    exit.x,
+                    exit.y,
+                    exit.z,
+                    arm.x,
+                    arm.y,
+                    arm.z,
+                    self.lengths[i],
+                    force.x,
+                    force.y,
+                ];
+                for (values, value) in values.iter_mut().zip(of_cable) {
+                    values[lane] = value;
+                }
+            }
+            let column = |k: usize| Lanes::from_array(simd, &values[k]);
+            let mut cable = LaneCable {
+                law: law(&robot.cables[0]),
+                weight_per_length: column(0),
+                axial_flexibility: column(1),
+                exit_point: [column(2), column(3), column(4)],
+                anchor_arm: [column(5), column(6), column(7)],
+                length: column(8),
+                force: [column(9), column(10)],
+                guided: None,
+            };
+            if robot.cables[first..n.min(first + count)].iter().any(|cable| cable.guide(None).is_some()) {
+                self.lead(simd, &mut cable, first, at);
+            }
+            robots.cables.push(cable);
+        }
+        robots
+    }
+
+    /// Gives the cables from number `first` on their guides.
+    #[cold]
+    #[inline(never)]
+    fn lead<S: Simd>(&self, simd: S, cable: &mut LaneCable<'_, S>, first: usize, at: &Equilibrium) {
+        let (n, count, zero) = (self.cables(), Lanes::<S>::COUNT, cable.length.all(0.0));
+        let mut values = [[0.0; MAX_LANES]; 9];
+        let mut tilted = false;
+        for lane in 0..count {
+            let i = (first + lane).min(n - 1);
+            let catenary = self.catenary(i, at.cable_forces[i]);
+            let [c, s] = SpannedCable::of(self.robot, &at.pose, i, &catenary).span.plane.azimuth;
+            let free = in_its_plane(self.robot, &at.pose, i, catenary).free_length();
+            tilted |= catenary.cable.leaves_its_plane();
+            let (lead, radius, [x, y, z]) = match catenary.cable.guide {
+                None => (0.0, 0.0, [0.0, 0.0, 1.0]),
+                Some(guide) => (guide.lead, guide.radius, guide.entry.axis()),
+            };
+            let of_cable = [lead, radius, x, y, z, c, s, free, radius * z];
+            for (values, value) in values.iter_mut().zip(of_cable) {
+                values[lane] = value;
+            }
+        }
+        let column = |k: usize| Lanes::from_array(simd, &values[k]);
+        let axis = match tilted {
+            true => SwivelAxis::Along([column(2), column(3), column(4)]),
+            false => SwivelAxis::Vertical(column(8)),
+        };
+        let mut guided = Guided::new(GuideTerms { lead: column(0), radius: column(1), axis });
+        guided.return_to(&[column(5), column(6)], zero.less_or_equal(zero));
+        guided.whole_length = cable.length;
+        cable.length = column(7);
+        cable.guided = Some(Box::new(guided));
+    }
+
+    /// Weight and load on the platform.
+    #[inline(always)]
+    fn load_in_lanes<S: Simd>(&self, robots: &Robots<'_, S>) -> PlatformLoad<S> {
+        let Wrench { force, moment } = self.load.wrench;
+        let wrench = Wrench { force: self.to_level(force), moment: self.to_level(moment) };
+        PlatformLoad::new(robots.weight + self.load.payload * self.robot.gravity.magnitude(), &wrench)
+    }
+
+    /// Assigns pose and forces in the lanes to an equilibrium.
+    #[inline(always)]
+    pub(crate) fn take<S: Simd>(&self, robots: &Robots<'_, S>, equilibrium: &mut Equilibrium) {
+        let level = self.robot.gravity.level();
+        let to_base = |v: Vector3<f64>| level.map_or(v, |level| level.tr_mul(&v));
+        let pose = &mut equilibrium.pose;
+        pose.position = to_base(back(&robots.position));
+        let columns = [
+            to_base(back(&robots.frame[0])),
+            to_base(back(&robots.frame[1])),
+            to_base(back(&robots.frame[2])),
+        ];
+        pose.rotation = orthonormalized(&Matrix3::from_columns(&columns));
+        let forces = equilibrium.cable_forces.chunks_mut(Lanes::<S>::COUNT);
+        for (forces, cable) in forces.zip(&robots.cables) {
+            let [x, z] = [cable.force[0].to_array(), cable.force[1].to_array()];
+            for (lane, force) in forces.iter_mut().enumerate() {
+                (force.x, force.y) = (x[lane], z[lane]);
+            }
+        }
+    }
+}
+
+/// A vector in all lanes.
+#[inline(always)]
+fn vector<S: Simd>(simd: S, v: &Vector3<f64>) -> [Lanes<S>; 3] {
+    [Lanes::splat(simd, v.x), Lanes::splat(simd, v.y), Lanes::splat(simd, v.z)]
+}
+
+/// The vector that all lanes hold.
+#[inline(always)]
+fn back<S: Simd>(v: &[Lanes<S>; 3]) -> Vector3<f64> {
+    Vector3::new(v[0].first(), v[1].first(), v[2].first())
+}
