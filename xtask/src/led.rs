@@ -54,9 +54,7 @@ pub(crate) fn run(out: &Path, settings: &[&str]) -> Result<(), String> {
         samplings.retain(|sampling, _| SAMPLINGS.contains(&sampling.as_str()));
         study["name"] = robot["name"].clone();
         study["robot"] = json!(format!("{name}-robot.json"));
-        for unused in ["surfaces", "comparison"] {
-            study.as_object_mut().map(|study| study.remove(unused));
-        }
+        study.as_object_mut().map(|study| study.remove("surfaces"));
         let path = |suffix: &str| folder.join(format!("{name}-{suffix}.json"));
         for (suffix, value) in [("robot", &robot), ("study", &study)] {
             let text = format!("{value:#}\n");

@@ -2,7 +2,7 @@
 //!
 //! A task spawns the programs that it needs; this program links no numerics.
 
-#![allow(clippy::print_stderr)]
+#![allow(clippy::print_stderr, clippy::print_stdout)]
 
 mod answer;
 mod attack;
@@ -20,7 +20,7 @@ mod statistics;
 mod throughput;
 mod web;
 
-use cargo::{cargo, cdpr, root};
+use cargo::{cargo, cdpr, example_command, root};
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -29,8 +29,8 @@ usage: cargo xtask TASK
 
 tasks:
   caroca-study [--out DIR] [--observations N] [--threads N] [--resume]
-                 runs the study of Baklouti, Caro, Courteille (CableCon 2017) and prints it beside their
-                 figures. All measures of its sensitivity go to DIR/sensitivity, the hysteresis of its cables
+                 runs the study of Baklouti, Caro, Courteille (CableCon 2017) and prints it with their
+                 figures (data/reference/published.json). All measures of its sensitivity go to DIR/sensitivity, the hysteresis of its cables
                  to DIR/cable, the robot with pulleys and the cable behind them to DIR/led; DIR is
                  target/caroca-study. With --resume it goes on with an interrupted run;
                  otherwise it begins anew
@@ -133,13 +133,28 @@ fn caroca_study(mut rest: Vec<String>) -> ExitCode {
         return code;
     }
     let (out, settings) = without(&rest, "--out");
-    match cable::run(Path::new(out), &settings).and_then(|()| led::run(Path::new(out), &settings)) {
+    let cables = || cable::run(Path::new(out), &settings);
+    match compared(Path::new(out)).and_then(|()| cables()).and_then(|()| led::run(Path::new(out), &settings))
+    {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("error: {error}");
             ExitCode::FAILURE
         }
     }
+}
+
+/// Prints the published figures next to those of the study, and writes them to `published.txt`.
+fn compared(out: &Path) -> Result<(), String> {
+    let figures = root().join("data/reference/published.json").display().to_string();
+    let mut command = example_command("cdpr-study", "published", &[&figures, &out.display().to_string()]);
+    let output = command.output().map_err(|error| format!("cannot start cargo: {error}"))?;
+    if !output.status.success() {
+        return Err(String::from_utf8_lossy(&output.stderr).into_owned());
+    }
+    println!("\n{}", String::from_utf8_lossy(&output.stdout));
+    let path = out.join("published.txt");
+    std::fs::write(&path, output.stdout).map_err(|error| format!("cannot write {}: {error}", path.display()))
 }
 
 fn robustness(mut rest: Vec<String>) -> ExitCode {

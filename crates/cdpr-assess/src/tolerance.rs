@@ -15,6 +15,7 @@
 //! rounds suffice. Independent draws then verify what the budget reaches.
 
 mod limit;
+mod verdict;
 
 use crate::error::AssessError;
 use cdpr_sensitivity::{

@@ -155,6 +155,14 @@ pub(crate) fn refused(error: &clap::Error) -> ExitCode {
     }
 }
 
+/// How much is printed. Commands that have more than an answer of 80 columns share this flag.
+#[derive(clap::Args)]
+pub(crate) struct Details {
+    /// Print all results, not only the answer and the table below it; JSON and reports have them in any case.
+    #[arg(long)]
+    pub(crate) details: bool,
+}
+
 /// An empty table.
 pub(crate) fn table(header: &[&str]) -> Table {
     let mut table = Table::new();

@@ -25,7 +25,7 @@ fn a_table_with_failed_rows_says_which_inputs_matter_and_which_rows_failed() {
     assert!((first(0) - 0.314).abs() < 0.1 && (first(1) - 0.442).abs() < 0.1);
     let printed = answered(cdpr(&["analyse", &table]));
     assert!(printed.contains("no number: row 230, column y: empty"), "{printed}");
-    let certain = printed.lines().find(|line| line.starts_with("certain to matter: ")).unwrap();
+    let certain = printed.lines().find(|line| line.starts_with("y: certain to matter: ")).unwrap();
     assert!(["x1", "x2", "x3"].iter().all(|x| certain.contains(x)) && !certain.contains("x4"), "{printed}");
     assert!(printed.contains("not analysed: status"), "{printed}");
 }
@@ -165,7 +165,6 @@ fn a_folder_of_results_has_the_deviations_as_inputs_and_the_last_column_as_outpu
     let bench = Bench::new("caroca.json", |study| {
         study["surfaces"] = json!({});
         study["replicates"] = json!(0);
-        study.as_object_mut().unwrap().remove("comparison");
     });
     let run = ["study", "run", "study.json", "--out", "results", "--observations", "100"];
     answered(cdpr_in(&bench.path("."), &run));
@@ -220,7 +219,7 @@ fn counts_of_one_are_in_the_singular_and_columns_of_words_and_numbers_are_questi
         (0..40).map(|row| format!("{},{},{}\n", wave(row), wave(row + 50), wave(row))).collect();
     rows.push_str(",0.5,0.25\n");
     std::fs::write(folder.path().join("t.csv"), format!("x,z,y\n{rows}")).unwrap();
-    let printed = answered(cdpr_in(folder.path(), &["analyse", "t.csv", "--limit", "y<0.999"]));
+    let printed = answered(cdpr_in(folder.path(), &["analyse", "t.csv", "--limit", "y<0.999", "--details"]));
     for words in ["t.csv: 41 rows, 2 inputs, 1 output", "1 row is left out: ", "model: 1 term up to degree 1"]
     {
         assert!(printed.contains(words), "{words}: {printed}");

@@ -74,14 +74,13 @@ fn prepare(folder: &Path) {
     write("study_point.json", &operating.replacen(r#""tension": 514.5"#, r#""tension": -514.5"#, 1));
     std::fs::create_dir(folder.join("folder")).unwrap();
     write("twice.json", &study_here.replacen("\"geometrical\": {", "\"mechanical\": {", 1));
-    write("paper.json", &study_here.replacen("\"paper\": 1.34", "\"paper\": [1.34]", 1));
     std::fs::write(folder.join("utf16.json"), [0xff, 0xfe, b'{', 0, b'}', 0]).unwrap();
 }
 
 const LENGTHS: &str = "4.44,4.54,4.36,4.26,4.26,4.36,4.54,4.44";
 
 /// What is wrong, and the arguments, separated by spaces.
-const CASES: [(&str, &str); 98] = [
+const CASES: [(&str, &str); 97] = [
     ("unknown command", "invert robot.json"),
     ("missing argument", "inverse robot.json"),
     ("unknown argument", "inverse robot.json --pose 0,0,1.75 --speed 3"),
@@ -184,7 +183,6 @@ const CASES: [(&str, &str); 98] = [
     ("device for a robot", "robot check /dev/zero"),
     ("device for cases", "direct robot.json --from /dev/zero"),
     ("two samplings of one name", "study run twice.json"),
-    ("list for a published figure", "study run paper.json"),
     ("run without study", "run study.json"),
     ("merge without study", "merge results"),
     ("report of a study", "study report results"),

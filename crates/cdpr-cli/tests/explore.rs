@@ -17,7 +17,6 @@ fn a_page_of_a_robot_a_study_or_results_names_the_file_of_the_robot() {
     let bench = Bench::new("caroca.json", |study| {
         study["samplings"].as_object_mut().unwrap().shift_remove("geometrical");
         study["surfaces"] = serde_json::json!({});
-        study["comparison"] = serde_json::json!([]);
         for sampling in study["samplings"].as_object_mut().unwrap().values_mut() {
             sampling["observations"] = serde_json::json!(64);
         }
@@ -45,7 +44,6 @@ fn a_study_at_many_poses_alone_is_explored_with_assumed_tolerances() {
     let mut study = json_file(data_path("studies/caroca.json"));
     study["robot"] = data_path("robots/cogiro.json").into();
     study["surfaces"] = serde_json::json!({});
-    study["comparison"] = serde_json::json!([]);
     let samplings = study["samplings"].as_object_mut().unwrap();
     samplings.retain(|name, _| name == "mechanical");
     let sampling = samplings["mechanical"].as_object_mut().unwrap();

@@ -11,7 +11,6 @@ use std::process::Stdio;
 pub(crate) fn bench() -> Bench {
     Bench::new("caroca.json", |study| {
         study["replicates"] = json!(0);
-        study["comparison"] = json!([]);
         study.as_object_mut().unwrap().remove("sensitivity");
         study["samplings"].as_object_mut().unwrap().retain(|name, _| name == "mechanical");
         study["samplings"]["mechanical"]["observations"] = json!(20);

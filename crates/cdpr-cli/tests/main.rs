@@ -40,4 +40,5 @@ mod study_run;
 mod study_together;
 mod tensions;
 mod tolerances;
+mod verdict;
 mod workspace;

@@ -282,7 +282,6 @@ fn laws_of_a_study_are_questioned_and_the_study_runs() {
             study["samplings"]["mechanical"]["observations"] = json!(64);
             study["replicates"] = json!(0);
             study["surfaces"] = json!({});
-            study["comparison"] = json!([]);
             study.as_object_mut().unwrap().remove("sensitivity");
             change(&mut study["error_models"]["table_3"]);
         });

@@ -13,7 +13,6 @@ const BLOCK: usize = 16_384;
 fn bench(observations: usize) -> Bench {
     Bench::new("caroca.json", |study| {
         study["replicates"] = json!(2);
-        study["comparison"] = json!([]);
         // Few inputs: scrambled rows of many would take longer than the mechanics.
         for model in study["error_models"].as_object_mut().unwrap().values_mut() {
             let model = model.as_object_mut().unwrap();

@@ -138,7 +138,6 @@ fn a_study_file_an_option_and_a_robot_file_prefer_the_same_tensions() {
             study["samplings"]["mechanical"]["observations"] = json!(20);
             study["replicates"] = json!(0);
             study["surfaces"] = json!({});
-            study["comparison"] = json!([]);
         })
     };
     let plain = bench();
@@ -257,7 +256,7 @@ fn a_tension_that_is_too_much_in_any_answer_is_named_and_ends_with_code_3() {
             let grid = format!("--region={}", around.join(","));
             let (code, printed) =
                 ended(folder, &["workspace", "--payload", &payload, &grid, "--out", "map", "--overwrite"]);
-            let words = "1 with tensions above tension_limits.max or a breaking force";
+            let words = "At 1 position tensions are above tension_limits.max or a breaking force.";
             assert!(code == 3 && printed.contains(words), "{file}: {printed}");
             let table = std::fs::read_to_string(folder.path().join("map/workspace.csv")).unwrap();
             assert!(table.contains(&name) && table.contains("beyond_limits"), "{table}");
@@ -313,7 +312,6 @@ fn all_parts_of_a_study_name_a_nominal_robot_that_bears_too_much() {
             (surface["x"]["points"], surface["y"]["points"]) = (json!(2), json!(2));
         }
         study["replicates"] = json!(0);
-        study["comparison"] = json!([]);
     });
     bench.change("robot.json", |robot| robot["cable"]["breaking_force"] = json!(730.0));
     let output = bench.study(&["run", "study.json", "--out", "out"]);

@@ -46,7 +46,7 @@ fn a_plane_is_written_as_table_summary_and_maps_the_same_on_any_number_of_thread
             "workspace.json"
         ]
     );
-    assert!(printed.contains("63 positions, payload 50 kg"));
+    assert!(printed.contains(" of 63 positions (") && printed.contains(", payload 50 kg"), "{printed}");
 
     let summary: Value = serde_json::from_str(&json).unwrap();
     assert_eq!(summary, serde_json::from_slice::<Value>(&written[6].1).unwrap());

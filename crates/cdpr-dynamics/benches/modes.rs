@@ -26,9 +26,7 @@ fn modes(criterion: &mut Criterion) {
         let problem = DirectProblem::new(&robot, &held.lengths, &load).unwrap();
         let rest = problem.direct(DirectStart::Near(&held.equilibrium)).unwrap().equilibrium;
         group.bench_function(name, |bencher| {
-            bencher.iter(|| {
-                Modes::new(&problem, black_box(&rest), Wanted::Below(bound)).unwrap()
-            });
+            bencher.iter(|| Modes::new(&problem, black_box(&rest), Wanted::Below(bound)).unwrap());
         });
         let platform = MovingPlatform::new(&problem, &rest, bound).unwrap();
         group.bench_function(format!("{name}/count"), |bencher| {

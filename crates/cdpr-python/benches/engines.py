@@ -24,7 +24,7 @@ ENGINES = ["sequential", "rayon", "processes", "dask", "ray"]
 def study_file(folder):
     file = json.loads(Path("data/studies/caroca.json").read_text())
     file["samplings"] = {"mechanical": file["samplings"]["mechanical"]}
-    file.update(robot=os.path.abspath("data/robots/caroca.json"), replicates=0, surfaces={}, comparison=[])
+    file.update(robot=os.path.abspath("data/robots/caroca.json"), replicates=0, surfaces={})
     path = Path(folder) / "mechanical.json"
     path.write_text(json.dumps(file))
     return path

@@ -59,9 +59,8 @@ impl Source {
     /// The load-elongation record of a cable.
     pub(crate) fn record(&self) -> Answer<Record> {
         match self {
-            Self::Text(name, text) => {
-                read_record(text.as_bytes()).map_err(|error| Raised::Input(format!("{}: {error}", name.display())))
-            }
+            Self::Text(name, text) => read_record(text.as_bytes())
+                .map_err(|error| Raised::Input(format!("{}: {error}", name.display()))),
             Self::File(path) => Ok(open_record(path)?),
         }
     }

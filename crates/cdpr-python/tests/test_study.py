@@ -25,7 +25,7 @@ def study(data, tmp_path_factory):
     file = json.loads((data / "studies" / "caroca.json").read_text())
     file.update(robot=str(data / "robots" / "caroca.json"), replicates=2, bootstrap_resamples=20)
     file["samplings"] = {"mechanical": file["samplings"]["mechanical"]}
-    file.update(surfaces={}, comparison=[])
+    file.update(surfaces={})
     path = tmp_path_factory.mktemp("study") / "mechanical.json"
     path.write_text(json.dumps(file))
     return str(path)
@@ -88,7 +88,7 @@ def test_a_study_of_frequencies_has_their_names_and_unit(data, tmp_path):
     sampling = {**file["samplings"]["mechanical"], "pose": {"position": [1.0, 0.5, 2.0]}, "observations": 40}
     error_model = {"mass": {"law": {"uniform": {"min": -4.0, "max": 4.0}}}}
     file.update(samplings={"one": {**sampling, "error_model": "mass"}}, error_models={"mass": error_model})
-    file.update(surfaces={}, comparison=[])
+    file.update(surfaces={})
     path = tmp_path / "study.json"
     path.write_text(json.dumps(file))
     results = cdpr.study.run(str(path), tmp_path / "out")
@@ -265,7 +265,7 @@ def test_the_table_of_a_surface_has_a_row_a_point(data, tmp_path):
     name, surface = next(iter(file["surfaces"].items()))
     surface["x"]["points"], surface["y"]["points"] = 4, 3
     file.update(robot=str(data / "robots" / "caroca.json"))
-    file.update(samplings={}, surfaces={name: surface}, comparison=[])
+    file.update(samplings={}, surfaces={name: surface})
     study = tmp_path / "surface.json"
     study.write_text(json.dumps(file))
     table = cdpr.study.run(study, tmp_path / "out").table(name)

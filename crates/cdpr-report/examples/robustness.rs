@@ -98,7 +98,8 @@ fn main() -> Result<(), Failed> {
 }
 
 fn print(robot: &str, protocol: &ProtocolSummary) {
-    let modulus = protocol.youngs_modulus.map_or("that of the file".to_owned(), |e| format!("{} GPa", e / 1e9));
+    let modulus =
+        protocol.youngs_modulus.map_or("that of the file".to_owned(), |e| format!("{} GPa", e / 1e9));
     println!("{robot}: {}\nE: {modulus}; seed {}", protocol.title, protocol.seed);
     println!("{} poses of {} drawn", protocol.poses, protocol.draws.drawn);
     println!("start [m]  [deg]  solves  true pose  other  failed  iterations  max  time [us]     max");

@@ -41,7 +41,6 @@ pub fn explored_study(study: &Study) -> Option<StudyFile> {
     file.replicates = REPLICATES;
     file.sensitivity = None;
     file.surfaces.clear();
-    file.comparison.clear();
     Some(file)
 }
 

@@ -7,7 +7,6 @@
 
 mod analysis;
 mod calibration;
-mod comparison;
 mod elements;
 mod glance;
 mod poses;
@@ -92,7 +91,6 @@ pub fn report_with(
         results::points(results, figures),
         results::effects(results, figures),
         results::measures(results, figures),
-        comparison::section(&results.summary),
         Some(run::observations(results)),
         Some(run::again(results)),
     ]

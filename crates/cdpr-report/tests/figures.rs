@@ -10,7 +10,7 @@ use cdpr_robot::Robot;
 use cdpr_sensitivity::{Family, Histogram, Law};
 use cdpr_statics::StaticsError;
 use cdpr_study::{
-    Agreement, BestFit, Evidence, FitSummary, IndexMap, InputMeasures, NominalSummary, Output,
+    Agreement, BestFit, Evidence, FitSummary, IndexMap, InputMeasures, NominalSummary, Output, PartVerdict,
     SamplingSummary, SensitivitySummary, SignedEffect, Study, SurfaceResult, SurfaceSummary, ValueSummary,
 };
 
@@ -49,6 +49,7 @@ fn sampling() -> SamplingSummary {
     let effect = |effect, half| SignedEffect { effect, low: effect - half, high: effect + half };
     let t_student = (1..=8).flat_map(|i| ["x", "y", "z"].map(|axis| (format!("b{i}.{axis}"), i as f64)));
     SamplingSummary {
+        verdict: PartVerdict::default(),
         title: "Everything, E < 104 & \"rest\"".to_owned(),
         output: Output::Deflection,
         pose: [0.0, 0.0, 1.75],

@@ -50,7 +50,6 @@ fn check(what: &str, change: &dyn Fn(&mut Value, &mut Value)) -> Value {
     study["robot"] = json!("robot.json");
     study["replicates"] = json!(2);
     study["bootstrap_resamples"] = json!(5);
-    study["comparison"] = json!([]);
     study["sensitivity"] = json!({
         "observations": 60, "saltelli_blocks": 16, "morris_blocks": 4, "derivative_points": 4,
         "expansion": {"max_degree": 1, "norm": 1.0, "interactions": 1}

@@ -21,7 +21,6 @@ fn figures_of_results_that_are_read_back_are_those_that_the_run_has_drawn() {
     for axis in ["x", "y"] {
         study["surfaces"]["surface_E_rho"][axis]["points"] = json!(3);
     }
-    study["comparison"] = json!([]);
     study["robot"] = json!("robot.json");
 
     let folder = tempfile::TempDir::new().unwrap();

@@ -51,7 +51,7 @@ pub use json::{JsonError, from_json, numbered, place_of};
 pub use law::LawSegment;
 pub use limits::{CableEnd, NamedReference, OwnLimits, TensionDistribution, TensionLimits, TensionReference};
 pub use nalgebra::{Matrix3, Matrix6xX, Rotation3, UnitQuaternion, Vector2, Vector3, Vector6};
-pub use number::{decimal, rounded};
+pub use number::{decimal, rounded, significant};
 pub use parameter::deviations::Deviations;
 pub use parameter::layout::ParameterLayout;
 pub use parameter::perturbed::{Perturbed, deviations};
@@ -61,5 +61,5 @@ pub use pose::quaternion::{QuaternionError, rotation_by_angles, rotation_in_orde
 pub use pose::{Pose, orthonormalized};
 pub use robot::provenance::{Grade, Provenance};
 pub use robot::{CableProperties, Platform, Pulley, Robot, RobotCable};
-pub use shown::{shown, shown_lines};
+pub use shown::{COLUMNS, broken, listing, shown, shown_lines};
 pub use wrench::Wrench;

@@ -1,4 +1,5 @@
-//! Texts from files for people: every character is shown, none is obeyed.
+//! Texts from files for people: every character is shown, none is obeyed; and lines of an answer, of at most
+//! 80 columns.
 
 use std::borrow::Cow;
 
@@ -41,6 +42,40 @@ fn escaped(text: &str, is_obeyed: impl Fn(char) -> bool) -> Cow<'_, str> {
     Cow::Owned(shown)
 }
 
+/// Columns of a line.
+pub const COLUMNS: usize = 80;
+
+/// A line of at most [`COLUMNS`] columns with as many of the items as fit, and the number of the others. The
+/// first item is always named.
+pub fn listing<T: AsRef<str>>(before: &str, items: &[T], after: &str) -> String {
+    let line = |shown: usize| {
+        let names: Vec<&str> = items[..shown].iter().map(AsRef::as_ref).collect();
+        let more = match items.len() - shown {
+            0 => String::new(),
+            more => format!(" and {more} more"),
+        };
+        format!("{before}{}{more}{after}", names.join(", "))
+    };
+    let fits = |shown: &usize| line(*shown).chars().count() <= COLUMNS;
+    line((1..=items.len()).rev().find(fits).unwrap_or(items.len().min(1)))
+}
+
+/// The lines of a sentence, broken at blanks so that each has at most [`COLUMNS`] columns. A longer word has
+/// a line of its own.
+pub fn broken(sentence: &str) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in sentence.split_whitespace() {
+        match lines.last_mut() {
+            Some(line) if line.chars().count() + 1 + word.chars().count() <= COLUMNS => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    lines
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -68,5 +103,23 @@ mod tests {
         let json = serde_json::to_string(name).unwrap();
         assert_ne!(shown_lines(&json), json);
         assert_eq!(serde_json::from_str::<String>(&shown_lines(&json)).unwrap(), name);
+    }
+
+    #[test]
+    fn a_listing_names_what_fits_and_counts_the_rest() {
+        let names: Vec<String> = (1..=40).map(|i| format!("b{i}.x")).collect();
+        let line = listing("Below 1 %: ", &names, ".");
+        assert!(line.len() <= COLUMNS && line.starts_with("Below 1 %: b1.x, ") && line.ends_with(" more."));
+        assert_eq!(listing("a ", &names[..2], "."), "a b1.x, b2.x.");
+        assert_eq!(listing("a ", &["b".repeat(90)], "."), format!("a {}.", "b".repeat(90)));
+        assert_eq!(listing::<&str>("none", &[], "."), "none.");
+    }
+
+    #[test]
+    fn a_long_sentence_has_several_lines() {
+        let lines = broken(&"word ".repeat(40));
+        assert_eq!(lines.len(), 3);
+        assert!(lines.iter().all(|line| line.len() <= COLUMNS));
+        assert_eq!(lines.join(" "), "word ".repeat(40).trim_end());
     }
 }

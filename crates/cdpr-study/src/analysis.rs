@@ -1,6 +1,5 @@
-//! Analysis of observations: statistics, laws, effects, comparison with published figures.
+//! Analysis of observations: statistics, laws, effects, the verdict.
 
-pub(crate) mod comparison;
 pub(crate) mod extremes;
 pub(crate) mod keys;
 pub(crate) mod measures;
@@ -11,3 +10,5 @@ pub(crate) mod sampling;
 pub(crate) mod sensitivity;
 pub(crate) mod summary;
 pub(crate) mod surface;
+pub(crate) mod values;
+pub(crate) mod verdict;

@@ -50,21 +50,25 @@ mod run;
 mod store;
 mod table;
 
-pub use analysis::comparison::{ComparisonRow, Verdict};
 pub use analysis::extremes::Extremes;
 pub use analysis::measures::{GroupMeasures, InputMeasures, MEASURES, Measure, Quantity, SubspaceSummary};
 pub use analysis::methods::run::MethodSummary;
 pub use analysis::part::{Overview, StudySummary};
 pub use analysis::poses::{HELD, PoseRow, PosesResult, PosesSummary, observe_poses};
 pub use analysis::sampling::{
-    FitSummary, NominalSummary, SamplingSummary, SignedEffect, ValueSummary, analyse, effects_of_replicates,
+    FitSummary, NominalSummary, SamplingSummary, SignedEffect, analyse, effects_of_replicates,
 };
 pub use analysis::sensitivity::{Agreement, SensitivitySummary, measure};
 pub use analysis::summary::Summary;
 pub use analysis::surface::{SurfaceResult, SurfaceSummary, SurfaceValues, compute_surface};
+pub use analysis::values::ValueSummary;
+pub use analysis::verdict::PartVerdict;
+pub use analysis::verdict::recommendation::{
+    Basis, MATTERS, Recommendation, RecommendedIndex, Standing, is_resolved,
+};
 pub use cdpr_sensitivity::{
-    Analyser, Analysis, BestFit, Delta, Dependence, Estimate, Evidence, Family, InputAnalysis, LevelMean,
-    Limit as OutputLimit, Pawn, Truncation,
+    Analyser, Analysis, BestFit, Delta, Dependence, Estimate, Evidence, Family, Finding, InputAnalysis,
+    LevelMean, Limit as OutputLimit, LimitFailures, Pawn, Truncation,
 };
 pub use error::StudyError;
 pub use file::cable_law::{CableLaw, LAW_FORMAT, LawFile, UnloadingCurve, law_json, law_schema};
@@ -74,11 +78,10 @@ pub use file::output::{Output, VectorOutput};
 pub use file::record::{RecordTextError, open_record, read_record};
 pub use file::sensitivity_spec::SensitivitySpec;
 pub use file::study_file::{
-    AxisSpec, ComparisonSpec, CorrelationSpec, InputSpec, PoseSpec, PosesSpec, STUDY_FORMAT, SamplingSpec,
-    Statistic, StudyFile, SurfaceSpec, json_schema,
+    AxisSpec, CorrelationSpec, InputSpec, PoseSpec, PosesSpec, STUDY_FORMAT, SamplingSpec, StudyFile,
+    SurfaceSpec, json_schema,
 };
 pub use file::template::{TEMPLATE_NOTES, template, template_cost, write_template};
-pub use file::value::Value;
 pub use fs::files::{open_cable, open_robot, open_robot_in_any_unit};
 pub use fs::finite::is_not_finite;
 pub use fs::input::{check_table, is_standard_input, other_kind, read_bytes, read_table, read_text};

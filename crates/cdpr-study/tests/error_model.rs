@@ -11,7 +11,6 @@ fn study(model: Value) -> Result<Study, StudyError> {
     let mut file: Value = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
     file["replicates"] = json!(0);
     file["surfaces"] = json!({});
-    file["comparison"] = json!([]);
     file["error_models"] = json!({ "model": model });
     file["samplings"] = json!({ "blocks": {
         "title": "Pulley blocks", "pose": {"position": [0.5, 0.2, 1.75]},

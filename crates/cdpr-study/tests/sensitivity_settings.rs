@@ -54,7 +54,8 @@ fn fewer_observations_shorten_all_measures_and_an_extension_keeps_them() {
     let short = study.file.sensitivity.unwrap();
     assert_eq!((whole.saltelli_blocks, short.saltelli_blocks), (128, 32));
     assert_eq!((whole.morris_blocks, short.morris_blocks), (32, 8));
-    assert_eq!((whole.derivative_points, short.derivative_points), (64, 16));
+    // Exact derivatives take little time: 16 points would be too few for bounds.
+    assert_eq!((whole.derivative_points, short.derivative_points), (256, 256));
     study.extend(4096).unwrap();
     assert_eq!(study.file.sensitivity, Some(short));
 }

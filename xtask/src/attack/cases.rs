@@ -64,7 +64,6 @@ fn small(mut study: Value) -> Value {
     study["robot"] = json!("robot.json");
     study["replicates"] = json!(2);
     study["bootstrap_resamples"] = json!(2);
-    study["comparison"] = json!([study["comparison"][0]]);
     for (field, value) in [("samplings", "observations"), ("surfaces", "")] {
         let Some(parts) = study[field].as_object_mut() else { continue };
         let first: Vec<String> = parts.keys().skip(1).cloned().collect();

@@ -5,13 +5,13 @@ use crate::arguments::{
 };
 use crate::calibrate::sensors::{NoiseArgument, SensorArguments};
 use crate::error::ProgramError;
-use crate::output::{Ending, patiently, table};
+use crate::output::{Details, Ending, narrow_table, patiently, table};
 use cdpr_calibration::{
-    Calibrated, CalibrationError, CalibrationSummary, Campaign, Fit, FitSettings, Measurements, RobustLoss,
-    Unknowns, carry_out, read_measurements,
+    Calibrated, CalibrationError, CalibrationSummary, Campaign, Fit, FitSettings, Measurements,
+    ParameterSummary, RobustLoss, Unknowns, carry_out, read_measurements,
 };
 use cdpr_report::calibration_report;
-use cdpr_robot::{Robot, counted, rounded, shown};
+use cdpr_robot::{Robot, broken, counted, listing, rounded, shown, significant};
 use cdpr_study::{ErrorModel, InputKind, check_table, read_bytes};
 use std::path::PathBuf;
 
@@ -63,6 +63,8 @@ pub(crate) struct Settings {
     overwrite: Overwrite,
     #[command(flatten)]
     threads: Threads,
+    #[command(flatten)]
+    details: Details,
     /// How the results are printed.
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
@@ -107,7 +109,10 @@ pub(super) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
         error => in_file(error),
     })?;
     settings.format.print(&summary, |summary| {
-        print(summary, &found);
+        print(summary);
+        if settings.details.details {
+            print_details(summary, &found);
+        }
         println!("fitted in {seconds:.3} s; results in {}", settings.out.display());
     })?;
     Ok(if summary.warnings.is_empty() { Ending::Well } else { Ending::SomethingWrong })
@@ -157,7 +162,61 @@ impl Settings {
     }
 }
 
-fn print(summary: &CalibrationSummary, found: &Fit) {
+/// Parameters in the table of the answer.
+const LEADING: usize = 5;
+
+/// The accuracy that is left, how well the model fits, and the parameters that moved most.
+fn print(summary: &CalibrationSummary) {
+    let all = || summary.parameters.iter().chain(&summary.sensors);
+    let (unknowns, identifiable) = (all().count(), all().filter(|(_, of)| of.identifiable).count());
+    let (robot, rows) = (shown(&summary.robot), counted(summary.rows, "row"));
+    let mut sentences: Vec<String> = summary
+        .position_std_after
+        .iter()
+        .map(|after| {
+            let before = summary.position_std_before;
+            let before = before.map_or_else(String::new, |std| format!(" (before {} mm)", digits(1e3 * std)));
+            format!("{robot}: the position is known to {} mm a coordinate{before}.", digits(1e3 * after))
+        })
+        .collect();
+    let unknowns = counted(unknowns, "unknown");
+    sentences.push(format!("{identifiable} of {unknowns} of {robot} are identifiable."));
+    sentences.push(format!(
+        "The {rows} have a chi-square of {} for {} degrees of freedom.",
+        significant(summary.chi_square, 4),
+        summary.degrees_of_freedom
+    ));
+    if !summary.outliers.is_empty() {
+        let lines: Vec<String> =
+            summary.outliers.iter().map(|of| format!("line {} ({})", of.line, of.column)).collect();
+        sentences.push(listing("Far from the model: ", &lines, "."));
+    }
+    sentences.extend(summary.warnings.iter().map(|warning| format!("warning: {warning}")));
+    sentences.iter().flat_map(|sentence| broken(sentence)).for_each(|line| println!("{line}"));
+    let mut moved: Vec<_> = all().collect();
+    let share = |of: &ParameterSummary| {
+        of.std.filter(|std| *std > 0.0).map_or(0.0, |std| ((of.after - of.before) / std).abs())
+    };
+    moved.sort_by(|one, other| share(other.1).total_cmp(&share(one.1)));
+    let mut rows = narrow_table(&["moved most", "before", "after", "std", "identifiable"]);
+    for (name, of) in moved.into_iter().take(LEADING) {
+        rows.add_row([
+            name.clone(),
+            rounded(of.before, 9).to_string(),
+            rounded(of.after, 9).to_string(),
+            of.std.map_or_else(|| "-".to_owned(), |std| format!("{std:.2e}")),
+            if of.identifiable { "yes" } else { "no" }.to_owned(),
+        ]);
+    }
+    println!("{rows}");
+}
+
+/// Three digits of a length.
+fn digits(value: f64) -> String {
+    significant(value, 3)
+}
+
+fn print_details(summary: &CalibrationSummary, found: &Fit) {
     println!(
         "{}: {}, {}, chi-square {:.1} with {} degrees of freedom",
         shown(&summary.robot),
@@ -216,8 +275,5 @@ fn print(summary: &CalibrationSummary, found: &Fit) {
             "far from the model: line {}, {}: {:.1} standard deviations",
             outlier.line, outlier.column, outlier.standard_deviations
         );
-    }
-    for warning in &summary.warnings {
-        println!("warning: {warning}");
     }
 }

@@ -7,10 +7,10 @@ use crate::arguments::{
 };
 use crate::calibrate::candidates::{Candidates, Known, add, ending};
 use crate::error::ProgramError;
-use crate::output::{Ending, patiently, table};
+use crate::output::{Details, Ending, narrow_table, patiently, table};
 use crate::questions;
 use cdpr_calibration::{AtWork, Calibration, Criterion, PosePlan, Quality};
-use cdpr_robot::{Pose, Robot, counted, rounded, shown};
+use cdpr_robot::{Pose, Robot, broken, counted, rounded, shown, significant};
 use cdpr_study::OutputLimit;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -53,6 +53,8 @@ pub(crate) struct Settings {
     out: Option<PathBuf>,
     #[command(flatten)]
     overwrite: Overwrite,
+    #[command(flatten)]
+    details: Details,
     /// How the results are printed.
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
@@ -140,7 +142,8 @@ pub(super) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
         settings.overwrite.write(out, &format!("{}\n{}\n", poses::COLUMNS.join(","), lines.join("\n")))?;
     }
     let output = Plan::new(&poses, refused, found, accuracy);
-    settings.format.print(&output, |output| print_plan(&robot, output))?;
+    let text = |output: &Plan| print_plan(&robot, output, settings.details.details);
+    settings.format.print(&output, text)?;
     Ok(ending(output.candidates, all))
 }
 
@@ -202,13 +205,38 @@ impl Plan {
     }
 }
 
-fn print_plan(robot: &Robot, output: &Plan) {
+/// What the planned poses leave, compared with other sets.
+fn answer(robot: &Robot, output: &Plan) -> String {
+    let (count, name) = (output.poses.len(), shown(&robot.name));
+    let at_work = |of: &Left| of.mean_at_work.map(|std| significant(1e3 * std, 3));
+    let sets = [&output.plan, &output.random, &output.outermost];
+    match sets.map(at_work) {
+        [Some(plan), Some(random), Some(outermost)] => format!(
+            "{count} poses of {name} leave {plan} mm at work (random {random}, outermost {outermost})."
+        ),
+        _ => {
+            let [plan, random, outermost] = sets.map(|of| significant(100.0 * of.parameters, 3));
+            format!(
+                "{count} poses of {name} leave {plan} % of parameters' std (random {random}, outermost \
+                 {outermost})."
+            )
+        }
+    }
+}
+
+fn print_plan(robot: &Robot, output: &Plan, details: bool) {
     let count = output.poses.len();
-    println!("{}: {count} of {} poses", shown(&robot.name), output.candidates);
+    broken(&answer(robot, output)).iter().for_each(|line| println!("{line}"));
+    match output.needed {
+        Some(Some(needed)) => println!("{} reach the accuracy", counted(needed, "pose")),
+        Some(None) => println!("{} do not reach the accuracy", counted(count, "pose")),
+        None => {}
+    }
+    println!("chosen of {}", counted(output.candidates, "pose"));
     for (reason, count) in &output.refused {
         println!("{} left out: {reason}", counted(*count, "pose"));
     }
-    let mut rows = table(&[
+    let mut rows = narrow_table(&[
         "set of poses",
         "information [bit]",
         "std of parameters left [%]",
@@ -229,15 +257,11 @@ fn print_plan(robot: &Robot, output: &Plan) {
     add("planned".to_owned(), &output.plan);
     add("random, median".to_owned(), &output.random);
     add("outermost".to_owned(), &output.outermost);
-    for (k, of) in output.growing.iter().enumerate().filter(|(k, _)| (k + 1).is_power_of_two()) {
+    let growing = output.growing.iter().enumerate().filter(|(k, _)| details && (k + 1).is_power_of_two());
+    for (k, of) in growing {
         add(format!("growing, {}", k + 1), of);
     }
     println!("{rows}");
-    match output.needed {
-        Some(Some(needed)) => println!("{needed} poses reach the accuracy"),
-        Some(None) => println!("{count} poses do not reach the accuracy"),
-        None => {}
-    }
     let mut rows = table(&["x, y, z [m], qw, qx, qy, qz"]);
     for pose in &output.poses {
         rows.add_row([pose.map(|number| rounded(number, 6).to_string()).join(", ")]);

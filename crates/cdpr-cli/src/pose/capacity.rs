@@ -11,7 +11,7 @@ use cdpr_assess::{
     Block, CableDistance, Capacity, Clearance, Figure, PlatformDistance, TiltTowards, WrenchSet, capacity_at,
     clearance_under, tilt_at,
 };
-use cdpr_robot::{Pose, Robot};
+use cdpr_robot::{Pose, Robot, broken, significant};
 use cdpr_statics::capacity::tension_margin;
 use cdpr_statics::{Load, StaticsError, WantedPose};
 use serde::Serialize;
@@ -192,6 +192,12 @@ impl Shown {
         words.join("; ")
     }
 
+    /// Why it does not exist, in a few words.
+    fn cause(&self) -> &str {
+        let message = self.error.as_ref().map_or("", |error| error.message.as_str());
+        message.split(';').next().unwrap_or_default()
+    }
+
     fn number(&self) -> String {
         self.value.map_or_else(String::new, |value| format!("{value:?}"))
     }
@@ -270,16 +276,44 @@ impl Answer {
         ]
     }
 
+    /// What the robot carries, and how far its tensions are from their limits.
+    fn sentences(&self, heading: &str) -> Vec<String> {
+        let payload = &self.payload.anew;
+        let limit = |of: &Blocking| of.words.split(',').next().unwrap_or_default().to_owned();
+        let by =
+            payload.blocking.first().map_or_else(String::new, |first| format!("; then {}", limit(first)));
+        let carries = match payload.value {
+            Some(value) => format!("{heading} carries up to {} kg{by}.", significant(value, 4)),
+            None if payload.error.is_some() => format!("{heading} carries nothing: {}.", payload.cause()),
+            None => format!("{heading} is beyond a limit without any payload{by}."),
+        };
+        let margin = self.margin.anew.value.map(|margin| match margin {
+            ..0.0 => format!(
+                "No tensions within the limits hold this pose: they miss them by {} N.",
+                significant(-margin, 4)
+            ),
+            _ => format!("Its tensions can stay {} N away from their limits.", significant(margin, 4)),
+        });
+        [Some(carries), margin].into_iter().flatten().collect()
+    }
+
     fn print(&self, heading: &str) {
-        println!("{heading}");
+        for sentence in self.sentences(heading) {
+            broken(&sentence).iter().for_each(|line| println!("{line}"));
+        }
         let mut rows = narrow_table(&["", "value", "blocked by"]);
+        let mut told: Vec<&str> = Vec::new();
         for (name, shown) in self.all() {
             let value = match shown.value {
                 Some(value) => decimal(value, 3),
                 None if shown.error.is_some() => "none".to_owned(),
                 None => "beyond a limit without it".to_owned(),
             };
-            rows.add_row([name.to_owned(), value, shown.words()]);
+            let reason = shown.error.as_ref().map(|error| error.message.as_str());
+            let known = reason.is_some_and(|reason| told.contains(&reason));
+            told.extend(reason);
+            let words = if known { "as above".to_owned() } else { shown.words() };
+            rows.add_row([name.to_owned(), value, words]);
         }
         println!("{rows}");
         if let Some(NearCables { distance, cables: [i, j] }) = self.nearest_cables {

@@ -8,7 +8,7 @@ use crate::output::Ending;
 use crate::pose::at_pose::{RobotAtPose, Row, cells, numbered};
 use cdpr_assess::{Bands, Path, PathPose};
 use cdpr_report::path_view;
-use cdpr_robot::Robot;
+use cdpr_robot::{Robot, broken, counted, significant};
 use cdpr_statics::Deflection;
 use serde::Serialize;
 use std::path::PathBuf;
@@ -31,8 +31,10 @@ pub(crate) fn run(Settings { at, errors, figure }: &Settings) -> Result<Ending, 
     let mut path = Path::new(&robot, load, model.as_ref())?;
     let mut passed = Vec::new();
     let mut frequencies = Vec::new();
+    let mut along = Along::default();
     let mut solve = |pose: &_| {
         let found = path.solve(pose);
+        along.pass(found.as_ref().ok());
         let passed_by = found.as_ref().ok();
         frequencies.extend(passed_by.and_then(|at| at.lowest_cable_frequency.zip(at.lowest_frequency)));
         if figure.is_some() {
@@ -45,11 +47,56 @@ pub(crate) fn run(Settings { at, errors, figure }: &Settings) -> Result<Ending, 
     } else {
         at.answer_in_order(&robot, |pose| Ok(Passed::new(&robot, solve(pose)?)))?
     };
+    along.tell();
     warn_of_cables(frequencies.into_iter());
     if let Some(file) = figure {
         at.printing.overwrite.write(file, &path_view(&robot, &load, &passed)?)?;
     }
     Ok(ending)
+}
+
+/// What a path has as a whole. It is printed apart from the table, which programs read.
+#[derive(Default)]
+struct Along {
+    poses: usize,
+    held: usize,
+    jumps: usize,
+    /// Least and greatest tension [N], and the greatest |dp| [m] with its pose, from 1.
+    tensions: Option<[f64; 2]>,
+    farthest: Option<(f64, usize)>,
+}
+
+impl Along {
+    fn pass(&mut self, found: Option<&PathPose>) {
+        self.poses += 1;
+        let Some(found) = found else { return };
+        self.held += 1;
+        self.jumps += usize::from(found.jump);
+        for tension in &found.tensions {
+            let [least, greatest] = self.tensions.unwrap_or([*tension; 2]);
+            self.tensions = Some([least.min(*tension), greatest.max(*tension)]);
+        }
+        let size = found.deflection.displacement().norm();
+        if self.farthest.is_none_or(|(known, _)| size > known) {
+            self.farthest = Some((size, self.poses));
+        }
+    }
+
+    fn tell(&self) {
+        let Self { poses, held, jumps, .. } = self;
+        let mut sentence = format!("{held} of {} held", counted(*poses, "pose"));
+        if let (Some([least, greatest]), Some((size, pose))) = (self.tensions, self.farthest) {
+            let [least, greatest] = [least, greatest].map(|tension| significant(tension, 3));
+            sentence += &format!(", tensions {least} to {greatest} N");
+            if size > 0.0 {
+                sentence += &format!(", |dp| up to {} mm at pose {pose}", significant(1e3 * size, 3));
+            }
+        }
+        if *jumps > 0 {
+            sentence += &format!(", {} of the lengths", counted(*jumps, "jump"));
+        }
+        broken(&(sentence + ".")).iter().for_each(|line| eprintln!("{line}"));
+    }
 }
 
 /// A pose of a path, in SI units unless a name says otherwise.

@@ -7,15 +7,15 @@ use crate::arguments::{
     UncertaintyArgument, With, count, region, with,
 };
 use crate::error::ProgramError;
-use crate::output::{Ending, drawn, patiently, progress, table};
+use crate::output::{Details, Ending, drawn, narrow_table, patiently, progress, table};
 use crate::questions;
 use crate::wrenches::WrenchArguments;
 use cdpr_assess::{
-    BoundarySummary, Further, TiltDirections, Way, Workspace, WorkspaceSummary, begin_workspace,
+    BoundarySummary, Further, HELD, TiltDirections, Way, Workspace, WorkspaceSummary, begin_workspace,
     compute_workspace, workspace_boundary, write_workspace,
 };
 use cdpr_report::{layers, workspace_maps};
-use cdpr_robot::{Rotation3, counted, shown};
+use cdpr_robot::{Rotation3, broken, counted, listing, shown, significant};
 use cdpr_study::Extremes;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -62,6 +62,8 @@ pub(crate) struct Settings {
     overwrite: Overwrite,
     #[command(flatten)]
     threads: Threads,
+    #[command(flatten)]
+    details: Details,
     /// How the results are printed.
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
@@ -148,6 +150,9 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     write_workspace(&folder, &summary, &maps, boundary.as_ref())?;
     settings.format.print(&summary, |summary| {
         print(summary);
+        if settings.details.details {
+            print_details(summary);
+        }
         let (drawn, all) = (wanted.layers, layers(summary));
         if drawn < all {
             println!("{drawn} of {all} layers are drawn: --with layers={all} draws all of them");
@@ -159,8 +164,65 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     Ok(if summary.too_much > 0 || few.is_some() { Ending::SomethingWrong } else { Ending::Well })
 }
 
+/// The share of the positions that is held, and what ranges over them.
 fn print(summary: &WorkspaceSummary) {
-    println!("{}: {} positions, {}", shown(&summary.robot), summary.rows.len(), summary.conditions());
+    let all = summary.rows.len();
+    let held = summary.status.get(HELD).copied().unwrap_or(0);
+    let percent = 100.0 * held as f64 / all.max(1) as f64;
+    let of =
+        format!("{} holds {held} of {} ({percent:.1} %)", shown(&summary.robot), counted(all, "position"));
+    say(&format!("{of}, {}.", summary.conditions()));
+    let others = summary.status.iter().filter(|(status, _)| **status != HELD);
+    let others: Vec<String> =
+        others.map(|(status, count)| format!("{count} {}", status.replace('_', " "))).collect();
+    if !others.is_empty() {
+        say(&listing("Not held: ", &others, "."));
+    }
+    if summary.too_much > 0 {
+        let positions = counted(summary.too_much, "position");
+        say(&format!("At {positions} tensions are above tension_limits.max or a breaking force."));
+    }
+    let mut rows = narrow_table(&["over the positions held", "least", "greatest"]);
+    for (name, extremes) in ranges(summary) {
+        if let Some(Extremes { min, max, .. }) = extremes {
+            rows.add_row([name.to_owned(), significant(min, 4), significant(max, 4)]);
+        }
+    }
+    if rows.row_count() > 0 {
+        println!("{rows}");
+    }
+    if let Some(BoundarySummary { measure, error, unit, .. }) = &summary.boundary {
+        say(&format!("The region held has {measure:.4} {unit}, with an error of {error:.1e}."));
+    }
+}
+
+/// Prints a sentence in lines of 80 columns.
+fn say(sentence: &str) {
+    broken(sentence).iter().for_each(|line| println!("{line}"));
+}
+
+/// What ranges over the positions held.
+fn ranges(summary: &WorkspaceSummary) -> [(&'static str, Option<Extremes>); 14] {
+    [
+        ("|dp| [mm]", summary.magnitude_mm),
+        ("least stiffness [N/m]", summary.least_stiffness),
+        ("lowest natural frequency [Hz]", summary.lowest_frequency_hz),
+        ("that of the slowest cable [Hz]", summary.lowest_cable_frequency_hz),
+        ("greatest tension [N]", summary.greatest_tension),
+        ("least tension [N]", summary.least_tension),
+        ("greatest tension, distributed anew [N]", summary.anew_greatest_tension),
+        ("greatest payload, distributed anew [kg]", summary.payload_anew_kg),
+        ("greatest payload, lengths kept [kg]", summary.payload_kept_kg),
+        ("margin, distributed anew [N]", summary.margin_anew),
+        ("margin, lengths kept [N]", summary.margin_kept),
+        ("distance of the nearest cables [mm]", summary.nearest_cables_mm),
+        ("distance of cables and platform [mm]", summary.nearest_to_platform_mm),
+        ("tilt in the worst direction [deg]", summary.tilt_deg),
+    ]
+}
+
+fn print_details(summary: &WorkspaceSummary) {
+    println!("\n{}: {} positions, {}", shown(&summary.robot), summary.rows.len(), summary.conditions());
     let counts = |status: &BTreeMap<&str, usize>| {
         for (status, count) in status {
             println!("{count:8} {status}");
@@ -190,22 +252,7 @@ fn print(summary: &WorkspaceSummary) {
     }
     let mut rows = table(&["over the positions held", "least", "at [m]", "greatest", "at [m]"]);
     let position = |[x, y, z]: [f64; 3]| format!("{x:.3}, {y:.3}, {z:.3}");
-    for (name, extremes) in [
-        ("|dp| [mm]", summary.magnitude_mm),
-        ("least stiffness [N/m]", summary.least_stiffness),
-        ("lowest natural frequency [Hz]", summary.lowest_frequency_hz),
-        ("that of the slowest cable [Hz]", summary.lowest_cable_frequency_hz),
-        ("greatest tension [N]", summary.greatest_tension),
-        ("least tension [N]", summary.least_tension),
-        ("greatest tension, distributed anew [N]", summary.anew_greatest_tension),
-        ("greatest payload, distributed anew [kg]", summary.payload_anew_kg),
-        ("greatest payload, lengths kept [kg]", summary.payload_kept_kg),
-        ("margin, distributed anew [N]", summary.margin_anew),
-        ("margin, lengths kept [N]", summary.margin_kept),
-        ("distance of the nearest cables [mm]", summary.nearest_cables_mm),
-        ("distance of cables and platform [mm]", summary.nearest_to_platform_mm),
-        ("tilt in the worst direction [deg]", summary.tilt_deg),
-    ] {
+    for (name, extremes) in ranges(summary) {
         if let Some(Extremes { min, min_at, max, max_at }) = extremes {
             rows.add_row([
                 name.to_owned(),

@@ -2,7 +2,7 @@
 
 use crate::arguments::{self, Format, Overwrite, Threads};
 use crate::error::ProgramError;
-use crate::output::{Ending, patiently};
+use crate::output::{Details, Ending, patiently};
 use crate::study::print::analysis;
 use cdpr_report::analysis_report;
 use cdpr_study::{
@@ -43,6 +43,8 @@ pub(crate) struct Settings {
     overwrite: Overwrite,
     #[command(flatten)]
     threads: Threads,
+    #[command(flatten)]
+    details: Details,
     /// How the results are printed.
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
@@ -70,6 +72,9 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     })?;
     settings.format.print(&found, |found| {
         analysis::print(found);
+        if settings.details.details {
+            analysis::print_details(found);
+        }
         if let Some(folder) = &settings.out {
             println!("report in {}", folder.join("report.html").display());
         }

@@ -70,11 +70,20 @@ pub(super) fn whole(
     let Run { results, figures } = cdpr_study::run(study, blocks, format, &draw, watcher)?;
     progress.finish_and_clear();
     let timings = results.timings.clone().unwrap_or_default();
-    common.format.print(&results.summary, |summary| print::print(summary, &timings))?;
+    common.format.print(&results.summary, |summary| {
+        print::print(summary);
+        if common.details.details {
+            println!();
+            print::print_details(summary, &timings);
+        }
+    })?;
     let page = report_with(&results, &figures, None)?;
     let path = blocks.results()?.write(REPORT_NAME, page.as_bytes())?;
     if common.format == Format::Text {
         println!("\nresults in {}\nreport in {}", out.display(), path.display());
+        if !common.details.details {
+            println!("all measures: in the report, or with --details");
+        }
     }
     Ok(ending(&results.summary))
 }
@@ -133,6 +142,9 @@ fn resumed(out: &Path, common: &Common) -> String {
     }
     if common.format == Format::Json {
         command += " --format json";
+    }
+    if common.details.details {
+        command += " --details";
     }
     command
 }

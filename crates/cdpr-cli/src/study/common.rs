@@ -2,7 +2,7 @@
 
 use crate::arguments::{self, Format, Preference, Threads};
 use crate::error::ProgramError;
-use crate::output::patiently;
+use crate::output::{Details, patiently};
 use cdpr_study::{Blocks, Existing, Shard, Study, StudyError, TableFormat};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
@@ -16,7 +16,7 @@ pub(crate) struct RunSettings {
     pub(super) out: PathBuf,
     /// Number of observations of each sampling, in place of the file's.
     ///
-    /// Fewer than the file's shorten the measures of sensitivity in proportion.
+    /// Fewer than the file's shorten the measures of sensitivity in proportion, but for exact derivatives.
     #[arg(long, value_parser = arguments::count::<3, 10_000_000_000>)]
     observations: Option<usize>,
     #[command(flatten)]
@@ -55,6 +55,8 @@ pub(crate) struct Common {
     /// blocks keep the observations in any case.
     #[arg(long, value_enum)]
     pub(super) table: Option<TableName>,
+    #[command(flatten)]
+    pub(super) details: Details,
     /// How the results are printed; as JSON they are one line with the content of `summary.json`.
     #[arg(long, value_enum, default_value_t = Format::Text)]
     pub(super) format: Format,

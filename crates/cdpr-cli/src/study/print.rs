@@ -3,12 +3,46 @@
 pub(super) mod analysis;
 mod sensitivity;
 
-use crate::output::table;
-use cdpr_robot::shown;
-use cdpr_study::{Extremes, Output, Overview, PosesSummary, StudySummary, Summary, Timings};
+use crate::output::{narrow_table, table};
+use cdpr_robot::{broken, shown};
+use cdpr_study::{
+    Extremes, Output, Overview, PartVerdict, PosesSummary, Recommendation, StudySummary, Summary, Timings,
+};
+
+/// Leading inputs in the table of the answer.
+const LEADING: usize = 5;
+
+/// Prints the answer of each part of a study.
+pub(super) fn print(summary: &Summary) {
+    for (number, (name, part)) in summary.studies.iter().enumerate() {
+        if number > 0 {
+            println!();
+        }
+        print_verdict(name, part.verdict());
+    }
+}
+
+fn print_verdict(name: &str, verdict: &PartVerdict) {
+    let mut before = format!("{name}: ");
+    for sentence in &verdict.sentences {
+        broken(&(std::mem::take(&mut before) + sentence)).iter().for_each(|line| println!("{line}"));
+    }
+    if let Some(recommendation) = &verdict.recommendation {
+        print_leading(recommendation);
+    }
+}
+
+fn print_leading(recommendation: &Recommendation) {
+    let mut rows = narrow_table(&["input", "share, or index"]);
+    for of in recommendation.inputs.iter().take(LEADING) {
+        rows.add_row([of.input.clone(), recommendation.cell(of)]);
+    }
+    println!("{rows}");
+    broken(&recommendation.caption()).iter().for_each(|line| println!("{line}"));
+}
 
 /// Prints all results of a study, and how long each took.
-pub(super) fn print(summary: &Summary, timings: &Timings) {
+pub(super) fn print_details(summary: &Summary, timings: &Timings) {
     print_results(summary);
     for (name, study) in &summary.studies {
         if let StudySummary::Sampling(sampling) = study
@@ -17,19 +51,19 @@ pub(super) fn print(summary: &Summary, timings: &Timings) {
             sensitivity::print(&format!("{name}: {}", shown(&sampling.title)), sampling.output, found);
         }
     }
-    print_comparison(summary);
     for (name, seconds) in &timings.seconds {
         println!("{name:24} {seconds:6.2} s");
     }
-    println!("{:24} {:6.2} s", "all", timings.all);
+    println!("{:24} {:6.2} s", "in total", timings.all);
 }
 
 fn print_results(summary: &Summary) {
     println!("{}: {}\n", shown(&summary.robot), shown(&summary.study));
     // One output is that of all parts of a study.
     let output = summary.studies.values().next().map_or_else(Output::default, StudySummary::output);
-    let last = format!("[{}]  best fit", output.unit());
-    let mut rows = table(&["study", "n", "failed", "nominal", "mean", "std", "min", "max", &last]);
+    let of_unit = ["nominal", "mean", "std", "min", "max"].map(|name| format!("{name} [{}]", output.unit()));
+    let header = ["part", "n", "failed"].into_iter().chain(of_unit.iter().map(String::as_str));
+    let mut rows = table(&header.chain(["best fit"]).collect::<Vec<_>>());
     for (name, study) in &summary.studies {
         let counts = [study.observations(), study.failed().values().sum()].map(|count| count.to_string());
         let Overview { nominal, mean, std, min, max, best_fit } = study.overview();
@@ -76,31 +110,4 @@ fn print_poses(name: &str, summary: &PosesSummary) {
     for (parameter, count) in dominant.into_iter().take(5) {
         println!("{name}: {parameter} dominates at {count} poses");
     }
-}
-
-fn print_comparison(summary: &Summary) {
-    if summary.comparison.is_empty() {
-        return;
-    }
-    let mut rows = table(&["figure", "quantity", "paper", "computed", "unit", "verdict"]);
-    for r in &summary.comparison {
-        let cells = [
-            &r.figure,
-            &r.quantity,
-            &r.paper.to_string(),
-            &r.computed.to_string(),
-            &r.unit,
-            &r.verdict.to_string(),
-        ];
-        rows.add_row(cells.map(|cell| shown(cell).into_owned()));
-    }
-    println!("{rows}");
-    println!(
-        "reproduced: within half of the published figure's last digit plus 1 % of it; \
-         words: the same, laws only if decided"
-    );
-    println!(
-        "points: by the largest t of their coordinates; \
-         nearly equal: the largest at most 1.5 times the smallest\n"
-    );
 }

@@ -2,8 +2,8 @@
 
 use crate::arguments::Printing;
 use crate::error::ProgramError;
-use crate::output::{patiently, table};
-use cdpr_robot::shown;
+use crate::output::{narrow_table, patiently};
+use cdpr_robot::{counted, shown, significant};
 use cdpr_study::{Provisional, SoFar, Status, StoredStudy, open_results, status};
 use clap::Args;
 use std::path::PathBuf;
@@ -25,8 +25,25 @@ pub(super) fn run(settings: &Settings) -> Result<(), ProgramError> {
 }
 
 fn print(status: &Status) {
-    println!("{} (hash {})\n", shown(&status.study), status.hash);
-    let mut rows = table(&["sampling", "design", "blocks", "missing", "observations", "of", "failed"]);
+    let all = || status.samplings.values().flat_map(|sampling| sampling.designs.values());
+    let (done, wanted) =
+        all().fold((0, 0), |(done, wanted), of| (done + of.observed, wanted + of.observations));
+    if status.complete {
+        println!("Complete, {}: cdpr study merge analyses it.", counted(done, "observation"));
+    } else {
+        let percent = 100.0 * done as f64 / wanted.max(1) as f64;
+        println!("Not complete: {done} of {} ({percent:.1} %).", counted(wanted, "observation"));
+        println!("It goes on with cdpr study run --resume, or --shard.");
+    }
+    for (name, sampling) in &status.samplings {
+        let SoFar { output, moments } = sampling.provisional;
+        if let (Some(Provisional { mean, std }), unit) = (moments, output.unit()) {
+            let [mean, std] = [significant(mean, 4), significant(std, 3)];
+            println!("{name}: so far mean {} {mean} {unit}, deviation {std} {unit}", output.noun());
+        }
+    }
+    println!("\n{} (hash {})", shown(&status.study), status.hash);
+    let mut rows = narrow_table(&["sampling", "design", "blocks", "missing", "observations", "of", "failed"]);
     for (name, sampling) in &status.samplings {
         for (design, found) in &sampling.designs {
             let failed: usize = found.failed.values().sum();
@@ -51,20 +68,8 @@ fn print(status: &Status) {
         if let Some(count) = sampling.poses_not_held.filter(|count| *count > 0) {
             println!("{name}: {count} poses have no blocks: the nominal robot does not hold them");
         }
-        let SoFar { output, moments } = sampling.provisional;
-        if let (Some(Provisional { mean, std }), unit) = (moments, output.unit()) {
-            println!("{name}: so far {mean:.4} {unit}, standard deviation {std:.4} {unit}");
-        }
     }
     for path in &status.changed {
         println!("not what the run has written: {}", path.display());
     }
-    println!(
-        "\n{}",
-        if status.complete {
-            "complete: cdpr study merge analyses it"
-        } else {
-            "not complete: cdpr study run --resume or --shard goes on"
-        }
-    );
 }

@@ -2,7 +2,7 @@
 
 use crate::arguments::{self, Named, Preference, Printing, Threads};
 use crate::error::ProgramError;
-use crate::output::{patiently, table};
+use crate::output::{Details, narrow_table, patiently, table};
 use cdpr_assess::{Limit, Limited, Reached, ToleranceBudget, tolerance_budget};
 use cdpr_robot::shown;
 use cdpr_study::{Estimate, OutputLimit};
@@ -36,6 +36,8 @@ pub(crate) struct Settings {
     #[command(flatten)]
     threads: Threads,
     #[command(flatten)]
+    details: Details,
+    #[command(flatten)]
     printing: Printing,
 }
 
@@ -53,35 +55,45 @@ pub(super) fn run(settings: &Settings) -> Result<(), ProgramError> {
         verified_with: settings.observations,
     };
     let budget = patiently("looking for the tolerances", || tolerance_budget(&sampling, &limit))?;
-    Ok(settings.printing.format().print(&budget, |budget| print(sampling.title, budget))?)
+    let text = |budget: &ToleranceBudget| {
+        print(budget);
+        if settings.details.details {
+            print_details(sampling.title, budget);
+        }
+    };
+    Ok(settings.printing.format().print(&budget, text)?)
 }
 
-fn print(title: &str, budget: &ToleranceBudget) {
-    let of = match budget.of {
-        Limited::Deflection => "deflection",
-        Limited::Position => "distance from the wanted pose",
-    };
-    let percent = 100.0 * budget.quantile;
-    println!("{}: {of} of {percent} % of the robots at most {} mm", shown(title), budget.limit_mm);
-    println!("without any deviation it is {:.4} mm\n", budget.least_mm);
-    let mut rows = table(&[
-        "tolerance",
-        "std now",
-        "tighten to",
-        "times",
-        "share of variance [%]",
-        "quantile if it alone is halved [mm]",
-        "cost",
-    ]);
+/// The answer, and each tolerance as it is and as it is to be.
+fn print(budget: &ToleranceBudget) {
+    for sentence in budget.sentences() {
+        println!("{sentence}");
+    }
+    println!();
+    let mut rows = narrow_table(&["tolerance", "std now", "tighten to", "times", "share of variance [%]"]);
     for tolerance in &budget.tolerances {
         let kept = tolerance.factor == 1.0;
+        let tightened = |text: String| if kept { "-".to_owned() } else { text };
         rows.add_row([
             tolerance.name.clone(),
             format!("{:.4e}", tolerance.std),
-            if kept { "-".to_owned() } else { format!("{:.4e}", tolerance.std * tolerance.factor) },
-            if kept { "-".to_owned() } else { format!("{:.3}", tolerance.factor) },
+            tightened(format!("{:.4e}", tolerance.std * tolerance.factor)),
+            tightened(format!("{:.3}", tolerance.factor)),
             format!("{:.2}", 100.0 * tolerance.share),
+        ]);
+    }
+    println!("{rows}");
+}
+
+/// What each tolerance does alone and costs, and what independent robots say.
+fn print_details(title: &str, budget: &ToleranceBudget) {
+    println!("\n{}; without any deviation {:.4} mm", shown(title), budget.least_mm);
+    let mut rows = table(&["tolerance", "quantile if it alone is halved [mm]", "cost now", "cost then"]);
+    for tolerance in &budget.tolerances {
+        rows.add_row([
+            tolerance.name.clone(),
             format!("{:.4}", tolerance.halved_mm),
+            format!("{:.3}", tolerance.cost),
             format!("{:.3}", tolerance.cost / tolerance.factor),
         ]);
     }

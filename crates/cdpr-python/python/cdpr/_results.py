@@ -81,8 +81,8 @@ class Results:
     def summary(self) -> dict[str, Any]:
         """Content of `summary.json`.
 
-        It has moments, fitted laws, effects and measures of sensitivity of each sampling, and the comparison
-        with the paper.
+        It has the verdict of each part (`["studies"][name]["verdict"]`: its sentences and the recommended
+        measure of each input), moments, fitted laws, effects and measures of sensitivity.
         """
         summary: dict[str, Any] = json.loads(self._text("summary.json"))
         return summary

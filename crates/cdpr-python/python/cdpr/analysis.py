@@ -7,9 +7,10 @@
 >>> found.inputs
 ['a', 'b', 'c']
 >>> found.certain
-['a', 'b']
+['b', 'a']
 >>> print(found.verdict)
-certain to matter: a, b
+certain to matter: b (location), a (HSIC)
+not settled by 500 rows, more of them may: c
 """
 
 from __future__ import annotations

@@ -47,10 +47,10 @@ pub fn analysis_report(table: &GivenTable, found: &TableAnalysis) -> String {
         @for (number, (name, analysis)) in found.outputs.iter().enumerate() {
             section id={ "output" (number + 1) } {
                 h2 { (name) }
+                (verdict(analysis))
                 (summary(name, analysis))
                 (measures(analysis))
                 @if analysis.limit.is_some() { (at_limit(analysis)) }
-                (verdict(analysis))
                 @for note in &analysis.notes { p.note { (note) "." } }
                 @let drawn = leading(analysis).into_iter().take(DRAWN).collect::<Vec<_>>();
                 @if let Some(y) = column(table, name) {

@@ -4,7 +4,8 @@ use crate::page::elements::{cell, numeric, table};
 use crate::parameters;
 use crate::text;
 use cdpr_study::{
-    Output, Overview, PosesSummary, Results, SamplingSummary, StudySummary, Summary, SurfaceSummary, Verdict,
+    Output, Overview, PartVerdict, PosesSummary, RecommendedIndex, Results, SamplingSummary, StudySummary,
+    Summary, SurfaceSummary,
 };
 use maud::{Markup, html};
 
@@ -28,8 +29,28 @@ pub(crate) fn header(results: &Results) -> Markup {
                 }
                 "."
             }
+            @for (name, part) in &summary.studies { (verdict(name, part)) }
             (cards(summary, output))
             (overview(summary, output))
+        }
+    }
+}
+
+/// Inputs in the table of a verdict.
+const RECOMMENDED: usize = 5;
+
+/// The answer of a part of the study, and the recommended measure of its leading inputs.
+fn verdict(name: &str, part: &StudySummary) -> Markup {
+    let PartVerdict { sentences, recommendation } = part.verdict();
+    html! {
+        h3 { (part.title()) span.detail { (name) } }
+        @for sentence in sentences { p { (sentence) } }
+        @if let Some(recommendation) = recommendation {
+            @let row = |of: &RecommendedIndex| -> Vec<Markup> {
+                vec![cell(parameters::symbol(&of.input)), cell(recommendation.cell(of))]
+            };
+            @let rows = recommendation.inputs.iter().take(RECOMMENDED).map(row).collect::<Vec<_>>();
+            (table(&text::capital(&recommendation.caption()), &["Parameter", "Share, or index"], &rows))
         }
     }
 }
@@ -98,8 +119,6 @@ fn dominant(sampling: &SamplingSummary) -> Vec<(&str, f64)> {
 fn cards(summary: &Summary, output: Output) -> Markup {
     let first = samplings(summary).next();
     let surface = surfaces(summary).next();
-    let reproduced = summary.comparison.iter().filter(|row| row.verdict == Verdict::Reproduced).count();
-    let all = summary.comparison.len();
     let (nominal, unit) = (format!("Nominal {}", output.noun()), output.unit());
     let failed: usize = summary.studies.values().flat_map(|study| study.failed().values()).sum();
     html! {
@@ -123,12 +142,7 @@ fn cards(summary: &Summary, output: Output) -> Markup {
                         &symbols.join(", "), "", &format!("t = {}", indices.join(", "))))
                 }
             }
-            @if all > 0 {
-                (card("Published figures reproduced", &reproduced.to_string(), &format!("of {all}"),
-                    "within half of the last digit and 1\u{a0}%"))
-            } @else {
-                (card("Failed observations", &failed.to_string(), "", "counted, in no statistic"))
-            }
+            (card("Failed observations", &failed.to_string(), "", "counted, in no statistic"))
         }
     }
 }

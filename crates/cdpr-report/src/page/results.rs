@@ -1,14 +1,13 @@
 //! Sections with the results of a study: distributions, surfaces, effects, measures of sensitivity.
 
 use crate::draw::LEADING;
-use crate::page::comparison;
 use crate::page::elements::{Section, cell, figure, numeric, svg, table};
 use crate::page::glance::{samplings, surfaces as all_surfaces};
 use crate::parameters::{self, axis_of};
 use crate::text;
 use cdpr_study::{
     Evidence, Figure, FitSummary, InputMeasures, MEASURES, Measure, Output, Quantity, Results,
-    SamplingSummary, SensitivitySummary, Statistic, SurfaceSummary,
+    SamplingSummary, SensitivitySummary, SurfaceSummary, is_resolved,
 };
 use maud::{Markup, PreEscaped, html};
 use serde::Serialize;
@@ -53,15 +52,6 @@ fn short_axis(output: Output) -> String {
     format!("{} [{}]", output.short(), output.unit())
 }
 
-/// The published counterpart of a distribution or a surface, as the end of its caption.
-fn published(results: &Results, name: &str) -> String {
-    use Statistic::{AnchorPointEquality, DominantAnchorPoints, DominantExitPoints, ExitPointEquality};
-    let of_points = [AnchorPointEquality, DominantAnchorPoints, DominantExitPoints, ExitPointEquality];
-    comparison::counterpart(&results.study.file.comparison, |row| {
-        row.study == name && !of_points.contains(&row.statistic)
-    })
-}
-
 /// Histograms of all samplings with their fitted laws.
 pub(crate) fn distributions(results: &Results, figures: &[Figure]) -> Option<Section> {
     let all: Vec<_> = samplings(&results.summary).collect();
@@ -73,7 +63,7 @@ pub(crate) fn distributions(results: &Results, figures: &[Figure]) -> Option<Sec
             (figure(name, &alt, figures, &html! {
                 "Density of the " (label) " over " (sampling.observations)
                 " observations, with the laws that fit best by Akaike's criterion. The dashed line is the "
-                (short) " of the nominal robot." (published(results, name))
+                (short) " of the nominal robot."
             }))
             (fits(sampling))
         }
@@ -125,7 +115,7 @@ pub(crate) fn surfaces(results: &Results, figures: &[Figure]) -> Option<Section>
             h3 { (summary.title) }
             @match svg(figures, name) {
                 Err(error) => p.note { "No figure " code { (name) } ": " (error) "." },
-                Ok(svg) => (surface(results, name, summary, svg)),
+                Ok(svg) => (surface(name, summary, svg)),
             }
         }
     };
@@ -133,7 +123,7 @@ pub(crate) fn surfaces(results: &Results, figures: &[Figure]) -> Option<Section>
 }
 
 /// Both views of a surface, in space and as a heat map, with the buttons that switch between them.
-fn surface(results: &Results, name: &str, summary: &SurfaceSummary, svg: &str) -> Markup {
+fn surface(name: &str, summary: &SurfaceSummary, svg: &str) -> Markup {
     let [x, y] = &summary.parameters;
     let symbols = (parameters::symbol(x), parameters::symbol(y));
     let view = |kind: &str| format!("{kind} of the {} over {x} and {y}", summary.output.short());
@@ -148,7 +138,7 @@ fn surface(results: &Results, name: &str, summary: &SurfaceSummary, svg: &str) -
             div.drawing.map role="img" tabindex="0" aria-label=(view("Heat map")) { (PreEscaped(svg)) }
             figcaption {
                 (text::capital(&summary.output.axis())) " over " (symbols.0) " and " (symbols.1)
-                "; all other parameters are nominal." (published(results, name)) " "
+                "; all other parameters are nominal." " "
                 span.file { "File: " (name) ".svg" }
             }
         }
@@ -157,26 +147,19 @@ fn surface(results: &Results, name: &str, summary: &SurfaceSummary, svg: &str) -
 
 /// Effects of the coordinates of the anchor and exit points.
 pub(crate) fn points(results: &Results, figures: &[Figure]) -> Option<Section> {
-    let kinds = [
-        ("anchor_points", "anchor", [Statistic::AnchorPointEquality, Statistic::DominantAnchorPoints]),
-        ("exit_points", "exit", [Statistic::ExitPointEquality, Statistic::DominantExitPoints]),
-    ];
+    let kinds = [("anchor_points", "anchor"), ("exit_points", "exit")];
     let drawn: Vec<Markup> = kinds
         .into_iter()
-        .filter_map(|(name, kind, statistics)| {
+        .filter_map(|(name, kind)| {
             if !figures.iter().any(|figure| figure.name == name) {
                 return None;
             }
-            let published = comparison::counterpart(&results.study.file.comparison, |row| {
-                statistics.contains(&row.statistic)
-            });
             let alt = format!("t-Student index of each coordinate of the {kind} points, in the plan view");
             let caption = html! {
                 "Effect of the coordinates of the " (kind) " points on the "
                 (results.study.file.output.short()) ", as t-Student index of x, y and z. The bars stand at "
                 "the position of the point in the plan view. \u{d7} marks the "
                 "platform's reference point P. The larger the index, the more the coordinate matters."
-                (published)
             };
             Some(figure(name, &alt, figures, &caption))
         })
@@ -244,7 +227,11 @@ fn side_by_side(found: &SensitivitySummary, output: Output) -> Markup {
     let labels = labels.iter().map(String::as_str).chain(bounds.iter().copied());
     let head: Vec<&str> = ["Parameter"].into_iter().chain(labels).collect();
     let row = |input: &InputMeasures| -> Vec<Markup> {
-        let values = measures.iter().map(|measure| numeric((measure.value)(input), 3));
+        let value = |measure: &&Measure| match ((measure.value)(input), (measure.interval)(input)) {
+            (Some(value), Some(ends)) if !is_resolved(value, ends) => cell("not resolved"),
+            (value, _) => numeric(value, 3),
+        };
+        let values = measures.iter().map(value);
         let ends = [input.total_lower_low, input.total_upper_high].map(|end| numeric(end, 3));
         let ends = ends.into_iter().take(bounds.len());
         [cell(parameters::symbol(&input.input))].into_iter().chain(values).chain(ends).collect()

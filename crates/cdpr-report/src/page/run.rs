@@ -60,7 +60,7 @@ fn times(timings: &Timings) -> Markup {
     let parts = timings.seconds.iter().map(|(name, seconds)| (name.clone(), *seconds));
     let rows: Vec<Vec<Markup>> = parts
         .chain(methods)
-        .chain([("all".to_owned(), timings.all)])
+        .chain([("in total".to_owned(), timings.all)])
         .map(|(name, seconds)| vec![cell(name), numeric(seconds, 3)])
         .collect();
     html! {

@@ -21,7 +21,6 @@ fn the_report_is_whole_quiet_and_turns_in_a_browser() {
     let folder = screenshots();
     let results = common::caroca(|study, _| {
         study["samplings"].as_object_mut().unwrap().shift_remove("geometrical").unwrap();
-        study["comparison"].as_array_mut().unwrap().retain(|row| row["study"] != "geometrical");
     });
     let file = write_report(&folder, "caroca", &results);
     let mut page = Page::open(chromium());
@@ -127,7 +126,7 @@ fn a_cable_lies_on_its_pulley_however_large_its_sag_is_drawn() {
         let all = study["samplings"].as_object_mut().unwrap();
         let rest: Vec<_> = all.keys().skip(1).cloned().collect();
         rest.iter().for_each(|name| drop(all.shift_remove(name)));
-        for field in ["surfaces", "comparison", "sensitivity"] {
+        for field in ["surfaces", "sensitivity"] {
             study.as_object_mut().unwrap().remove(field);
         }
         study["replicates"] = json!(0);

@@ -64,6 +64,8 @@ const FIT_RESAMPLES: usize = 199;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct Analysis {
+    /// Confidence level of the intervals.
+    pub level: f64,
     /// Moments and extremes, in the unit of the output, and the number of failed observations.
     pub summary: Summary,
     /// Quantiles of 5 %, 50 % and 95 %, in the unit of the output.
@@ -177,6 +179,7 @@ impl Analyser {
         }
         let quantile = |p: f64| sample.quantile(p);
         Ok(Analysis {
+            level: self.level,
             summary: sample.summary(),
             quantiles: [quantile(0.05)?, quantile(0.5)?, quantile(0.95)?],
             best_fit: BestFit::of(&fits),

@@ -228,6 +228,9 @@ impl<'a> Work<'a> {
             rows: self.rows(),
         };
         let mut verdict = table.verdict();
+        let first = self.first(&mut Notes(Vec::new()));
+        let place = |input: &str| self.names.iter().position(|name| *name == input);
+        verdict.by_share(|input| Some(first[place(input)?]?.value));
         self.note_repeated(&mut verdict, all.outputs.len());
         for (input, column) in all.columns.iter().enumerate() {
             let (name, kind) = (&data.names()[input], data.kind(input));
@@ -244,7 +247,7 @@ impl<'a> Work<'a> {
         }
         let of_output = conditions::of_column(None, &all.outputs, Kind::Numbers);
         verdict.conditions.extend(of_output.filter(Condition::is_question));
-        verdict.concluded()
+        verdict.concluded(&self.names)
     }
 
     /// Rows that count once, and settings of which the mean output counts.

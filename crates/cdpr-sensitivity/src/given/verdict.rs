@@ -20,6 +20,10 @@
 //!
 //! Otherwise it is *related* to the output, with the reasons. Rows that repeat count once.
 //!
+//! The tests stand for all measures of a table. A first-order share is tested by the location and by the
+//! neighbours, whose p have no floor; δ and PAWN are compared with 19 and 199 random deals, whose least p,
+//! 1/20 and 1/200, survives no correction for dozens of tests. What they see is what spread and HSIC test.
+//!
 //! Rows of a sequence (`verdict/sequence.rs`) are not independent of each other: trend and location alone are
 //! tested, and a coordinate that is found no more clearly than its pattern with another one is related.
 
@@ -72,9 +76,9 @@ pub struct Verdict {
     pub rows: usize,
     /// Number of tests that are corrected for.
     pub tests: usize,
-    /// Inputs that are certain to matter, the smallest p first.
+    /// Inputs that are certain to matter, that of the largest first-order share first.
     pub certain: Vec<Finding>,
-    /// Inputs that are related to the output and need not be causes, the smallest p first.
+    /// Inputs that are related to the output and need not be causes, in the same order.
     pub related: Vec<Finding>,
     /// Inputs of which nothing can be said.
     pub doubtful: Vec<Doubt>,
@@ -251,11 +255,18 @@ impl Verdict {
         self.conditions.push(Condition { concern, inputs: vec![], text });
     }
 
-    /// Writes the sentences.
-    pub(crate) fn concluded(mut self) -> Self {
-        let names = |list: &[Finding]| -> String {
-            list.iter().map(|finding| finding.input.as_str()).collect::<Vec<_>>().join(", ")
-        };
+    /// Puts the inputs in the order of their first-order shares; those without one follow by their p.
+    pub(crate) fn by_share(&mut self, share: impl Fn(&str) -> Option<f64>) {
+        for list in [&mut self.certain, &mut self.related] {
+            let of = |finding: &Finding| share(&finding.input).unwrap_or(f64::NEG_INFINITY);
+            list.sort_by(|one, other| of(other).total_cmp(&of(one)));
+        }
+    }
+
+    /// Writes the sentences on all inputs that vary.
+    pub(crate) fn concluded(mut self, inputs: &[&str]) -> Self {
+        let name = |finding: &Finding| format!("{} ({})", finding.input, finding.measure.word());
+        let names = |list: &[Finding]| -> String { list.iter().map(name).collect::<Vec<_>>().join(", ") };
         let few = self.conditions.iter().any(|condition| condition.concern == Concern::FewRows);
         self.sentences = if few {
             let are = if self.rows == 1 { "is" } else { "are" };
@@ -268,6 +279,15 @@ impl Verdict {
             self.sentences.push(format!("related, cause or not: {}", names(&self.related)));
             let reason = |finding: &Finding| format!("{}: {}", finding.input, finding.reasons.join("; "));
             self.sentences.extend(self.related.iter().map(reason));
+        }
+        let found = self.certain.iter().chain(&self.related).map(|finding| finding.input.as_str());
+        let doubtful = self.doubtful.iter().map(|doubt| doubt.input.as_str());
+        let settled: HashSet<&str> = found.chain(doubtful).collect();
+        let open: Vec<&str> = inputs.iter().copied().filter(|input| !settled.contains(input)).collect();
+        if !few && !open.is_empty() {
+            let names = listed(&open, 8, |name| (*name).to_owned());
+            let rows = counted(self.rows, "row");
+            self.sentences.push(format!("not settled by {rows}, more of them may: {names}"));
         }
         let doubt = |doubt: &Doubt| format!("{}: {}", doubt.input, doubt.reason);
         self.sentences.extend(self.doubtful.iter().map(doubt));

@@ -94,6 +94,33 @@ fn upper_bounds_hold_indices_however_small_and_squares_however_rare() {
 }
 
 #[test]
+fn bounds_at_the_level_of_each_input_hold_all_inputs_of_a_study_together() {
+    // The verdict of a study takes 1 - 0.05 / inputs for each input (Bonferroni).
+    const STUDIES: u64 = 200;
+    for function in functions::all().into_iter().chain([functions::with_a_small_part()]) {
+        let level = 1.0 - 0.05 / function.inputs.len() as f64;
+        let mut wrong = [0; 2];
+        for seed in 0..STUDIES {
+            let random = RandomDesign::new(function.inputs.clone(), 64, seed).unwrap();
+            let scrambled = SobolDesign::scrambled(function.inputs.clone(), 64, seed).unwrap();
+            let found = [
+                brackets(&random, &slopes(&random, &function.model), level, seed).unwrap(),
+                brackets(&scrambled, &slopes(&scrambled, &function.model), level, seed).unwrap(),
+            ];
+            for (wrong, found) in wrong.iter_mut().zip(&found) {
+                let is_outside = |(bracket, total): (&Bracket, &f64)| {
+                    bracket.total_lower.low > total * (1.0 + 1e-6)
+                        || bracket.total_upper.high < total * (1.0 - 1e-6)
+                };
+                *wrong += usize::from(found.iter().zip(&function.total).any(is_outside));
+            }
+        }
+        // 10 expected at most; 19 is three standard deviations above.
+        assert!(wrong.iter().all(|&wrong| wrong <= 19), "{}: {wrong:?}", function.name);
+    }
+}
+
+#[test]
 fn the_bound_of_each_input_holds_where_it_is_called_reliable() {
     let function = functions::bratley();
     let (mut wrong, mut reliable) = (vec![0; 10], vec![0; 10]);

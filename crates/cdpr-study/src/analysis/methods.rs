@@ -1,5 +1,6 @@
 //! The methods behind the measures of sensitivity: each observes what it needs and fills in its measures.
 
+mod candidates;
 pub(crate) mod run;
 
 use crate::analysis::measures::{InputMeasures, SubspaceSummary};
@@ -49,7 +50,9 @@ pub(crate) const METHODS: [Method; 15] = [
     Method::new("rank_regression", Needs::Joint, |run, found| {
         let fits =
             (rank_regression::<SobolDesign> as Fit<_>, rank_regression::<Correlated<SobolDesign>> as Fit<_>);
-        regress(run, found, fits, |input, share| input.rank_regression_share = Some(share))
+        let summary = regress(run, found, fits, |input, share| input.rank_regression_share = Some(share))?;
+        found.candidates.extend(summary.iter().filter_map(|of| candidates::of_ranks(&found.inputs, of)));
+        Ok(summary)
     }),
     Method::new("morris", Needs::Independent, morris),
     Method::new("dgsm", Needs::Independent, derivative_bounds),
@@ -160,7 +163,10 @@ fn derivative_bounds(run: &Run, found: &mut Found) -> Result<Option<MethodSummar
     Ok(Some(MethodSummary { reliable: Some(reliable), ..MethodSummary::of(slopes) }))
 }
 
-fn derivative_brackets(run: &Run, found: &mut Found) -> Result<Option<MethodSummary>, Box<dyn Error>> {
+pub(crate) fn derivative_brackets(
+    run: &Run,
+    found: &mut Found,
+) -> Result<Option<MethodSummary>, Box<dyn Error>> {
     let (design, slopes) = run.sloped()?;
     let bounds = brackets(&design, slopes, run.settings.confidence, run.settings.seed)?;
     for (input, bracket) in found.inputs.iter_mut().zip(bounds) {
@@ -171,7 +177,9 @@ fn derivative_brackets(run: &Run, found: &mut Found) -> Result<Option<MethodSumm
         [input.total_upper, input.total_upper_high] =
             [bracket.total_upper.value, bracket.total_upper.high.min(1.0)].map(Some);
     }
-    Ok(Some(MethodSummary::of(slopes)))
+    let summary = MethodSummary::of(slopes);
+    found.candidates.push(candidates::of_derivatives(run, &design, slopes, &summary)?);
+    Ok(Some(summary))
 }
 
 fn subspace(run: &Run, found: &mut Found) -> Result<Option<MethodSummary>, Box<dyn Error>> {
@@ -199,7 +207,9 @@ fn chaos_expansion(run: &Run, found: &mut Found) -> Result<Option<MethodSummary>
         input.expansion_first = Some(shares.closed);
         input.expansion_total = Some(shares.total);
     }
-    Ok(Some(MethodSummary { leave_one_out: Some(model.leave_one_out), ..MethodSummary::of(&outputs) }))
+    let summary = MethodSummary { leave_one_out: Some(model.leave_one_out), ..MethodSummary::of(&outputs) };
+    found.candidates.push(candidates::of_model(&model, &summary));
+    Ok(Some(summary))
 }
 
 fn chaos_expansion_of_slopes(run: &Run, found: &mut Found) -> Result<Option<MethodSummary>, Box<dyn Error>> {
@@ -213,7 +223,9 @@ fn chaos_expansion_of_slopes(run: &Run, found: &mut Found) -> Result<Option<Meth
         input.gradient_expansion_total = Some(shares.total);
     }
     let (leave_one_out, derivatives) = (Some(model.leave_one_out), Some(model.derivatives));
-    Ok(Some(MethodSummary { leave_one_out, derivatives, ..MethodSummary::of(slopes) }))
+    let summary = MethodSummary { leave_one_out, derivatives, ..MethodSummary::of(slopes) };
+    found.candidates.push(candidates::of_model(&model, &summary));
+    Ok(Some(summary))
 }
 
 /// An expansion that has a term.
@@ -250,7 +262,12 @@ fn sobol(run: &Run, found: &mut Found) -> Result<Option<MethodSummary>, Box<dyn 
         }
     }
     let (failed_blocks, reliable) = (Some(indices.failed_blocks), Some(indices.reliable));
-    Ok(Some(MethodSummary { failed_blocks, reliable, ..MethodSummary::of(&outputs) }))
+    let summary = MethodSummary { failed_blocks, reliable, ..MethodSummary::of(&outputs) };
+    // The bootstrap takes long, and what settles an input already comes first.
+    if indices.reliable && !found.candidates.iter().any(|of| of.settled() > 0) {
+        found.candidates.push(candidates::of_sobol(run, &design, &outputs, &summary)?);
+    }
+    Ok(Some(summary))
 }
 
 fn sobol_of_groups(run: &Run, found: &mut Found) -> Result<Option<MethodSummary>, Box<dyn Error>> {
@@ -304,7 +321,9 @@ fn shapley(run: &Run, found: &mut Found) -> Result<Option<MethodSummary>, Box<dy
         [input.shapley, input.shapley_low, input.shapley_high] =
             [of.effect.value, of.effect.low, of.effect.high].map(Some);
     }
-    Ok(Some(MethodSummary::of(&outputs)))
+    let summary = MethodSummary::of(&outputs);
+    found.candidates.extend(candidates::of_shapley(run, &found.inputs, &summary));
+    Ok(Some(summary))
 }
 
 /// The components of the vector of an output that is a length [mm].

@@ -3,6 +3,7 @@
 use crate::analysis::poses::PosesSummary;
 use crate::analysis::sampling::SamplingSummary;
 use crate::analysis::surface::SurfaceSummary;
+use crate::analysis::verdict::PartVerdict;
 use crate::file::output::Output;
 use cdpr_sensitivity::BestFit;
 use serde::{Deserialize, Serialize};
@@ -27,6 +28,15 @@ impl StudySummary {
             Self::Sampling(sampling) => &sampling.title,
             Self::Surface(surface) => &surface.title,
             Self::Poses(poses) => &poses.title,
+        }
+    }
+
+    /// The answer in words.
+    pub fn verdict(&self) -> &PartVerdict {
+        match self {
+            Self::Sampling(sampling) => &sampling.verdict,
+            Self::Surface(surface) => &surface.verdict,
+            Self::Poses(poses) => &poses.verdict,
         }
     }
 

@@ -3,6 +3,7 @@
 //! not computed.
 
 use crate::analysis::extremes::Extremes;
+use crate::analysis::verdict::{PartVerdict, number, of_failed};
 use crate::error::StudyError;
 use crate::file::output::Output;
 use crate::model::grid::Grid;
@@ -10,7 +11,7 @@ use crate::model::nominal::too_much;
 use crate::model::pose_set::PoseSet;
 use crate::model::study::{Sampling, Study};
 use crate::observe::observation::{Session, Tally};
-use cdpr_robot::Pose;
+use cdpr_robot::{Pose, counted, listing};
 use cdpr_sensitivity::SampleDesign;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -70,6 +71,8 @@ pub struct PoseRow {
 pub struct PosesSummary {
     /// Title.
     pub title: String,
+    /// The answer in words.
+    pub verdict: PartVerdict,
     /// What is observed.
     #[serde(default, skip_serializing_if = "Output::is_deflection")]
     pub output: Output,
@@ -129,6 +132,7 @@ pub fn observe_poses(
     };
     let mut summary = PosesSummary {
         title: spec.title.clone(),
+        verdict: PartVerdict::default(),
         output: study.file.output,
         poses: count,
         grid: match poses {
@@ -178,6 +182,7 @@ pub fn observe_poses(
         Extremes::of(rows.iter().filter_map(|row| Some((value(row)?, [row.x, row.y, row.z]))))
     };
     (summary.mean, summary.std) = (over(|row| row.mean), over(|row| row.std));
+    summary.verdict.sentences = summary.sentences();
     Ok(PosesResult { summary, rows })
 }
 
@@ -197,6 +202,35 @@ impl PosesSummary {
         if let Some(name) = &row.dominant {
             *self.dominant.entry(name.clone()).or_default() += 1;
         }
+    }
+
+    /// Means at the poses, poses that are not held, failed observations, and what dominates.
+    fn sentences(&self) -> Vec<String> {
+        let (noun, unit, held) = (self.output.noun(), self.output.unit(), self.held());
+        let mut sentences = vec![match self.mean {
+            Some(Extremes { min, max, .. }) => {
+                let [min, max] = [min, max].map(number);
+                format!("Mean {noun} {min} to {max} {unit} over {}.", counted(held, "pose"))
+            }
+            None => format!("No {noun} at any of {}.", counted(self.poses, "pose")),
+        }];
+        if held < self.poses {
+            let kinds = self.status.iter().filter(|(status, _)| *status != HELD);
+            let kinds: Vec<String> =
+                kinds.map(|(kind, count)| format!("{count} {}", kind.replace('_', " "))).collect();
+            let not_held = self.poses - held;
+            let before = format!("{not_held} of {} poses are not held: ", self.poses);
+            sentences.push(listing(&before, &kinds, "."));
+        }
+        sentences.extend(of_failed(&self.failed, self.observations));
+        let mut dominant: Vec<_> = self.dominant.iter().collect();
+        dominant.sort_by_key(|(_, count)| std::cmp::Reverse(**count));
+        let dominant: Vec<String> =
+            dominant.iter().map(|(name, count)| format!("{name} at {count}")).collect();
+        if !dominant.is_empty() {
+            sentences.push(listing("Largest t-Student index: ", &dominant, " poses."));
+        }
+        sentences
     }
 
     /// Poses at which the nominal robot has feasible tensions.

@@ -1,8 +1,13 @@
 //! Analysis of a sampling: summary, fitted laws, effects.
 
-use crate::analysis::sensitivity::{SensitivitySummary, measure};
+use crate::analysis::methods::run::Run;
+use crate::analysis::sensitivity::{SensitivitySummary, bounded, measured};
+use crate::analysis::values::ValueSummary;
+use crate::analysis::verdict::PartVerdict;
+use crate::analysis::verdict::recommendation::{Candidate, Recommendation, recommend};
 use crate::error::StudyError;
 use crate::file::output::Output;
+use crate::file::sensitivity_spec::{SensitivitySpec, VERDICT_POINTS};
 use crate::model::nominal::too_much;
 use crate::model::observed::ScalarCount;
 use crate::model::study::Sampling;
@@ -10,7 +15,7 @@ use crate::observe::observation::{FITTED, KEPT, Session, Tally, observe_replicat
 use cdpr_robot::Robot;
 use cdpr_sensitivity::{
     BestFit, Bootstrap, EffectInterval, Effects, Family, Fit, Histogram, Law, Sample, SampleDesign,
-    SensitivityError, SobolDesign, Summary, fit_all, intervals_of_effects,
+    SensitivityError, SobolDesign, fit_all, intervals_of_effects,
 };
 use cdpr_statics::Deflection;
 use indexmap::IndexMap;
@@ -22,6 +27,8 @@ use std::collections::BTreeMap;
 pub struct SamplingSummary {
     /// Title.
     pub title: String,
+    /// The answer in words, and the recommended measure of the inputs.
+    pub verdict: PartVerdict,
     /// What is observed.
     #[serde(default, skip_serializing_if = "Output::is_deflection")]
     pub output: Output,
@@ -68,31 +75,6 @@ pub struct SamplingSummary {
     pub sensitivity: Option<SensitivitySummary>,
     /// What could not be computed, and why.
     pub notes: Vec<String>,
-}
-
-/// Summary of the output in its unit.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct ValueSummary {
-    /// Mean.
-    pub mean: f64,
-    /// Standard deviation, with n - 1.
-    pub std: f64,
-    /// Least value.
-    pub min: f64,
-    /// Greatest value.
-    pub max: f64,
-    /// Value of the nominal robot.
-    pub nominal: f64,
-    /// 1 % quantile (Hyndman and Fan's type 7, as the others).
-    pub q01: f64,
-    /// Lower quartile.
-    pub q25: f64,
-    /// Median.
-    pub median: f64,
-    /// Upper quartile.
-    pub q75: f64,
-    /// 99 % quantile.
-    pub q99: f64,
 }
 
 /// The nominal robot under the study's load.
@@ -228,36 +210,63 @@ pub fn analyse(sampling: &Sampling, tally: &Tally, session: &Session) -> Result<
         Some(_) => Ok(IndexMap::new()),
     };
     let signed = signed_effects(sampling, session)?;
-    let sensitivity = settings.sensitivity.as_ref().map(|spec| measure(sampling, spec, tally, session));
+    let t_student = t_student.unwrap_or_else(|error| {
+        note("t_student", error);
+        IndexMap::new()
+    });
+    let signed_effects = signed.unwrap_or_else(|error| {
+        note(&output.named("signed_effects_mm"), error);
+        IndexMap::new()
+    });
+    let values = moments
+        .zip(sample.as_ref())
+        .and_then(|(all, sample)| ValueSummary::new(&all, sample, sampling.nominal_value).ok());
+    let (sensitivity, recommendation) = recommended(sampling, tally, session, &t_student, &mut notes)?;
     Ok(SamplingSummary {
-        title: sampling.title.to_owned(),
-        output,
-        pose: sampling.pose.position.into(),
-        quaternion: sampling.pose.quaternion(),
-        observations: sampling.design.points(),
-        failed: tally.failed.clone(),
-        scalar: tally.scalar.clone(),
-        values: moments
-            .zip(sample.as_ref())
-            .and_then(|(all, sample)| ValueSummary::new(&all, sample, sampling.nominal_value).ok()),
-        nominal: NominalSummary::new(sampling.robot, &sampling.nominal, &sampling.load),
-        operating_moduli_gpa: sampling.operating_moduli.map(|moduli| moduli.map(|modulus| 1e-9 * modulus)),
+        verdict: PartVerdict::of_sampling(sampling, tally, values.as_ref(), recommendation),
+        values,
         fits: fits.into_iter().map(FitSummary::from).collect(),
         best_fit,
         histogram: sample.and_then(|sample| sample.histogram(cdpr_sensitivity::Bins::FreedmanDiaconis).ok()),
-        t_student: t_student.unwrap_or_else(|error| {
-            note("t_student", error);
-            IndexMap::new()
-        }),
-        signed_effects: signed.unwrap_or_else(|error| {
-            note(&output.named("signed_effects_mm"), error);
-            IndexMap::new()
-        }),
+        t_student,
+        signed_effects,
         replicates: settings.replicates,
-        confidence: settings.confidence,
-        sensitivity: sensitivity.transpose()?,
+        sensitivity,
         notes,
+        ..unmoved(sampling, tally, rounding)
     })
+}
+
+/// The measures of sensitivity that the study asks for, and the recommended one. Without any, derivatives are
+/// taken for it alone.
+fn recommended(
+    sampling: &Sampling,
+    tally: &Tally,
+    session: &Session,
+    t_student: &IndexMap<String, f64>,
+    notes: &mut Vec<String>,
+) -> Result<(Option<SensitivitySummary>, Option<Recommendation>), StudyError> {
+    let settings = &sampling.study.file;
+    let names: Vec<String> = sampling.design.inputs().iter().map(|input| input.name.clone()).collect();
+    let for_verdict = SensitivitySpec { derivative_points: VERDICT_POINTS, ..SensitivitySpec::default() };
+    let spec = settings.sensitivity.unwrap_or(for_verdict);
+    let run = Run::new(sampling, &spec, tally, session);
+    let (summary, mut candidates) = match settings.sensitivity {
+        Some(_) => {
+            let (summary, candidates) = measured(&run)?;
+            (Some(summary), candidates)
+        }
+        None => (
+            None,
+            bounded(&run).unwrap_or_else(|reason| {
+                notes.push(format!("bounds of shares: {reason}"));
+                Vec::new()
+            }),
+        ),
+    };
+    let student = names.iter().map(|name| t_student.get(name).copied()).collect::<Option<Vec<f64>>>();
+    candidates.extend(student.map(Candidate::of_student));
+    Ok((summary, recommend(&names, candidates, settings.confidence)))
 }
 
 /// The summary of a sampling whose outputs are below rounding: zero, without laws and effects.
@@ -269,6 +278,7 @@ fn unmoved(sampling: &Sampling, tally: &Tally, rounding: f64) -> SamplingSummary
         output,
         pose: sampling.pose.position.into(),
         quaternion: sampling.pose.quaternion(),
+        verdict: PartVerdict::of_zero(sampling, tally, rounding),
         observations: sampling.design.points(),
         failed: tally.failed.clone(),
         scalar: tally.scalar.clone(),
@@ -288,43 +298,6 @@ fn unmoved(sampling: &Sampling, tally: &Tally, rounding: f64) -> SamplingSummary
             output.name(),
             output.unit()
         )],
-    }
-}
-
-impl ValueSummary {
-    /// Of all observations of a tally; `None` if fewer than two of them succeeded.
-    pub fn of(sampling: &Sampling, tally: &Tally) -> Option<Self> {
-        let moments = tally.sums.outputs().summary().ok()?;
-        Self::new(&moments, &Sample::new(&tally.first_values).ok()?, sampling.nominal_value).ok()
-    }
-
-    /// Of a robot without any change.
-    const ZERO: Self = Self {
-        mean: 0.0,
-        std: 0.0,
-        min: 0.0,
-        max: 0.0,
-        nominal: 0.0,
-        q01: 0.0,
-        q25: 0.0,
-        median: 0.0,
-        q75: 0.0,
-        q99: 0.0,
-    };
-
-    fn new(summary: &Summary, sample: &Sample, nominal: f64) -> Result<Self, SensitivityError> {
-        Ok(Self {
-            mean: summary.mean,
-            std: summary.std,
-            min: summary.min,
-            max: summary.max,
-            nominal,
-            q01: sample.quantile(0.01)?,
-            q25: sample.quantile(0.25)?,
-            median: sample.quantile(0.5)?,
-            q75: sample.quantile(0.75)?,
-            q99: sample.quantile(0.99)?,
-        })
     }
 }
 

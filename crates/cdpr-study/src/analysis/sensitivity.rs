@@ -23,7 +23,8 @@
 
 use crate::analysis::measures::{GroupMeasures, InputMeasures, MEASURES, Measure, Quantity, SubspaceSummary};
 use crate::analysis::methods::run::{Found, MethodSummary, Run};
-use crate::analysis::methods::{METHODS, Needs};
+use crate::analysis::methods::{METHODS, Needs, derivative_brackets};
+use crate::analysis::verdict::recommendation::Candidate;
 use crate::error::StudyError;
 use crate::file::output::VectorOutput;
 use crate::file::sensitivity_spec::SensitivitySpec;
@@ -88,7 +89,12 @@ pub fn measure(
     tally: &Tally,
     session: &Session,
 ) -> Result<SensitivitySummary, StudyError> {
-    let run = Run::new(sampling, spec, tally, session);
+    Ok(measured(&Run::new(sampling, spec, tally, session))?.0)
+}
+
+/// The measures, and what may be recommended of them.
+pub(crate) fn measured(run: &Run) -> Result<(SensitivitySummary, Vec<Candidate>), StudyError> {
+    let (sampling, spec) = (run.sampling, run.spec);
     let mut found = Found::new(sampling);
     let (mut methods, mut notes) = (IndexMap::new(), Vec::new());
     let is_correlated = sampling.correlation.is_some();
@@ -100,7 +106,7 @@ pub fn measure(
     for method in METHODS.iter().filter(|of| !(is_correlated && of.inputs == Needs::Independent)) {
         let clock = Instant::now();
         let name = method.name;
-        match (method.run)(&run, &mut found) {
+        match (method.run)(run, &mut found) {
             Ok(None) => {}
             Ok(Some(summary)) => {
                 if summary.reliable == Some(false) {
@@ -121,9 +127,22 @@ pub fn measure(
             },
         }
     }
-    let Found { inputs, groups, subspace } = found;
+    let Found { inputs, groups, subspace, candidates } = found;
     let (sums, agreement) = (sums(sampling, &inputs), Agreement::of(&inputs));
-    Ok(SensitivitySummary { inputs, groups, subspace, methods, sums, agreement, vector: spec.vector, notes })
+    let summary =
+        SensitivitySummary { inputs, groups, subspace, methods, sums, agreement, vector: spec.vector, notes };
+    Ok((summary, candidates))
+}
+
+/// Bounds by derivatives alone, for the verdict on a sampling whose study has no measures; the reason where
+/// there are none.
+pub(crate) fn bounded(run: &Run) -> Result<Vec<Candidate>, String> {
+    if run.sampling.correlation.is_some() {
+        return Err("the inputs are correlated".to_owned());
+    }
+    let mut found = Found::new(run.sampling);
+    derivative_brackets(run, &mut found).map_err(|error| error.to_string())?;
+    Ok(found.candidates)
 }
 
 /// Why intervals of a method are not reliable: the means of these inputs or groups rest on few observations,

@@ -1,6 +1,5 @@
 //! All results of a study.
 
-use crate::analysis::comparison::{ComparisonRow, compare};
 use crate::analysis::keys::in_file;
 use crate::analysis::part::StudySummary;
 use crate::error::StudyError;
@@ -27,8 +26,6 @@ pub struct Summary {
     /// Results by name.
     #[serde(serialize_with = "in_file")]
     pub studies: IndexMap<String, StudySummary>,
-    /// Published figures beside the computed ones.
-    pub comparison: Vec<ComparisonRow>,
 }
 
 impl Summary {
@@ -44,7 +41,6 @@ impl Summary {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             payload: study.file.payload,
             seed: study.file.seed,
-            comparison: compare(&study.file.comparison, &studies),
             studies,
         })
     }

@@ -1,5 +1,6 @@
 //! Surfaces: the output over a grid of two parameters.
 
+use crate::analysis::verdict::{PartVerdict, number, of_failed, subject};
 use crate::file::output::Output;
 use crate::model::nominal::too_much;
 use crate::model::observed::count_failed;
@@ -27,6 +28,8 @@ pub struct SurfaceResult<E = StaticsError> {
 pub struct SurfaceSummary {
     /// Title.
     pub title: String,
+    /// The answer in words.
+    pub verdict: PartVerdict,
     /// What is observed.
     #[serde(default, skip_serializing_if = "Output::is_deflection")]
     pub output: Output,
@@ -98,20 +101,44 @@ impl SurfaceSummary {
         let failed = count_failed(
             result.values.iter().filter_map(|value| value.as_ref().err()).map(StaticsError::kind),
         );
+        let parameters = [&surface.x, &surface.y].map(|axis| axis.parameter.to_string());
+        let values = SurfaceValues {
+            min: succeeded().reduce(f64::min),
+            max: succeeded().reduce(f64::max),
+            nominal: surface.nominal_value,
+        };
         Self {
             title: surface.title.to_owned(),
+            verdict: values.verdict(surface.output, &parameters, &failed, result.values.len()),
             output: surface.output,
             pose: surface.pose.position.into(),
             quaternion: surface.pose.quaternion(),
             observations: result.values.len(),
             failed,
-            parameters: [&surface.x, &surface.y].map(|axis| axis.parameter.to_string()),
-            values: SurfaceValues {
-                min: succeeded().reduce(f64::min),
-                max: succeeded().reduce(f64::max),
-                nominal: surface.nominal_value,
-            },
+            parameters,
+            values,
             out_of_limits: too_much(surface.robot, &surface.nominal),
         }
+    }
+}
+
+impl SurfaceValues {
+    fn verdict(
+        &self,
+        output: Output,
+        [x, y]: &[String; 2],
+        failed: &BTreeMap<String, usize>,
+        points: usize,
+    ) -> PartVerdict {
+        let (subject, unit, nominal) = (subject(output), output.unit(), number(self.nominal));
+        let mut sentences = vec![match self.min.zip(self.max) {
+            Some((min, max)) => {
+                let [min, max] = [min, max].map(number);
+                format!("{subject} over {x} and {y}: {min} to {max} {unit}, nominal {nominal} {unit}.")
+            }
+            None => format!("{subject} over {x} and {y}: no point succeeded, nominal {nominal} {unit}."),
+        }];
+        sentences.extend(of_failed(failed, points));
+        PartVerdict { sentences, recommendation: None }
     }
 }

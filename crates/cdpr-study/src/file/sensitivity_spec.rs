@@ -7,6 +7,9 @@ use cdpr_sensitivity::{Expansion, SobolIndices, Truncation};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+/// Points with exact derivatives behind the verdict on a sampling whose study has no measures of sensitivity.
+pub(crate) const VERDICT_POINTS: usize = 256;
+
 /// Observations behind the measures of sensitivity, for k inputs.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
@@ -66,13 +69,13 @@ impl Default for SensitivitySpec {
 
 impl SensitivitySpec {
     /// Keeps this share of all observations, of blocks a power of two, and no fewer than each measure needs.
+    /// Points with derivatives take little time and remain.
     pub(crate) fn shorten(&mut self, share: f64) {
         let fewer = |count: usize, least: usize| ((share * count as f64) as usize).max(least.min(count));
         let power = |count: usize| if count == 0 { 0 } else { 1 << count.ilog2() };
         self.observations = fewer(self.observations, 3);
         self.saltelli_blocks = power(fewer(self.saltelli_blocks, SobolIndices::MIN_BLOCKS));
         self.morris_blocks = power(fewer(self.morris_blocks, 2));
-        self.derivative_points = fewer(self.derivative_points, 2);
         self.shapley_walks = fewer(self.shapley_walks, MIN_WALKS);
         self.bures_observations = fewer(self.bures_observations, MIN_ROWS);
     }

@@ -5,7 +5,6 @@ use crate::file::cable_law::CableLaw;
 use crate::file::grid::GridSpec;
 use crate::file::output::Output;
 use crate::file::sensitivity_spec::SensitivitySpec;
-use crate::file::value::Value;
 use cdpr_robot::{Coordinate, TensionDistribution, TensionReference};
 use cdpr_sensitivity::{Law, Steps};
 use indexmap::IndexMap;
@@ -75,9 +74,6 @@ pub struct StudyFile {
     /// Surfaces by name: two parameters vary over a grid, and all others are nominal.
     #[serde(default)]
     pub surfaces: IndexMap<String, SurfaceSpec>,
-    /// Published figures of the deflection, which are listed beside the computed ones.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub comparison: Vec<ComparisonSpec>,
 }
 
 /// An error model as a file may have it: where it is read, files are put in their places.
@@ -225,63 +221,6 @@ pub struct AxisSpec {
     pub max: f64,
     /// Points of the grid, 2 to 10000.
     pub points: usize,
-}
-
-/// A published figure: a number or a word, and which of ours to compare it with.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct ComparisonSpec {
-    /// Where it is published, such as `4a`.
-    pub figure: String,
-    /// What it is, in words.
-    pub quantity: String,
-    /// Name of the sampling or surface.
-    pub study: String,
-    /// The statistic of ours.
-    pub statistic: Statistic,
-    /// What is published.
-    pub paper: Value,
-    /// Unit; empty for a word.
-    pub unit: String,
-    /// Last printed digit of a published number, such as 0.01; 0 for a word.
-    #[serde(default)]
-    pub last_digit: f64,
-    /// What is known of it, such as why it cannot be reproduced.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub note: Option<String>,
-}
-
-/// A number or word of ours.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Statistic {
-    /// Mean of the magnitude [mm].
-    Mean,
-    /// Its standard deviation [mm].
-    Std,
-    /// Its least value [mm].
-    Min,
-    /// Its greatest value [mm].
-    Max,
-    /// Greatest minus least value [mm].
-    Spread,
-    /// Greatest minus least value over the mean [%].
-    RelativeSpread,
-    /// The law that fits best; its name where the observations decide on it.
-    BestFit,
-    /// The two anchor points with the largest t (largest of their coordinates).
-    DominantAnchorPoints,
-    /// The two exit points with the largest t.
-    DominantExitPoints,
-    /// Whether the largest t of an anchor point is at most 1.5 times the smallest: `nearly equal` or
-    /// `unequal`.
-    AnchorPointEquality,
-    /// The same of the exit points.
-    ExitPointEquality,
-    /// Largest tension of the nominal robot under its own weight [N].
-    UnloadedTension,
-    /// Largest tension of the nominal robot with the payload [N].
-    LoadedTension,
 }
 
 /// The JSON Schema of the study file, as pretty-printed text.

@@ -57,7 +57,7 @@ impl Size {
 
 const SALTELLI_BLOCKS: usize = 128;
 const MORRIS_BLOCKS: usize = 32;
-const DERIVATIVE_POINTS: usize = 64;
+const DERIVATIVE_POINTS: usize = 256;
 
 /// How many observations each part of the template makes, for people.
 pub fn template_cost(robot: &Robot) -> String {
@@ -83,7 +83,7 @@ pub fn template_cost(robot: &Robot) -> String {
             has_sensitivity,
             "Morris's effects (morris_blocks times inputs + 1)",
         ),
-        part(DERIVATIVE_POINTS, has_sensitivity, "exact derivatives (derivative_points)"),
+        part(DERIVATIVE_POINTS, true, "exact derivatives (derivative_points)"),
         part(axis * axis, true, "surface (points of x times points of y)"),
     ];
     let lines = parts.concat();

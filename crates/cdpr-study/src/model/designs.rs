@@ -4,7 +4,7 @@
 
 use crate::error::StudyError;
 use crate::file::output::Recorded;
-use crate::file::sensitivity_spec::SensitivitySpec;
+use crate::file::sensitivity_spec::{SensitivitySpec, VERDICT_POINTS};
 use crate::file::study_file::SamplingSpec;
 use crate::model::study::{Sampling, Study};
 use cdpr_sensitivity::{
@@ -134,7 +134,7 @@ impl Study {
         Ok(match self.poses(name, spec)?.several() {
             Some(poses) => poses * of_designs,
             None if !spec.correlations.is_empty() => of_designs,
-            None => of_designs + self.file.sensitivity.map_or(0, |spec| spec.derivative_points),
+            None => of_designs + self.file.sensitivity.map_or(VERDICT_POINTS, |spec| spec.derivative_points),
         })
     }
 

@@ -25,7 +25,6 @@ impl Study {
         }
         file.groups.clear();
         file.surfaces.clear();
-        file.comparison.clear();
         self.hash_of(&file)
     }
 

@@ -3,8 +3,7 @@
 use crate::error::StudyError;
 use crate::file::output::{Output, VectorOutput};
 use crate::file::sensitivity_spec::SensitivitySpec;
-use crate::file::study_file::{STUDY_FORMAT, SamplingSpec, Statistic, StudyFile};
-use crate::file::value::Value;
+use crate::file::study_file::{STUDY_FORMAT, SamplingSpec, StudyFile};
 use crate::fs::files::open_robot_from;
 use crate::fs::input::{other_kind, read_text};
 use crate::kind::InputKind;
@@ -168,7 +167,7 @@ impl Study {
             self.surface_axes(name, spec)?;
             self.nominal(name)?;
         }
-        self.check_comparison()
+        Ok(())
     }
 
     /// Values that need no other ones.
@@ -210,34 +209,9 @@ impl Study {
         }
     }
 
-    /// Published figures are of parts of the study that have them.
-    fn check_comparison(&self) -> Result<(), StudyError> {
-        let file = &self.file;
-        for (i, row) in file.comparison.iter().enumerate() {
-            let field = |name: &str| format!("comparison[{i}].{name}");
-            let is_surface = file.surfaces.contains_key(&row.study);
-            let at_one_pose = file.samplings.get(&row.study).is_some_and(|spec| spec.pose.is_some());
-            if !at_one_pose && !is_surface {
-                let expected = "the name of a sampling at one pose, or of a surface";
-                return Err(self.invalid(&field("study"), &row.study, expected));
-            }
-            let of_surface = matches!(row.statistic, Statistic::Min | Statistic::Max | Statistic::Spread);
-            if is_surface && !of_surface {
-                let (value, expected) = (format!("{:?}", row.statistic), "min, max or spread for a surface");
-                return Err(self.invalid(&field("statistic"), value, expected));
-            }
-            let is_digit = row.last_digit.is_finite() && row.last_digit > 0.0;
-            if matches!(row.paper, Value::Number(_)) && !is_digit {
-                let expected = "the last printed digit of the number, such as 0.01";
-                return Err(self.invalid(&field("last_digit"), row.last_digit, expected));
-            }
-        }
-        Ok(())
-    }
-
-    /// The robot has what the output needs, and what is compared is the output of published figures.
+    /// The robot has what the output needs.
     fn check_output(&self) -> Result<(), StudyError> {
-        let (output, rows) = (self.file.output, self.file.comparison.len());
+        let output = self.file.output;
         let rotates = (3..6).any(|k| self.robot.freedoms().contains(k));
         if output == Output::Frequency && rotates && self.robot.platform.inertia.is_none() {
             let expected = "a robot with `platform.inertia`, the inertia about the centre of mass, 3 x 3 in \
@@ -250,11 +224,6 @@ impl Study {
                 "no pose, or \"deflection\" or \"position\" as output: the {output} belongs to no displacement"
             );
             return Err(self.invalid("sensitivity.vector", "pose", &expected));
-        }
-        if output != Output::Deflection && rows > 0 {
-            let expected =
-                format!("no published figures: they are of the deflection, and the output is the {output}");
-            return Err(self.invalid("comparison", format!("{rows} rows"), &expected));
         }
         Ok(())
     }

@@ -1,14 +1,110 @@
 //! The analysis of a table on the terminal.
 
-use crate::output::table;
+use crate::output::{narrow_table, table};
+use cdpr_robot::{broken, counted, significant};
 use cdpr_study::{
-    Analysis, Dependence, Estimate, InputAnalysis, LevelMean, OutputLimit, TableAnalysis, VectorAnalysis,
+    Analysis, Dependence, Estimate, Finding, InputAnalysis, LevelMean, LimitFailures, OutputLimit,
+    TableAnalysis, VectorAnalysis, is_resolved,
 };
 
 /// Inputs in a table on the terminal.
 const MOST: usize = 20;
 
+/// Inputs in the table of the answer.
+const LEADING: usize = 5;
+
+/// Prints what each output says, and what is odd about the table.
 pub(in crate::study) fn print(found: &TableAnalysis) {
+    for (name, analysis) in &found.outputs {
+        print_answer(name, analysis);
+        println!();
+    }
+    found.vector.iter().for_each(print_vector);
+    print_table(found);
+}
+
+/// Prints a sentence in lines of 80 columns.
+fn say(sentence: &str) {
+    broken(sentence).iter().for_each(|line| println!("{line}"));
+}
+
+/// Which inputs matter, the values, and the leading inputs.
+fn print_answer(name: &str, analysis: &Analysis) {
+    let verdict = &analysis.verdict;
+    let mut before = format!("{name}: ");
+    verdict.sentences.iter().for_each(|sentence| say(&(std::mem::take(&mut before) + sentence)));
+    let of = &analysis.summary;
+    let [mean, std, min, max] = [of.mean, of.std, of.min, of.max].map(number);
+    let values = counted(of.count, "value");
+    say(&format!("mean {mean}, deviation {std}, range {min} to {max}; {values}, {} failed", of.failed));
+    if let Some(failures) = analysis.limit {
+        say(&of_limit(&failures));
+    }
+    for condition in &verdict.conditions {
+        say(&format!("{}: {}", if condition.is_question() { "question" } else { "note" }, condition.text));
+    }
+    print_leading(analysis);
+    if analysis.limit.is_some() {
+        print_causes(analysis);
+    }
+}
+
+/// The leading inputs by their first-order shares, and the test that finds each.
+fn print_leading(analysis: &Analysis) {
+    let mut rows = narrow_table(&["input", "first-order share [%]", "found by"]);
+    let verdict = &analysis.verdict;
+    let finding = |of: &InputAnalysis| {
+        let is_it = |finding: &&Finding| finding.input == of.input;
+        let certain = verdict.certain.iter().find(is_it).map(|found| found.measure.word().to_owned());
+        let related = || verdict.related.iter().find(is_it);
+        certain.or_else(|| related().map(|found| format!("{}, cause or not", found.measure.word())))
+    };
+    // Those that are found first.
+    let place = |input: &InputAnalysis| {
+        let share = input.first.map_or(f64::NEG_INFINITY, |first| first.value);
+        if finding(input).is_some() { share.max(0.0) + 2.0 } else { share }
+    };
+    for input in leading(analysis, place).into_iter().take(LEADING) {
+        let share = input.first.map_or("-".to_owned(), |of| resolved(&of));
+        rows.add_row([input.input.clone(), share, finding(input).unwrap_or("-".to_owned())]);
+    }
+    println!("{rows}");
+    let level = 100.0 * analysis.level;
+    say(&format!(
+        "first-order share of the variance with its {level} % interval; found by: the clearest of {}, all of \
+         them corrected together",
+        counted(verdict.tests, "test")
+    ));
+}
+
+/// A share in percent with its interval, unless this is wider than the share.
+fn resolved(share: &Estimate) -> String {
+    match is_resolved(share.value, [share.low, share.high]) {
+        true => format!(
+            "{:.1} ({:.1} to {:.1})",
+            100.0 * share.value,
+            100.0 * share.low.max(0.0),
+            100.0 * share.high.min(1.0)
+        ),
+        false => "not resolved".to_owned(),
+    }
+}
+
+/// What makes the limit fail.
+fn print_causes(analysis: &Analysis) {
+    let strength = |input: &InputAnalysis| input.limit.map_or(0.0, |at| at.target.r_squared);
+    let mut rows = narrow_table(&["makes the limit fail", "target R\u{b2}", "p"]);
+    let causes = leading(analysis, strength).into_iter();
+    for (input, at) in causes.filter_map(|input| Some((input, input.limit?))).take(LEADING) {
+        rows.add_row([input.input.clone(), format!("{:.3}", at.target.r_squared), p_value(Some(at.target))]);
+    }
+    if rows.row_count() > 0 {
+        println!("{rows}");
+    }
+}
+
+/// Rows, inputs, outputs, and what of the table is not analysed.
+fn print_table(found: &TableAnalysis) {
     println!(
         "{}: {}, {}, {}",
         found.table,
@@ -34,32 +130,32 @@ pub(in crate::study) fn print(found: &TableAnalysis) {
     if more > 0 {
         println!("no number: {} more", counted(more, "cell"));
     }
+}
+
+/// Prints all measures of all inputs.
+pub(in crate::study) fn print_details(found: &TableAnalysis) {
     for (name, analysis) in &found.outputs {
         println!();
         print_summary(name, analysis);
         print_inputs(analysis);
-        print_verdict(analysis);
         print_limit(analysis);
         for note in &analysis.notes {
             println!("note: {note}");
         }
     }
-    if let Some(vector) = &found.vector {
-        print_vector(vector);
-    }
 }
 
 /// Inputs by their index, the greatest first.
 fn print_vector(vector: &VectorAnalysis) {
-    println!("\n({}): how much an input moves the law of this vector", vector.columns.join(", "));
+    say(&format!("({}): how much an input moves the law of this vector", vector.columns.join(", ")));
     let mut leading: Vec<_> = vector.bures.iter().collect();
     leading.sort_by(|one, other| other.1.index.value.total_cmp(&one.1.index.value));
-    let mut rows = table(&["input", "Wasserstein-Bures", "of which by the means"]);
+    let mut rows = narrow_table(&["input", "Wasserstein-Bures", "of which by the means"]);
     let cell = |of: &Estimate| format!("{:.3} \u{b1} {:.3}", of.value, 0.5 * of.width());
     for (input, of) in leading.into_iter().take(MOST) {
         rows.add_row([input.clone(), cell(&of.index), cell(&of.means)]);
     }
-    println!("{rows}");
+    println!("{rows}\n");
 }
 
 fn print_summary(name: &str, analysis: &Analysis) {
@@ -120,9 +216,7 @@ fn print_inputs(analysis: &Analysis) {
     let two = |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:.2}"));
     let percent = |share: f64| format!("{:.1}", 100.0 * share);
     for input in leading.iter().take(MOST) {
-        let first = input
-            .first
-            .map(|first| format!("{} \u{b1} {}", percent(first.value), percent(0.5 * first.width())));
+        let first = input.first.map(|first| resolved(&first));
         let shares = input.shares.map(|of| format!("{}, {}", percent(of.closed), percent(of.total)));
         let over = |value: f64, noise: f64| {
             if value > noise { format!("{value:.3}") } else { format!("({value:.3})") }
@@ -147,7 +241,10 @@ fn print_inputs(analysis: &Analysis) {
     if leading.len() > MOST {
         let more = leading.len() - MOST;
         let are = if more == 1 { "is" } else { "are" };
-        println!("{more} more {} {are} in --json and --out", if more == 1 { "input" } else { "inputs" });
+        println!(
+            "{more} more {} {are} in --format json and --out",
+            if more == 1 { "input" } else { "inputs" }
+        );
     }
     println!("in brackets: as large without an effect in one table of twenty");
     for input in leading.iter().take(MOST).filter(|input| !input.levels.is_empty()) {
@@ -159,25 +256,15 @@ fn print_inputs(analysis: &Analysis) {
     }
 }
 
-/// The sentences of the verdict, and what was found of its conditions.
-fn print_verdict(analysis: &Analysis) {
-    for sentence in &analysis.verdict.sentences {
-        println!("{sentence}");
-    }
-    for condition in &analysis.verdict.conditions {
-        println!("{}: {}", if condition.is_question() { "question" } else { "note" }, condition.text);
-    }
-}
-
-fn print_limit(analysis: &Analysis) {
-    let Some(failures) = analysis.limit else { return };
+/// How often a limit fails.
+fn of_limit(failures: &LimitFailures) -> String {
     let (sign, value) = match failures.limit {
         OutputLimit::Below(value) => ("<", value),
         OutputLimit::AtMost(value) => ("<=", value),
         OutputLimit::Above(value) => (">", value),
         OutputLimit::AtLeast(value) => (">=", value),
     };
-    println!(
+    format!(
         "limit {sign} {value}: {} of {} {}, {:.2} % ({:.2} % to {:.2} %)",
         failures.count,
         counted(failures.rows, "value"),
@@ -185,7 +272,11 @@ fn print_limit(analysis: &Analysis) {
         100.0 * failures.share.value,
         100.0 * failures.share.low,
         100.0 * failures.share.high
-    );
+    )
+}
+
+/// What makes a limit fail, all measures.
+fn print_limit(analysis: &Analysis) {
     let strength = |input: &InputAnalysis| input.limit.map_or(0.0, |at| at.target.r_squared);
     let mut rows =
         table(&["input", "target R\u{b2}", "p", "conditional R\u{b2}", "p", "place of the failures"]);
@@ -222,28 +313,5 @@ fn p_value(dependence: Option<Dependence>) -> String {
 
 /// Four significant digits.
 fn number(value: f64) -> String {
-    let decimals = 3 - value.abs().max(1e-300).log10().floor() as i32;
-    match usize::try_from(decimals) {
-        Ok(decimals) if decimals <= 8 && value != 0.0 => format!("{value:.decimals$}"),
-        Err(_) => format!("{value:.0}"),
-        Ok(_) if value == 0.0 => "0".to_owned(),
-        Ok(_) => format!("{value:.3e}"),
-    }
-}
-
-fn counted(count: usize, word: &str) -> String {
-    format!("{count} {word}{}", if count == 1 { "" } else { "s" })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_have_four_digits() {
-        let cases = [(0.0, "0"), (1.33125, "1.331"), (-12345.6, "-12346"), (1.2e-9, "1.200e-9")];
-        for (value, text) in cases {
-            assert_eq!(number(value), text);
-        }
-    }
+    significant(value, 4)
 }

@@ -1,7 +1,7 @@
 //! The measures of sensitivity of a sampling on the terminal.
 
 use crate::output::table;
-use cdpr_study::{MEASURES, Measure, Output, Quantity, SensitivitySummary};
+use cdpr_study::{MEASURES, Measure, Output, Quantity, SensitivitySummary, is_resolved};
 
 /// Number of leading inputs in the table.
 const MOST: usize = 10;
@@ -51,7 +51,8 @@ fn print_inputs(output: Output, found: &SensitivitySummary) {
     }
     println!("{rows}");
     println!(
-        "signed effect, Morris \u{b5}* and \u{3c3} [{unit}]; t-Student [-]; all others in % of the variance, \
+        "not resolved: the interval is wider than the value; signed effect, Morris \u{b5}* and \u{3c3} [{unit}]; \
+         t-Student [-]; all others in % of the variance, \
          first order unless total; DGSM a bound on the total; within: bounds on both sides by derivatives, \
          each with the confidence of the study; vector: of the {}",
         found.vector
@@ -124,8 +125,15 @@ fn percent(share: Option<f64>) -> String {
     number(share, 100.0, 2)
 }
 
-fn interval(value: Option<f64>, [low, high]: [f64; 2]) -> String {
-    format!("{} \u{b1} {}", percent(value), percent(Some(0.5 * (high - low))))
+/// A value with half the width of its interval; without it where the interval is wider than the value.
+fn interval(value: Option<f64>, ends: [f64; 2]) -> String {
+    match value {
+        Some(value) if is_resolved(value, ends) => {
+            format!("{} \u{b1} {}", percent(Some(value)), percent(Some(0.5 * (ends[1] - ends[0]))))
+        }
+        Some(_) => "not resolved".to_owned(),
+        None => String::new(),
+    }
 }
 
 fn bracket(ends: Option<[f64; 2]>) -> String {

@@ -117,7 +117,8 @@ impl Loaded for PoseSlopes {
         let (deflection, magnitude) = match found {
             Ok(found) => {
                 let parameters = ParameterLayout::of(robot).count();
-                let magnitude = found.magnitude().ok().map(|slopes| slopes.into_iter().take(parameters).collect());
+                let magnitude =
+                    found.magnitude().ok().map(|slopes| slopes.into_iter().take(parameters).collect());
                 (found.deflection, magnitude)
             }
             // A pose without a derivative is held nevertheless.

@@ -1,6 +1,7 @@
 //! The data of the methods of sensitivity analysis, and what they find.
 
 use crate::analysis::measures::{GroupMeasures, InputMeasures, SubspaceSummary};
+use crate::analysis::verdict::recommendation::Candidate;
 use crate::error::StudyError;
 use crate::file::sensitivity_spec::SensitivitySpec;
 use crate::file::study_file::StudyFile;
@@ -56,12 +57,14 @@ pub(crate) struct Found {
     pub(crate) inputs: Vec<InputMeasures>,
     pub(crate) groups: Vec<GroupMeasures>,
     pub(crate) subspace: Option<SubspaceSummary>,
+    /// What may be recommended.
+    pub(crate) candidates: Vec<Candidate>,
 }
 
 /// The data of a method.
 pub(crate) struct Run<'a> {
-    pub(super) sampling: &'a Sampling<'a>,
-    pub(super) spec: &'a SensitivitySpec,
+    pub(crate) sampling: &'a Sampling<'a>,
+    pub(crate) spec: &'a SensitivitySpec,
     pub(super) settings: &'a StudyFile,
     tally: &'a Tally,
     session: &'a Session<'a>,
@@ -79,7 +82,7 @@ impl Found {
         };
         let groups = sampling.groups.iter().map(group).collect();
         let named = |name: &String| InputMeasures { input: name.clone(), ..InputMeasures::default() };
-        Self { inputs: names.iter().map(named).collect(), groups, subspace: None }
+        Self { inputs: names.iter().map(named).collect(), groups, subspace: None, candidates: Vec::new() }
     }
 }
 

@@ -1,0 +1,44 @@
+//! The answer of a tolerance budget in words.
+
+use crate::tolerance::{Limited, Reached, ToleranceBudget};
+use cdpr_robot::{listing, rounded, significant};
+
+impl ToleranceBudget {
+    /// Which tolerances to tighten, and what independent robots say of it: one sentence each.
+    pub fn sentences(&self) -> Vec<String> {
+        let percent = |share: f64| format!("{:.1}", 100.0 * share);
+        let of = match self.of {
+            Limited::Deflection => "deflection",
+            Limited::Position => "position error",
+        };
+        let (wanted, limit) = (rounded(100.0 * self.quantile, 3), self.limit_mm);
+        let reached = |of: &Reached| {
+            let [value, low, high] = [of.within.value, of.within.low, of.within.high].map(percent);
+            format!("{value} % ({low} to {high})")
+        };
+        let tightened = self.tolerances.iter().filter(|of| of.factor < 1.0);
+        let tightened: Vec<String> = tightened.map(|of| format!("{} {:.3}", of.name, of.factor)).collect();
+        let mut sentences = if tightened.is_empty() {
+            vec![
+                format!("The tolerances suffice: nothing has to be tightened for {wanted} % of the robots."),
+                format!("{} of {} robots keep the {of} of {limit} mm.", reached(&self.now), self.now.robots),
+            ]
+        } else {
+            vec![
+                listing(&format!("For {wanted} % below {limit} mm, tighten to the share "), &tightened, "."),
+                format!(
+                    "Then {} of the robots keep it, now {}.",
+                    reached(&self.tightened),
+                    reached(&self.now)
+                ),
+            ]
+        };
+        let last = if tightened.is_empty() { &self.now } else { &self.tightened };
+        if last.within.high < self.quantile {
+            let lower = 2.0 * limit - last.quantile_mm.value;
+            let lower = significant(lower, 4);
+            sentences.push(format!("That is less than {wanted} %: a limit of {lower} mm leaves a reserve."));
+        }
+        sentences
+    }
+}

@@ -1,0 +1,107 @@
+//! What the methods say of the inputs in the form in which one of them is recommended.
+
+use crate::analysis::measures::InputMeasures;
+use crate::analysis::methods::run::{MethodSummary, Run};
+use crate::analysis::verdict::recommendation::{
+    Basis, Candidate, Said, TotalBounds, by_expansion, joint_level,
+};
+use cdpr_robot::significant;
+use cdpr_sensitivity::{
+    Expansion, SaltelliDesign, SensitivityError, Slopes, SobolDesign, SobolIndices, brackets, dgsm,
+    sobol_indices,
+};
+
+/// Bounds of the total shares by derivatives, for all inputs together.
+pub(super) fn of_derivatives(
+    run: &Run,
+    design: &SobolDesign,
+    slopes: &[Option<Slopes>],
+    summary: &MethodSummary,
+) -> Result<Candidate, SensitivityError> {
+    let level = joint_level(run.settings.confidence, run.inputs().len());
+    let together = brackets(design, slopes, level, run.settings.seed)?;
+    let squares = dgsm(design, slopes, level)?.inputs;
+    let bounds = together.iter().zip(&squares).map(|(of, square)| TotalBounds {
+        low: of.total_lower.low.max(0.0),
+        at_least: of.total_lower.value.max(0.0),
+        at_most: of.total_upper.value,
+        high: of.total_upper.high.min(1.0),
+        few: !square.reliable,
+    });
+    let points = summary.observations;
+    Ok(Candidate {
+        basis: Basis::Derivatives,
+        measure: format!("total share of the variance, bounded by exact derivatives at {points} points"),
+        failed: summary.failed,
+        count: points,
+        observations: 1,
+        said: Said::Bounds(bounds.collect()),
+    })
+}
+
+/// The total shares of an expansion within its error.
+pub(super) fn of_model(model: &Expansion, summary: &MethodSummary) -> Candidate {
+    let bounds = model.indices().into_iter().map(|shares| by_expansion(shares.total, model.leave_one_out));
+    let error = significant(100.0 * model.leave_one_out, 2);
+    Candidate {
+        basis: Basis::Expansion,
+        measure: format!("total share of the variance by a polynomial model, whose error is {error} % of it"),
+        failed: summary.failed,
+        count: summary.observations,
+        observations: 1,
+        said: Said::Bounds(bounds.collect()),
+    }
+}
+
+/// Total Sobol' indices, for all inputs together.
+pub(super) fn of_sobol(
+    run: &Run,
+    design: &SaltelliDesign,
+    outputs: &[Option<f64>],
+    summary: &MethodSummary,
+) -> Result<Candidate, SensitivityError> {
+    let level = joint_level(run.settings.confidence, run.inputs().len());
+    let SobolIndices { inputs, blocks, .. } = sobol_indices(design, outputs, run.bootstrap(), level)?;
+    let bounds = inputs.iter().map(|of| TotalBounds {
+        low: of.total.low.max(0.0),
+        at_least: of.total.value,
+        at_most: of.total.value,
+        high: of.total.high,
+        few: false,
+    });
+    Ok(Candidate {
+        basis: Basis::Sobol,
+        measure: format!("total share of the variance, by {blocks} blocks of Sobol' indices"),
+        failed: summary.failed,
+        count: blocks,
+        observations: run.inputs().len() + 2,
+        said: Said::Bounds(bounds.collect()),
+    })
+}
+
+/// Shapley effects, each with its own interval.
+pub(super) fn of_shapley(run: &Run, inputs: &[InputMeasures], summary: &MethodSummary) -> Option<Candidate> {
+    let value = |of: &InputMeasures| Some((of.shapley?, Some([of.shapley_low?, of.shapley_high?])));
+    let confidence = 100.0 * run.settings.confidence;
+    Some(Candidate {
+        basis: Basis::Shapley,
+        measure: format!("Shapley effect: share of the variance, {confidence} % confidence for each input"),
+        failed: summary.failed,
+        count: run.spec.shapley_walks,
+        observations: run.inputs().len() + 1,
+        said: Said::Values(inputs.iter().map(value).collect::<Option<_>>()?),
+    })
+}
+
+/// The regression of ranks, which has no bounds.
+pub(super) fn of_ranks(inputs: &[InputMeasures], summary: &MethodSummary) -> Option<Candidate> {
+    let value = |of: &InputMeasures| Some((of.rank_regression_share?, None));
+    Some(Candidate {
+        basis: Basis::Ranks,
+        measure: "squared coefficient of a regression of ranks, without bounds".to_owned(),
+        failed: summary.failed,
+        count: summary.observations,
+        observations: 1,
+        said: Said::Values(inputs.iter().map(value).collect::<Option<_>>()?),
+    })
+}

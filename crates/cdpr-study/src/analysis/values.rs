@@ -1,0 +1,68 @@
+//! Statistics of the output of a sampling.
+
+use crate::model::study::Sampling;
+use crate::observe::observation::Tally;
+use cdpr_sensitivity::{Sample, SensitivityError, Summary};
+use serde::{Deserialize, Serialize};
+
+/// Summary of the output in its unit.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ValueSummary {
+    /// Mean.
+    pub mean: f64,
+    /// Standard deviation, with n - 1.
+    pub std: f64,
+    /// Least value.
+    pub min: f64,
+    /// Greatest value.
+    pub max: f64,
+    /// Value of the nominal robot.
+    pub nominal: f64,
+    /// 1 % quantile (Hyndman and Fan's type 7, as the others).
+    pub q01: f64,
+    /// Lower quartile.
+    pub q25: f64,
+    /// Median.
+    pub median: f64,
+    /// Upper quartile.
+    pub q75: f64,
+    /// 99 % quantile.
+    pub q99: f64,
+}
+
+impl ValueSummary {
+    /// Of all observations of a tally; `None` if fewer than two of them succeeded.
+    pub fn of(sampling: &Sampling, tally: &Tally) -> Option<Self> {
+        let moments = tally.sums.outputs().summary().ok()?;
+        Self::new(&moments, &Sample::new(&tally.first_values).ok()?, sampling.nominal_value).ok()
+    }
+
+    /// Of a robot without any change.
+    pub(crate) const ZERO: Self = Self {
+        mean: 0.0,
+        std: 0.0,
+        min: 0.0,
+        max: 0.0,
+        nominal: 0.0,
+        q01: 0.0,
+        q25: 0.0,
+        median: 0.0,
+        q75: 0.0,
+        q99: 0.0,
+    };
+
+    pub(crate) fn new(summary: &Summary, sample: &Sample, nominal: f64) -> Result<Self, SensitivityError> {
+        Ok(Self {
+            mean: summary.mean,
+            std: summary.std,
+            min: summary.min,
+            max: summary.max,
+            nominal,
+            q01: sample.quantile(0.01)?,
+            q25: sample.quantile(0.25)?,
+            median: sample.quantile(0.5)?,
+            q75: sample.quantile(0.75)?,
+            q99: sample.quantile(0.99)?,
+        })
+    }
+}

@@ -1,0 +1,371 @@
+//! The one measure of sensitivity that is recommended for the inputs of a sampling, and what it settles.
+//!
+//! An input *matters* if its total share T of the variance is above [`MATTERS`]. Three measures bound T:
+//!
+//! | basis | ends | confidence |
+//! |---|---|---|
+//! | exact derivatives | bounds (Br3) to (Br5) with their intervals | of the study, all inputs together |
+//! | Sobol' indices | the interval of the index | the same |
+//! | expansion | (Rc1), with its leave-one-out error e | none: e is an estimate |
+//!
+//! ```text
+//! √(T_g (1 - e)) - √e <= √T <= √(T_g (1 - e)) + √e                                   (Rc1)
+//! 1 - level of each input = (1 - confidence) / number of inputs                      (Rc2)
+//! ```
+//!
+//! - (Rc1): T_g is the index of the expansion g, which has the share 1 - e of the output's variance. What an
+//!   input takes part in is a projection of the output, √T its norm, and the rest of the output, which g lacks,
+//!   has the norm √e.
+//! - (Rc2): by C. E. Bonferroni, so that a verdict on many inputs is as certain as one on a single input.
+//!
+//! The first basis that settles an input is recommended, in this order: derivatives, expansion, Sobol'.
+//! Where none does, Shapley effects or ranks, which have no bounds, put the inputs in an order.
+
+use serde::{Deserialize, Serialize};
+
+/// Share of the variance from which on an input matters.
+pub const MATTERS: f64 = 0.01;
+
+/// How many times as many points are tried first where few of them decide a bound.
+const TRIED: f64 = 4.0;
+
+/// Most points or blocks that a remedy names.
+const MOST: f64 = (1 << 20) as f64;
+
+/// What a recommendation rests on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Basis {
+    /// Exact derivatives at points of a scrambled sequence.
+    Derivatives,
+    /// The polynomial model (chaos expansion).
+    Expansion,
+    /// Saltelli's blocks.
+    Sobol,
+    /// Shapley effects of inputs that may be correlated.
+    Shapley,
+    /// Squared coefficients of a regression of ranks.
+    Ranks,
+    /// The t-Student index.
+    Student,
+}
+
+/// Whether an input matters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Standing {
+    /// Its share is above [`MATTERS`].
+    Matters,
+    /// Its share is below [`MATTERS`].
+    Negligible,
+    /// The bounds are on both sides of [`MATTERS`].
+    Open,
+}
+
+/// The recommended measure of one input.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RecommendedIndex {
+    /// Name of the input.
+    pub input: String,
+    /// Its value; `None` where bounds alone are known, and where the interval is wider than the value.
+    pub value: Option<f64>,
+    /// Lower bound.
+    pub low: Option<f64>,
+    /// Upper bound.
+    pub high: Option<f64>,
+    /// Whether it matters; `None` for a basis without bounds of the total share.
+    pub standing: Option<Standing>,
+}
+
+/// The recommended measure of all inputs of a sampling.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Recommendation {
+    /// What it rests on.
+    pub basis: Basis,
+    /// The measure in words.
+    pub measure: String,
+    /// Confidence of all bounds together; `None` where they have none.
+    pub confidence: Option<f64>,
+    /// All inputs, the leading one first.
+    pub inputs: Vec<RecommendedIndex>,
+    /// What would settle the inputs that are open, in words.
+    pub remedy: Option<String>,
+}
+
+/// Bounds of the total share of an input: estimates of both bounds, and the outer ends of their intervals.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct TotalBounds {
+    pub(crate) low: f64,
+    pub(crate) at_least: f64,
+    pub(crate) at_most: f64,
+    pub(crate) high: f64,
+    /// Whether few points decide the upper bound, so that its distance from the end says little.
+    pub(crate) few: bool,
+}
+
+/// A basis with what it says of the inputs, in their order.
+pub(crate) struct Candidate {
+    pub(crate) basis: Basis,
+    /// The measure in words.
+    pub(crate) measure: String,
+    /// Observations or points that failed.
+    pub(crate) failed: usize,
+    /// Points of derivatives or blocks.
+    pub(crate) count: usize,
+    /// Observations of one more point or block.
+    pub(crate) observations: usize,
+    pub(crate) said: Said,
+}
+
+pub(crate) enum Said {
+    /// Bounds of the total share.
+    Bounds(Vec<TotalBounds>),
+    /// Values, with an interval where there is one.
+    Values(Vec<(f64, Option<[f64; 2]>)>),
+}
+
+/// Level of each input for the confidence of all (Rc2).
+pub(crate) fn joint_level(confidence: f64, inputs: usize) -> f64 {
+    1.0 - (1.0 - confidence) / inputs.max(1) as f64
+}
+
+/// Bounds of the total share by an expansion (Rc1).
+pub(crate) fn by_expansion(total: f64, error: f64) -> TotalBounds {
+    let (norm, error) = ((total * (1.0 - error)).max(0.0).sqrt(), error.max(0.0).sqrt());
+    let [low, high] = [(norm - error).max(0.0), norm + error].map(|norm| (norm * norm).min(1.0));
+    let value = norm * norm;
+    TotalBounds { low, at_least: value, at_most: value, high, few: false }
+}
+
+/// The recommendation of the first candidate that says enough; `None` without candidates.
+pub(crate) fn recommend(
+    names: &[String],
+    mut candidates: Vec<Candidate>,
+    confidence: f64,
+) -> Option<Recommendation> {
+    candidates.sort_by_key(|of| (of.basis, std::cmp::Reverse(of.settled())));
+    let settles = |of: &Candidate| of.settled() > 0;
+    let orders = |of: &Candidate| matches!(of.said, Said::Values(_));
+    let chosen = candidates.iter().position(settles).or(candidates.iter().position(orders)).unwrap_or(0);
+    (chosen < candidates.len()).then(|| candidates.swap_remove(chosen).recommendation(names, confidence))
+}
+
+/// Whether a value is at least as large as its interval is wide.
+pub fn is_resolved(value: f64, [low, high]: [f64; 2]) -> bool {
+    high - low <= value.abs()
+}
+
+impl TotalBounds {
+    fn standing(&self) -> Standing {
+        if self.low > MATTERS {
+            Standing::Matters
+        } else if self.high < MATTERS {
+            Standing::Negligible
+        } else {
+            Standing::Open
+        }
+    }
+
+    /// How many times as many points or blocks put the bounds on one side of [`MATTERS`]; their
+    /// distance from the estimates falls with the root of the number. `None` where the estimates are on both
+    /// sides.
+    fn growth(&self) -> Option<f64> {
+        if self.few {
+            Some(TRIED)
+        } else if self.at_least > MATTERS {
+            Some(((self.at_least - self.low) / (self.at_least - MATTERS)).powi(2))
+        } else if self.at_most < MATTERS {
+            Some(((self.high - self.at_most) / (MATTERS - self.at_most)).powi(2))
+        } else {
+            None
+        }
+    }
+}
+
+impl Candidate {
+    /// The t-Student index, where nothing else is known of the inputs.
+    pub(crate) fn of_student(values: Vec<f64>) -> Self {
+        Self {
+            basis: Basis::Student,
+            measure: "t-Student index, without bounds".to_owned(),
+            failed: 0,
+            count: 0,
+            observations: 1,
+            said: Said::Values(values.into_iter().map(|value| (value, None)).collect()),
+        }
+    }
+
+    /// Number of inputs whose bounds are on one side of [`MATTERS`].
+    pub(crate) fn settled(&self) -> usize {
+        match &self.said {
+            Said::Bounds(bounds) => bounds.iter().filter(|of| of.standing() != Standing::Open).count(),
+            Said::Values(_) => 0,
+        }
+    }
+
+    fn recommendation(self, names: &[String], confidence: f64) -> Recommendation {
+        let remedy = self.remedy();
+        let index = |input: &String, value, [low, high]: [Option<f64>; 2], standing| RecommendedIndex {
+            input: input.clone(),
+            value,
+            low,
+            high,
+            standing,
+        };
+        let named = names.iter();
+        let (mut inputs, joint): (Vec<([f64; 2], RecommendedIndex)>, bool) = match &self.said {
+            Said::Bounds(bounds) => {
+                let one = |(name, of): (&String, &TotalBounds)| {
+                    let is_value = of.at_least == of.at_most;
+                    let value = Some(of.at_least).filter(|v| is_value && is_resolved(*v, [of.low, of.high]));
+                    let ends = [of.low, of.high].map(Some);
+                    ([of.at_least, of.at_most], index(name, value, ends, Some(of.standing())))
+                };
+                (named.zip(bounds).map(one).collect(), self.basis != Basis::Expansion)
+            }
+            Said::Values(values) => {
+                let one = |(name, (value, ends)): (&String, &(f64, Option<[f64; 2]>))| {
+                    let resolved = ends.is_none_or(|ends| is_resolved(*value, ends));
+                    let ends = ends.map_or([None, None], |ends| ends.map(Some));
+                    ([*value; 2], index(name, resolved.then_some(*value), ends, None))
+                };
+                (named.zip(values).map(one).collect(), false)
+            }
+        };
+        // By what is certain first.
+        let greater =
+            |one: &[f64; 2], other: &[f64; 2]| other[0].total_cmp(&one[0]).then(other[1].total_cmp(&one[1]));
+        inputs.sort_by(|one, other| greater(&one.0, &other.0));
+        let failed = match self.failed {
+            0 => String::new(),
+            failed => format!("; {failed} failed, and the shares are those of the others"),
+        };
+        Recommendation {
+            basis: self.basis,
+            measure: self.measure + &failed,
+            confidence: joint.then_some(confidence),
+            inputs: inputs.into_iter().map(|(_, index)| index).collect(),
+            remedy,
+        }
+    }
+
+    /// What settles the inputs that are open.
+    fn remedy(&self) -> Option<String> {
+        let Said::Bounds(bounds) = &self.said else {
+            let field = "`sensitivity.saltelli_blocks`";
+            return (self.basis != Basis::Shapley)
+                .then(|| format!("Bounds need independent inputs and {field} of 64 or more."));
+        };
+        let open: Vec<&TotalBounds> = bounds.iter().filter(|of| of.standing() == Standing::Open).collect();
+        if open.is_empty() {
+            return None;
+        }
+        let growth: Option<Vec<f64>> = open.iter().map(|of| of.growth()).collect();
+        let growth = growth.map(|all| all.into_iter().fold(1.0, f64::max));
+        let wanted = growth.map(|times| (self.count as f64 * times).min(2.0 * MOST).ceil() as usize);
+        let wanted = wanted.map(usize::next_power_of_two).filter(|count| *count as f64 <= MOST);
+        let more = |count: usize| (count.saturating_sub(self.count)) * self.observations;
+        Some(match (self.basis, wanted) {
+            (Basis::Derivatives, Some(count)) => format!(
+                "To settle it: about {} more points with derivatives \
+                 (`sensitivity.derivative_points`: {count}).",
+                more(count)
+            ),
+            (Basis::Sobol, Some(count)) => format!(
+                "To settle it: about {} more observations (`sensitivity.saltelli_blocks`: {count}).",
+                more(count)
+            ),
+            (Basis::Derivatives, None) => {
+                "To settle it: Sobol' indices (`sensitivity.saltelli_blocks`), as derivatives alone cannot."
+                    .to_owned()
+            }
+            (Basis::Expansion, _) => format!(
+                "To settle it: more observations than {} (`sensitivity.observations`), or Sobol' indices.",
+                self.count
+            ),
+            _ => format!("Its share is so near {} % that no study settles it.", 100.0 * MATTERS),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn bounds(low: f64, at_least: f64, at_most: f64, high: f64) -> TotalBounds {
+        TotalBounds { low, at_least, at_most, high, few: false }
+    }
+
+    fn candidate(basis: Basis, count: usize, of: Vec<TotalBounds>) -> Candidate {
+        let measure = "measure".to_owned();
+        Candidate { basis, measure, failed: 0, count, observations: 10, said: Said::Bounds(of) }
+    }
+
+    fn names(count: usize) -> Vec<String> {
+        (0..count).map(|i| format!("x{i}")).collect()
+    }
+
+    #[test]
+    fn an_input_matters_is_negligible_or_open_by_its_bounds_and_never_by_its_estimate() {
+        let of = vec![
+            bounds(0.005, 0.02, 0.02, 0.04),
+            bounds(0.9, 0.95, 0.95, 0.97),
+            bounds(0.0, 0.001, 0.001, 0.009),
+        ];
+        let found = recommend(&names(3), vec![candidate(Basis::Sobol, 100, of)], 0.95).unwrap();
+        let inputs: Vec<&str> = found.inputs.iter().map(|of| of.input.as_str()).collect();
+        assert_eq!(inputs, ["x1", "x0", "x2"]);
+        let standings: Vec<Standing> = found.inputs.iter().filter_map(|of| of.standing).collect();
+        assert_eq!(standings, [Standing::Matters, Standing::Open, Standing::Negligible]);
+        // A value that is smaller than its interval is none.
+        assert_eq!(
+            found.inputs.iter().map(|of| of.value.is_some()).collect::<Vec<_>>(),
+            [true, false, false]
+        );
+        // 0.015 from the estimate to its end, 0.01 from the estimate to the limit: 2.25 times the blocks.
+        let remedy = found.remedy.unwrap();
+        assert!(remedy.contains("about 1560 more observations") && remedy.contains(": 256"), "{remedy}");
+        let near = vec![bounds(0.005, 0.01 + 1e-9, 0.01 + 1e-9, 0.04)];
+        let near = recommend(&names(1), vec![candidate(Basis::Sobol, 100, near)], 0.95).unwrap();
+        assert!(near.remedy.unwrap().contains("no study settles it"));
+    }
+
+    #[test]
+    fn the_first_basis_that_settles_an_input_is_recommended_and_values_where_none_does() {
+        let loose = || candidate(Basis::Derivatives, 64, vec![bounds(0.0, 0.1, 0.9, 0.9)]);
+        let narrow = candidate(Basis::Sobol, 64, vec![bounds(0.3, 0.4, 0.4, 0.5)]);
+        let found = recommend(&names(1), vec![loose(), narrow], 0.95).unwrap();
+        assert_eq!((found.basis, found.confidence), (Basis::Sobol, Some(0.95)));
+        assert_eq!(recommend(&names(1), vec![loose()], 0.95).unwrap().basis, Basis::Derivatives);
+        let student = Candidate::of_student(vec![2.0]);
+        assert_eq!(recommend(&names(1), vec![loose(), student], 0.95).unwrap().basis, Basis::Student);
+        assert_eq!(recommend(&names(1), vec![], 0.95), None);
+    }
+
+    #[test]
+    fn four_times_as_many_points_are_tried_where_few_decide_a_bound() {
+        let few = TotalBounds { few: true, ..bounds(0.0, 0.0, 1e-3, 0.2) };
+        let certain = bounds(0.9, 0.95, 0.95, 0.97);
+        let found = recommend(&names(2), vec![candidate(Basis::Derivatives, 64, vec![few, certain])], 0.95);
+        assert!(found.unwrap().remedy.unwrap().contains(": 256"));
+    }
+
+    #[test]
+    fn the_index_of_an_output_lies_within_the_bounds_of_an_expansion_that_lacks_a_part_of_it() {
+        // f = g + c ψ(x1) with g = x1 + x2, all of variance 1 and orthogonal: T_1 = (1 + c²) / (2 + c²).
+        let c: f64 = 0.3;
+        let variance = 2.0 + c * c;
+        let of = by_expansion(0.5, c * c / variance);
+        let [first, second] = [(1.0 + c * c) / variance, 1.0 / variance];
+        assert!(of.low < second && second < first && first < of.high, "{of:?}");
+        // An input that g does not have may have all of the error.
+        assert!((by_expansion(0.0, 0.04).high - 0.04).abs() < 1e-12);
+        assert_eq!(by_expansion(0.0, 0.0).high, 0.0);
+    }
+
+    #[test]
+    fn the_level_of_each_of_many_inputs_is_above_that_of_all() {
+        assert_eq!(joint_level(0.95, 1), 0.95);
+        assert!((joint_level(0.95, 50) - 0.999).abs() < 1e-12);
+    }
+}
