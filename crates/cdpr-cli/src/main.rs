@@ -255,7 +255,10 @@ mod tests {
         whole.build();
         for (words, command) in commands(&whole, &[]) {
             for argument in command.get_arguments() {
-                let Some(name) = argument.get_long() else { continue };
+                let Some(name) = argument.get_long().filter(|name| !["help", "version"].contains(name))
+                else {
+                    continue;
+                };
                 let (commands, kinds) = found.entry(name.to_owned()).or_default();
                 commands.push(words.join(" "));
                 let kind = (argument.get_value_parser().type_id(), argument.get_action().takes_values());

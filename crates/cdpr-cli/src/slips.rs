@@ -85,7 +85,7 @@ const OPTIONS: [(&str, &str); 56] = [
     ("--elongation-error", "errors are `--errors force=N,elongation=M`"),
     ("--section-error", "errors are `--errors section=M2`"),
     ("--measurements", "the measurements are the second argument, without an option"),
-    ("--choose", "the number of poses is `--count N`"),
+    ("--choose", "the number of poses is `--number N`"),
     ("--accuracy", "the accuracy is `--limit 'position_mm<0.1'`"),
     ("--of", "the quantity is that of the limit, `--limit 'position_mm<1'`"),
     ("--loss", "the loss is `--with loss=huber`"),

@@ -15,7 +15,7 @@ fn run(arguments: &[&str]) -> Output {
 #[test]
 fn a_grid_of_poses_tells_geometry_but_no_offset_of_a_tension() {
     let arguments = [&["--region=-2:2:3,-1:1:3,1:9:2"][..], &UNCERTAINTY, &NOISE].concat();
-    let output = run(&[&arguments[..], &["--count", "4", "--format", "json"]].concat());
+    let output = run(&[&arguments[..], &["--number", "4", "--format", "json"]].concat());
     let json: Value = serde_json::from_str(&answered(output)).unwrap();
     assert_eq!((json["poses"].as_u64(), json["refused"]["infeasible_tension"].as_u64()), (Some(9), Some(9)));
     let unidentifiable: Vec<_> =

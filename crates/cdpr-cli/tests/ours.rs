@@ -26,7 +26,7 @@ fn writers() -> Vec<(Vec<String>, &'static str, &'static str)> {
          position=1e-4,rotation=1e-4,length=1e-4 --seed 1"
     );
     let plan = format!(
-        "calibrate plan {caroca} --poses poses.csv --noise position=1e-4,rotation=1e-4 --count 1 \
+        "calibrate plan {caroca} --poses poses.csv --noise position=1e-4,rotation=1e-4 --number 1 \
          --uncertainty a=0.001"
     );
     let load_cycle = format!("hysteresis {caroca} --pose 0,0,1.75 --payload 50 --law {record} --length 1");

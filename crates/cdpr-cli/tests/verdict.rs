@@ -203,7 +203,7 @@ fn a_campaign_is_planned_read_and_fitted_with_the_answer_first() {
         printed
     };
     let noise = "--noise position=1e-4,rotation=1e-4,lengths=1e-4 --uncertainty a=0.002,b=0.005";
-    let plan = format!("calibrate plan caroca --count 12 {noise} --out poses.csv --poses");
+    let plan = format!("calibrate plan caroca --number 12 {noise} --out poses.csv --poses");
     let planned = run(&plan, &[&candidates]);
     assert!(planned.starts_with("12 poses of CAROCA leave "), "{planned}");
     assert!(planned.contains(" % of parameters' std (random "), "{planned}");

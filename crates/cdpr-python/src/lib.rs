@@ -38,8 +38,6 @@ mod _core {
     #[pymodule_export]
     use crate::robot::boundary::Boundary;
     #[pymodule_export]
-    use crate::robot::cable::Cable;
-    #[pymodule_export]
     use crate::robot::capacity::Capacity;
     #[pymodule_export]
     use crate::robot::certify::Certificate;
@@ -59,6 +57,8 @@ mod _core {
     use crate::robot::path::{PathDeviations, PathStates};
     #[pymodule_export]
     use crate::robot::pose::pose;
+    #[pymodule_export]
+    use crate::robot::properties::cable::Cable;
     #[pymodule_export]
     use crate::robot::stiffness::Stiffness;
     #[pymodule_export]

@@ -4,7 +4,6 @@
 
 mod arguments;
 pub(crate) mod boundary;
-pub(crate) mod cable;
 pub(crate) mod capacity;
 pub(crate) mod certify;
 mod content;
@@ -16,7 +15,7 @@ pub(crate) mod modes;
 pub(crate) mod observe;
 pub(crate) mod path;
 pub(crate) mod pose;
-mod properties;
+pub(crate) mod properties;
 pub(crate) mod stiffness;
 pub(crate) mod workspace;
 

@@ -112,7 +112,7 @@ def test_plans_are_those_of_the_program(caroca, caroca_file, candidates):
     assert told.held == 6 and len(told.remaining) == len(told.inputs)
     bits = sum(0.5 * numpy.log2(1 + of.signal_to_noise**2) for of in told.identifiable)
     assert bits == pytest.approx(found.quality.information_bits, rel=1e-6)
-    arguments = ["--region=-2:2:4,-1:1:3,1:2.5:4", "--count", 6, "--noise", "position=1e-4,rotation=1e-4"]
+    arguments = ["--region=-2:2:4,-1:1:3,1:2.5:4", "--number", 6, "--noise", "position=1e-4,rotation=1e-4"]
     theirs = answer(
         "calibrate", "plan", caroca_file, *arguments, "--uncertainty", "a=0.002,b=0.002,youngs_modulus=5e9"
     )

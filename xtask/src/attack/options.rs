@@ -26,7 +26,7 @@ const CALLS: [&str; 25] = [
     "study extend out --observations 200",
     "calibrate fit robot.json measured.csv --parameters mass --noise position=1e-3,length=1e-3 --out out",
     "calibrate identify robot.json --poses poses.txt --uncertainty a=2e-3 --noise lengths=1e-3",
-    "calibrate plan robot.json --poses poses.txt --uncertainty a=2e-3 --noise lengths=1e-3 --count 2",
+    "calibrate plan robot.json --poses poses.txt --uncertainty a=2e-3 --noise lengths=1e-3 --number 2",
     "calibrate simulate robot.json --poses poses.txt --uncertainty study.json:table_3 \
      --noise length=1e-3 --seed 1 --out out/measured.csv",
     "derivatives robot.json --pose 0,0,1.75 --payload 50",

@@ -72,7 +72,7 @@ use super::response::Response;
 use super::series::elevation;
 use cdpr_number::Lanewise;
 use std::f64::consts::FRAC_PI_2;
-use wheel::Wheel;
+use wheel::{Swung, Wheel};
 
 /// A lead and a pulley after it.
 #[derive(Clone, Copy, Debug)]
@@ -134,21 +134,6 @@ pub struct Way<T> {
     pub(crate) stretch: T,
     stretch_inv: T,
     swung: Option<Swung<T>>,
-}
-
-/// What a tilted axis adds to the way.
-#[derive(Clone, Copy, Debug)]
-struct Swung<T> {
-    wheel: Wheel<T>,
-    /// μ [m/N], and δ of (C22) [1/m].
-    mu: T,
-    delta: T,
-    /// n - δ q.
-    coupled: [T; 3],
-    /// -γ q_y.
-    coupled_across: T,
-    /// q_y/β [m/N].
-    free_across: T,
 }
 
 /// Derivatives of the end of a cable over a guide at constant force and length, (C24) and (C31).

@@ -29,7 +29,7 @@ pub(crate) struct Settings {
     #[command(flatten)]
     preference: Preference,
     /// Number of best poses that are printed.
-    #[arg(long, default_value_t = 10, value_parser = arguments::count::<0, 100_000>)]
+    #[arg(long = "number", value_name = "N", default_value_t = 10, value_parser = arguments::count::<0, 100_000>)]
     count: usize,
     #[command(flatten)]
     printing: Printing,

@@ -37,7 +37,7 @@ pub(crate) struct Settings {
     #[arg(long, value_name = "HZ", conflicts_with_all = ["number", "massless"])]
     below: Option<f64>,
     /// This many natural motions, the slowest; 12 if left out.
-    #[arg(long, value_name = "N", conflicts_with = "massless")]
+    #[arg(long, value_name = "N", value_parser = arguments::count::<1, 10_000>, conflicts_with = "massless")]
     number: Option<usize>,
     /// Cables without mass: the platform alone, with the shares of weight and cables in the energy.
     #[arg(long)]

@@ -1,7 +1,7 @@
 //! `cdpr explore`: a robot that computes in the browser, as one HTML file.
 
 use crate::arguments::endings;
-use crate::arguments::{Format, Overwrite, named_after};
+use crate::arguments::{Format, Overwrite, With, named_after, with};
 use crate::error::ProgramError;
 use crate::output::patiently;
 use crate::questions;
@@ -22,9 +22,9 @@ pub(crate) struct Settings {
     out: Option<PathBuf>,
     #[command(flatten)]
     overwrite: Overwrite,
-    /// Open the page in the browser.
-    #[arg(long)]
-    open: bool,
+    /// open: the page in the browser.
+    #[arg(long, value_name = "NAME", value_parser = with)]
+    with: Option<With>,
     /// How the path of the page is printed.
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
@@ -43,7 +43,9 @@ struct Input {
 }
 
 pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
-    let Settings { input, out, overwrite, open, format } = settings;
+    let Settings { input, out, overwrite, with, format } = settings;
+    let opens =
+        with.as_ref().map_or(Ok(false), |with| with.check(&["open"]).and_then(|()| with.has("open")))?;
     let Input { robot, file, study } = patiently("reading the robot", || read(input))?;
     let explored = Explored {
         name: &robot.name,
@@ -54,7 +56,7 @@ pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
     let page = explorer(&explored, env!("CARGO_PKG_VERSION"))?;
     let path = out.clone().unwrap_or_else(|| named_after(input, "explorer.html"));
     overwrite.write(&path, &page)?;
-    if *open {
+    if opens {
         open::that(&path)
             .map_err(|error| ProgramError::Browser { path: path.clone(), reason: error.to_string() })?;
     }

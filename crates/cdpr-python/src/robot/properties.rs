@@ -1,7 +1,9 @@
 //! What a robot is made of, as arrays.
 
+pub(crate) mod cable;
+
 use crate::robot::Robot;
-use crate::robot::cable::{self, Cable};
+use cable::Cable;
 use cdpr_robot::{CableProperties, Parameter, RobotCable, TensionLimits, Vector3};
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;

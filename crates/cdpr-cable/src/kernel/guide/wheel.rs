@@ -2,6 +2,21 @@
 
 use cdpr_number::Lanewise;
 
+/// What a tilted axis adds to the way.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Swung<T> {
+    pub(super) wheel: Wheel<T>,
+    /// μ [m/N], and δ of (C22) [1/m].
+    pub(super) mu: T,
+    pub(super) delta: T,
+    /// n - δ q.
+    pub(super) coupled: [T; 3],
+    /// -γ q_y.
+    pub(super) coupled_across: T,
+    /// q_y/β [m/N].
+    pub(super) free_across: T,
+}
+
 /// A wheel about a tilted axis, in the axes of the cable's plane: forwards, across and upwards.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Wheel<T> {

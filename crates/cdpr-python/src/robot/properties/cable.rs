@@ -29,7 +29,7 @@ answer! {
 }
 
 impl Cable {
-    pub(super) fn of(py: Python, robot: &Robot, i: usize) -> Self {
+    pub(crate) fn of(py: Python, robot: &Robot, i: usize) -> Self {
         let (cable, TensionLimits { min, max }) = (&robot.cables[i], robot.limits(i));
         let array = |values: &[f64]| PyArray1::from_slice(py, values).into_any().unbind();
         Self {
@@ -46,7 +46,7 @@ impl Cable {
 }
 
 /// The name of an end of a cable.
-pub(super) fn name_of(end: CableEnd) -> &'static str {
+pub(crate) fn name_of(end: CableEnd) -> &'static str {
     match end {
         CableEnd::Anchor => "anchor",
         CableEnd::Exit => "exit",
