@@ -68,10 +68,14 @@ enum Command {
     /// Compute the Cartesian stiffness and its softest motions.
     #[command(after_help = "Example: cdpr stiffness data/robots/caroca.json --pose 0,0,1.75")]
     Stiffness(RobotAtFreePose),
-    /// Compute natural frequencies and their motions.
+    /// Compute the natural frequencies of platform and cables together.
     ///
-    /// At a pose or for lengths. The robot file gives the `inertia` of the platform.
-    #[command(after_help = "Example: cdpr modes data/robots/cogiro.json --pose 0,0,2")]
+    /// At a pose or for lengths. Each motion has the shares of platform and cables in its energy, and a count
+    /// proves that none is missing. Without `inertia` in the robot file that of a ball is assumed.
+    #[command(after_help = "Examples:
+  cdpr modes cogiro --pose 0,0,2
+  cdpr modes cogiro --pose 0,0,2 --below 6 --format json
+  cdpr modes cogiro --pose 0,0,2 --massless")]
     Modes(pose::modes::Settings),
     /// Find what a robot can carry at a pose.
     ///

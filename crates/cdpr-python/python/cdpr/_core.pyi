@@ -720,7 +720,7 @@ class Robot:
         moment: _Row | None = None,
         free: Sequence[str] | None = None,
     ) -> Modes[None]:
-        """Computes the natural frequencies and motions at a pose with a load; the lengths are held.
+        """Computes the natural motions of the platform on cables without mass, the lengths held.
 
         Arguments are of one case, or have a first axis of m cases.
 

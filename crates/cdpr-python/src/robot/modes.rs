@@ -39,7 +39,7 @@ plotted!(Modes);
 
 #[pymethods]
 impl Robot {
-    /// Computes the natural frequencies and motions at a pose with a load; the lengths are held.
+    /// Computes the natural motions of the platform on cables without mass, the lengths held.
     ///
     /// Arguments are of one case, or have a first axis of m cases.
     ///
