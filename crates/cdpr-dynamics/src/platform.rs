@@ -25,8 +25,8 @@ pub struct MovingPlatform {
     far: [Matrix6<f64>; TERMS],
 }
 
-/// Motions of cables beyond this multiple of the highest frequency are summed up as power series, with so many
-/// terms: what is left out is 16⁻⁸ of the first one.
+/// Motions of cables beyond this multiple of the highest frequency are summed up as power series with
+/// [`TERMS`] terms: what is left out is 16⁻⁸ of the first one.
 const FAR: f64 = 4.0;
 const TERMS: usize = 8;
 
@@ -63,8 +63,8 @@ impl MovingPlatform {
         Ok(Self { mass, stiffness, cables, free, whole_mass, near, far })
     }
 
-    /// Wrench on the platform [N, N m] for each motion with a frequency [Hz] up to the highest, (N4), with the mass of platform
-    /// and cables. Its inverse is the receptance. Nothing is damped: both have poles.
+    /// Wrench on the platform [N, N m] for each motion with a frequency [Hz] up to the highest, (N4), with the
+    /// mass of platform and cables. Its inverse is the receptance. Nothing is damped: both have poles.
     pub fn dynamic_stiffness(&self, frequency: f64) -> Matrix6<f64> {
         self.stiffness_at((TAU * frequency).powi(2))
     }
@@ -80,9 +80,10 @@ impl MovingPlatform {
         stiffness
     }
 
-    /// The number of natural motions below a frequency [Hz] up to the highest: those of the cables with their ends held, and the
-    /// negative eigenvalues of the dynamic stiffness (W. H. Wittrick, F. W. Williams, *A general algorithm for
-    /// computing natural frequencies of elastic structures*, Q. J. Mech. Appl. Math. 24, 1971).
+    /// The number of natural motions below a frequency [Hz] up to the highest: those of the cables with their
+    /// ends held, and the negative eigenvalues of the dynamic stiffness (W. H. Wittrick, F. W. Williams, *A
+    /// general algorithm for computing natural frequencies of elastic structures*, Q. J. Mech. Appl. Math. 24,
+    /// 1971).
     pub fn count(&self, frequency: f64) -> usize {
         let square = (TAU * frequency).powi(2);
         let held: usize = self.cables.iter().map(|cable| cable.slower(square)).sum();

@@ -29,7 +29,8 @@ pub(crate) struct Settings {
     #[command(flatten)]
     preference: Preference,
     /// Number of best poses that are printed.
-    #[arg(long = "number", value_name = "N", default_value_t = 10, value_parser = arguments::count::<0, 100_000>)]
+    #[arg(long = "number", value_name = "N", default_value_t = 10)]
+    #[arg(value_parser = arguments::count::<0, 100_000>)]
     count: usize,
     #[command(flatten)]
     printing: Printing,

@@ -26,7 +26,8 @@ pub(crate) struct Settings {
     #[command(flatten)]
     known: Known,
     /// Number of poses.
-    #[arg(long = "number", value_name = "N", default_value_t = 20, value_parser = arguments::count::<1, 100_000>)]
+    #[arg(long = "number", value_name = "N", default_value_t = 20)]
+    #[arg(value_parser = arguments::count::<1, 100_000>)]
     count: usize,
     /// What the set is to be best in.
     #[arg(long, value_enum, default_value_t = CriterionName::Information)]
