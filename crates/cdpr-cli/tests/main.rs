@@ -23,6 +23,7 @@ mod grammar;
 mod hysteresis;
 mod library;
 mod models;
+mod modes;
 mod modulus;
 mod natural_mistakes;
 mod odd_numbers;
