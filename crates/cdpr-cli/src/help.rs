@@ -153,7 +153,8 @@ mod tests {
         let command = crate::command();
         let mut grouped: Vec<&str> = GROUPS.iter().flat_map(|group| group.commands).copied().collect();
         let mut all: Vec<&str> = own(&command).map(Command::get_name).collect();
-        (grouped.sort_unstable(), all.sort_unstable());
+        grouped.sort_unstable();
+        all.sort_unstable();
         assert_eq!(grouped, all);
         let text = crate::command().render_help().to_string();
         for line in text.lines() {

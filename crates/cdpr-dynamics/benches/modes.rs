@@ -30,7 +30,7 @@ fn modes(criterion: &mut Criterion) {
         });
         let platform = MovingPlatform::new(&problem, &rest, bound).unwrap();
         group.bench_function(format!("{name}/count"), |bencher| {
-            bencher.iter(|| platform.count(black_box(bound)))
+            bencher.iter(|| platform.count(black_box(bound)));
         });
     }
     group.finish();

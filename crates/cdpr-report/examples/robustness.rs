@@ -74,7 +74,7 @@ fn main() -> Result<(), Failed> {
     let clock = Instant::now();
     let robot = open_robot(&robot)?;
     let protocols = protocols(&robot, poses, modulus, None, &free, seed);
-    protocols.iter().try_for_each(|protocol| protocol.validate())?;
+    protocols.iter().try_for_each(cdpr_assess::Protocol::validate)?;
     let folder = begin_robustness(&out, if_exists)?;
     let mut results = Vec::new();
     for protocol in &protocols {

@@ -207,6 +207,8 @@ fn elastic_step<S: Simd>(mut matrix: Lanes6x6<S>, gradient: &Lanes6<S>, elastici
 /// Solves the program in the lanes that are `open`, in at most this many iterations. Returns the change of the
 /// multipliers and the lanes in which the solution was found.
 #[inline(always)]
+// Loops over arrays by value take the compiler minutes.
+#[allow(clippy::needless_range_loop)]
 pub fn solve_within_bounds<S: Simd>(
     unknowns: &mut [BoundedUnknown<S>],
     balance: &Lanes6<S>,

@@ -53,7 +53,8 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     }
     let wanted = settings.below.map_or(Wanted::Number(settings.number.unwrap_or(NUMBER)), Wanted::Below);
     let solve = |robot: &Cow<'_, Robot>, problem: &DirectProblem<'_>, rest| {
-        Ok(Answer::new(robot, &Modes::new(problem, &rest, wanted)?))
+        let found = Modes::new(problem, &rest, wanted)?;
+        Ok(Answer::new(robot, matches!(robot, Cow::Owned(_)), &found))
     };
     settings.answer(solve, Answer::print)
 }
@@ -160,7 +161,7 @@ impl Row for Answer {
 }
 
 impl Answer {
-    fn new(robot: &Cow<'_, Robot>, found: &Modes) -> Self {
+    fn new(robot: &Robot, inertia_assumed: bool, found: &Modes) -> Self {
         let motion = |mode: &Mode| Motion {
             frequency_hz: mode.frequency,
             within: mode.within,
@@ -173,7 +174,7 @@ impl Answer {
             modes: found.modes.iter().map(motion).collect(),
             counted: found.counted,
             complete_below_hz: found.complete_below,
-            inertia_assumed: matches!(robot, Cow::Owned(_)),
+            inertia_assumed,
             out_of_limits: OutOfLimits::all(robot, &found.lengths, &[&found.equilibrium]),
         }
     }

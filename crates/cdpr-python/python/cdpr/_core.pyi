@@ -581,7 +581,7 @@ class Robot:
         >>> import cdpr
         >>> robot = cdpr.Robot.from_file("cogiro")
         >>> found = robot.direct(robot.inverse([0, 0, 2]).lengths)
-        >>> found.position.round(6).tolist()  # [m]
+        >>> (found.position.round(6) + 0).tolist()  # [m]
         [0.0, 0.0, 2.0]
         """
     @overload

@@ -125,7 +125,7 @@ impl Robot {
     /// >>> import cdpr
     /// >>> robot = cdpr.Robot.from_file("cogiro")
     /// >>> found = robot.direct(robot.inverse([0, 0, 2]).lengths)
-    /// >>> found.position.round(6).tolist()  # [m]
+    /// >>> (found.position.round(6) + 0).tolist()  # [m]
     /// [0.0, 0.0, 2.0]
     #[pyo3(signature = (lengths, *, force=None, moment=None, payload=None, start=None))]
     fn direct(

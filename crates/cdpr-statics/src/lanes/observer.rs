@@ -267,6 +267,7 @@ impl<T: Copy> Answers<T> {
 
     /// Assigns the answers of the lanes that have these axes and no answer yet.
     #[inline(always)]
+    #[allow(clippy::needless_range_loop)]
     fn assign<S: Simd>(&mut self, own: Mask<S>, found: [Result<T, ScalarReason>; MAX_LANES]) {
         let own = own.to_array();
         for lane in 0..Lanes::<S>::COUNT {

@@ -70,8 +70,7 @@ impl<'a> DirectProblem<'a> {
         let mut own = Balance::nothing();
         let mut end_stiffness = Matrix3::zeros();
         if let Some(linearized) = cable.linearized() {
-            let stiffness = linearized.stiffness();
-            end_stiffness = stiffness.into();
+            end_stiffness = linearized.stiffness();
             own.add_cable(&cable.anchor_arm, &cable.force_on_platform(), &end_stiffness.into());
         }
         CableAtRest {

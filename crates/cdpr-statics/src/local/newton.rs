@@ -46,6 +46,8 @@ const FORCE_ROUNDING: f64 = 1e-12;
 impl<S: Simd> Steps<S> {
     /// Adds a step in the lanes that are `active`.
     #[inline(always)]
+    // Loops over arrays by value take the compiler minutes.
+    #[allow(clippy::needless_range_loop)]
     fn add(&mut self, step: &Lanes6<S>, characteristic_length: f64, active: Mask<S>) {
         let scaled = six!(|k| if k < 3 { step[k] } else { step[k] * characteristic_length });
         if self.count == 0 {

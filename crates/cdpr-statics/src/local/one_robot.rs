@@ -105,7 +105,7 @@ impl<'a> DirectProblem<'a> {
 
     /// Coordinates in the level frame, which the lanes hold.
     #[inline(always)]
-    fn to_level(&self, v: Vector3<f64>) -> Vector3<f64> {
+    fn in_level_frame(&self, v: Vector3<f64>) -> Vector3<f64> {
         self.robot.gravity.level().map_or(v, |level| level * v)
     }
 
@@ -127,13 +127,13 @@ impl<'a> DirectProblem<'a> {
             layout: Layout::Cables(last),
             freedoms: robot.freedoms(),
             cables: SmallVec::new(),
-            position: vector(simd, &self.to_level(pose.position)),
-            center: vector(simd, &self.to_level(pose.rotation * robot.platform.center_of_mass)),
+            position: vector(simd, &self.in_level_frame(pose.position)),
+            center: vector(simd, &self.in_level_frame(pose.rotation * robot.platform.center_of_mass)),
             frame: SmallVec::new(),
             weight: zero.all(robot.platform.mass * robot.gravity.magnitude()),
         };
         for k in 0..3 {
-            robots.frame.push(vector(simd, &self.to_level(pose.rotation.matrix().column(k).into())));
+            robots.frame.push(vector(simd, &self.in_level_frame(pose.rotation.matrix().column(k).into())));
         }
         // All cables of a robot, however many fill the lanes, have the same equations.
         let is_guided = robot.cables.iter().any(|cable| cable.guide(None).is_some());
@@ -143,8 +143,8 @@ impl<'a> DirectProblem<'a> {
                 // Lanes beyond the last cable repeat it and do not count.
                 let i = (first + lane).min(n - 1);
                 let (properties, force) = (&robot.cables[i].properties, cable_forces[i]);
-                let exit = self.to_level(robot.cables[i].exit_point);
-                let arm = self.to_level(robot.anchor_arm(pose, i));
+                let exit = self.in_level_frame(robot.cables[i].exit_point);
+                let arm = self.in_level_frame(robot.anchor_arm(pose, i));
                 let of_cable = [
                     properties.linear_density * robot.gravity.magnitude(),
                     1.0 / properties.axial_stiffness(),
@@ -218,7 +218,7 @@ impl<'a> DirectProblem<'a> {
     #[inline(always)]
     fn load_in_lanes<S: Simd>(&self, robots: &Robots<'_, S>) -> PlatformLoad<S> {
         let Wrench { force, moment } = self.load.wrench;
-        let wrench = Wrench { force: self.to_level(force), moment: self.to_level(moment) };
+        let wrench = Wrench { force: self.in_level_frame(force), moment: self.in_level_frame(moment) };
         PlatformLoad::new(robots.weight + self.load.payload * self.robot.gravity.magnitude(), &wrench)
     }
 
