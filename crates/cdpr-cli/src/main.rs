@@ -68,7 +68,7 @@ enum Command {
     /// Compute the Cartesian stiffness and its softest motions.
     #[command(after_help = "Example: cdpr stiffness data/robots/caroca.json --pose 0,0,1.75")]
     Stiffness(RobotAtFreePose),
-    /// Compute the natural frequencies of platform and cables together.
+    /// Compute the natural frequencies of platform and cables.
     ///
     /// At a pose or for lengths. Each motion has the shares of platform and cables in its energy, and a count
     /// proves that none is missing. Without `inertia` in the robot file that of a ball is assumed.
