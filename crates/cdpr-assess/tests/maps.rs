@@ -143,9 +143,11 @@ fn workspace(robot: &Robot, axes: [(f64, f64, usize); 3], load: Load) -> Workspa
     }
 }
 
-/// The greatest relative difference of two positive numbers that a map may show. Forces balance to 1e-12 of
-/// their sum, and the least tensions of SEGESTA are a thousandth of that sum.
-const SAME: f64 = 1e-8;
+/// The greatest relative difference of two positive numbers that a map may show.
+const SAME: f64 = 1e-9;
+
+/// That of SEGESTA: forces balance to 1e-12 of their sum, of which its least tensions are a thousandth.
+const SAME_OF_LIGHT_TENSIONS: f64 = 1e-8;
 
 #[test]
 fn a_map_says_of_each_position_what_the_scalar_models_say() {
@@ -163,7 +165,9 @@ fn a_map_says_of_each_position_what_the_scalar_models_say() {
         println!("in lanes: {in_lanes} inverse, {settled} loaded of {}", wanted.len());
         assert!(in_lanes > 0 && 2 * settled > wanted.len());
         for pose in &poses {
-            check(&robot, &load, pose).unwrap_or_else(|what| panic!("{name} at {:?}: {what}", pose.pose));
+            let most = if name == "SEGESTA" { SAME_OF_LIGHT_TENSIONS } else { SAME };
+            check(&robot, &load, pose, most)
+                .unwrap_or_else(|what| panic!("{name} at {:?}: {what}", pose.pose));
         }
     }
 }
@@ -233,9 +237,9 @@ fn threads_change_no_bit_of_a_map() {
 }
 
 /// What differs, if anything does.
-fn check(robot: &Robot, load: &Load, found: &WorkspacePose) -> Result<(), String> {
+fn check(robot: &Robot, load: &Load, found: &WorkspacePose, most: f64) -> Result<(), String> {
     let same = |what: &str, one: f64, other: f64| {
-        let is_same = (one - other).abs() <= SAME * other.abs();
+        let is_same = (one - other).abs() <= most * other.abs();
         if is_same { Ok(()) } else { Err(format!("{what}: {one} for {other}")) }
     };
     let failures = |what: &str, one: Option<&StaticsError>, other: Option<&StaticsError>| {

@@ -70,7 +70,7 @@ impl<const D: usize> Condensed<D> {
         Some(Self { modes: modes.collect(), mass })
     }
 
-    /// The motions up to `square` = ω² [1/s²], and D more that act as all faster ones do for slow motions: with
+    /// The motions up to `square` = ω² [1/s²], and D more that act on slow motions as all faster ones do: with
     ///
     /// ```text
     /// R = sum c cᵀ/ω_k² = G Gᵀ,    S = sum c cᵀ/ω_k⁴,    G⁺ S G⁺ᵀ = Q W⁻² Qᵀ                       (N5)

@@ -7,7 +7,7 @@ use cdpr_statics::StaticsError;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum DynamicsError {
-    /// The equilibrium is none, or is not stable.
+    /// The state is no equilibrium, or the static models refuse it.
     #[error(transparent)]
     Statics(#[from] StaticsError),
     /// The robot is invalid.
@@ -25,7 +25,7 @@ pub enum DynamicsError {
     },
     /// A cable with mass that nothing stretches.
     #[error(
-        "cable {} hangs without tension at a point: a cable that cannot be bent has no natural frequency there; \
+        "cable {} hangs without tension at a point, where a cable has no natural frequency; \
          change the pose or the lengths",
         cable + 1
     )]

@@ -80,7 +80,7 @@ impl Modes {
         equilibrium: &Equilibrium,
         wanted: Wanted,
     ) -> Result<Self, DynamicsError> {
-        // Those on cables without mass refuse an unstable equilibrium, and tell which motions nothing resists.
+        // Those on cables without mass refuse unstable equilibria, and show which motions nothing resists.
         let massless: Vec<f64> = problem.modes(equilibrium)?.iter().map(|mode| mode.frequency).collect();
         let neutral = massless.iter().filter(|frequency| **frequency == 0.0).count();
         let (platform, bound, number) = match wanted {

@@ -6,8 +6,8 @@ use cdpr_statics::vibration::SmallMotions;
 use cdpr_statics::{DirectProblem, Equilibrium, Matrix6};
 use std::f64::consts::TAU;
 
-/// A platform whose cables have mass, about an equilibrium. Its motions are (dp, dφ): the translation of P [m]
-/// and a rotation vector [rad], in the base frame.
+/// A platform whose cables have mass, about an equilibrium. Its motions are (dp, dφ): the translation of P
+/// [m] and a rotation vector [rad], in the base frame.
 #[derive(Clone, Debug)]
 pub struct MovingPlatform {
     /// Mass of platform and payload, and one on the diagonal of constrained motions.
@@ -63,8 +63,8 @@ impl MovingPlatform {
         Ok(Self { mass, stiffness, cables, free, whole_mass, near, far })
     }
 
-    /// Wrench on the platform [N, N m] for each motion with a frequency [Hz] up to the highest, (N4), with the
-    /// mass of platform and cables. Its inverse is the receptance. Nothing is damped: both have poles.
+    /// Wrench on the platform [N, N m] for each motion with a frequency [Hz] up to the highest, (N4), with
+    /// the mass of platform and cables. Its inverse is the receptance. Nothing is damped: both have poles.
     pub fn dynamic_stiffness(&self, frequency: f64) -> Matrix6<f64> {
         self.stiffness_at((TAU * frequency).powi(2))
     }
@@ -82,8 +82,8 @@ impl MovingPlatform {
 
     /// The number of natural motions below a frequency [Hz] up to the highest: those of the cables with their
     /// ends held, and the negative eigenvalues of the dynamic stiffness (W. H. Wittrick, F. W. Williams, *A
-    /// general algorithm for computing natural frequencies of elastic structures*, Q. J. Mech. Appl. Math. 24,
-    /// 1971).
+    /// general algorithm for computing natural frequencies of elastic structures*, Q. J. Mech. Appl. Math.
+    /// 24, 1971).
     pub fn count(&self, frequency: f64) -> usize {
         let square = (TAU * frequency).powi(2);
         let held: usize = self.cables.iter().map(|cable| cable.slower(square)).sum();

@@ -148,7 +148,7 @@ impl WorkspaceRow {
 /// One figure of a capacity.
 type FigureOf = fn(&Capacity) -> &Result<Figure, StaticsError>;
 
-/// What blocks a payload, in words, or why there is none. At a pose that is not held, `reason` says why.
+/// What blocks a payload, in words, or why no payload is found. At a pose that is not held, `reason` says why.
 fn blocked_by(pose: &WorkspacePose, of: FigureOf) -> Option<String> {
     match of(pose.capacity.as_deref()?) {
         Ok(figure) if figure.value == f64::NEG_INFINITY => {

@@ -82,7 +82,7 @@ pub(crate) struct Preference {
     /// In place of those in the file; without either the tensions have the least norm.
     #[arg(long, value_name = "TENSIONS", allow_hyphen_values = true)]
     pub(crate) tension_reference: Option<TensionReference>,
-    /// Which tensions the inverse model chooses, in place of the choice in the file: nearest to the
+    /// Which tensions the inverse model chooses, instead of that in the file: nearest to the
     /// reference, or of least_1_norm, least_2_norm or least_infinity_norm.
     #[arg(long, value_name = "NAME")]
     pub(crate) distribution: Option<TensionDistribution>,

@@ -97,7 +97,7 @@ impl Known {
     }
 }
 
-/// The end of a command of which so many candidates of all are held.
+/// The end of a command of which this many candidates of all are held.
 pub(super) fn ending(held: usize, all: usize) -> Ending {
     if 2 * held < all {
         eprintln!("warning: fewer than half of the candidate poses are held, {held} of {all}");

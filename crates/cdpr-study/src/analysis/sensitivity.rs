@@ -134,8 +134,8 @@ pub(crate) fn measured(run: &Run) -> Result<(SensitivitySummary, Vec<Candidate>)
     Ok((summary, candidates))
 }
 
-/// Bounds by derivatives alone, for the verdict on a sampling whose study has no measures; the reason where
-/// there are none.
+/// Bounds by derivatives alone, for the verdict on a sampling whose study has no measures; otherwise the
+/// reason why there are no bounds.
 pub(crate) fn bounded(run: &Run) -> Result<Vec<Candidate>, String> {
     if run.sampling.correlation.is_some() {
         return Err("the inputs are correlated".to_owned());

@@ -317,7 +317,7 @@ mod tests {
         assert_eq!(inputs, ["x1", "x0", "x2"]);
         let standings: Vec<Standing> = found.inputs.iter().filter_map(|of| of.standing).collect();
         assert_eq!(standings, [Standing::Matters, Standing::Open, Standing::Negligible]);
-        // A value that is smaller than its interval is none.
+        // A value that is smaller than its interval is not given.
         assert_eq!(
             found.inputs.iter().map(|of| of.value.is_some()).collect::<Vec<_>>(),
             [true, false, false]
