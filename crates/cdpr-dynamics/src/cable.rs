@@ -153,27 +153,24 @@ impl Free<'_> {
         for pair in ends.windows(2) {
             self.halve([pair[0], pair[1]], MOST_HALVINGS, &mut elements)?;
         }
-        let mut most = 0.0;
-        let elements = elements.into_iter().map(|ends| {
-            let half_waves = self.half_waves(ends, density, highest);
-            most += half_waves;
-            let degree = (DEGREES_PER_HALF_WAVE * half_waves).ceil() as usize + MORE_DEGREES;
-            Element { ends, degree }
-        });
-        let elements = elements.collect();
-        if most > MOST_HALF_WAVES {
+        let per_hertz: Vec<f64> = elements.iter().map(|ends| self.half_waves(*ends, density)).collect();
+        let limit = MOST_HALF_WAVES / per_hertz.iter().sum::<f64>();
+        if highest > limit {
             let expected = format!(
-                "{:.4} Hz at most, where cable {} has {MOST_HALF_WAVES} half waves",
-                highest * MOST_HALF_WAVES / most,
+                "{limit:.4} Hz at most, where cable {} has {MOST_HALF_WAVES} half waves",
                 self.cable + 1
             );
             return Err(DynamicsError::Invalid {
                 field: "highest frequency",
-                value: format!("{highest} Hz"),
+                value: format!("{highest:?} Hz"),
                 expected,
             });
         }
-        Ok(elements)
+        let element = |(ends, per_hertz): ([f64; 2], f64)| {
+            let degree = (DEGREES_PER_HALF_WAVE * per_hertz * highest).ceil() as usize + MORE_DEGREES;
+            Element { ends, degree }
+        };
+        Ok(elements.into_iter().zip(per_hertz).map(element).collect())
     }
 
     /// Unstrained lengths from the exit at which the law has another modulus.
@@ -223,8 +220,8 @@ impl Free<'_> {
         self.halve([middle, to], left - 1, found)
     }
 
-    /// Half waves across the cable at a frequency [Hz]: 2 f ∫ sqrt(μ (1 + ε)/N) ds.
-    fn half_waves(&self, [from, to]: [f64; 2], density: f64, frequency: f64) -> f64 {
+    /// Half waves across a part of the cable for each hertz [s]: 2 ∫ sqrt(μ (1 + ε)/N) ds.
+    fn half_waves(&self, [from, to]: [f64; 2], density: f64) -> f64 {
         let points = crate::polynomial::gauss(8);
         let sum: f64 = points
             .iter()
@@ -232,7 +229,7 @@ impl Free<'_> {
                 weight * (density * self.slenderness(from + 0.5 * (1.0 + x) * (to - from))).sqrt()
             })
             .sum();
-        frequency * (to - from) * sum
+        (to - from) * sum
     }
 
     /// How the point moves where the free part begins, in the plane and across it.

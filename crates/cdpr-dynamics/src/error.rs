@@ -65,5 +65,5 @@ pub(crate) fn positive(field: &'static str, value: f64, expected: &str) -> Resul
     if value.is_finite() && value > 0.0 {
         return Ok(());
     }
-    Err(DynamicsError::Invalid { field, value: value.to_string(), expected: expected.to_owned() })
+    Err(DynamicsError::Invalid { field, value: format!("{value:?}"), expected: expected.to_owned() })
 }
