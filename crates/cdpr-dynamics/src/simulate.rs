@@ -1,0 +1,48 @@
+//! Motion over time, with the mass, sag and elasticity of the cables.
+
+mod band;
+mod cable;
+mod event;
+mod lead;
+mod mesh;
+mod radau;
+mod run;
+mod setting;
+mod system;
+mod winch;
+
+pub use event::{Change, Event, events_from_json, events_schema};
+pub use radau::Work;
+pub use run::{Difference, Energy, Sample, Series};
+pub use setting::{Discretization, Settings};
+pub use winch::Profile;
+
+use crate::error::DynamicsError;
+use cdpr_statics::{DirectProblem, Equilibrium};
+use run::run;
+
+/// The motion of a robot from rest under events.
+///
+/// It is computed twice, with [`Settings::discretization`] and with a coarser one: their differences are in
+/// [`Series::difference`].
+///
+/// # Errors
+/// [`DynamicsError::Invalid`] for settings and events that are not possible; [`DynamicsError::Stalled`] where no
+/// step is short enough; those of [`DirectProblem::small_motions`].
+pub fn simulate(
+    problem: &DirectProblem,
+    rest: &Equilibrium,
+    events: &[Event],
+    settings: &Settings,
+) -> Result<Series, DynamicsError> {
+    settings.check()?;
+    event::check(problem, events)?;
+    let coarse = settings.coarse();
+    let (fine, coarse) = rayon::join(
+        || run(problem, rest, events, settings),
+        || run(problem, rest, events, &coarse),
+    );
+    let mut series = fine?;
+    series.difference = series.difference_to(&coarse?);
+    Ok(series)
+}
