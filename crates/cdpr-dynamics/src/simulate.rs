@@ -37,12 +37,21 @@ pub fn simulate(
 ) -> Result<Series, DynamicsError> {
     settings.check()?;
     event::check(problem, events)?;
-    let coarse = settings.coarse();
-    let (fine, coarse) = rayon::join(
-        || run(problem, rest, events, settings),
-        || run(problem, rest, events, &coarse),
-    );
-    let mut series = fine?;
-    series.difference = series.difference_to(&coarse?);
-    Ok(series)
+    let solve = |discretization: Discretization, ends_at_slack| {
+        let coarse = Settings { tolerance: 4.0 * settings.tolerance, ..*settings };
+        rayon::join(
+            || run(problem, rest, events, settings, (discretization, ends_at_slack)),
+            || run(problem, rest, events, &coarse, (discretization.coarser(), ends_at_slack)),
+        )
+    };
+    let (mut fine, mut coarse) = match settings.discretization {
+        Some(discretization) => solve(discretization, false),
+        None => solve(Discretization::TAUT, true),
+    };
+    let is_slack = |series: &Result<Series, _>| series.as_ref().is_ok_and(|series| series.slack.contains(&true));
+    if settings.discretization.is_none() && (is_slack(&fine) || is_slack(&coarse)) {
+        (fine, coarse) = solve(Discretization::SLACK, false);
+    }
+    let (fine, coarse) = (fine?, coarse?);
+    Ok(Series { difference: fine.difference_to(&coarse), ..fine })
 }

@@ -148,12 +148,17 @@ impl Mesh {
         let mut masses = vec![0.0; size];
         let mut pulls = Vec::with_capacity(size + self.ends.len());
         let mut flow = (growth != 0.0).then(|| (vec![Vector3::zeros(); size], vec![Vector3::zeros(); size]));
-        let shares = self.shares(rule);
+        let shares = if flow.is_some() { self.shares(rule) } else { Vec::new() };
         for part in self.parts(rule, length) {
+            let (mut slope, mut rate) = part.slopes(&rule.slopes[0], points);
+            let mut pull = material.pull(slope, rate);
             for (j, row) in rule.slopes.iter().enumerate() {
                 let weight = rule.points[j][1];
-                let (slope, rate) = part.slopes(row, points);
-                let pull = material.pull(slope, rate);
+                // An element of degree 1 is straight.
+                if j > 0 && rule.degree > 1 {
+                    (slope, rate) = part.slopes(row, points);
+                    pull = material.pull(slope, rate);
+                }
                 let tension = pull.along * (weight * pull.tension);
                 for (k, share) in row.iter().enumerate() {
                     forces[part.first + k] -= tension * *share;

@@ -111,11 +111,6 @@ impl<S: Equations> Radau<S> {
         Self { time, state, step, slopes, newton: None, is_current: false, last: None, work }
     }
 
-    /// The slopes at the present state.
-    pub(super) fn slopes(&self) -> &[f64] {
-        &self.slopes
-    }
-
     /// One step, not beyond `until` [s].
     pub(super) fn advance(&mut self, equations: &S, until: f64) -> Result<Step, Stalled> {
         let mut was_rejected = false;

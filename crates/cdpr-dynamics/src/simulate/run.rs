@@ -93,20 +93,22 @@ struct Run<'a> {
     radau: Radau<System<'a>>,
     events: Vec<Event>,
     series: Series,
-    /// Energy at the last change [J].
+    /// Energy that there should be [J].
     before: f64,
+    ends_at_slack: bool,
 }
 
-/// The motion with one discretization.
+/// The motion with one discretization, up to where a cable goes slack if it ends there.
 pub(super) fn run(
     problem: &DirectProblem,
     rest: &Equilibrium,
     events: &[Event],
     settings: &Settings,
+    (discretization, ends_at_slack): (Discretization, bool),
 ) -> Result<Series, DynamicsError> {
     let mut events = events.to_vec();
     events.sort_by(|one, other| one.time.total_cmp(&other.time));
-    let (mut system, mut state) = settings.system(problem, rest)?;
+    let (mut system, mut state) = settings.system(problem, rest, discretization)?;
     let residual = system.relax(&mut state, true);
     for event in &events {
         if let Change::Displace(motion) = &event.change {
@@ -114,7 +116,7 @@ pub(super) fn run(
             let pose = from.moved(motion.fixed_rows::<3>(0).into(), motion.fixed_rows::<3>(3).into());
             let held = problem.cables_at(&pose)?;
             let at_rest = system;
-            (system, state) = settings.system(problem, &held)?;
+            (system, state) = settings.system(problem, &held, discretization)?;
             system.keep_leads(&at_rest, &mut state);
             system.relax(&mut state, false);
         }
@@ -133,9 +135,10 @@ pub(super) fn run(
             peaks: vec![(0.0, 0.0); cables],
             slack: vec![false; cables],
             work: Work::default(),
-            discretization: settings.discretization,
+            discretization,
         },
         before: 0.0,
+        ends_at_slack,
     };
     run.before = run.energy();
     run.all(settings)?;
@@ -165,6 +168,9 @@ impl Run<'_> {
             }
             self.until(sample)?;
             self.sample();
+            if !self.may_go_on() {
+                break;
+            }
         }
         self.series.energy.drift = self.energy() - self.before;
         self.series.work = self.radau.work;
@@ -189,6 +195,10 @@ impl Run<'_> {
         self.series.energy.given += change;
     }
 
+    fn may_go_on(&self) -> bool {
+        !(self.ends_at_slack && self.series.slack.contains(&true))
+    }
+
     fn energy(&self) -> f64 {
         let power = self.system.power(self.radau.time, &self.radau.state);
         power.kinetic + power.stored
@@ -208,6 +218,9 @@ impl Run<'_> {
             }
             self.system.turn(&mut self.radau.state);
             self.watch();
+            if !self.may_go_on() {
+                break;
+            }
         }
         Ok(())
     }

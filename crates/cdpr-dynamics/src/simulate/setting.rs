@@ -19,6 +19,23 @@ pub struct Discretization {
     pub degree: usize,
 }
 
+impl Discretization {
+    /// Few elements of a high degree, for cables that stay taut.
+    pub const TAUT: Self = Self { elements: 3, degree: 5 };
+    /// A chain of straight elements: where a cable goes slack, its direction jumps along it.
+    pub const SLACK: Self = Self { elements: 80, degree: 1 };
+
+    /// One that is coarser.
+    pub(super) fn coarser(self) -> Self {
+        let Self { elements, degree } = self;
+        if elements > 1 {
+            Self { elements: elements - elements.div_ceil(3), degree }
+        } else {
+            Self { elements, degree: (degree - degree.div_ceil(4)).max(1) }
+        }
+    }
+}
+
 /// How a motion is computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
@@ -28,8 +45,9 @@ pub struct Settings {
     pub rate: f64,
     /// Ratio τ of the viscous to the elastic modulus of the cables [s].
     pub damping: f64,
-    /// Elements of each cable.
-    pub discretization: Discretization,
+    /// Elements of each cable. Without, there are [`Discretization::TAUT`], and [`Discretization::SLACK`] once
+    /// a cable goes slack.
+    pub discretization: Option<Discretization>,
     /// Error of a step that is accepted, as a position [m].
     pub tolerance: f64,
 }
@@ -37,8 +55,7 @@ pub struct Settings {
 impl Settings {
     /// Motion until a time [s] with 100 samples for each second, without damping.
     pub fn until(until: f64) -> Self {
-        let discretization = Discretization { elements: 3, degree: 5 };
-        Self { until, rate: 100.0, damping: 0.0, discretization, tolerance: 1e-8 }
+        Self { until, rate: 100.0, damping: 0.0, discretization: None, tolerance: 5e-8 }
     }
 
     /// Greatest number of samples.
@@ -57,25 +74,14 @@ impl Settings {
         if self.until * self.rate > Self::MOST_SAMPLES {
             return invalid("rate", self.rate, "1e7 samples at most, until the end");
         }
-        let Discretization { elements, degree } = self.discretization;
+        let Some(Discretization { elements, degree }) = self.discretization else { return Ok(()) };
         if !(1..=1000).contains(&elements) {
             return invalid("elements", elements as f64, "1 to 1000 elements of each cable");
         }
-        if !(2..=64).contains(&degree) {
-            return invalid("degree", degree as f64, "a degree of 2 to 64");
+        if !(1..=64).contains(&degree) {
+            return invalid("degree", degree as f64, "a degree of 1 to 64");
         }
         Ok(())
-    }
-
-    /// The same with coarser elements and a greater error.
-    pub(super) fn coarse(&self) -> Self {
-        let Discretization { elements, degree } = self.discretization;
-        let discretization = if elements > 1 {
-            Discretization { elements: elements - elements.div_ceil(3), degree }
-        } else {
-            Discretization { elements, degree: (degree - degree.div_ceil(4)).max(2) }
-        };
-        Self { discretization, tolerance: 4.0 * self.tolerance, ..*self }
     }
 
     /// Platform and cables at a pose with cables in equilibrium, and the unknowns.
@@ -83,10 +89,10 @@ impl Settings {
         &self,
         problem: &DirectProblem<'a>,
         rest: &Equilibrium,
+        Discretization { elements, degree }: Discretization,
     ) -> Result<(System<'a>, Vec<f64>), DynamicsError> {
         let (robot, load) = (problem.robot(), problem.load());
         let small = problem.small_motions(rest)?;
-        let Discretization { elements, degree } = self.discretization;
         let rule = Rule::new(degree);
         let pose = &rest.pose;
         let mut free = [false; 6];
