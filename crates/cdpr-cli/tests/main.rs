@@ -33,6 +33,7 @@ mod path;
 mod poses;
 mod questions;
 mod shell;
+mod simulate;
 mod strangers;
 mod study_blocks;
 mod study_poses;

@@ -136,7 +136,10 @@ fn events_that_are_not_possible_are_refused_with_their_place() {
         (r#"[{"t": 0, "cutt": 1}]"#, "events: line 1, column 16"),
         (r#"[{"t": 0}]"#, "event 1 is an event with 0 changes"),
         (r#"[{"t": 0, "cut": 1, "payload": 3}]"#, "event 1 is an event with 2 changes"),
-        (r#"[{"t": 0, "payload": 1}, {"t": 0, "cut": 9}]"#, "event 2, cut is 9: expected the number of a cable, 1 to 8"),
+        (
+            r#"[{"t": 0, "payload": 1}, {"t": 0, "cut": 9}]"#,
+            "event 2, cut is 9: expected the number of a cable, 1 to 8",
+        ),
         (r#"[{"t": 0, "cut": 0}]"#, "event 1, cut is 0"),
         (r#"[{"t": 0, "at": "exit"}]"#, "event 1, at is given"),
         (r#"[{"t": -1, "payload": 1}]"#, "event 1, t is -1.0"),

@@ -46,9 +46,13 @@ impl InputKind {
         MEGABYTE
             * match self {
                 Self::Robot | Self::Cable | Self::Foreign | Self::Law => 4,
-                Self::Study | Self::Poses | Self::Cases | Self::Events | Self::Block | Self::Errors | Self::Measurements => {
-                    32
-                }
+                Self::Study
+                | Self::Poses
+                | Self::Cases
+                | Self::Events
+                | Self::Block
+                | Self::Errors
+                | Self::Measurements => 32,
                 Self::Record => 64,
                 Self::Results | Self::Table => 256,
             }

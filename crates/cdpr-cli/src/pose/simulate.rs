@@ -1,6 +1,6 @@
 //! `cdpr simulate`: how a robot moves after events.
 
-use crate::arguments::poses::{PoseArguments, place, pose_numbers};
+use crate::arguments::poses::{PoseArguments, pose_numbers};
 use crate::arguments::{
     self, Format, FreeArguments, LoadArguments, Preference, Printing, RobotArgument, With, print_record,
 };
@@ -90,7 +90,9 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     match settings.printing.format() {
         Format::Csv => {
             print_record(&answer.columns);
-            records().for_each(|record| print_record(&record.iter().map(|cell| format!("{cell:?}")).collect::<Vec<_>>()));
+            records().for_each(|record| {
+                print_record(&record.iter().map(|cell| format!("{cell:?}")).collect::<Vec<_>>())
+            });
         }
         format => {
             let samples = if format == Format::Json { records().collect() } else { Vec::new() };
@@ -228,7 +230,8 @@ impl Answer {
         let cables = series.peaks.iter().enumerate().map(|(i, (peak, at))| {
             let breaking = robot.cables[i].properties.breaking_force;
             let limits = [("breaking_force", breaking), ("tension_limits.max", Some(robot.limits(i).max))];
-            let mut above = limits.into_iter().filter_map(|(limit, value_n)| Some(Above { limit, value_n: value_n? }));
+            let mut above =
+                limits.into_iter().filter_map(|(limit, value_n)| Some(Above { limit, value_n: value_n? }));
             CableAnswer {
                 rest_n: series.samples[0].tensions[i][1],
                 greatest_n: *peak,
@@ -265,9 +268,9 @@ impl Answer {
 
     fn print(&self, name: &str, rest: &Pose, until: f64) {
         let mm = |metres: f64| significant(1e3 * metres, 3);
-        // A pose that was asked for is found to rounding.
-        let position = rest.position.map(|value| rounded(value, 9));
-        println!("{name}, at rest at {}", place(&Pose { position, ..*rest }));
+        let [x, y, z] = <[f64; 3]>::from(rest.position).map(|value| rounded(value, 4));
+        let turned = significant(rest.rotation.angle().to_degrees(), 3);
+        println!("{name}, at rest at ({x}, {y}, {z}) m, turned by {turned} deg");
         println!(
             "The platform moves up to {} mm and {} deg from its rest, at {} s.",
             mm(self.greatest_distance_m),

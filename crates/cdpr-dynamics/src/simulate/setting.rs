@@ -150,7 +150,8 @@ impl Settings {
         let free = whole.free();
         let density = at_rest.linear_density;
         let cable = Cable { guide: None, ..free.cable };
-        let damping = self.damping.max(shock_damping(rule, &cable, density, free.unstrained_length / elements as f64));
+        let damping =
+            self.damping.max(shock_damping(rule, &cable, density, free.unstrained_length / elements as f64));
         let material = Material { cable, density, damping, relaxing: None };
         let end = rest.pose.position + at_rest.lever;
         let lift = |x: f64, z: f64| at_rest.axes * Vector3::new(x, 0.0, z);
