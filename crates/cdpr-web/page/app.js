@@ -5,7 +5,7 @@ import { roundUp } from "./charts/scale.js";
 import { h, setText, undoStep, whenOther } from "./dom.js";
 import { entryWords, point, rangeWithUnit, sharePercent, short, withUnit } from "./format.js";
 import { extents, groundOf } from "./geometry.js";
-import { layout, WHOLE } from "./layout.js";
+import { layout, WIDE } from "./layout.js";
 import { loadOf, Mechanics, poseOf } from "./mechanics.js";
 import { Moves } from "./moves.js";
 import { DARK, LIGHT } from "./palette.js";
@@ -13,6 +13,7 @@ import { Paper } from "./paper.js";
 import { cablesPanel } from "./panels/cables.js";
 import { chartsPanel, sentence } from "./panels/charts.js";
 import { commandsPanel } from "./panels/commands.js";
+import { displayPanel } from "./panels/display.js";
 import { filesPanel } from "./panels/files.js";
 import { loadPanel } from "./panels/load.js";
 import { chosenMotion, motionsPanel } from "./panels/motions.js";
@@ -120,7 +121,7 @@ export class App {
     this.store.set({ slice: { ...slice, shown } }, { commit: true });
     if (!shown) return;
     this.slicePanel.element.open = true;
-    if (this.element.classList.contains("whole")) this.slicePanel.element.scrollIntoView({ block: "start" });
+    this.slicePanel.element.scrollIntoView({ block: "start" });
   }
 
   setHandle(mode) {
@@ -192,32 +193,33 @@ export class App {
     this.less.removeEventListener("change", this.#redraw);
     this.#keyboard.removeEventListener("keydown", this.#keys);
     this.element.replaceChildren();
-    this.element.classList.remove("cdprx", "embedded", "whole", "phone");
+    this.element.classList.remove("cdprx", "embedded", "narrow");
   }
 
   #build() {
     this.stage = stagePanel(this);
     this.charts = chartsPanel(this);
     this.motions = motionsPanel(this);
+    this.slicePanel = slicePanel(this);
     const figures = numbersPanel(this);
-    const panels = [
-      posePanel,
-      loadPanel,
-      tolerancesPanel,
-      slicePanel,
-      cablesPanel,
-      commandsPanel,
-      pinsPanel,
-      filesPanel,
+    const side = [
+      posePanel(this),
+      loadPanel(this),
+      cablesPanel(this),
+      this.charts,
+      tolerancesPanel(this),
+      this.slicePanel,
+      this.motions,
+      displayPanel(this),
+      pinsPanel(this),
+      commandsPanel(this),
+      filesPanel(this),
     ];
-    const side = panels.map((make) => make(this));
-    this.slicePanel = side[panels.indexOf(slicePanel)];
-    side.splice(-3, 0, this.motions);
-    if (this.embedded && this.element.clientWidth < WHOLE) {
-      for (const panel of side) panel.element.open = false;
+    if (this.element.clientWidth < WIDE) {
+      for (const panel of side.slice(1)) panel.element.open = false;
     }
-    this.panels = [this.stage, figures, this.charts, ...side];
-    Object.assign(this, layout(this, { stage: this.stage, figures, charts: this.charts, side }));
+    this.panels = [this.stage, figures, ...side];
+    Object.assign(this, layout(this, { stage: this.stage, figures, side }));
     this.#keyboard.addEventListener("keydown", this.#keys);
     try {
       this.view = new View(this.stage.surface, this.robot, {

@@ -9,5 +9,6 @@
 mod common;
 mod explorer;
 mod fields;
+mod layout;
 mod page;
 mod report;

@@ -21,7 +21,7 @@ import { Platform, place } from "./platform.js";
 import { Segments } from "./segments.js";
 import { SlicePicture } from "./slice.js";
 
-const LOOKS = { default: [-0.75, -1.25, 0.55], top: [0, -1e-3, 1], front: [0, -1, 0.02], side: [1, 0, 0.02] };
+const LOOKS = { default: [-0.75, -1.25, 0.5], top: [0, -1e-3, 1], front: [0, -1, 0.02], side: [1, 0, 0.02] };
 const PERIOD = 1.6;
 
 /**
@@ -34,6 +34,8 @@ const PERIOD = 1.6;
 
 export class View {
   #needed = true;
+  // The look that the camera keeps when the size of the view changes, until a hand turns it.
+  #kept = null;
   #frame = 0;
   #pick = new Raycaster();
 
@@ -62,6 +64,7 @@ export class View {
     this.scene.add(sun);
     this.orbit = new OrbitControls(this.camera, this.surface);
     this.orbit.addEventListener("change", () => this.invalidate());
+    this.orbit.addEventListener("start", () => this.#release());
     this.frame = new Frame(this.scene, robot.exits, this.box);
     this.names = new Names(container, robot.exits);
     this.slice = new SlicePicture(this.scene);
@@ -149,21 +152,28 @@ export class View {
 
   /** Looks at the whole robot from one of `LOOKS`. */
   look(name) {
-    const { min, max, floor } = this.box;
-    this.#lookAt([min[0], min[1], Math.min(floor, min[2])], max, new Vector3(...LOOKS[name]));
+    this.#kept = name;
+    const { floor } = this.box;
+    const feet = this.robot.exits.map(([x, y, z]) => [x, y, Math.min(z, floor)]);
+    const anchors = this.picture?.loaded.anchors ?? [];
+    this.#lookAt([...this.robot.exits, ...feet, ...anchors], new Vector3(...LOOKS[name]));
   }
 
   /** Looks at the platform from where the camera is. */
   toPlatform() {
     if (!this.picture) return;
+    this.#release();
     const { pose } = this.picture.loaded;
-    const reach = 2.2 * this.platform.reach;
-    const corner = (sign) => [0, 1, 2].map((k) => pose[k] + sign * reach);
-    this.#lookAt(corner(-1), corner(1), this.camera.position.clone().sub(this.orbit.target));
+    const reach = 1.6 * this.platform.reach;
+    const ends = [0, 1, 2].flatMap((axis) =>
+      [-reach, reach].map((step) => pose.slice(0, 3).with(axis, pose[axis] + step)),
+    );
+    this.#lookAt(ends, this.camera.position.clone().sub(this.orbit.target));
   }
 
   /** Moves the camera towards its target, or away from it. */
   zoom(factor) {
+    this.#release();
     this.camera.position.sub(this.orbit.target).multiplyScalar(factor).add(this.orbit.target);
     this.orbit.update();
     this.invalidate();
@@ -171,6 +181,7 @@ export class View {
 
   /** Turns the camera about its target [rad]. */
   turn(angle) {
+    this.#release();
     this.camera.position.sub(this.orbit.target).applyAxisAngle(this.camera.up, angle).add(this.orbit.target);
     this.orbit.update();
     this.invalidate();
@@ -184,7 +195,12 @@ export class View {
     this.renderer.setSize(this.width, this.height);
     this.camera.aspect = this.width / this.height;
     this.camera.updateProjectionMatrix();
+    if (this.#kept) this.look(this.#kept);
     this.invalidate();
+  }
+
+  #release() {
+    this.#kept = null;
   }
 
   /** The picture as it is now. */
@@ -206,21 +222,26 @@ export class View {
     this.names.element.remove();
   }
 
-  // From a direction, and so far away that the box from `min` to `max` fills the view.
-  #lookAt(min, max, direction) {
-    const center = new Vector3(...min).add(new Vector3(...max)).multiplyScalar(0.5);
+  // From a direction, and so near that points just fit into the view.
+  #lookAt(points, direction) {
     const back = direction.normalize();
     const right = new Vector3().crossVectors(this.camera.up, back).normalize();
     const up = new Vector3().crossVectors(back, right);
-    const tangent = 0.96 * Math.tan((this.camera.fov * Math.PI) / 360);
-    let distance = 0;
-    for (let k = 0; k < 8; k++) {
-      const corner = new Vector3(...[0, 1, 2].map((axis) => ((k >> axis) & 1 ? max : min)[axis])).sub(center);
-      const across = Math.max(Math.abs(corner.dot(right)) / this.camera.aspect, Math.abs(corner.dot(up)));
-      distance = Math.max(distance, across / tangent + corner.dot(back));
-    }
-    this.orbit.target.copy(center);
-    this.camera.position.copy(center).addScaledVector(back, distance);
+    const tangent = 0.93 * Math.tan((this.camera.fov * Math.PI) / 360);
+    const vectors = points.map((point) => new Vector3(...point));
+    const target = vectors.reduce((sum, one) => sum.addScaledVector(one, 1 / points.length), new Vector3());
+    // A side of the view is a plane through the camera: of the camera's place in the plane of the picture and
+    // its distance, the points bound their difference on this side and their sum on the other.
+    const side = (axis, slope) => {
+      const seen = vectors.map((one) => [one.clone().sub(target).dot(axis), one.clone().sub(target).dot(back)]);
+      const most = Math.max(...seen.map(([across, near]) => across / slope + near));
+      const least = Math.min(...seen.map(([across, near]) => across / slope - near));
+      return { distance: (most - least) / 2, shift: ((most + least) / 2) * slope };
+    };
+    const [across, along] = [side(right, tangent * this.camera.aspect), side(up, tangent)];
+    target.addScaledVector(right, across.shift).addScaledVector(up, along.shift);
+    this.orbit.target.copy(target);
+    this.camera.position.copy(target).addScaledVector(back, Math.max(across.distance, along.distance));
     this.orbit.update();
     this.invalidate();
   }
