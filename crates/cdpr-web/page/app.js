@@ -19,11 +19,12 @@ import { loadPanel } from "./panels/load.js";
 import { chosenMotion, motionsPanel } from "./panels/motions.js";
 import { numbersPanel } from "./panels/numbers.js";
 import { numbers, pinPoses, pinsPanel } from "./panels/pins.js";
+import { pointsPanel } from "./panels/points.js";
 import { posePanel } from "./panels/pose.js";
 import { slicePanel, slicePixels } from "./panels/slice.js";
 import { notHeld, stagePanel } from "./panels/stage.js";
 import { tolerancesPanel } from "./panels/tolerances.js";
-import { changedRobot, isChanged, shares, tolerances } from "./robot.js";
+import { changedRobot, isChanged, pointOf, pointsOf, shares, tolerances } from "./robot.js";
 import { Sampling } from "./sampling.js";
 import { Slicing } from "./slicing.js";
 import { decode, initial, restore, Store } from "./state.js";
@@ -34,6 +35,10 @@ const SETTLED = 500;
 export class App {
   mapWidth = 380;
   selected = null;
+  /** The handles in the view: `translate`, `rotate`, `points`, `off`. */
+  handle = "translate";
+  /** The name of the exit or anchor point that is chosen. */
+  point = null;
   range = 1;
   modes = null;
   modesFailure = null;
@@ -125,9 +130,18 @@ export class App {
   }
 
   setHandle(mode) {
+    this.handle = mode;
     this.view?.handles.set(mode);
-    this.view?.invalidate();
     this.stage.setHandle(mode);
+    this.#draw();
+    this.refresh();
+  }
+
+  /** Chooses an exit or anchor point to be moved, or none. */
+  choosePoint(name) {
+    this.point = name;
+    if (name) this.pointsPanel.element.open = true;
+    this.setHandle("points");
   }
 
   /** The factor of the deflection: the one that is set, or one that makes it an eighth of the robot. */
@@ -201,10 +215,12 @@ export class App {
     this.charts = chartsPanel(this);
     this.motions = motionsPanel(this);
     this.slicePanel = slicePanel(this);
+    this.pointsPanel = pointsPanel(this);
     const figures = numbersPanel(this);
     const side = [
       posePanel(this),
       loadPanel(this),
+      this.pointsPanel,
       cablesPanel(this),
       this.charts,
       tolerancesPanel(this),
@@ -224,6 +240,8 @@ export class App {
     try {
       this.view = new View(this.stage.surface, this.robot, {
         grab: (phase, pose) => this.moves.grab(phase, pose),
+        grabPoint: (phase, place) => this.moves.grabPoint(phase, place),
+        choosePoint: (name) => this.choosePoint(name),
         goto: (position) => this.moves.goto(position),
       });
     } catch (error) {
@@ -267,7 +285,10 @@ export class App {
 
   #newRobot() {
     this.version += 1;
-    this.engine.setRobot(JSON.stringify(changedRobot(this.file, this.store.state.changes)));
+    const changed = changedRobot(this.file, this.store.state.changes);
+    Object.assign(this.robot, pointsOf(changed));
+    this.view?.reshape();
+    this.engine.setRobot(JSON.stringify(changed));
   }
 
   #ask({ restart = false, mechanics = true } = {}) {
@@ -340,6 +361,10 @@ export class App {
       force: size > 0 ? force.map((value) => (value / size) * length) : null,
       jump,
       pins: pinPoses(state),
+      points:
+        this.handle === "points"
+          ? { chosen: this.point, numbers: this.point && pointOf(this.robot, this.point) }
+          : null,
     });
   }
 

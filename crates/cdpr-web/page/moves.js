@@ -1,6 +1,7 @@
 // What keys, buttons and handles do to the platform.
 
-import { placeOf, rounded, turnedAngles, vectorBetween } from "./rotation.js";
+import { pointOf, withPoint } from "./robot.js";
+import { placeOf, rounded, turned, turnedAngles, vectorBetween } from "./rotation.js";
 
 const AXES = ["x", "y", "z"];
 const ANGLES = ["roll", "pitch", "yaw"];
@@ -72,14 +73,36 @@ export class Moves {
     if (phase === "end") this.#release();
   }
 
+  /** A hand on the handles of the chosen exit or anchor point. */
+  grabPoint(phase, place) {
+    const { store, mechanics, robot, point } = this.app;
+    if (phase === "begin") {
+      const { pose } = mechanics.picture.loaded;
+      this.taken = { place, from: pointOf(robot, point), pose: point.startsWith("a") ? pose : null };
+    }
+    if (phase === "end") store.commit();
+    if (phase !== "move") return;
+    const { from, pose, place: begin } = this.taken;
+    let step = place.map((value, k) => value - begin[k]);
+    if (pose) step = turned([pose[3], -pose[4], -pose[5], -pose[6]], step);
+    const now = from.map((value, k) =>
+      Math.abs(step[k]) < 1e-6 ? value : rounded(value + step[k], this.#decimals),
+    );
+    store.set({ changes: withPoint(store.state.changes, point, now) });
+  }
+
+  // Decimals of lengths [m] that a hand sets: those that the size of the robot asks for.
+  get #decimals() {
+    return Math.max(0, 4 - Math.floor(Math.log10(this.app.size)));
+  }
+
   // What the hand has moved, with a few digits; the rest is as it was.
   #moved(pose, { position, rpy_deg }) {
-    const decimals = Math.max(0, 4 - Math.floor(Math.log10(this.app.size)));
     const place = placeOf(pose);
     const kept = (now, before, digits) =>
       now.map((value, k) => (Math.abs(value - before[k]) < 1e-4 ? before[k] : rounded(value, digits)));
     return {
-      position: this.#above(kept(place.position, position, decimals)),
+      position: this.#above(kept(place.position, position, this.#decimals)),
       rpy_deg: kept(place.rpy_deg, rpy_deg, 2),
     };
   }

@@ -1,5 +1,6 @@
 // The state of the page: what a link, a file and the steps of undo hold. No numbers are derived here.
 
+import { arePoints, firstSampling } from "./robot.js";
 import { placeOf, rounded } from "./rotation.js";
 import { QUANTITIES } from "./slices.js";
 
@@ -13,6 +14,7 @@ const CHOICES = {
   quantity: (value) => QUANTITIES.some(([field]) => field === value),
   cells: (value) => Number.isInteger(value) && value >= 2 && value <= 200,
   reference: (value) => value === null || value === "mid" || Number.isFinite(value),
+  points: arePoints,
 };
 
 /**
@@ -38,6 +40,7 @@ export function initial(robot) {
       reference: scalarReference(robot.reference),
       least: null,
       greatest: null,
+      points: {},
     },
     tolerances: {},
     observations: robot.study ? firstSampling(robot.study).observations : 2048,
@@ -45,11 +48,6 @@ export function initial(robot) {
     slice: { shown: false, normal: "z", at: rounded(pose[2], 6), quantity: "deflection_mm", cells: 33 },
     pins: [null, null],
   };
-}
-
-/** The first sampling of a study file, by convention named `all`. */
-export function firstSampling(study) {
-  return study.samplings.all ?? Object.values(study.samplings)[0];
 }
 
 /**
@@ -69,7 +67,7 @@ export function restore(saved, first) {
     if (["format", "robot", "cables"].includes(field)) continue;
     if (field in first && alike(value, first[field], field)) {
       const nested = ["changes", "view", "slice"].includes(field);
-      state[field] = nested ? { ...first[field], ...known(value, first[field]) } : value;
+      state[field] = nested ? { ...first[field], ...known(value, first[field], first.cables) } : value;
     } else refused.push(field);
   }
   if (state.lengths?.length !== first.cables) state.lengths = null;
@@ -207,10 +205,10 @@ function numbers(list) {
 }
 
 // The fields of a part of the state whose values are such as they can have.
-function known(value, first) {
+function known(value, first, cables) {
   const fits = (name, inner) => {
     if (!(name in first)) return false;
-    if (name in CHOICES) return CHOICES[name](inner);
+    if (name in CHOICES) return CHOICES[name](inner, cables);
     if (first[name] === null) return inner === null || Number.isFinite(inner);
     return typeof inner === "number"
       ? Number.isFinite(inner) && typeof first[name] === "number"

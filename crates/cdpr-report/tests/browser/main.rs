@@ -11,4 +11,5 @@ mod explorer;
 mod fields;
 mod layout;
 mod page;
+mod points;
 mod report;

@@ -30,6 +30,7 @@ export function stagePanel(app) {
     [
       ["translate", "move"],
       ["rotate", "turn"],
+      ["points", "points"],
       ["off", "off"],
     ],
     (mode) => app.setHandle(mode),

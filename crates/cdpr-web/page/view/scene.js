@@ -18,6 +18,7 @@ import { Cables } from "./cables.js";
 import { Frame, Names } from "./frame.js";
 import { Handles } from "./handles.js";
 import { Platform, place } from "./platform.js";
+import { PointMarks } from "./points.js";
 import { Segments } from "./segments.js";
 import { SlicePicture } from "./slice.js";
 
@@ -29,7 +30,7 @@ const PERIOD = 1.6;
  *   range: number,
  *   selected: number|null, deflection: number, ghost: boolean, motion: object|null, still: boolean,
  *   force: number[]|null, jump: {before: number[], after: number[]|null}|null,
- *   pins: Array<number[]|null>}} Picture
+ *   pins: Array<number[]|null>, points: {chosen: string|null, numbers: number[]|null}|null}} Picture
  */
 
 export class View {
@@ -42,7 +43,8 @@ export class View {
   /**
    * @param {HTMLElement} container
    * @param {object} robot answer to `describe`
-   * @param {{grab: function(string, number[]): void, goto: function(number[]): void}} hooks
+   * @param {{grab: function(string, number[]): void, grabPoint: function(string, number[]): void,
+   *   choosePoint: function(string): void, goto: function(number[]): void}} hooks
    */
   constructor(container, robot, hooks) {
     this.container = container;
@@ -73,12 +75,15 @@ export class View {
     this.arrow = new Arrow(this.scene);
     this.force = new Arrow(this.scene);
     this.jump = new Arrow(this.scene);
+    this.points = new PointMarks(this.scene, container, robot.cables);
     this.trace = new Segments(this.scene, 400, { linewidth: 2, opacity: 0.8 });
+    const taken = (tell) => (phase, place) => {
+      this.orbit.enabled = phase === "end";
+      tell(phase, place);
+    };
     this.handles = new Handles(this.scene, this.camera, this.surface, robot.held, {
-      grab: (phase, pose) => {
-        this.orbit.enabled = phase === "end";
-        hooks.grab(phase, pose);
-      },
+      grab: taken(hooks.grab),
+      grabPoint: taken(hooks.grabPoint),
       change: () => this.invalidate(),
     });
     this.#listen();
@@ -138,8 +143,24 @@ export class View {
     if (jump?.path) this.trace.line(jump.path.flat());
     this.trace.done();
     this.handles.follow(wanted ?? picture.handle ?? loaded.pose);
+    this.points.draw(picture.points && { ...picture.points, places: this.#places(loaded) }, this.palette);
+    this.handles.followPoint(this.points.place);
     this.#pose(0);
     this.invalidate();
+  }
+
+  /** Takes over other exit and anchor points of the robot. */
+  reshape() {
+    this.frame.draw(this.robot.exits);
+    this.names.exits = this.robot.exits;
+    this.platform.shape(this.robot);
+    this.invalidate();
+  }
+
+  // Exit and anchor points by their names.
+  #places({ anchors }) {
+    const named = (kind, list) => list.map((place, k) => [`${kind}${k + 1}`, place]);
+    return Object.fromEntries([...named("b", this.robot.exits), ...named("a", anchors)]);
   }
 
   /** Shows a slice, or none. */
@@ -209,6 +230,7 @@ export class View {
     const named = Boolean(this.picture?.names);
     this.names.element.hidden = !named;
     if (named) this.names.place(this.camera, this.#scratch, this.width, this.height);
+    this.points.follow(this.camera, this.width, this.height);
     return this.surface;
   }
 
@@ -220,6 +242,7 @@ export class View {
     this.renderer.dispose();
     this.surface.remove();
     this.names.element.remove();
+    this.points.dispose();
   }
 
   // From a direction, and so near that points just fit into the view.
@@ -285,9 +308,19 @@ export class View {
   // A click on the slice goes there; a drag turns the view.
   #listen() {
     let down = null;
-    this.surface.addEventListener("pointerdown", (event) => {
-      down = [event.clientX, event.clientY];
-    });
+    const choose = ({ offsetX, offsetY }) => {
+      const name = this.points.at([offsetX, offsetY], this.camera, this.width, this.height);
+      if (name && !this.handles.controls.axis) this.hooks.choosePoint(name);
+    };
+    this.surface.addEventListener(
+      "pointerdown",
+      (event) => {
+        down = [event.clientX, event.clientY];
+        choose(event);
+      },
+      // Before the handles, which then are where the point is.
+      { capture: true },
+    );
     this.surface.addEventListener("pointerup", (event) => {
       const still = down && Math.hypot(event.clientX - down[0], event.clientY - down[1]) < 4;
       down = null;
