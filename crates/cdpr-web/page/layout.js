@@ -1,4 +1,4 @@
-// How the parts of the page are placed: the view keeps its place, and the panels scroll next to it or below it.
+// Where the parts of the page are: the view keeps its place, and the panels scroll next to it or below it.
 
 import { button, h } from "./dom.js";
 import { digits } from "./format.js";
@@ -9,10 +9,10 @@ export const WIDE = 760;
 /**
  * Puts the parts into the element of the page.
  * @param {object} app
- * @param {{stage: object, figures: object, side: object[]}} parts panels
+ * @param {{stage: object, figures: object, timeline: object, side: object[]}} parts panels
  * @returns {{undo: HTMLButtonElement, redo: HTMLButtonElement, live: HTMLElement, sizes: ResizeObserver}}
  */
-export function layout(app, { stage, figures, side }) {
+export function layout(app, { stage, figures, timeline, side }) {
   const { element, robot, store, refused, size, embedded } = app;
   const undo = button("Undo", () => store.undo(), { title: "Ctrl+Z" });
   const redo = button("Redo", () => store.redo(), { title: "Ctrl+Shift+Z" });
@@ -30,7 +30,7 @@ export function layout(app, { stage, figures, side }) {
   const main = h(
     embedded ? "div" : "main",
     { class: "main" },
-    ...[stage, figures].map((part) => part.element),
+    ...[stage, figures, timeline].map((part) => part.element),
   );
   const panels = h(
     "div",

@@ -1,6 +1,7 @@
 // What keys, buttons and handles do to the platform.
 
 import { pointOf, withPoint } from "./robot.js";
+import { timed } from "./trajectory/track.js";
 import { placeOf, rounded, turned, turnedAngles, vectorBetween } from "./rotation.js";
 
 const AXES = ["x", "y", "z"];
@@ -57,6 +58,23 @@ export class Moves {
     const { store, mechanics } = this.app;
     if (store.state.way === "kept") mechanics.renew();
     store.set({ position: position.map((value) => rounded(value, 6)) }, { commit: true });
+  }
+
+  /** Adds a point to the trajectory, and goes there. */
+  waypoint(place) {
+    const { store, mechanics, robot, speed, arm } = this.app;
+    if (store.state.way === "kept") mechanics.renew();
+    const { state } = store;
+    const kept = place.map((value, k) =>
+      robot.held.includes(AXES[k]) || state.free.includes(AXES[k]) ? state.position[k] : value,
+    );
+    const position = this.#above(kept.map((value) => rounded(value, this.#decimals)));
+    const row = (at) => [0, ...at, ...state.rpy_deg];
+    const before = state.trajectory.length > 0 ? state.trajectory : [row(state.position)];
+    const isSame = JSON.stringify(before.at(-1).slice(1)) === JSON.stringify(row(position).slice(1));
+    this.app.speedCounts = true;
+    const trajectory = timed(isSame ? before : [...before, row(position)], speed, arm);
+    store.set({ trajectory, position }, { commit: true });
   }
 
   /** A hand on the handles of the view. */

@@ -3,9 +3,12 @@
 import { arePoints, firstSampling } from "./robot.js";
 import { placeOf, rounded } from "./rotation.js";
 import { QUANTITIES } from "./slices.js";
+import { areRows } from "./trajectory/track.js";
 
 export const FORMAT = "cdpr-explorer/1";
 const MEMORY = 200;
+// Most rows of a trajectory that a link holds; a saved state holds all.
+const LINKED = 60;
 const COORDINATES = ["x", "y", "z", "roll", "pitch", "yaw"];
 
 // Values of fields of which not every one of their kind will do.
@@ -45,6 +48,7 @@ export function initial(robot) {
     tolerances: {},
     observations: robot.study ? firstSampling(robot.study).observations : 2048,
     view: { sag: 1, deflection: 0, motion: "still", ghost: true, names: true },
+    trajectory: [],
     slice: { shown: false, normal: "z", at: rounded(pose[2], 6), quantity: "deflection_mm", cells: 33 },
     pins: [null, null],
   };
@@ -75,10 +79,14 @@ export function restore(saved, first) {
   return { state, refused };
 }
 
-/** The state as a link holds it: the fields that differ from the first state, as base64url of JSON. */
+/**
+ * The state as a link holds it: the fields that differ from the first state, as base64url of JSON, without a
+ * long trajectory.
+ */
 export function encode(state, first) {
   const saved = { format: FORMAT };
   for (const field of Object.keys(first)) {
+    if (field === "trajectory" && state.trajectory.length > LINKED) continue;
     if (JSON.stringify(state[field]) !== JSON.stringify(first[field])) saved[field] = state[field];
   }
   const bytes = new TextEncoder().encode(JSON.stringify(saved));
@@ -185,6 +193,7 @@ function alike(value, first, field) {
     return Array.isArray(value) && value.length === 2 && value.every((pin) => !pin || isPin(pin));
   if (field === "way") return value === "anew" || value === "kept";
   if (field === "free") return Array.isArray(value) && value.every((name) => COORDINATES.includes(name));
+  if (field === "trajectory") return areRows(value);
   if (field === "tolerances") return isObject(value) && Object.values(value).every((factor) => factor >= 0);
   if (Array.isArray(first)) return numbers(value) && value.length === first.length;
   if (typeof first === "number") return Number.isFinite(value);

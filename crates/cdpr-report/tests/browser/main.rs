@@ -13,3 +13,4 @@ mod layout;
 mod page;
 mod points;
 mod report;
+mod timeline;

@@ -39,15 +39,7 @@ export function displayPanel(app) {
     view({ names: on });
     store.commit();
   });
-  return panel(
-    "Display",
-    { update },
-    sag.element,
-    arrow.element,
-    auto.element,
-    ghost.element,
-    names.element,
-  );
+  return panel("Display", { update }, sag.element, arrow.element, auto.element, ghost.element, names.element);
 
   function update() {
     const { state } = store;

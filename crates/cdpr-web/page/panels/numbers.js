@@ -36,11 +36,17 @@ export function words({ displacement, rms, rotation, loaded, milliseconds }) {
   return [
     displacement ? short(rms) : "none: no rest without load",
     displacement ? vectorShort(displacement) : "none",
-    rotation ? `${digits(DEGREES * Math.hypot(...rotation), 3)}°` : "none",
+    rotation ? `${digits(angle(rotation), 3)}°` : "none",
     rangeWithUnit(Math.min(...tensions), Math.max(...tensions), "N"),
     `${withUnit(loaded.least_stiffness, "N/m")}, ${loaded.stable ? "stable" : "not stable"}`,
     `${digits(milliseconds, 3)} ms, ${counted(loaded.iterations, "iteration")} (${loaded.method})`,
   ];
+}
+
+// The size of a turn [degrees], without what is rounding.
+function angle(rotation) {
+  const degrees = DEGREES * Math.hypot(...rotation);
+  return degrees < 1e-6 ? 0 : degrees;
 }
 
 /** How well the equations are solved. */

@@ -9,8 +9,10 @@ import { panel } from "./panel.js";
 export function pointsPanel(app) {
   const { store, robot } = app;
   const names = pointNames(robot.cables);
-  const which = select("point", [["", "none"], ...names.map((name) => [name, parameterWords(name)])], (name) =>
-    app.choosePoint(name || null),
+  const which = select(
+    "point",
+    [["", "none"], ...names.map((name) => [name, parameterWords(name)])],
+    (name) => app.choosePoint(name || null),
   );
   const fields = ["x", "y", "z"].map((axis, k) =>
     numberField({
@@ -51,7 +53,8 @@ export function pointsPanel(app) {
     const list = moved.map((name) => `${parameterWords(name)} (${name})`).join(", ");
     setText(
       note,
-      `${frame}${list ? `Not as in the robot file: ${list}. Files saves the robot.` : "All are as in the robot file."}`,
+      frame +
+        (list ? `Not as in the robot file: ${list}. “Save” has the robot.` : "All are as in the robot file."),
     );
   }
 }

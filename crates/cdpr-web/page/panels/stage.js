@@ -31,6 +31,7 @@ export function stagePanel(app) {
       ["translate", "move"],
       ["rotate", "turn"],
       ["points", "points"],
+      ["draw", "draw", "Each click in the view adds a point to the trajectory."],
       ["off", "off"],
     ],
     (mode) => app.setHandle(mode),
@@ -71,11 +72,18 @@ export function stagePanel(app) {
   });
   const messages = h("div", { class: "banners" }, failure, jump, low, pull);
   const picture = h("div", { class: "picture" }, surface);
+  const view = h("div", { class: "view" }, picture, legend.element, looks);
+  for (const kind of ["dragover", "drop"])
+    view.addEventListener(kind, (event) => {
+      event.preventDefault();
+      const [file] = event.dataTransfer.files;
+      if (kind === "drop" && file) app.openFile(file);
+    });
   const element = h(
     "section",
     { class: "stage", "aria-label": "Robot" },
     h("div", { class: "stagebar" }, way.element, handle.element, workspace),
-    h("div", { class: "view" }, picture, legend.element, looks),
+    view,
   );
   surface.addEventListener("keydown", (event) => {
     const key = KEYS[event.key];
@@ -148,7 +156,8 @@ export function groundWords({ ground, store: { state }, mechanics: { picture } }
   const isBelow = (value, i) => i % 3 === 2 && value < ground - 1e-9;
   const hanging = cables.flatMap(({ points }, k) => (points.some(isBelow) ? [k + 1] : []));
   if (hanging.length > 0) return `Cables that hang below ${place}: ${hanging.join(", ")}.`;
-  return state.position[2] <= ground ? `The platform is at ${place}, and goes no lower here.` : "";
+  if (state.position[2] < ground) return `The pose is below ${place}.`;
+  return state.position[2] === ground ? `The platform is at ${place}, and goes no lower here.` : "";
 }
 
 /** A jump in words. */

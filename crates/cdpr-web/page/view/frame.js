@@ -1,8 +1,8 @@
-// The frame of the robot: floor, posts, the ring through the exit points, and the numbers of the cables.
+// The frame of the robot: floor, posts, the rings through the exit points, and the numbers of the cables.
 
 import { GridHelper, Group } from "three";
 import { h, setText } from "../dom.js";
-import { ring } from "../geometry.js";
+import { rings } from "../geometry.js";
 import { Segments } from "./segments.js";
 import { roundUp } from "../charts/scale.js";
 
@@ -31,14 +31,14 @@ export class Frame {
     this.group.add(this.grid);
   }
 
-  /** Draws the posts and the ring through exit points. */
+  /** Draws the posts and the rings through exit points. */
   draw(exits) {
-    const order = ring(exits);
     this.lines.clear();
     for (const exit of exits) {
       if (exit[2] > this.floor) this.lines.line([...exit, exit[0], exit[1], this.floor]);
     }
-    order.forEach((k, j) => this.lines.line([...exits[k], ...exits[order[(j + 1) % order.length]]]));
+    for (const order of rings(exits))
+      order.forEach((k, j) => this.lines.line([...exits[k], ...exits[order[(j + 1) % order.length]]]));
     this.lines.done();
   }
 

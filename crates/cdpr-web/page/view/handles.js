@@ -37,11 +37,11 @@ export class Handles {
     this.set("translate");
   }
 
-  /** @param {string} mode `translate`, `rotate`, `points` or `off` */
+  /** @param {string} mode `translate`, `rotate`, `points`, `draw` or `off` */
   set(mode) {
     this.mode = mode;
     const isPoint = mode === "points";
-    const shown = isPoint ? this.point.visible : mode !== "off";
+    const shown = isPoint ? this.point.visible : !["draw", "off"].includes(mode);
     this.controls.attach(isPoint ? this.point : this.proxy);
     this.controls.enabled = shown;
     this.controls.getHelper().visible = shown;

@@ -4,6 +4,7 @@ import {
   AmbientLight,
   DirectionalLight,
   PerspectiveCamera,
+  Plane,
   Raycaster,
   Scene,
   Vector2,
@@ -30,7 +31,8 @@ const PERIOD = 1.6;
  *   range: number,
  *   selected: number|null, deflection: number, ghost: boolean, motion: object|null, still: boolean,
  *   force: number[]|null, jump: {before: number[], after: number[]|null}|null,
- *   pins: Array<number[]|null>, points: {chosen: string|null, numbers: number[]|null}|null}} Picture
+ *   pins: Array<number[]|null>, track: number[], isDrawn: boolean,
+ *   points: {chosen: string|null, numbers: number[]|null}|null}} Picture
  */
 
 export class View {
@@ -44,7 +46,8 @@ export class View {
    * @param {HTMLElement} container
    * @param {object} robot answer to `describe`
    * @param {{grab: function(string, number[]): void, grabPoint: function(string, number[]): void,
-   *   choosePoint: function(string): void, goto: function(number[]): void}} hooks
+   *   choosePoint: function(string): void, goto: function(number[]): void,
+   *   waypoint: function(number[]): void}} hooks
    */
   constructor(container, robot, hooks) {
     this.container = container;
@@ -77,6 +80,7 @@ export class View {
     this.jump = new Arrow(this.scene);
     this.points = new PointMarks(this.scene, container, robot.cables);
     this.trace = new Segments(this.scene, 400, { linewidth: 2, opacity: 0.8 });
+    this.track = new Segments(this.scene, 2100, { linewidth: 2.5 });
     const taken = (tell) => (phase, place) => {
       this.orbit.enabled = phase === "end";
       tell(phase, place);
@@ -103,6 +107,7 @@ export class View {
     this.force.material.color.set(palette.force);
     this.jump.material.color.set(palette.warn);
     this.trace.material.color.set(palette.warn);
+    this.track.material.color.set(palette.force);
     if (this.picture) this.show(this.picture);
     this.invalidate();
   }
@@ -142,6 +147,9 @@ export class View {
     this.trace.clear();
     if (jump?.path) this.trace.line(jump.path.flat());
     this.trace.done();
+    this.track.clear();
+    this.track.line(picture.track);
+    this.track.done();
     this.handles.follow(wanted ?? picture.handle ?? loaded.pose);
     this.points.draw(picture.points && { ...picture.points, places: this.#places(loaded) }, this.palette);
     this.handles.followPoint(this.points.place);
@@ -256,7 +264,10 @@ export class View {
     // A side of the view is a plane through the camera: of the camera's place in the plane of the picture and
     // its distance, the points bound their difference on this side and their sum on the other.
     const side = (axis, slope) => {
-      const seen = vectors.map((one) => [one.clone().sub(target).dot(axis), one.clone().sub(target).dot(back)]);
+      const seen = vectors.map((one) => [
+        one.clone().sub(target).dot(axis),
+        one.clone().sub(target).dot(back),
+      ]);
       const most = Math.max(...seen.map(([across, near]) => across / slope + near));
       const least = Math.min(...seen.map(([across, near]) => across / slope - near));
       return { distance: (most - least) / 2, shift: ((most + least) / 2) * slope };
@@ -324,15 +335,30 @@ export class View {
     this.surface.addEventListener("pointerup", (event) => {
       const still = down && Math.hypot(event.clientX - down[0], event.clientY - down[1]) < 4;
       down = null;
-      if (!still || this.handles.taken || this.handles.controls.axis || !this.slice.mesh.visible) return;
+      if (!still || this.handles.taken || this.handles.controls.axis) return;
       const box = this.surface.getBoundingClientRect();
       const at = new Vector2(
         ((event.clientX - box.left) / box.width) * 2 - 1,
         1 - ((event.clientY - box.top) / box.height) * 2,
       );
       this.#pick.setFromCamera(at, this.camera);
+      if (this.picture?.isDrawn) return this.#drawn();
+      if (!this.slice.mesh.visible) return;
       const [hit] = this.#pick.intersectObject(this.slice.mesh);
       if (hit) this.hooks.goto(hit.point.toArray());
     });
+  }
+
+  // A point of a trajectory where the pointer is, in the plane through the platform across the axis along
+  // which the camera looks most; seen from well above, that of its height.
+  #drawn() {
+    const { direction } = this.#pick.ray;
+    const size = direction.toArray().map(Math.abs);
+    const axis = size[2] > 0.25 ? 2 : size[0] > size[1] ? 0 : 1;
+    const [x, y, z] = this.picture.handle ?? this.picture.loaded.pose;
+    const normal = new Vector3().setComponent(axis, 1);
+    const plane = new Plane().setFromNormalAndCoplanarPoint(normal, new Vector3(x, y, z));
+    const hit = this.#pick.ray.intersectPlane(plane, new Vector3());
+    if (hit && hit.distanceTo(this.orbit.target) < 10 * this.box.size) this.hooks.waypoint(hit.toArray());
   }
 }
