@@ -84,7 +84,9 @@ fn a_trajectory_plays_and_is_scrubbed_and_its_numbers_follow() {
     // While it plays, what is observed is of the state before, and says so.
     assert_eq!(page.evaluate("document.querySelector('.charts').classList.contains('stale')"), true);
     page.evaluate("document.querySelector('.play').click()");
-    page.wait_for(&format!("!({SHOWN}).plays && !document.querySelector('.charts').classList.contains('stale')"));
+    page.wait_for(&format!(
+        "!({SHOWN}).plays && !document.querySelector('.charts').classList.contains('stale')"
+    ));
     let shown = page.evaluate(SHOWN);
     let [z, time] = [&shown["position"][2], &shown["time"]].map(|value| value.as_f64().unwrap());
     assert!((z - 1.75 - 0.25 * time).abs() < 3e-3, "{shown}");

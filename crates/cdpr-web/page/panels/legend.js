@@ -40,7 +40,11 @@ export function legendOf(app) {
   }
 }
 
-function scaleOf(scale) {
+/**
+ * A bar of colours with its title and three numbers.
+ * @param {function(number): number[]} scale
+ */
+export function scaleOf(scale) {
   const colors = stops(scale).map(([t, color]) => `${color} ${100 * t}%`);
   const bar = h("div", {
     class: "gradient",

@@ -47,7 +47,7 @@ export class View {
    * @param {object} robot answer to `describe`
    * @param {{grab: function(string, number[]): void, grabPoint: function(string, number[]): void,
    *   choosePoint: function(string): void, goto: function(number[]): void,
-   *   waypoint: function(number[]): void}} hooks
+   *   waypoint: function(number[]): void}|null} hooks of a hand; the robot is not moved without them
    */
   constructor(container, robot, hooks) {
     this.container = container;
@@ -81,6 +81,16 @@ export class View {
     this.points = new PointMarks(this.scene, container, robot.cables);
     this.trace = new Segments(this.scene, 400, { linewidth: 2, opacity: 0.8 });
     this.track = new Segments(this.scene, 2100, { linewidth: 2.5 });
+    if (hooks) this.#takeHandles();
+    this.resize = new ResizeObserver(() => this.fit());
+    this.resize.observe(container);
+    this.fit();
+    this.look("default");
+    this.#frame = requestAnimationFrame(this.#loop);
+  }
+
+  #takeHandles() {
+    const { hooks, robot } = this;
     const taken = (tell) => (phase, place) => {
       this.orbit.enabled = phase === "end";
       tell(phase, place);
@@ -91,11 +101,6 @@ export class View {
       change: () => this.invalidate(),
     });
     this.#listen();
-    this.resize = new ResizeObserver(() => this.fit());
-    this.resize.observe(container);
-    this.fit();
-    this.look("default");
-    this.#frame = requestAnimationFrame(this.#loop);
   }
 
   /** @param {object} palette */
@@ -150,9 +155,9 @@ export class View {
     this.track.clear();
     this.track.line(picture.track);
     this.track.done();
-    this.handles.follow(wanted ?? picture.handle ?? loaded.pose);
+    this.handles?.follow(wanted ?? picture.handle ?? loaded.pose);
     this.points.draw(picture.points && { ...picture.points, places: this.#places(loaded) }, this.palette);
-    this.handles.followPoint(this.points.place);
+    this.handles?.followPoint(this.points.place);
     this.#pose(0);
     this.invalidate();
   }
@@ -216,6 +221,18 @@ export class View {
     this.invalidate();
   }
 
+  /** Raises the camera about its target [rad]. */
+  tilt(angle) {
+    this.#release();
+    const back = this.camera.position.clone().sub(this.orbit.target);
+    const height = Math.asin(back.z / back.length());
+    const right = new Vector3().crossVectors(this.camera.up, back).normalize();
+    const step = Math.min(1.5, Math.max(-1.5, height + angle)) - height;
+    this.camera.position.copy(back.applyAxisAngle(right, -step).add(this.orbit.target));
+    this.orbit.update();
+    this.invalidate();
+  }
+
   /** Takes the size of its container. */
   fit() {
     const { clientWidth, clientHeight } = this.container;
@@ -245,7 +262,7 @@ export class View {
   dispose() {
     cancelAnimationFrame(this.#frame);
     this.resize.disconnect();
-    this.handles.dispose();
+    this.handles?.dispose();
     this.orbit.dispose();
     this.renderer.dispose();
     this.surface.remove();
