@@ -9,6 +9,7 @@ mod analysis;
 mod calibration;
 mod elements;
 mod glance;
+mod plot;
 mod poses;
 mod results;
 mod robot;

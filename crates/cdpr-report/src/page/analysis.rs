@@ -116,7 +116,7 @@ fn verdict(analysis: &Analysis) -> Markup {
     let verdict = &analysis.verdict;
     let head = ["level", "rows", "mean"];
     html! {
-        @for sentence in &verdict.sentences { p { (sentence) "." } }
+        @for sentence in &verdict.sentences { p { (text::capital(sentence)) "." } }
         p {
             (counted(verdict.tests, "test")) " of all inputs and measures, corrected together: one or more \
              false certainties in 5 % of all tables at most."
