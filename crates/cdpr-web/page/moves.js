@@ -73,6 +73,8 @@ export class Moves {
     const before = state.trajectory.length > 0 ? state.trajectory : [row(state.position)];
     const isSame = JSON.stringify(before.at(-1).slice(1)) === JSON.stringify(row(position).slice(1));
     this.app.speedCounts = true;
+    // The platform goes to the end.
+    this.app.player.time = Infinity;
     const trajectory = timed(isSame ? before : [...before, row(position)], speed, arm);
     store.set({ trajectory, position }, { commit: true });
   }

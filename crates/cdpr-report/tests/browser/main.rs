@@ -9,6 +9,7 @@
 mod common;
 mod explorer;
 mod fields;
+mod kinds;
 mod layout;
 mod page;
 mod points;

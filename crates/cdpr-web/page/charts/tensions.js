@@ -53,7 +53,13 @@ export function tensionChart({ times, found }, { width, height, selected, bounds
     );
   });
   const parts = [...bands(times, found, x, frame, palette), ...grid, ...limits, ...curves, ...clock];
-  return svg(width, height, title, [...parts, text(2, 12, "N", palette.soft, "start")], palette);
+  return svg(
+    width,
+    height,
+    title,
+    [...parts, text(frame.left + 5, frame.top + 11, "tension [N]", palette.soft, "start")],
+    palette,
+  );
 }
 
 // The line of a cable, with a gap where the platform is not held or nothing is computed yet.
@@ -73,18 +79,21 @@ function curve(found, times, k, x, y) {
     .join("");
 }
 
-// Where the platform is not held, and where a tension is out of its limits.
+// Where the platform is not held, and where a tension is out of its limits: a band for each stretch of time.
 function bands(times, found, x, { top, bottom }, palette) {
-  return times.flatMap((time, i) => {
-    const one = found[i];
-    const isOut = one?.failure || one?.limits.some(Boolean);
-    if (!isOut) return [];
-    const [from, to] = [(times[i - 1] ?? time) + time, (times[i + 1] ?? time) + time].map((sum) =>
-      x(sum / 2),
-    );
-    const opacity = `fill-opacity="${one.failure ? 0.3 : 0.12}"`;
-    return [rect(from, top, Math.max(to - from, 1), bottom - top, palette.warn, opacity)];
+  const kind = (one) => (one?.failure ? 0.3 : one?.limits.some(Boolean) ? 0.12 : 0);
+  const runs = [];
+  times.forEach((time, i) => {
+    const opacity = kind(found[i]);
+    const [from, to] = [times[i - 1] ?? time, times[i + 1] ?? time].map((other) => x((other + time) / 2));
+    if (runs.at(-1)?.opacity === opacity) runs.at(-1).to = to;
+    else runs.push({ opacity, from, to });
   });
+  return runs
+    .filter(({ opacity }) => opacity > 0)
+    .map(({ opacity, from, to }) =>
+      rect(from, top, Math.max(to - from, 1), bottom - top, palette.warn, `fill-opacity="${opacity}"`),
+    );
 }
 
 /** The trajectory in a sentence: what is computed, what is not held, and between which tensions. */

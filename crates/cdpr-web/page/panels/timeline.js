@@ -109,6 +109,7 @@ export function timelinePanel(app) {
     cursor.style.transform = `translateX(${(left + share * (right - left)).toFixed(1)}px)`;
     cursor.classList.toggle("off", !player.isOnPath);
     setText(words, trackWords(player.track));
+    words.title = words.textContent;
   }
 }
 

@@ -62,7 +62,7 @@ export class PointMarks {
     const seen = this.place && this.#project(this.place, camera, width, height);
     this.label.style.display = seen ? "" : "none";
     if (!seen) return;
-    const [x, y] = [Math.min(seen[0] + 12, width - 190), Math.max(seen[1] - 34, 0)];
+    const [x, y] = [Math.min(seen[0] + 12, width - this.label.offsetWidth - 2), Math.max(seen[1] - 34, 0)];
     this.label.style.transform = `translate(${x.toFixed(1)}px,${y.toFixed(1)}px)`;
   }
 
