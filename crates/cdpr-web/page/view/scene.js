@@ -25,6 +25,8 @@ import { SlicePicture } from "./slice.js";
 
 const LOOKS = { default: [-0.75, -1.25, 0.5], top: [0, -1e-3, 1], front: [0, -1, 0.02], side: [1, 0, 0.02] };
 const PERIOD = 1.6;
+// Height of the buttons in the view [px], below which the robot begins.
+const TOOLS = 36;
 
 /**
  * @typedef {{loaded: object, unloaded: object|null, wanted: number[]|null, faded: boolean, sag: number,
@@ -278,18 +280,21 @@ export class View {
     const tangent = 0.93 * Math.tan((this.camera.fov * Math.PI) / 360);
     const vectors = points.map((point) => new Vector3(...point));
     const target = vectors.reduce((sum, one) => sum.addScaledVector(one, 1 / points.length), new Vector3());
-    // A side of the view is a plane through the camera: of the camera's place in the plane of the picture and
-    // its distance, the points bound their difference on this side and their sum on the other.
-    const side = (axis, slope) => {
+    // Each side of the view is a plane through the camera. With the slopes of two opposite planes, the points
+    // bound the distance d and the shift s of the camera: a / upper + n <= d + s / upper, n - a / lower <=
+    // d - s / lower, where a is the place of a point along the axis and n how near it is.
+    const fitted = (axis, lower, upper) => {
       const seen = vectors.map((one) => [
         one.clone().sub(target).dot(axis),
         one.clone().sub(target).dot(back),
       ]);
-      const most = Math.max(...seen.map(([across, near]) => across / slope + near));
-      const least = Math.min(...seen.map(([across, near]) => across / slope - near));
-      return { distance: (most - least) / 2, shift: ((most + least) / 2) * slope };
+      const above = Math.max(...seen.map(([along, near]) => along / upper + near));
+      const below = Math.max(...seen.map(([along, near]) => near - along / lower));
+      const shift = (above - below) / (1 / lower + 1 / upper);
+      return { distance: below + shift / lower, shift };
     };
-    const [across, along] = [side(right, tangent * this.camera.aspect), side(up, tangent)];
+    const across = fitted(right, tangent * this.camera.aspect, tangent * this.camera.aspect);
+    const along = fitted(up, tangent, tangent * (1 - Math.min(0.3, (2 * TOOLS) / this.height)));
     target.addScaledVector(right, across.shift).addScaledVector(up, along.shift);
     this.orbit.target.copy(target);
     this.camera.position.copy(target).addScaledVector(back, Math.max(across.distance, along.distance));
