@@ -11,7 +11,7 @@ mod setting;
 mod system;
 mod winch;
 
-pub use event::{Change, Event, events_from_json, events_schema};
+pub use event::{Change, CutAt, Event, events_from_json, events_schema};
 pub use radau::Work;
 pub use run::{Difference, Energy, Sample, Series};
 pub use setting::{Discretization, Settings};

@@ -29,6 +29,8 @@ pub(super) struct CableInMotion<'a> {
     pub(super) mesh: Option<Mesh>,
     /// Unstrained length at rest, of the free part or, without elements, of the whole cable [m].
     pub(super) length: f64,
+    /// Least tension at rest [N].
+    pub(super) least_tension: f64,
     pub(super) ramps: Vec<Ramp>,
     /// Index of its first unknown.
     pub(super) first: usize,
@@ -375,7 +377,7 @@ impl Part {
             let row = &rule.slopes[j];
             let share = 2.0 / self.length * rule.points[j][1] * row[a] * row[b];
             let along: Matrix3<f64> = pull.along * pull.along.transpose();
-            let across = pull.tension.max(0.0) / pull.stretch;
+            let across = pull.across / pull.stretch;
             blocks[0] += (along * (pull.modulus - across) + Matrix3::identity() * across) * share;
             blocks[1] += along * (pull.viscosity * share);
         }
@@ -387,7 +389,7 @@ impl Pull {
     /// Stiffness of a straight cable of an unstrained length and a length across which it turns [m].
     fn stiffness(&self, length: f64, free: f64) -> Matrix3<f64> {
         let along = self.along * self.along.transpose();
-        along * (self.modulus / length) + (Matrix3::identity() - along) * (self.tension.max(0.0) / free)
+        along * (self.modulus / length) + (Matrix3::identity() - along) * (self.across / free)
     }
 
     fn damping(&self, length: f64) -> Matrix3<f64> {

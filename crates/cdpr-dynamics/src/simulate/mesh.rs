@@ -28,6 +28,9 @@ pub(super) struct Material<'a> {
     pub(super) density: f64,
     /// Ratio of viscous to elastic modulus [s].
     pub(super) damping: f64,
+    /// While a rest is searched for: the cable pushes, too, and resists motions across it as with this tension
+    /// at least [N].
+    pub(super) relaxing: Option<f64>,
 }
 
 /// Tension at a point and what it depends on.
@@ -45,6 +48,8 @@ pub(super) struct Pull {
     pub(super) rate: f64,
     /// dT/dε [N], zero of a slack cable.
     pub(super) modulus: f64,
+    /// What resists motions across the cable [N].
+    pub(super) across: f64,
     /// Viscous modulus [N s].
     pub(super) viscosity: f64,
 }
@@ -58,16 +63,21 @@ impl Material<'_> {
     }
 
     pub(super) fn stretched(&self, along: Vector3<f64>, stretch: f64, rate: f64) -> Pull {
-        let elastic = self.cable.tension(stretch - 1.0);
+        let mut elastic = self.cable.tension(stretch - 1.0);
+        if let (Some(_), true) = (self.relaxing, elastic <= 0.0) {
+            elastic = self.cable.tangent_stiffness(0.0) * (stretch - 1.0 - self.cable.strain(0.0));
+        }
         let slope = self.cable.tangent_stiffness(elastic);
         let viscosity = self.damping * slope;
+        let tension = elastic + viscosity * rate;
         Pull {
             along,
-            tension: elastic + viscosity * rate,
+            tension,
             elastic,
             stretch,
             rate,
-            modulus: if elastic > 0.0 { slope } else { 0.0 },
+            modulus: if elastic > 0.0 || self.relaxing.is_some() { slope } else { 0.0 },
+            across: tension.max(self.relaxing.unwrap_or(0.0)),
             viscosity,
         }
     }
@@ -112,7 +122,39 @@ pub(super) struct Mesh {
     pub(super) ends: Vec<f64>,
 }
 
+impl Points {
+    /// Points that do not move.
+    pub(super) fn still(positions: impl Iterator<Item = Vector3<f64>>) -> Self {
+        let positions: Vec<_> = positions.collect();
+        Self { velocities: vec![Vector3::zeros(); positions.len()], positions }
+    }
+}
+
 impl Mesh {
+    /// Elements of the same length.
+    pub(super) fn equal(elements: usize) -> Self {
+        Self { ends: (0..=elements).map(|k| k as f64 / elements as f64).collect() }
+    }
+
+    /// Whether the tensions at its points are those that a static shape has at these shares.
+    pub(super) fn is_exact(
+        &self,
+        rule: &Rule,
+        material: &Material,
+        (length, points): (f64, &Points),
+        tension_at: impl Fn(f64) -> f64,
+    ) -> bool {
+        /// Greatest error of a tension, relative to it.
+        const ERROR: f64 = 1e-3;
+        let shares = self.shares(rule);
+        let pulls = self.forces(rule, material, (length, 0.0), points).pulls;
+        pulls.iter().enumerate().all(|(k, pull)| {
+            let point = k / (rule.degree + 1) * rule.degree + k % (rule.degree + 1);
+            let expected = tension_at(shares[point]);
+            (pull.tension - expected).abs() <= ERROR * expected
+        })
+    }
+
     pub(super) fn parts(&self, rule: &Rule, length: f64) -> impl Iterator<Item = Part> {
         self.ends.windows(2).enumerate().map(move |(e, ends)| Part {
             first: e * rule.degree,

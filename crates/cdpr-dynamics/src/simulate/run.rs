@@ -266,6 +266,7 @@ impl System<'_> {
     /// Newton's method for the rest of the discrete cables, with the platform free or held; the greatest
     /// acceleration that is left [m/s²].
     fn relax(&mut self, state: &mut Vec<f64>, is_free: bool) -> f64 {
+        const LEAST_STEPS: usize = 5;
         const MOST_STEPS: usize = 30;
         /// Angular frequency that keeps the matrix regular [1/s].
         const SHIFT: f64 = 1e-3;
@@ -274,16 +275,20 @@ impl System<'_> {
         if !is_free {
             self.free = [false; 6];
         }
-        let mut best = f64::INFINITY;
+        let greatest =
+            |slopes: &[f64]| slopes[n..].iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+        let mut best = greatest(&self.slopes(0.0, state));
         let mut found = (state.clone(), self.rotation);
-        for _ in 0..MOST_STEPS {
+        self.cables.iter_mut().for_each(|cable| cable.material.relaxing = Some(cable.least_tension));
+        for step in 0..MOST_STEPS {
             let slopes = self.slopes(0.0, state);
-            let residual = slopes[n..].iter().fold(0.0, |most: f64, value| most.max(value.abs()));
-            if !(residual < best) {
+            let residual = greatest(&slopes);
+            if residual < best {
+                best = residual;
+                found = (state.clone(), self.rotation);
+            } else if step > LEAST_STEPS {
                 break;
             }
-            best = residual;
-            found = (state.clone(), self.rotation);
             let matrices = self.linearize(0.0, state);
             let Some(factors) = matrices.factor(SHIFT) else { break };
             let mut right = slopes;
@@ -294,7 +299,8 @@ impl System<'_> {
         }
         (*state, self.rotation) = found;
         self.free = free;
-        best
+        self.cables.iter_mut().for_each(|cable| cable.material.relaxing = None);
+        greatest(&self.slopes(0.0, state))
     }
 
     /// After the platform was displaced: the leads are those of the rest, and their ends are where they fit

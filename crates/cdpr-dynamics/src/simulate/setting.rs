@@ -2,7 +2,7 @@
 
 use super::cable::{CableInMotion, Start};
 use super::lead::{Lead, Rest};
-use super::mesh::{Material, Mesh, Rule};
+use super::mesh::{Material, Mesh, Points, Rule};
 use super::system::{Body, System};
 use crate::error::{DynamicsError, positive};
 use cdpr_cable::{Cable, FromLeavePoint};
@@ -51,6 +51,9 @@ pub struct Settings {
     /// Error of a step that is accepted, as a position [m].
     pub tolerance: f64,
 }
+
+/// Most elements of a cable.
+const MOST_ELEMENTS: usize = 128;
 
 impl Settings {
     /// Motion until a time [s] with 100 samples for each second, without damping.
@@ -142,7 +145,7 @@ impl Settings {
         let free = whole.free();
         let density = at_rest.linear_density;
         let material =
-            Material { cable: Cable { guide: None, ..free.cable }, density, damping: self.damping };
+            Material { cable: Cable { guide: None, ..free.cable }, density, damping: self.damping, relaxing: None };
         let end = rest.pose.position + at_rest.lever;
         let lift = |x: f64, z: f64| at_rest.axes * Vector3::new(x, 0.0, z);
         let last = if whole.is_limp() { None } else { Some(free.end_position()) };
@@ -161,8 +164,17 @@ impl Settings {
         let direction = if tension > 0.0 { begin / tension } else { (end - leave).normalize() };
         let rest = Rest { anchor: end, leave, direction, tension };
         let lead = Lead::new(robot, index, &material, &rest);
-        let mesh = (density > 0.0).then(|| Mesh {
-            ends: (0..=elements).map(|k| k as f64 / elements as f64).collect(),
+        let tension_at = |share: f64| free.tension(FromLeavePoint(share * free.unstrained_length));
+        let mesh = (density > 0.0).then(|| {
+            let mut mesh = Mesh::equal(elements);
+            while rule.degree > 1 && !whole.is_limp() && mesh.ends.len() <= MOST_ELEMENTS {
+                let still = Points::still(mesh.shares(rule).iter().map(|share| point(*share)));
+                if mesh.is_exact(rule, &material, (free.unstrained_length, &still), tension_at) {
+                    break;
+                }
+                mesh = Mesh::equal(2 * (mesh.ends.len() - 1));
+            }
+            mesh
         });
         let mut own = Vec::new();
         if let Some(mesh) = &mesh {
@@ -177,6 +189,7 @@ impl Settings {
             start: lead.map_or(Start::Fixed(exit), Start::Led),
             length: if mesh.is_some() { free.unstrained_length } else { whole.unstrained_length },
             mesh,
+            least_tension: tension_at(free.lowest_arc_length().0 / free.unstrained_length),
             ramps: Vec::new(),
             first: 0,
         };
