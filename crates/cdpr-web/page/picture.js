@@ -32,7 +32,7 @@ export function pictureOf(app) {
     force: forceArrow(app),
     jump,
     pins: pinPoses(state),
-    track: trackLine(player),
+    track: player.line,
     isDrawn: handle === "draw",
     points: handle === "points" ? { chosen: point, numbers: point && pointOf(robot, point) } : null,
   };
@@ -44,10 +44,4 @@ function forceArrow({ mechanics: { pull }, store: { state }, size, robot }) {
   const newtons = Math.hypot(...force);
   const length = (0.22 * size * newtons) / (newtons + robot.mass * 9.81);
   return newtons > 0 ? force.map((value) => (value / newtons) * length) : null;
-}
-
-// The positions of the trajectory, as many as the view draws.
-function trackLine({ rows, track }) {
-  const shown = track?.every > 1 ? rows.filter((_, k) => k % track.every === 0) : rows;
-  return shown.flatMap((row) => row.slice(1, 4));
 }

@@ -103,7 +103,7 @@ export function trackWords({ times, found, done, every }) {
   const tensions = found.flatMap((one) => one?.tensions ?? []);
   const [least, greatest] = tensions.reduce(([a, b], t) => [Math.min(a, t), Math.max(b, t)], [Infinity, 0]);
   const parts = [done < times.length ? `${done} of ${times.length} poses computed` : `${times.length} poses`];
-  if (every > 1) parts[0] += `, every ${every}th of the table`;
+  if (every > 1) parts[0] += `, one in ${every} of the table`;
   if (tensions.length > 0) parts.push(`tensions ${digits(least, 3)} to ${digits(greatest, 3)} N`);
   if (out > 0) parts.push(`${out} with a tension out of its limits`);
   const [first] = failed;

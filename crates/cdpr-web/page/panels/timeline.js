@@ -98,7 +98,9 @@ export function timelinePanel(app) {
     const width = Math.max(200, track.clientWidth);
     const bounds = boundsOf(app);
     other([player.track, player.track.done, width, selected, palette, ...bounds], () => {
-      const title = `Tensions along the trajectory: ${trackWords(player.track)}`;
+      setText(words, trackWords(player.track));
+      words.title = words.textContent;
+      const title = `Tensions along the trajectory: ${words.textContent}`;
       chart.innerHTML = tensionChart(
         player.track,
         { width, height: HEIGHT, selected, bounds, title },
@@ -108,8 +110,6 @@ export function timelinePanel(app) {
     const { left, right } = frame();
     cursor.style.transform = `translateX(${(left + share * (right - left)).toFixed(1)}px)`;
     cursor.classList.toggle("off", !player.isOnPath);
-    setText(words, trackWords(player.track));
-    words.title = words.textContent;
   }
 }
 

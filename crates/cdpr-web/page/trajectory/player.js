@@ -16,6 +16,8 @@ export class Player {
   factor = 1;
   /** {times, every, found, done}; `found`: {tensions, limits, deflection} or {failure} at each time. */
   track = null;
+  /** The positions of the trajectory [m], one after the other, as many as the view draws. */
+  line = [];
   #key = "";
   #rows = null;
   #frame = 0;
@@ -47,6 +49,10 @@ export class Player {
       this.time = rows.length > 0 ? Math.min(Math.max(this.time, rows[0][0]), duration(rows)) : 0;
     }
     this.track = key ? { ...sampleTimes(rows), found: [], done: 0 } : null;
+    if (isOther) {
+      const every = this.track?.every ?? 1;
+      this.line = rows.filter((_, k) => k % every === 0).flatMap((row) => row.slice(1, 4));
+    }
     if (this.track) this.#ask(state);
     this.told();
   }

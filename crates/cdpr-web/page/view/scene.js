@@ -42,6 +42,8 @@ export class View {
   // The look that the camera keeps when the size of the view changes, until a hand turns it.
   #kept = null;
   #frame = 0;
+  // The trajectory that is drawn.
+  #line = null;
   #pick = new Raycaster();
 
   /**
@@ -154,9 +156,12 @@ export class View {
     this.trace.clear();
     if (jump?.path) this.trace.line(jump.path.flat());
     this.trace.done();
-    this.track.clear();
-    this.track.line(picture.track);
-    this.track.done();
+    if (this.#line !== picture.track) {
+      this.#line = picture.track;
+      this.track.clear();
+      this.track.line(picture.track);
+      this.track.done();
+    }
     this.handles?.follow(wanted ?? picture.handle ?? loaded.pose);
     this.points.draw(picture.points && { ...picture.points, places: this.#places(loaded) }, this.palette);
     this.handles?.followPoint(this.points.place);
