@@ -2,7 +2,7 @@
 
 import { angles, quaternion, rounded, vectorBetween } from "../rotation.js";
 
-// Poses at which tensions are asked for: about so many between few rows, and at most so many of many.
+// Number of poses at which tensions are asked for: about FEW where there are few rows, and at most MANY.
 const FEW = 120;
 const MANY = 2000;
 
