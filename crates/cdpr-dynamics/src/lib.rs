@@ -28,7 +28,9 @@ mod error;
 mod modes;
 mod platform;
 mod polynomial;
+mod swing;
 
 pub use error::DynamicsError;
 pub use modes::{Mode, Modes, Wanted, modes_at};
 pub use platform::MovingPlatform;
+pub use swing::Swing;

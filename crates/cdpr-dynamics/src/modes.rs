@@ -27,6 +27,8 @@ pub enum Wanted {
     Below(f64),
     /// This many, the slowest.
     Number(usize),
+    /// All up to twice the lowest frequency on cables without mass, or further up to the first one.
+    OfPlatform,
 }
 
 /// A natural motion of platform and cables, of unit mass.
@@ -85,6 +87,11 @@ impl Modes {
         let neutral = massless.iter().filter(|frequency| **frequency == 0.0).count();
         let (platform, bound, number) = match wanted {
             Wanted::Below(bound) => (MovingPlatform::new(problem, equilibrium, bound)?, bound, None),
+            Wanted::OfPlatform => {
+                let slowest = massless.get(neutral).copied();
+                let (platform, bound) = near_platform(problem, equilibrium, neutral, slowest)?;
+                (platform, bound, None)
+            }
             Wanted::Number(number) => {
                 positive("number of motions", number as f64, "one at least")?;
                 let slowest = massless.get(neutral).copied();
@@ -102,6 +109,11 @@ impl Modes {
         }
         let (equilibrium, lengths) = (equilibrium.clone(), problem.lengths().to_vec());
         Ok(Self { modes, complete_below, counted, equilibrium, lengths })
+    }
+
+    /// The slowest motion that something resists.
+    pub fn lowest(&self) -> Option<&Mode> {
+        self.modes.iter().find(|mode| mode.frequency > 0.0)
     }
 
     /// The motion in which platform and payload have the largest share.
@@ -124,6 +136,24 @@ pub fn modes_at<'a>(
     let problem = DirectProblem::new(robot, &found.lengths, load)?;
     let rest = problem.direct(DirectStart::Near(&found.equilibrium))?;
     Modes::new(&problem, &rest.equilibrium, wanted)
+}
+
+/// A platform, and twice its lowest frequency on cables without mass [Hz], or more where it has no motion below
+/// but the `neutral` ones.
+fn near_platform(
+    problem: &DirectProblem,
+    equilibrium: &Equilibrium,
+    neutral: usize,
+    slowest: Option<f64>,
+) -> Result<(MovingPlatform, f64), DynamicsError> {
+    const REACH: f64 = 2.0;
+    let Some(slowest) = slowest else { return reach(problem, equilibrium, neutral + 1, None) };
+    let bound = REACH * slowest;
+    let platform = MovingPlatform::new(problem, equilibrium, bound)?;
+    if platform.count(bound) > neutral {
+        return Ok((platform, bound));
+    }
+    reach(problem, equilibrium, neutral + 1, Some(slowest))
 }
 
 /// A platform, and a frequency [Hz] below which it has `number` natural motions at least.
