@@ -118,7 +118,8 @@ fn outcomes(workspace: &Workspace, poses: &[Pose]) -> Vec<Result<Held, StaticsEr
         return held;
     }
     let one = |(held, wanted): (Result<Held, StaticsError>, &Result<InverseSolution, StaticsError>)| {
-        let (held, InverseSolution { lengths, equilibrium, .. }) = (held?, wanted.as_ref().map_err(Clone::clone)?);
+        let (held, InverseSolution { lengths, equilibrium, .. }) =
+            (held?, wanted.as_ref().map_err(Clone::clone)?);
         let found = deflection_from(robot, lengths.clone(), load, equilibrium);
         Ok(Held { swing: found.ok().and_then(|found| swing(workspace, &found)), ..held })
     };

@@ -223,7 +223,10 @@ fn a_platform_with_an_inertia_swings_with_its_cables_under_the_load() {
             let Ok(held) = &found.outcome else { continue };
             let swing = held.swing.unwrap();
             assert_eq!(row.lowest_frequency_hz, Some(swing.lowest));
-            assert_eq!((row.platform_frequency_hz, row.platform_share), (Some(swing.platform), Some(swing.platform_share)));
+            assert_eq!(
+                (row.platform_frequency_hz, row.platform_share),
+                (Some(swing.platform), Some(swing.platform_share))
+            );
             // The lengths are those without the load.
             let exact = deflection(&robot, &found.pose, &load).unwrap();
             let problem = DirectProblem::new(&robot, &exact.lengths, &load).unwrap();

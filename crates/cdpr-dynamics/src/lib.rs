@@ -23,14 +23,20 @@
 mod cable;
 mod condensed;
 mod dense;
+mod derivatives;
 mod element;
+mod energy;
 mod error;
+mod free;
 mod modes;
 mod platform;
 mod polynomial;
+mod response;
 mod swing;
 
+pub use derivatives::FrequencyDerivatives;
 pub use error::DynamicsError;
 pub use modes::{Mode, Modes, Wanted, modes_at};
 pub use platform::MovingPlatform;
+pub use response::{Damping, FrequencyResponse, Response};
 pub use swing::Swing;

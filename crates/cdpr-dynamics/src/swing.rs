@@ -7,16 +7,17 @@ use cdpr_statics::{DirectProblem, Equilibrium};
 /// How fast a platform on cables with mass swings.
 ///
 /// The slowest motion may be that of a cable, in which the platform hardly takes part. The second one is that of
-/// the largest share of the platform among those up to twice its lowest frequency on cables without mass.
+/// [`Modes::of_platform`] among those up to twice the lowest frequency on cables without mass: it contains most
+/// of the platform's slowest motion there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Swing {
     /// The lowest natural frequency of platform and cables [Hz], without motions that nothing resists.
     pub lowest: f64,
     /// Share of platform and payload in the kinetic energy of that motion.
     pub lowest_share: f64,
-    /// The frequency of the motion in which platform and payload have the largest share [Hz].
+    /// The frequency with which the platform swings [Hz].
     pub platform: f64,
-    /// That share.
+    /// Share of platform and payload in the kinetic energy of that motion.
     pub platform_share: f64,
 }
 

@@ -54,6 +54,16 @@ impl<'a> DirectProblem<'a> {
         Self { length_of_rotations: Some(length), ..self }
     }
 
+    /// The robot.
+    pub fn robot(&self) -> &'a Robot {
+        self.robot
+    }
+
+    /// The load.
+    pub fn load(&self) -> &Load {
+        &self.load
+    }
+
     /// Unstrained lengths [m].
     pub fn lengths(&self) -> &'a [f64] {
         self.lengths

@@ -27,9 +27,9 @@ pub struct WorkspaceRow {
     /// |dp|.
     pub magnitude_mm: Option<f64>,
     pub least_stiffness: Option<f64>,
-    /// Frequency of the motion with the largest share of the platform, with the load and the mass of cables.
+    /// Frequency with which the platform swings with the load, the mass of cables included.
     pub platform_frequency_hz: Option<f64>,
-    /// That share, of the kinetic energy.
+    /// Share of the platform in the kinetic energy of that motion.
     pub platform_share: Option<f64>,
     /// Lowest natural frequency of platform and cables with the load.
     pub lowest_frequency_hz: Option<f64>,

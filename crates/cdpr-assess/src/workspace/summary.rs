@@ -53,7 +53,7 @@ pub struct WorkspaceSummary {
     pub magnitude_mm: Option<Extremes>,
     /// Stiffness of the softest motion [N/m].
     pub least_stiffness: Option<Extremes>,
-    /// Frequency of the motion with the largest share of the platform [Hz]; absent without
+    /// Frequency with which the platform swings [Hz]; absent without
     /// `platform.inertia`.
     pub platform_frequency_hz: Option<Extremes>,
     /// Lowest natural frequency of platform and cables [Hz]; as that of the platform.

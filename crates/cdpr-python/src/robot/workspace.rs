@@ -37,10 +37,9 @@ answer! {
         magnitude: Py<PyAny>,
         /// Stiffness of the softest motion with the load [N/m], (m,).
         least_stiffness: Py<PyAny>,
-        /// Frequency of the natural motion of platform and cables in which the platform has the largest share,
-        /// with the load [Hz], (m,); NaN for a robot without inertia.
+        /// Frequency with which the platform swings with the load, the mass of cables included [Hz], (m,); NaN for a robot without inertia.
         platform_frequency: Py<PyAny>,
-        /// That share, of the kinetic energy, (m,).
+        /// Share of the platform in the kinetic energy of that motion, (m,).
         platform_share: Py<PyAny>,
         /// Lowest natural frequency of platform and cables with the load [Hz], (m,).
         lowest_frequency: Py<PyAny>,
