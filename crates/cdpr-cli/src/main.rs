@@ -77,6 +77,15 @@ enum Command {
   cdpr modes cogiro --pose 0,0,2 --below 6 --format json
   cdpr modes cogiro --pose 0,0,2 --massless")]
     Modes(pose::modes::Settings),
+    /// Shake the platform: its amplitude over the frequency.
+    ///
+    /// By a force at a point of the platform, and by each winch, with the mass and the damping of the cables.
+    /// Without `inertia` in the robot file that of a ball is assumed.
+    #[command(after_help = "Examples:
+  cdpr response cogiro --pose 0,0,2 --below 20
+  cdpr response cogiro --pose 0,0,2 --below 20 --format csv > response.csv
+  cdpr response cogiro --pose 0,0,2 --below 20 --damping 1e-3 --marker 0,0,0.5 --figure response.svg")]
+    Response(pose::response::Settings),
     /// Find what a robot can carry at a pose.
     ///
     /// And how far its tensions are from their limits: with the tensions distributed again by the winches,
@@ -89,7 +98,7 @@ enum Command {
     Capacity(pose::capacity::Settings),
     /// Compute exact derivatives by every parameter.
     ///
-    /// Derivatives of lengths, deflection, lowest stiffness and lowest natural frequency.
+    /// Derivatives of lengths, deflection, lowest stiffness and frequency of the platform.
     #[command(after_help = "Example: cdpr derivatives data/robots/caroca.json --pose 0,0,1.75 --payload 50 \
                       --format json")]
     Derivatives(pose::derivatives::Settings),
@@ -104,7 +113,7 @@ enum Command {
     Hysteresis(pose::hysteresis::Settings),
     /// Follow a path: lengths, tensions, deflection, stiffness.
     ///
-    /// Also sag and lowest natural frequency, a row for each pose.
+    /// Also sag and natural frequencies, a row for each pose.
     #[command(after_help = "Examples:
   cdpr path data/robots/caroca.json --poses data/poses/caroca.csv --payload 50 > path.csv
   cdpr path data/robots/caroca.json --poses data/poses/caroca.csv --payload 50 \
@@ -211,6 +220,7 @@ fn run(command: Command) -> Result<Ending, ProgramError> {
         Command::Deflection(settings) => return pose::deflection::run(&settings),
         Command::Stiffness(settings) => return pose::stiffness::run(&settings),
         Command::Modes(settings) => return pose::modes::run(&settings),
+        Command::Response(settings) => return pose::response::run(&settings),
         Command::Capacity(settings) => return pose::capacity::run(&settings),
         Command::Derivatives(settings) => return pose::derivatives::run(&settings),
         Command::Hysteresis(settings) => return pose::hysteresis::run(&settings),

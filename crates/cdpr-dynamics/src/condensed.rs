@@ -30,7 +30,8 @@ pub(crate) struct Condensed<const D: usize> {
     pub(crate) modes: Vec<Clamped<D>>,
     /// The unknowns but the end, by motions of the end: the static shapes.
     shapes: DMatrix<f64>,
-    /// L of the stiffness `K = L Lᵀ`, and the eigenvectors w of the squares of the periods, the fastest first.
+    /// L of the stiffness `K = L Lᵀ`, and the eigenvectors w of the squares of the periods, the fastest
+    /// first.
     lower: DMatrix<f64>,
     vectors: DMatrix<f64>,
 }
@@ -89,7 +90,8 @@ impl<const D: usize> Condensed<D> {
         end.into_iter().chain(inside.iter().copied()).collect()
     }
 
-    /// The motions up to `square` = ω² [1/s²], and D more that act on slow motions as all faster ones do: with
+    /// The motions up to `square` = ω² [1/s²], and D more that act on slow motions as all faster ones do:
+    /// with
     ///
     /// ```text
     /// R = sum c cᵀ/ω_k² = G Gᵀ,    S = sum c cᵀ/ω_k⁴,    G⁺ S G⁺ᵀ = Q W⁻² Qᵀ                       (N5)

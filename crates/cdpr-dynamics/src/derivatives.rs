@@ -7,21 +7,19 @@
 //! vᵀ K_g v = -sum F_i·(v_r x (v_r x s_i)) - F_w·(v_r x (v_r x R c))
 //! ```
 //!
-//! with Q_i of (N8) and the motions `u_i = v_p + v_r x s_i` of the anchor points; M is the mass of platform and
-//! payload. Pose and forces of the equilibrium change with every input. The motion comes from inverse
+//! with Q_i of (N8) and the motions `u_i = v_p + v_r x s_i` of the anchor points; M is the mass of platform
+//! and payload. Pose and forces of the equilibrium change with every input. The motion comes from inverse
 //! iteration on (N6) with all motions of the cables, which are eliminated.
 
-use crate::cable::{HeldMode, MovingCable, Parts};
+use crate::cable::Parts;
 use crate::energy::{CableEnergy, Change};
 use crate::error::DynamicsError;
 use crate::modes::{Modes, Wanted};
+use crate::motion::{Motion, end, none};
 use cdpr_robot::{CableEnd, Parameter, Robot};
 use cdpr_statics::derivatives::{ForceDerivatives, Inputs};
 use cdpr_statics::vibration::{CableAtRest, SmallMotions};
-use cdpr_statics::{
-    DMatrix, Deflection, Derivatives, DirectProblem, Equilibrium, Load, Matrix6, StaticsError, Vector3,
-    Vector6,
-};
+use cdpr_statics::{DMatrix, Deflection, Derivatives, DirectProblem, Equilibrium, Load, Vector3, Vector6};
 use std::f64::consts::TAU;
 
 /// Natural frequencies nearer to each other than this, relative to them, are one: neither has a derivative.
@@ -29,8 +27,8 @@ const SAME: f64 = 1e-6;
 
 /// Derivatives of a natural frequency of platform and cables.
 ///
-/// They hold for changes of the frequency that are small compared with its distance from the next one, `gap`: beyond
-/// that two motions exchange their shapes.
+/// They hold for changes of the frequency that are small compared with its distance from the next one, `gap`:
+/// beyond that two motions exchange their shapes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FrequencyDerivatives {
     /// The frequency [Hz].
@@ -135,12 +133,6 @@ impl FrequencyDerivatives {
     }
 }
 
-const QUANTITY: &str = "the natural frequency";
-
-fn none(reason: &'static str) -> DynamicsError {
-    StaticsError::NoDerivative { quantity: QUANTITY, reason }.into()
-}
-
 /// The relative distance of a frequency from the others, and from that up to which they are known.
 fn gap(modes: &Modes, number: usize) -> Result<f64, DynamicsError> {
     let Some(mode) = modes.modes.get(number) else {
@@ -175,95 +167,6 @@ fn check(problem: &DirectProblem, at_rest: &SmallMotions) -> Result<(), Dynamics
         }
     }
     Ok(())
-}
-
-/// A natural motion of unit mass, with all motions of the cables.
-struct Motion {
-    /// ω² [1/s²].
-    square: f64,
-    /// That of the platform.
-    v: Vector6<f64>,
-    /// Amplitudes of the motions of each cable with its end held.
-    amplitudes: Vec<Vec<f64>>,
-    /// Force on the end of each cable, K_dyn u [N].
-    forces: Vec<Vector3<f64>>,
-}
-
-impl Motion {
-    /// That next to a frequency [Hz] whose platform moves nearly by `v`.
-    fn near(
-        at_rest: &SmallMotions,
-        parts: &[Option<Parts>],
-        frequency: f64,
-        mut v: Vector6<f64>,
-    ) -> Result<Self, DynamicsError> {
-        const ITERATIONS: usize = 4;
-        /// Next to the frequency, not on it.
-        const OFF: f64 = 1e-9;
-        let shift = (TAU * frequency).powi(2) * (1.0 + OFF);
-        let cables = at_rest.cables.iter().zip(parts);
-        let held: Vec<Vec<HeldMode>> = cables
-            .clone()
-            .map(|(cable, parts)| parts.as_ref().map_or_else(Vec::new, |p| p.held(cable)))
-            .collect();
-        let masses: Vec<_> = cables
-            .map(|(cable, parts)| parts.as_ref().map_or_else(Matrix6::zeros, |p| MovingCable::mass(cable, p)))
-            .collect();
-        let mass = masses.iter().fold(at_rest.mass, |sum, mass| sum + mass);
-        let stiffness = at_rest.cables.iter().fold(at_rest.weight, |sum, cable| sum + cable.stiffness);
-        let all: Vec<&HeldMode> = held.iter().flatten().collect();
-        let mut q: Vec<f64> =
-            all.iter().map(|mode| shift * mode.coupling.dot(&v) / (mode.square - shift)).collect();
-        let free = &at_rest.free;
-        let mut dynamic = stiffness - mass * shift;
-        for mode in &all {
-            let share = shift * shift / (mode.square - shift);
-            dynamic -= mode.coupling * mode.coupling.transpose() * share;
-        }
-        let dynamic = DMatrix::from_fn(free.len(), free.len(), |i, j| dynamic[(free[i], free[j])]).lu();
-        for _ in 0..ITERATIONS {
-            let momenta: Vec<f64> = all.iter().zip(&q).map(|(mode, q)| mode.coupling.dot(&v) + q).collect();
-            let mut right = mass * v;
-            for ((mode, q), momentum) in all.iter().zip(&q).zip(&momenta) {
-                right += mode.coupling * (q + shift * momentum / (mode.square - shift));
-            }
-            let right = nalgebra::DVector::from_fn(free.len(), |i, _| right[free[i]]);
-            let next = dynamic.solve(&right).ok_or_else(|| none("its equations are singular there"))?;
-            v = Vector6::zeros();
-            free.iter().zip(next.iter()).for_each(|(component, value)| v[*component] = *value);
-            let amplitude = |(mode, momentum): (&&HeldMode, &f64)| {
-                (momentum + shift * mode.coupling.dot(&v)) / (mode.square - shift)
-            };
-            q = all.iter().zip(&momenta).map(amplitude).collect();
-            let of_cables = all.iter().zip(&q).map(|(mode, q)| q * (q + 2.0 * mode.coupling.dot(&v)));
-            let size = ((v.transpose() * mass * v)[0] + of_cables.sum::<f64>()).sqrt();
-            v /= size;
-            q.iter_mut().for_each(|q| *q /= size);
-        }
-        let potential = all.iter().zip(&q).map(|(mode, q)| mode.square * q * q).sum::<f64>();
-        let square = (v.transpose() * stiffness * v)[0] + potential;
-        let mut rest = q.into_iter();
-        let amplitudes: Vec<Vec<f64>> =
-            held.iter().map(|held| rest.by_ref().take(held.len()).collect()).collect();
-        let force = |i: usize| {
-            let of_mass = masses[i].fixed_view::<3, 6>(0, 0) * v;
-            let each = held[i].iter().zip(&amplitudes[i]);
-            let momentum = each.fold(of_mass, |sum, (mode, q)| sum + mode.coupling.fixed_rows::<3>(0) * *q);
-            at_rest.cables[i].end_stiffness * end(&at_rest.cables[i], &v) - momentum * square
-        };
-        let forces = (0..held.len()).map(force).collect();
-        Ok(Self { square, v, amplitudes, forces })
-    }
-
-    fn turn(&self) -> Vector3<f64> {
-        self.v.fixed_rows::<3>(3).into()
-    }
-}
-
-/// Motion of the anchor point [m].
-fn end(cable: &CableAtRest, v: &Vector6<f64>) -> Vector3<f64> {
-    let turn: Vector3<f64> = v.fixed_rows::<3>(3).into();
-    v.fixed_rows::<3>(0) + turn.cross(&cable.lever)
 }
 
 /// What changes with the inputs: parameters, payload, pose and, after these, the lengths.

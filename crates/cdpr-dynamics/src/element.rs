@@ -108,8 +108,8 @@ pub(crate) fn assemble<const D: usize>(
     all
 }
 
-/// A point of the rule on an element: values and slopes [1/m] of its functions, its unstrained length from the
-/// exit [m], and its weight [m].
+/// A point of the rule on an element: values and slopes [1/m] of its functions, its unstrained length from
+/// the exit [m], and its weight [m].
 pub(crate) struct Point {
     pub(crate) s: f64,
     pub(crate) weight: f64,

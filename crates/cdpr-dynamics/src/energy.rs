@@ -7,16 +7,16 @@
 //! ```
 //!
 //! As y makes Q stationary, it may be held constant over `ξ = s/L` while the cable changes. The tension is
-//! `n = (1 - ξ) n_0 + ξ n_L`. With `q = A y'`, `N = |n|`, `φ = (1 + ε)/N`, `ψ = φ'/N` and the lengths of the law's
-//! pieces constant,
+//! `n = (1 - ξ) n_0 + ξ n_L`. With `q = A y'`, `N = |n|`, `φ = (1 + ε)/N`, `ψ = φ'/N` and the lengths of the
+//! law's pieces constant,
 //!
 //! ```text
 //! y'ᵀ dA y' = -qᵀ dA⁻¹ q,      A⁻¹ = φ 1 + ψ n nᵀ
 //! ∂(qᵀ A⁻¹ q)/∂n = ψ ( |q|² - 3 (n·q)²/N² ) n + 2 ψ (n·q) q                                        (N9)
 //! ```
 //!
-//! Where the cable begins on a pulley, its point gives way by the compliance `C = K3⁻¹ - ∫ A⁻¹ ds`: the difference
-//! of the static compliances of the whole cable and of its free part. With the force f there,
+//! Where the cable begins on a pulley, its point gives way by the compliance `C = K3⁻¹ - ∫ A⁻¹ ds`: the
+//! difference of the static compliances of the whole cable and of its free part. With the force f there,
 //!
 //! ```text
 //! dQ = -fᵀ dC f = zᵀ dK3 z + fᵀ d(∫ A⁻¹ ds) f,      z = K3⁻¹ f                                     (N10)

@@ -168,8 +168,8 @@ impl Free<'_> {
         Ok((self.behind_lead(cable, &Beginning::fixed()).0, Beginning::fixed()))
     }
 
-    /// How the exit point moves in front of a lead that begins like that, and the stiffness of its stretch alone.
-    /// The first unknown is the motion along the cable, then come those of the beginning of the lead.
+    /// How the exit point moves in front of a lead that begins like that, and the stiffness of its stretch
+    /// alone. The first unknown is the motion along the cable, then come those of the beginning of the lead.
     pub(crate) fn behind_lead(&self, cable: &CableAtRest, start: &Beginning<1>) -> (Beginning<2>, Matrices) {
         let tension = self.tension(0.0);
         let stretch = 1.0 + self.free.cable.strain(tension.norm());

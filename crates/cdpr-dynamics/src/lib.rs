@@ -29,9 +29,11 @@ mod energy;
 mod error;
 mod free;
 mod modes;
+mod motion;
 mod platform;
 mod polynomial;
 mod response;
+pub mod simulate;
 mod swing;
 
 pub use derivatives::FrequencyDerivatives;

@@ -166,8 +166,8 @@ fn swings(massless: &[NaturalMode]) -> Vec<Vector6<f64>> {
     same.map(|mode| Vector6::from_iterator(mode.translation.iter().chain(&mode.rotation).copied())).collect()
 }
 
-/// A platform, and twice its lowest frequency on cables without mass [Hz], or more where it has no motion below
-/// but the `neutral` ones.
+/// A platform, and twice its lowest frequency on cables without mass [Hz], or more where it has no motion
+/// below but the `neutral` ones.
 fn near_platform(
     problem: &DirectProblem,
     equilibrium: &Equilibrium,

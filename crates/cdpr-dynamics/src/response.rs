@@ -6,15 +6,16 @@
 //! v = H (f - sum Jᵀ F_i δ_i),      H = D⁻¹,      J = [ 1, -[s_i] ]                                 (N12)
 //! ```
 //!
-//! with the dynamic stiffness D of the platform and the force F_i on the held end of cable i by its winch. Where
-//! the cable begins, the winch moves it by `-(1 + ε) t` for each metre. With damping
+//! with the dynamic stiffness D of the platform and the force F_i on the held end of cable i by its winch.
+//! Where the cable begins, the winch moves it by `-(1 + ε) t` for each metre. With damping
 //!
 //! ```text
 //! A = EA (1 + i ω τ) t tᵀ + (1 - t tᵀ) N/(1 + ε),      -ω² μ  becomes  -ω² μ + i ω μ c             (N13)
 //! ```
 //!
-//! (Kelvin and Voigt's in the stretch of the cable, and a drag of air along its motion), all is complex: amplitude
-//! and phase. The cables are the polynomials of (N3), of which only the ends are kept at every frequency.
+//! (Kelvin and Voigt's in the stretch of the cable, and a drag of air along its motion), all is complex:
+//! amplitude and phase. The cables are the polynomials of (N3), of which only the ends are kept at every
+//! frequency.
 
 use crate::cable::Parts;
 use crate::element::{Beginning, Matrices, assemble};
@@ -61,8 +62,8 @@ pub struct Response {
 }
 
 impl Response {
-    /// Translation of a point of the platform per force there [m/N], and per length that each winch takes in, 3 x n;
-    /// `lever` from P in the base frame [m].
+    /// Translation of a point of the platform per force there [m/N], and per length that each winch takes in,
+    /// 3 x n; `lever` from P in the base frame [m].
     pub fn at_point(&self, lever: &Vector3<f64>) -> (Matrix3<Complex<f64>>, Matrix3xX<Complex<f64>>) {
         let mut motion = nalgebra::Matrix3x6::<Complex<f64>>::zeros();
         motion.fixed_view_mut::<3, 3>(0, 0).copy_from(&Matrix3::identity().map(real));
@@ -107,7 +108,8 @@ impl FrequencyResponse {
     /// For frequencies up to `highest` [Hz].
     ///
     /// # Errors
-    /// As [`crate::MovingPlatform::new`]; [`DynamicsError::Invalid`] for damping that is negative or not finite.
+    /// As [`crate::MovingPlatform::new`]; [`DynamicsError::Invalid`] for damping that is negative or not
+    /// finite.
     pub fn new(
         problem: &DirectProblem,
         equilibrium: &Equilibrium,
@@ -138,8 +140,8 @@ impl FrequencyResponse {
     /// The answer at a frequency [Hz].
     ///
     /// # Errors
-    /// [`DynamicsError::Invalid`] for one that is not between zero and the highest; [`DynamicsError::Resonance`]
-    /// where nothing damps and the frequency is a natural one.
+    /// [`DynamicsError::Invalid`] for one that is not between zero and the highest;
+    /// [`DynamicsError::Resonance`] where nothing damps and the frequency is a natural one.
     pub fn at(&self, frequency: f64) -> Result<Response, DynamicsError> {
         if !(frequency.is_finite() && (0.0..=self.highest).contains(&frequency)) {
             let expected = format!("from 0 to {} Hz", self.highest);

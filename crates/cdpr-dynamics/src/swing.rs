@@ -6,9 +6,9 @@ use cdpr_statics::{DirectProblem, Equilibrium};
 
 /// How fast a platform on cables with mass swings.
 ///
-/// The slowest motion may be that of a cable, in which the platform hardly takes part. The second one is that of
-/// [`Modes::of_platform`] among those up to twice the lowest frequency on cables without mass: it contains most
-/// of the platform's slowest motion there.
+/// The slowest motion may be that of a cable, in which the platform hardly takes part. The second one is that
+/// of [`Modes::of_platform`] among those up to twice the lowest frequency on cables without mass: it contains
+/// most of the platform's slowest motion there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Swing {
     /// The lowest natural frequency of platform and cables [Hz], without motions that nothing resists.

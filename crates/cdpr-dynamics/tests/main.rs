@@ -6,3 +6,5 @@ mod derivatives;
 mod reference;
 mod response;
 mod robots;
+mod simulated;
+mod transients;

@@ -54,19 +54,19 @@ impl<'a> DirectProblem<'a> {
         Self { length_of_rotations: Some(length), ..self }
     }
 
+    /// Unstrained lengths [m].
+    pub fn lengths(&self) -> &'a [f64] {
+        self.lengths
+    }
+
     /// The robot.
     pub fn robot(&self) -> &'a Robot {
         self.robot
     }
 
     /// The load.
-    pub fn load(&self) -> &Load {
-        &self.load
-    }
-
-    /// Unstrained lengths [m].
-    pub fn lengths(&self) -> &'a [f64] {
-        self.lengths
+    pub fn load(&self) -> Load {
+        self.load
     }
 
     /// Number of cables n.

@@ -118,7 +118,8 @@ struct Swing {
     platform_frequency_hz: f64,
     /// Share of the platform in the kinetic energy of that motion.
     platform_share: f64,
-    /// Distance of the nearest other frequency, relative to it: for larger changes the derivatives do not hold.
+    /// Distance of the nearest other frequency, relative to it: for larger changes the derivatives do not
+    /// hold.
     frequency_gap: f64,
 }
 

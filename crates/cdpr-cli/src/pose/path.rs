@@ -112,8 +112,8 @@ struct Passed {
     magnitude_mm: f64,
     /// Stiffness of the softest motion with the load.
     least_stiffness: f64,
-    /// With which the platform swings with the load, the mass of cables included; `null` for a robot that lacks
-    /// `platform.inertia`.
+    /// With which the platform swings with the load, the mass of cables included; `null` for a robot that
+    /// lacks `platform.inertia`.
     platform_frequency_hz: Option<f64>,
     /// Share of the platform in the kinetic energy of that motion.
     platform_share: Option<f64>,

@@ -37,7 +37,8 @@ answer! {
         magnitude: Py<PyAny>,
         /// Stiffness of the softest motion with the load [N/m], (m,).
         least_stiffness: Py<PyAny>,
-        /// Frequency with which the platform swings with the load, the mass of cables included [Hz], (m,); NaN for a robot without inertia.
+        /// Frequency with which the platform swings with the load, the mass of cables included [Hz], (m,);
+        /// NaN for a robot without inertia.
         platform_frequency: Py<PyAny>,
         /// Share of the platform in the kinetic energy of that motion, (m,).
         platform_share: Py<PyAny>,
