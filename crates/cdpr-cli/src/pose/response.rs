@@ -1,7 +1,7 @@
 //! `cdpr response`: how a platform that is shaken moves.
 
 use crate::answer::{OutOfLimits, decimal};
-use crate::arguments::{self, Format, FreeArguments, endings, print_record};
+use crate::arguments::{self, Format, FreeArguments, With, endings, print_record, with};
 use crate::error::ProgramError;
 use crate::output::{Ending, table};
 use crate::pose::at_pose::{RobotAtPose, Row};
@@ -35,6 +35,10 @@ pub(crate) struct Settings {
     /// Damping of the cables' stretch [s]: a cable that is stretched at a rate dε/dt bears EA τ dε/dt more.
     #[arg(long, value_name = "TAU", default_value_t = 2e-4)]
     damping: f64,
+    /// drag=RATE damps motions of the cables through the air: a force of RATE times their mass per length for
+    /// each m/s [1/s]; none if left out.
+    #[arg(long, value_name = "NAMES", value_parser = with)]
+    with: Option<With>,
     /// Point of the platform that is shaken and that moves: x,y,z in its frame [m]; P if left out.
     #[arg(long, value_parser = arguments::components::<3>, allow_hyphen_values = true)]
     marker: Option<[f64; 3]>,
@@ -45,15 +49,19 @@ pub(crate) struct Settings {
 
 pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     let Settings { at, figure, .. } = settings;
+    let with = settings.with.clone().unwrap_or_default();
+    with.check(&["drag"])?;
+    let drag = with.value("drag", None, arguments::number)?.unwrap_or(0.0);
+    let damping = Damping { stretch: settings.damping, drag };
     let is_table = matches!(at.printing.format(), Format::Csv) && at.pose()?.is_some();
     if !is_table && figure.is_none() {
-        return at.answer(|robot, pose| settings.solve(robot, pose), Answer::print);
+        return at.answer(|robot, pose| settings.solve(robot, pose, damping), Answer::print);
     }
     let (robot, pose) = (at.robot()?, at.pose()?);
     let Some(pose) = pose else {
         return Err(ProgramError::Usage("--figure: expected --pose x,y,z".to_owned()));
     };
-    let answer = settings.solve(&robot, &pose)?;
+    let answer = settings.solve(&robot, &pose, damping)?;
     if let Some(file) = figure {
         at.printing.overwrite.write(file, &answer.figure(&robot)?)?;
     }
@@ -65,12 +73,11 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
 }
 
 impl Settings {
-    fn solve(&self, robot: &Robot, pose: &Pose) -> Result<Answer, StaticsError> {
+    fn solve(&self, robot: &Robot, pose: &Pose, damping: Damping) -> Result<Answer, StaticsError> {
         let (robot, load) = (with_inertia(robot), self.at.load.load());
         let held = inverse(&robot, WantedPose::at(pose).free(&self.free.free), &load)?;
         let problem = DirectProblem::new(&robot, &held.lengths, &load)?;
         let rest = problem.direct_any(DirectStart::Near(&held.equilibrium))?.equilibrium;
-        let damping = Damping { stretch: self.damping, drag: 0.0 };
         let response = FrequencyResponse::new(&problem, &rest, self.below, damping)?;
         let natural = Modes::new(&problem, &rest, Wanted::Below(self.below))?;
         let number = self.number.unwrap_or(NUMBER);
@@ -82,7 +89,8 @@ impl Settings {
         let lever = rest.pose.rotation * Vector3::from(self.marker.unwrap_or_default());
         let at = |frequency: &f64| Ok(At::new(&response.at(*frequency)?, &lever));
         Ok(Answer {
-            damping_s: self.damping,
+            damping_s: damping.stretch,
+            drag_per_s: damping.drag,
             inertia_assumed: matches!(robot, std::borrow::Cow::Owned(_)),
             frequencies: frequencies.iter().map(at).collect::<Result<_, StaticsError>>()?,
             out_of_limits: OutOfLimits::all(&robot, &held.lengths, &[&rest]),
@@ -94,6 +102,7 @@ impl Settings {
 #[derive(Serialize)]
 struct Answer {
     damping_s: f64,
+    drag_per_s: f64,
     /// Whether the inertia of the platform is assumed.
     inertia_assumed: bool,
     /// Without motion first.
@@ -166,7 +175,10 @@ impl Answer {
         if let Some(still) = self.frequencies.first() {
             println!("At rest a force moves it by up to {:.5} mm/N.", 1e3 * still.amplitude_m_per_n);
         }
-        println!("Damping of the stretch of the cables: {} s. The largest peaks:", self.damping_s);
+        println!(
+            "Damping of the cables: stretch {} s, drag {} 1/s. The largest peaks:",
+            self.damping_s, self.drag_per_s
+        );
         let names = ["frequency [Hz]", "amplitude [mm/N]", "x, y, z along [mm/N]", "winches [mm/mm]"];
         let mut rows = table(&names);
         for at in self.peaks().into_iter().take(LISTED) {
@@ -183,6 +195,11 @@ impl Answer {
         }
         println!("{rows}");
         println!("amplitude: of a force in the worst direction; winches: the one that moves the point most");
+        if self.drag_per_s == 0.0 {
+            println!(
+                "nothing damps cables across their stretch: such peaks are far above real ones; --with drag=RATE"
+            );
+        }
         OutOfLimits::print(&self.out_of_limits);
     }
 
@@ -211,7 +228,8 @@ impl Answer {
             curve("z", &|at| at.along()[2]),
         ];
         let title = format!("{} shaken by a force", shown(&robot.name));
-        let lines = [format!("damping of the stretch of the cables: {} s", self.damping_s)];
+        let lines =
+            [format!("damping of the cables: stretch {} s, drag {} 1/s", self.damping_s, self.drag_per_s)];
         let given = Amplitudes { title: &title, lines: &lines, y: "amplitude [mm/N]", curves: &curves };
         Ok(amplitudes(&given)?)
     }
