@@ -84,7 +84,7 @@ enum Command {
     #[command(after_help = "Examples:
   cdpr response cogiro --pose 0,0,2 --below 20
   cdpr response cogiro --pose 0,0,2 --below 20 --with drag=0.5 --format csv > response.csv
-  cdpr response cogiro --pose 0,0,2 --below 20 --damping 1e-3 --marker 0,0,0.5 --figure response.svg")]
+  cdpr response cogiro --pose 0,0,2 --below 20 --with damping=1e-3 --marker 0,0,0.5 --figure response.svg")]
     Response(pose::response::Settings),
     /// Find what a robot can carry at a pose.
     ///

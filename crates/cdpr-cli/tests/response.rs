@@ -23,8 +23,7 @@ fn a_shaken_platform_answers_as_the_library_says_in_json_csv_and_figure() {
     let figure = folder.path().join("response.svg");
     let given =
         ["response", &file, "--pose", "0.5,0.2,2", "--payload", "10", "--below", "8", "--number", "16"];
-    let given =
-        [&given[..], &["--damping", "1e-3", "--with", "drag=0.2", "--marker", "0.1,0.2,0.3"]].concat();
+    let given = [&given[..], &["--with", "damping=1e-3,drag=0.2", "--marker", "0.1,0.2,0.3"]].concat();
     let found = answer(&[&given[..], &["--figure", figure.to_str().unwrap()]].concat());
     let frequencies = found["frequencies"].as_array().unwrap();
     // Those of equal distances, and the natural ones.
@@ -50,7 +49,13 @@ fn a_shaken_platform_answers_as_the_library_says_in_json_csv_and_figure() {
         cdpr(&["response", &file, "--poses", poses.to_str().unwrap(), "--below", "8", "--payload", "10"]);
     let table = text(table.stdout);
     assert!(table.lines().count() == 3 && table.contains("peak_frequency_hz,peak_m_per_n,static_m_per_n"));
-    for refused in [["--below", "0"], ["--below", "nan"], ["--with", "drag=-1"], ["--with", "air"]] {
+    for refused in [
+        ["--below", "0"],
+        ["--below", "nan"],
+        ["--with", "drag=-1"],
+        ["--with", "air"],
+        ["--with", "damping=-1"],
+    ] {
         let below = if refused[0] == "--below" { &[][..] } else { &["--below", "5"] };
         let refused = cdpr(&[&["response", &file, "--pose", "0,0,2"], below, &refused].concat());
         assert!(matches!(refused.status.code(), Some(1 | 2)));

@@ -16,6 +16,9 @@ use std::path::PathBuf;
 /// Frequencies at equal distances where no other number is given.
 const NUMBER: usize = 200;
 
+/// Damping of the stretch of cables where none is given [s].
+const STRETCH: f64 = 2e-4;
+
 /// Peaks that are listed.
 const LISTED: usize = 12;
 
@@ -32,11 +35,10 @@ pub(crate) struct Settings {
     /// This many frequencies at equal distances, 200 if left out; the natural ones come on top.
     #[arg(long, value_name = "N", value_parser = arguments::count::<1, 10_000>)]
     number: Option<usize>,
-    /// Damping of the cables' stretch [s]: a cable that is stretched at a rate dε/dt bears EA τ dε/dt more.
-    #[arg(long, value_name = "TAU", default_value_t = 2e-4)]
-    damping: f64,
-    /// drag=RATE damps motions of the cables through the air: a force of RATE times their mass per length for
-    /// each m/s [1/s]; none if left out.
+    /// damping=TAU and drag=RATE, what damps the cables; 2e-4 s and none if left out.
+    ///
+    /// A cable that is stretched at a rate dε/dt bears EA TAU dε/dt more [s]. The air takes RATE times the mass
+    /// per length for each m/s [1/s].
     #[arg(long, value_name = "NAMES", value_parser = with)]
     with: Option<With>,
     /// Point of the platform that is shaken and that moves: x,y,z in its frame [m]; P if left out.
@@ -50,9 +52,10 @@ pub(crate) struct Settings {
 pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     let Settings { at, figure, .. } = settings;
     let with = settings.with.clone().unwrap_or_default();
-    with.check(&["drag"])?;
+    with.check(&["damping", "drag"])?;
+    let stretch = with.value("damping", None, arguments::number)?.unwrap_or(STRETCH);
     let drag = with.value("drag", None, arguments::number)?.unwrap_or(0.0);
-    let damping = Damping { stretch: settings.damping, drag };
+    let damping = Damping { stretch, drag };
     let is_table = matches!(at.printing.format(), Format::Csv) && at.pose()?.is_some();
     if !is_table && figure.is_none() {
         return at.answer(|robot, pose| settings.solve(robot, pose, damping), Answer::print);
