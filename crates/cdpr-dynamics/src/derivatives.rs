@@ -257,7 +257,7 @@ impl<'a> Changes<'a> {
         match self.inputs.parameters.get(column) {
             Some(Parameter::LinearDensity) => change.density = 1.0,
             Some(Parameter::YoungsModulus) => {
-                change.modulus = robot.cables[i].properties.youngs_modulus.recip()
+                change.modulus = robot.cables[i].properties.youngs_modulus.recip();
             }
             Some(Parameter::AnchorPoint(of, axis)) if *of == i => {
                 arm += self.equilibrium.pose.rotation.matrix().column(axis.index());

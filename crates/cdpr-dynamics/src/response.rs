@@ -91,6 +91,9 @@ struct Shaken {
     winch: Winch,
 }
 
+/// Stiffness of the end of a cable [N/m], and the force on its held end per length that its winch takes in [N/m].
+type StiffnessAndPull = (Matrix3<Complex<f64>>, nalgebra::Vector3<Complex<f64>>);
+
 /// What a winch does to the unknowns of a cable, per length that it takes in.
 #[derive(Clone, Debug, Default)]
 struct Winch {
@@ -216,11 +219,7 @@ impl ShakenCable {
     }
 
     /// Stiffness of its end, and the force on its held end by its winch, in the base frame.
-    fn at(
-        &self,
-        omega: f64,
-        damping: &Damping,
-    ) -> Option<(Matrix3<Complex<f64>>, nalgebra::Vector3<Complex<f64>>)> {
+    fn at(&self, omega: f64, damping: &Damping) -> Option<StiffnessAndPull> {
         let (in_plane, winch) = self.in_plane.at::<2>(omega, damping)?;
         let (across, _) = self.across.at::<1>(omega, damping)?;
         let o = real(0.0);
