@@ -18,7 +18,8 @@
 //! ```
 //!
 //! The cables are those of `cdpr-cable`: sag, elasticity, laws, leads and pulleys. Cable on a pulley and
-//! behind it has no mass here; nothing is damped; winches hold.
+//! behind it has no mass here. In natural motions nothing is damped and winches hold; [`FrequencyResponse`] has
+//! damping and winches that move, [`FrequencyDerivatives`] how the frequencies change.
 
 mod cable;
 mod condensed;
