@@ -11,8 +11,8 @@
 //!
 //! with the mean of both squares where left and right derivatives differ.
 
+use cdpr_dynamics::{FrequencyDerivatives, Modes, Swing, Wanted};
 use cdpr_robot::{Pose, Robot};
-use cdpr_statics::vibration::CableFrequency;
 use cdpr_statics::{
     Deflection, Derivatives, DirectProblem, InversePath, Load, StaticsError, deflection_from, derivatives,
 };
@@ -32,10 +32,9 @@ pub struct PathPose {
     pub sags: Vec<f64>,
     /// The lengths, and the equilibria without and with the load.
     pub deflection: Deflection,
-    /// Lowest natural frequency with the load [Hz]; `None` for a robot that lacks `platform.inertia`.
-    pub lowest_frequency: Option<f64>,
-    /// The slowest cable with the load, between ends at rest, where there is a lowest frequency.
-    pub lowest_cable_frequency: Option<CableFrequency>,
+    /// How fast the platform swings with the load, the mass of the cables included; `None` for a robot that
+    /// lacks `platform.inertia`, and where a cable hangs without tension.
+    pub swing: Option<Swing>,
     /// Standard deviations; `None` without an error model, and where the pose has no derivatives on this
     /// branch.
     pub bands: Option<Bands>,
@@ -54,8 +53,8 @@ pub struct Bands {
     pub magnitude: Option<f64>,
     /// Of the stiffness of the softest motion with the load [N/m].
     pub least_stiffness: Option<f64>,
-    /// Of the lowest natural frequency with the load [Hz].
-    pub lowest_frequency: Option<f64>,
+    /// Of the frequency of the platform with the load, [`Swing::platform`] [Hz].
+    pub platform_frequency: Option<f64>,
 }
 
 /// A robot on its way along a path.
@@ -92,23 +91,27 @@ impl<'a> Path<'a> {
         let deflection = deflection_from(robot, wanted.lengths, &load, &wanted.equilibrium)?;
         let Deflection { lengths, unloaded, loaded } = &deflection;
         let problem = DirectProblem::new(robot, lengths, &load)?;
-        let lowest_frequency = problem.lowest_frequency(&loaded.equilibrium).ok();
-        let lowest_cable_frequency = problem.lowest_cable_frequency(&loaded.equilibrium)?;
+        let modes = Modes::new(&problem, &loaded.equilibrium, Wanted::OfPlatform).ok();
+        let frequency = || FrequencyDerivatives::of_platform(&problem, modes.as_ref()?).ok();
         Ok(PathPose {
             jump: found.jump,
             tensions: wanted.tensions,
             exit_tensions: unloaded.equilibrium.exit_tensions(robot, lengths),
             sags: DirectProblem::new(robot, lengths, &Load::none())?.sags(&unloaded.equilibrium)?,
-            lowest_frequency,
-            lowest_cable_frequency: lowest_cable_frequency.filter(|_| lowest_frequency.is_some()),
-            bands: self.model.and_then(|model| Bands::new(robot, pose, &load, model, lengths)),
+            swing: modes.as_ref().and_then(Swing::of),
+            bands: self.model.and_then(|model| Bands::new((robot, pose, &load), model, lengths, frequency)),
             deflection,
         })
     }
 }
 
 impl Bands {
-    fn new(robot: &Robot, pose: &Pose, load: &Load, model: &ErrorModel, lengths: &[f64]) -> Option<Self> {
+    fn new(
+        (robot, pose, load): (&Robot, &Pose, &Load),
+        model: &ErrorModel,
+        lengths: &[f64],
+        frequency: impl FnOnce() -> Option<FrequencyDerivatives>,
+    ) -> Option<Self> {
         let left = derivatives(robot, pose, load).ok()?;
         let near = |(a, b): (&f64, &f64)| (a - b).abs() <= SAME_BRANCH * b;
         if !left.deflection.lengths.iter().zip(lengths).all(near) {
@@ -125,6 +128,7 @@ impl Bands {
         let of_cables = |of: &dyn Fn(&Derivatives, usize, usize) -> f64| -> Option<Vec<f64>> {
             (0..lengths.len()).map(|i| row(&|side, k| of(side, i, k))).collect()
         };
+        let frequency = frequency();
         let moved = |i| row(&|side: &Derivatives, k| side.loaded.pose[(i, k)] - side.unloaded.pose[(i, k)]);
         Some(Self {
             lengths: of_cables(&|side, i, k| side.lengths[(i, k)])?,
@@ -132,7 +136,7 @@ impl Bands {
             displacement: [moved(0)?, moved(1)?, moved(2)?],
             magnitude: std(&|side| side.magnitude().ok()),
             least_stiffness: std(&|side| Some(side.least_stiffness(robot, load).ok()?.1)),
-            lowest_frequency: std(&|side| Some(side.frequency(robot, load).ok()?.1)),
+            platform_frequency: frequency.and_then(|of| std(&|side| Some(of.with_lengths(&side.lengths)))),
         })
     }
 }

@@ -1,5 +1,5 @@
-//! Where a robot can work, and how well: tensions, deflection, stiffness, the lowest natural frequency and
-//! the tolerance that matters most, pose by pose.
+//! Where a robot can work, and how well: tensions, deflection, stiffness, natural frequencies and the
+//! tolerance that matters most, pose by pose.
 //!
 //! A load can come onto the platform in two ways. Where the lengths are kept, as in the paper, the platform
 //! yields, and its tensions are what the direct model says. Where the winches hold the pose, the tensions are
@@ -16,11 +16,12 @@ use crate::clearance::clearance_at;
 use crate::tilt::tilt_at;
 use crate::workspace::question::{TiltDirections, Way, Workspace, check};
 use crate::workspace::results::{Anew, Dominant, Held, WorkspacePose};
+use cdpr_dynamics::Swing;
 use cdpr_robot::{Axis, Pose, Vector3};
 use cdpr_statics::batch::{LoadedPose, PoseSlopes, loaded_poses};
 use cdpr_statics::{
     Deflection, DirectProblem, DirectStart, InverseSolution, Load, StaticsError, WantedPose, deflection,
-    derivatives, inverse, is_held,
+    deflection_from, derivatives, inverse, is_held,
 };
 use cdpr_study::{Grid, StudyError};
 use rayon::prelude::*;
@@ -101,13 +102,34 @@ fn without_jumps(grid: &Grid) -> Vec<usize> {
 
 /// The results of poses that follow each other.
 fn outcomes(workspace: &Workspace, poses: &[Pose]) -> Vec<Result<Held, StaticsError>> {
-    let Workspace { robot, free, .. } = *workspace;
+    let Workspace { robot, ref load, free, .. } = *workspace;
     if !free.is_empty() {
-        return poses.par_iter().map(|pose| held_free(workspace, pose)).collect();
+        let one = |pose| {
+            let (held, found) = held_free(workspace, pose)?;
+            Ok(Held { swing: swing(workspace, &found), ..held })
+        };
+        return poses.par_iter().map(one).collect();
     }
     let wanted = inverse(robot, poses, &Load::none());
     // No answer depends on those beside it.
-    wanted.par_chunks(BLOCK).flat_map_iter(|wanted| loaded_from(workspace, wanted)).collect()
+    let held: Vec<_> =
+        wanted.par_chunks(BLOCK).flat_map_iter(|wanted| loaded_from(workspace, wanted)).collect();
+    if robot.lacks_inertia() {
+        return held;
+    }
+    let one = |(held, wanted): (Result<Held, StaticsError>, &Result<InverseSolution, StaticsError>)| {
+        let (held, InverseSolution { lengths, equilibrium, .. }) =
+            (held?, wanted.as_ref().map_err(Clone::clone)?);
+        let found = deflection_from(robot, lengths.clone(), load, equilibrium);
+        Ok(Held { swing: found.ok().and_then(|found| swing(workspace, &found)), ..held })
+    };
+    held.into_par_iter().zip(&wanted).map(one).collect()
+}
+
+/// How fast the platform swings with the load.
+fn swing(workspace: &Workspace, Deflection { lengths, loaded, .. }: &Deflection) -> Option<Swing> {
+    let problem = DirectProblem::new(workspace.robot, lengths, &workspace.load).ok()?;
+    Swing::new(&problem, &loaded.equilibrium).ok()
 }
 
 /// The results with the lengths kept from answers of the inverse model.
@@ -195,7 +217,7 @@ pub fn workspace_boundary(
             (Way::Kept, []) => {
                 loaded_from(workspace, &[inverse(robot, &pose, &Load::none())]).into_iter().all(within)
             }
-            (Way::Kept, _) => within(held_free(workspace, &pose)),
+            (Way::Kept, _) => within(held_free(workspace, &pose).map(|(held, _)| held)),
             // Free coordinates are found whatever the limits are.
             (Way::Anew, _) => wound_up(workspace, &[pose], load).into_iter().flatten().any(|found| {
                 let within = |(i, t): (usize, &f64)| *t <= robot.limits(i).max && *t >= robot.limits(i).min;
@@ -208,22 +230,22 @@ pub fn workspace_boundary(
 }
 
 /// A pose with free coordinates, with the lengths kept.
-fn held_free(workspace: &Workspace, pose: &Pose) -> Result<Held, StaticsError> {
+fn held_free(workspace: &Workspace, pose: &Pose) -> Result<(Held, Deflection), StaticsError> {
     let Workspace { robot, ref load, tolerances, free, .. } = *workspace;
-    let alone = |deflection: &Deflection, dominant| {
-        Held::new(robot, LoadedPose::of(robot, load, deflection), dominant)
+    let alone = |deflection: Deflection, dominant| {
+        (Held::new(robot, LoadedPose::of(robot, load, &deflection), dominant), deflection)
     };
     let deflected = || deflection(robot, WantedPose::at(pose).free(free), load);
     let Some(model) = tolerances else {
-        return Ok(alone(&deflected()?, None));
+        return Ok(alone(deflected()?, None));
     };
     match derivatives(robot, WantedPose::at(pose).free(free), load) {
         Ok(found) => {
             let dominant = found.magnitude().ok().and_then(|slopes| Dominant::of(&slopes, model));
-            Ok(alone(&found.deflection, dominant))
+            Ok(alone(found.deflection, dominant))
         }
         // A pose without a derivative is held nevertheless.
-        Err(StaticsError::NoDerivative { .. }) => Ok(alone(&deflected()?, None)),
+        Err(StaticsError::NoDerivative { .. }) => Ok(alone(deflected()?, None)),
         Err(error) => Err(error),
     }
 }

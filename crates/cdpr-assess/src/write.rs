@@ -27,7 +27,7 @@ pub fn begin_workspace(folder: &Path, if_exists: IfExists) -> Result<ResultsFold
         let maps = [
             "deflection",
             "least_stiffness",
-            "lowest_frequency",
+            "platform_frequency",
             "dominant_tolerance",
             "greatest_tension",
             "greatest_tension_anew",

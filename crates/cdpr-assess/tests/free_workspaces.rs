@@ -27,7 +27,7 @@ fn a_robot_with_four_cables_has_a_workspace_of_its_held_coordinates() {
         let exact = deflection(&robot, WantedPose::at(&found.pose).free(&free), &workspace.load).unwrap();
         assert_eq!(held.displacement, exact.displacement());
         assert_eq!(held.least_stiffness, exact.loaded.stability.least_stiffness());
-        assert!(held.lowest_frequency.unwrap() > 0.0 && held.dominant.is_some());
+        assert!(held.swing.unwrap().lowest > 0.0 && held.dominant.is_some());
         let anew = inverse(&robot, WantedPose::at(&found.pose).free(&free), &workspace.load)
             .unwrap()
             .equilibrium

@@ -1,6 +1,7 @@
 //! Maps in lanes: every position is what the scalar models say of it, for robots that differ.
 
 use cdpr_assess::{Further, Workspace, WorkspacePose, compute_workspace};
+use cdpr_dynamics::Swing;
 use cdpr_robot::{Matrix3, Parameter, Plane, Robot, Rotation3, Vector3, Wrench};
 use cdpr_statics::batch::{LoadedPose, PoseSlopes, loaded_poses};
 use cdpr_statics::derivatives::derivatives_from;
@@ -276,12 +277,14 @@ fn check(robot: &Robot, load: &Load, found: &WorkspacePose, most: f64) -> Result
         same("displacement", other.norm() + (one - other).norm(), other.norm())?;
     }
     same("least stiffness", held.least_stiffness, kept.loaded.stability.least_stiffness())?;
-    let frequency = DirectProblem::new(robot, &kept.lengths, load)
-        .and_then(|problem| problem.lowest_frequency(&kept.loaded.equilibrium));
-    match (held.lowest_frequency, frequency) {
-        (Some(one), Ok(other)) => same("lowest frequency", one, other)?,
+    let problem = DirectProblem::new(robot, &kept.lengths, load).map_err(|error| error.to_string())?;
+    match (held.swing, Swing::new(&problem, &kept.loaded.equilibrium)) {
+        (Some(one), Ok(other)) => {
+            same("lowest frequency", one.lowest, other.lowest)?;
+            same("frequency of the platform", one.platform, other.platform)?;
+        }
         (None, Err(_)) => (),
-        (one, other) => return Err(format!("lowest frequency {one:?} for {other:?}")),
+        (one, other) => return Err(format!("frequencies {one:?} for {other:?}")),
     }
     let equilibria = both.map(|solution| &solution.equilibrium);
     let named = |list: &[OutOfLimits]| list.iter().map(|o| (o.cable, o.end, o.limit)).collect::<Vec<_>>();

@@ -7,7 +7,6 @@ use cdpr_cable::SLACK_BELOW_OWN_WEIGHTS;
 pub(crate) use cdpr_robot::decimal;
 use cdpr_robot::{CableEnd, Pose, Robot, counted};
 use cdpr_statics::stiffness::Mode;
-use cdpr_statics::vibration::CableFrequency;
 use cdpr_statics::{Bound, DirectSolution, Equilibrium, Stability};
 use serde::Serialize;
 
@@ -76,18 +75,6 @@ impl OutOfLimits {
     /// A cable that is slack answers the question; one that breaks or may not be strained so does not.
     pub(crate) fn ending(list: &[Self]) -> Ending {
         if list.iter().any(|one| one.found.is_too_much()) { Ending::SomethingWrong } else { Ending::Well }
-    }
-}
-
-/// Warns of the first of several poses at which the slowest cable vibrates less than twice as fast as the
-/// platform, whose frequencies [Hz] are those on cables without mass.
-pub(crate) fn warn_of_cables(poses: impl Iterator<Item = (CableFrequency, f64)>) {
-    let mut warnings = poses.filter_map(|(cable, platform)| cable.warning(platform));
-    let Some(first) = warnings.next() else { return };
-    eprintln!("warning: {first}");
-    match warnings.count() {
-        0 => {}
-        others => eprintln!("this holds for {others} more poses"),
     }
 }
 

@@ -24,6 +24,7 @@ const GROUPS: [Group; 8] = [
             "stiffness",
             "modes",
             "simulate",
+            "response",
             "capacity",
             "derivatives",
             "hysteresis",

@@ -85,6 +85,15 @@ enum Command {
     #[command(after_help = "Example: cdpr simulate cogiro --pose 0,0,2 --payload 50 \
                       --events data/events/payload-dropped.json --until 2 --damping 2e-4 --out series.csv")]
     Simulate(Box<pose::simulate::Settings>),
+    /// Shake the platform: its amplitude over the frequency.
+    ///
+    /// By a force at a point of the platform, and by each winch, with the mass and the damping of the cables.
+    /// Without `inertia` in the robot file that of a ball is assumed.
+    #[command(after_help = "Examples:
+  cdpr response cogiro --pose 0,0,2 --below 20
+  cdpr response cogiro --pose 0,0,2 --below 20 --with drag=0.5 --format csv > response.csv
+  cdpr response cogiro --pose 0,0,2 --below 20 --with damping=1e-3 --marker 0,0,0.5 --figure response.svg")]
+    Response(pose::response::Settings),
     /// Find what a robot can carry at a pose.
     ///
     /// And how far its tensions are from their limits: with the tensions distributed again by the winches,
@@ -97,7 +106,7 @@ enum Command {
     Capacity(pose::capacity::Settings),
     /// Compute exact derivatives by every parameter.
     ///
-    /// Derivatives of lengths, deflection, lowest stiffness and lowest natural frequency.
+    /// Derivatives of lengths, deflection, lowest stiffness and frequency of the platform.
     #[command(after_help = "Example: cdpr derivatives data/robots/caroca.json --pose 0,0,1.75 --payload 50 \
                       --format json")]
     Derivatives(pose::derivatives::Settings),
@@ -112,7 +121,7 @@ enum Command {
     Hysteresis(pose::hysteresis::Settings),
     /// Follow a path: lengths, tensions, deflection, stiffness.
     ///
-    /// Also sag and lowest natural frequency, a row for each pose.
+    /// Also sag and natural frequencies, a row for each pose.
     #[command(after_help = "Examples:
   cdpr path data/robots/caroca.json --poses data/poses/caroca.csv --payload 50 > path.csv
   cdpr path data/robots/caroca.json --poses data/poses/caroca.csv --payload 50 \
@@ -220,6 +229,7 @@ fn run(command: Command) -> Result<Ending, ProgramError> {
         Command::Stiffness(settings) => return pose::stiffness::run(&settings),
         Command::Modes(settings) => return pose::modes::run(&settings),
         Command::Simulate(settings) => return pose::simulate::run(&settings),
+        Command::Response(settings) => return pose::response::run(&settings),
         Command::Capacity(settings) => return pose::capacity::run(&settings),
         Command::Derivatives(settings) => return pose::derivatives::run(&settings),
         Command::Hysteresis(settings) => return pose::hysteresis::run(&settings),

@@ -9,5 +9,6 @@ pub(crate) mod hysteresis;
 pub(crate) mod inverse;
 pub(crate) mod modes;
 pub(crate) mod path;
+pub(crate) mod response;
 pub(crate) mod simulate;
 pub(crate) mod stiffness;

@@ -53,13 +53,6 @@ pub(crate) fn answered(output: Output) -> String {
     text(output.stdout)
 }
 
-/// Whether this is the one warning that frequencies of the platform are near those of the cables.
-pub(crate) fn is_warning_of_slow_cables(said: &str) -> bool {
-    let lines: Vec<&str> = said.lines().collect();
-    let more = lines.get(2).is_none_or(|line| line.starts_with("this holds for "));
-    said.starts_with("warning: cable ") && (2..=3).contains(&lines.len()) && more
-}
-
 /// Files by their names.
 pub(crate) type Files = BTreeMap<String, Vec<u8>>;
 

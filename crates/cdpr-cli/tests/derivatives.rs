@@ -1,6 +1,7 @@
 //! `cdpr derivatives` as a user meets it: the numbers of the library, and every kind of bad input.
 
 use crate::common::{cdpr, data, data_path, data_text, text};
+use cdpr_dynamics::FrequencyDerivatives;
 use cdpr_robot::{Coordinate, Pose, Robot, Vector3};
 use cdpr_statics::{Load, WantedPose, derivatives};
 use serde_json::Value;
@@ -53,11 +54,15 @@ fn json_holds_the_numbers_of_the_library() {
 fn a_platform_with_inertia_has_derivatives_of_its_frequency() {
     let (name, pose, load) = ("robots/cogiro.json", Pose::at(1.0, 0.5, 2.0), Load::payload(50.0));
     let robot = Robot::from_json(&data_text(name)).unwrap();
-    let (_, slopes) = derivatives(&robot, &pose, &load).unwrap().frequency(&robot, &load).unwrap();
+    let found = derivatives(&robot, &pose, &load).unwrap();
+    let exact = FrequencyDerivatives::of_deflection(&robot, &load, &found).unwrap();
+    let slopes = exact.with_lengths(&found.lengths);
     let at = ["--pose", "1,0.5,2", "--payload", "50"];
     let output = run(&data(name), &[&at[..], &["--format", "json"]].concat());
     let json: Value = serde_json::from_slice(&output.stdout).unwrap();
     assert!(json.get("without").is_none());
+    assert_eq!(json["platform_frequency_hz"].as_f64(), Some(exact.frequency));
+    assert!(json["platform_share"].as_f64().unwrap() > 0.5 && json["frequency_gap"].as_f64().unwrap() > 1e-3);
     for (found, exact) in json["frequency_hz"].as_array().unwrap().iter().zip(&slopes) {
         assert_eq!(found.as_f64(), Some(*exact));
     }

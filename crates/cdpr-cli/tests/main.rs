@@ -32,6 +32,7 @@ mod ours;
 mod path;
 mod poses;
 mod questions;
+mod response;
 mod shell;
 mod simulate;
 mod strangers;

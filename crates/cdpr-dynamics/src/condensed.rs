@@ -28,6 +28,12 @@ pub(crate) struct Condensed<const D: usize> {
     pub(crate) mass: [[f64; D]; D],
     /// The motions with the end held, the slowest first.
     pub(crate) modes: Vec<Clamped<D>>,
+    /// The unknowns but the end, by motions of the end: the static shapes.
+    shapes: DMatrix<f64>,
+    /// L of the stiffness `K = L Lᵀ`, and the eigenvectors w of the squares of the periods, the fastest
+    /// first.
+    lower: DMatrix<f64>,
+    vectors: DMatrix<f64>,
 }
 
 impl<const D: usize> Condensed<D> {
@@ -67,10 +73,25 @@ impl<const D: usize> Condensed<D> {
         let mass = std::array::from_fn(|i| {
             std::array::from_fn(|j| 0.5 * (static_mass[(i, j)] + static_mass[(j, i)]))
         });
-        Some(Self { modes: modes.collect(), mass })
+        Some(Self { modes: modes.collect(), mass, shapes, lower, vectors })
     }
 
-    /// The motions up to `square` = ω² [1/s²], and D more that act on slow motions as all faster ones do: with
+    /// All unknowns of a motion of the end with amplitudes of the motions with the end held.
+    ///
+    /// That with the frequency ω_k is `ω_k L⁻ᵀ w_k`.
+    pub(crate) fn unknowns(&self, end: [f64; D], amplitudes: &[f64]) -> Vec<f64> {
+        let mut inside = DVector::zeros(self.lower.nrows());
+        let last = self.vectors.ncols();
+        for (k, (mode, amplitude)) in self.modes.iter().zip(amplitudes).enumerate() {
+            inside.axpy(amplitude * mode.square.sqrt(), &self.vectors.column(last - 1 - k), 1.0);
+        }
+        self.lower.tr_solve_lower_triangular_mut(&mut inside);
+        inside += &self.shapes * DVector::from_column_slice(&end);
+        end.into_iter().chain(inside.iter().copied()).collect()
+    }
+
+    /// The motions up to `square` = ω² [1/s²], and D more that act on slow motions as all faster ones do:
+    /// with
     ///
     /// ```text
     /// R = sum c cᵀ/ω_k² = G Gᵀ,    S = sum c cᵀ/ω_k⁴,    G⁺ S G⁺ᵀ = Q W⁻² Qᵀ                       (N5)

@@ -56,29 +56,20 @@ impl<const D: usize> Beginning<D> {
 /// An unknown and the direction in which it moves the cable.
 type Unknown<const D: usize> = (usize, [f64; D]);
 
-/// The matrices of a cable in D dimensions. The first D unknowns are the motion of its end; `modulus` is A at
-/// an unstrained length [N], `density` the mass per length [kg/m].
-pub(crate) fn assemble<const D: usize>(
+/// The unknowns of every function of every element, and how many unknowns there are: the motion of the end
+/// first, then those of the beginning.
+pub(crate) fn layout<const D: usize>(
     elements: &[Element],
     beginning: &Beginning<D>,
-    density: f64,
-    modulus: impl Fn(f64) -> [[f64; D]; D],
-) -> Matrices {
+) -> (Vec<Vec<Vec<Unknown<D>>>>, usize) {
     let hidden = beginning.matrices.stiffness.nrows();
-    let bubbles: usize = elements.iter().map(|element| element.degree - 1).sum();
-    let mut all = Matrices::zeros(D + hidden + D * (elements.len() - 1 + bubbles));
-    for j in 0..hidden {
-        for i in 0..hidden {
-            all.stiffness[(D + i, D + j)] += beginning.matrices.stiffness[(i, j)];
-            all.mass[(D + i, D + j)] += beginning.matrices.mass[(i, j)];
-        }
-    }
     let along = |first: usize| -> Vec<Unknown<D>> {
         (0..D).map(|k| (first + k, std::array::from_fn(|c| f64::from(u8::from(c == k))))).collect()
     };
     let mut next = D + hidden;
     let mut before: Vec<Unknown<D>> =
         beginning.directions.iter().enumerate().map(|(k, direction)| (D + k, *direction)).collect();
+    let mut all = Vec::with_capacity(elements.len());
     for (e, element) in elements.iter().enumerate() {
         let mut take = || {
             let unknowns = along(next);
@@ -88,10 +79,60 @@ pub(crate) fn assemble<const D: usize>(
         let after = if e + 1 == elements.len() { along(0) } else { take() };
         let mut unknowns = vec![before, after.clone()];
         unknowns.extend((2..=element.degree).map(|_| take()));
-        add(&mut all, element, &unknowns, density, &modulus);
+        all.push(unknowns);
         before = after;
     }
+    (all, next)
+}
+
+/// The matrices of a cable in D dimensions. The first D unknowns are the motion of its end; `modulus` is A at
+/// an unstrained length [N], `density` the mass per length [kg/m].
+pub(crate) fn assemble<const D: usize>(
+    elements: &[Element],
+    beginning: &Beginning<D>,
+    density: f64,
+    modulus: impl Fn(f64) -> [[f64; D]; D],
+) -> Matrices {
+    let hidden = beginning.matrices.stiffness.nrows();
+    let (unknowns, size) = layout(elements, beginning);
+    let mut all = Matrices::zeros(size);
+    for j in 0..hidden {
+        for i in 0..hidden {
+            all.stiffness[(D + i, D + j)] += beginning.matrices.stiffness[(i, j)];
+            all.mass[(D + i, D + j)] += beginning.matrices.mass[(i, j)];
+        }
+    }
+    for (element, unknowns) in elements.iter().zip(&unknowns) {
+        add(&mut all, element, unknowns, density, &modulus);
+    }
     all
+}
+
+/// A point of the rule on an element: values and slopes [1/m] of its functions, its unstrained length from
+/// the exit [m], and its weight [m].
+pub(crate) struct Point {
+    pub(crate) s: f64,
+    pub(crate) weight: f64,
+    pub(crate) functions: Vec<[f64; 2]>,
+}
+
+impl Element {
+    /// Points for integrals over products of its functions.
+    pub(crate) fn points(&self) -> Vec<Point> {
+        /// Points beyond the degree: A is no polynomial.
+        const MORE_POINTS: usize = 12;
+        let [from, to] = self.ends;
+        let length = to - from;
+        let point = |[x, weight]: [f64; 2]| {
+            let scaled = |[value, slope]: [f64; 2]| [value, slope / length];
+            Point {
+                s: from + 0.5 * (1.0 + x) * length,
+                weight: 0.5 * weight * length,
+                functions: functions(self.degree, x).into_iter().map(scaled).collect(),
+            }
+        };
+        gauss(self.degree + MORE_POINTS).into_iter().map(point).collect()
+    }
 }
 
 /// Adds an element: `unknowns` are those of each of its functions.
@@ -102,16 +143,11 @@ fn add<const D: usize>(
     density: f64,
     modulus: &impl Fn(f64) -> [[f64; D]; D],
 ) {
-    /// Points beyond the degree: A is no polynomial.
-    const MORE_POINTS: usize = 12;
-    let [from, to] = element.ends;
-    let length = to - from;
-    let points: Vec<_> = gauss(element.degree + MORE_POINTS)
+    let points: Vec<_> = element
+        .points()
         .into_iter()
-        .map(|[x, weight]| {
-            let s = from + 0.5 * (1.0 + x) * length;
-            let modulus = modulus(s).map(|row| row.map(|a| 0.5 * weight / length * a));
-            (functions(element.degree, x), modulus, 0.5 * weight * length * density)
+        .map(|Point { s, weight, functions }| {
+            (functions, modulus(s).map(|row| row.map(|a| weight * a)), weight * density)
         })
         .collect();
     for (a, first) in unknowns.iter().enumerate() {

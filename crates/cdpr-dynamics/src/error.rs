@@ -56,6 +56,12 @@ pub enum DynamicsError {
         /// Its number, from 0.
         cable: usize,
     },
+    /// Nothing damps the platform at a natural frequency.
+    #[error("{frequency} Hz is a natural frequency, at which nothing limits the motion; give damping")]
+    Resonance {
+        /// The frequency [Hz].
+        frequency: f64,
+    },
     /// The equilibrium is not stable once the cables have mass, or a matrix cannot be factored.
     #[error("the platform has no natural frequencies here: {what}")]
     NotStable {
@@ -76,6 +82,9 @@ impl From<DynamicsError> for StaticsError {
             DynamicsError::Statics(error) => error,
             DynamicsError::Robot(error) => error.into(),
             DynamicsError::Invalid { field, value, expected } => invalid(field, value, expected),
+            DynamicsError::Resonance { frequency } => {
+                invalid("frequency", format!("{frequency} Hz"), "no natural frequency, or damping".to_owned())
+            }
             DynamicsError::Events(_) | DynamicsError::Event { .. } => {
                 invalid("events", text, "events of this robot".to_owned())
             }

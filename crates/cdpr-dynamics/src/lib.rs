@@ -18,18 +18,29 @@
 //! ```
 //!
 //! The cables are those of `cdpr-cable`: sag, elasticity, laws, leads and pulleys. Cable on a pulley and
-//! behind it has no mass here; nothing is damped; winches hold. [`simulate`] follows large motions over time.
+//! behind it has no mass here. In natural motions nothing is damped and winches hold; [`FrequencyResponse`] has
+//! damping and winches that move, [`FrequencyDerivatives`] how the frequencies change. [`simulate`] follows large
+//! motions over time.
 
 mod cable;
 mod condensed;
 mod dense;
+mod derivatives;
 mod element;
+mod energy;
 mod error;
+mod free;
 mod modes;
+mod motion;
 mod platform;
 mod polynomial;
+mod response;
 pub mod simulate;
+mod swing;
 
+pub use derivatives::FrequencyDerivatives;
 pub use error::DynamicsError;
 pub use modes::{Mode, Modes, Wanted, modes_at};
 pub use platform::MovingPlatform;
+pub use response::{Damping, FrequencyResponse, Response};
+pub use swing::Swing;

@@ -16,6 +16,7 @@ use crate::dense::{cholesky, eigenvectors};
 use crate::error::{DynamicsError, positive};
 use crate::platform::MovingPlatform;
 use cdpr_robot::{Robot, Vector3};
+use cdpr_statics::vibration::NaturalMode;
 use cdpr_statics::{DirectProblem, DirectStart, Equilibrium, Load, Vector6, WantedPose, inverse};
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::TAU;
@@ -27,6 +28,8 @@ pub enum Wanted {
     Below(f64),
     /// This many, the slowest.
     Number(usize),
+    /// All up to twice the lowest frequency on cables without mass, or further up to the first one.
+    OfPlatform,
 }
 
 /// A natural motion of platform and cables, of unit mass.
@@ -44,6 +47,8 @@ pub struct Mode {
     pub platform_share: f64,
     /// Share of each cable; all shares together are one.
     pub cable_shares: Vec<f64>,
+    /// Part of the platform's share that is its slowest motion on cables without mass.
+    pub swing_share: f64,
 }
 
 /// Natural motions of a robot about an equilibrium.
@@ -81,19 +86,24 @@ impl Modes {
         wanted: Wanted,
     ) -> Result<Self, DynamicsError> {
         // Those on cables without mass refuse unstable equilibria, and show which motions nothing resists.
-        let massless: Vec<f64> = problem.modes(equilibrium)?.iter().map(|mode| mode.frequency).collect();
-        let neutral = massless.iter().filter(|frequency| **frequency == 0.0).count();
+        let massless = problem.modes(equilibrium)?;
+        let neutral = massless.iter().filter(|mode| mode.frequency == 0.0).count();
+        let slowest = massless.get(neutral).map(|mode| mode.frequency);
+        let swings = swings(&massless[neutral..]);
         let (platform, bound, number) = match wanted {
             Wanted::Below(bound) => (MovingPlatform::new(problem, equilibrium, bound)?, bound, None),
+            Wanted::OfPlatform => {
+                let (platform, bound) = near_platform(problem, equilibrium, neutral, slowest)?;
+                (platform, bound, None)
+            }
             Wanted::Number(number) => {
                 positive("number of motions", number as f64, "one at least")?;
-                let slowest = massless.get(neutral).copied();
                 let (platform, bound) = reach(problem, equilibrium, number, slowest)?;
                 (platform, bound, Some(number))
             }
         };
         let counted = platform.count(bound);
-        let mut modes = platform.modes(counted, neutral)?;
+        let mut modes = platform.modes(counted, neutral, &swings)?;
         let (mut counted, mut complete_below) = (counted, bound);
         if let Some(number) = number.filter(|number| *number < counted) {
             complete_below = 0.5 * (modes[number - 1].frequency + modes[number].frequency);
@@ -104,9 +114,30 @@ impl Modes {
         Ok(Self { modes, complete_below, counted, equilibrium, lengths })
     }
 
-    /// The motion in which platform and payload have the largest share.
+    /// The slowest motion that something resists.
+    pub fn lowest(&self) -> Option<&Mode> {
+        self.modes.iter().find(|mode| mode.frequency > 0.0)
+    }
+
+    /// The slowest motion that something resists, and a few more.
+    ///
+    /// # Errors
+    /// As [`Modes::new`].
+    pub fn slowest(problem: &DirectProblem, equilibrium: &Equilibrium) -> Result<Self, DynamicsError> {
+        let first = Self::new(problem, equilibrium, Wanted::Number(2))?;
+        if first.lowest().is_some() { Ok(first) } else { Self::new(problem, equilibrium, Wanted::OfPlatform) }
+    }
+
+    /// How the platform swings: the motion that contains most of its slowest one on cables without mass.
     pub fn of_platform(&self) -> Option<&Mode> {
-        self.modes.iter().max_by(|one, other| one.platform_share.total_cmp(&other.platform_share))
+        self.modes.get(self.number_of_platform()?)
+    }
+
+    /// Its place among the motions.
+    pub(crate) fn number_of_platform(&self) -> Option<usize> {
+        let shares = self.modes.iter().enumerate().filter(|(_, mode)| mode.frequency > 0.0);
+        let shares = shares.map(|(k, mode)| (k, mode.swing_share));
+        Some(shares.max_by(|one, other| one.1.total_cmp(&other.1))?.0)
     }
 }
 
@@ -124,6 +155,33 @@ pub fn modes_at<'a>(
     let problem = DirectProblem::new(robot, &found.lengths, load)?;
     let rest = problem.direct(DirectStart::Near(&found.equilibrium))?;
     Modes::new(&problem, &rest.equilibrium, wanted)
+}
+
+/// The slowest of the motions on cables without mass, and those that are as slow.
+fn swings(massless: &[NaturalMode]) -> Vec<Vector6<f64>> {
+    /// Relative distance of frequencies that are one for a symmetric robot.
+    const SAME: f64 = 1e-3;
+    let slowest = massless.first().map_or(0.0, |mode| mode.frequency);
+    let same = massless.iter().take_while(|mode| mode.frequency <= (1.0 + SAME) * slowest);
+    same.map(|mode| Vector6::from_iterator(mode.translation.iter().chain(&mode.rotation).copied())).collect()
+}
+
+/// A platform, and twice its lowest frequency on cables without mass [Hz], or more where it has no motion
+/// below but the `neutral` ones.
+fn near_platform(
+    problem: &DirectProblem,
+    equilibrium: &Equilibrium,
+    neutral: usize,
+    slowest: Option<f64>,
+) -> Result<(MovingPlatform, f64), DynamicsError> {
+    const REACH: f64 = 2.0;
+    let Some(slowest) = slowest else { return reach(problem, equilibrium, neutral + 1, None) };
+    let bound = REACH * slowest;
+    let platform = MovingPlatform::new(problem, equilibrium, bound)?;
+    if platform.count(bound) > neutral {
+        return Ok((platform, bound));
+    }
+    reach(problem, equilibrium, neutral + 1, Some(slowest))
 }
 
 /// A platform, and a frequency [Hz] below which it has `number` natural motions at least.
@@ -172,7 +230,12 @@ impl MovingPlatform {
     }
 
     /// The `count` slowest natural motions; the first ones, `neutral`, are those that nothing resists.
-    fn modes(&self, count: usize, neutral: usize) -> Result<Vec<Mode>, DynamicsError> {
+    fn modes(
+        &self,
+        count: usize,
+        neutral: usize,
+        swings: &[Vector6<f64>],
+    ) -> Result<Vec<Mode>, DynamicsError> {
         let cables = self.cables.iter().enumerate();
         let kept: Vec<(usize, &HeldMode)> =
             cables.flat_map(|(i, cable)| cable.reduced.iter().map(move |mode| (i, mode))).collect();
@@ -181,7 +244,8 @@ impl MovingPlatform {
             let (v, q) = reduced.motion(k);
             let frequency = reduced.squares[k].max(0.0).sqrt() / TAU;
             let frequency = if k < neutral { (0.0, 0.0) } else { self.confirm(k, frequency) };
-            self.mode(frequency, &v, &q, &kept)
+            let swing_share = swings.iter().map(|swing| (swing.transpose() * self.mass * v)[0].powi(2)).sum();
+            Mode { swing_share, ..self.mode(frequency, &v, &q, &kept) }
         };
         Ok((0..count.min(reduced.squares.len())).map(mode).collect())
     }
@@ -235,6 +299,7 @@ impl MovingPlatform {
             rotation: v.fixed_rows::<3>(3) * sign,
             platform_share,
             cable_shares,
+            swing_share: 0.0,
         }
     }
 }

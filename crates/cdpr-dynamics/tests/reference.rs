@@ -23,7 +23,7 @@ pub(crate) fn matrix(value: &Value) -> Matrix3<f64> {
     Matrix3::from_fn(|i, j| number(&value[i][j]))
 }
 
-fn robot(case: &Value) -> Robot {
+pub(crate) fn robot(case: &Value) -> Robot {
     let template = Robot::from_json(include_str!("../../../data/robots/cogiro.json")).unwrap();
     let cables = case["exit_points"].as_array().unwrap().iter().enumerate().map(|(i, exit)| {
         let properties = CableProperties::linear(
@@ -50,7 +50,7 @@ fn robot(case: &Value) -> Robot {
     }
 }
 
-fn pose(case: &Value) -> Pose {
+pub(crate) fn pose(case: &Value) -> Pose {
     let rotation = Rotation3::from_matrix_unchecked(matrix(&case["rotation"]));
     Pose { position: vector(&case["position"]), rotation }
 }

@@ -1,6 +1,6 @@
 //! Robots of the library: what holds whatever the numbers are.
 
-use cdpr_dynamics::{DynamicsError, Modes, Wanted, modes_at};
+use cdpr_dynamics::{DynamicsError, Modes, Swing, Wanted, modes_at};
 use cdpr_robot::{Gravity, Pose, Robot, Rotation3};
 use cdpr_statics::{DirectProblem, DirectStart, Load, StaticsError, WantedPose, inverse};
 
@@ -48,6 +48,37 @@ fn the_first_motions_are_the_same_by_number_and_below_a_frequency() {
 
 pub(crate) fn free_coordinates(names: &str) -> Vec<cdpr_robot::Coordinate> {
     names.split(',').filter(|name| !name.is_empty()).map(|name| name.parse().unwrap()).collect()
+}
+
+#[test]
+fn a_platform_swings_as_the_first_of_its_natural_motions_say() {
+    for (file, [x, y, z], free) in ROBOTS {
+        let (robot, pose) = (robot(file), Pose::at(x, y, z));
+        let free = free_coordinates(free);
+        let held = inverse(&robot, wanted(&pose, &free), &Load::none()).unwrap();
+        let problem = DirectProblem::new(&robot, &held.lengths, &Load::none()).unwrap();
+        let rest = problem.direct(DirectStart::Near(&held.equilibrium)).unwrap().equilibrium;
+        let clock = std::time::Instant::now();
+        let swing = Swing::new(&problem, &rest).unwrap();
+        let massless = problem.lowest_frequency(&rest).unwrap();
+        println!("{} {:?}: {swing:?}, without mass of cables {massless}", robot.name, clock.elapsed());
+        let first = Modes::new(&problem, &rest, Wanted::Number(1)).unwrap();
+        assert!((swing.lowest / first.modes[0].frequency - 1.0).abs() < 2e-6, "{}", robot.name);
+        let all = Modes::new(&problem, &rest, Wanted::Below(2.0 * massless)).unwrap();
+        assert!(all.modes.iter().all(|mode| mode.swing_share <= mode.platform_share + 1e-9));
+        let most = all.modes.iter().map(|mode| mode.swing_share).fold(0.0, f64::max);
+        assert!((all.of_platform().unwrap().swing_share - most).abs() < 1e-12 && most > 0.0);
+        assert!(all.modes.iter().any(|mode| (mode.frequency / swing.platform - 1.0).abs() < 2e-6));
+        // Without mass of the cables both are the lowest frequency of the platform.
+        let mut light = robot.clone();
+        light.cables.iter_mut().for_each(|cable| cable.properties.linear_density = 0.0);
+        let problem = DirectProblem::new(&light, &held.lengths, &Load::none()).unwrap();
+        let Ok(rest) = problem.direct(DirectStart::Pose(&rest.pose)) else { continue };
+        let swing = Swing::new(&problem, &rest.equilibrium).unwrap();
+        let massless = problem.lowest_frequency(&rest.equilibrium).unwrap();
+        assert!((swing.lowest / massless - 1.0).abs() < 1e-9 && swing.lowest_share > 1.0 - 1e-9);
+        assert!((swing.platform / massless - 1.0).abs() < 1e-3, "{}: {swing:?}", robot.name);
+    }
 }
 
 #[test]

@@ -50,7 +50,7 @@ mod _core {
     #[pymodule_export]
     use crate::robot::inverse::{InverseSolution, OtherSolution};
     #[pymodule_export]
-    use crate::robot::modes::Modes;
+    use crate::robot::modes::{MasslessModes, Modes};
     #[pymodule_export]
     use crate::robot::observe::Observations;
     #[pymodule_export]

@@ -6,6 +6,7 @@ pub(crate) mod histogram;
 pub(crate) mod path;
 pub(crate) mod points;
 pub(crate) mod pose_map;
+pub(crate) mod response;
 pub(crate) mod robot_view;
 pub(crate) mod robustness;
 pub(crate) mod shares;

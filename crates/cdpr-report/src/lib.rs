@@ -56,6 +56,7 @@ pub use figure::histogram::histogram;
 pub use figure::path::path_view;
 pub use figure::points::{NamedSampling, Points, point_effects};
 pub use figure::pose_map::{NamedMap, pose_maps};
+pub use figure::response::{Amplitudes, amplitudes};
 pub use figure::robot_view::robot_view;
 pub use figure::robustness::{found_poses, success_share};
 pub use figure::shares::shares;

@@ -334,6 +334,11 @@ impl Robot {
         (sum / self.cables.len() as f64).sqrt()
     }
 
+    /// Whether the platform rotates and `platform.inertia` is not known: then it has no natural frequencies.
+    pub fn lacks_inertia(&self) -> bool {
+        self.platform.inertia.is_none() && (3..6).any(|k| self.freedoms().contains(k))
+    }
+
     /// Inertia to assume where `platform.inertia` is not known [kg m²]: that of a ball with the radius
     /// [`Self::platform_size`], at least 1 cm.
     pub fn assumed_inertia(&self) -> Matrix3<f64> {

@@ -3,11 +3,11 @@
 use crate::capacity::Capacity;
 use crate::clearance::Clearance;
 use crate::tilt::Tilt;
+use cdpr_dynamics::Swing;
 use cdpr_robot::{Pose, Robot, Vector3};
 use cdpr_statics::StaticsError;
 use cdpr_statics::batch::LoadedPose;
 use cdpr_statics::limits::{Limit, OutOfLimits, tensions_out_of_limits};
-use cdpr_statics::vibration::CableFrequency;
 use cdpr_study::ErrorModel;
 
 /// A position and its results.
@@ -50,10 +50,9 @@ pub struct Held {
     pub displacement: Vector3<f64>,
     /// Stiffness of the softest motion with the load [N/m], see [`cdpr_statics::Stability`].
     pub least_stiffness: f64,
-    /// Lowest natural frequency with the load [Hz]; `None` for a robot that lacks `platform.inertia`.
-    pub lowest_frequency: Option<f64>,
-    /// The slowest cable with the load, between ends at rest, where there is a lowest frequency.
-    pub lowest_cable_frequency: Option<CableFrequency>,
+    /// How fast it swings with the load, the mass of the cables included; `None` for a robot that lacks
+    /// `platform.inertia`, and where a cable hangs without tension.
+    pub swing: Option<Swing>,
     /// Cables (from 0) that are slack with the load.
     pub slack: Vec<usize>,
     /// The tolerance that matters most; `None` if no tolerance is wanted, nothing is uncertain, or |dp| has
@@ -91,8 +90,7 @@ impl Held {
             out_of_limits: tensions_out_of_limits(robot, &loaded.tensions),
             displacement: loaded.displacement,
             least_stiffness: loaded.least_stiffness,
-            lowest_frequency: loaded.lowest_frequency,
-            lowest_cable_frequency: loaded.lowest_cable_frequency,
+            swing: None,
             slack: loaded.slack,
             dominant,
         }

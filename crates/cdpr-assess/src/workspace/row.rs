@@ -27,10 +27,12 @@ pub struct WorkspaceRow {
     /// |dp|.
     pub magnitude_mm: Option<f64>,
     pub least_stiffness: Option<f64>,
-    /// Lowest natural frequency with the load.
+    /// Frequency with which the platform swings with the load, the mass of cables included.
+    pub platform_frequency_hz: Option<f64>,
+    /// Share of the platform in the kinetic energy of that motion.
+    pub platform_share: Option<f64>,
+    /// Lowest natural frequency of platform and cables with the load.
     pub lowest_frequency_hz: Option<f64>,
-    /// That of the slowest cable, between ends at rest.
-    pub lowest_cable_frequency_hz: Option<f64>,
     /// Their numbers, from 1, with spaces between.
     pub slack_cables: Option<String>,
     /// Tensions out of limits, in words.
@@ -82,6 +84,7 @@ impl WorkspaceRow {
         let dominant = held.and_then(|held| held.dominant);
         let overflow = dominant.is_some_and(|dominant| !dominant.std.is_finite());
         let dominant = dominant.filter(|_| !overflow);
+        let swing = held.and_then(|held| held.swing);
         let anew = pose.anew.as_ref();
         let tensions = anew.and_then(|anew| anew.as_ref().ok());
         let value = |of: FigureOf| {
@@ -108,10 +111,9 @@ impl WorkspaceRow {
             dz_mm: displacement.map(|dp| dp.z),
             magnitude_mm: displacement.map(|dp| dp.norm()),
             least_stiffness: held.map(|held| held.least_stiffness),
-            lowest_frequency_hz: held.and_then(|held| held.lowest_frequency),
-            lowest_cable_frequency_hz: held
-                .and_then(|held| held.lowest_cable_frequency)
-                .map(|of| of.frequency),
+            platform_frequency_hz: swing.map(|swing| swing.platform),
+            platform_share: swing.map(|swing| swing.platform_share),
+            lowest_frequency_hz: swing.map(|swing| swing.lowest),
             slack_cables: held
                 .map(|held| held.slack.iter().map(|i| (i + 1).to_string()).collect::<Vec<_>>().join(" ")),
             out_of_limits: held
@@ -198,8 +200,9 @@ pub(super) fn columns<S: Serializer>(rows: &[WorkspaceRow], serializer: S) -> Re
         dz_mm,
         magnitude_mm,
         least_stiffness,
+        platform_frequency_hz,
+        platform_share,
         lowest_frequency_hz,
-        lowest_cable_frequency_hz,
         slack_cables,
         out_of_limits,
         dominant,

@@ -53,10 +53,11 @@ pub struct WorkspaceSummary {
     pub magnitude_mm: Option<Extremes>,
     /// Stiffness of the softest motion [N/m].
     pub least_stiffness: Option<Extremes>,
-    /// Lowest natural frequency with the load [Hz]; absent without `platform.inertia`.
+    /// Frequency with which the platform swings [Hz]; absent without
+    /// `platform.inertia`.
+    pub platform_frequency_hz: Option<Extremes>,
+    /// Lowest natural frequency of platform and cables [Hz]; as that of the platform.
     pub lowest_frequency_hz: Option<Extremes>,
-    /// That of the slowest cable between ends at rest [Hz]; as the lowest frequency.
-    pub lowest_cable_frequency_hz: Option<Extremes>,
     /// Greatest tension [N].
     pub greatest_tension: Option<Extremes>,
     /// Least tension [N].
@@ -172,8 +173,8 @@ impl WorkspaceSummary {
             dominant,
             magnitude_mm: held_extremes(&rows, |row| row.magnitude_mm),
             least_stiffness: held_extremes(&rows, |row| row.least_stiffness),
+            platform_frequency_hz: held_extremes(&rows, |row| row.platform_frequency_hz),
             lowest_frequency_hz: held_extremes(&rows, |row| row.lowest_frequency_hz),
-            lowest_cable_frequency_hz: held_extremes(&rows, |row| row.lowest_cable_frequency_hz),
             greatest_tension: held_extremes(&rows, |row| row.greatest_tension),
             least_tension: held_extremes(&rows, |row| row.least_tension),
             anew_greatest_tension: extremes(rows.iter(), |row| row.anew_greatest_tension),

@@ -5,9 +5,10 @@ use crate::arguments::UncertaintyArgument;
 use crate::error::ProgramError;
 use crate::output::{Ending, table};
 use crate::pose::at_pose::{RobotAtFreePose, Row, cells};
+use cdpr_dynamics::{DynamicsError, FrequencyDerivatives};
 use cdpr_robot::{Parameter, Robot};
 use cdpr_statics::derivatives::OneSided;
-use cdpr_statics::{Derivatives, DirectProblem, Load, StaticsError, WantedPose, derivatives};
+use cdpr_statics::{Derivatives, Load, StaticsError, WantedPose, derivatives};
 use cdpr_study::ErrorModel;
 use indexmap::IndexMap;
 use serde::Serialize;
@@ -90,18 +91,12 @@ struct Slopes {
     /// Derivative of the lowest stiffness with the load [N/m].
     #[serde(skip_serializing_if = "Option::is_none")]
     least_stiffness: Option<Vec<f64>>,
-    /// Derivative of the lowest natural frequency with the load [Hz].
+    /// Derivative of the frequency of the platform with the load [Hz].
     #[serde(skip_serializing_if = "Option::is_none")]
     frequency_hz: Option<Vec<f64>>,
-    /// The lowest natural frequency with the load [Hz].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    lowest_frequency_hz: Option<f64>,
-    /// That of the slowest cable between ends at rest [Hz].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    lowest_cable_frequency_hz: Option<f64>,
-    /// What follows where that is less than twice as high.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    warning: Option<String>,
+    /// What has that frequency.
+    #[serde(flatten)]
+    swing: Option<Swing>,
     /// Why one of the two derivatives is missing.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     without: Vec<String>,
@@ -115,6 +110,17 @@ struct Slopes {
     /// Tensions of the nominal robot, without and with the load.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     out_of_limits: Vec<OutOfLimits>,
+}
+
+/// How the platform swings, the mass of cables included.
+#[derive(Serialize)]
+struct Swing {
+    platform_frequency_hz: f64,
+    /// Share of the platform in the kinetic energy of that motion.
+    platform_share: f64,
+    /// Distance of the nearest other frequency, relative to it: for larger changes the derivatives do not
+    /// hold.
+    frequency_gap: f64,
 }
 
 /// The two derivatives with respect to a parameter.
@@ -150,11 +156,13 @@ fn slopes(
     robot: &Robot,
     load: &Load,
     found: &Derivatives,
+    frequency: &Result<FrequencyDerivatives, DynamicsError>,
 ) -> Result<(Vec<Slope>, Vec<String>), StaticsError> {
     let each = found.magnitude()?.into_iter().enumerate().take(found.inputs.parameters.len());
     let displacement = found.displacement();
-    let softest = [found.least_stiffness(robot, load), found.frequency(robot, load)];
-    let softest = softest.map(|found| found.map(|(_, slopes)| slopes));
+    let frequency = frequency.as_ref().map(|of| of.with_lengths(&found.lengths)).map_err(Clone::clone);
+    let stiffness = found.least_stiffness(robot, load).map(|(_, slopes)| slopes);
+    let softest = [stiffness, frequency.map_err(StaticsError::from)];
     let slope = |(j, magnitude): (usize, f64)| {
         let [least_stiffness, frequency_hz] =
             softest.each_ref().map(|slopes| slopes.as_ref().ok().map(|slopes| slopes[j]));
@@ -173,8 +181,9 @@ fn slopes(
 impl Slopes {
     fn new(robot: &Robot, load: &Load, found: &Derivatives) -> Result<Self, StaticsError> {
         let parameters = &found.inputs.parameters;
-        let (left, without) = slopes(robot, load, found)?;
-        let (right, _) = slopes(robot, load, &found.right())?;
+        let frequency = FrequencyDerivatives::of_deflection(robot, load, found);
+        let (left, without) = slopes(robot, load, found, &frequency)?;
+        let (right, _) = slopes(robot, load, &found.right(), &frequency)?;
         let of_parameter = found.one_sided.iter().filter(|one| one.column < parameters.len());
         let both = |OneSided { column, cables }: &OneSided| TwoSlopes {
             parameter: parameters[*column].to_string(),
@@ -186,14 +195,12 @@ impl Slopes {
         };
         let deflection = &found.deflection;
         let equilibria = [&deflection.unloaded.equilibrium, &deflection.loaded.equilibrium];
-        let problem = DirectProblem::new(robot, &deflection.lengths, load)?;
-        let lowest_frequency_hz = problem.lowest_frequency(&deflection.loaded.equilibrium).ok();
-        let slowest = problem.lowest_cable_frequency(&deflection.loaded.equilibrium)?;
-        let slowest = slowest.filter(|_| lowest_frequency_hz.is_some());
         Ok(Self {
-            lowest_frequency_hz,
-            lowest_cable_frequency_hz: slowest.map(|cable| cable.frequency),
-            warning: slowest.zip(lowest_frequency_hz).and_then(|(cable, platform)| cable.warning(platform)),
+            swing: frequency.ok().map(|of| Swing {
+                platform_frequency_hz: of.frequency,
+                platform_share: of.platform_share,
+                frequency_gap: of.gap,
+            }),
             deflection_magnitude_mm: 1e3 * found.deflection.magnitude(),
             inputs: parameters.clone(),
             parameters: parameters.iter().map(ToString::to_string).collect(),
@@ -275,10 +282,13 @@ impl Slopes {
             println!("{parameter}: {} on one side only", cables.join(", "));
         }
         self.without.iter().for_each(|reason| println!("{reason}"));
-        if let (Some(platform), Some(cable)) = (self.lowest_frequency_hz, self.lowest_cable_frequency_hz) {
-            println!("lowest frequency {platform:.4} Hz; of the cables themselves {cable:.4} Hz");
+        if let Some(Swing { platform_frequency_hz, platform_share, frequency_gap }) = &self.swing {
+            println!(
+                "frequency of the platform: {platform_frequency_hz:.4} Hz, with {} % of the energy of its motion;",
+                decimal(100.0 * platform_share, 1)
+            );
+            println!("the nearest other frequency is {} % away", decimal(100.0 * frequency_gap, 2));
         }
-        self.warning.iter().for_each(|warning| println!("warning: {warning}"));
         self.uncertainty.iter().for_each(Uncertainty::print);
         OutOfLimits::print(&self.out_of_limits);
     }
@@ -298,7 +308,9 @@ impl Row for Slopes {
         parameters
             .iter()
             .flat_map(slopes)
-            .chain(["one_sided", "lowest_cable_frequency_hz"].map(str::to_owned))
+            .chain(
+                ["one_sided", "platform_frequency_hz", "platform_share", "frequency_gap"].map(str::to_owned),
+            )
             .collect()
     }
 
@@ -314,16 +326,14 @@ impl Row for Slopes {
         };
         let slopes = (0..self.parameters.len()).flat_map(of);
         let one_sided: Vec<_> = self.one_sided.iter().map(|both| both.parameter.as_str()).collect();
-        let lowest = self.lowest_cable_frequency_hz.map(|frequency| format!("{frequency:?}"));
-        slopes.chain([one_sided.join(" "), lowest.unwrap_or_default()]).collect()
+        let swing = self.swing.as_ref();
+        let swing = swing.map(|of| [of.platform_frequency_hz, of.platform_share, of.frequency_gap]);
+        let swing = (0..3).map(|k| swing.map_or_else(String::new, |all| format!("{:?}", all[k])));
+        slopes.chain([one_sided.join(" ")]).chain(swing).collect()
     }
 
     fn out_of_limits(&self) -> Vec<&[OutOfLimits]> {
         vec![&self.out_of_limits]
-    }
-
-    fn warning(&self) -> Option<&str> {
-        self.warning.as_deref()
     }
 }
 

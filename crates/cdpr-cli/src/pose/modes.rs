@@ -92,8 +92,8 @@ impl Settings {
 }
 
 /// The robot, with an assumed inertia where it has none and rotates.
-pub(crate) fn with_inertia(robot: &Robot) -> Cow<'_, Robot> {
-    if robot.platform.inertia.is_some() || (3..6).all(|k| !robot.freedoms().contains(k)) {
+pub(super) fn with_inertia(robot: &Robot) -> Cow<'_, Robot> {
+    if !robot.lacks_inertia() {
         return Cow::Borrowed(robot);
     }
     static NOTED: Once = Once::new();
@@ -130,6 +130,8 @@ struct Motion {
     /// Share of platform and payload in the kinetic energy.
     platform_share: f64,
     cable_shares: Vec<f64>,
+    /// Part of the platform's share that is its slowest motion on cables without mass.
+    swing_share: f64,
     /// Translation of P [1/√kg].
     translation: [f64; 3],
     /// Rotation vector [rad/(m √kg)].
@@ -167,6 +169,7 @@ impl Answer {
             within: mode.within,
             platform_share: mode.platform_share,
             cable_shares: mode.cable_shares.clone(),
+            swing_share: mode.swing_share,
             translation: mode.translation.into(),
             rotation: mode.rotation.into(),
         };
@@ -179,16 +182,18 @@ impl Answer {
         }
     }
 
-    /// The motion in which the platform has the largest share.
+    /// How the platform swings.
     fn of_platform(&self) -> Option<&Motion> {
-        self.modes.iter().max_by(|one, other| one.platform_share.total_cmp(&other.platform_share))
+        self.modes.iter().max_by(|one, other| one.swing_share.total_cmp(&other.swing_share))
     }
 
     fn print(&self, heading: &str) {
         println!("{heading}: {} natural motions up to {:.4} Hz.", self.counted, self.complete_below_hz);
         if let Some(Motion { frequency_hz, platform_share, .. }) = self.of_platform() {
             let share = decimal(100.0 * platform_share, 1);
-            println!("The platform has its largest share, {share} %, at {frequency_hz:.4} Hz.");
+            println!(
+                "The platform swings at {frequency_hz:.4} Hz, with {share} % of the energy of that motion."
+            );
         }
         let names = ["frequency [Hz]", "platform [%]", "cables [%]", "moves most", "within"];
         let mut rows = table(&names);

@@ -1,6 +1,6 @@
 //! `cdpr path`: what a robot does along a path of poses.
 
-use crate::answer::{OutOfLimits, warn_of_cables};
+use crate::answer::OutOfLimits;
 use crate::arguments::UncertaintyArgument;
 use crate::arguments::endings;
 use crate::error::ProgramError;
@@ -30,13 +30,10 @@ pub(crate) fn run(Settings { at, errors, figure }: &Settings) -> Result<Ending, 
     let model = errors.model(&robot)?;
     let mut path = Path::new(&robot, load, model.as_ref())?;
     let mut passed = Vec::new();
-    let mut frequencies = Vec::new();
     let mut along = Along::default();
     let mut solve = |pose: &_| {
         let found = path.solve(pose);
         along.pass(found.as_ref().ok());
-        let passed_by = found.as_ref().ok();
-        frequencies.extend(passed_by.and_then(|at| at.lowest_cable_frequency.zip(at.lowest_frequency)));
         if figure.is_some() {
             passed.push(found.clone().ok());
         }
@@ -48,7 +45,6 @@ pub(crate) fn run(Settings { at, errors, figure }: &Settings) -> Result<Ending, 
         at.answer_in_order(&robot, |pose| Ok(Passed::new(&robot, solve(pose)?)))?
     };
     along.tell();
-    warn_of_cables(frequencies.into_iter());
     if let Some(file) = figure {
         at.printing.overwrite.write(file, &path_view(&robot, &load, &passed)?)?;
     }
@@ -116,10 +112,13 @@ struct Passed {
     magnitude_mm: f64,
     /// Stiffness of the softest motion with the load.
     least_stiffness: f64,
-    /// With the load; `null` for a robot that lacks `platform.inertia`.
+    /// With which the platform swings with the load, the mass of cables included; `null` for a robot that
+    /// lacks `platform.inertia`.
+    platform_frequency_hz: Option<f64>,
+    /// Share of the platform in the kinetic energy of that motion.
+    platform_share: Option<f64>,
+    /// The lowest one of platform and cables.
     lowest_frequency_hz: Option<f64>,
-    /// That of the slowest cable between ends at rest.
-    lowest_cable_frequency_hz: Option<f64>,
     /// Numbers, from 1, of the cables that are slack with the load.
     slack_cables: Vec<usize>,
     /// Standard deviations, in SI units; absent without an error model, `null` without derivatives.
@@ -143,8 +142,9 @@ impl Passed {
             deflection_mm: dp.into(),
             magnitude_mm: dp.norm(),
             least_stiffness: loaded.stability.least_stiffness(),
-            lowest_frequency_hz: found.lowest_frequency,
-            lowest_cable_frequency_hz: found.lowest_cable_frequency.map(|cable| cable.frequency),
+            platform_frequency_hz: found.swing.map(|swing| swing.platform),
+            platform_share: found.swing.map(|swing| swing.platform_share),
+            lowest_frequency_hz: found.swing.map(|swing| swing.lowest),
             slack_cables: loaded.report.slack.iter().map(|i| i + 1).collect(),
             standard_deviations: bands,
             out_of_limits: OutOfLimits::all(robot, &lengths, &[&unloaded.equilibrium, &loaded.equilibrium]),
@@ -164,8 +164,9 @@ impl Row for Passed {
             "dz_mm",
             "magnitude_mm",
             "least_stiffness",
+            "platform_frequency_hz",
+            "platform_share",
             "lowest_frequency_hz",
-            "lowest_cable_frequency_hz",
             "slack_cables",
         ];
         let platform = of_platform.into_iter().map(str::to_owned);
@@ -177,7 +178,7 @@ impl Row for Passed {
         let of_cables = lengths.iter().chain(tensions).chain(exit_tensions).chain(sags);
         let numbers = of_cables.chain(deflection_mm).chain([&self.magnitude_mm, &self.least_stiffness]);
         let slack: Vec<_> = self.slack_cables.iter().map(ToString::to_string).collect();
-        let frequencies = [self.lowest_frequency_hz, self.lowest_cable_frequency_hz];
+        let frequencies = [self.platform_frequency_hz, self.platform_share, self.lowest_frequency_hz];
         let frequencies = frequencies.map(|of| of.map_or_else(String::new, |of| format!("{of:?}")));
         let first = [self.jump.to_string()].into_iter().chain(cells(numbers));
         first.chain(frequencies).chain([slack.join(" ")]).collect()
@@ -199,7 +200,7 @@ impl Row for Banded {
         let of_cables =
             of_cables.into_iter().flat_map(|(name, unit)| numbered(name, unit, robot.cables.len()));
         let of_platform =
-            ["dx_mm", "dy_mm", "dz_mm", "magnitude_mm", "least_stiffness", "lowest_frequency_hz"];
+            ["dx_mm", "dy_mm", "dz_mm", "magnitude_mm", "least_stiffness", "platform_frequency_hz"];
         let platform = of_platform.into_iter().map(|name| format!("std_{name}"));
         Passed::columns(robot).into_iter().chain(of_cables).chain(platform).collect()
     }
@@ -210,10 +211,10 @@ impl Row for Banded {
             let empty = vec![String::new(); 2 * passed.lengths.len() + 6];
             return passed.cells().into_iter().chain(empty).collect();
         };
-        let Bands { lengths, tensions, displacement, magnitude, least_stiffness, lowest_frequency } = bands;
+        let Bands { lengths, tensions, displacement, magnitude, least_stiffness, platform_frequency } = bands;
         let displacement = displacement.map(|std| 1e3 * std);
         let numbers = cells(lengths.iter().chain(tensions).chain(&displacement));
-        let others = [magnitude.map(|std| 1e3 * std), *least_stiffness, *lowest_frequency];
+        let others = [magnitude.map(|std| 1e3 * std), *least_stiffness, *platform_frequency];
         let others = others.map(|std| std.map(|std| format!("{std:?}")).unwrap_or_default());
         passed.cells().into_iter().chain(numbers).chain(others).collect()
     }

@@ -1,6 +1,5 @@
 //! `cdpr workspace`: where the cables hold the platform, and how far it gives there, over a plane or a box.
 
-use crate::answer::warn_of_cables;
 use crate::arguments::poses::Angles;
 use crate::arguments::{
     self, Format, FreeArguments, LoadArguments, Overwrite, Preference, Region, RobotArgument, Threads,
@@ -135,8 +134,6 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     let poses = compute_workspace(&workspace, &|| progress.inc(1), &|| false)?;
     let seconds = clock.elapsed().as_secs_f64();
     progress.finish_and_clear();
-    let held = poses.iter().filter_map(|pose| pose.outcome.as_ref().ok());
-    warn_of_cables(held.filter_map(|held| held.lowest_cable_frequency.zip(held.lowest_frequency)));
     let mut summary = WorkspaceSummary::new(&workspace, &poses);
     questions::about_map(&summary);
     let mut boundary = None;
@@ -206,8 +203,8 @@ fn ranges(summary: &WorkspaceSummary) -> [(&'static str, Option<Extremes>); 14] 
     [
         ("|dp| [mm]", summary.magnitude_mm),
         ("least stiffness [N/m]", summary.least_stiffness),
+        ("frequency of the platform [Hz]", summary.platform_frequency_hz),
         ("lowest natural frequency [Hz]", summary.lowest_frequency_hz),
-        ("that of the slowest cable [Hz]", summary.lowest_cable_frequency_hz),
         ("greatest tension [N]", summary.greatest_tension),
         ("least tension [N]", summary.least_tension),
         ("greatest tension, distributed anew [N]", summary.anew_greatest_tension),

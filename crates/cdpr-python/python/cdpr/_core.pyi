@@ -715,11 +715,77 @@ class Robot:
         self,
         pose: _Row,
         *,
+        number: int = 12,
+        below: float | None = None,
         payload: float | None = None,
         force: _Row | None = None,
         moment: _Row | None = None,
         free: Sequence[str] | None = None,
-    ) -> Modes[None]:
+    ) -> Modes[float, None]:
+        """Computes the natural motions of platform and cables, the lengths held.
+
+        Cables have mass: where they vibrate about as fast as the platform, they move together with it. None of
+        the motions is missing, which a count proves. Arguments are of one case, or have a first axis of m
+        cases.
+
+        Parameters
+        ----------
+        pose : array_like
+            x, y, z [m], or x, y, z, qw, qx, qy, qz, (3,) or (7,).
+        number : int, optional
+            This many motions, the slowest.
+        below : float, optional
+            All motions up to this frequency [Hz], instead of a number.
+        payload : array_like, optional
+            Mass that the platform carries there, at its centre of mass [kg].
+        force, moment : array_like, optional
+            On the platform in the base frame, about P [N, N m], (3,).
+        free : sequence of str, optional
+            Names of the coordinates of the pose that are found, for a robot with fewer cables than free
+            motions, as `Robot.inverse` takes them.
+
+        Returns
+        -------
+        Modes
+            Frequencies, shares and motions.
+
+        Raises
+        ------
+        InputError
+            For an invalid value; the message names it and what would be right; also where the robot has no
+            inertia.
+        NoSolutionError
+            For one case without an answer; of several, its row has NaN and a reason.
+
+        Examples
+        --------
+        >>> import cdpr
+        >>> robot = cdpr.Robot.from_file("cogiro")
+        >>> robot.modes([0, 0, 2], below=6).frequencies_hz.shape  # [Hz]
+        (18,)
+        """
+    @overload
+    def modes(
+        self,
+        pose: ArrayLike,
+        *,
+        number: int = 12,
+        below: float | None = None,
+        payload: ArrayLike | None = None,
+        force: ArrayLike | None = None,
+        moment: ArrayLike | None = None,
+        free: Sequence[str] | None = None,
+    ) -> Modes[_Floats, _Words]: ...
+    @overload
+    def massless_modes(  # type: ignore[overload-overlap]
+        self,
+        pose: _Row,
+        *,
+        payload: float | None = None,
+        force: _Row | None = None,
+        moment: _Row | None = None,
+        free: Sequence[str] | None = None,
+    ) -> MasslessModes[None]:
         """Computes the natural motions of the platform on cables without mass, the lengths held.
 
         Arguments are of one case, or have a first axis of m cases.
@@ -738,7 +804,7 @@ class Robot:
 
         Returns
         -------
-        Modes
+        MasslessModes
             Frequencies and motions.
 
         Raises
@@ -753,11 +819,11 @@ class Robot:
         --------
         >>> import cdpr
         >>> robot = cdpr.Robot.from_file("cogiro")
-        >>> robot.modes([0, 0, 2]).frequencies_hz.shape  # [Hz]
+        >>> robot.massless_modes([0, 0, 2]).frequencies_hz.shape  # [Hz]
         (6,)
         """
     @overload
-    def modes(
+    def massless_modes(
         self,
         pose: ArrayLike,
         *,
@@ -765,7 +831,7 @@ class Robot:
         force: ArrayLike | None = None,
         moment: ArrayLike | None = None,
         free: Sequence[str] | None = None,
-    ) -> Modes[_Words]: ...
+    ) -> MasslessModes[_Words]: ...
     @overload
     def derivatives(  # type: ignore[overload-overlap]
         self,
@@ -1279,8 +1345,8 @@ class PathDeviations:
     def least_stiffness(self) -> _Floats:
         """Of the least stiffness [N/m], (m,)."""
     @property
-    def lowest_frequency(self) -> _Floats:
-        """Of the lowest natural frequency [Hz], (m,)."""
+    def platform_frequency(self) -> _Floats:
+        """Of the frequency of the platform [Hz], (m,)."""
     @property
     def reasons(self) -> _Words:
         """Why there is no answer, None where there is one, (m,)."""
@@ -1566,14 +1632,77 @@ class Deflection(Generic[_N, _B, _I, _W, _R]):
         """The kind of each failure, in the same form: `infeasible_tension`, ..."""
 
 @final
-class Modes(Generic[_R]):
-    """Natural motions of the platform, of unit mass.
+class Modes(Generic[_N, _R]):
+    """Natural motions of platform and cables, of unit mass.
+
+    The answer is of one pose, or of m: then every field has a first axis of m, with NaN where there is no
+    answer, and `reasons` says why. There are k motions, as many as wanted, or as a frequency bounds: then
+    poses with fewer than others have NaN for those that are missing.
+    """
+
+    def __new__(cls, *fields: Any) -> Modes: ...
+    def __class_getitem__(cls, number: Any) -> GenericAlias: ...
+    def plot(self) -> Any:
+        """Draws the answer: of one case a bar for each element, of several a line over the cases.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            The figure.
+        """
+    def to_dataframe(self) -> Any:
+        """Makes a frame with a row for each case and columns of numbers and words.
+
+        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
+        name: `magnitude/a1.x`.
+
+        Returns
+        -------
+        pandas.DataFrame
+            The frame.
+        """
+    @property
+    def frequencies_hz(self) -> _Floats:
+        """Natural frequencies, ascending [Hz], (k,)."""
+    @property
+    def within(self) -> _Floats:
+        """Greatest relative error of each frequency that the counts leave, (k,)."""
+    @property
+    def platform_shares(self) -> _Floats:
+        """Share of the platform in the kinetic energy of each motion, (k,)."""
+    @property
+    def swing_shares(self) -> _Floats:
+        """Part of it that is the platform's slowest motion on cables without mass, (k,). The platform swings
+        mostly with the motion that has the largest one.
+        """
+    @property
+    def cable_shares(self) -> _Floats:
+        """Share of each cable in the kinetic energy of each motion, (k, n)."""
+    @property
+    def translations(self) -> _Floats:
+        """Translation of P in each motion [1/sqrt(kg)], (k, 3)."""
+    @property
+    def rotations(self) -> _Floats:
+        """Rotation in each motion [rad/(m sqrt(kg))], (k, 3)."""
+    @property
+    def complete_below_hz(self) -> _N:
+        """Frequency up to which no motion is missing [Hz]."""
+    @property
+    def reasons(self) -> _R:
+        """Why there is no answer, None where there is one; None for one pose."""
+    @property
+    def kinds(self) -> _R:
+        """The kind of each failure, in the same form: `infeasible_tension`, ..."""
+
+@final
+class MasslessModes(Generic[_R]):
+    """Natural motions of the platform on cables without mass, of unit mass.
 
     The answer is of one pose, or of m: then every field has a first axis of m, with NaN where there is no
     answer, and `reasons` says why.
     """
 
-    def __new__(cls, *fields: Any) -> Modes: ...
+    def __new__(cls, *fields: Any) -> MasslessModes: ...
     def __class_getitem__(cls, number: Any) -> GenericAlias: ...
     def plot(self) -> Any:
         """Draws the answer: of one case a bar for each element, of several a line over the cases.
@@ -1611,8 +1740,8 @@ class Modes(Generic[_R]):
         """Share of the weight in the energy of each motion, (6,)."""
     @property
     def cable_frequencies_hz(self) -> _Floats:
-        """The lowest frequency of each cable between ends at rest [Hz], (n,); NaN for one without mass. The
-        motions take cables without mass: they hold where this is at least twice as high.
+        """The lowest frequency of each cable between ends at rest [Hz], (n,); NaN for one without mass. Where it
+        is less than twice as high, the cables' mass changes the motions: see `Robot.modes`.
         """
     @property
     def reasons(self) -> _R:
@@ -1834,11 +1963,14 @@ class PathStates:
     def least_stiffness(self) -> _Floats:
         """Stiffness of the softest motion with the load [N/m], (m,)."""
     @property
-    def lowest_frequency(self) -> _Floats:
-        """Lowest natural frequency with the load [Hz], (m,); NaN for a robot without `inertia`."""
+    def platform_frequency(self) -> _Floats:
+        """Frequency with which the platform swings with the load, the mass of cables included [Hz], (m,); NaN for a robot without `inertia`."""
     @property
-    def lowest_cable_frequency(self) -> _Floats:
-        """That of the slowest cable between ends at rest [Hz], (m,); NaN without a lowest frequency."""
+    def platform_share(self) -> _Floats:
+        """Share of the platform in the kinetic energy of that motion, (m,)."""
+    @property
+    def lowest_frequency(self) -> _Floats:
+        """Lowest natural frequency of platform and cables with the load [Hz], (m,)."""
     @property
     def std(self) -> PathDeviations | None:
         """Standard deviations by the uncertainty; None without one."""
@@ -1975,7 +2107,8 @@ class Derivatives(Generic[_N, _B, _I, _W, _R]):
         """
     @property
     def frequency(self) -> _Floats:
-        """Derivatives of the lowest natural frequency with the load [Hz per unit], (k,); NaN where two
+        """Derivatives of the frequency of the platform with the load [Hz per unit], (k,): of its motion
+        with the mass of cables, as long as it changes less than its distance from the next. NaN where two
         motions have it, and without inertia of the platform.
         """
     @property
@@ -1998,7 +2131,7 @@ class Derivatives(Generic[_N, _B, _I, _W, _R]):
         """Right derivatives of the lowest stiffness [N/m per unit], (k,)."""
     @property
     def frequency_right(self) -> _Floats:
-        """Right derivatives of the lowest natural frequency [Hz per unit], (k,)."""
+        """Right derivatives of the frequency of the platform [Hz per unit], (k,)."""
     @property
     def deflection(self) -> Deflection[_N, _B, _I, _W, _R]:
         """The deflection itself."""
@@ -2104,11 +2237,14 @@ class Workspace:
     def least_stiffness(self) -> _Floats:
         """Stiffness of the softest motion with the load [N/m], (m,)."""
     @property
-    def lowest_frequency(self) -> _Floats:
-        """Lowest natural frequency with the load [Hz], (m,); NaN for a robot without inertia."""
+    def platform_frequency(self) -> _Floats:
+        """Frequency with which the platform swings with the load, the mass of cables included [Hz], (m,); NaN for a robot without inertia."""
     @property
-    def lowest_cable_frequency(self) -> _Floats:
-        """That of the slowest cable between ends at rest [Hz], (m,); NaN without a lowest frequency."""
+    def platform_share(self) -> _Floats:
+        """Share of the platform in the kinetic energy of that motion, (m,)."""
+    @property
+    def lowest_frequency(self) -> _Floats:
+        """Lowest natural frequency of platform and cables with the load [Hz], (m,)."""
     @property
     def dominant(self) -> list[str | None]:
         """Uncertain parameter with the largest share of the variance of |dp|, or None; m of them."""

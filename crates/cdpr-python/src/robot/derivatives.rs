@@ -4,6 +4,7 @@ use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each};
 use crate::robot::Robot;
 use crate::robot::deflection::{Deflection, Given};
 use crate::robot::inverse::coordinates;
+use cdpr_dynamics::FrequencyDerivatives;
 use cdpr_robot::{Parameter, Pose};
 use cdpr_statics::{Load, StaticsError, WantedPose, derivatives};
 use pyo3::prelude::*;
@@ -38,7 +39,8 @@ answer! {
         /// Derivatives of the lowest stiffness with the load [N/m per unit], (k,); NaN where two motions have
         /// it.
         least_stiffness: Py<PyAny>,
-        /// Derivatives of the lowest natural frequency with the load [Hz per unit], (k,); NaN where two
+        /// Derivatives of the frequency of the platform with the load [Hz per unit], (k,): of its motion
+        /// with the mass of cables, as long as it changes less than its distance from the next. NaN where two
         /// motions have it, and without inertia of the platform.
         frequency: Py<PyAny>,
         /// Right derivatives of |dp| [m per unit], (k,).
@@ -53,7 +55,7 @@ answer! {
         tensions_right: Py<PyAny>,
         /// Right derivatives of the lowest stiffness [N/m per unit], (k,).
         least_stiffness_right: Py<PyAny>,
-        /// Right derivatives of the lowest natural frequency [Hz per unit], (k,).
+        /// Right derivatives of the frequency of the platform [Hz per unit], (k,).
         frequency_right: Py<PyAny>,
         /// The deflection itself.
         deflection: Py<Deflection>,
@@ -88,10 +90,10 @@ impl Slopes {
         robot: &cdpr_robot::Robot,
         load: &Load,
         found: &cdpr_statics::Derivatives,
+        frequency: Option<&FrequencyDerivatives>,
     ) -> Result<Self, StaticsError> {
-        let or_none = |slopes: Result<(f64, Vec<f64>), StaticsError>| {
-            slopes.map_or_else(|_| vec![f64::NAN; found.inputs.count()], |(_, slopes)| slopes)
-        };
+        let none = || vec![f64::NAN; found.inputs.count()];
+        let stiffness = found.least_stiffness(robot, load);
         // nalgebra stores matrices column by column.
         Ok(Self {
             magnitude: found.magnitude()?,
@@ -99,8 +101,8 @@ impl Slopes {
             lengths: found.lengths.transpose().as_slice().to_vec(),
             set_points: found.set_points.transpose().as_slice().to_vec(),
             tensions: found.loaded.tensions.transpose().as_slice().to_vec(),
-            least_stiffness: or_none(found.least_stiffness(robot, load)),
-            frequency: or_none(found.frequency(robot, load)),
+            least_stiffness: stiffness.map_or_else(|_| none(), |(_, slopes)| slopes),
+            frequency: frequency.map_or_else(none, |frequency| frequency.with_lengths(&found.lengths)),
         })
     }
 }
@@ -163,9 +165,10 @@ impl Robot {
         let outcomes: Vec<Result<Sides, StaticsError>> = each(py, cases.count, |case| {
             let (pose, load) = (poses.pose(case)?, loads.load(case)?);
             let found = derivatives(robot, WantedPose::at(&pose).free(&free), &load)?;
+            let frequency = FrequencyDerivatives::of_deflection(robot, &load, &found).ok();
             Ok(Sides {
-                left: Slopes::new(robot, &load, &found)?,
-                right: Slopes::new(robot, &load, &found.right())?,
+                left: Slopes::new(robot, &load, &found, frequency.as_ref())?,
+                right: Slopes::new(robot, &load, &found.right(), frequency.as_ref())?,
                 one_sided: found.one_sided.iter().map(|input| input.column).collect(),
                 given: Given::new(robot, found.deflection),
             })

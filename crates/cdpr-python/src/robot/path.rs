@@ -33,10 +33,13 @@ answer! {
         magnitude: Py<PyAny>,
         /// Stiffness of the softest motion with the load [N/m], (m,).
         least_stiffness: Py<PyAny>,
-        /// Lowest natural frequency with the load [Hz], (m,); NaN for a robot without `inertia`.
+        /// Frequency with which the platform swings with the load, the mass of cables included [Hz], (m,);
+        /// NaN for a robot without `inertia`.
+        platform_frequency: Py<PyAny>,
+        /// Share of the platform in the kinetic energy of that motion, (m,).
+        platform_share: Py<PyAny>,
+        /// Lowest natural frequency of platform and cables with the load [Hz], (m,).
         lowest_frequency: Py<PyAny>,
-        /// That of the slowest cable between ends at rest [Hz], (m,); NaN without a lowest frequency.
-        lowest_cable_frequency: Py<PyAny>,
         /// Standard deviations by the uncertainty; None without one.
         std: Option<Py<PathDeviations>>,
         /// The equilibria with the load.
@@ -64,8 +67,8 @@ answer! {
         magnitude: Py<PyAny>,
         /// Of the least stiffness [N/m], (m,).
         least_stiffness: Py<PyAny>,
-        /// Of the lowest natural frequency [Hz], (m,).
-        lowest_frequency: Py<PyAny>,
+        /// Of the frequency of the platform [Hz], (m,).
+        platform_frequency: Py<PyAny>,
         /// Why there is no answer, None where there is one, (m,).
         reasons: Py<PyAny>,
     }
@@ -161,7 +164,7 @@ impl Robot {
                 displacement: std(&[3], |bands| bands.displacement.to_vec())?,
                 magnitude: std(&[], |bands| number(bands.magnitude))?,
                 least_stiffness: std(&[], |bands| number(bands.least_stiffness))?,
-                lowest_frequency: std(&[], |bands| number(bands.lowest_frequency))?,
+                platform_frequency: std(&[], |bands| number(bands.platform_frequency))?,
                 reasons: all.reasons(),
             };
             Ok(Py::new(py, deviations)?)
@@ -175,10 +178,11 @@ impl Robot {
             displacement: all.vector(|passed| passed.at.deflection.displacement().into())?,
             magnitude: all.number(|passed| passed.at.deflection.displacement().norm())?,
             least_stiffness: all.number(|passed| passed.at.deflection.loaded.stability.least_stiffness())?,
-            lowest_frequency: all.number(|passed| passed.at.lowest_frequency.unwrap_or(f64::NAN))?,
-            lowest_cable_frequency: all.number(|passed| {
-                passed.at.lowest_cable_frequency.map_or(f64::NAN, |cable| cable.frequency)
-            })?,
+            platform_frequency: all
+                .number(|passed| passed.at.swing.map_or(f64::NAN, |swing| swing.platform))?,
+            platform_share: all
+                .number(|passed| passed.at.swing.map_or(f64::NAN, |swing| swing.platform_share))?,
+            lowest_frequency: all.number(|passed| passed.at.swing.map_or(f64::NAN, |swing| swing.lowest))?,
             std: model.as_ref().map(|_| deviations()).transpose()?,
             loaded: Py::new(py, DirectSolution::new(&all.part(|passed| &passed.loaded), cables)?)?,
             reasons: all.reasons(),

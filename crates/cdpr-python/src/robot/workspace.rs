@@ -37,10 +37,13 @@ answer! {
         magnitude: Py<PyAny>,
         /// Stiffness of the softest motion with the load [N/m], (m,).
         least_stiffness: Py<PyAny>,
-        /// Lowest natural frequency with the load [Hz], (m,); NaN for a robot without inertia.
+        /// Frequency with which the platform swings with the load, the mass of cables included [Hz], (m,);
+        /// NaN for a robot without inertia.
+        platform_frequency: Py<PyAny>,
+        /// Share of the platform in the kinetic energy of that motion, (m,).
+        platform_share: Py<PyAny>,
+        /// Lowest natural frequency of platform and cables with the load [Hz], (m,).
         lowest_frequency: Py<PyAny>,
-        /// That of the slowest cable between ends at rest [Hz], (m,); NaN without a lowest frequency.
-        lowest_cable_frequency: Py<PyAny>,
         /// Uncertain parameter with the largest share of the variance of |dp|, or None; m of them.
         dominant: Vec<Option<String>>,
         /// Share of that parameter, 0 to 1, (m,).
@@ -153,8 +156,9 @@ impl Robot {
             displacement: vectors(&|row| Some(loaded(row)?.displacement.into()))?,
             magnitude: column(&|row| Some(loaded(row)?.displacement.norm())),
             least_stiffness: column(&|row| Some(held(row)?.least_stiffness)),
-            lowest_frequency: column(&|row| held(row)?.lowest_frequency),
-            lowest_cable_frequency: column(&|row| Some(held(row)?.lowest_cable_frequency?.frequency)),
+            platform_frequency: column(&|row| Some(held(row)?.swing?.platform)),
+            platform_share: column(&|row| Some(held(row)?.swing?.platform_share)),
+            lowest_frequency: column(&|row| Some(held(row)?.swing?.lowest)),
             dominant: rows.iter().map(|row| row.dominant.clone()).collect(),
             dominant_share: column(&|row| Some(held(row)?.dominant?.share)),
             std: column(&|row| Some(held(row)?.dominant?.std)),

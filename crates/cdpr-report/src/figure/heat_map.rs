@@ -18,8 +18,8 @@ pub enum MapQuantity {
     Deflection,
     /// Stiffness of the softest motion.
     LeastStiffness,
-    /// Lowest natural frequency with the load, of a robot with `platform.inertia`.
-    LowestFrequency,
+    /// Natural frequency of the platform with the load, of a robot with `platform.inertia`.
+    PlatformFrequency,
     /// Greatest tension of any cable, without and with the load.
     GreatestTension,
     /// Greatest tension of any cable where tensions are distributed anew under the load.
@@ -43,7 +43,7 @@ impl MapQuantity {
     pub const ALL: [Self; 11] = [
         Self::Deflection,
         Self::LeastStiffness,
-        Self::LowestFrequency,
+        Self::PlatformFrequency,
         Self::GreatestTension,
         Self::GreatestTensionAnew,
         Self::PayloadAnew,
@@ -59,7 +59,7 @@ impl MapQuantity {
         match self {
             Self::Deflection => "deflection",
             Self::LeastStiffness => "least_stiffness",
-            Self::LowestFrequency => "lowest_frequency",
+            Self::PlatformFrequency => "platform_frequency",
             Self::GreatestTension => "greatest_tension",
             Self::GreatestTensionAnew => "greatest_tension_anew",
             Self::PayloadAnew => "payload_anew",
@@ -99,7 +99,7 @@ impl MapQuantity {
             self,
             Self::Deflection
                 | Self::LeastStiffness
-                | Self::LowestFrequency
+                | Self::PlatformFrequency
                 | Self::GreatestTension
                 | Self::PayloadKept
         )
@@ -110,7 +110,7 @@ impl MapQuantity {
         match self {
             Self::Deflection => ("static deflection", "|dp|", "mm"),
             Self::LeastStiffness => ("stiffness of the softest motion", "least stiffness", "kN/m"),
-            Self::LowestFrequency => ("lowest natural frequency", "frequency", "Hz"),
+            Self::PlatformFrequency => ("natural frequency of the platform", "frequency", "Hz"),
             Self::GreatestTension | Self::GreatestTensionAnew => {
                 ("greatest tension", "greatest tension", "N")
             }
@@ -128,7 +128,7 @@ impl MapQuantity {
         match self {
             Self::Deflection => row.magnitude_mm,
             Self::LeastStiffness => row.least_stiffness.map(|stiffness| 1e-3 * stiffness),
-            Self::LowestFrequency => row.lowest_frequency_hz,
+            Self::PlatformFrequency => row.platform_frequency_hz,
             Self::GreatestTension => row.greatest_tension,
             Self::GreatestTensionAnew => row.anew_greatest_tension,
             Self::PayloadAnew => row.payload_anew_kg,

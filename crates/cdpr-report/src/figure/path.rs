@@ -124,11 +124,11 @@ fn quantities(robot: &Robot, load: &Load, poses: &[Option<PathPose>]) -> Result<
         Some((pose.deflection.loaded.stability.least_stiffness(), std))
     };
     all.push(one("least stiffness [N/m]", curve("least_stiffness", &stiffness)?));
-    if poses.iter().flatten().any(|pose| pose.lowest_frequency.is_some()) {
+    if poses.iter().flatten().any(|pose| pose.swing.is_some()) {
         let frequency = |pose: &PathPose| {
-            Some((pose.lowest_frequency?, of(pose.bands.as_ref(), |bands| bands.lowest_frequency)))
+            Some((pose.swing?.platform, of(pose.bands.as_ref(), |bands| bands.platform_frequency)))
         };
-        all.push(one("lowest frequency [Hz]", curve("lowest_frequency", &frequency)?));
+        all.push(one("frequency of the platform [Hz]", curve("platform_frequency", &frequency)?));
     }
     Ok(all)
 }

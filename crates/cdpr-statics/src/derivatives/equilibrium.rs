@@ -56,18 +56,50 @@ impl DirectProblem<'_> {
         equilibrium: &Equilibrium,
         end: CableEnd,
     ) -> Result<ForceDerivatives, StaticsError> {
+        self.vector_derivatives(equilibrium, |i, cable| match end {
+            CableEnd::Anchor => cable.clone(),
+            CableEnd::Exit => {
+                let at = self.catenary(i, equilibrium.cable_forces[i]);
+                cable.of_pull(self.robot, &equilibrium.pose, i, &at)
+            }
+        })
+    }
+
+    /// The same of `-K3_i d_i`, the change of the force of cable i on the platform by a motion d_i of its anchor
+    /// point [m] that is constant in the base frame, in the place of the forces.
+    ///
+    /// # Errors
+    /// As [`DirectProblem::derivatives`].
+    pub fn resistance_derivatives(
+        &self,
+        equilibrium: &Equilibrium,
+        motions: &[Vector3<f64>],
+    ) -> Result<ForceDerivatives, StaticsError> {
+        let given = motions.len();
+        if given != self.cables() {
+            let expected = format!("{} of them, one for each cable", self.cables());
+            return Err(StaticsError::invalid("motions".to_owned(), given.to_string(), expected));
+        }
+        self.vector_derivatives(equilibrium, |i, cable| {
+            let at = self.catenary(i, equilibrium.cable_forces[i]);
+            cable.of_stiffness(self.robot, &equilibrium.pose, i, &at, motions[i])
+        })
+    }
+
+    /// Derivatives of one vector of each cable, in the place of its force.
+    fn vector_derivatives(
+        &self,
+        equilibrium: &Equilibrium,
+        vector: impl Fn(usize, &CableDerivatives) -> CableDerivatives,
+    ) -> Result<ForceDerivatives, StaticsError> {
         self.check("equilibrium", equilibrium)?;
         let inputs = Inputs::of(self.robot);
         let (n, count) = (self.cables(), inputs.count());
         let mut lengths = DMatrix::zeros(n, count + n);
         (0..n).for_each(|i| lengths[(i, count + i)] = 1.0);
         let pose = EquilibriumDerivatives::new(self, &inputs, equilibrium, Some(&lengths))?.pose;
-        let mut cables = CableDerivatives::all(self, &equilibrium.pose, &equilibrium.cable_forces);
-        if end == CableEnd::Exit {
-            for (i, force) in equilibrium.cable_forces.iter().enumerate() {
-                cables[i] = cables[i].of_pull(self.robot, &equilibrium.pose, i, &self.catenary(i, *force));
-            }
-        }
+        let cables = CableDerivatives::all(self, &equilibrium.pose, &equilibrium.cable_forces);
+        let cables: Vec<_> = cables.iter().enumerate().map(|(i, cable)| vector(i, cable)).collect();
         let mut per_input = DMatrix::zeros(3 * n, count + n);
         let columns = inputs.pose();
         for (axis, unit) in [Vector3::x(), Vector3::y(), Vector3::z()].into_iter().enumerate() {

@@ -15,8 +15,8 @@ pub enum Output {
     /// unstrained lengths [mm]: the accuracy of the position without payload. Offsets of tension set-points
     /// are in these lengths.
     Position,
-    /// Lowest natural frequency [Hz] of the platform with the payload, where it stands after the deflection.
-    /// Motions that nothing resists do not count.
+    /// Lowest natural frequency [Hz] of platform and cables with the payload, where the platform stands after
+    /// the deflection. Motions that nothing resists do not count.
     Frequency,
     /// Lowest stiffness [N/m] of the platform with the payload, where it stands after the deflection.
     /// Rotations are times the characteristic length, and motions that nothing resists do not count.

@@ -5,6 +5,7 @@
 use crate::file::output::Output;
 use crate::model::error_model::ErrorModel;
 use crate::model::observed::{Measured, MeasuredQuantity};
+use cdpr_dynamics::{FrequencyDerivatives, Modes};
 use cdpr_robot::{Coordinate, Deviations, Perturbed, Pose, Robot, Vector3, Vector6};
 use cdpr_statics::batch::{Observation, ObservationMotion, ObservationSlopes, ScalarReason};
 use cdpr_statics::{
@@ -57,16 +58,23 @@ impl<'a> OutputObserver<'a> {
         }
     }
 
-    /// What an output that is a frequency says less of: the cables of the nominal robot vibrate less than twice
-    /// as fast as its platform.
-    pub(crate) fn cable_warning(&self) -> Option<String> {
+    /// What is to be known of an output that is a frequency: cables take most part in its motion.
+    pub(crate) fn frequency_note(&self) -> Option<String> {
+        /// Share of the platform below which the frequency is one of the cables.
+        const SMALL: f64 = 0.5;
         if self.output != Output::Frequency {
             return None;
         }
         let Deflection { lengths, loaded, .. } = &self.nominal;
         let problem = DirectProblem::new(self.robot, lengths, &self.load).ok()?;
-        let slowest = problem.lowest_cable_frequency(&loaded.equilibrium).ok()??;
-        slowest.warning(problem.lowest_frequency(&loaded.equilibrium).ok()?)
+        let found = Modes::slowest(&problem, &loaded.equilibrium).ok()?;
+        let share = found.lowest()?.platform_share;
+        (share < SMALL).then(|| {
+            format!(
+                "frequency: the platform has {:.1} % of the energy of this motion, cables the rest",
+                100.0 * share
+            )
+        })
     }
 
     /// Observes a robot for each row of a table. A robot without the output is an error with the reason.
@@ -144,7 +152,8 @@ impl<'a> OutputObserver<'a> {
             }
             Output::Frequency => {
                 let problem = DirectProblem::new(robot, &found.lengths, &self.load)?;
-                MeasuredQuantity::Number(problem.lowest_frequency(&found.loaded.equilibrium)?)
+                let found = Modes::slowest(&problem, &found.loaded.equilibrium)?;
+                MeasuredQuantity::Number(found.lowest().map_or(0.0, |mode| mode.frequency))
             }
         };
         Ok(Measured { quantity, scalar: Some(ScalarReason::OneByOne) })
@@ -238,7 +247,10 @@ impl<'a> OutputObserver<'a> {
         }
         let found = self.derivatives(&perturbed)?;
         let ((value, slopes), per_unit) = match self.output {
-            Output::Frequency => (found.frequency(&perturbed.robot, &self.load)?, 1.0),
+            Output::Frequency => {
+                let of = FrequencyDerivatives::lowest_of_deflection(&perturbed.robot, &self.load, &found)?;
+                ((of.frequency, of.with_lengths(&found.lengths)), 1.0)
+            }
             Output::Stiffness => {
                 let length = self.characteristic_length();
                 (found.least_stiffness_with(&perturbed.robot, &self.load, length)?, 1.0)

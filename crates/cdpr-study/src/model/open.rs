@@ -212,8 +212,7 @@ impl Study {
     /// The robot has what the output needs.
     fn check_output(&self) -> Result<(), StudyError> {
         let output = self.file.output;
-        let rotates = (3..6).any(|k| self.robot.freedoms().contains(k));
-        if output == Output::Frequency && rotates && self.robot.platform.inertia.is_none() {
+        if output == Output::Frequency && self.robot.lacks_inertia() {
             let expected = "a robot with `platform.inertia`, the inertia about the centre of mass, 3 x 3 in \
                             the platform frame [kg m²]: frequencies depend on it";
             return Err(self.invalid("output", output, expected));

@@ -1,0 +1,208 @@
+//! The free part of a cable at rest: its tension, its elements, and how it begins.
+
+use crate::element::{Beginning, Element, Matrices, assemble};
+use crate::error::DynamicsError;
+use cdpr_cable::{Catenary, ElasticLaw};
+use cdpr_statics::vibration::CableAtRest;
+use nalgebra::{Matrix2, Vector2};
+
+/// Degree of an element beyond 1.6 for each half wave: Legendre's polynomials need π points a wave.
+const MORE_DEGREES: usize = 12;
+const DEGREES_PER_HALF_WAVE: f64 = 1.6;
+
+/// Half waves of one cable at the greatest frequency that are computed.
+const MOST_HALF_WAVES: f64 = 400.0;
+
+/// Elements are halved until the points of no tension, in the complex plane, are this share of their length
+/// away: there the direction of the cable turns.
+const NEAREST_TURN: f64 = 0.8;
+
+/// Halvings after which a cable is folded.
+const MOST_HALVINGS: usize = 30;
+
+/// Compliance of a pulley below this share of the cable's is rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// The free part of a cable, beyond its exit or leave point.
+pub(crate) struct Free<'a> {
+    pub(crate) cable: usize,
+    pub(crate) free: Catenary<'a>,
+}
+
+impl Free<'_> {
+    /// Tension vector (along the plane, upwards) at an unstrained length from the exit [N].
+    pub(crate) fn tension(&self, s: f64) -> Vector2<f64> {
+        let Catenary { cable, unstrained_length, force } = &self.free;
+        Vector2::new(force.x, force.y - cable.weight_per_length * (unstrained_length - s))
+    }
+
+    /// (1 + ε)/N [1/N].
+    pub(crate) fn slenderness(&self, s: f64) -> f64 {
+        let tension = self.tension(s).norm();
+        (1.0 + self.free.cable.strain(tension)) / tension
+    }
+
+    /// A of (N2) in the plane [N].
+    pub(crate) fn modulus(&self, s: f64) -> [[f64; 2]; 2] {
+        let tension = self.tension(s);
+        let along = self.free.cable.tangent_stiffness(tension.norm());
+        let across = self.slenderness(s).recip();
+        let t = tension.normalize();
+        let modulus = Matrix2::identity() * across + t * t.transpose() * (along - across);
+        [[modulus[(0, 0)], modulus[(0, 1)]], [modulus[(1, 0)], modulus[(1, 1)]]]
+    }
+
+    /// Elements that end where the law of the cable has a kink, and that are short where it turns.
+    pub(crate) fn elements(&self, density: f64, highest: f64) -> Result<Vec<Element>, DynamicsError> {
+        let length = self.free.unstrained_length;
+        let mut ends = vec![0.0];
+        ends.extend(self.kinks());
+        ends.push(length);
+        let mut elements = Vec::new();
+        for pair in ends.windows(2) {
+            self.halve([pair[0], pair[1]], MOST_HALVINGS, &mut elements)?;
+        }
+        let per_hertz: Vec<f64> = elements.iter().map(|ends| self.half_waves(*ends, density)).collect();
+        let limit = MOST_HALF_WAVES / per_hertz.iter().sum::<f64>();
+        if highest > limit {
+            let expected = format!(
+                "{limit:.4} Hz at most, where cable {} has {MOST_HALF_WAVES} half waves",
+                self.cable + 1
+            );
+            return Err(DynamicsError::Invalid {
+                field: "highest frequency",
+                value: format!("{highest:?} Hz"),
+                expected,
+            });
+        }
+        let element = |(ends, per_hertz): ([f64; 2], f64)| {
+            let degree = (DEGREES_PER_HALF_WAVE * per_hertz * highest).ceil() as usize + MORE_DEGREES;
+            Element { ends, degree }
+        };
+        Ok(elements.into_iter().zip(per_hertz).map(element).collect())
+    }
+
+    /// Unstrained lengths from the exit at which the law has another modulus.
+    fn kinks(&self) -> Vec<f64> {
+        let Catenary { cable, unstrained_length: length, force } = &self.free;
+        let ElasticLaw::Piecewise(law) = &cable.law else { return Vec::new() };
+        let weight = cable.weight_per_length;
+        let mut kinks: Vec<f64> = law
+            .segments()
+            .filter(|_| weight > 0.0)
+            .filter_map(|segment| {
+                let square = segment.tension * segment.tension - force.x * force.x;
+                (square > 0.0).then(|| square.sqrt())
+            })
+            .flat_map(|height| [height, -height].map(|fz| length - (force.y - fz) / weight))
+            .filter(|s| *s > 1e-9 * length && *s < (1.0 - 1e-9) * length)
+            .collect();
+        kinks.sort_by(f64::total_cmp);
+        kinks
+    }
+
+    fn halve(
+        &self,
+        [from, to]: [f64; 2],
+        left: usize,
+        found: &mut Vec<[f64; 2]>,
+    ) -> Result<(), DynamicsError> {
+        let Catenary { cable, unstrained_length, force } = &self.free;
+        let weight = cable.weight_per_length;
+        let turn = if weight > 0.0 {
+            let lowest = unstrained_length - force.y / weight;
+            (lowest - lowest.clamp(from, to)).hypot(force.x / weight)
+        } else if *force == Vector2::zeros() {
+            0.0
+        } else {
+            f64::INFINITY
+        };
+        if turn >= NEAREST_TURN * (to - from) {
+            found.push([from, to]);
+            return Ok(());
+        }
+        if left == 0 {
+            return Err(DynamicsError::Folded { cable: self.cable });
+        }
+        let middle = 0.5 * (from + to);
+        self.halve([from, middle], left - 1, found)?;
+        self.halve([middle, to], left - 1, found)
+    }
+
+    /// Half waves across a part of the cable for each hertz [s]: 2 ∫ sqrt(μ (1 + ε)/N) ds.
+    fn half_waves(&self, [from, to]: [f64; 2], density: f64) -> f64 {
+        let points = crate::polynomial::gauss(8);
+        let sum: f64 = points
+            .iter()
+            .map(|[x, weight]| {
+                weight * (density * self.slenderness(from + 0.5 * (1.0 + x) * (to - from))).sqrt()
+            })
+            .sum();
+        (to - from) * sum
+    }
+
+    /// How the point moves where the free part begins, in the plane and across it.
+    ///
+    /// Without pulley, a lead of stretched length d moves it along the cable: a bar between winch and exit
+    /// point with mass. The tension changes by `w` for each metre that the cable slides upwards,
+    ///
+    /// ```text
+    /// K = (bar) + w t_z/(1 + ε)                                                                    (N7)
+    /// ```
+    ///
+    /// Over a pulley it moves as its static compliance says, the difference of the compliances of the whole
+    /// cable and of its free part; cable on the wheel and behind it has no mass.
+    pub(crate) fn beginnings(
+        &self,
+        cable: &CableAtRest,
+    ) -> Result<(Beginning<2>, Beginning<1>), DynamicsError> {
+        let Some(guide) = cable.catenary.cable.guide else {
+            return Ok((Beginning::fixed(), Beginning::fixed()));
+        };
+        if guide.radius > 0.0 {
+            return Ok(self.on_pulley(cable));
+        }
+        if guide.lead == 0.0 {
+            return Ok((Beginning::fixed(), Beginning::fixed()));
+        }
+        Ok((self.behind_lead(cable, &Beginning::fixed()).0, Beginning::fixed()))
+    }
+
+    /// How the exit point moves in front of a lead that begins like that, and the stiffness of its stretch
+    /// alone. The first unknown is the motion along the cable, then come those of the beginning of the lead.
+    pub(crate) fn behind_lead(&self, cable: &CableAtRest, start: &Beginning<1>) -> (Beginning<2>, Matrices) {
+        let tension = self.tension(0.0);
+        let stretch = 1.0 + self.free.cable.strain(tension.norm());
+        let modulus = self.free.cable.tangent_stiffness(tension.norm());
+        let lead = cable.catenary.cable.guide.map_or(0.0, |guide| guide.lead);
+        let bar = Element { ends: [0.0, lead / stretch], degree: MORE_DEGREES };
+        let mut matrices = assemble(&[bar], start, cable.linear_density, |_| [[modulus]]);
+        let stretched = Matrices { stiffness: matrices.stiffness.clone(), mass: 0.0 * &matrices.mass };
+        let along = tension.normalize();
+        matrices.stiffness[(0, 0)] += self.free.cable.weight_per_length * along.y / stretch;
+        (Beginning { directions: vec![along.into()], matrices }, stretched)
+    }
+
+    fn on_pulley(&self, cable: &CableAtRest) -> (Beginning<2>, Beginning<1>) {
+        let response = self.free.response();
+        let [xx, xz, zz] = response.flexibility;
+        let free = Matrix2::new(xx, xz, xz, zz);
+        let whole = cable.axes.transpose() * cable.end_stiffness * cable.axes;
+        let in_plane = Matrix2::new(whole.m11, whole.m13, whole.m13, whole.m33);
+        let rounding = ROUNDING * free.norm();
+        let more = in_plane.try_inverse().map_or_else(Matrix2::zeros, |whole| whole - free).symmetric_eigen();
+        let soft: Vec<_> = (0..2).filter(|k| more.eigenvalues[*k] > rounding).collect();
+        let mut matrices = Matrices::zeros(soft.len());
+        for (row, k) in soft.iter().enumerate() {
+            matrices.stiffness[(row, row)] = more.eigenvalues[*k].recip();
+        }
+        let directions = soft.iter().map(|k| more.eigenvectors.column(*k).into_owned().into()).collect();
+        let across = whole.m22.recip() - response.lateral_flexibility;
+        let mut beside = Beginning::fixed();
+        if across > ROUNDING * response.lateral_flexibility {
+            beside = Beginning { directions: vec![[1.0]], matrices: Matrices::zeros(1) };
+            beside.matrices.stiffness[(0, 0)] = across.recip();
+        }
+        (Beginning { directions, matrices }, beside)
+    }
+}

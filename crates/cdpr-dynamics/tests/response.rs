@@ -1,0 +1,144 @@
+//! The response of platforms that are shaken.
+
+use crate::reference::{number, numbers, pose, robot};
+use cdpr_dynamics::{Damping, DynamicsError, FrequencyResponse, Modes, Wanted};
+use cdpr_robot::{Pose, Robot, Vector3};
+use cdpr_statics::{DirectProblem, DirectStart, Load, Matrix6, inverse};
+use serde_json::Value;
+use std::f64::consts::TAU;
+
+const MOTION: &str = include_str!("../../../data/reference/motion.json");
+
+#[test]
+fn receptances_without_damping_are_those_of_transfer_matrices() {
+    let file: Value = serde_json::from_str(MOTION).unwrap();
+    let mut compared = 0;
+    for case in file["cases"].as_array().unwrap() {
+        let Some(references) = case["receptance"].as_array() else { continue };
+        let (robot, lengths) = (robot(case), numbers(&case["unstrained_lengths"]));
+        let problem = DirectProblem::new(&robot, &lengths, &Load::none()).unwrap();
+        let rest = problem.direct(DirectStart::Pose(&pose(case))).unwrap().equilibrium;
+        let bound = number(&case["bound_hz"]);
+        let response = FrequencyResponse::new(&problem, &rest, bound, Damping::default()).unwrap();
+        for reference in references {
+            let found = response.at(number(&reference["frequency_hz"])).unwrap().per_wrench;
+            let expected = &reference["receptance"];
+            let size = expected.as_array().unwrap().len();
+            let entry = |i: usize, j: usize| if i < size && j < size { number(&expected[i][j]) } else { 0.0 };
+            let expected = Matrix6::from_fn(entry);
+            let error = (found.map(|value| value.re) - expected).norm() / expected.norm();
+            let imaginary = found.map(|value| value.im).norm();
+            println!("{} at {}: {error:e}", case["name"], reference["frequency_hz"]);
+            assert!(error < 1e-8 && imaginary == 0.0, "{}: {error:e} {imaginary:e}", case["name"]);
+            compared += 1;
+        }
+    }
+    assert!(compared >= 9, "{compared}");
+}
+
+/// Robots, a pose each, and a frequency above that of the platform [Hz].
+const ROBOTS: [(&str, [f64; 3], f64); 6] = [
+    (include_str!("../../../data/robots/caroca.json"), [0.4, 0.3, 1.75], 20.0),
+    (include_str!("../../../data/robots/cogiro.json"), [0.5, 0.2, 2.0], 10.0),
+    (include_str!("../../../data/robots/fast.json"), [0.0, 0.0, 140.0], 1.0),
+    (include_str!("../../../data/robots/ipanema-1.json"), [0.3, 0.2, 1.1], 10.0),
+    (include_str!("../../../data/robots/ipanema-3.json"), [0.5, 0.2, 1.5], 20.0),
+    (include_str!("../../../data/robots/hrpcables.json"), [0.0, 0.0, 1.5], 10.0),
+];
+
+#[test]
+fn slow_shaking_moves_a_platform_as_the_static_models_say() {
+    for (file, [x, y, z], highest) in ROBOTS {
+        for lead in [0.0, 2.0] {
+            let mut robot = Robot::from_json(file).unwrap();
+            robot.platform.inertia = Some(robot.platform.inertia.unwrap_or_else(|| robot.assumed_inertia()));
+            if lead > 0.0 {
+                robot.cables.iter_mut().for_each(|cable| cable.lead = lead);
+            }
+            let Ok(held) = inverse(&robot, &Pose::at(x, y, z), &Load::none()) else {
+                panic!("{} is not held", robot.name)
+            };
+            let problem = DirectProblem::new(&robot, &held.lengths, &Load::none()).unwrap();
+            let rest = problem.direct(DirectStart::Near(&held.equilibrium)).unwrap().equilibrium;
+            let damping = Damping { stretch: 2e-4, drag: 0.1 };
+            let response = FrequencyResponse::new(&problem, &rest, highest, damping).unwrap();
+            let still = response.at(0.0).unwrap();
+            let linear = problem.linearize(&rest).unwrap();
+            let expected = -linear.pose_per_length();
+            let found = still.per_shortening.map(|value| value.re);
+            let error = (&found - &expected).norm() / expected.norm();
+            println!("{} with leads of {lead} m: {error:.1e}", robot.name);
+            assert!(error < 1e-7, "{}: {error:e} {found} {expected}", robot.name);
+            let stiffness = linear.symmetric_stiffness();
+            let identity = still.per_wrench.map(|value| value.re) * stiffness;
+            assert!((identity - Matrix6::identity()).norm() < 1e-6, "{}: {identity}", robot.name);
+            // Damping takes energy out of every motion.
+            for share in [0.1, 0.37, 0.7, 1.0] {
+                let at = response.at(share * highest).unwrap();
+                let dissipated = at.per_wrench.map(|value| -value.im).symmetric_eigenvalues();
+                assert!(dissipated.min() > -1e-9 * dissipated.max(), "{}: {dissipated}", robot.name);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_mass_on_one_light_cable_is_a_damped_oscillator() {
+    let file: Value = serde_json::from_str(MOTION).unwrap();
+    let cases = file["cases"].as_array().unwrap();
+    let case = cases.iter().find(|case| case["name"] == "hanging cable with a point mass of 5 kg").unwrap();
+    let mut robot = robot(case);
+    robot.cables[0].properties.linear_density = 0.0;
+    let lengths = numbers(&case["unstrained_lengths"]);
+    let problem = DirectProblem::new(&robot, &lengths, &Load::none()).unwrap();
+    let rest = problem.direct(DirectStart::Pose(&pose(case))).unwrap().equilibrium;
+    let (tau, mass) = (1e-3, robot.platform.mass);
+    let damping = Damping { stretch: tau, drag: 0.0 };
+    let stiffness = number(&case["axial_stiffness"][0]) / lengths[0];
+    let natural = (stiffness / mass).sqrt() / TAU;
+    let response = FrequencyResponse::new(&problem, &rest, 2.0 * natural, damping).unwrap();
+    for frequency in [0.2 * natural, natural, 1.7 * natural] {
+        let omega = TAU * frequency;
+        let expected =
+            nalgebra::Complex::new(stiffness - mass * omega * omega, stiffness * omega * tau).inv();
+        let found = response.at(frequency).unwrap().per_wrench[(2, 2)];
+        assert!((found - expected).norm() < 1e-9 * expected.norm(), "{frequency}: {found} {expected}");
+    }
+}
+
+#[test]
+fn the_response_is_greatest_at_natural_frequencies_and_a_point_moves_with_the_platform() {
+    let robot = Robot::from_json(ROBOTS[1].0).unwrap();
+    let held = inverse(&robot, &Pose::at(0.5, 0.2, 2.0), &Load::none()).unwrap();
+    let problem = DirectProblem::new(&robot, &held.lengths, &Load::none()).unwrap();
+    let rest = problem.direct(DirectStart::Near(&held.equilibrium)).unwrap().equilibrium;
+    let modes = Modes::new(&problem, &rest, Wanted::OfPlatform).unwrap();
+    let platform = modes.of_platform().unwrap();
+    let damping = Damping { stretch: 2e-4, drag: 0.05 };
+    let response = FrequencyResponse::new(&problem, &rest, 10.0, damping).unwrap();
+    let size = |frequency: f64| response.at(frequency).unwrap().per_wrench.norm();
+    let at = |share: f64| size(share * platform.frequency);
+    assert!(
+        at(1.0) > 2.0 * at(0.995) && at(1.0) > 2.0 * at(1.005),
+        "{} {} {}",
+        at(0.995),
+        at(1.0),
+        at(1.005)
+    );
+    let found = response.at(4.7).unwrap();
+    let lever = Vector3::new(0.3, -0.2, 0.5);
+    let (per_force, per_shortening) = found.at_point(&lever);
+    // A force at the point is a force and its moment about P.
+    let force = Vector3::new(1.0, 2.0, -3.0);
+    let moment = lever.cross(&force);
+    let wrench = nalgebra::Vector6::new(force.x, force.y, force.z, moment.x, moment.y, moment.z);
+    let motion = found.per_wrench * wrench.map(|value| nalgebra::Complex::new(value, 0.0));
+    let turn = Vector3::new(motion[3].re, motion[4].re, motion[5].re);
+    let expected = Vector3::new(motion[0].re, motion[1].re, motion[2].re) + turn.cross(&lever);
+    let moved = (per_force * force.map(|value| nalgebra::Complex::new(value, 0.0))).map(|value| value.re);
+    assert!((moved - expected).norm() < 1e-12 * expected.norm());
+    assert_eq!(per_shortening.ncols(), 8);
+    let refused = FrequencyResponse::new(&problem, &rest, 10.0, Damping { stretch: -1.0, drag: 0.0 });
+    assert!(matches!(refused, Err(DynamicsError::Invalid { field: "damping", .. })));
+    assert!(matches!(response.at(11.0), Err(DynamicsError::Invalid { field: "frequency", .. })));
+}
