@@ -191,7 +191,7 @@ fn degenerate(problem: &DirectProblem, state: &State<Interval>) -> Option<&'stat
         let catenary = problem.catenary(i, middle);
         let span = state.cable(problem, i).span;
         let [h, z] = span.end;
-        if catenary.is_limp() {
+        if catenary.is_slack_and_weightless() {
             if span.chord().high >= catenary.length_at_rest() {
                 return Some("a slack cable without weight is about to become taut");
             }

@@ -26,11 +26,11 @@
 
 mod branch;
 mod cable;
+mod feasibility;
 mod feasible;
 mod free;
 mod greatest;
 mod in_turn;
-mod is_held;
 mod limits;
 mod maximization;
 mod norm;
@@ -49,13 +49,13 @@ use branch::KnownOptimum;
 use cdpr_cable::Catenary;
 use cdpr_robot::{Pose, Robot, Vector6};
 use cdpr_tension::Bound;
+pub use feasibility::is_feasible;
 use feasible::search;
 pub(crate) use free::{BESIDE, FreeBranch};
 pub use free::{FreeSolution, FreeSolutions, LONGEST, free_solutions, rest_near};
 pub(crate) use free::{held_at, rest};
 pub use greatest::{Blocking, Greatest, greatest_payload, tension_margin};
 pub(crate) use in_turn::InTurn;
-pub use is_held::is_held;
 pub use limits::limits_at;
 use norm::chosen;
 pub(crate) use norm::require_smooth;
@@ -205,7 +205,7 @@ impl Branch {
 impl InverseSolution {
     fn new(problem: &InverseProblem, optimum: Optimum) -> Result<Self, StaticsError> {
         let Optimum { catenaries, tensions, active, multipliers, iterations, stationarity, .. } = optimum;
-        let HeldPose { lengths, equilibrium } = HeldPose::new(problem.pose, &catenaries);
+        let PoseLengths { lengths, equilibrium } = PoseLengths::new(problem.pose, &catenaries);
         let direct = DirectProblem::new(problem.robot, &lengths, problem.load)?;
         direct.check_strains(&equilibrium)?;
         let residual = Residual::of(&direct, &equilibrium);
@@ -215,14 +215,14 @@ impl InverseSolution {
 
 /// Unstrained lengths that hold the platform at a pose; held there it need not be in balance.
 #[derive(Clone, Debug, PartialEq)]
-pub struct HeldPose {
+pub struct PoseLengths {
     /// Unstrained length of every cable [m].
     pub lengths: Vec<f64>,
     /// The pose with the cables' forces.
     pub equilibrium: Equilibrium,
 }
 
-impl HeldPose {
+impl PoseLengths {
     fn new(pose: &Pose, catenaries: &[Catenary]) -> Self {
         let lengths = catenaries.iter().map(|catenary| catenary.unstrained_length).collect();
         let cable_forces = catenaries.iter().map(|catenary| catenary.force).collect();
@@ -243,16 +243,16 @@ pub fn lengths_for_tensions<W: Wanted>(
     robot: &Robot,
     wanted: W,
     tensions: &[f64],
-) -> W::Answers<Result<HeldPose, StaticsError>> {
+) -> W::Answers<Result<PoseLengths, StaticsError>> {
     one_by_one(wanted, |wanted| with_tensions(robot, &pose_alone(*wanted)?, tensions))
 }
 
-fn with_tensions(robot: &Robot, pose: &Pose, tensions: &[f64]) -> Result<HeldPose, StaticsError> {
+fn with_tensions(robot: &Robot, pose: &Pose, tensions: &[f64]) -> Result<PoseLengths, StaticsError> {
     StaticsError::one_per_cable("tensions", tensions, robot.cables.len())?;
     let catenaries = tensions.iter().enumerate().map(|(i, tension)| {
         let ends = Ends::of(robot, pose, i);
         let held = || ends.at_tension(ends.least_allowed(*tension)?);
         held().map_err(StaticsError::cable(i))
     });
-    Ok(HeldPose::new(pose, &catenaries.collect::<Result<Vec<_>, _>>()?))
+    Ok(PoseLengths::new(pose, &catenaries.collect::<Result<Vec<_>, _>>()?))
 }

@@ -7,7 +7,7 @@ mod modes;
 mod small_motions;
 mod stiffness;
 
-pub use deflection::{Deflection, deflection, deflection_from, wound_lengths};
+pub use deflection::{Deflection, deflection, deflection_from, set_point_lengths};
 pub(crate) use deflection::{
     Wound, deflection_beside, deflection_near, wind, wind_free, wind_from, wind_near, wind_rest,
 };

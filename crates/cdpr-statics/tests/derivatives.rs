@@ -9,8 +9,8 @@ use cdpr_robot::{
 use cdpr_statics::derivatives::EquilibriumDerivatives;
 use cdpr_statics::limits::limits_at;
 use cdpr_statics::{
-    Deflection, Derivatives, HeldPose, Load, StaticsError, WantedPose, deflection_from, derivatives, inverse,
-    lengths_for_tensions,
+    Deflection, Derivatives, Load, PoseLengths, StaticsError, WantedPose, deflection_from, derivatives,
+    inverse, lengths_for_tensions,
 };
 use nalgebra::DVector;
 use rand::{RngExt, SeedableRng};
@@ -89,7 +89,7 @@ impl Case {
         let wanted = inverse(&self.robot, &self.pose, &Load::none())?;
         let limits = limits_at(&self.robot, &self.pose)?;
         let set_points = cdpr_tension::offset(&wanted.tensions, &self.offsets, &limits);
-        let HeldPose { lengths, equilibrium: held } =
+        let PoseLengths { lengths, equilibrium: held } =
             lengths_for_tensions(&self.robot, &self.pose, &set_points)?;
         let found = deflection_from(&self.robot, lengths, &self.load, &held)?;
         let regime = (0..set_points.len())

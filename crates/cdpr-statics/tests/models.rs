@@ -3,7 +3,7 @@
 use crate::common::{caroca, cogiro, ring};
 use cdpr_robot::{Platform, Pose, Robot, Rotation3, TensionLimits, Vector3, Wrench};
 use cdpr_statics::{
-    DirectMethod, DirectProblem, DirectStart, Equilibrium, HeldPose, Load, StaticsError, WantedPose,
+    DirectMethod, DirectProblem, DirectStart, Equilibrium, Load, PoseLengths, StaticsError, WantedPose,
     deflection, derivatives, direct, inverse, lengths_for_tensions,
 };
 use proptest::prelude::*;
@@ -126,7 +126,7 @@ fn invalid_inputs_are_named() {
 fn a_tension_below_what_the_span_demands_is_raised_to_it() {
     let robot = caroca();
     let pose = Pose::at(3.2, 1.7, 3.0);
-    let HeldPose { lengths, equilibrium } = lengths_for_tensions(&robot, &pose, &[1.0; 8]).unwrap();
+    let PoseLengths { lengths, equilibrium } = lengths_for_tensions(&robot, &pose, &[1.0; 8]).unwrap();
     assert!(equilibrium.tensions()[0] > 4.0 && equilibrium.tensions()[0] < 6.0);
     // There is no less: paying out more cable raises the tension again.
     let mut longer = lengths;

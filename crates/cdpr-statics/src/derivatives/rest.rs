@@ -15,7 +15,7 @@
 use crate::dense::Lu;
 use crate::equations::{CableDerivatives, Inputs, Partials, Reading, tensions};
 use crate::error::StaticsError;
-use crate::inverse::HeldPose;
+use crate::inverse::PoseLengths;
 use crate::problem::DirectProblem;
 use crate::state::Load;
 use cdpr_robot::{Coordinate, Matrix6xX, ParameterLayout, Pose, Robot, Vector6};
@@ -28,9 +28,9 @@ pub(super) struct Rest<'a> {
     pub(super) free: &'a [Coordinate],
     pub(super) inputs: &'a Inputs,
     /// Without offsets of the set-points.
-    pub(super) unmoved: &'a HeldPose,
+    pub(super) unmoved: &'a PoseLengths,
     /// At the same pose, with the offsets.
-    pub(super) wound: &'a HeldPose,
+    pub(super) wound: &'a PoseLengths,
 }
 
 /// A set-point differs from its tension and offset by less than this share, or it is on a limit.
@@ -70,7 +70,7 @@ impl Rest<'_> {
         Ok((set_points, lengths))
     }
 
-    fn cables(&self, held: &HeldPose) -> Result<Vec<CableDerivatives>, StaticsError> {
+    fn cables(&self, held: &PoseLengths) -> Result<Vec<CableDerivatives>, StaticsError> {
         let problem = DirectProblem::new(self.robot, &held.lengths, &Load::none())?;
         let equilibrium = &held.equilibrium;
         Ok(CableDerivatives::all(&problem, &equilibrium.pose, &equilibrium.cable_forces))

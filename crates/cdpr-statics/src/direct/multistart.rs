@@ -3,7 +3,7 @@
 use crate::direct::search::DirectStart;
 use crate::direct::solution::DirectSolution;
 use crate::error::StaticsError;
-use crate::problem::DirectProblem;
+use crate::problem::{DirectProblem, Unstable};
 use cdpr_robot::{Pose, Vector3};
 
 /// Starts around a pose: the pose itself, then points that fill a box of displacements evenly.
@@ -87,15 +87,15 @@ impl DirectProblem<'_> {
     /// # Errors
     /// [`StaticsError::Invalid`] for starts that are not finite, or none. Failures of single searches stand
     /// in the answer.
-    pub fn direct_all(&self, starts: &Starts) -> Result<Equilibria, StaticsError> {
+    pub fn equilibria(&self, starts: &Starts) -> Result<Equilibria, StaticsError> {
         starts.validate()?;
         let mut equilibria = Equilibria { found: Vec::new(), failed: Vec::new() };
         for index in 0..starts.count {
             let start = starts.pose(index);
-            let any = self.direct_any(DirectStart::Pose(&start));
-            // What Newton's method found may stand uphill.
+            let any = self.with_unstable(Unstable::Accepted).direct(DirectStart::Pose(&start));
+            // What Newton's method found may be uphill.
             if any.as_ref().is_ok_and(|solution| !solution.stability.is_stable()) {
-                equilibria.add(self, self.direct(DirectStart::Pose(&start)));
+                equilibria.add(self, self.with_unstable(Unstable::Left).direct(DirectStart::Pose(&start)));
             }
             equilibria.add(self, any);
         }

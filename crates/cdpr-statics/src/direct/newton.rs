@@ -188,7 +188,7 @@ fn iterate(
 /// Gives slack cables without weight whose points have come too far apart the force that strains them.
 fn tighten(problem: &DirectProblem, state: &mut Equilibrium) -> Option<()> {
     for (i, force) in state.cable_forces.iter_mut().enumerate() {
-        if *force == Vector2::zeros() && problem.catenary(i, *force).is_limp() {
+        if *force == Vector2::zeros() && problem.catenary(i, *force).is_slack_and_weightless() {
             *force = problem.force_at(&state.pose, i, None).ok()?;
         }
     }

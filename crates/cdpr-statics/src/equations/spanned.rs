@@ -12,7 +12,7 @@ mod stiffness;
 use crate::equations::cable::{CablePlane, LinearizedCable, Span, between};
 use crate::problem::DirectProblem;
 pub(crate) use alone::in_its_plane;
-use cdpr_cable::kernel::{Response, closure_of_limp, response};
+use cdpr_cable::kernel::{Response, closure_of_slack, response};
 use cdpr_cable::{Catenary, Guide, SpatialCable, SpatialResponse};
 use cdpr_number::Real;
 use cdpr_number::vector::{dot, wrench};
@@ -72,7 +72,7 @@ fn answer<T: Real>(
     r: [T; 3],
     response: impl FnOnce() -> Response<T>,
 ) -> (Span<T>, Answer<T>) {
-    if catenary.is_limp() {
+    if catenary.is_slack_and_weightless() {
         return (span, Answer::Limp(Box::new((catenary.length_at_rest(), catenary.cable.guide))));
     }
     if catenary.cable.leaves_its_plane() {
@@ -204,10 +204,10 @@ impl<'a, T: Real> SpannedCable<'a, T> {
                 self.span.misclosure(self.span.plane.project(end))
             }
             Answer::Limp(limp) => match &**limp {
-                (rest, None) => closure_of_limp(self.span.end, T::of(*rest)),
+                (rest, None) => closure_of_slack(self.span.end, T::of(*rest)),
                 (rest, Some(guide)) => {
                     let end = self.span.plane.lift(self.span.end).map(T::value);
-                    let open = guide.closure_of_limp(end.into(), *rest);
+                    let open = guide.closure_of_slack(end.into(), *rest);
                     self.span.plane.project(<[f64; 3]>::from(open).map(T::of))
                 }
             },

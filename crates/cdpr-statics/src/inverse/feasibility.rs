@@ -19,11 +19,15 @@ use cdpr_robot::Robot;
 /// # Errors
 /// Those of [`crate::inverse`] but [`StaticsError::NoTensions`], [`StaticsError::InverseNotConverged`] and
 /// [`StaticsError::NoRest`].
-pub fn is_held<W: Wanted>(robot: &Robot, wanted: W, load: &Load) -> W::Answers<Result<bool, StaticsError>> {
+pub fn is_feasible<W: Wanted>(
+    robot: &Robot,
+    wanted: W,
+    load: &Load,
+) -> W::Answers<Result<bool, StaticsError>> {
     one_by_one(wanted, |wanted| {
         let wanted = refuse_offsets(*wanted)?;
         if wanted.free.is_empty() {
-            return is_held_at(robot, &wanted, load);
+            return is_feasible_at(robot, &wanted, load);
         }
         match rest(robot, &wanted, load) {
             Ok(_) => Ok(true),
@@ -33,7 +37,7 @@ pub fn is_held<W: Wanted>(robot: &Robot, wanted: W, load: &Load) -> W::Answers<R
     })
 }
 
-fn is_held_at(robot: &Robot, wanted: &WantedPose, load: &Load) -> Result<bool, StaticsError> {
+fn is_feasible_at(robot: &Robot, wanted: &WantedPose, load: &Load) -> Result<bool, StaticsError> {
     let problem = InverseProblem::of_whole_pose(robot, &wanted.pose, load, wanted.tension_reference)?;
     let limits = problem.limits.iter().enumerate();
     if limits.into_iter().any(|(i, limits)| robot.cable(i).overstrain(limits.max).is_some()) {

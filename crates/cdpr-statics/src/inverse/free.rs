@@ -23,7 +23,7 @@ mod straight;
 mod unique;
 
 use super::problem::InverseProblem;
-use super::{HeldPose, inverse_at, refuse_offsets};
+use super::{PoseLengths, inverse_at, refuse_offsets};
 use crate::error::StaticsError;
 use crate::out_of_limits::out_of_limits;
 use crate::problem::DirectProblem;
@@ -155,7 +155,7 @@ impl Search<'_> {
         if let Some(nearest) = Loops::Refused.fault(robot, &point.held) {
             return Ok(Beside::Refused(StaticsError::NoRest { starts: 1, nearest }));
         }
-        let HeldPose { lengths, equilibrium } = point.held;
+        let PoseLengths { lengths, equilibrium } = point.held;
         let is_taut =
             longest(robot, &lengths, &equilibrium).is_some_and(|(_, chords)| chords <= LONGEST_TAUT);
         let is_within = out_of_limits(robot, &lengths, &[&equilibrium]).is_empty();
@@ -191,11 +191,11 @@ pub(crate) fn rest(robot: &Robot, wanted: &WantedPose, load: &Load) -> Result<Fr
 ///
 /// # Errors
 /// Those of [`crate::inverse`].
-pub(crate) fn held_at(robot: &Robot, wanted: &WantedPose, load: &Load) -> Result<HeldPose, StaticsError> {
+pub(crate) fn held_at(robot: &Robot, wanted: &WantedPose, load: &Load) -> Result<PoseLengths, StaticsError> {
     if wanted.free.is_empty() {
         let found = inverse_at(robot, &wanted.pose, load, wanted.tension_reference)?;
-        return Ok(HeldPose { lengths: found.lengths, equilibrium: found.equilibrium });
+        return Ok(PoseLengths { lengths: found.lengths, equilibrium: found.equilibrium });
     }
     let FreeSolution { lengths, equilibrium, .. } = rest(robot, wanted, load)?;
-    Ok(HeldPose { lengths, equilibrium })
+    Ok(PoseLengths { lengths, equilibrium })
 }

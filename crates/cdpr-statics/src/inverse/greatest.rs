@@ -23,7 +23,7 @@
 //! limits that it rests on give Newton's method its equations (Fletcher and Sainz de la Maza, *Nonlinear
 //! programming and nonsmooth optimization by successive linear programming*, Math. Programming 43, 1989).
 
-use super::HeldPose;
+use super::PoseLengths;
 use super::limits::strain_limit;
 use super::maximization::{Aim, Maximization, Maximum};
 use super::problem::InverseProblem;
@@ -198,7 +198,7 @@ impl<'a> Bounded<'a> {
         drawn: Option<&[TensionLimits]>,
     ) -> Result<Greatest, StaticsError> {
         let Maximum { ref point, iterations, .. } = found;
-        let HeldPose { lengths, equilibrium } = HeldPose::new(
+        let PoseLengths { lengths, equilibrium } = PoseLengths::new(
             self.problem.pose,
             &point.cables.iter().map(|s| s.held.catenary()).collect::<Vec<_>>(),
         );

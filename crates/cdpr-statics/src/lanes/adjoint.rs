@@ -32,12 +32,11 @@ use crate::lanes::chain::Trace;
 use crate::lanes::chain::shared::Shared;
 use crate::local::load::PlatformLoad;
 use crate::local::platform::{LinearizedPlatform, Robots};
-use crate::local::skew::{Skew, SkewCable};
-use cdpr_number::Number;
+use crate::local::skew::{Skew, SkewCable, refine};
 use cdpr_number::dense::{Lanes3, Lanes6, halves};
-use cdpr_number::lanes::{Lanes, Mask, Simd, WithSimd};
-use cdpr_number::three;
+use cdpr_number::lanes::{Lanes, Mask, Simd};
 use cdpr_number::vector::{cross, dot};
+use cdpr_number::{Number, apart, three};
 
 /// A deflection below this share of the longest cable has no direction, as in `derivatives`.
 const NO_DEFLECTION: f64 = 1e-12;
@@ -82,31 +81,16 @@ pub(crate) struct CableAdjoint<S: Simd> {
     pub(crate) guide: GuideSlopes<S>,
 }
 
-/// Derivatives of |dp| for the robots of `record`; the frame of each is its rotation matrix, by columns.
-#[inline(always)]
-pub(crate) fn adjoint<S: Simd>(
-    record: &Record<'_, S>,
-    displacement: &Lanes3<S>,
-    payload: &PlatformLoad<S>,
-    shared: &Shared,
-) -> Option<Adjoint<S>> {
-    payload.weight.apart(OfRecord { record, displacement, payload, shared })
-}
-
-/// Observations and maps share one function for each vector unit.
-struct OfRecord<'r, 'a, S: Simd> {
-    record: &'r Record<'a, S>,
-    displacement: &'r Lanes3<S>,
-    payload: &'r PlatformLoad<S>,
-    shared: &'r Shared,
-}
-
-impl<S: Simd> WithSimd for OfRecord<'_, '_, S> {
-    type Output = Option<Adjoint<S>>;
-
+apart! {
+    /// Derivatives of |dp| for the robots of `record`; the frame of each is its rotation matrix, by columns.
     #[inline(always)]
-    fn with_simd<Same: Simd>(self, _: Same) -> Option<Adjoint<S>> {
-        adjoint_of(self.record, self.displacement, self.payload, self.shared)
+    on(payload.weight) pub(crate) fn adjoint<'r, 'a, S: Simd>(
+        record: &'r Record<'a, S>,
+        displacement: &'r Lanes3<S>,
+        payload: &'r PlatformLoad<S>,
+        shared: &'r Shared,
+    ) -> Option<Adjoint<S>> {
+        adjoint_of(record, displacement, payload, shared)
     }
 }
 
@@ -250,7 +234,7 @@ impl<S: Simd> Adjoint<S> {
         let mut twist = platform.factored.solve(&right);
         let skew = transposed_skew(robots, load, &platform, &answers);
         if skew.moment.is_some() || !skew.guided.is_empty() {
-            self.decided = self.decided & skew.refine(&platform.factored, &right, &mut twist, arm);
+            self.decided = self.decided & refine(&skew, &platform.factored, &right, &mut twist, arm);
         }
         let (moved, turned) = halves(&twist);
         let cables = robots.cables.iter().zip(&platform.cables).zip(&answers).zip(&mut self.cables);

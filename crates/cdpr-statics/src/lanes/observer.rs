@@ -14,7 +14,7 @@ pub(crate) mod rows;
 mod slopes;
 
 use crate::error::StaticsError;
-use crate::inverse::{Branch, FreeBranch, HeldPose, InverseSolution, refuse_offsets, require_smooth};
+use crate::inverse::{Branch, FreeBranch, InverseSolution, PoseLengths, refuse_offsets, require_smooth};
 use crate::lanes::chain::{Outcome, Stage, observe};
 use crate::lanes::level::LevelFrame;
 use crate::lanes::observer::rows::{Nominal, Rows};
@@ -137,7 +137,7 @@ impl<'a> Observer<'a> {
             require_smooth(robot)?;
             let (solution, branch) = Branch::of(robot, &pose).ok().unzip();
             let solution = solution.map(|InverseSolution { lengths, equilibrium, multipliers, .. }| {
-                (HeldPose { lengths, equilibrium }, multipliers)
+                (PoseLengths { lengths, equilibrium }, multipliers)
             });
             (pose, Wanted::Pose(branch), solution)
         } else {
@@ -204,11 +204,11 @@ impl<'a> Observer<'a> {
     }
 
     /// Unstrained lengths [m] of the robot itself at the wanted pose, with `tension_offsets` [N] added to its
-    /// set-points, as [`crate::wound_lengths`] has them.
+    /// set-points, as [`crate::set_point_lengths`] has them.
     ///
     /// # Errors
     /// Those of the inverse model.
-    pub fn wound_lengths(&self, tension_offsets: &[f64]) -> Result<Vec<f64>, StaticsError> {
+    pub fn set_point_lengths(&self, tension_offsets: &[f64]) -> Result<Vec<f64>, StaticsError> {
         let robot = self.robot;
         Ok(match &self.wanted {
             Wanted::Pose(Some(branch)) => wind_near(branch, robot, &self.pose, tension_offsets)?.lengths,

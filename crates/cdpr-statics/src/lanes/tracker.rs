@@ -2,9 +2,10 @@
 
 use crate::direct::{DirectSolution, DirectStart, direct, follow_change};
 use crate::error::StaticsError;
+use crate::local::newton::solve;
 use crate::local::one_robot::fits_lanes;
 use crate::local::platform::Robots;
-use crate::problem::DirectProblem;
+use crate::problem::{DirectProblem, Unstable};
 use crate::state::{Equilibrium, Load, Residual};
 use cdpr_number::lanes::{Lanes, Simd, WithSimd, dispatch};
 use cdpr_robot::Robot;
@@ -118,6 +119,7 @@ impl WithSimd for Update<'_, '_> {
                 lengths: &tracker.lengths,
                 load: tracker.load,
                 length_of_rotations: None,
+                unstable: Unstable::Left,
             };
             match follow(simd, problem, &before, &tracker.equilibrium) {
                 Some(found) => found,
@@ -142,7 +144,7 @@ fn follow<'a, S: Simd>(
     let everywhere = zero.less_or_equal(zero);
     let (mut robots, mut platform, load) = problem.linearized(simd, now);
     let scale = problem.scale(now);
-    let (found, left) = robots.solve(&load, &mut platform, &scale, everywhere);
+    let (found, left) = solve(&mut robots, &load, &mut platform, &scale, everywhere);
     if !found.any() {
         return None;
     }

@@ -8,9 +8,9 @@ use crate::direct::{DirectSolution, DirectStart, follow_load};
 use crate::equations::FORCES;
 use crate::error::StaticsError;
 use crate::inverse::{
-    Branch, FreeBranch, HeldPose, InverseSolution, held_at, inverse_at, lengths_for_tensions, limits_at,
+    Branch, FreeBranch, InverseSolution, PoseLengths, held_at, inverse_at, lengths_for_tensions, limits_at,
 };
-use crate::problem::DirectProblem;
+use crate::problem::{DirectProblem, Unstable};
 use crate::state::{Equilibrium, Load, Wanted, WantedPose, one_by_one, rounding_of_closure};
 use cdpr_robot::{Pose, Robot, TensionLimits, Vector3, Vector6, Wrench};
 use cdpr_tension::offset;
@@ -97,7 +97,7 @@ pub fn deflection<W: Wanted>(
     load: &Load,
 ) -> W::Answers<Result<Deflection, StaticsError>> {
     one_by_one(wanted, |wanted| {
-        let HeldPose { lengths, equilibrium } = set_lengths(robot, wanted)?;
+        let PoseLengths { lengths, equilibrium } = set_lengths(robot, wanted)?;
         deflection_from(robot, lengths, load, &equilibrium)
     })
 }
@@ -127,7 +127,7 @@ pub(crate) fn deflection_beside(
     tension_offsets: &[f64],
     load: &Load,
 ) -> Result<Deflection, StaticsError> {
-    let (_, HeldPose { lengths, equilibrium }) = wind_rest(robot, tension_offsets, branch.nearby(robot)?)?;
+    let (_, PoseLengths { lengths, equilibrium }) = wind_rest(robot, tension_offsets, branch.nearby(robot)?)?;
     deflection_from(robot, lengths, load, &equilibrium)
 }
 
@@ -136,7 +136,7 @@ pub(crate) fn wind_free(
     robot: &Robot,
     wanted: &WantedPose,
     tension_offsets: &[f64],
-) -> Result<(HeldPose, HeldPose), StaticsError> {
+) -> Result<(PoseLengths, PoseLengths), StaticsError> {
     wind_rest(robot, tension_offsets, held_at(robot, wanted, &Load::none())?)
 }
 
@@ -144,8 +144,8 @@ pub(crate) fn wind_free(
 pub(crate) fn wind_rest(
     robot: &Robot,
     tension_offsets: &[f64],
-    held: HeldPose,
-) -> Result<(HeldPose, HeldPose), StaticsError> {
+    held: PoseLengths,
+) -> Result<(PoseLengths, PoseLengths), StaticsError> {
     check_offsets(robot, tension_offsets)?;
     if tension_offsets.iter().all(|offset| *offset == 0.0) {
         return Ok((held.clone(), held));
@@ -165,18 +165,21 @@ pub(crate) fn wind_rest(
 ///
 /// # Errors
 /// Those of [`crate::inverse`].
-pub fn wound_lengths<'a>(robot: &Robot, wanted: impl Into<WantedPose<'a>>) -> Result<Vec<f64>, StaticsError> {
+pub fn set_point_lengths<'a>(
+    robot: &Robot,
+    wanted: impl Into<WantedPose<'a>>,
+) -> Result<Vec<f64>, StaticsError> {
     Ok(set_lengths(robot, &wanted.into())?.lengths)
 }
 
 /// The lengths for a wanted pose, with its offsets.
-fn set_lengths(robot: &Robot, wanted: &WantedPose) -> Result<HeldPose, StaticsError> {
+fn set_lengths(robot: &Robot, wanted: &WantedPose) -> Result<PoseLengths, StaticsError> {
     let offsets = wanted.offsets_of(robot);
     if !wanted.free.is_empty() {
         return Ok(wind_free(robot, wanted, &offsets)?.1);
     }
     let Wound { lengths, held, .. } = wind(robot, wanted, &offsets)?;
-    Ok(HeldPose { lengths, equilibrium: held })
+    Ok(PoseLengths { lengths, equilibrium: held })
 }
 
 /// Winds the cables for the whole of a wanted pose.
@@ -210,7 +213,7 @@ pub(crate) fn wind_from(
 ) -> Result<Wound, StaticsError> {
     let limits = limits_at(robot, pose)?;
     let set_points = offset(&wanted.tensions, tension_offsets, &limits);
-    let HeldPose { lengths, equilibrium: held } = lengths_for_tensions(robot, pose, &set_points)?;
+    let PoseLengths { lengths, equilibrium: held } = lengths_for_tensions(robot, pose, &set_points)?;
     Ok(Wound { wanted, limits, set_points, lengths, held })
 }
 
@@ -236,8 +239,9 @@ pub fn deflection_from(
     load: &Load,
     start: &Equilibrium,
 ) -> Result<Deflection, StaticsError> {
-    let unloaded =
-        DirectProblem::new(robot, &lengths, &Load::none())?.direct_held(DirectStart::Near(start))?;
+    let unloaded = DirectProblem::new(robot, &lengths, &Load::none())?
+        .with_unstable(Unstable::Refused)
+        .direct(DirectStart::Near(start))?;
     let loaded = follow_load(robot, &lengths, (&Load::none(), &unloaded), load)?;
     Ok(Deflection { lengths, unloaded, loaded })
 }

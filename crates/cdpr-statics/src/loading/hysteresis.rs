@@ -21,8 +21,8 @@
 
 use crate::direct::{DirectSolution, DirectStart, follow_load};
 use crate::error::StaticsError;
-use crate::inverse::{HeldPose, held_at, refuse_offsets};
-use crate::problem::DirectProblem;
+use crate::inverse::{PoseLengths, held_at, refuse_offsets};
+use crate::problem::{DirectProblem, Unstable};
 use crate::state::{Equilibrium, Load, WantedPose};
 use cdpr_cable::{CableError, PiecewiseLaw, Segment};
 use cdpr_robot::{Robot, Vector3};
@@ -159,11 +159,13 @@ pub fn load_cycle<'a>(
         return invalid("laws", format!("a list of {}", laws.len()), &format!("{n}, one a cable"));
     }
     let mut robot = with_laws(robot, laws.iter().map(|law| law.loading.clone()).collect());
-    let HeldPose { lengths, equilibrium: held } = held_at(&robot, &wanted, &Load::none())?;
+    let PoseLengths { lengths, equilibrium: held } = held_at(&robot, &wanted, &Load::none())?;
     let mut ways = Vec::with_capacity(2);
     let mut means = Vec::with_capacity(3);
     let mut energies = vec![0.0; n];
-    let first = DirectProblem::new(&robot, &lengths, &Load::none())?.direct_held(DirectStart::Near(&held))?;
+    let first = DirectProblem::new(&robot, &lengths, &Load::none())?
+        .with_unstable(Unstable::Refused)
+        .direct(DirectStart::Near(&held))?;
     let mut here = CycleStep { payload: 0.0, solution: first };
     means.push(mean_tensions(&robot, &lengths, &here.solution.equilibrium)?);
     for up in [true, false] {

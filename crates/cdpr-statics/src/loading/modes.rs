@@ -25,7 +25,7 @@ use crate::direct::{DirectStart, Stability};
 use crate::error::StaticsError;
 use crate::inverse::{held_at, refuse_offsets};
 use crate::loading::small_motions::SmallMotions;
-use crate::problem::DirectProblem;
+use crate::problem::{DirectProblem, Unstable};
 use crate::state::{Equilibrium, Load, WantedPose};
 use cdpr_robot::{Robot, Vector3, Vector6};
 use nalgebra::Matrix6;
@@ -229,7 +229,7 @@ const ROUNDING: f64 = 1e-12;
 /// The natural motions of a robot at a wanted pose under the platform's weight and `load`.
 ///
 /// # Errors
-/// Those of [`crate::inverse`], of [`DirectProblem::direct_any`] and of [`DirectProblem::modes`].
+/// Those of [`crate::inverse`], of [`DirectProblem::direct`] and of [`DirectProblem::modes`].
 pub fn modes_at<'a>(
     robot: &Robot,
     wanted: impl Into<WantedPose<'a>>,
@@ -237,6 +237,6 @@ pub fn modes_at<'a>(
 ) -> Result<PoseModes, StaticsError> {
     let wanted = held_at(robot, &refuse_offsets(wanted.into())?, load)?;
     let problem = DirectProblem::new(robot, &wanted.lengths, load)?;
-    let held = problem.direct_any(DirectStart::Near(&wanted.equilibrium))?;
+    let held = problem.with_unstable(Unstable::Accepted).direct(DirectStart::Near(&wanted.equilibrium))?;
     PoseModes::new(&problem, held.equilibrium)
 }

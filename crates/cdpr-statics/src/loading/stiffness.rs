@@ -3,7 +3,7 @@
 use crate::direct::{DirectStart, Stability};
 use crate::error::StaticsError;
 use crate::inverse::{held_at, refuse_offsets};
-use crate::problem::DirectProblem;
+use crate::problem::{DirectProblem, Unstable};
 use crate::state::{Equilibrium, Load, WantedPose};
 use cdpr_robot::Robot;
 use nalgebra::Matrix6;
@@ -28,7 +28,7 @@ pub struct PoseStiffness {
 /// stable or not.
 ///
 /// # Errors
-/// Those of [`crate::inverse`] and of [`DirectProblem::direct_any`].
+/// Those of [`crate::inverse`] and of [`DirectProblem::direct`].
 pub fn stiffness_at<'a>(
     robot: &Robot,
     wanted: impl Into<WantedPose<'a>>,
@@ -36,7 +36,7 @@ pub fn stiffness_at<'a>(
 ) -> Result<PoseStiffness, StaticsError> {
     let wanted = held_at(robot, &refuse_offsets(wanted.into())?, load)?;
     let problem = DirectProblem::new(robot, &wanted.lengths, load)?;
-    let held = problem.direct_any(DirectStart::Near(&wanted.equilibrium))?;
+    let held = problem.with_unstable(Unstable::Accepted).direct(DirectStart::Near(&wanted.equilibrium))?;
     let linearization = problem.linearize(&held.equilibrium)?;
     Ok(PoseStiffness {
         matrix: *linearization.stiffness(),

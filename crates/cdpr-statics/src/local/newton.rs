@@ -5,15 +5,16 @@
 use crate::equations::LinearizedCable;
 use crate::local::cable::FOLDED;
 use crate::local::freedoms::hold;
+use crate::local::guided::is_next_to_wheel;
 use crate::local::load::PlatformLoad;
 use crate::local::platform::{LaneResidual, LinearizedPlatform, Robots, Scale, Steps};
-use crate::local::skew::Skew;
+use crate::local::skew::{Skew, refine};
 use cdpr_cable::kernel::LaneEnd;
 use cdpr_number::Number;
 use cdpr_number::dense::{Lanes3, Lanes6, add, halves, replace};
-use cdpr_number::lanes::{Lanes, Mask, Simd, WithSimd};
+use cdpr_number::lanes::{Lanes, Mask, Simd};
 use cdpr_number::vector::{cross, dot};
-use cdpr_number::{six, three};
+use cdpr_number::{apart, six, three};
 
 /// Iterations at rest, of which cables that become slack need the most.
 const MAX_ITERATIONS: usize = 12;
@@ -171,21 +172,6 @@ impl<S: Simd> Robots<'_, S> {
         [closure, failed.max((!sound).select(zero.all(1.0), zero))]
     }
 
-    /// Newton's method on the direct model from a linearization, in the lanes `alive`.
-    ///
-    /// Returns the lanes that found a stable equilibrium, and its residual. The linearization is then one at
-    /// this equilibrium, with a stiffness from nearby. All callers share one function for each vector unit.
-    #[inline(always)]
-    pub(crate) fn solve(
-        &mut self,
-        load: &PlatformLoad<S>,
-        platform: &mut LinearizedPlatform<S>,
-        scale: &Scale,
-        alive: Mask<S>,
-    ) -> (Mask<S>, LaneResidual<S>) {
-        self.weight.apart(Solve { robots: self, load, platform, scale, alive })
-    }
-
     #[inline(always)]
     fn solve_here(
         &mut self,
@@ -206,7 +192,7 @@ impl<S: Simd> Robots<'_, S> {
             if load.moment.is_some() {
                 // Where this does not converge, the steps do not either.
                 let skew = Skew { freedoms: self.freedoms, moment: load.moment, guided: Vec::new() };
-                skew.refine(&platform.factored, &gradient, &mut step, scale.characteristic_length);
+                refine(&skew, &platform.factored, &gradient, &mut step, scale.characteristic_length);
             }
             let (translation, rotation) = halves(&step);
             let turned = dot(&rotation, &rotation);
@@ -277,7 +263,7 @@ impl<S: Simd> Robots<'_, S> {
                 let share = slackening.select(fx / (fx + lost), fx.all(1.0));
                 force = [fx - lost * share, fz + (force[1] - fz) * share];
                 if let Some(guided) = &cable.guided {
-                    let next_to = guided.is_next_to(&cable.free(), &cable.span(&self.position));
+                    let next_to = is_next_to_wheel(guided, cable.free(), cable.span(&self.position));
                     held = held & !(slackening & next_to);
                 }
             }
@@ -303,21 +289,20 @@ impl<S: Simd> Robots<'_, S> {
     }
 }
 
-/// The arguments of [`Robots::solve`].
-struct Solve<'b, 'a, S: Simd> {
-    robots: &'b mut Robots<'a, S>,
-    load: &'b PlatformLoad<S>,
-    platform: &'b mut LinearizedPlatform<S>,
-    scale: &'b Scale,
-    alive: Mask<S>,
-}
-
-impl<S: Simd> WithSimd for Solve<'_, '_, S> {
-    type Output = (Mask<S>, LaneResidual<S>);
-
+apart! {
+    /// Newton's method on the direct model from a linearization, in the lanes `alive`.
+    ///
+    /// Returns the lanes that found a stable equilibrium, and its residual. The linearization is then one at
+    /// this equilibrium, with a stiffness from nearby.
     #[inline(always)]
-    fn with_simd<Same: Simd>(self, _: Same) -> Self::Output {
-        self.robots.solve_here(self.load, self.platform, self.scale, self.alive)
+    on(robots.weight) pub(crate) fn solve<'b, 'a, S: Simd>(
+        robots: &'b mut Robots<'a, S>,
+        load: &'b PlatformLoad<S>,
+        platform: &'b mut LinearizedPlatform<S>,
+        scale: &'b Scale,
+        alive: Mask<S>,
+    ) -> (Mask<S>, LaneResidual<S>) {
+        robots.solve_here(load, platform, scale, alive)
     }
 }
 

@@ -4,6 +4,7 @@ use crate::equations::{SpannedCable, in_its_plane};
 use crate::local::cable::{LaneCable, law};
 use crate::local::guided::Guided;
 use crate::local::load::PlatformLoad;
+use crate::local::newton;
 use crate::local::platform::{Layout, LinearizedPlatform, Robots, Scale};
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Residual, rounding_of_closure};
@@ -53,7 +54,7 @@ impl WithSimd for Solve<'_, '_> {
         let everywhere = zero.less_or_equal(zero);
         let (mut robots, mut platform, load) = problem.linearized(simd, state);
         let scale = problem.scale(state);
-        let (found, residual) = robots.solve(&load, &mut platform, &scale, everywhere);
+        let (found, residual) = newton::solve(&mut robots, &load, &mut platform, &scale, everywhere);
         if !found.any() {
             return None;
         }

@@ -14,7 +14,7 @@ use super::solution::FreeSolution;
 use super::sound::Loops;
 use super::{BESIDE, Beside, check_free, held_at};
 use crate::error::StaticsError;
-use crate::inverse::HeldPose;
+use crate::inverse::PoseLengths;
 use crate::rest_fault::RestFault;
 use crate::state::{Equilibrium, Load, WantedPose};
 use cdpr_robot::{Coordinate, Pose, Robot};
@@ -25,7 +25,7 @@ use nalgebra::{DMatrix, DVector};
 #[derive(Clone, Debug)]
 pub(crate) struct FreeBranch {
     free: Vec<Coordinate>,
-    rest: HeldPose,
+    rest: PoseLengths,
     /// Where steps start; `None` where the slopes have no inverse.
     start: Option<Known>,
     /// Whether it is nearly that of straight cables, so that these show what becomes of it.
@@ -71,7 +71,7 @@ impl FreeBranch {
     }
 
     /// Where the platform rests.
-    pub(crate) fn rest(&self) -> &HeldPose {
+    pub(crate) fn rest(&self) -> &PoseLengths {
         &self.rest
     }
 
@@ -88,7 +88,7 @@ impl FreeBranch {
     ///
     /// # Errors
     /// [`StaticsError::NoRest`] and [`StaticsError::Unstable`] for such a rest; those of [`crate::inverse`].
-    pub(crate) fn nearby(&self, robot: &Robot) -> Result<HeldPose, StaticsError> {
+    pub(crate) fn nearby(&self, robot: &Robot) -> Result<PoseLengths, StaticsError> {
         let (pose, none) = (&self.rest.equilibrium.pose, Load::none());
         let search = Search::new(robot, pose, &none, &self.free)?;
         let found = match &self.start {
@@ -96,7 +96,7 @@ impl FreeBranch {
             None => None,
         };
         match found {
-            Some(FreeSolution { lengths, equilibrium, .. }) => Ok(HeldPose { lengths, equilibrium }),
+            Some(FreeSolution { lengths, equilibrium, .. }) => Ok(PoseLengths { lengths, equilibrium }),
             None => held_at(robot, &WantedPose::at(pose).free(&self.free), &none),
         }
     }
@@ -113,7 +113,7 @@ pub fn rest_near(
     near: &Equilibrium,
     load: &Load,
     free: &[Coordinate],
-) -> Result<HeldPose, StaticsError> {
+) -> Result<PoseLengths, StaticsError> {
     check_free(robot, free)?;
     let search = Search::new(robot, &near.pose, load, free)?;
     let chord_forces = search.in_proportion(chord_forces(robot, near));

@@ -5,7 +5,7 @@ use super::solution::{FreeSolution, FreeSolutions};
 use super::sound::{Loops, longest};
 use super::straight::{STRAIGHT_STARTS, StraightRoot};
 use crate::error::StaticsError;
-use crate::inverse::HeldPose;
+use crate::inverse::PoseLengths;
 use crate::inverse::problem::InverseProblem;
 use crate::out_of_limits::out_of_limits;
 use crate::rest_fault::RestFault;
@@ -106,7 +106,7 @@ impl<'s, 'a> Roots<'s, 'a> {
             return Ok(());
         }
         let fault = self.loops.fault(robot, &point.held);
-        let HeldPose { lengths, equilibrium } = point.held;
+        let PoseLengths { lengths, equilibrium } = point.held;
         let solution = FreeSolution::new(robot, load, lengths, equilibrium, iterations)?;
         // Along its neutral motions a solution is the same.
         let same = |Root { solution: found, .. }: &Root| {
@@ -117,7 +117,7 @@ impl<'s, 'a> Roots<'s, 'a> {
             return Ok(());
         }
         let is_turned_about = self.search.is_turned_about(&unknowns.changes);
-        let angle = self.search.problem.pose.rotation.angle_to(&solution.equilibrium.pose.rotation);
+        let angle = self.search.problem.pose.angle_to(&solution.equilibrium.pose);
         let is_stable = solution.stability.is_stable();
         let is_turned_over = is_turned_about || (angle > TURNED_OVER && !is_stable);
         let fault = fault.or(is_turned_over.then_some(RestFault::TurnedOver { angle, is_stable }));

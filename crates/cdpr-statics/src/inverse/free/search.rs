@@ -6,7 +6,7 @@
 //! not the solution.
 
 use crate::error::StaticsError;
-use crate::inverse::HeldPose;
+use crate::inverse::PoseLengths;
 use crate::inverse::cable::{CableAtPose, Row};
 use crate::inverse::problem::InverseProblem;
 use crate::rest_fault::RestFault;
@@ -47,7 +47,7 @@ pub(super) struct Search<'a> {
 
 /// A pose of the search with the wrench of its cables.
 pub(super) struct Point {
-    pub(super) held: HeldPose,
+    pub(super) held: PoseLengths,
     rows: Vec<Row>,
     /// F, moments divided by the characteristic length [N].
     pub(super) residual: Vector6<f64>,
@@ -155,7 +155,7 @@ impl<'a> Search<'a> {
         let residual = rows.iter().fold(external, |sum, row| sum + row.wrench);
         let forces = external.norm() + rows.iter().map(|row| row.wrench.norm()).sum::<f64>();
         let catenaries: Vec<_> = cables.iter().map(|cable| cable.held.catenary()).collect();
-        let held = HeldPose::new(&pose, &catenaries);
+        let held = PoseLengths::new(&pose, &catenaries);
         residual.iter().all(|entry| entry.is_finite()).then_some(Point { held, rows, residual, forces })
     }
 

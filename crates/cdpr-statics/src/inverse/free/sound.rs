@@ -5,7 +5,7 @@
 //! ground, and all tensions are within their limits.
 
 use super::solution::FreeSolution;
-use crate::inverse::HeldPose;
+use crate::inverse::PoseLengths;
 use crate::out_of_limits::{Limit, OutOfLimits, out_of_limits};
 use crate::problem::DirectProblem;
 use crate::rest_fault::RestFault;
@@ -32,8 +32,8 @@ pub(super) enum Loops {
 
 impl Loops {
     /// The first thing that is wrong about a solution, the most serious first.
-    pub(super) fn fault(self, robot: &Robot, held: &HeldPose) -> Option<RestFault> {
-        let HeldPose { lengths, equilibrium } = held;
+    pub(super) fn fault(self, robot: &Robot, held: &PoseLengths) -> Option<RestFault> {
+        let PoseLengths { lengths, equilibrium } = held;
         let (cable, chords) = longest(robot, lengths, equilibrium)?;
         if self == Self::Refused && chords > LONGEST {
             return Some(RestFault::Loop { cable, chords, most: LONGEST });

@@ -10,7 +10,7 @@
 
 use super::search::{Outcome, Point, SINGULAR_VALUES, Search, Unknowns};
 use crate::error::StaticsError;
-use crate::inverse::HeldPose;
+use crate::inverse::PoseLengths;
 use nalgebra::{DVector, SVD};
 
 /// Singular values below this share of the greatest may be those of a kernel: the differences of the slopes
@@ -74,7 +74,7 @@ impl Search<'_> {
 
     /// The cable whose length or tension differs most between two solutions, and by how much: relative to the
     /// longest span, or to the greatest tension.
-    fn greatest_change(&self, one: &HeldPose, other: &HeldPose) -> Option<(usize, f64)> {
+    fn greatest_change(&self, one: &PoseLengths, other: &PoseLengths) -> Option<(usize, f64)> {
         let [before, after] = [one, other].map(|held| held.equilibrium.tensions());
         let most = before.iter().copied().fold(0.0, f64::max);
         let change = |i: usize| {

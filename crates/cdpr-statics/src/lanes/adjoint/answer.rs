@@ -28,7 +28,7 @@ use cdpr_cable::kernel::{GuideTerms, GuidedEndSlopes, Material, Response, Swivel
 use cdpr_number::dense::Lanes3;
 use cdpr_number::lanes::{Lanes, Simd, WithSimd};
 use cdpr_number::vector::dot;
-use cdpr_number::{Dual, Lanewise};
+use cdpr_number::{Dual, Lanewise, apart};
 
 /// A cable that is given its force and its length.
 pub(super) struct Answer<T> {
@@ -188,22 +188,15 @@ impl<T: Lanewise> WithSimd for OverGuide<'_, T> {
     }
 }
 
-/// How the force at A and the length beyond the leave point change with the tension of a cable between held
-/// ends: f_t of (L9), and dLf by (C21).
-#[cold]
-#[inline(never)]
-fn first_over_guide<S: Simd>(guided: &Guided<S>, cable: &LaneCable<'_, S>) -> Lanes3<S> {
-    cable.length.apart(First(guided, cable))
-}
-
-struct First<'a, 'b, S: Simd>(&'a Guided<S>, &'a LaneCable<'b, S>);
-
-impl<S: Simd> WithSimd for First<'_, '_, S> {
-    type Output = Lanes3<S>;
-
-    #[inline(always)]
-    fn with_simd<Same: Simd>(self, _: Same) -> Lanes3<S> {
-        let Self(guided, cable) = self;
+apart! {
+    /// How the force at A and the length beyond the leave point change with the tension of a cable between
+    /// held ends: f_t of (L9), and dLf by (C21).
+    #[cold]
+    #[inline(never)]
+    on(cable.length) fn first_over_guide<'a, 'b, S: Simd>(
+        guided: &'a Guided<S>,
+        cable: &'a LaneCable<'b, S>,
+    ) -> Lanes3<S> {
         let way = guided.way(&cable.free());
         let (response, a) = (way.response(cable.force[0], &cable.response()), way.asymmetry());
         let [_, mixed, _] = response.flexibility;

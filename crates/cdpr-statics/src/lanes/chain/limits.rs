@@ -11,9 +11,9 @@
 use crate::equations::{ABOVE_LEAST, Span};
 use crate::lanes::held::HeldCable;
 use crate::local::cable::LaneCable;
-use cdpr_number::Number;
 use cdpr_number::dense::{Lanes2, replace};
-use cdpr_number::lanes::{Lanes, Mask, Simd, WithSimd};
+use cdpr_number::lanes::{Lanes, Mask, Simd};
+use cdpr_number::{Number, apart};
 use cdpr_robot::{CableEnd, TensionLimits};
 
 /// A change below this, relative to the sum of tensions, the longest cable and the cable's own horizontal
@@ -40,7 +40,7 @@ pub(crate) fn limits_at<S: Simd>(
     match (max_at, &cable.guided) {
         (CableEnd::Exit, Some(_)) => {
             let (least, greatest) = (cable.length.all(limits.min), cable.length.all(limits.max));
-            [least, cable.length.apart(BelowPulley { cable, span, greatest, compared })]
+            [least, below_pulley(cable, span, greatest, compared)]
         }
         _ => plain_limits_at(cable, span, (limits, max_at)),
     }
@@ -63,41 +63,25 @@ pub(crate) fn plain_limits_at<S: Simd>(
 /// A cable whose tension exceeds the least one of its span by less than this share of it may come to it.
 const NEARBY: f64 = 0.2;
 
-/// Raises the least tension of a cable that `held` shows near the least one that its span demands, to where
-/// the scalar models hold it, and brings a cable below it there. Returns the lanes in which that was done.
-/// Where none is found the greatest tension is below zero.
-#[cold]
-#[inline(never)]
-pub(crate) fn demand<S: Simd>(
-    cable: &mut LaneCable<'_, S>,
-    span: &Span<Lanes<S>>,
-    held: &HeldCable<S>,
-    limits: &mut Lanes2<S>,
-    compared: [f64; 2],
-) -> Mask<S> {
-    cable.length.apart(Demand { cable, span, held, limits, compared })
-}
-
 /// Whether a cable may come to the least tension of its span.
 #[inline(always)]
 pub(crate) fn may_be_slack<S: Simd>(cable: &LaneCable<'_, S>, held: &HeldCable<S>) -> Mask<S> {
     !held.exceeds_least(cable, cable.length.all(NEARBY))
 }
 
-struct Demand<'a, 'b, S: Simd> {
-    cable: &'a mut LaneCable<'b, S>,
-    span: &'a Span<Lanes<S>>,
-    held: &'a HeldCable<S>,
-    limits: &'a mut Lanes2<S>,
-    compared: [f64; 2],
-}
-
-impl<S: Simd> WithSimd for Demand<'_, '_, S> {
-    type Output = Mask<S>;
-
-    #[inline(always)]
-    fn with_simd<Same: Simd>(self, _: Same) -> Mask<S> {
-        let Self { cable, span, held, limits, compared } = self;
+apart! {
+    /// Raises the least tension of a cable that `held` shows near the least one that its span demands, to
+    /// where the scalar models hold it, and brings a cable below it there. Returns the lanes in which that was
+    /// done. Where none is found the greatest tension is below zero.
+    #[cold]
+    #[inline(never)]
+    on(cable.length) pub(crate) fn demand<'a, 'b, S: Simd>(
+        cable: &'a mut LaneCable<'b, S>,
+        span: &'a Span<Lanes<S>>,
+        held: &'a HeldCable<S>,
+        limits: &'a mut Lanes2<S>,
+        compared: [f64; 2],
+    ) -> Mask<S> {
         let zero = cable.length.all(0.0);
         let (length, force) = (cable.length, cable.force);
         let azimuth = cable.guided.as_ref().map(|guided| guided.azimuth());
@@ -137,26 +121,21 @@ impl<S: Simd> WithSimd for Demand<'_, '_, S> {
 #[inline(always)]
 pub(crate) fn at_platform<S: Simd>(cable: &LaneCable<'_, S>, exit: Lanes<S>, height: Lanes<S>) -> Lanes<S> {
     if !cable.law.is_empty() {
-        return exit.apart(WithLaw { cable, exit, height });
+        return with_law(cable, exit, height);
     }
     let half = cable.axial_flexibility * 0.5;
     let whole = exit + exit * exit * half + cable.weight_per_length * height;
     whole * 2.0 * ((whole * half * 4.0 + 1.0).sqrt() + 1.0).recip()
 }
 
-/// [`at_platform`] for a cable with a law.
-struct WithLaw<'a, 'b, S: Simd> {
-    cable: &'a LaneCable<'b, S>,
-    exit: Lanes<S>,
-    height: Lanes<S>,
-}
-
-impl<S: Simd> WithSimd for WithLaw<'_, '_, S> {
-    type Output = Lanes<S>;
-
+apart! {
+    /// [`at_platform`] for a cable with a law.
     #[inline(always)]
-    fn with_simd<Same: Simd>(self, _: Same) -> Lanes<S> {
-        let Self { cable, exit, height } = self;
+    on(exit) fn with_law<'a, 'b, S: Simd>(
+        cable: &'a LaneCable<'b, S>,
+        exit: Lanes<S>,
+        height: Lanes<S>,
+    ) -> Lanes<S> {
         let work = exit + cable.energy(exit) + cable.weight_per_length * height;
         let (mut tension, mut active) = (exit, exit.less_or_equal(exit));
         for _ in 0..MAX_ITERATIONS_OF_LAW {
@@ -170,22 +149,15 @@ impl<S: Simd> WithSimd for WithLaw<'_, '_, S> {
         }
         (active | work.less_or_equal(work.all(0.0))).select(exit.all(-1.0), tension)
     }
-}
 
-/// The greatest tension at the platform of a cable with the tension `greatest` at its leave point.
-struct BelowPulley<'a, 'b, S: Simd> {
-    cable: &'a mut LaneCable<'b, S>,
-    span: &'a Span<Lanes<S>>,
-    greatest: Lanes<S>,
-    compared: [f64; 2],
-}
-
-impl<S: Simd> WithSimd for BelowPulley<'_, '_, S> {
-    type Output = Lanes<S>;
-
+    /// The greatest tension at the platform of a cable with the tension `greatest` at its leave point.
     #[inline(always)]
-    fn with_simd<Same: Simd>(self, _: Same) -> Lanes<S> {
-        let Self { cable, span, greatest, compared } = self;
+    on(greatest) fn below_pulley<'a, 'b, S: Simd>(
+        cable: &'a mut LaneCable<'b, S>,
+        span: &'a Span<Lanes<S>>,
+        greatest: Lanes<S>,
+        compared: [f64; 2],
+    ) -> Lanes<S> {
         let (length, force) = (cable.length, cable.force);
         let (azimuth, everywhere) =
             (cable.guided.as_ref().map(|guided| guided.azimuth()), greatest.less_or_equal(greatest));

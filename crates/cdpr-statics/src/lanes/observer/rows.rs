@@ -1,7 +1,7 @@
 //! The nominal robot, and robots that deviate from it, one in each lane.
 
 use crate::equations::Ends;
-use crate::inverse::HeldPose;
+use crate::inverse::PoseLengths;
 use crate::lanes::chain::free::FreeMotion;
 use crate::lanes::chain::shared::{Choice, Shared};
 use crate::lanes::chain::{ChainStart, Stage};
@@ -45,16 +45,17 @@ impl Nominal {
     pub(crate) fn new(
         robot: &Robot,
         load: &Load,
-        solution: Option<(HeldPose, Vector6<f64>)>,
+        solution: Option<(PoseLengths, Vector6<f64>)>,
         free: &[Coordinate],
     ) -> Result<Self, ScalarReason> {
         if let Some(why) = ScalarReason::of_all(robot, free) {
             return Err(why);
         }
-        let (HeldPose { lengths, equilibrium }, multipliers) = solution.ok_or(ScalarReason::NominalRobot)?;
+        let (PoseLengths { lengths, equilibrium }, multipliers) =
+            solution.ok_or(ScalarReason::NominalRobot)?;
         let (pose, tensions) = (&equilibrium.pose, equilibrium.tensions());
         let tension = tensions.iter().sum();
-        let problem = DirectProblem { robot, lengths: &lengths, load: *load, length_of_rotations: None };
+        let problem = DirectProblem::new(robot, &lengths, load).map_err(|_| ScalarReason::NominalRobot)?;
         let exits = robot.cables.iter().map(|cable| cable.exit_point.norm()).fold(0.0, f64::max);
         let reference = robot.reference();
         let choice = |(i, reference): (usize, &f64)| {

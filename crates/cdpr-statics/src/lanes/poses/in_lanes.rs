@@ -1,7 +1,7 @@
 //! The inverse model at poses of one robot, one in each lane.
 
 use crate::equations::Span;
-use crate::lanes::chain::lengths::FindLengths;
+use crate::lanes::chain::lengths::find_lengths;
 use crate::lanes::chain::minimum::is_least;
 use crate::lanes::chain::shared::Shared;
 use crate::lanes::chain::tensions::{CableTension, Distribute, Distributed, SAGGING};
@@ -87,14 +87,7 @@ impl<S: Simd> InLanes<'_, S> {
         let (demanded, limits): (Vec<_>, Vec<_>) =
             cables.iter().map(|CableTension { demanded, limits, .. }| (*demanded, *limits)).unzip();
         let mut platform = LinearizedPlatform::new(zero, spans.len());
-        let held = zero.apart(FindLengths {
-            robots: &mut robots,
-            platform: &mut platform,
-            set_points: &set_points,
-            spans: &spans,
-            demanded: &demanded,
-            shared,
-        });
+        let held = find_lengths(&mut robots, &mut platform, &set_points, (&spans, &demanded), shared);
         let found = converged & sound & held;
         let found = found & self.is_least(&robots, &spans, &multipliers, &limits);
         self.read(found, &robots, &spans, &multipliers, &set_points, &limits)

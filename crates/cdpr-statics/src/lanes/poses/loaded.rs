@@ -19,6 +19,7 @@ use crate::loading::CableFrequency;
 use crate::loading::deflection_from;
 use crate::local::freedoms::{hold, hold_matrix};
 use crate::local::load::PlatformLoad;
+use crate::local::newton::solve;
 use crate::local::platform::{LaneResidual, LinearizedPlatform, Robots};
 use crate::state::{Equilibrium, Load};
 use cdpr_cable::{Catenary, is_slack};
@@ -212,7 +213,7 @@ impl<S: Simd> InLanes<'_, S> {
         carried: &PlatformLoad<S>,
         alive: Mask<S>,
     ) -> Settled<S> {
-        let (found, residual) = robots.solve(carried, platform, &self.placed.scale, alive);
+        let (found, residual) = solve(robots, carried, platform, &self.placed.scale, alive);
         let mut tensions = SmallVec::new();
         for cable in &robots.cables {
             let [fx, fz] = cable.force;
