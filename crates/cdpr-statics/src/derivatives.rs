@@ -33,7 +33,7 @@
 //! nothing.
 //!
 //! **Two sides.** Where a bound is left when an input grows and kept when it falls, or the other way round,
-//! the right and the left derivative differ: `derivatives/optimum.rs` and `winding.rs`. An offset of a cable
+//! the right and the left derivative differ: `derivatives/optimum.rs` and `set_points.rs`. An offset of a cable
 //! on its bound is such an input.
 //!
 //! **Lengths** follow from (D1) at the set-points:
@@ -55,24 +55,24 @@
 mod equilibrium;
 mod optimum;
 mod rest;
+mod set_points;
 mod softest;
-mod winding;
 
 pub use crate::equations::Inputs;
 use crate::error::StaticsError;
-use crate::inverse::{Branch, InverseSolution, require_smooth};
-use crate::loading::{Deflection, Wound, deflection_from, wind, wind_free, wind_from, wind_near};
+use crate::inverse::{InverseSolution, require_smooth};
+use crate::loading::{Deflection, SetPointLengths, deflection_from, lengths_with_free};
 use crate::problem::DirectProblem;
 use crate::state::{Load, Wanted, WantedPose, one_by_one};
-use cdpr_robot::{Pose, Robot};
+use cdpr_robot::Robot;
 use equilibrium::split_off;
 pub use equilibrium::{EquilibriumDerivatives, ForceDerivatives};
 use nalgebra::{DMatrix, Matrix3xX};
 pub use optimum::AtBound;
 use rest::Rest;
+pub use set_points::OneSided;
+use set_points::{AtSetPoints, SetPoints};
 use softest::AtRest;
-pub use winding::OneSided;
-use winding::{SetPoints, Winding};
 
 /// A deflection with its derivatives. Each matrix has a column for every input ([`Inputs`]): the parameters
 /// of the robot, the payload, the wanted pose.
@@ -141,56 +141,42 @@ pub fn derivatives<W: Wanted>(
         if !wanted.free.is_empty() {
             return with_free(robot, wanted, &offsets, load);
         }
-        of_wound(robot, wanted, &offsets, load, &wind(robot, wanted, &offsets)?)
+        at_pose(robot, wanted, &offsets, load, &SetPointLengths::new(robot, wanted, &offsets)?)
     })
 }
 
-/// [`derivatives`] without offsets, with the answer of the inverse model under the platform's own weight at
-/// hand.
+/// [`derivatives`] of the whole of a wanted pose, with the solution of the inverse model under the platform's own
+/// weight at hand.
 ///
 /// # Errors
 /// As [`derivatives`].
-pub fn derivatives_from(
+pub fn derivatives_from<'a>(
     robot: &Robot,
-    pose: &Pose,
+    wanted: impl Into<WantedPose<'a>>,
     load: &Load,
-    wanted: InverseSolution,
+    solution: InverseSolution,
 ) -> Result<Derivatives, StaticsError> {
-    let offsets = vec![0.0; robot.cables.len()];
-    let wound = wind_from(robot, pose, &offsets, wanted)?;
-    of_wound(robot, &WantedPose::at(pose), &offsets, load, &wound)
+    let wanted = wanted.into();
+    let offsets = wanted.offsets_of(robot);
+    let set_points = SetPointLengths::from(robot, &wanted.pose, &offsets, solution)?;
+    at_pose(robot, &wanted, &offsets, load, &set_points)
 }
 
-/// [`derivatives`] of a robot that differs a little from the one whose inverse model is known.
-///
-/// # Errors
-/// Those of [`derivatives`].
-pub(crate) fn derivatives_near(
-    branch: &Branch,
-    robot: &Robot,
-    pose: &Pose,
-    tension_offsets: &[f64],
-    load: &Load,
-) -> Result<Derivatives, StaticsError> {
-    let wound = wind_near(branch, robot, pose, tension_offsets)?;
-    of_wound(robot, &WantedPose::at(pose), tension_offsets, load, &wound)
-}
-
-/// The derivatives of the deflection of cables that are wound.
-fn of_wound(
+/// The derivatives of the deflection with these lengths.
+fn at_pose(
     robot: &Robot,
     wanted: &WantedPose,
     tension_offsets: &[f64],
     load: &Load,
-    wound: &Wound,
+    cables: &SetPointLengths,
 ) -> Result<Derivatives, StaticsError> {
     require_smooth(robot)?;
-    let deflection = deflection_from(robot, wound.lengths.clone(), load, &wound.held)?;
+    let deflection = deflection_from(robot, cables.lengths.clone(), load, &cables.equilibrium)?;
     let WantedPose { pose, tension_reference, .. } = wanted;
-    let winding = Winding { robot, pose, reference: *tension_reference, inputs: Inputs::of(robot), wound };
-    let set_points = winding.set_points(tension_offsets)?;
-    let lengths = winding.lengths(&set_points.rows)?;
-    of_lengths(robot, load, deflection, winding.inputs, set_points, lengths)
+    let at = AtSetPoints { robot, pose, reference: *tension_reference, inputs: Inputs::of(robot), cables };
+    let set_points = at.set_points(tension_offsets)?;
+    let lengths = at.lengths(&set_points.rows)?;
+    of_lengths(robot, load, deflection, at.inputs, set_points, lengths)
 }
 
 /// The derivatives of the deflection of a robot with free coordinates.
@@ -200,11 +186,11 @@ fn with_free(
     tension_offsets: &[f64],
     load: &Load,
 ) -> Result<Derivatives, StaticsError> {
-    let (unmoved, wound) = wind_free(robot, wanted, tension_offsets)?;
-    let deflection = deflection_from(robot, wound.lengths.clone(), load, &wound.equilibrium)?;
+    let (unmoved, offset) = lengths_with_free(robot, wanted, tension_offsets)?;
+    let deflection = deflection_from(robot, offset.lengths.clone(), load, &offset.equilibrium)?;
     let inputs = Inputs::of(robot);
     let WantedPose { pose, free, .. } = wanted;
-    let rest = Rest { robot, wanted: pose, free, inputs: &inputs, unmoved: &unmoved, wound: &wound };
+    let rest = Rest { robot, wanted: pose, free, inputs: &inputs, unmoved: &unmoved, offset: &offset };
     let (rows, lengths) = rest.slopes(tension_offsets)?;
     of_lengths(robot, load, deflection, inputs, SetPoints { rows, one_sided: Vec::new() }, lengths)
 }

@@ -53,7 +53,7 @@ pub use feasibility::is_feasible;
 use feasible::search;
 pub(crate) use free::{BESIDE, FreeBranch};
 pub use free::{FreeSolution, FreeSolutions, LONGEST, free_solutions, rest_near};
-pub(crate) use free::{held_at, rest};
+pub(crate) use free::{lengths_at, rest};
 pub use greatest::{Blocking, Greatest, greatest_payload, tension_margin};
 pub(crate) use in_turn::InTurn;
 pub use limits::limits_at;

@@ -30,7 +30,7 @@ pub(super) struct Rest<'a> {
     /// Without offsets of the set-points.
     pub(super) unmoved: &'a PoseLengths,
     /// At the same pose, with the offsets.
-    pub(super) wound: &'a PoseLengths,
+    pub(super) offset: &'a PoseLengths,
 }
 
 /// A set-point differs from its tension and offset by less than this share, or it is on a limit.
@@ -45,8 +45,8 @@ impl Rest<'_> {
         &self,
         tension_offsets: &[f64],
     ) -> Result<(DMatrix<f64>, DMatrix<f64>), StaticsError> {
-        let Self { robot, inputs, unmoved, wound, .. } = *self;
-        let (before, after) = (unmoved.equilibrium.tensions(), wound.equilibrium.tensions());
+        let Self { robot, inputs, unmoved, offset: with_offsets, .. } = *self;
+        let (before, after) = (unmoved.equilibrium.tensions(), with_offsets.equilibrium.tensions());
         let moved = before.iter().zip(tension_offsets).zip(&after);
         if moved.into_iter().any(|((t, offset), found)| (t + offset - found).abs() > SAME * (t + found)) {
             let reason = "a limit of tension or the weight of a cable keeps it";
@@ -57,8 +57,8 @@ impl Rest<'_> {
         for i in 0..before.len() {
             set_points[(i, layout.tension_offset(i))] += 1.0;
         }
-        let cables = self.cables(wound)?;
-        let mut lengths = tensions(inputs, &wound.equilibrium.pose, &cables);
+        let cables = self.cables(with_offsets)?;
+        let mut lengths = tensions(inputs, &with_offsets.equilibrium.pose, &cables);
         let per_motion = lengths.columns(inputs.pose().start, 6).into_owned();
         lengths.columns_mut(inputs.pose().start, 6).fill(0.0);
         lengths.gemm(1.0, &per_motion, &motion, 1.0);

@@ -1,7 +1,7 @@
 //! Following an equilibrium while lengths or load change, up to where it is lost.
 //!
 //! Between two settings everything changes linearly with a share from 0 to 1. From an equilibrium at one
-//! share, the first step of Newton's method a step h later is the prediction of the linearisation. A step is
+//! share, the first step of Newton's method a step h later is the prediction of the linearization. A step is
 //! taken only where the iteration ends near that prediction and at a stable equilibrium; otherwise h shrinks.
 //! Near a turning point the pose moves like the square root of the share that remains up to it: steps then
 //! fall geometrically. Where h is below 1e-9 the equilibrium is lost, unless the one downhill a millionth

@@ -8,7 +8,7 @@ use cdpr_robot::{Pose, Vector3};
 
 /// Starts around a pose: the pose itself, then points that fill a box of displacements evenly.
 ///
-/// The points are those of the additive recurrence of the generalised golden ratio in six dimensions (Roberts
+/// The points are those of the additive recurrence of the generalized golden ratio in six dimensions (Roberts
 /// 2018). The same values give the same starts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Starts {

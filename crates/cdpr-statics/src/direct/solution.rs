@@ -2,7 +2,7 @@
 
 use crate::direct::newton::Converged;
 use crate::direct::stability::Stability;
-use crate::direct::trust_region::minimise;
+use crate::direct::trust_region::minimize;
 use crate::equations::end;
 use crate::error::StaticsError;
 use crate::problem::DirectProblem;
@@ -73,7 +73,7 @@ pub struct DirectSolution {
 
 /// The minimum of the potential downhill of a pose.
 pub(crate) fn descend(problem: &DirectProblem, pose: &Pose) -> Result<DirectSolution, StaticsError> {
-    solution(problem, minimise(problem, pose)?, DirectMethod::TrustRegion)
+    solution(problem, minimize(problem, pose)?, DirectMethod::TrustRegion)
 }
 
 pub(crate) fn solution(

@@ -14,7 +14,7 @@
 //! F_i = -(fx e_h + fz e_z)      with the wrench      [F_i; s_i x F_i]                              (S1)
 //! ```
 //!
-//! Linearised about a force f that need not yet fit the two points, the cable answers to a displacement of A
+//! Linearized about a force f that need not yet fit the two points, the cable answers to a displacement of A
 //! with
 //!
 //! ```text
@@ -115,7 +115,7 @@ pub(crate) fn between<T: Number>(p: &[T; 3], s: &[T; 3], b: &[T; 3]) -> [T; 3] {
     [p[0] + s[0] - b[0], p[1] + s[1] - b[1], p[2] + s[2] - b[2]]
 }
 
-/// A cable linearised about a force that need not fit its two points, equations (S2) and (S3).
+/// A cable linearized about a force that need not fit its two points, equations (S2) and (S3).
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LinearizedCable<T> {
     pub(crate) plane: CablePlane<T>,
@@ -128,7 +128,7 @@ pub(crate) struct LinearizedCable<T> {
 }
 
 impl<T: Number> LinearizedCable<T> {
-    /// Linearises about `force`, to which the cable answers with `response`.
+    /// Linearizes about `force`, to which the cable answers with `response`.
     #[inline(always)]
     pub(crate) fn new(span: &Span<T>, force: [T; 2], response: &Response<T>) -> Self {
         let linearized = Self {

@@ -21,7 +21,7 @@ use crate::state::Equilibrium;
 use cdpr_robot::{Matrix3, Matrix6xX, Vector3, Vector6, Wrench};
 use nalgebra::Matrix6;
 
-/// The direct problem linearised at an equilibrium.
+/// The direct problem linearized at an equilibrium.
 pub struct Linearization {
     stiffness: Matrix6<f64>,
     pins: Pins,
@@ -32,7 +32,7 @@ pub struct Linearization {
 }
 
 impl DirectProblem<'_> {
-    /// The problem linearised at an equilibrium of its own.
+    /// The problem linearized at an equilibrium of its own.
     ///
     /// # Errors
     /// [`StaticsError::Invalid`] unless the equilibrium is finite and has one force for each cable.

@@ -188,7 +188,7 @@ impl<'a, T: Real> SpannedCable<'a, T> {
         if let Answer::Planar(response) = &self.answer { Some(response) } else { None }
     }
 
-    /// The cable linearised about its force, of a cable that stays in the plane of its span.
+    /// The cable linearized about its force, of a cable that stays in the plane of its span.
     #[inline(always)]
     pub(crate) fn planar(&self) -> Option<LinearizedCable<T>> {
         self.response().map(|response| LinearizedCable::new(&self.span, self.force, response))

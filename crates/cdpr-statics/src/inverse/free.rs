@@ -191,7 +191,11 @@ pub(crate) fn rest(robot: &Robot, wanted: &WantedPose, load: &Load) -> Result<Fr
 ///
 /// # Errors
 /// Those of [`crate::inverse`].
-pub(crate) fn held_at(robot: &Robot, wanted: &WantedPose, load: &Load) -> Result<PoseLengths, StaticsError> {
+pub(crate) fn lengths_at(
+    robot: &Robot,
+    wanted: &WantedPose,
+    load: &Load,
+) -> Result<PoseLengths, StaticsError> {
     if wanted.free.is_empty() {
         let found = inverse_at(robot, &wanted.pose, load, wanted.tension_reference)?;
         return Ok(PoseLengths { lengths: found.lengths, equilibrium: found.equilibrium });

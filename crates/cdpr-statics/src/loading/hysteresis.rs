@@ -21,7 +21,7 @@
 
 use crate::direct::{DirectSolution, DirectStart, follow_load};
 use crate::error::StaticsError;
-use crate::inverse::{PoseLengths, held_at, refuse_offsets};
+use crate::inverse::{PoseLengths, lengths_at, refuse_offsets};
 use crate::problem::{DirectProblem, Unstable};
 use crate::state::{Equilibrium, Load, WantedPose};
 use cdpr_cable::{CableError, PiecewiseLaw, Segment};
@@ -159,7 +159,7 @@ pub fn load_cycle<'a>(
         return invalid("laws", format!("a list of {}", laws.len()), &format!("{n}, one a cable"));
     }
     let mut robot = with_laws(robot, laws.iter().map(|law| law.loading.clone()).collect());
-    let PoseLengths { lengths, equilibrium: held } = held_at(&robot, &wanted, &Load::none())?;
+    let PoseLengths { lengths, equilibrium: held } = lengths_at(&robot, &wanted, &Load::none())?;
     let mut ways = Vec::with_capacity(2);
     let mut means = Vec::with_capacity(3);
     let mut energies = vec![0.0; n];
@@ -205,22 +205,25 @@ pub fn load_cycle<'a>(
         around * lengths[i] / robot.cables[i].properties.axial_stiffness()
     });
     let dissipated = dissipated.collect();
+    let payload_work = payload_work(&robot, &ways);
+    let tensions = (0..n).map(|i| [means[0][i], means[1][i], means[2][i]]).collect();
+    let (unloading, loading) = (ways.pop().unwrap_or_default(), ways.pop().unwrap_or_default());
+    Ok(LoadCycle { lengths, loading, unloading, tensions, dissipated, payload_work })
+}
+
+/// Work of gravity on the payload along the ways of a cycle [J], by the trapezoidal rule.
+fn payload_work(robot: &Robot, ways: &[Vec<CycleStep>]) -> f64 {
     let center = |solution: &DirectSolution| {
         let pose = &solution.equilibrium.pose;
         pose.position + pose.rotation * robot.platform.center_of_mass
     };
-    let payload_work = ways
-        .iter()
-        .flat_map(|way| way.windows(2))
-        .map(|pair| {
-            let [a, b] = [&pair[0], &pair[1]];
-            let weight = 0.5 * (a.payload + b.payload) * robot.gravity.vector();
-            weight.dot(&(center(&b.solution) - center(&a.solution)))
-        })
-        .sum();
-    let tensions = (0..n).map(|i| [means[0][i], means[1][i], means[2][i]]).collect();
-    let (unloading, loading) = (ways.pop().unwrap_or_default(), ways.pop().unwrap_or_default());
-    Ok(LoadCycle { lengths, loading, unloading, tensions, dissipated, payload_work })
+    let steps = ways.iter().flat_map(|way| way.windows(2));
+    let work = steps.map(|pair| {
+        let [a, b] = [&pair[0], &pair[1]];
+        let weight = 0.5 * (a.payload + b.payload) * robot.gravity.vector();
+        weight.dot(&(center(&b.solution) - center(&a.solution)))
+    });
+    work.sum()
 }
 
 fn with_laws(robot: &Robot, laws: Vec<PiecewiseLaw>) -> Robot {

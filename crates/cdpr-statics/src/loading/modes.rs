@@ -23,7 +23,7 @@
 
 use crate::direct::{DirectStart, Stability};
 use crate::error::StaticsError;
-use crate::inverse::{held_at, refuse_offsets};
+use crate::inverse::{lengths_at, refuse_offsets};
 use crate::loading::small_motions::SmallMotions;
 use crate::problem::{DirectProblem, Unstable};
 use crate::state::{Equilibrium, Load, WantedPose};
@@ -235,7 +235,7 @@ pub fn modes_at<'a>(
     wanted: impl Into<WantedPose<'a>>,
     load: &Load,
 ) -> Result<PoseModes, StaticsError> {
-    let wanted = held_at(robot, &refuse_offsets(wanted.into())?, load)?;
+    let wanted = lengths_at(robot, &refuse_offsets(wanted.into())?, load)?;
     let problem = DirectProblem::new(robot, &wanted.lengths, load)?;
     let held = problem.with_unstable(Unstable::Accepted).direct(DirectStart::Near(&wanted.equilibrium))?;
     PoseModes::new(&problem, held.equilibrium)

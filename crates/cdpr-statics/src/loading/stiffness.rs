@@ -2,7 +2,7 @@
 
 use crate::direct::{DirectStart, Stability};
 use crate::error::StaticsError;
-use crate::inverse::{held_at, refuse_offsets};
+use crate::inverse::{lengths_at, refuse_offsets};
 use crate::problem::{DirectProblem, Unstable};
 use crate::state::{Equilibrium, Load, WantedPose};
 use cdpr_robot::Robot;
@@ -34,7 +34,7 @@ pub fn stiffness_at<'a>(
     wanted: impl Into<WantedPose<'a>>,
     load: &Load,
 ) -> Result<PoseStiffness, StaticsError> {
-    let wanted = held_at(robot, &refuse_offsets(wanted.into())?, load)?;
+    let wanted = lengths_at(robot, &refuse_offsets(wanted.into())?, load)?;
     let problem = DirectProblem::new(robot, &wanted.lengths, load)?;
     let held = problem.with_unstable(Unstable::Accepted).direct(DirectStart::Near(&wanted.equilibrium))?;
     let linearization = problem.linearize(&held.equilibrium)?;

@@ -12,7 +12,7 @@
 use super::search::{Outcome, Point, ROUNDING, SINGULAR_VALUES, SOLVED, Search, Unknowns};
 use super::solution::FreeSolution;
 use super::sound::Loops;
-use super::{BESIDE, Beside, check_free, held_at};
+use super::{BESIDE, Beside, check_free, lengths_at};
 use crate::error::StaticsError;
 use crate::inverse::PoseLengths;
 use crate::rest_fault::RestFault;
@@ -61,7 +61,7 @@ impl FreeBranch {
     pub(crate) fn of(robot: &Robot, pose: &Pose, free: &[Coordinate]) -> Result<Self, StaticsError> {
         check_free(robot, free)?;
         let none = Load::none();
-        let rest = held_at(robot, &WantedPose::at(pose).free(free), &none)?;
+        let rest = lengths_at(robot, &WantedPose::at(pose).free(free), &none)?;
         let search = Search::new(robot, &rest.equilibrium.pose, &none, free)?;
         let start = search
             .known(chord_forces(robot, &rest.equilibrium))
@@ -97,7 +97,7 @@ impl FreeBranch {
         };
         match found {
             Some(FreeSolution { lengths, equilibrium, .. }) => Ok(PoseLengths { lengths, equilibrium }),
-            None => held_at(robot, &WantedPose::at(pose).free(&self.free), &none),
+            None => lengths_at(robot, &WantedPose::at(pose).free(&self.free), &none),
         }
     }
 }

@@ -295,7 +295,7 @@ impl<'a> Search<'a> {
     }
 
     /// Changes of the free coordinates at start number `index`: none, then points that fill a box evenly
-    /// (additive recurrence of the generalised golden ratio), `reach` from its middle [rad, longest spans].
+    /// (additive recurrence of the generalized golden ratio), `reach` from its middle [rad, longest spans].
     pub(super) fn start(&self, index: usize, reach: [f64; 2]) -> Vec<f64> {
         let dimension = self.free.len() as i32;
         let mut golden = 1.5_f64;

@@ -90,7 +90,7 @@ impl<S: Simd> InLanes<'_, S> {
         let held = find_lengths(&mut robots, &mut platform, &set_points, (&spans, &demanded), shared);
         let found = converged & sound & held;
         let found = found & self.is_least(&robots, &spans, &multipliers, &limits);
-        self.read(found, &robots, &spans, &multipliers, &set_points, &limits)
+        self.read(found, &robots, &spans, &multipliers, (&set_points, &limits))
     }
 
     #[inline(always)]
@@ -172,8 +172,7 @@ impl<S: Simd> InLanes<'_, S> {
         robots: &Robots<'_, S>,
         spans: &[Span<Lanes<S>>],
         multipliers: &Lanes6<S>,
-        set_points: &[Lanes<S>],
-        limits: &[Lanes2<S>],
+        (set_points, limits): (&[Lanes<S>], &[Lanes2<S>]),
     ) -> Vec<Option<Answer>> {
         let found = found.to_array();
         let multipliers_of = multipliers.map(Lanes::to_array);
