@@ -2,9 +2,9 @@
 //!
 //! The theorem is applied to the equations of the inverse model, of the set-points and of both equilibria.
 //!
-//! Cables answer to their inputs by (D1)-(D4) of `equations/partials.rs`.
+//! Cables respond to their inputs by (D1)-(D4) of `equations/partials.rs`.
 //!
-//! **Inverse model.** With `v_i = dF_i/dt_i` at held ends, the multipliers `λ = (λ_p, λ_r)` of the balance
+//! **Inverse model.** With `v_i = dF_i/dt_i` at fixed ends, the multipliers `λ = (λ_p, λ_r)` of the balance
 //! make a twist that moves anchor point A_i by `μ_i = λ_p + λ_r x s_i`. Tensions without active bound and
 //! the balance of the platform are equation (I2) of `inverse.rs` and Eq. (3),
 //!
@@ -25,7 +25,7 @@
 //! **Active bounds stay active** while their multipliers are not zero. On limits at the platform `dt_i = 0`.
 //! A cable whose weight demands more rests on a constant, a = 1.001, times the least tension over its
 //! span. That least tension, a minimum over the length, changes as if the length at which it is taken were
-//! held: `dt_i = a u·(-K3 dr + k_ρ dρ + k_E dE)` of that catenary. A greatest tension T0 at the
+//! constant: `dt_i = a u·(-K3 dr + k_ρ dρ + k_E dE)` of that catenary. A greatest tension T0 at the
 //! exit point leaves t at the platform, which (C26) of `cdpr_cable` relates: `(1 + ε(t)) dt = w dz + z dw +
 //! (1/EA ∫ ε) dEA` with the integral over the tension from T0 to t.
 //!
@@ -33,8 +33,8 @@
 //! nothing.
 //!
 //! **Two sides.** Where a bound is left when an input grows and kept when it falls, or the other way round,
-//! the right and the left derivative differ: `derivatives/optimum.rs` and `set_points.rs`. An offset of a cable
-//! on its bound is such an input.
+//! the right and the left derivative differ: `derivatives/optimum.rs` and `set_points.rs`. An offset of a
+//! cable on its bound is such an input.
 //!
 //! **Lengths** follow from (D1) at the set-points:
 //!
@@ -77,7 +77,7 @@ use softest::AtRest;
 /// A deflection with its derivatives. Each matrix has a column for every input ([`Inputs`]): the parameters
 /// of the robot, the payload, the wanted pose.
 ///
-/// The columns of inputs in `one_sided` hold the left derivatives, as the input falls; [`Derivatives::right`]
+/// The columns of inputs in `one_sided` have the left derivatives, as the input falls; [`Derivatives::right`]
 /// has the right ones.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Derivatives {
@@ -135,7 +135,7 @@ pub fn derivatives<W: Wanted>(
     robot: &Robot,
     wanted: W,
     load: &Load,
-) -> W::Answers<Result<Derivatives, StaticsError>> {
+) -> W::Results<Result<Derivatives, StaticsError>> {
     one_by_one(wanted, |wanted| {
         let offsets = wanted.offsets_of(robot);
         if !wanted.free.is_empty() {
@@ -145,8 +145,8 @@ pub fn derivatives<W: Wanted>(
     })
 }
 
-/// [`derivatives`] of the whole of a wanted pose, with the solution of the inverse model under the platform's own
-/// weight at hand.
+/// [`derivatives`] of the whole of a wanted pose, with the solution of the inverse model under the platform's
+/// own weight at hand.
 ///
 /// # Errors
 /// As [`derivatives`].
@@ -275,8 +275,8 @@ impl Derivatives {
     }
 
     /// The lowest stiffness [N/m] of `robot` under `load`, those of these derivatives, and its derivatives
-    /// [N/m per unit], one for each input: see [`crate::Stability::least_stiffness`]. The characteristic length
-    /// is that of `robot`, a constant.
+    /// [N/m per unit], one for each input: see [`crate::Stability::least_stiffness`]. The characteristic
+    /// length is that of `robot`, a constant.
     ///
     /// # Errors
     /// [`StaticsError::NoDerivative`] where two motions have the lowest stiffness or nothing resists any, and
@@ -285,8 +285,8 @@ impl Derivatives {
         self.least_stiffness_with(robot, load, self.deflection.loaded.stability.characteristic_length())
     }
 
-    /// As [`Derivatives::least_stiffness`], with another characteristic length ℓ [m]: that of the nominal robot
-    /// for one that deviates from it.
+    /// As [`Derivatives::least_stiffness`], with another characteristic length ℓ [m]: that of the nominal
+    /// robot for one that deviates from it.
     ///
     /// # Errors
     /// As [`Derivatives::least_stiffness`].

@@ -27,7 +27,7 @@
 //! The equations are Eq. (1) to (4) of Baklouti, Caro, Courteille, *Sensitivity Analysis of the
 //! Elasto-Geometrical Model of Cable-Driven Parallel Robots* (CableCon 2017), with Irvine's catenary of crate
 //! `cdpr-cable` as Eq. (2a), (2b). An equilibrium is a pose and the two components of every cable's end
-//! force: `6 + 2n` unknowns for as many equations. Every answer carries the residuals of all of them.
+//! force: `6 + 2n` unknowns for as many equations. Every solution carries the residuals of all of them.
 //!
 //! ```
 //! use cdpr_robot::{Pose, Robot};

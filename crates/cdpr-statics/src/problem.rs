@@ -30,8 +30,8 @@ pub struct DirectProblem<'a> {
     pub(crate) unstable: Unstable,
 }
 
-/// What becomes of an unstable equilibrium to which Newton's method converges, such as a platform that balances
-/// like an upright pendulum.
+/// What becomes of an unstable equilibrium to which Newton's method converges, such as a platform that
+/// balances like an upright pendulum.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Unstable {
     /// It is left for the stable one downhill, to which the platform falls.

@@ -1,7 +1,7 @@
-//! From the held coordinates of a pose to set-points and lengths, for fewer cables than free motions.
+//! From the given coordinates of a pose to set-points and lengths, for fewer cables than free motions.
 //!
-//! The unloaded platform rests at a pose whose free coordinates q are found beside the lengths, (I6) of
-//! `inverse/free.rs`. If the inputs change its balance by ∂G and the held coordinates move it by dc, then
+//! The unloaded platform rests at a pose whose free coordinates q are found together with the lengths, (I6)
+//! of `inverse/free.rs`. If the inputs change its balance by ∂G and the given coordinates move it by dc, then
 //! with the motions T of the free coordinates
 //!
 //! ```text
@@ -70,9 +70,9 @@ impl Rest<'_> {
         Ok((set_points, lengths))
     }
 
-    fn cables(&self, held: &PoseLengths) -> Result<Vec<CableDerivatives>, StaticsError> {
-        let problem = DirectProblem::new(self.robot, &held.lengths, &Load::none())?;
-        let equilibrium = &held.equilibrium;
+    fn cables(&self, at: &PoseLengths) -> Result<Vec<CableDerivatives>, StaticsError> {
+        let problem = DirectProblem::new(self.robot, &at.lengths, &Load::none())?;
+        let equilibrium = &at.equilibrium;
         Ok(CableDerivatives::all(&problem, &equilibrium.pose, &equilibrium.cable_forces))
     }
 
@@ -85,9 +85,9 @@ impl Rest<'_> {
         let (hessian, tensions_per_motion) = partials.take_pose(inputs);
         let Partials { mut balance, readings: mut tensions } = partials;
         balance.column_mut(inputs.payload()).fill(0.0);
-        let (held, free) = self.coordinates()?;
+        let (given, free) = self.coordinates()?;
         let start = inputs.pose().start;
-        balance.fixed_columns_mut::<6>(start).copy_from(&(hessian * held));
+        balance.fixed_columns_mut::<6>(start).copy_from(&(hessian * given));
 
         let (rows, n) = (robot.freedoms().components(), cables.len());
         let per_length: Vec<Vector6<f64>> =
@@ -106,7 +106,7 @@ impl Rest<'_> {
         }
         let mut motion = free * found.rows(n, rows.len() - n);
         let mut of_wanted = motion.fixed_columns_mut::<6>(start);
-        of_wanted += held;
+        of_wanted += given;
         tensions.gemm(1.0, &tensions_per_motion, &motion, 1.0);
         for (i, cable) in cables.iter().enumerate() {
             let mut row = tensions.row_mut(i);

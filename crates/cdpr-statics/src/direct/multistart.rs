@@ -43,7 +43,7 @@ pub struct Equilibria {
 /// The root of x⁷ = x + 1, the golden ratio of six dimensions.
 const GOLDEN: f64 = 1.112_775_684_278_705_5;
 
-/// Two answers closer than this share of the robot's size are the same equilibrium.
+/// Two solutions closer than this share of the robot's size are the same equilibrium.
 const SAME: f64 = 1e-7;
 
 impl Starts {
@@ -85,8 +85,8 @@ impl DirectProblem<'_> {
     /// unstable equilibria included. No number of starts proves that there are no more.
     ///
     /// # Errors
-    /// [`StaticsError::Invalid`] for starts that are not finite, or none. Failures of single searches stand
-    /// in the answer.
+    /// [`StaticsError::Invalid`] for starts that are not finite, or none. Failures of single searches are
+    /// listed in the result.
     pub fn equilibria(&self, starts: &Starts) -> Result<Equilibria, StaticsError> {
         starts.validate()?;
         let mut equilibria = Equilibria { found: Vec::new(), failed: Vec::new() };
@@ -107,8 +107,8 @@ impl DirectProblem<'_> {
 }
 
 impl Equilibria {
-    fn add(&mut self, problem: &DirectProblem, answer: Result<DirectSolution, StaticsError>) {
-        let solution = match answer {
+    fn add(&mut self, problem: &DirectProblem, found: Result<DirectSolution, StaticsError>) {
+        let solution = match found {
             Ok(solution) => solution,
             Err(error) => return self.failed.push(error),
         };

@@ -34,12 +34,12 @@ pub fn direct(
 }
 
 impl DirectProblem<'_> {
-    /// An equilibrium: the one that Newton's method converges to from the start, else a stable one downhill of
-    /// the start. [`DirectProblem::with_unstable`] says what becomes of an unstable one; unless it is accepted,
-    /// the equilibrium is stable.
+    /// An equilibrium: the one that Newton's method converges to from the start, else a stable one downhill
+    /// of the start. [`DirectProblem::with_unstable`] says what becomes of an unstable one; unless it is
+    /// accepted, the equilibrium is stable.
     ///
     /// Without a moment in the load the potential always has a minimum, because the cables' elasticity bounds
-    /// it from below. The start is never returned as an answer.
+    /// it from below. The start is never returned as a solution.
     ///
     /// # Errors
     /// - [`StaticsError::Invalid`] for a start that is not finite or has not one force for each cable.

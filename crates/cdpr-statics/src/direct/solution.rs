@@ -1,4 +1,4 @@
-//! An equilibrium as an answer, with the report of how it was found.
+//! An equilibrium as a solution, with the report of how it was found.
 
 use crate::direct::newton::Converged;
 use crate::direct::stability::Stability;
@@ -43,7 +43,7 @@ impl FromStr for DirectMethod {
     }
 }
 
-/// How an answer was found and how good it is.
+/// How a solution was found and how good it is.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DirectReport {
     /// The method that found it.
@@ -100,7 +100,7 @@ pub(crate) fn solution(
 }
 
 impl DirectProblem<'_> {
-    /// Refuses forces that strain a cable by more than the models hold for.
+    /// Refuses forces that strain a cable by more than the models are valid for.
     ///
     /// # Errors
     /// [`StaticsError::Overstrained`] for the first such cable.

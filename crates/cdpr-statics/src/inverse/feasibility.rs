@@ -1,7 +1,7 @@
 //! Whether tensions hold a pose, without a choice among them.
 
 use super::InverseSolution;
-use super::feasible::{holds, search};
+use super::feasible::{has_tensions, search};
 use super::free::rest;
 use super::problem::InverseProblem;
 use super::wanted::refuse_offsets;
@@ -9,12 +9,12 @@ use crate::error::StaticsError;
 use crate::state::{Load, Wanted, WantedPose, one_by_one};
 use cdpr_robot::Robot;
 
-/// Whether tensions within the limits hold the platform at a wanted pose, or at each of many, under its weight
-/// and `load`, as far as the search from the tensions of straight cables shows.
+/// Whether tensions within the limits hold the platform at a wanted pose, or at each of many, under its
+/// weight and `load`, as far as the search from the tensions of straight cables shows.
 ///
 /// A yes is certain. A no comes much sooner than from [`crate::inverse`], which tries other starts before it
 /// calls a pose infeasible: cables that sag may hold a pose with tensions far from those of straight ones.
-/// With free coordinates the answer is whether [`crate::inverse`] finds the platform at rest.
+/// With free coordinates the result is whether [`crate::inverse`] finds the platform at rest.
 ///
 /// # Errors
 /// Those of [`crate::inverse`] but [`StaticsError::NoTensions`], [`StaticsError::InverseNotConverged`] and
@@ -23,7 +23,7 @@ pub fn is_feasible<W: Wanted>(
     robot: &Robot,
     wanted: W,
     load: &Load,
-) -> W::Answers<Result<bool, StaticsError>> {
+) -> W::Results<Result<bool, StaticsError>> {
     one_by_one(wanted, |wanted| {
         let wanted = refuse_offsets(*wanted)?;
         if wanted.free.is_empty() {
@@ -44,5 +44,5 @@ fn is_feasible_at(robot: &Robot, wanted: &WantedPose, load: &Load) -> Result<boo
         // Tensions within the limits may strain a cable too much.
         return Ok(search(&problem).and_then(|found| InverseSolution::new(&problem, found)).is_ok());
     }
-    holds(&problem)
+    has_tensions(&problem)
 }

@@ -14,7 +14,7 @@ use crate::lanes::chain::free::{FreeMotion, rest};
 use crate::lanes::chain::lengths::find_lengths;
 use crate::lanes::chain::shared::Shared;
 use crate::lanes::chain::tensions::{CableTension, Distribute, Distributed};
-use crate::local::freedoms::hold;
+use crate::local::freedoms::constrain;
 use crate::local::load::PlatformLoad;
 use crate::local::newton::solve;
 use crate::local::platform::{LaneResidual, LinearizedPlatform, Robots};
@@ -90,7 +90,7 @@ impl<S: Simd> Failures<S> {
     }
 }
 
-/// The answer for every robot.
+/// The outcome for every robot.
 pub(crate) struct Outcome<S: Simd> {
     pub(crate) failures: Failures<S>,
     /// dp [m].
@@ -153,7 +153,7 @@ fn chain<'a, S: Simd>(
         *demanded = found.demanded;
     }
     let mut platform = LinearizedPlatform::new(zero, spans.len());
-    let held = find_lengths(robots, &mut platform, set_points, (&spans, &demanded), shared);
+    let with_lengths = find_lengths(robots, &mut platform, set_points, (&spans, &demanded), shared);
     let mut states = Vec::new();
     let mut keep = |robots: &Robots<'a, S>| {
         if traced {
@@ -164,24 +164,25 @@ fn chain<'a, S: Simd>(
 
     let own = PlatformLoad::weight(robots.weight);
     robots.assemble(&own, &mut platform, zero.less_or_equal(zero));
-    let (standing, unloaded) = solve(robots, &own, &mut platform, &shared.scale, converged & sound & held);
+    let (standing, unloaded) =
+        solve(robots, &own, &mut platform, &shared.scale, converged & sound & with_lengths);
     let (stood, stiffness) = (robots.position, platform.factored);
     let frame = robots.frame.clone();
     keep(robots);
 
     let load = payload.on(own.weight);
     // The first step follows the linearization at hand.
-    let added = hold(freedoms, payload.wrench(&robots.center));
+    let added = constrain(freedoms, payload.wrench(&robots.center));
     platform.gradient = six!(|k| platform.gradient[k] - added[k]);
-    let (answered, loaded) = solve(robots, &load, &mut platform, &shared.scale, standing);
-    let answered = robots.on_branch(&load, &platform, &stiffness, &shared.scale, answered);
+    let (standing_loaded, loaded) = solve(robots, &load, &mut platform, &shared.scale, standing);
+    let standing_loaded = robots.on_branch(&load, &platform, &stiffness, &shared.scale, standing_loaded);
     keep(robots);
     let mut failures = Failures::none(zero);
     failures.add(Stage::Tensions, converged);
     failures.add(Stage::Limits, sound);
-    failures.add(Stage::Lengths, held);
+    failures.add(Stage::Lengths, with_lengths);
     failures.add(Stage::Unloaded, standing);
-    failures.add(Stage::Loaded, answered);
+    failures.add(Stage::Loaded, standing_loaded);
     // Eq. (4)
     let displacement = three!(|k| robots.position[k] - stood[k]);
     let frames = [frame, robots.frame.clone()];

@@ -1,9 +1,10 @@
 //! Deflections of a robot with deviations of its parameters, many at a time.
 //!
 //! Robots with cables that are linear or have an elastic law, taut or sagging, at their limits or not, behind
-//! leads and over pulleys or without, are observed in the lanes of the vector unit (`lanes/chain.rs`), each from the tensions of the nominal robot, and with fewer cables than free motions
-//! also from its free coordinates (`lanes/chain/free.rs`). Any other robot is observed by the scalar models,
-//! which decide on every failure.
+//! leads and over pulleys or without, are observed in the lanes of the vector unit (`lanes/chain.rs`), each
+//! from the tensions of the nominal robot, and with fewer cables than free motions also from its free
+//! coordinates (`lanes/chain/free.rs`). Any other robot is observed by the scalar models, which decide on
+//! every failure.
 //!
 //! Where the sum of squares of the inverse model has several local minima, a perturbed robot is observed in
 //! the one that it shares with the nominal robot, as long as it exists. [`deflection`] of the same robot may
@@ -102,7 +103,7 @@ pub struct Observer<'a> {
 /// The inverse model of the nominal robot, from which that of a deviating one is found.
 #[derive(Clone, Debug)]
 enum Wanted {
-    /// At a whole pose; `None` where it has no answer.
+    /// At a whole pose; `None` where it has no solution.
     Pose(Option<Branch>),
     /// Where it rests with free coordinates.
     Rest(FreeBranch),
@@ -161,7 +162,7 @@ impl<'a> Observer<'a> {
 
     /// Observes a robot for each row of a table, whose deviations are added to the parameters.
     ///
-    /// An answer depends on its own row alone, to the last digit, and agrees with
+    /// A result depends on its own row alone, to the last digit, and agrees with
     /// [`Observer::observe_one_by_one`] to rounding, but for one row in 10^4 of random robots: where a robot
     /// has several minima of its tensions, the scalar models take the one next to the nominal robot's, and
     /// this may take another, mostly the least of all, as [`deflection`] does (docs/VALIDATION.md).
@@ -245,8 +246,8 @@ trait InLanes: Copy {
     fn read<S: Simd>(outcome: &Outcome<S>, of: &InRows<'_, S>) -> [Result<Self, ScalarReason>; MAX_LANES];
 }
 
-/// The robots whose outcome is read: their level frames, where these are not the base frame, and the lanes whose
-/// parameters are valid, and whose axes are upright.
+/// The robots whose outcome is read: their level frames, where these are not the base frame, and the lanes
+/// whose parameters are valid, and whose axes are upright.
 struct InRows<'a, S: Simd> {
     level: Option<&'a LevelFrame<S>>,
     valid: [Mask<S>; 2],

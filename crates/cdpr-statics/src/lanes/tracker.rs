@@ -10,7 +10,7 @@ use crate::state::{Equilibrium, Load, Residual};
 use cdpr_number::lanes::{Lanes, Simd, WithSimd, dispatch};
 use cdpr_robot::Robot;
 
-/// Follows the stable equilibrium of a robot while its cables are wound and its load changes.
+/// Follows the stable equilibrium of a robot while its lengths and its load change.
 ///
 /// ```
 /// use cdpr_robot::{Pose, Robot};
@@ -69,9 +69,9 @@ impl<'a> Tracker<'a> {
     /// change in proportion.
     ///
     /// Nothing is allocated where Newton's method ends near its prediction, at a stable equilibrium without
-    /// folded cables and without guides (up to 32 cables with AVX-512, 16 with AVX2). Otherwise the change is made in steps,
-    /// and where these strain a cable too much on the way or do not end, [`direct`] searches near the current
-    /// equilibrium.
+    /// folded cables and without guides (up to 32 cables with AVX-512, 16 with AVX2). Otherwise the change is
+    /// made in steps, and where these strain a cable too much on the way or do not end, [`direct`] searches
+    /// near the current equilibrium.
     ///
     /// # Errors
     /// [`StaticsError::BranchEnds`] where the platform falls on the way, and those of [`direct`]; the

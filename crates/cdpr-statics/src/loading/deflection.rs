@@ -93,7 +93,7 @@ pub fn deflection<W: Wanted>(
     robot: &Robot,
     wanted: W,
     load: &Load,
-) -> W::Answers<Result<Deflection, StaticsError>> {
+) -> W::Results<Result<Deflection, StaticsError>> {
     one_by_one(wanted, |wanted| {
         let PoseLengths { lengths, equilibrium } = set_lengths(robot, wanted)?;
         deflection_from(robot, lengths, load, &equilibrium)
@@ -126,7 +126,7 @@ pub(crate) fn lengths_at_rest(
     Ok((rest, with_offsets))
 }
 
-/// Unstrained lengths [m] that give offset tension set-points while the platform is held at a wanted pose,
+/// Unstrained lengths [m] that give offset tension set-points while the platform is fixed at a wanted pose,
 /// or, with free coordinates, where it rests.
 ///
 /// The set-points are the tensions of the inverse model under the platform's own weight plus the offsets,

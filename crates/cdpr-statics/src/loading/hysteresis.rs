@@ -10,8 +10,8 @@
 //! ```
 //!
 //! with L and U the strains of the loading and unloading curves: each continues from where the cable is
-//! ([`Unloading`] says which part of U). One law holds for a whole cable; T* is its mean tension, over lead and
-//! arc of a guide, which carry T0, and over the free part, whose ends differ from its middle by half its
+//! ([`Unloading`] says which part of U). One law is that of a whole cable; T* is its mean tension, over lead
+//! and arc of a guide, which carry T0, and over the free part, whose ends differ from its middle by half its
 //! weight. With the mean, a turn keeps the length of the cable although its parts do not turn at once.
 //!
 //! The energy that the payload gives is the area `∮ m g dz` of payload over the height of its centre; the
@@ -159,13 +159,13 @@ pub fn load_cycle<'a>(
         return invalid("laws", format!("a list of {}", laws.len()), &format!("{n}, one a cable"));
     }
     let mut robot = with_laws(robot, laws.iter().map(|law| law.loading.clone()).collect());
-    let PoseLengths { lengths, equilibrium: held } = lengths_at(&robot, &wanted, &Load::none())?;
+    let PoseLengths { lengths, equilibrium: start } = lengths_at(&robot, &wanted, &Load::none())?;
     let mut ways = Vec::with_capacity(2);
     let mut means = Vec::with_capacity(3);
     let mut energies = vec![0.0; n];
     let first = DirectProblem::new(&robot, &lengths, &Load::none())?
         .with_unstable(Unstable::Refused)
-        .direct(DirectStart::Near(&held))?;
+        .direct(DirectStart::Near(&start))?;
     let mut here = CycleStep { payload: 0.0, solution: first };
     means.push(mean_tensions(&robot, &lengths, &here.solution.equilibrium)?);
     for up in [true, false] {

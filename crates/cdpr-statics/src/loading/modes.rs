@@ -1,6 +1,6 @@
 //! Natural frequencies of the platform on its cables.
 //!
-//! With the lengths held, the stiffness K and the mass matrix M about P give the small free motions
+//! With the lengths constant, the stiffness K and the mass matrix M about P give the small free motions
 //! `(dp, dφ) = v sin 2πft` of the platform,
 //!
 //! ```text
@@ -17,9 +17,9 @@
 //!
 //! K is the symmetric part of the stiffness, [`crate::stiffness::Linearization::symmetric_stiffness`].
 //!
-//! These frequencies hold where the cables themselves vibrate much faster than the platform. The lowest
-//! frequency of each cable between ends at rest, (C29) of `cdpr_cable` with the mean of its end tensions, says
-//! whether they do: [`CableFrequency`].
+//! These frequencies are valid where the cables themselves vibrate much faster than the platform. The lowest
+//! frequency of each cable between ends at rest, (C29) of `cdpr_cable` with the mean of its end tensions,
+//! says whether they do: [`CableFrequency`].
 
 use crate::direct::{DirectStart, Stability};
 use crate::error::StaticsError;
@@ -132,7 +132,7 @@ impl PoseModes {
 
 impl DirectProblem<'_> {
     /// The natural motions of the platform about a stable equilibrium of its own, the slowest first: six, or
-    /// as many as are not held.
+    /// as many as are not constrained.
     ///
     /// A payload moves as a point at the centre of mass. Motions that nothing resists have the frequency zero
     /// and no shares.
@@ -237,6 +237,6 @@ pub fn modes_at<'a>(
 ) -> Result<PoseModes, StaticsError> {
     let wanted = lengths_at(robot, &refuse_offsets(wanted.into())?, load)?;
     let problem = DirectProblem::new(robot, &wanted.lengths, load)?;
-    let held = problem.with_unstable(Unstable::Accepted).direct(DirectStart::Near(&wanted.equilibrium))?;
-    PoseModes::new(&problem, held.equilibrium)
+    let found = problem.with_unstable(Unstable::Accepted).direct(DirectStart::Near(&wanted.equilibrium))?;
+    PoseModes::new(&problem, found.equilibrium)
 }

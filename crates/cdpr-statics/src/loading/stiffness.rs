@@ -36,13 +36,13 @@ pub fn stiffness_at<'a>(
 ) -> Result<PoseStiffness, StaticsError> {
     let wanted = lengths_at(robot, &refuse_offsets(wanted.into())?, load)?;
     let problem = DirectProblem::new(robot, &wanted.lengths, load)?;
-    let held = problem.with_unstable(Unstable::Accepted).direct(DirectStart::Near(&wanted.equilibrium))?;
-    let linearization = problem.linearize(&held.equilibrium)?;
+    let found = problem.with_unstable(Unstable::Accepted).direct(DirectStart::Near(&wanted.equilibrium))?;
+    let linearization = problem.linearize(&found.equilibrium)?;
     Ok(PoseStiffness {
         matrix: *linearization.stiffness(),
         symmetric_part: linearization.symmetric_stiffness(),
-        stability: held.stability,
+        stability: found.stability,
         lengths: wanted.lengths.clone(),
-        equilibrium: held.equilibrium,
+        equilibrium: found.equilibrium,
     })
 }

@@ -10,8 +10,8 @@
 //! with (C21) to (C23) of `cdpr_cable`; what is left out is of second order.
 //!
 //! Over a tilted axis the cable hangs in a vertical plane that does not contain its entry point. The azimuth
-//! e_h of that plane is an unknown of the cable, as its force is: with the components of r_i along e_h, across
-//! it to the left and upwards,
+//! e_h of that plane is an unknown of the cable, as its force is: with the components of r_i along e_h,
+//! across it to the left and upwards,
 //!
 //! ```text
 //! (h, l, z) - A(F, L) = 0,      dF = (dfx, fx dθ, dfz)                                              (L19)

@@ -4,7 +4,7 @@
 
 use crate::equations::LinearizedCable;
 use crate::local::cable::FOLDED;
-use crate::local::freedoms::hold;
+use crate::local::freedoms::constrain;
 use crate::local::guided::is_next_to_wheel;
 use crate::local::load::PlatformLoad;
 use crate::local::platform::{LaneResidual, LinearizedPlatform, Robots, Scale, Steps};
@@ -111,9 +111,9 @@ impl<S: Simd> Robots<'_, S> {
         }
         let residual = LaneResidual {
             closure: self.largest(closure),
-            wrench: hold(self.freedoms, six!(|k| all.wrench[k] - wrench[k])),
+            wrench: constrain(self.freedoms, six!(|k| all.wrench[k] - wrench[k])),
         };
-        let gradient = hold(self.freedoms, six!(|k| all.gradient[k] - wrench[k]));
+        let gradient = constrain(self.freedoms, six!(|k| all.gradient[k] - wrench[k]));
         replace(&mut platform.gradient, &gradient, near);
         let tensions = all.tensions + load.weight;
         let (force, moment) = halves(&residual.wrench);
@@ -151,7 +151,7 @@ impl<S: Simd> Robots<'_, S> {
         let linearized = &mut platform.cables[i];
         let miss = span.misclosure(end);
         let mut closure = dot(&miss, &miss);
-        let predicted = linearized.answer(cable.force, miss);
+        let predicted = linearized.after(cable.force, miss);
         let mut moved = LinearizedCable { plane: span.plane, predicted, ..*linearized };
         if let Some(swivel) = platform.swivels.get_mut(i) {
             closure += across * across;
@@ -201,13 +201,13 @@ impl<S: Simd> Robots<'_, S> {
             // The linearization is invalid farther away; a comparison with NaN is false, which ends the lane.
             active = active & moved.less_or_equal(farthest) & turned.less_or_equal(turned_most);
             platform.steps.add(&step, scale.characteristic_length, active);
-            let [steady, held] = self.apply(&translation, &rotation, turned, platform, active);
-            let [steady, held] = [self.of_robot(steady), self.of_robot(held)];
-            active = active & held;
+            let [steady, clear] = self.apply(&translation, &rotation, turned, platform, active);
+            let [steady, clear] = [self.of_robot(steady), self.of_robot(clear)];
+            active = active & clear;
             let near = active & steady & moved.less_or_equal(small_step);
             if near.any() {
-                let (left, holds) = self.update(load, scale, platform, near);
-                let mut done = near & holds & platform.factored.positive;
+                let (left, solved) = self.update(load, scale, platform, near);
+                let mut done = near & solved & platform.factored.positive;
                 if !platform.free.is_empty() {
                     done = done & moved.less_or_equal(small_step * LAST_OF_GUIDED);
                 }
@@ -225,7 +225,7 @@ impl<S: Simd> Robots<'_, S> {
     }
 
     /// Moves the platforms and the forces of their cables where `active`. Returns the lanes in which no cable
-    /// changed so much that its stiffness is another one, and those in which none became slack beside
+    /// changed so much that its stiffness is another one, and those in which none became slack next to
     /// its wheel, from either side of which it may hang.
     #[inline(always)]
     fn apply(
@@ -236,7 +236,7 @@ impl<S: Simd> Robots<'_, S> {
         platform: &LinearizedPlatform<S>,
         active: Mask<S>,
     ) -> [Mask<S>; 2] {
-        let (mut steady, mut held) = (active, active);
+        let (mut steady, mut clear) = (active, active);
         // sin φ/φ and (1 - cos φ)/φ² to rounding for φ up to 0.1.
         let x = -square;
         let a =
@@ -264,7 +264,7 @@ impl<S: Simd> Robots<'_, S> {
                 force = [fx - lost * share, fz + (force[1] - fz) * share];
                 if let Some(guided) = &cable.guided {
                     let next_to = is_next_to_wheel(guided, cable.free(), cable.span(&self.position));
-                    held = held & !(slackening & next_to);
+                    clear = clear & !(slackening & next_to);
                 }
             }
             if let Some(guided) = &mut cable.guided {
@@ -285,7 +285,7 @@ impl<S: Simd> Robots<'_, S> {
         }
         let position = three!(|k| self.position[k] + translation[k]);
         replace(&mut self.position, &position, active);
-        [steady, held]
+        [steady, clear]
     }
 }
 

@@ -18,7 +18,7 @@
 //! These iterations converge by the ratio of both parts, which is 1e-8 to 1e-6 for guides of most robots.
 
 use crate::equations::CablePlane;
-use crate::local::freedoms::hold;
+use crate::local::freedoms::constrain;
 use cdpr_number::dense::{Lanes3, Lanes6, SymmetricFactors, add, halves, replace};
 use cdpr_number::lanes::{Lanes, Mask, Simd};
 use cdpr_number::vector::{cross, dot};
@@ -63,7 +63,7 @@ impl<S: Simd> Skew<S> {
             let [h, z] = plane.project(three!(|k| moved[k] + swung[k]));
             add(right, arm, &plane.lift([-(*stiffness * z), *stiffness * h]));
         }
-        *right = hold(self.freedoms, *right);
+        *right = constrain(self.freedoms, *right);
     }
 }
 

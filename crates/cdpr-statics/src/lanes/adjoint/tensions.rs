@@ -6,7 +6,7 @@ use crate::lanes::adjoint::{Adjoint, Record, add};
 use crate::lanes::chain::shared::Shared;
 use crate::lanes::chain::tensions::CableTension;
 use crate::local::cable::LaneCable;
-use crate::local::freedoms::{hold, hold_matrix};
+use crate::local::freedoms::{constrain, constrain_matrix};
 use crate::local::platform::Robots;
 use cdpr_number::dense::{Lanes3, Lanes6, Lanes6x6, SymmetricFactors, halves};
 use cdpr_number::lanes::{Lanes, Mask, Simd};
@@ -108,7 +108,7 @@ impl<S: Simd> Adjoint<S> {
             self.decided = self.decided & (!(set_point.over | high) | guided.fixed());
         }
         self.cables[i].offset += set_point.offset.select(a, zero);
-        let column = hold(placed.freedoms, wrench(&cable.anchor_arm, &slopes.force_per_tension));
+        let column = constrain(placed.freedoms, wrench(&cable.anchor_arm, &slopes.force_per_tension));
         let curvature = -dot(&slopes.curvature, &motion) + 1.0;
         Chosen {
             span,
@@ -171,7 +171,7 @@ fn normal_equations<S: Simd>(placed: &Robots<'_, S>, cables: &[Chosen<'_, S>]) -
             }
         }
     }
-    hold_matrix(placed.freedoms, &mut matrix, zero + 1.0);
+    constrain_matrix(placed.freedoms, &mut matrix, zero + 1.0);
     (matrix, right)
 }
 

@@ -2,7 +2,7 @@
 
 use crate::equations::{LinearizedCable, Span};
 use crate::lanes::chain::shared::Shared;
-use crate::lanes::held::HeldCable;
+use crate::lanes::fixed_ends::FixedEnds;
 use crate::local::cable::FOLDED;
 use crate::local::guided::GuidedLinearization;
 use crate::local::platform::{LinearizedPlatform, Robots};
@@ -42,23 +42,23 @@ apart! {
         {
             let (mut active, mut taut) = (all, all);
             for _ in 0..MAX_ITERATIONS {
-                let held = match &cable.guided {
+                let fixed = match &cable.guided {
                     None => {
                         let response = cable.response();
                         linearized.replace(&LinearizedCable::new(span, cable.force, &response), active);
-                        HeldCable::plain(cable, span, &response)
+                        FixedEnds::plain(cable, span, &response)
                     }
-                    Some(guided) => HeldCable::leaving(guided, cable, span),
+                    Some(guided) => FixedEnds::leaving(guided, cable, span),
                 };
-                let folds = zero.all(FOLDED).less_or_equal(held.slackness);
-                taut = (!active & taut) | (active & held.is_taut(cable, demanded[i]) & !folds);
+                let folds = zero.all(FOLDED).less_or_equal(fixed.slackness);
+                taut = (!active & taut) | (active & fixed.is_taut(cable, demanded[i]) & !folds);
                 let fx = cable.force[0];
-                let inverse = (fx * held.tension_slope).recip();
-                let d = (*set_point - held.closed) * fx * inverse;
+                let inverse = (fx * fixed.tension_slope).recip();
+                let d = (*set_point - fixed.closed) * fx * inverse;
                 // What a step leaves grows with its curvature over its slope.
-                let own = d.abs() + held.closing[0].abs() * held.flatness * held.tension_slope;
+                let own = d.abs() + fixed.closing[0].abs() * fixed.flatness * fixed.tension_slope;
                 let own = own * inverse * (LAST_CHANGE / LAST_OWN_CHANGE);
-                let moved = held.change(cable, d, active, compared).max(own);
+                let moved = fixed.change(cable, d, active, compared).max(own);
                 active = active & !moved.less_or_equal(zero.all(LAST_CHANGE));
                 if !active.any() {
                     break;

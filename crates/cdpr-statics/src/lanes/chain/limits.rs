@@ -9,7 +9,7 @@
 //! tension rises again. Newton's method for its slope over the logarithm of that force finds it.
 
 use crate::equations::{ABOVE_LEAST, Span};
-use crate::lanes::held::HeldCable;
+use crate::lanes::fixed_ends::FixedEnds;
 use crate::local::cable::LaneCable;
 use cdpr_number::dense::{Lanes2, replace};
 use cdpr_number::lanes::{Lanes, Mask, Simd};
@@ -65,28 +65,28 @@ const NEARBY: f64 = 0.2;
 
 /// Whether a cable may come to the least tension of its span.
 #[inline(always)]
-pub(crate) fn may_be_slack<S: Simd>(cable: &LaneCable<'_, S>, held: &HeldCable<S>) -> Mask<S> {
-    !held.exceeds_least(cable, cable.length.all(NEARBY))
+pub(crate) fn may_be_slack<S: Simd>(cable: &LaneCable<'_, S>, fixed: &FixedEnds<S>) -> Mask<S> {
+    !fixed.exceeds_least(cable, cable.length.all(NEARBY))
 }
 
 apart! {
-    /// Raises the least tension of a cable that `held` shows near the least one that its span demands, to
-    /// where the scalar models hold it, and brings a cable below it there. Returns the lanes in which that was
-    /// done. Where none is found the greatest tension is below zero.
+    /// Raises the least tension of a cable that `fixed` shows near the least one that its span demands, to
+    /// where the scalar models keep it, and brings a cable below it there. Returns the lanes in which that
+    /// was done. Where none is found the greatest tension is below zero.
     #[cold]
     #[inline(never)]
     on(cable.length) pub(crate) fn demand<'a, 'b, S: Simd>(
         cable: &'a mut LaneCable<'b, S>,
         span: &'a Span<Lanes<S>>,
-        held: &'a HeldCable<S>,
+        fixed: &'a FixedEnds<S>,
         limits: &'a mut Lanes2<S>,
         compared: [f64; 2],
     ) -> Mask<S> {
         let zero = cable.length.all(0.0);
         let (length, force) = (cable.length, cable.force);
         let azimuth = cable.guided.as_ref().map(|guided| guided.azimuth());
-        let near = may_be_slack(cable, held);
-        let (mut at_least, mut active) = (*held, near);
+        let near = may_be_slack(cable, fixed);
+        let (mut at_least, mut active) = (*fixed, near);
         for _ in 0..MAX_ITERATIONS {
             let fx = cable.force[0];
             let slope = fx * at_least.tension_slope;
@@ -95,7 +95,7 @@ apart! {
             let change = change.less_or_equal(zero.all(LONGEST_CHANGE)).select(change, zero + LONGEST_CHANGE);
             let moved = at_least.change(cable, fx * change, active, compared);
             active = active & !moved.max(change.abs()).less_or_equal(zero.all(LAST_CHANGE));
-            at_least = HeldCable::new(cable, span);
+            at_least = FixedEnds::new(cable, span);
             if !active.any() {
                 break;
             }
@@ -103,11 +103,11 @@ apart! {
         let least = zero.all(ABOVE_LEAST) * at_least.closed;
         limits[0].replace(limits[0].max(least), near);
         limits[1].replace(zero.all(-1.0), near & active);
-        // Beside the least tension, where it has no slope: t = t_0 + t'' d²/2.
+        // Next to the least tension, where it has no slope: t = t_0 + t'' d²/2.
         let rise = (limits[0] - at_least.closed) * 2.0;
         let d = (rise / at_least.curvatures[0]).max(zero).sqrt();
         at_least.change(cable, d, near, compared);
-        let keeps = !near | (zero.less_or_equal(held.tension_slope) & limits[0].less_or_equal(held.closed));
+        let keeps = !near | (zero.less_or_equal(fixed.tension_slope) & limits[0].less_or_equal(fixed.closed));
         cable.length.replace(length, keeps);
         replace(&mut cable.force, &force, keeps);
         if let (Some(guided), Some(azimuth)) = (&mut cable.guided, &azimuth) {
@@ -164,9 +164,9 @@ apart! {
         let mut active = length.less_or_equal(length);
         let (mut found, mut taut) = (greatest, active);
         // From a cable that is slack Newton's method may lead to a longer one of the same tension.
-        let slack = may_be_slack(cable, &HeldCable::new(cable, span));
+        let slack = may_be_slack(cable, &FixedEnds::new(cable, span));
         if slack.any() {
-            let end = cable.held_end(span);
+            let end = cable.free_end(span);
             let straight = greatest * end[0] / (end[0] * end[0] + end[1] * end[1]).sqrt();
             cable.force[0].replace(straight.max(force[0]), slack);
             cable.hang(end, slack);
@@ -175,11 +175,11 @@ apart! {
             let Some(guided) = &cable.guided else { break };
             let [_, rise] = guided.leave_point(&cable.free()).position;
             found.replace(at_platform(cable, greatest, span.end[1] - rise), active);
-            let held = HeldCable::leaving(guided, cable, span);
-            taut = (!active & taut) | (active & greatest.all(0.0).less_or_equal(held.tension_slope));
-            let way = held.way_to(found);
+            let fixed = FixedEnds::leaving(guided, cable, span);
+            taut = (!active & taut) | (active & greatest.all(0.0).less_or_equal(fixed.tension_slope));
+            let way = fixed.way_to(found);
             let own = way.abs() / cable.force[0];
-            let moved = held.change(cable, way, active, compared).max(own);
+            let moved = fixed.change(cable, way, active, compared).max(own);
             active = active & !moved.less_or_equal(moved.all(LAST_CHANGE));
             if !active.any() {
                 break;

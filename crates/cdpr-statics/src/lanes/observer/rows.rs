@@ -8,7 +8,7 @@ use crate::lanes::chain::{ChainStart, Stage};
 use crate::lanes::level::LevelFrame;
 use crate::lanes::reason::{ScalarReason, has_tilted_axes};
 use crate::local::cable::{LaneCable, Shape, law};
-use crate::local::freedoms::hold;
+use crate::local::freedoms::constrain;
 use crate::local::guided::Guided;
 use crate::local::load::PlatformLoad;
 use crate::local::platform::{Layout, Robots, Scale};
@@ -225,7 +225,7 @@ impl<'a, S: Simd> Rows<'a, S> {
                 start.robots.cables[i].guided = Some(Box::new(Guided::new(guide)));
             }
         }
-        start.multipliers = hold(robot.freedoms(), start.multipliers);
+        start.multipliers = constrain(robot.freedoms(), start.multipliers);
         if let Some(level) = &level {
             start.rotate(level);
         }
