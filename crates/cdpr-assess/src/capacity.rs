@@ -25,8 +25,8 @@ use cdpr_statics::continuation::follow_load;
 use cdpr_statics::free_coordinates::rest_near;
 use cdpr_statics::limits::Limit;
 use cdpr_statics::{
-    DirectProblem, DirectSolution, DirectStart, Equilibrium, HeldPose, InverseSolution, Load, MAX_STRAIN,
-    StaticsError, WantedPose, direct, inverse,
+    DirectProblem, DirectSolution, DirectStart, Equilibrium, InverseSolution, Load, MAX_STRAIN, PoseLengths,
+    StaticsError, Unstable, WantedPose, direct, inverse,
 };
 use rising::{Rising, nearest};
 use std::fmt;
@@ -185,8 +185,9 @@ pub(crate) fn capacity_of(
     // Lengths that are kept hold no unstable pose.
     let unloaded = first.clone().and_then(|Rest { lengths, equilibrium, .. }| {
         let none = Load::none();
-        let found =
-            DirectProblem::new(robot, &lengths, &none)?.direct_held(DirectStart::Near(&equilibrium))?;
+        let found = DirectProblem::new(robot, &lengths, &none)?
+            .with_unstable(Unstable::Refused)
+            .direct(DirectStart::Near(&equilibrium))?;
         Ok(Rest { lengths, equilibrium, stands: Some((none, found)) })
     });
     let anew = |load: &Load, near: &Rest| rest_on(robot, near, load, free);
@@ -264,7 +265,7 @@ impl Rest {
 
 /// The rest under a load on the branch of another one, in or out of the limits.
 fn rest_on(robot: &Robot, near: &Rest, load: &Load, free: &[Coordinate]) -> Result<Rest, StaticsError> {
-    let HeldPose { lengths, equilibrium } = rest_near(robot, &near.equilibrium, load, free)?;
+    let PoseLengths { lengths, equilibrium } = rest_near(robot, &near.equilibrium, load, free)?;
     Ok(Rest { lengths, equilibrium, stands: None })
 }
 

@@ -19,8 +19,8 @@ use crate::error::AssessError;
 use cdpr_robot::{Pose, Robot, Vector3, Vector6};
 use cdpr_sensitivity::{RandomDesign, SampleDesign};
 use cdpr_statics::{
-    DirectMethod, DirectProblem, DirectSolution, DirectStart, Load, Residual, StaticsError, WantedPose,
-    direct, inverse,
+    DirectMethod, DirectProblem, DirectSolution, DirectStart, Load, Residual, StaticsError, Unstable,
+    WantedPose, direct, inverse,
 };
 use cdpr_study::StudyError;
 use rayon::prelude::*;
@@ -202,7 +202,7 @@ pub fn run_robustness(
 }
 
 /// A pose that the robot holds in a stable equilibrium.
-struct HeldPose {
+struct PoseLengths {
     draw: usize,
     pose: Pose,
     lengths: Vec<f64>,
@@ -214,7 +214,7 @@ fn collect_poses(
     robot: &Robot,
     protocol: &Protocol,
     tick: &(dyn Fn() + Sync),
-) -> Result<(Vec<HeldPose>, usize, Vec<RefusedPose>), AssessError> {
+) -> Result<(Vec<PoseLengths>, usize, Vec<RefusedPose>), AssessError> {
     let design = protocol.design()?;
     let (mut poses, mut refused) = (Vec::new(), Vec::new());
     let mut drawn = 0;
@@ -280,7 +280,7 @@ fn draw(
     protocol: &Protocol,
     design: &RandomDesign,
     index: usize,
-) -> Result<HeldPose, Box<RefusedPose>> {
+) -> Result<PoseLengths, Box<RefusedPose>> {
     let mut row = [0.0; 10];
     // The index is below the number of points and the row as long as the inputs.
     let drawn = design.row(index, &mut row);
@@ -295,7 +295,9 @@ fn draw(
     let held = inverse(robot, WantedPose::at(&pose).free(&protocol.free), &Load::none())
         .map_err(|e| refuse(Refusal::Infeasible(e)))?;
     let found = DirectProblem::new(robot, &held.lengths, &Load::none())
-        .and_then(|problem| problem.direct_any(DirectStart::Near(&held.equilibrium)))
+        .and_then(|problem| {
+            problem.with_unstable(Unstable::Accepted).direct(DirectStart::Near(&held.equilibrium))
+        })
         .map_err(|error| refuse(Refusal::Unanswered(error)))?;
     // Only the stability of the equilibrium at the true pose matters, not what the direct model does from
     // there.
@@ -306,7 +308,7 @@ fn draw(
     {
         return Err(refuse(Refusal::Unstable));
     }
-    Ok(HeldPose { draw: index, pose, lengths: held.lengths, directions: [away, about] })
+    Ok(PoseLengths { draw: index, pose, lengths: held.lengths, directions: [away, about] })
 }
 
 /// A pose after the free ones among the motions of a displacement [m] and a rotation [rad].
@@ -322,7 +324,7 @@ fn on_unit_sphere(height: f64, azimuth: f64) -> Vector3<f64> {
     Vector3::new(radius * azimuth.cos(), radius * azimuth.sin(), height)
 }
 
-fn solve(robot: &Robot, held: &HeldPose, start_offset: usize, offset: &StartOffset) -> Solve {
+fn solve(robot: &Robot, held: &PoseLengths, start_offset: usize, offset: &StartOffset) -> Solve {
     let [away, about] = held.directions;
     let start = moved(robot, &held.pose, offset.distance * away, offset.angle * about);
     let clock = Instant::now();
@@ -339,7 +341,7 @@ fn solve(robot: &Robot, held: &HeldPose, start_offset: usize, offset: &StartOffs
     }
 }
 
-fn answer(robot: &Robot, held: &HeldPose, found: &DirectSolution) -> Answer {
+fn answer(robot: &Robot, held: &PoseLengths, found: &DirectSolution) -> Answer {
     let pose = found.equilibrium.pose;
     let motion = held.pose.motion_to(&pose);
     let residual = found.report.residual;

@@ -7,13 +7,13 @@
 //! ```
 //!
 //! so that its upward axis leans towards θ. α grows in steps of 15° while tensions within the limits,
-//! distributed anew, hold the platform ([`cdpr_statics::is_held`]); then bisection finds the angle at which
+//! distributed anew, hold the platform ([`cdpr_statics::is_feasible`]); then bisection finds the angle at which
 //! they end. A gap that lies between two steps is not seen. The orientation workspace of cable-driven robots
 //! is defined so by Gouttefarde, Merlet, Daney (*Wrench-feasible workspace of parallel cable-driven
 //! mechanisms*, ICRA 2007), as the orientations at a position that are wrench-feasible.
 
 use cdpr_robot::{Matrix3, Plane, Pose, Robot, Rotation3, Vector3};
-use cdpr_statics::{Load, StaticsError, inverse, is_held};
+use cdpr_statics::{Load, StaticsError, inverse, is_feasible};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// How far the platform may tilt in some directions.
@@ -93,13 +93,14 @@ pub fn tilt_at(
     if !(accuracy > 0.0 && accuracy.is_finite()) {
         return Err(invalid("accuracy", accuracy.to_string(), "a positive angle"));
     }
-    if !is_held(robot, pose, load)? {
+    if !is_feasible(robot, pose, load)? {
         inverse(robot, pose, load)?;
     }
     let towards = |azimuth: f64| {
         // What cannot be answered is not held.
-        let holds =
-            |angle| is_held(robot, &TiltTowards { azimuth, angle }.of(robot, pose), load).unwrap_or(false);
+        let holds = |angle| {
+            is_feasible(robot, &TiltTowards { azimuth, angle }.of(robot, pose), load).unwrap_or(false)
+        };
         TiltTowards { azimuth, angle: last_held(accuracy, holds) }
     };
     Ok(Tilt { directions: azimuths.into_iter().map(towards).collect() })

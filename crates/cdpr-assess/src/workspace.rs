@@ -20,8 +20,8 @@ use cdpr_dynamics::Swing;
 use cdpr_robot::{Axis, Pose, Vector3};
 use cdpr_statics::batch::{LoadedPose, PoseSlopes, loaded_poses};
 use cdpr_statics::{
-    Deflection, DirectProblem, DirectStart, InverseSolution, Load, StaticsError, WantedPose, deflection,
-    deflection_from, derivatives, inverse, is_held,
+    Deflection, DirectProblem, DirectStart, InverseSolution, Load, StaticsError, Unstable, WantedPose,
+    deflection, deflection_from, derivatives, inverse, is_feasible,
 };
 use cdpr_study::{Grid, StudyError};
 use rayon::prelude::*;
@@ -181,7 +181,9 @@ fn tensions_at_rest<'a>(
     let Workspace { robot, ref load, free, .. } = *workspace;
     if !free.is_empty() {
         let InverseSolution { lengths, equilibrium, .. } = wound_up;
-        DirectProblem::new(robot, lengths, load)?.direct_held(DirectStart::Near(equilibrium))?;
+        DirectProblem::new(robot, lengths, load)?
+            .with_unstable(Unstable::Refused)
+            .direct(DirectStart::Near(equilibrium))?;
     }
     Ok(&wound_up.tensions)
 }
@@ -206,7 +208,7 @@ pub fn workspace_boundary(
     check(workspace)?;
     let Workspace { robot, rotation, grid, ref load, free, .. } = *workspace;
     // Quicker than the inverse model to say no.
-    let has_tensions = |pose: &Pose, load: &Load| is_held(robot, pose, load).unwrap_or(false);
+    let has_tensions = |pose: &Pose, load: &Load| is_feasible(robot, pose, load).unwrap_or(false);
     let workspace = &Workspace { tolerances: None, ..*workspace };
     let within = |held: Result<Held, StaticsError>| held.is_ok_and(|held| held.is_within_limits());
     let is_inside = |position: &Vector3<f64>| {

@@ -21,7 +21,7 @@
 
 use crate::error::{CableError, MAX_STRAIN, SMALLEST, check};
 use crate::guide::{Guide, in_plane};
-use crate::kernel::{Material, closure_of_limp};
+use crate::kernel::{Material, closure_of_slack};
 use crate::law::ElasticLaw;
 use nalgebra::{Vector2, Vector3};
 
@@ -145,10 +145,10 @@ impl Cable<'_> {
         self.guide.is_some_and(|guide| guide.radius > 0.0 && guide.entry.is_tilted())
     }
 
-    /// Closure residual of a slack cable without weight: see [`crate::kernel::closure_of_limp`].
-    pub(crate) fn closure_of_limp(&self, end: [f64; 2], rest: f64) -> [f64; 2] {
-        let Some(guide) = &self.guide else { return closure_of_limp(end, rest) };
-        let open = guide.closure_of_limp(in_plane(end), rest);
+    /// Closure residual of a slack cable without weight: see [`crate::kernel::closure_of_slack`].
+    pub(crate) fn closure_of_slack(&self, end: [f64; 2], rest: f64) -> [f64; 2] {
+        let Some(guide) = &self.guide else { return closure_of_slack(end, rest) };
+        let open = guide.closure_of_slack(in_plane(end), rest);
         [open.x, open.z]
     }
 

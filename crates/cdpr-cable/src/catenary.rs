@@ -55,7 +55,12 @@ impl<'a> Catenary<'a> {
         )?;
         check("force.z", force.y, true, "a finite vertical force [N]")?;
         let catenary = Self { cable, unstrained_length, force };
-        check("force", 0.0, !catenary.is_limp(), "a force other than zero on a cable without weight [N]")?;
+        check(
+            "force",
+            0.0,
+            !catenary.is_slack_and_weightless(),
+            "a force other than zero on a cable without weight [N]",
+        )?;
         Ok(catenary)
     }
 
@@ -109,7 +114,7 @@ impl<'a> Catenary<'a> {
     /// Such a cable carries nothing, resists nothing and has no shape: its end position and flexibility are
     /// undefined.
     #[inline]
-    pub fn is_limp(&self) -> bool {
+    pub fn is_slack_and_weightless(&self) -> bool {
         self.force == Vector2::zeros() && self.cable.is_weightless(self.unstrained_length)
     }
 }

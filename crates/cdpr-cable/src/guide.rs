@@ -67,9 +67,9 @@ impl Guide {
         check("pulley.radius", self.radius, self.radius >= 0.0, "a radius, zero or more [m]")
     }
 
-    /// Closure residual [m] of a slack cable without weight, as [`crate::kernel::closure_of_limp`] has it,
+    /// Closure residual [m] of a slack cable without weight, as [`crate::kernel::closure_of_slack`] has it,
     /// along a straight cable to `end` [m]: forwards, across and upwards, or in space.
-    pub fn closure_of_limp(&self, end: Vector3<f64>, rest: f64) -> Vector3<f64> {
+    pub fn closure_of_slack(&self, end: Vector3<f64>, rest: f64) -> Vector3<f64> {
         let Some(Straight { leave, free, guided }) = self.straight(end) else {
             return end * (1.0 - rest / end.norm()).max(0.0);
         };

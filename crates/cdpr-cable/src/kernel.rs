@@ -14,7 +14,7 @@ mod series;
 
 pub use guide::{GuideTerms, GuidedEndSlopes, GuidedInSpace, LeavePoint, SwivelAxis, Way};
 pub use material::{LawSegment, Material};
-pub use plane::{closure_of_limp, in_plane_stiffness, stiffness_in_space};
+pub use plane::{closure_of_slack, in_plane_stiffness, stiffness_in_space};
 pub(crate) use response::Terms;
 pub use response::{LaneEnd, Response, response};
 pub use series::TAUT;

@@ -257,7 +257,7 @@ fn a_weightless_cable_on_a_pulley_is_straight_beyond_it() {
     assert!((catenary.potential_energy() - 0.5 * 100.0 * 0.01 * straight / 1.01).abs() < 1e-9);
     // Longer than the way, it is slack and carries nothing.
     let slack = end_force(&cable, straight + 0.1, end).unwrap();
-    assert!(slack.catenary.is_limp() && slack.residual == 0.0);
+    assert!(slack.catenary.is_slack_and_weightless() && slack.residual == 0.0);
 }
 
 #[test]

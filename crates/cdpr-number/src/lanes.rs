@@ -77,6 +77,49 @@ pub fn dispatch<T: WithSimd>(task: T) -> T::Output {
     }
 }
 
+/// Defines functions each of which is compiled once for every vector unit, apart from its callers: that of the
+/// number that `on` names.
+///
+/// ```
+/// use cdpr_number::apart;
+/// use cdpr_number::lanes::{Lanes, Scalar, Simd};
+///
+/// apart! {
+///     /// The sum of two numbers.
+///     on(first) fn sum<'a, S: Simd>(first: Lanes<S>, second: &'a Lanes<S>) -> Lanes<S> {
+///         first + *second
+///     }
+/// }
+/// let two = Lanes::splat(Scalar, 2.0);
+/// assert_eq!(sum(two, &two).first(), 4.0);
+/// ```
+#[macro_export]
+macro_rules! apart {
+    ($(
+        $(#[$attribute:meta])*
+        on($lanes:expr) $visibility:vis fn $name:ident<$($lifetime:lifetime,)* $($kind:ident: $bound:ident),+>(
+            $($argument:ident: $type:ty),* $(,)?
+        ) $(-> $output:ty)? $body:block
+    )+) => {$(
+        $(#[$attribute])*
+        $visibility fn $name<$($lifetime,)* $($kind: $bound),+>($($argument: $type),*) $(-> $output)? {
+            struct Arguments<$($lifetime,)* $($kind: $bound),+> { $($argument: $type),* }
+
+            impl<$($lifetime,)* $($kind: $bound),+> $crate::lanes::WithSimd for Arguments<$($lifetime,)* $($kind),+> {
+                type Output = ($($output)?);
+
+                #[inline(always)]
+                fn with_simd<Same: $crate::lanes::Simd>(self, _: Same) -> Self::Output {
+                    let Self { $($argument),* } = self;
+                    $body
+                }
+            }
+            let lanes = $lanes;
+            lanes.apart(Arguments { $($argument),* })
+        }
+    )+};
+}
+
 /// One number in each lane.
 #[derive(Clone, Copy, Debug)]
 pub struct Lanes<S: Simd> {

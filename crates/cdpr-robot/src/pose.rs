@@ -57,6 +57,15 @@ impl Pose {
         Vector6::new(translation.x, translation.y, translation.z, rotation.x, rotation.y, rotation.z)
     }
 
+    /// The angle of the rotation from this pose to another [rad], from 0 to π.
+    ///
+    /// It is that of a quaternion: of equal rotations and of half turns, the cosine from the trace of a matrix
+    /// may exceed 1 by rounding.
+    pub fn angle_to(&self, other: &Self) -> f64 {
+        let [from, to] = [self, other].map(|pose| UnitQuaternion::from_rotation_matrix(&pose.rotation));
+        from.angle_to(&to)
+    }
+
     /// Whether all components are finite.
     #[inline]
     pub fn is_finite(&self) -> bool {
@@ -92,6 +101,21 @@ mod tests {
         let angle = Vector3::new(3e-11, -1e-11, 2e-11);
         let small = start.motion_to(&start.moved(Vector3::zeros(), angle));
         assert_relative_eq!(small.fixed_rows::<3>(3).into_owned(), angle, epsilon = 1e-15);
+    }
+
+    #[test]
+    fn the_angle_between_two_poses_is_a_number_for_equal_rotations_and_half_turns() {
+        let mut undefined = 0;
+        for k in 0..1000 {
+            let axis = Vector3::new(f64::from(k).sin(), f64::from(k).cos(), f64::from(k % 7) - 3.0);
+            let start = Pose::at(0.0, 0.0, 0.0).moved(Vector3::zeros(), 0.7 * axis);
+            let half = start.moved(Vector3::zeros(), axis.normalize() * std::f64::consts::PI);
+            assert!(start.angle_to(&start) < 1e-7);
+            assert!((start.angle_to(&half) - std::f64::consts::PI).abs() < 1e-7);
+            let by_trace = [start, half].map(|end| start.rotation.angle_to(&end.rotation));
+            undefined += by_trace.iter().filter(|angle| angle.is_nan()).count();
+        }
+        assert!(undefined > 0);
     }
 
     #[test]

@@ -90,29 +90,9 @@ fn case(robot: &Robot, listed: &Value, pose: usize) -> Result<Value, Error> {
     }
     let tracked_position = tracker.update(&wanted.lengths, &load)?.pose.position;
 
-    let mut random = SplitMix(SEED);
-    let half_ranges: Vec<f64> =
-        parameters.iter().map(|parameter| half_range(&listed["errors"], parameter)).collect();
-    let deviations: Vec<Vec<f64>> = (0..OBSERVATIONS)
-        .map(|_| half_ranges.iter().map(|half| half * random.symmetric()).collect())
-        .collect();
-    let (mut displacements, mut times) = (Vec::new(), Vec::new());
+    let (deviations, alone) = observed_alone(robot, listed, &pose, &load)?;
     let mut at_limits = vec![on_limits(&wanted, robot)?];
-    for deviation in &deviations {
-        let observe = || -> Result<[f64; 3], Error> {
-            let perturbed = robot.perturbed(black_box(deviation))?;
-            let deflection = deflection(
-                &perturbed.robot,
-                WantedPose::at(&pose).tension_offsets(&perturbed.tension_offsets),
-                &load,
-            )?;
-            Ok(deflection.displacement().into())
-        };
-        let held = inverse(&robot.perturbed(deviation)?.robot, &pose, &Load::none())?;
-        at_limits.push(on_limits(&held, robot)?);
-        displacements.push(observe()?);
-        times.extend((0..REPEATS).map(|_| microseconds(observe)));
-    }
+    at_limits.extend(alone.at_limits);
 
     let observer = Observer::new(robot, pose, &load)?;
     let layout = observer.layout();
@@ -153,10 +133,51 @@ fn case(robot: &Robot, listed: &Value, pose: usize) -> Result<Value, Error> {
             "direct_position": loaded.equilibrium.pose.position.as_slice(),
             "inverse_us": null,
             "tensions": null,
-            "observation_us": median(times),
-            "displacements": displacements,
+            "observation_us": median(alone.times),
+            "displacements": alone.displacements,
         },
     }))
+}
+
+/// Observations one after the other.
+struct Alone {
+    displacements: Vec<[f64; 3]>,
+    /// [us]
+    times: Vec<f64>,
+    /// Tensions on a limit in each row.
+    at_limits: Vec<usize>,
+}
+
+/// Deviations, and the robots that have them observed alone.
+fn observed_alone(
+    robot: &Robot,
+    listed: &Value,
+    pose: &Pose,
+    load: &Load,
+) -> Result<(Vec<Vec<f64>>, Alone), Error> {
+    let mut random = SplitMix(SEED);
+    let half_ranges: Vec<f64> =
+        Parameter::of(robot).iter().map(|parameter| half_range(&listed["errors"], parameter)).collect();
+    let deviations: Vec<Vec<f64>> = (0..OBSERVATIONS)
+        .map(|_| half_ranges.iter().map(|half| half * random.symmetric()).collect())
+        .collect();
+    let (mut displacements, mut times, mut at_limits) = (Vec::new(), Vec::new(), Vec::new());
+    for deviation in &deviations {
+        let observe = || -> Result<[f64; 3], Error> {
+            let perturbed = robot.perturbed(black_box(deviation))?;
+            let deflection = deflection(
+                &perturbed.robot,
+                WantedPose::at(pose).tension_offsets(&perturbed.tension_offsets),
+                load,
+            )?;
+            Ok(deflection.displacement().into())
+        };
+        let held = inverse(&robot.perturbed(deviation)?.robot, pose, &Load::none())?;
+        at_limits.push(on_limits(&held, robot)?);
+        displacements.push(observe()?);
+        times.extend((0..REPEATS).map(|_| microseconds(observe)));
+    }
+    Ok((deviations, Alone { displacements, times, at_limits }))
 }
 
 /// Number of tensions on a limit. What a cable's own weight demands is no limit to the peers.

@@ -7,10 +7,10 @@
 //! K(X) = x̃ - Y g(x̃) + (I - Y g'(X)) (X - x̃)
 //! ```
 //!
-//! maps the box into its own interior only if X holds exactly one solution, which then lies in K(X) (Krawczyk
-//! 1969; Moore, Kearfott, Cloud 2009, theorem 8.2). `g(x̃)` and `g'(X)` are evaluated with intervals that are
-//! rounded outwards, by the same code as the equations themselves: the proof is about the catenary, not about
-//! an approximation of it. The inputs, as doubles, are taken as exact.
+//! maps the box into its own interior only if X contains exactly one solution, which then lies in K(X)
+//! (Krawczyk 1969; Moore, Kearfott, Cloud 2009, theorem 8.2). `g(x̃)` and `g'(X)` are evaluated with
+//! intervals that are rounded outwards, by the same code as the equations themselves: the proof is about the
+//! catenary, not about an approximation of it. The inputs, as doubles, are taken as exact.
 //!
 //! Rotations near R̃ are `R = cay(δ) R̃` with Cayley's map
 //!
@@ -64,7 +64,7 @@ impl DirectProblem<'_> {
     ///
     /// # Errors
     /// - [`StaticsError::Invalid`] unless the solution is finite and has one force for each cable.
-    /// - [`StaticsError::NotCertified`] where no box could be proved to hold an equilibrium: a cable that
+    /// - [`StaticsError::NotCertified`] where no box could be proved to contain an equilibrium: a cable that
     ///   hangs vertically or folded, or stiffnesses so different that rounding hides the equilibrium.
     pub fn certify(&self, solution: &DirectSolution) -> Result<Certificate, StaticsError> {
         self.check("solution.equilibrium", &solution.equilibrium)?;
@@ -191,7 +191,7 @@ fn degenerate(problem: &DirectProblem, state: &State<Interval>) -> Option<&'stat
         let catenary = problem.catenary(i, middle);
         let span = state.cable(problem, i).span;
         let [h, z] = span.end;
-        if catenary.is_limp() {
+        if catenary.is_slack_and_weightless() {
             if span.chord().high >= catenary.length_at_rest() {
                 return Some("a slack cable without weight is about to become taut");
             }

@@ -2,9 +2,9 @@
 //!
 //! The theorem is applied to the equations of the inverse model, of the set-points and of both equilibria.
 //!
-//! Cables answer to their inputs by (D1)-(D4) of `equations/partials.rs`.
+//! Cables respond to their inputs by (D1)-(D4) of `equations/partials.rs`.
 //!
-//! **Inverse model.** With `v_i = dF_i/dt_i` at held ends, the multipliers `λ = (λ_p, λ_r)` of the balance
+//! **Inverse model.** With `v_i = dF_i/dt_i` at fixed ends, the multipliers `λ = (λ_p, λ_r)` of the balance
 //! make a twist that moves anchor point A_i by `μ_i = λ_p + λ_r x s_i`. Tensions without active bound and
 //! the balance of the platform are equation (I2) of `inverse.rs` and Eq. (3),
 //!
@@ -25,7 +25,7 @@
 //! **Active bounds stay active** while their multipliers are not zero. On limits at the platform `dt_i = 0`.
 //! A cable whose weight demands more rests on a constant, a = 1.001, times the least tension over its
 //! span. That least tension, a minimum over the length, changes as if the length at which it is taken were
-//! held: `dt_i = a u·(-K3 dr + k_ρ dρ + k_E dE)` of that catenary. A greatest tension T0 at the
+//! constant: `dt_i = a u·(-K3 dr + k_ρ dρ + k_E dE)` of that catenary. A greatest tension T0 at the
 //! exit point leaves t at the platform, which (C26) of `cdpr_cable` relates: `(1 + ε(t)) dt = w dz + z dw +
 //! (1/EA ∫ ε) dEA` with the integral over the tension from T0 to t.
 //!
@@ -33,8 +33,8 @@
 //! nothing.
 //!
 //! **Two sides.** Where a bound is left when an input grows and kept when it falls, or the other way round,
-//! the right and the left derivative differ: `derivatives/optimum.rs` and `winding.rs`. An offset of a cable
-//! on its bound is such an input.
+//! the right and the left derivative differ: `derivatives/optimum.rs` and `set_points.rs`. An offset of a
+//! cable on its bound is such an input.
 //!
 //! **Lengths** follow from (D1) at the set-points:
 //!
@@ -55,29 +55,29 @@
 mod equilibrium;
 mod optimum;
 mod rest;
+mod set_points;
 mod softest;
-mod winding;
 
 pub use crate::equations::Inputs;
 use crate::error::StaticsError;
-use crate::inverse::{Branch, InverseSolution, require_smooth};
-use crate::loading::{Deflection, Wound, deflection_from, wind, wind_free, wind_from, wind_near};
+use crate::inverse::{InverseSolution, require_smooth};
+use crate::loading::{Deflection, SetPointLengths, deflection_from, lengths_with_free};
 use crate::problem::DirectProblem;
 use crate::state::{Load, Wanted, WantedPose, one_by_one};
-use cdpr_robot::{Pose, Robot};
+use cdpr_robot::Robot;
 use equilibrium::split_off;
 pub use equilibrium::{EquilibriumDerivatives, ForceDerivatives};
 use nalgebra::{DMatrix, Matrix3xX};
 pub use optimum::AtBound;
 use rest::Rest;
+pub use set_points::OneSided;
+use set_points::{AtSetPoints, SetPoints};
 use softest::AtRest;
-pub use winding::OneSided;
-use winding::{SetPoints, Winding};
 
 /// A deflection with its derivatives. Each matrix has a column for every input ([`Inputs`]): the parameters
 /// of the robot, the payload, the wanted pose.
 ///
-/// The columns of inputs in `one_sided` hold the left derivatives, as the input falls; [`Derivatives::right`]
+/// The columns of inputs in `one_sided` have the left derivatives, as the input falls; [`Derivatives::right`]
 /// has the right ones.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Derivatives {
@@ -135,62 +135,48 @@ pub fn derivatives<W: Wanted>(
     robot: &Robot,
     wanted: W,
     load: &Load,
-) -> W::Answers<Result<Derivatives, StaticsError>> {
+) -> W::Results<Result<Derivatives, StaticsError>> {
     one_by_one(wanted, |wanted| {
         let offsets = wanted.offsets_of(robot);
         if !wanted.free.is_empty() {
             return with_free(robot, wanted, &offsets, load);
         }
-        of_wound(robot, wanted, &offsets, load, &wind(robot, wanted, &offsets)?)
+        at_pose(robot, wanted, &offsets, load, &SetPointLengths::new(robot, wanted, &offsets)?)
     })
 }
 
-/// [`derivatives`] without offsets, with the answer of the inverse model under the platform's own weight at
-/// hand.
+/// [`derivatives`] of the whole of a wanted pose, with the solution of the inverse model under the platform's
+/// own weight at hand.
 ///
 /// # Errors
 /// As [`derivatives`].
-pub fn derivatives_from(
+pub fn derivatives_from<'a>(
     robot: &Robot,
-    pose: &Pose,
+    wanted: impl Into<WantedPose<'a>>,
     load: &Load,
-    wanted: InverseSolution,
+    solution: InverseSolution,
 ) -> Result<Derivatives, StaticsError> {
-    let offsets = vec![0.0; robot.cables.len()];
-    let wound = wind_from(robot, pose, &offsets, wanted)?;
-    of_wound(robot, &WantedPose::at(pose), &offsets, load, &wound)
+    let wanted = wanted.into();
+    let offsets = wanted.offsets_of(robot);
+    let set_points = SetPointLengths::from(robot, &wanted.pose, &offsets, solution)?;
+    at_pose(robot, &wanted, &offsets, load, &set_points)
 }
 
-/// [`derivatives`] of a robot that differs a little from the one whose inverse model is known.
-///
-/// # Errors
-/// Those of [`derivatives`].
-pub(crate) fn derivatives_near(
-    branch: &Branch,
-    robot: &Robot,
-    pose: &Pose,
-    tension_offsets: &[f64],
-    load: &Load,
-) -> Result<Derivatives, StaticsError> {
-    let wound = wind_near(branch, robot, pose, tension_offsets)?;
-    of_wound(robot, &WantedPose::at(pose), tension_offsets, load, &wound)
-}
-
-/// The derivatives of the deflection of cables that are wound.
-fn of_wound(
+/// The derivatives of the deflection with these lengths.
+fn at_pose(
     robot: &Robot,
     wanted: &WantedPose,
     tension_offsets: &[f64],
     load: &Load,
-    wound: &Wound,
+    cables: &SetPointLengths,
 ) -> Result<Derivatives, StaticsError> {
     require_smooth(robot)?;
-    let deflection = deflection_from(robot, wound.lengths.clone(), load, &wound.held)?;
+    let deflection = deflection_from(robot, cables.lengths.clone(), load, &cables.equilibrium)?;
     let WantedPose { pose, tension_reference, .. } = wanted;
-    let winding = Winding { robot, pose, reference: *tension_reference, inputs: Inputs::of(robot), wound };
-    let set_points = winding.set_points(tension_offsets)?;
-    let lengths = winding.lengths(&set_points.rows)?;
-    of_lengths(robot, load, deflection, winding.inputs, set_points, lengths)
+    let at = AtSetPoints { robot, pose, reference: *tension_reference, inputs: Inputs::of(robot), cables };
+    let set_points = at.set_points(tension_offsets)?;
+    let lengths = at.lengths(&set_points.rows)?;
+    of_lengths(robot, load, deflection, at.inputs, set_points, lengths)
 }
 
 /// The derivatives of the deflection of a robot with free coordinates.
@@ -200,11 +186,11 @@ fn with_free(
     tension_offsets: &[f64],
     load: &Load,
 ) -> Result<Derivatives, StaticsError> {
-    let (unmoved, wound) = wind_free(robot, wanted, tension_offsets)?;
-    let deflection = deflection_from(robot, wound.lengths.clone(), load, &wound.equilibrium)?;
+    let (unmoved, offset) = lengths_with_free(robot, wanted, tension_offsets)?;
+    let deflection = deflection_from(robot, offset.lengths.clone(), load, &offset.equilibrium)?;
     let inputs = Inputs::of(robot);
     let WantedPose { pose, free, .. } = wanted;
-    let rest = Rest { robot, wanted: pose, free, inputs: &inputs, unmoved: &unmoved, wound: &wound };
+    let rest = Rest { robot, wanted: pose, free, inputs: &inputs, unmoved: &unmoved, offset: &offset };
     let (rows, lengths) = rest.slopes(tension_offsets)?;
     of_lengths(robot, load, deflection, inputs, SetPoints { rows, one_sided: Vec::new() }, lengths)
 }
@@ -289,8 +275,8 @@ impl Derivatives {
     }
 
     /// The lowest stiffness [N/m] of `robot` under `load`, those of these derivatives, and its derivatives
-    /// [N/m per unit], one for each input: see [`crate::Stability::least_stiffness`]. The characteristic length
-    /// is that of `robot`, a constant.
+    /// [N/m per unit], one for each input: see [`crate::Stability::least_stiffness`]. The characteristic
+    /// length is that of `robot`, a constant.
     ///
     /// # Errors
     /// [`StaticsError::NoDerivative`] where two motions have the lowest stiffness or nothing resists any, and
@@ -299,8 +285,8 @@ impl Derivatives {
         self.least_stiffness_with(robot, load, self.deflection.loaded.stability.characteristic_length())
     }
 
-    /// As [`Derivatives::least_stiffness`], with another characteristic length ℓ [m]: that of the nominal robot
-    /// for one that deviates from it.
+    /// As [`Derivatives::least_stiffness`], with another characteristic length ℓ [m]: that of the nominal
+    /// robot for one that deviates from it.
     ///
     /// # Errors
     /// As [`Derivatives::least_stiffness`].

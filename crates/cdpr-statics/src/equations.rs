@@ -4,7 +4,7 @@ mod assembled;
 mod balance;
 mod cable;
 mod cable_derivatives;
-mod held;
+mod fixed_ends;
 mod linearization;
 mod motions;
 mod partials;
@@ -16,7 +16,7 @@ pub(crate) use assembled::{NEAR_VERTICAL, State, closure_row, jacobian, residual
 pub(crate) use balance::{Balance, add_stiffness};
 pub(crate) use cable::{CablePlane, LinearizedCable, Span, between};
 pub(crate) use cable_derivatives::{CableDerivatives, wrench};
-pub(crate) use held::{ABOVE_LEAST, Bounds, Ends, Held};
+pub(crate) use fixed_ends::{ABOVE_LEAST, Bounds, Ends, FixedEnds};
 pub use linearization::Linearization;
 pub(crate) use motions::{Motions, Pins, cables_at, is_definite, per_length};
 pub use partials::Inputs;

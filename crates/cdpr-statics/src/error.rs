@@ -6,7 +6,7 @@ use cdpr_cable::CableError;
 use cdpr_robot::{Pose, RobotError, counted, decimal, short, shortened};
 use cdpr_tension::Bound;
 
-/// Why a model has no answer.
+/// Why a model has no solution.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum StaticsError {
     /// The robot or its perturbation is invalid.
@@ -226,7 +226,7 @@ pub enum StaticsError {
         /// One of the poses.
         pose: Box<Pose>,
     },
-    /// No equilibrium was found; the error holds the pose where the search ended.
+    /// No equilibrium was found; the error has the pose where the search ended.
     #[error(
         "direct model: no equilibrium found in {}; the search ended at ({:.4}, {:.4}, {:.4}) m with a \
          residual of {} N and {} N m",
@@ -277,7 +277,7 @@ impl std::fmt::Display for BranchEnd {
     }
 }
 
-/// A limit that a tension rests on while the balance does not hold.
+/// A limit that a tension rests on while the wrench is not balanced.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Blocked {
     /// Index of the cable, from 0.

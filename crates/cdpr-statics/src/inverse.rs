@@ -26,11 +26,11 @@
 
 mod branch;
 mod cable;
+mod feasibility;
 mod feasible;
 mod free;
 mod greatest;
 mod in_turn;
-mod is_held;
 mod limits;
 mod maximization;
 mod norm;
@@ -49,13 +49,13 @@ use branch::KnownOptimum;
 use cdpr_cable::Catenary;
 use cdpr_robot::{Pose, Robot, Vector6};
 use cdpr_tension::Bound;
+pub use feasibility::is_feasible;
 use feasible::search;
-pub(crate) use free::{BESIDE, FreeBranch};
+pub(crate) use free::{FreeBranch, NEXT_TO_POSE};
 pub use free::{FreeSolution, FreeSolutions, LONGEST, free_solutions, rest_near};
-pub(crate) use free::{held_at, rest};
+pub(crate) use free::{lengths_at, rest};
 pub use greatest::{Blocking, Greatest, greatest_payload, tension_margin};
 pub(crate) use in_turn::InTurn;
-pub use is_held::is_held;
 pub use limits::limits_at;
 use norm::chosen;
 pub(crate) use norm::require_smooth;
@@ -105,12 +105,12 @@ pub(crate) fn inverse_at(
     InverseSolution::new(&problem, chosen(&problem)?)
 }
 
-/// The inverse model along a path: each pose is answered on the branch of the one before.
+/// The inverse model along a path: each pose is solved on the branch of the one before.
 ///
 /// (I1) may have several local minima. While pose, load and reference go straight from one problem to the
 /// next, a strict local minimum moves along a curve, its branch, until it ceases to be a minimum or to exist.
 /// The branch is followed, so that lengths are continuous, also where another branch becomes better. Only
-/// where it ends is the next pose answered as by [`crate::inverse`]; this is a jump.
+/// where it ends is the next pose solved as by [`crate::inverse`]; this is a jump.
 ///
 /// ```
 /// use cdpr_robot::{Pose, Robot};
@@ -145,12 +145,12 @@ impl<'a> InversePath<'a> {
         Self { robot, last: None }
     }
 
-    /// The lengths at the next pose; the first one is answered as by [`crate::inverse`].
+    /// The lengths at the next pose; the first one is solved as by [`crate::inverse`].
     ///
     /// # Errors
     /// Those of [`crate::inverse`], and [`StaticsError::Invalid`] for free coordinates, which a path does not
     /// take, and for a distribution that jumps from pose to pose. The path then goes on from the last pose
-    /// that has an answer.
+    /// that has a solution.
     pub fn solve<'w>(
         &mut self,
         wanted: impl Into<WantedPose<'w>>,
@@ -164,9 +164,9 @@ impl<'a> InversePath<'a> {
         let followed = self.last.as_ref().and_then(|last| last.followed(&problem));
         let jump = self.last.is_some() && followed.is_none();
         let optimum = followed.map_or_else(|| search(&problem), Ok)?;
-        let answered = KnownOptimum::new(&problem, &optimum);
+        let known = KnownOptimum::new(&problem, &optimum);
         let solution = InverseSolution::new(&problem, optimum)?;
-        self.last = Some(answered);
+        self.last = Some(known);
         Ok(PathSolution { solution, jump })
     }
 }
@@ -176,7 +176,7 @@ impl<'a> InversePath<'a> {
 pub(crate) struct Branch(KnownOptimum);
 
 impl Branch {
-    /// The inverse model of `robot` at `pose` under its own weight, as [`crate::inverse`] answers it.
+    /// The inverse model of `robot` at `pose` under its own weight, as [`crate::inverse`] finds it.
     ///
     /// # Errors
     /// Those of [`crate::inverse`].
@@ -205,7 +205,7 @@ impl Branch {
 impl InverseSolution {
     fn new(problem: &InverseProblem, optimum: Optimum) -> Result<Self, StaticsError> {
         let Optimum { catenaries, tensions, active, multipliers, iterations, stationarity, .. } = optimum;
-        let HeldPose { lengths, equilibrium } = HeldPose::new(problem.pose, &catenaries);
+        let PoseLengths { lengths, equilibrium } = PoseLengths::new(problem.pose, &catenaries);
         let direct = DirectProblem::new(problem.robot, &lengths, problem.load)?;
         direct.check_strains(&equilibrium)?;
         let residual = Residual::of(&direct, &equilibrium);
@@ -213,16 +213,16 @@ impl InverseSolution {
     }
 }
 
-/// Unstrained lengths that hold the platform at a pose; held there it need not be in balance.
+/// Unstrained lengths that give tensions at a pose; fixed there the platform need not be in balance.
 #[derive(Clone, Debug, PartialEq)]
-pub struct HeldPose {
+pub struct PoseLengths {
     /// Unstrained length of every cable [m].
     pub lengths: Vec<f64>,
     /// The pose with the cables' forces.
     pub equilibrium: Equilibrium,
 }
 
-impl HeldPose {
+impl PoseLengths {
     fn new(pose: &Pose, catenaries: &[Catenary]) -> Self {
         let lengths = catenaries.iter().map(|catenary| catenary.unstrained_length).collect();
         let cable_forces = catenaries.iter().map(|catenary| catenary.force).collect();
@@ -243,16 +243,16 @@ pub fn lengths_for_tensions<W: Wanted>(
     robot: &Robot,
     wanted: W,
     tensions: &[f64],
-) -> W::Answers<Result<HeldPose, StaticsError>> {
+) -> W::Results<Result<PoseLengths, StaticsError>> {
     one_by_one(wanted, |wanted| with_tensions(robot, &pose_alone(*wanted)?, tensions))
 }
 
-fn with_tensions(robot: &Robot, pose: &Pose, tensions: &[f64]) -> Result<HeldPose, StaticsError> {
+fn with_tensions(robot: &Robot, pose: &Pose, tensions: &[f64]) -> Result<PoseLengths, StaticsError> {
     StaticsError::one_per_cable("tensions", tensions, robot.cables.len())?;
     let catenaries = tensions.iter().enumerate().map(|(i, tension)| {
         let ends = Ends::of(robot, pose, i);
-        let held = || ends.at_tension(ends.least_allowed(*tension)?);
-        held().map_err(StaticsError::cable(i))
+        let at_tension = || ends.at_tension(ends.least_allowed(*tension)?);
+        at_tension().map_err(StaticsError::cable(i))
     });
-    Ok(HeldPose::new(pose, &catenaries.collect::<Result<Vec<_>, _>>()?))
+    Ok(PoseLengths::new(pose, &catenaries.collect::<Result<Vec<_>, _>>()?))
 }

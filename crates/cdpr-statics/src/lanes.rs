@@ -3,7 +3,7 @@
 
 mod adjoint;
 mod chain;
-mod held;
+mod fixed_ends;
 mod level;
 mod observer;
 mod poses;

@@ -15,7 +15,7 @@
 //! | and for the next lengths and load, in a microsecond or two? | [`Tracker`] |
 //! | is it stable, and how far is it from becoming unstable? | [`DirectSolution::stability`] |
 //! | how exact is that, with a proof? | [`DirectProblem::certify`] |
-//! | where else could it stand? | [`multistart`], [`DirectProblem::direct_any`] |
+//! | where else could it rest? | [`multistart`], [`DirectProblem::with_unstable`] |
 //! | where does it go while lengths or loads change, and where does it jump? | [`continuation`] |
 //! | how far does a load displace it, Eq. (4)? | [`deflection`] |
 //! | where does it end after a load cycle, on cables that dissipate energy? | [`hysteresis`] |
@@ -27,7 +27,7 @@
 //! The equations are Eq. (1) to (4) of Baklouti, Caro, Courteille, *Sensitivity Analysis of the
 //! Elasto-Geometrical Model of Cable-Driven Parallel Robots* (CableCon 2017), with Irvine's catenary of crate
 //! `cdpr-cable` as Eq. (2a), (2b). An equilibrium is a pose and the two components of every cable's end
-//! force: `6 + 2n` unknowns for as many equations. Every answer carries the residuals of all of them.
+//! force: `6 + 2n` unknowns for as many equations. Every solution carries the residuals of all of them.
 //!
 //! ```
 //! use cdpr_robot::{Pose, Robot};
@@ -67,10 +67,12 @@ pub use certificate::Certificate;
 pub use derivatives::{Derivatives, derivatives};
 pub use direct::{DirectMethod, DirectReport, DirectSolution, DirectStart, Stability, direct, rough_pose};
 pub use error::StaticsError;
-pub use inverse::{HeldPose, InversePath, InverseSolution, PathSolution, is_held, lengths_for_tensions};
+pub use inverse::{
+    InversePath, InverseSolution, PathSolution, PoseLengths, is_feasible, lengths_for_tensions,
+};
 pub use lanes::{Observer, Tracker, inverse};
-pub use loading::{Deflection, deflection, deflection_from, wound_lengths};
-pub use problem::{DirectProblem, check_lengths};
+pub use loading::{Deflection, deflection, deflection_from, set_point_lengths};
+pub use problem::{DirectProblem, Unstable, check_lengths};
 pub use state::{Equilibrium, Load, Residual, Wanted, WantedPose};
 
 pub use cdpr_cable::MAX_STRAIN;

@@ -7,10 +7,8 @@ mod modes;
 mod small_motions;
 mod stiffness;
 
-pub use deflection::{Deflection, deflection, deflection_from, wound_lengths};
-pub(crate) use deflection::{
-    Wound, deflection_beside, deflection_near, wind, wind_free, wind_from, wind_near, wind_rest,
-};
+pub use deflection::{Deflection, deflection, deflection_from, set_point_lengths};
+pub(crate) use deflection::{SetPointLengths, lengths_at_rest, lengths_with_free};
 pub use follow::follow;
 pub use hysteresis::{CycleStep, HysteresisLaw, LoadCycle, Unloading, load_cycle};
 pub use modes::{CableFrequency, NaturalMode, PoseModes, modes_at};

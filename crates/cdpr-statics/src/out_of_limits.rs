@@ -1,4 +1,4 @@
-//! Tensions that a cable is not to have: what is named about an answer, whichever model gave it.
+//! Tensions that a cable is not to have: what is named about a solution, whichever model found it.
 
 use crate::state::Equilibrium;
 use cdpr_robot::{CableEnd, Robot, TensionLimits, decimal};
@@ -24,7 +24,7 @@ pub struct OutOfLimits {
 pub enum Limit {
     /// The breaking force of the cable.
     BreakingForce,
-    /// The tension that strains the cable by [`cdpr_cable::MAX_STRAIN`]: no model answers beyond it, so that
+    /// The tension that strains the cable by [`cdpr_cable::MAX_STRAIN`]: no model is valid beyond it, so that
     /// it only ends what grows.
     Strain,
     /// Its greatest tension, limited at this end.

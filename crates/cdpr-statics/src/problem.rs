@@ -27,6 +27,20 @@ pub struct DirectProblem<'a> {
     pub(crate) load: Load,
     /// ℓ where it is not that of this robot [m].
     pub(crate) length_of_rotations: Option<f64>,
+    pub(crate) unstable: Unstable,
+}
+
+/// What becomes of an unstable equilibrium to which Newton's method converges, such as a platform that
+/// balances like an upright pendulum.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Unstable {
+    /// It is left for the stable one downhill, to which the platform falls.
+    #[default]
+    Left,
+    /// It is a solution, too.
+    Accepted,
+    /// It is an error: [`StaticsError::Unstable`].
+    Refused,
 }
 
 impl<'a> DirectProblem<'a> {
@@ -44,7 +58,7 @@ impl<'a> DirectProblem<'a> {
             }
         }
         load.validate()?;
-        Ok(Self { robot, lengths, load: *load, length_of_rotations: None })
+        Ok(Self { robot, lengths, load: *load, length_of_rotations: None, unstable: Unstable::Left })
     }
 
     /// The same problem with this characteristic length ℓ [m]. For robots that deviate from a nominal one it
@@ -52,6 +66,12 @@ impl<'a> DirectProblem<'a> {
     #[must_use]
     pub fn with_characteristic_length(self, length: f64) -> Self {
         Self { length_of_rotations: Some(length), ..self }
+    }
+
+    /// The same problem with unstable equilibria left, accepted or refused.
+    #[must_use]
+    pub fn with_unstable(self, unstable: Unstable) -> Self {
+        Self { unstable, ..self }
     }
 
     /// Unstrained lengths [m].

@@ -1,4 +1,4 @@
-//! Why a solution of the balance with free coordinates is no answer.
+//! Why a solution of the balance with free coordinates is refused.
 
 use crate::out_of_limits::{Limit, OutOfLimits};
 use cdpr_robot::decimal;
@@ -33,7 +33,8 @@ pub enum RestFault {
     TurnedOver {
         /// Angle from the given pose [rad].
         angle: f64,
-        /// Whether it stays there: its pitch is beyond a right angle, so that roll and yaw are not the given ones.
+        /// Whether it stays there: its pitch is beyond a right angle, so that roll and yaw are not the given
+        /// ones.
         is_stable: bool,
     },
     /// A cable would have to push, if all were straight.

@@ -77,11 +77,7 @@ pub(crate) fn case(seed: u64) -> Option<Case> {
         false => 9.81.into(),
     };
     let max_at = if rng.random_bool(0.5) { CableEnd::Anchor } else { CableEnd::Exit };
-    let tension_reference = match rng.random_range(0..4) {
-        0 => Some(TensionReference::MID),
-        1 => Some(TensionReference::All(weight * log_uniform(rng, 0.05, 2.0))),
-        _ => None,
-    };
+    let tension_reference = preferred(rng, weight);
     let mut robot = Robot {
         name: format!("random robot {seed}"),
         provenance: Default::default(),
@@ -105,23 +101,9 @@ pub(crate) fn case(seed: u64) -> Option<Case> {
         rotation: Rotation3::new(in_cube(rng) * rng.random_range(0.0..0.3)),
     };
     let tensions = inverse(&robot, &pose, &Load::none()).ok()?.tensions;
-    // Limits close to the tensions of some cables, on both sides of them.
-    for (cable, tension) in robot.cables.iter_mut().zip(&tensions) {
-        let near = tension * rng.random_range(0.9..1.1);
-        match rng.random_range(0..12) {
-            0 => cable.tension_limits = OwnLimits { min: Some(near), ..OwnLimits::default() },
-            1 => cable.tension_limits = OwnLimits { max: Some(near), ..OwnLimits::default() },
-            _ => {}
-        }
-    }
+    limit_some(&mut robot, &tensions, rng);
     robot.validate().ok()?;
-    let payload = if rng.random_bool(0.7) { mass * rng.random_range(0.0..0.5) } else { 0.0 };
-    let mut load = Load::payload(payload);
-    load.wrench.force = in_cube(rng) * (weight * log_uniform(rng, 1e-3, 0.3));
-    let of_moment = &mut ChaCha8Rng::seed_from_u64(seed ^ 0x30e7);
-    if of_moment.random_bool(0.25) {
-        load.wrench.moment = in_cube(of_moment) * (weight * platform * log_uniform(of_moment, 1e-3, 0.3));
-    }
+    let load = load(seed, rng, mass, platform);
     let longest = (0..robot.cables.len()).map(|i| robot.span(&pose, i).norm()).fold(0.0, f64::max);
     let shift = platform * log_uniform(rng, 1e-4, 1e-2);
     let half = |parameter: &Parameter| match parameter {
@@ -140,6 +122,40 @@ pub(crate) fn case(seed: u64) -> Option<Case> {
     let half: Vec<f64> = Parameter::of(&robot).iter().map(half).collect();
     let rows = (0..ROWS * half.len()).map(|k| half[k % half.len()] * rng.random_range(-1.0..1.0)).collect();
     Some(Case { robot, pose, load, rows, longest })
+}
+
+/// Tensions that half of the robots prefer.
+fn preferred(rng: &mut ChaCha8Rng, weight: f64) -> Option<TensionReference> {
+    match rng.random_range(0..4) {
+        0 => Some(TensionReference::MID),
+        1 => Some(TensionReference::All(weight * log_uniform(rng, 0.05, 2.0))),
+        _ => None,
+    }
+}
+
+/// Gives some cables a limit close to their tension, on either side of it.
+fn limit_some(robot: &mut Robot, tensions: &[f64], rng: &mut ChaCha8Rng) {
+    for (cable, tension) in robot.cables.iter_mut().zip(tensions) {
+        let near = tension * rng.random_range(0.9..1.1);
+        match rng.random_range(0..12) {
+            0 => cable.tension_limits = OwnLimits { min: Some(near), ..OwnLimits::default() },
+            1 => cable.tension_limits = OwnLimits { max: Some(near), ..OwnLimits::default() },
+            _ => {}
+        }
+    }
+}
+
+/// A payload, a force, and for one robot of four a moment.
+fn load(seed: u64, rng: &mut ChaCha8Rng, mass: f64, platform: f64) -> Load {
+    let weight = mass * 9.81;
+    let payload = if rng.random_bool(0.7) { mass * rng.random_range(0.0..0.5) } else { 0.0 };
+    let mut load = Load::payload(payload);
+    load.wrench.force = in_cube(rng) * (weight * log_uniform(rng, 1e-3, 0.3));
+    let of_moment = &mut ChaCha8Rng::seed_from_u64(seed ^ 0x30e7);
+    if of_moment.random_bool(0.25) {
+        load.wrench.moment = in_cube(of_moment) * (weight * platform * log_uniform(of_moment, 1e-3, 0.3));
+    }
+    load
 }
 
 /// Makes one robot of ten a point and one planar, on as many cables as that takes or more.

@@ -6,7 +6,7 @@ use cdpr_statics::batch::{LoadedPose, Observation, loaded_poses};
 use cdpr_statics::continuation::follow_load;
 use cdpr_statics::{
     DirectMethod, DirectProblem, DirectSolution, DirectStart, InverseSolution, Load, Observer, StaticsError,
-    deflection, deflection_from, inverse,
+    Unstable, deflection, deflection_from, inverse,
 };
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -36,7 +36,8 @@ fn crept(
         let next = f64::min(share + step, 1.0);
         let load = at(next);
         let problem = DirectProblem::new(robot, lengths, &load).unwrap();
-        let found = problem.direct_any(DirectStart::Near(&now.equilibrium)).ok();
+        let found =
+            problem.with_unstable(Unstable::Accepted).direct(DirectStart::Near(&now.equilibrium)).ok();
         match found.filter(|found| found.stability.is_stable() && away(robot, size, &now, found) < 1e-3) {
             Some(found) => {
                 (share, now) = (next, found);
@@ -99,7 +100,10 @@ fn a_deflection_is_that_of_fine_steps_or_ends_where_they_end() {
             let load = drawn_load(&mut rng, &robot, most);
             let found = deflection_from(&robot, wound.lengths.clone(), &load, &wound.equilibrium);
             let problem = DirectProblem::new(&robot, &wound.lengths, &Load::none()).unwrap();
-            let unloaded = problem.direct_held(DirectStart::Near(&wound.equilibrium)).unwrap();
+            let unloaded = problem
+                .with_unstable(Unstable::Refused)
+                .direct(DirectStart::Near(&wound.equilibrium))
+                .unwrap();
             match (found, crept(&robot, &wound.lengths, &unloaded, &load)) {
                 (Ok(found), Ok(crept)) => {
                     let apart = away(&robot, 1.0, &found.loaded, &crept);
@@ -185,7 +189,7 @@ fn a_post_that_buckles_leans_more_and_more_and_has_not_fallen() {
     let none = Load::none();
     let upright = Pose::at(0.0, 0.0, 0.0);
     let problem = DirectProblem::new(&robot, &lengths, &none).unwrap();
-    let unloaded = problem.direct_held(DirectStart::Pose(&upright)).unwrap();
+    let unloaded = problem.with_unstable(Unstable::Refused).direct(DirectStart::Pose(&upright)).unwrap();
     let lean = |payload: f64| {
         let found = follow_load(&robot, &lengths, (&none, &unloaded), &Load::payload(payload)).unwrap();
         assert!(found.stability.is_stable());
@@ -202,7 +206,8 @@ fn a_post_whose_cables_become_slack_as_it_leans_falls() {
     let (robot, lengths) = post(2e-3);
     let none = Load::none();
     let problem = DirectProblem::new(&robot, &lengths, &none).unwrap();
-    let unloaded = problem.direct_held(DirectStart::Pose(&Pose::at(0.0, 0.0, 0.0))).unwrap();
+    let unloaded =
+        problem.with_unstable(Unstable::Refused).direct(DirectStart::Pose(&Pose::at(0.0, 0.0, 0.0))).unwrap();
     let under = |payload: f64| follow_load(&robot, &lengths, (&none, &unloaded), &Load::payload(payload));
     assert!(under(400.0).is_ok());
     for payload in [500.0, 2000.0] {

@@ -1,7 +1,8 @@
 //! Derivatives against what mechanics demands of them.
 
 use crate::common::caroca;
-use crate::derivatives::{Case, STUDY_POSES, random_case};
+use crate::derivatives::{Case, STUDY_POSES};
+use crate::derivatives_by_gravity::random_case;
 use crate::pulleys::{led, turned};
 use cdpr_robot::{Parameter, Pose, Rotation3, Vector3, Vector6, Wrench};
 use cdpr_statics::{Deflection, Derivatives, DirectProblem, Load, WantedPose, derivatives};

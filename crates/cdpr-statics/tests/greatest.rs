@@ -3,7 +3,7 @@
 use cdpr_robot::{Pose, Robot, Vector3, Wrench};
 use cdpr_statics::capacity::{greatest_payload, tension_margin};
 use cdpr_statics::limits::Limit;
-use cdpr_statics::{Load, MAX_STRAIN, StaticsError, inverse, is_held};
+use cdpr_statics::{Load, MAX_STRAIN, StaticsError, inverse, is_feasible};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use std::time::Instant;
@@ -191,7 +191,7 @@ fn whether_a_pose_is_held_is_what_the_inverse_model_finds() {
         for pose in poses(&robot, cases) {
             let load = Load::payload(0.1 * robot.platform.mass);
             let clock = Instant::now();
-            let quick = is_held(&robot, &pose, &load).unwrap_or(false);
+            let quick = is_feasible(&robot, &pose, &load).unwrap_or(false);
             times[0] += clock.elapsed().as_secs_f64();
             let clock = Instant::now();
             let held = match inverse(&robot, &pose, &load) {

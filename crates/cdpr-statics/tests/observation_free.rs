@@ -2,7 +2,7 @@
 
 use crate::any_lanes::{Case, case};
 use crate::common::{alone, caroca, cogiro, fast, observed};
-use crate::free_coordinates::with_few_cables;
+use crate::free_derivatives::with_few_cables;
 use crate::observer::{compared, rows_by_size};
 use cdpr_cable::{PiecewiseLaw, Segment};
 use cdpr_robot::{Coordinate, Parameter, Pose, Pulley, Robot, Rotation3, TensionLimits, Vector3, library};

@@ -74,7 +74,7 @@ fn equilibria_match_40_digit_arithmetic() {
             DirectProblem::new(&robot, &lengths, &load).unwrap().linearize(&solution.equilibrium).unwrap();
         let least = linearization.symmetric_stiffness().symmetric_eigenvalues().min();
         let expected_least = number(&case["stiffness_min_eigenvalue"]);
-        // A moment has no Hessian; how the reference symmetrises it is not said.
+        // A moment has no Hessian; how the reference symmetrizes it is not said.
         if wrench.moment == Vector3::zeros() {
             assert!(
                 (least - expected_least).abs() < 1e-3 * expected_least,

@@ -5,7 +5,8 @@ use cdpr_robot::{Platform, Pose, Robot, RobotCable, TensionLimits, Vector3, Wren
 use cdpr_statics::continuation::{LossKind, Setting, follow};
 use cdpr_statics::multistart::Starts;
 use cdpr_statics::{
-    DirectMethod, DirectProblem, DirectSolution, DirectStart, Load, StaticsError, direct, inverse, rough_pose,
+    DirectMethod, DirectProblem, DirectSolution, DirectStart, Load, StaticsError, Unstable, direct, inverse,
+    rough_pose,
 };
 
 /// A platform on six cables in threefold symmetry, drawn up and down at a triangle of radius `radius`, with
@@ -46,7 +47,8 @@ fn a_platform_standing_on_its_head_is_an_equilibrium_but_not_a_stable_one() {
     let upright = Pose::at(0.0, 0.0, 0.0);
     let head = DirectProblem::new(&robot, &lengths, &Load::none())
         .unwrap()
-        .direct_any(DirectStart::Pose(&upright))
+        .with_unstable(Unstable::Accepted)
+        .direct(DirectStart::Pose(&upright))
         .unwrap();
     let axis = |solution: &DirectSolution| solution.equilibrium.pose.rotation * Vector3::z();
     assert!((axis(&head) - Vector3::z()).norm() < 1e-9, "{}", axis(&head));
@@ -67,7 +69,7 @@ fn many_starts_find_the_platform_on_its_head_and_hanging() {
     let robot = tripod(0.1, 1.0, 300.0);
     let lengths = tightened(&robot, 1e-3);
     let starts = Starts { center: Pose::at(0.0, 0.0, 0.0), reach: 0.2, rotation: 1.5, count: 60 };
-    let all = DirectProblem::new(&robot, &lengths, &Load::none()).unwrap().direct_all(&starts).unwrap();
+    let all = DirectProblem::new(&robot, &lengths, &Load::none()).unwrap().equilibria(&starts).unwrap();
     assert_eq!(all.failed, []);
     for found in &all.found {
         assert!(found.solution.report.residual.force < 1e-7, "{:?}", found.solution.report);
@@ -84,7 +86,7 @@ fn many_starts_find_the_platform_on_its_head_and_hanging() {
         }
     }
     assert_eq!(
-        DirectProblem::new(&robot, &lengths, &Load::none()).unwrap().direct_all(&starts).unwrap(),
+        DirectProblem::new(&robot, &lengths, &Load::none()).unwrap().equilibria(&starts).unwrap(),
         all
     );
 }
@@ -97,7 +99,7 @@ fn invalid_starts_are_named() {
     let text = |starts: Starts| {
         DirectProblem::new(&robot, &lengths, &Load::none())
             .unwrap()
-            .direct_all(&starts)
+            .equilibria(&starts)
             .unwrap_err()
             .to_string()
     };

@@ -1,7 +1,7 @@
 //! Derivatives of the lowest natural frequency and of the lowest stiffness against central differences.
 
 use crate::common::{caroca, cogiro, robots};
-use crate::free_coordinates::with_few_cables;
+use crate::free_derivatives::with_few_cables;
 use crate::pulleys::{led, tilted};
 use cdpr_robot::{
     CableProperties, Coordinate, Matrix3, Parameter, Platform, Pose, Robot, RobotCable, Vector3, Vector6,

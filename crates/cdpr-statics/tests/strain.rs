@@ -10,7 +10,7 @@ use cdpr_statics::stiffness::stiffness_at;
 use cdpr_statics::vibration::modes_at;
 use cdpr_statics::{
     DirectStart, InversePath, Load, Observer, StaticsError, Tracker, deflection, derivatives, direct,
-    inverse, is_held,
+    inverse, is_feasible,
 };
 
 /// Cables so soft that the tensions of a pose strain them by a multiple of what the models hold for.
@@ -57,7 +57,7 @@ fn no_model_answers_beyond_the_strain_that_it_holds_for() {
                 ("modes", modes_at(robot, pose, &none).err()),
                 ("an observation", observed::<Observation>(&observer, &deviations).remove(1).err()),
             ]);
-            assert_eq!(is_held(robot, &pose, &none), Ok(false));
+            assert_eq!(is_feasible(robot, &pose, &none), Ok(false));
         }
     }
 }
@@ -71,7 +71,7 @@ fn an_answer_just_within_the_strain_stands() {
     let strains = tensions.iter().enumerate().map(|(i, tension)| robot.cable(i).strain(*tension));
     let greatest = strains.fold(0.0, f64::max);
     assert!(greatest > 0.08 && greatest < MAX_STRAIN, "{greatest}");
-    assert_eq!(is_held(robot, &pose, &Load::none()), Ok(true));
+    assert_eq!(is_feasible(robot, &pose, &Load::none()), Ok(true));
     assert!(loaded_poses::<LoadedPose>(robot, &[&found], &Load::none())[0].is_ok());
     // More load strains more.
     let load = Load::payload(200.0);

@@ -7,7 +7,7 @@ use cdpr_statics::hysteresis::{HysteresisLaw, load_cycle};
 use cdpr_statics::limits::{Limit, OutOfLimits, limits_at, out_of_limits};
 use cdpr_statics::stiffness::stiffness_at;
 use cdpr_statics::{
-    Bound, InverseSolution, Load, StaticsError, WantedPose, deflection, inverse, wound_lengths,
+    Bound, InverseSolution, Load, StaticsError, WantedPose, deflection, inverse, set_point_lengths,
 };
 
 /// Robots of every kind at a pose that they hold, with a tension above those of least norm.
@@ -87,7 +87,7 @@ fn all_models_start_from_the_tensions_that_the_robot_prefers() {
         let load = Load::payload(0.1 * robot.platform.mass);
         same(&deflection(&robot, &pose, &load).unwrap().unloaded.equilibrium.tensions(), "deflection");
         same(&stiffness_at(&robot, pose, &Load::none()).unwrap().equilibrium.tensions(), "stiffness");
-        let lengths = wound_lengths(&robot, pose).unwrap();
+        let lengths = set_point_lengths(&robot, pose).unwrap();
         assert!(distance(&lengths, &found.lengths) < 1e-9 * found.lengths[0], "{}", robot.name);
         if let Some(law) = robot.cables[0].properties.law.clone() {
             let laws = vec![HysteresisLaw::elastic(law); n];
@@ -120,8 +120,8 @@ fn a_cable_keeps_its_own_limits_and_the_others_keep_the_robots() {
         // Set-points are kept within them, too.
         let mut offsets = vec![0.0; robot.cables.len()];
         (offsets[high], offsets[low]) = (0.5 * max, -0.5 * min);
-        let unmoved = wound_lengths(&robot, pose).unwrap();
-        let wound = wound_lengths(&robot, WantedPose::at(&pose).tension_offsets(&offsets)).unwrap();
+        let unmoved = set_point_lengths(&robot, pose).unwrap();
+        let wound = set_point_lengths(&robot, WantedPose::at(&pose).tension_offsets(&offsets)).unwrap();
         assert!(distance(&wound, &unmoved) < 1e-12 * wound[0], "{}", robot.name);
         // No pose is held by limits that leave no choice.
         robot.cables[high].tension_limits.max = Some(robot.tension_limits.min * 1.01);

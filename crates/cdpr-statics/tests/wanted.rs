@@ -9,7 +9,7 @@ use cdpr_statics::stiffness::stiffness_at;
 use cdpr_statics::vibration::modes_at;
 use cdpr_statics::{
     InversePath, InverseSolution, Load, Observer, StaticsError, WantedPose, deflection, derivatives, inverse,
-    is_held, lengths_for_tensions, wound_lengths,
+    is_feasible, lengths_for_tensions, set_point_lengths,
 };
 
 /// CoGiRo on every other cable, with the coordinates that it finds itself.
@@ -51,7 +51,7 @@ fn no_offsets_are_offsets_of_zero() {
         let zero = none.tension_offsets(&zeros);
         assert_eq!(deflection(&robot, none, &load), deflection(&robot, zero, &load));
         assert_eq!(derivatives(&robot, none, &load), derivatives(&robot, zero, &load));
-        assert_eq!(wound_lengths(&robot, none), wound_lengths(&robot, zero));
+        assert_eq!(set_point_lengths(&robot, none), set_point_lengths(&robot, zero));
     }
 }
 
@@ -66,7 +66,7 @@ fn offsets_are_refused_where_no_set_points_are_set() {
         modes_at(&robot, wanted, &load).err(),
         InversePath::new(&robot).solve(wanted, &load).err(),
         Observer::new(&robot, wanted, &load).err(),
-        is_held(&robot, wanted, &load).err(),
+        is_feasible(&robot, wanted, &load).err(),
         greatest_payload(&robot, wanted, &load.wrench).err(),
         tension_margin(&robot, wanted, &load).err(),
         lengths_for_tensions(&robot, wanted, &[900.0; 8]).err(),
@@ -108,16 +108,19 @@ fn free_coordinates_are_refused_where_tensions_have_to_be_chosen() {
         assert!(text.starts_with("free is a list of 2: expected none here: it takes whole poses"), "{text}");
     }
     // They are found, at rest or not.
-    assert_eq!(is_held(&robot, wanted, &load), Ok(true));
-    assert_eq!(is_held(&robot, WantedPose { pose: Pose::at(1.0, -0.3, 9.0), ..wanted }, &load), Ok(false));
+    assert_eq!(is_feasible(&robot, wanted, &load), Ok(true));
+    assert_eq!(
+        is_feasible(&robot, WantedPose { pose: Pose::at(1.0, -0.3, 9.0), ..wanted }, &load),
+        Ok(false)
+    );
 }
 
 #[test]
 fn each_pose_of_a_list_has_its_own_answer() {
     let (robot, load) = (caroca(), Load::none());
     let poses = [Pose::at(0.4, -0.3, 1.6), Pose::at(9.0, 0.0, 1.0)];
-    let held: Vec<_> = poses.iter().map(|pose| is_held(&robot, pose, &load)).collect();
-    assert_eq!((is_held(&robot, &poses, &load), &held), (vec![Ok(true), Ok(false)], &held));
+    let held: Vec<_> = poses.iter().map(|pose| is_feasible(&robot, pose, &load)).collect();
+    assert_eq!((is_feasible(&robot, &poses, &load), &held), (vec![Ok(true), Ok(false)], &held));
     let each: Vec<_> = poses.iter().map(|pose| greatest_payload(&robot, pose, &load.wrench)).collect();
     assert_eq!(greatest_payload(&robot, &poses, &load.wrench), each);
     let each: Vec<_> = poses.iter().map(|pose| tension_margin(&robot, pose, &load)).collect();

@@ -6,7 +6,7 @@ use cdpr_sensitivity::SampleDesign;
 use cdpr_statics::free_coordinates::free_solutions;
 use cdpr_statics::stiffness::stiffness_at;
 use cdpr_statics::{
-    DirectProblem, DirectStart, Load, StaticsError, WantedPose, deflection, inverse, wound_lengths,
+    DirectProblem, DirectStart, Load, StaticsError, WantedPose, deflection, inverse, set_point_lengths,
 };
 use cdpr_study::{
     InputMeasures, Measured, Output, Sampling, SensitivitySpec, SensitivitySummary, Session, Study,
@@ -89,9 +89,11 @@ fn a_frequency_and_a_stiffness_are_those_of_the_deflected_robot() {
                 let deviating = study.robot.perturbed(deviations).unwrap();
                 let offsets = &deviating.tension_offsets;
                 assert!(offsets.iter().all(|offset| *offset != 0.0));
-                let lengths =
-                    wound_lengths(&deviating.robot, WantedPose::at(&sampling.pose).tension_offsets(offsets))
-                        .unwrap();
+                let lengths = set_point_lengths(
+                    &deviating.robot,
+                    WantedPose::at(&sampling.pose).tension_offsets(offsets),
+                )
+                .unwrap();
                 let problem = DirectProblem::new(&deviating.robot, &lengths, &sampling.load).unwrap();
                 let rest = problem.direct(DirectStart::Pose(&sampling.pose)).unwrap();
                 // Rotations are measured by a length of the nominal robot: one that deviates changes nothing.

@@ -33,7 +33,7 @@ pub fn law([weight_per_length, axial_stiffness, length, x, z, kink, soft, stiff]
     match cdpr_cable::end_force(&cable, length, end) {
         Ok(Solution { catenary, residual, .. }) => {
             finite("force", catenary.force.as_slice());
-            if !catenary.is_limp() {
+            if !catenary.is_slack_and_weightless() {
                 finite("stiffness", catenary.in_plane_stiffness().as_slice());
             }
             let strain = catenary.cable.strain(catenary.anchor_tension() + catenary.weight());
@@ -60,7 +60,7 @@ pub fn pulley([weight_per_length, axial_stiffness, length, x, z, lead, radius]: 
         Ok(Solution { catenary, residual, .. }) => {
             finite("force", catenary.force.as_slice());
             assert!(catenary.force.x >= 0.0, "fx {:e}", catenary.force.x);
-            if ordinary && !catenary.is_limp() {
+            if ordinary && !catenary.is_slack_and_weightless() {
                 finite("stiffness", catenary.in_plane_stiffness().as_slice());
                 finite("leave_point", catenary.leave_point().as_slice());
             }
@@ -116,7 +116,7 @@ pub fn catenary([weight_per_length, axial_stiffness, unstrained_length, fx, fz, 
     finite("exit_tension", &[catenary.exit_tension()]);
     finite("in_plane_stiffness", catenary.in_plane_stiffness().as_slice());
     finite("stiffness", catenary.stiffness(Vector2::new(0.6, 0.8)).as_slice());
-    if catenary.is_limp() {
+    if catenary.is_slack_and_weightless() {
         return;
     }
     finite("end_position", catenary.end_position().as_slice());
@@ -149,7 +149,7 @@ fn honest(solution: &Solution, cable: &Cable, end: Vector2<f64>) {
     assert!(catenary.force.x >= 0.0, "fx {:e}", catenary.force.x);
     assert_eq!(catenary.cable.axial_stiffness, cable.axial_stiffness);
     // A limp cable has no shape, and its end is anywhere within its length.
-    if catenary.is_limp() {
+    if catenary.is_slack_and_weightless() {
         assert!(
             end.norm() <= catenary.unstrained_length * (1.0 + 4.0 * f64::EPSILON),
             "a limp cable ends beyond its length"

@@ -4,7 +4,7 @@
 use super::{Findings, Severity};
 use crate::clearance::HangingCables;
 use cdpr_robot::{Pose, Robot, frame};
-use cdpr_statics::{DirectProblem, DirectStart, InverseSolution, Load, inverse};
+use cdpr_statics::{DirectProblem, DirectStart, InverseSolution, Load, Unstable, inverse};
 
 /// Weight of the cables, as a share of the platform's weight, beyond which sag shapes the robot.
 const CABLE_WEIGHT: f64 = 0.5;
@@ -58,8 +58,9 @@ impl Findings<'_> {
                 "anchor and exit points that let the cables pull in all directions",
             );
         }
-        let held = DirectProblem::new(robot, &solution.lengths, &Load::none())
-            .and_then(|problem| problem.direct_any(DirectStart::Near(&solution.equilibrium)));
+        let held = DirectProblem::new(robot, &solution.lengths, &Load::none()).and_then(|problem| {
+            problem.with_unstable(Unstable::Accepted).direct(DirectStart::Near(&solution.equilibrium))
+        });
         if !are_doubtful && held.is_ok_and(|held| !held.stability.is_stable()) {
             self.add(
                 Severity::Warning,

@@ -59,10 +59,10 @@ impl Catenary<'_> {
     /// Closure residual [m] of an anchor point at `end = (x, z)` [m]: the vector from the computed end to it.
     ///
     /// A slack cable without weight has no end position; its residual is what it is too short
-    /// ([`closure_of_limp`]).
+    /// ([`closure_of_slack`]).
     pub fn closure(&self, end: Vector2<f64>) -> Vector2<f64> {
-        if self.is_limp() {
-            self.cable.closure_of_limp(end.into(), self.length_at_rest()).into()
+        if self.is_slack_and_weightless() {
+            self.cable.closure_of_slack(end.into(), self.length_at_rest()).into()
         } else {
             end - self.end_position()
         }
@@ -115,7 +115,7 @@ impl Catenary<'_> {
     /// In-plane stiffness `d(fx, fz)/d(x, z)` [N/m], `C⁻¹`; zero for a slack cable without weight.
     #[inline]
     pub fn in_plane_stiffness(&self) -> Matrix2<f64> {
-        if self.is_limp() { Matrix2::zeros() } else { self.compliance().in_plane_stiffness() }
+        if self.is_slack_and_weightless() { Matrix2::zeros() } else { self.compliance().in_plane_stiffness() }
     }
 
     /// Stiffness `dF/dr` [N/m] of the end force in three dimensions, `z` up.
@@ -124,7 +124,7 @@ impl Catenary<'_> {
     /// B).
     #[inline]
     pub fn stiffness(&self, azimuth: Vector2<f64>) -> Matrix3<f64> {
-        if self.is_limp() { Matrix3::zeros() } else { self.compliance().stiffness(azimuth) }
+        if self.is_slack_and_weightless() { Matrix3::zeros() } else { self.compliance().stiffness(azimuth) }
     }
 
     /// Complementary energy U*(f) [J], (C6): strictly convex, with the end position for its gradient.

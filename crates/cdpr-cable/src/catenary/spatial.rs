@@ -174,7 +174,7 @@ impl<'a> SpatialCable<'a> {
     }
 
     /// Whether this is a slack cable without weight, which has no shape.
-    pub fn is_limp(&self) -> bool {
+    pub fn is_slack_and_weightless(&self) -> bool {
         self.force == Vector3::zeros() && self.cable.is_weightless(self.unstrained_length)
     }
 

@@ -37,7 +37,7 @@ pub fn stiffness_in_space<T: Number>(in_plane: [T; 3], lateral: T, azimuth: [T; 
 /// Such a cable has no shape: it spans any distance up to its length at rest `rest`, `L (1 + ε(0))` [m]
 /// ([`crate::Catenary::length_at_rest`]). For a longer one the residual is what it is too short, along the
 /// chord.
-pub fn closure_of_limp<T: Real>([x, z]: [T; 2], rest: T) -> [T; 2] {
+pub fn closure_of_slack<T: Real>([x, z]: [T; 2], rest: T) -> [T; 2] {
     let chord = (x * x + z * z).sqrt();
     let share = if chord.value() > rest.value() { T::of(1.0) - rest / chord } else { T::of(0.0) };
     [x * share, z * share]

@@ -11,7 +11,7 @@ use crate::model::{Model, RowAt, RowState};
 use crate::sensor_error::SensorError;
 use cdpr_robot::{Axis, CableEnd, Pose, Robot, Rotation3, UnitQuaternion, Vector3};
 use cdpr_statics::{
-    DirectProblem, DirectStart, Equilibrium, HeldPose, Load, StaticsError, inverse, lengths_for_tensions,
+    DirectProblem, DirectStart, Equilibrium, Load, PoseLengths, StaticsError, inverse, lengths_for_tensions,
     rough_pose,
 };
 use nalgebra::DVector;
@@ -160,7 +160,7 @@ impl Model<'_> {
         robot: &Robot,
         x: &[f64],
         mut state: RowState,
-        held: HeldPose,
+        held: PoseLengths,
     ) -> Result<RowState, StaticsError> {
         for (i, length) in held.lengths.iter().enumerate() {
             let stretch = 1.0 + self.of(SensorError::DrumScale, i, x);

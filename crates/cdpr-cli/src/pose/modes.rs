@@ -13,7 +13,9 @@ use crate::said::note;
 use cdpr_dynamics::{Mode, Modes, Wanted};
 use cdpr_robot::{Platform, Pose, Robot, shown};
 use cdpr_statics::vibration::PoseModes;
-use cdpr_statics::{DirectProblem, DirectStart, Equilibrium, StaticsError, WantedPose, inverse, rough_pose};
+use cdpr_statics::{
+    DirectProblem, DirectStart, Equilibrium, StaticsError, Unstable, WantedPose, inverse, rough_pose,
+};
 use massless::Massless;
 use serde::Serialize;
 use std::borrow::Cow;
@@ -72,7 +74,8 @@ impl Settings {
                 let robot = with_inertia(robot);
                 let held = inverse(&robot, WantedPose::at(pose).free(&self.free.free), &load)?;
                 let problem = DirectProblem::new(&robot, &held.lengths, &load)?;
-                let rest = problem.direct_any(DirectStart::Near(&held.equilibrium))?;
+                let rest =
+                    problem.with_unstable(Unstable::Accepted).direct(DirectStart::Near(&held.equilibrium))?;
                 solve(&robot, &problem, rest.equilibrium)
             };
             return self.at.answer(at_pose, print);

@@ -155,7 +155,7 @@ impl Settings {
         let material = Material { cable, density, damping, relaxing: None };
         let end = rest.pose.position + at_rest.lever;
         let lift = |x: f64, z: f64| at_rest.axes * Vector3::new(x, 0.0, z);
-        let last = if whole.is_limp() { None } else { Some(free.end_position()) };
+        let last = if whole.is_slack_and_weightless() { None } else { Some(free.end_position()) };
         let exit = robot.cables[index].exit_point;
         // A slack cable without weight has no shape: its points are put on the chord.
         let point = |share: f64| match last {
@@ -174,7 +174,7 @@ impl Settings {
         let tension_at = |share: f64| free.tension(FromLeavePoint(share * free.unstrained_length));
         let mesh = (density > 0.0).then(|| {
             let mut mesh = Mesh::equal(elements);
-            while rule.degree > 1 && !whole.is_limp() && mesh.ends.len() <= MOST_ELEMENTS {
+            while rule.degree > 1 && !whole.is_slack_and_weightless() && mesh.ends.len() <= MOST_ELEMENTS {
                 let still = Points::still(mesh.shares(rule).iter().map(|share| point(*share)));
                 if mesh.is_exact(rule, &material, (free.unstrained_length, &still), tension_at) {
                     break;

@@ -18,7 +18,8 @@ pub struct EquilibriumDerivatives {
 
 impl DirectProblem<'_> {
     /// Derivatives of an equilibrium for *given* lengths, which do not change with the parameters: neither
-    /// tension offsets nor the wanted pose matter. Along held motions and those that nothing resists they are
+    /// tension offsets nor the wanted pose matter. Along constrained motions and those that nothing resists
+    /// they are
     /// zero.
     ///
     /// # Errors

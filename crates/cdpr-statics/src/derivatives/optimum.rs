@@ -28,7 +28,7 @@ pub struct AtBound {
 
 /// What equation (D6) is made of, before it is known which cables stay on their bounds; columns are inputs.
 pub(super) struct Optimum {
-    /// ∂G with the tensions held, 6 x count.
+    /// ∂G with the tensions constant, 6 x count.
     pub(super) balance: Matrix6xX<f64>,
     /// ∂ρ_i, n x count.
     pub(super) slopes: DMatrix<f64>,
@@ -38,7 +38,7 @@ pub(super) struct Optimum {
     pub(super) curvatures: Vec<f64>,
     /// b_i, n x count.
     pub(super) bounds: DMatrix<f64>,
-    /// Rows of held motions are zero in `balance` and `per_tension`.
+    /// Rows of constrained motions are zero in `balance` and `per_tension`.
     pub(super) freedoms: Freedoms,
 }
 
@@ -116,17 +116,17 @@ impl Optimum {
     fn with(&self, on_bound: &[bool]) -> Result<(DMatrix<f64>, Matrix6xX<f64>), StaticsError> {
         let mut tensions = self.bounds.clone();
         // -c_i/D_i, zero for a cable on a bound.
-        let mut answers = DMatrix::zeros(on_bound.len(), 6);
+        let mut responses = DMatrix::zeros(on_bound.len(), 6);
         for i in (0..on_bound.len()).filter(|i| !on_bound[*i]) {
             let d = -self.curvatures[i];
             tensions.set_row(i, &(self.slopes.row(i) / d));
-            answers.set_row(i, &(self.per_tension.column(i) / d).transpose());
+            responses.set_row(i, &(self.per_tension.column(i) / d).transpose());
         }
-        let matrix: Matrix6<f64> = (&self.per_tension * &answers).fixed_columns::<6>(0).into();
+        let matrix: Matrix6<f64> = (&self.per_tension * &responses).fixed_columns::<6>(0).into();
         let mut multipliers = self.balance.clone();
         multipliers.gemm(1.0, &self.per_tension, &tensions, 1.0);
         multipliers.neg_mut();
-        // Held motions have no equation and no multiplier.
+        // Constrained motions have no equation and no multiplier.
         let matrix = Matrix6::from_fn(|i, j| match self.freedoms.contains(i) {
             false if i == j => 1.0,
             _ => matrix[(i, j)],
@@ -139,7 +139,7 @@ impl Optimum {
             return Err(StaticsError::NoDerivative { quantity: DISTRIBUTION, reason });
         };
         multipliers = inverse * multipliers;
-        tensions.gemm(1.0, &answers, &multipliers, 1.0);
+        tensions.gemm(1.0, &responses, &multipliers, 1.0);
         Ok((tensions, multipliers))
     }
 }

@@ -1,7 +1,7 @@
-//! From the held coordinates of a pose to set-points and lengths, for fewer cables than free motions.
+//! From the given coordinates of a pose to set-points and lengths, for fewer cables than free motions.
 //!
-//! The unloaded platform rests at a pose whose free coordinates q are found beside the lengths, (I6) of
-//! `inverse/free.rs`. If the inputs change its balance by ∂G and the held coordinates move it by dc, then
+//! The unloaded platform rests at a pose whose free coordinates q are found together with the lengths, (I6)
+//! of `inverse/free.rs`. If the inputs change its balance by ∂G and the given coordinates move it by dc, then
 //! with the motions T of the free coordinates
 //!
 //! ```text
@@ -15,7 +15,7 @@
 use crate::dense::Lu;
 use crate::equations::{CableDerivatives, Inputs, Partials, Reading, tensions};
 use crate::error::StaticsError;
-use crate::inverse::HeldPose;
+use crate::inverse::PoseLengths;
 use crate::problem::DirectProblem;
 use crate::state::Load;
 use cdpr_robot::{Coordinate, Matrix6xX, ParameterLayout, Pose, Robot, Vector6};
@@ -28,9 +28,9 @@ pub(super) struct Rest<'a> {
     pub(super) free: &'a [Coordinate],
     pub(super) inputs: &'a Inputs,
     /// Without offsets of the set-points.
-    pub(super) unmoved: &'a HeldPose,
+    pub(super) unmoved: &'a PoseLengths,
     /// At the same pose, with the offsets.
-    pub(super) wound: &'a HeldPose,
+    pub(super) offset: &'a PoseLengths,
 }
 
 /// A set-point differs from its tension and offset by less than this share, or it is on a limit.
@@ -45,8 +45,8 @@ impl Rest<'_> {
         &self,
         tension_offsets: &[f64],
     ) -> Result<(DMatrix<f64>, DMatrix<f64>), StaticsError> {
-        let Self { robot, inputs, unmoved, wound, .. } = *self;
-        let (before, after) = (unmoved.equilibrium.tensions(), wound.equilibrium.tensions());
+        let Self { robot, inputs, unmoved, offset: with_offsets, .. } = *self;
+        let (before, after) = (unmoved.equilibrium.tensions(), with_offsets.equilibrium.tensions());
         let moved = before.iter().zip(tension_offsets).zip(&after);
         if moved.into_iter().any(|((t, offset), found)| (t + offset - found).abs() > SAME * (t + found)) {
             let reason = "a limit of tension or the weight of a cable keeps it";
@@ -57,8 +57,8 @@ impl Rest<'_> {
         for i in 0..before.len() {
             set_points[(i, layout.tension_offset(i))] += 1.0;
         }
-        let cables = self.cables(wound)?;
-        let mut lengths = tensions(inputs, &wound.equilibrium.pose, &cables);
+        let cables = self.cables(with_offsets)?;
+        let mut lengths = tensions(inputs, &with_offsets.equilibrium.pose, &cables);
         let per_motion = lengths.columns(inputs.pose().start, 6).into_owned();
         lengths.columns_mut(inputs.pose().start, 6).fill(0.0);
         lengths.gemm(1.0, &per_motion, &motion, 1.0);
@@ -70,9 +70,9 @@ impl Rest<'_> {
         Ok((set_points, lengths))
     }
 
-    fn cables(&self, held: &HeldPose) -> Result<Vec<CableDerivatives>, StaticsError> {
-        let problem = DirectProblem::new(self.robot, &held.lengths, &Load::none())?;
-        let equilibrium = &held.equilibrium;
+    fn cables(&self, at: &PoseLengths) -> Result<Vec<CableDerivatives>, StaticsError> {
+        let problem = DirectProblem::new(self.robot, &at.lengths, &Load::none())?;
+        let equilibrium = &at.equilibrium;
         Ok(CableDerivatives::all(&problem, &equilibrium.pose, &equilibrium.cable_forces))
     }
 
@@ -85,9 +85,9 @@ impl Rest<'_> {
         let (hessian, tensions_per_motion) = partials.take_pose(inputs);
         let Partials { mut balance, readings: mut tensions } = partials;
         balance.column_mut(inputs.payload()).fill(0.0);
-        let (held, free) = self.coordinates()?;
+        let (given, free) = self.coordinates()?;
         let start = inputs.pose().start;
-        balance.fixed_columns_mut::<6>(start).copy_from(&(hessian * held));
+        balance.fixed_columns_mut::<6>(start).copy_from(&(hessian * given));
 
         let (rows, n) = (robot.freedoms().components(), cables.len());
         let per_length: Vec<Vector6<f64>> =
@@ -106,7 +106,7 @@ impl Rest<'_> {
         }
         let mut motion = free * found.rows(n, rows.len() - n);
         let mut of_wanted = motion.fixed_columns_mut::<6>(start);
-        of_wanted += held;
+        of_wanted += given;
         tensions.gemm(1.0, &tensions_per_motion, &motion, 1.0);
         for (i, cable) in cables.iter().enumerate() {
             let mut row = tensions.row_mut(i);

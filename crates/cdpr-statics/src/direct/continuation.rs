@@ -1,13 +1,13 @@
 //! Following an equilibrium while lengths or load change, up to where it is lost.
 //!
 //! Between two settings everything changes linearly with a share from 0 to 1. From an equilibrium at one
-//! share, the first step of Newton's method a step h later is the prediction of the linearisation. A step is
+//! share, the first step of Newton's method a step h later is the prediction of the linearization. A step is
 //! taken only where the iteration ends near that prediction and at a stable equilibrium; otherwise h shrinks.
 //! Near a turning point the pose moves like the square root of the share that remains up to it: steps then
 //! fall geometrically. Where h is below 1e-9 the equilibrium is lost, unless the one downhill a millionth
 //! later is the same (Allgower and Georg, *Introduction to Numerical Continuation Methods*, 2003, chapter 2)
-//! or grows out of it: beside a symmetric equilibrium that becomes unstable, the platform moves away like the
-//! square root of the share. So a jump of the platform is reported, not stepped over.
+//! or grows out of it: next to a symmetric equilibrium that becomes unstable, the platform moves away like
+//! the square root of the share. So a jump of the platform is reported, not stepped over.
 
 use crate::direct::near::{is_near_prediction, keeps_stiffness, motion};
 use crate::direct::newton::newton;
@@ -96,7 +96,7 @@ const GROWING: f64 = 0.3;
 ///
 /// # Errors
 /// - [`StaticsError::BranchEnds`] where the equilibrium is lost before.
-/// - [`StaticsError::Overstrained`] where it strains a cable by more than the models hold for.
+/// - [`StaticsError::Overstrained`] where it strains a cable by more than the models are valid for.
 /// - [`StaticsError::Invalid`] as [`DirectProblem::new`]; [`StaticsError::DirectNotConverged`].
 pub fn follow_load(
     robot: &Robot,
@@ -212,7 +212,7 @@ pub(crate) fn follow_from(
 
 /// What is downhill of an equilibrium that seems to be lost.
 enum Beyond {
-    /// The equilibrium itself a little later, behind a kink or beside one that has become unstable.
+    /// The equilibrium itself a little later, behind a kink or next to one that has become unstable.
     Same(Box<PathStep>),
     /// Another one, to which the platform jumps.
     Elsewhere(Result<Box<DirectSolution>, StaticsError>),

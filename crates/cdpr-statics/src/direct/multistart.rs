@@ -3,12 +3,12 @@
 use crate::direct::search::DirectStart;
 use crate::direct::solution::DirectSolution;
 use crate::error::StaticsError;
-use crate::problem::DirectProblem;
+use crate::problem::{DirectProblem, Unstable};
 use cdpr_robot::{Pose, Vector3};
 
 /// Starts around a pose: the pose itself, then points that fill a box of displacements evenly.
 ///
-/// The points are those of the additive recurrence of the generalised golden ratio in six dimensions (Roberts
+/// The points are those of the additive recurrence of the generalized golden ratio in six dimensions (Roberts
 /// 2018). The same values give the same starts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Starts {
@@ -43,7 +43,7 @@ pub struct Equilibria {
 /// The root of x⁷ = x + 1, the golden ratio of six dimensions.
 const GOLDEN: f64 = 1.112_775_684_278_705_5;
 
-/// Two answers closer than this share of the robot's size are the same equilibrium.
+/// Two solutions closer than this share of the robot's size are the same equilibrium.
 const SAME: f64 = 1e-7;
 
 impl Starts {
@@ -85,17 +85,17 @@ impl DirectProblem<'_> {
     /// unstable equilibria included. No number of starts proves that there are no more.
     ///
     /// # Errors
-    /// [`StaticsError::Invalid`] for starts that are not finite, or none. Failures of single searches stand
-    /// in the answer.
-    pub fn direct_all(&self, starts: &Starts) -> Result<Equilibria, StaticsError> {
+    /// [`StaticsError::Invalid`] for starts that are not finite, or none. Failures of single searches are
+    /// listed in the result.
+    pub fn equilibria(&self, starts: &Starts) -> Result<Equilibria, StaticsError> {
         starts.validate()?;
         let mut equilibria = Equilibria { found: Vec::new(), failed: Vec::new() };
         for index in 0..starts.count {
             let start = starts.pose(index);
-            let any = self.direct_any(DirectStart::Pose(&start));
-            // What Newton's method found may stand uphill.
+            let any = self.with_unstable(Unstable::Accepted).direct(DirectStart::Pose(&start));
+            // What Newton's method found may be uphill.
             if any.as_ref().is_ok_and(|solution| !solution.stability.is_stable()) {
-                equilibria.add(self, self.direct(DirectStart::Pose(&start)));
+                equilibria.add(self, self.with_unstable(Unstable::Left).direct(DirectStart::Pose(&start)));
             }
             equilibria.add(self, any);
         }
@@ -107,8 +107,8 @@ impl DirectProblem<'_> {
 }
 
 impl Equilibria {
-    fn add(&mut self, problem: &DirectProblem, answer: Result<DirectSolution, StaticsError>) {
-        let solution = match answer {
+    fn add(&mut self, problem: &DirectProblem, found: Result<DirectSolution, StaticsError>) {
+        let solution = match found {
             Ok(solution) => solution,
             Err(error) => return self.failed.push(error),
         };

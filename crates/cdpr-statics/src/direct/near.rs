@@ -1,8 +1,8 @@
 //! Whether an equilibrium is the one that another becomes: cheap conditions, of which either is enough.
 //!
 //! A branch that ends loses the stiffness of one motion, which the pose then follows like a square root. An
-//! equilibrium beyond such an end is neither near what the linearisation predicts, nor as stiff as the first
-//! one and within reach of it. Where neither holds, the change is made in smaller steps.
+//! equilibrium beyond such an end is neither near what the linearization predicts, nor as stiff as the first
+//! one and within reach of it. Where neither is true, the change is made in smaller steps.
 
 use crate::direct::newton::Converged;
 use crate::direct::stability::Stability;

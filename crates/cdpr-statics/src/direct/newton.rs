@@ -7,9 +7,9 @@
 //! (S5) of the platform with every f_i replaced by its prediction `f_i + K_i c_i`. An iteration evaluates
 //! each catenary once and solves one 6 x 6 system.
 //!
-//! Fewer cables than free motions may leave motions that nothing resists, and held motions have no equation.
-//! Such a robot takes steps by the singular values of the matrix: motions without resistance and force are
-//! left out, so that they stay where they started.
+//! Fewer cables than free motions may leave motions that nothing resists, and constrained motions have no
+//! equation. Such a robot takes steps by the singular values of the matrix: motions without resistance and
+//! force are left out, so that they stay where they started.
 
 use crate::direct::stability::Stability;
 use crate::equations::{Balance, LinearizedInSpace, SpannedCable, forces, per_length};
@@ -126,7 +126,7 @@ pub(crate) fn newton(problem: &DirectProblem, mut start: Equilibrium) -> Option<
     pinned_newton(problem, start)
 }
 
-/// Newton's method for a robot with motions that nothing resists, or that are held.
+/// Newton's method for a robot with motions that nothing resists, or that are constrained.
 pub(crate) fn pinned_newton(problem: &DirectProblem, start: Equilibrium) -> Option<Converged> {
     iterate(problem, start, 2 * MAX_ITERATIONS, |linearized, now| linearized.pinned_step(problem, now))
 }
@@ -188,7 +188,7 @@ fn iterate(
 /// Gives slack cables without weight whose points have come too far apart the force that strains them.
 fn tighten(problem: &DirectProblem, state: &mut Equilibrium) -> Option<()> {
     for (i, force) in state.cable_forces.iter_mut().enumerate() {
-        if *force == Vector2::zeros() && problem.catenary(i, *force).is_limp() {
+        if *force == Vector2::zeros() && problem.catenary(i, *force).is_slack_and_weightless() {
             *force = problem.force_at(&state.pose, i, None).ok()?;
         }
     }

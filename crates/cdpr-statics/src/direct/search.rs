@@ -3,10 +3,9 @@
 use crate::direct::continuation::{Loss, LossKind, Path, Setting, follow_from};
 use crate::direct::newton::newton;
 use crate::direct::solution::{DirectMethod, DirectReport, DirectSolution, descend, solution};
-use crate::direct::stability::Stability;
 use crate::equations::{cables_at, to_base};
 use crate::error::StaticsError;
-use crate::problem::DirectProblem;
+use crate::problem::{DirectProblem, Unstable};
 use crate::state::{Equilibrium, Load};
 use cdpr_robot::{Matrix3, Pose, Robot, Rotation3, Vector3, Wrench};
 
@@ -35,11 +34,12 @@ pub fn direct(
 }
 
 impl DirectProblem<'_> {
-    /// A stable equilibrium: the one that Newton's method converges to from the start, else one downhill of
-    /// the start.
+    /// An equilibrium: the one that Newton's method converges to from the start, else a stable one downhill
+    /// of the start. [`DirectProblem::with_unstable`] says what becomes of an unstable one; unless it is
+    /// accepted, the equilibrium is stable.
     ///
     /// Without a moment in the load the potential always has a minimum, because the cables' elasticity bounds
-    /// it from below. The start is never returned as an answer.
+    /// it from below. The start is never returned as a solution.
     ///
     /// # Errors
     /// - [`StaticsError::Invalid`] for a start that is not finite or has not one force for each cable.
@@ -49,33 +49,22 @@ impl DirectProblem<'_> {
     ///   it disappears while the moment is raised.
     /// - [`StaticsError::DirectNotConverged`] with the last pose.
     /// - [`StaticsError::Robot`] where the search fails because a value of the robot is invalid.
+    /// - [`StaticsError::Unstable`] for an unstable equilibrium that is refused.
     pub fn direct(&self, start: DirectStart) -> Result<DirectSolution, StaticsError> {
-        search(self, start, Stability::is_stable)
-    }
-
-    /// As [`DirectProblem::direct`], but an unstable equilibrium to which Newton's method converges is an
-    /// answer, too.
-    ///
-    /// A platform that balances like an upright pendulum is one.
-    ///
-    /// # Errors
-    /// As [`DirectProblem::direct`].
-    pub fn direct_any(&self, start: DirectStart) -> Result<DirectSolution, StaticsError> {
-        search(self, start, |_| true)
-    }
-
-    /// As [`DirectProblem::direct`], but an unstable equilibrium to which Newton's method converges is an
-    /// error: `direct` leaves it for the one that the platform falls to.
-    ///
-    /// # Errors
-    /// [`StaticsError::Unstable`], and those of [`DirectProblem::direct`].
-    pub fn direct_held(&self, start: DirectStart) -> Result<DirectSolution, StaticsError> {
-        let found = self.direct_any(start)?;
-        if found.stability.is_stable() {
-            return Ok(found);
+        let start = checked(self, start)?;
+        let pose = start.pose;
+        let found = match newton(self, start) {
+            // A strained equilibrium far from the start need not be the one downhill.
+            Some(converged) if converged.stability.is_stable() || self.unstable != Unstable::Left => {
+                solution(self, converged, DirectMethod::Newton).or_else(|_| settle(self, &pose))?
+            }
+            _ => settle(self, &pose)?,
+        };
+        if self.unstable == Unstable::Refused && !found.stability.is_stable() {
+            let pose = Box::new(found.equilibrium.pose);
+            return Err(StaticsError::Unstable { pose, least_stiffness: found.stability.least_stiffness() });
         }
-        let pose = Box::new(found.equilibrium.pose);
-        Err(StaticsError::Unstable { pose, least_stiffness: found.stability.least_stiffness() })
+        Ok(found)
     }
 }
 
@@ -108,22 +97,6 @@ pub fn rough_pose(robot: &Robot, lengths: &[f64]) -> Pose {
         position[normal] = offset;
     }
     Pose { position, rotation: Rotation3::identity() }
-}
-
-fn search(
-    problem: &DirectProblem,
-    start: DirectStart,
-    accepted: impl Fn(&Stability) -> bool,
-) -> Result<DirectSolution, StaticsError> {
-    let start = checked(problem, start)?;
-    let pose = start.pose;
-    match newton(problem, start) {
-        // A strained equilibrium far from the start need not be the one downhill.
-        Some(converged) if accepted(&converged.stability) => {
-            solution(problem, converged, DirectMethod::Newton).or_else(|_| settle(problem, &pose))
-        }
-        _ => settle(problem, &pose),
-    }
 }
 
 /// The start as an equilibrium to be found, validated.

@@ -1,8 +1,8 @@
-//! An equilibrium as an answer, with the report of how it was found.
+//! An equilibrium as a solution, with the report of how it was found.
 
 use crate::direct::newton::Converged;
 use crate::direct::stability::Stability;
-use crate::direct::trust_region::minimise;
+use crate::direct::trust_region::minimize;
 use crate::equations::end;
 use crate::error::StaticsError;
 use crate::problem::DirectProblem;
@@ -43,7 +43,7 @@ impl FromStr for DirectMethod {
     }
 }
 
-/// How an answer was found and how good it is.
+/// How a solution was found and how good it is.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DirectReport {
     /// The method that found it.
@@ -73,7 +73,7 @@ pub struct DirectSolution {
 
 /// The minimum of the potential downhill of a pose.
 pub(crate) fn descend(problem: &DirectProblem, pose: &Pose) -> Result<DirectSolution, StaticsError> {
-    solution(problem, minimise(problem, pose)?, DirectMethod::TrustRegion)
+    solution(problem, minimize(problem, pose)?, DirectMethod::TrustRegion)
 }
 
 pub(crate) fn solution(
@@ -100,7 +100,7 @@ pub(crate) fn solution(
 }
 
 impl DirectProblem<'_> {
-    /// Refuses forces that strain a cable by more than the models hold for.
+    /// Refuses forces that strain a cable by more than the models are valid for.
     ///
     /// # Errors
     /// [`StaticsError::Overstrained`] for the first such cable.

@@ -11,7 +11,7 @@ use nalgebra::{Matrix6, Vector6};
 /// those of neutral motions, which nothing resists.
 ///
 /// The Hessian is that in (dp, ℓ dφ), where the characteristic length ℓ makes rotations comparable with
-/// translations. Held motions have no eigenvalues.
+/// translations. Constrained motions have no eigenvalues.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stability {
     hessian: Matrix6<f64>,
@@ -51,8 +51,8 @@ impl Mode {
 }
 
 impl DirectProblem<'_> {
-    /// The stability of an equilibrium, which it need not have reported itself: with the characteristic length
-    /// of this problem.
+    /// The stability of an equilibrium, which it need not have reported itself: with the characteristic
+    /// length of this problem.
     ///
     /// # Errors
     /// As [`DirectProblem::linearize`].
@@ -97,12 +97,14 @@ impl Stability {
         self.stable
     }
 
-    /// Whether every motion is stiffer than `share` of what it is in `other`, and none is held or neutral.
+    /// Whether every motion is stiffer than `share` of what it is in `other`, and none is constrained
+    /// or of zero stiffness.
     pub(crate) fn exceeds(&self, share: f64, other: &Self) -> bool {
         self.some.is_none() && (self.hessian - share * other.hessian).cholesky().is_some()
     }
 
-    /// Eigenvalues of the stiffness, ascending, of all motions that are neither held nor neutral [N/m].
+    /// Eigenvalues of the stiffness, ascending, of all motions that are neither constrained nor of zero
+    /// stiffness [N/m].
     pub fn eigenvalues(&self) -> Vec<f64> {
         match &self.some {
             None => {
@@ -115,7 +117,7 @@ impl Stability {
     }
 
     /// The motions along the eigenvectors of the stiffness, each resisted along itself only, from the
-    /// softest; without those that are held or neutral.
+    /// softest; without those that are constrained or of zero stiffness.
     pub fn modes(&self) -> Vec<Mode> {
         match &self.some {
             None => {

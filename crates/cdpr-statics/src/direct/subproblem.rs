@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix6, SymmetricEigen, Vector6};
 
-/// The step that minimises `g·x + ½ xᵀHx` over `|x| <= radius`, and the decrease that it predicts.
+/// The step that minimizes `g·x + ½ xᵀHx` over `|x| <= radius`, and the decrease that it predicts.
 pub(crate) fn subproblem(
     gradient: &Vector6<f64>,
     hessian: &Matrix6<f64>,

@@ -1,4 +1,4 @@
-//! Minimisation of the potential energy over the poses, for starts from which Newton's method does not
+//! Minimization of the potential energy over the poses, for starts from which Newton's method does not
 //! converge.
 //!
 //! With every cable in its own equilibrium (which is unique), an equilibrium of the platform is a stationary
@@ -116,7 +116,7 @@ fn scale(problem: &DirectProblem) -> Vector6<f64> {
 }
 
 /// The minimum of the potential that lies downhill of `start`.
-pub(crate) fn minimise(problem: &DirectProblem, start: &Pose) -> Result<Converged, StaticsError> {
+pub(crate) fn minimize(problem: &DirectProblem, start: &Pose) -> Result<Converged, StaticsError> {
     let size = problem.size();
     let mut now = Point::new(problem, cables_at(problem, start)?);
     let mut radius = FIRST_RADIUS * size;

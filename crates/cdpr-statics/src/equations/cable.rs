@@ -14,7 +14,7 @@
 //! F_i = -(fx e_h + fz e_z)      with the wrench      [F_i; s_i x F_i]                              (S1)
 //! ```
 //!
-//! Linearised about a force f that need not yet fit the two points, the cable answers to a displacement of A
+//! Linearized about a force f that need not yet fit the two points, the cable responds to a displacement of A
 //! with
 //!
 //! ```text
@@ -115,7 +115,7 @@ pub(crate) fn between<T: Number>(p: &[T; 3], s: &[T; 3], b: &[T; 3]) -> [T; 3] {
     [p[0] + s[0] - b[0], p[1] + s[1] - b[1], p[2] + s[2] - b[2]]
 }
 
-/// A cable linearised about a force that need not fit its two points, equations (S2) and (S3).
+/// A cable linearized about a force that need not fit its two points, equations (S2) and (S3).
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LinearizedCable<T> {
     pub(crate) plane: CablePlane<T>,
@@ -128,7 +128,7 @@ pub(crate) struct LinearizedCable<T> {
 }
 
 impl<T: Number> LinearizedCable<T> {
-    /// Linearises about `force`, to which the cable answers with `response`.
+    /// Linearizes about `force`, to which the cable responds with `response`.
     #[inline(always)]
     pub(crate) fn new(span: &Span<T>, force: [T; 2], response: &Response<T>) -> Self {
         let linearized = Self {
@@ -137,13 +137,13 @@ impl<T: Number> LinearizedCable<T> {
             stiffness: response.in_plane_stiffness(),
             lateral_stiffness: response.lateral_flexibility.recip(),
         };
-        let predicted = linearized.answer(force, span.misclosure(response.end));
+        let predicted = linearized.after(force, span.misclosure(response.end));
         Self { predicted, ..linearized }
     }
 
     /// The force [N] that a displacement of A in the plane [m] makes of `force`: f + K d.
     #[inline(always)]
-    pub(crate) fn answer(&self, [x, z]: [T; 2], [dx, dz]: [T; 2]) -> [T; 2] {
+    pub(crate) fn after(&self, [x, z]: [T; 2], [dx, dz]: [T; 2]) -> [T; 2] {
         let [xx, xz, zz] = self.stiffness;
         [x + xx * dx + xz * dz, z + xz * dx + zz * dz]
     }
@@ -151,7 +151,7 @@ impl<T: Number> LinearizedCable<T> {
     /// The force [N] after a displacement of A in space [m], equation (S2).
     #[inline(always)]
     pub(crate) fn force_after(&self, displacement: [T; 3]) -> [T; 2] {
-        self.answer(self.predicted, self.plane.project(displacement))
+        self.after(self.predicted, self.plane.project(displacement))
     }
 
     /// Stiffness K3 in space [N/m], equation (S3): a symmetric matrix.

@@ -165,7 +165,7 @@ impl CableDerivatives {
         d: Vector3<f64>,
     ) -> Self {
         let none = Self { force: Vector3::zeros(), surroundings: None, ..self.clone() };
-        if at.is_limp() {
+        if at.is_slack_and_weightless() {
             return none;
         }
         let slopes = SpannedCable::of(robot, pose, i, at).stiffness_slopes(at, d);
@@ -184,7 +184,7 @@ impl CableDerivatives {
 
     /// The derivatives of the force with which the cable pulls on its guide, in the place of those of F_i.
     pub(crate) fn of_pull(&self, robot: &Robot, pose: &Pose, i: usize, at: &Catenary) -> Self {
-        if at.is_limp() {
+        if at.is_slack_and_weightless() {
             return self.clone();
         }
         Self::of_vector(robot, pose, i, &SpannedCable::of(robot, pose, i, at).leave_force_slopes(at))

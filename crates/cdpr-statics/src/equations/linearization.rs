@@ -21,7 +21,7 @@ use crate::state::Equilibrium;
 use cdpr_robot::{Matrix3, Matrix6xX, Vector3, Vector6, Wrench};
 use nalgebra::Matrix6;
 
-/// The direct problem linearised at an equilibrium.
+/// The direct problem linearized at an equilibrium.
 pub struct Linearization {
     stiffness: Matrix6<f64>,
     pins: Pins,
@@ -32,7 +32,7 @@ pub struct Linearization {
 }
 
 impl DirectProblem<'_> {
-    /// The problem linearised at an equilibrium of its own.
+    /// The problem linearized at an equilibrium of its own.
     ///
     /// # Errors
     /// [`StaticsError::Invalid`] unless the equilibrium is finite and has one force for each cable.
@@ -78,8 +78,8 @@ impl Linearization {
     /// It is the true tangent `-dG/d(p, φ)` of the balance, with sag and weight of the cables and rotations
     /// `R <- exp(dφ) R`: a small additional wrench is H times the displacement. It is symmetric to rounding
     /// unless a moment M acts, or cables with weight run over pulleys. A moment of constant components has no
-    /// potential, and the lower right block of H has the skew part `-[M]/2`. Rows and columns of held motions
-    /// are zero.
+    /// potential, and the lower right block of H has the skew part `-[M]/2`. Rows and columns of constrained
+    /// motions are zero.
     pub fn stiffness(&self) -> &Matrix6<f64> {
         &self.stiffness
     }
@@ -92,8 +92,8 @@ impl Linearization {
     }
 
     /// Displacement (dp, dφ) [m, rad] under a small additional wrench; not a number at the border of
-    /// stability. What holds a motion takes its part of the wrench, and a motion that nothing resists is left
-    /// out.
+    /// stability. What constrains a motion takes its part of the wrench, and a motion that nothing resists is
+    /// left out.
     pub fn displacement(&self, wrench: &Wrench) -> Vector6<f64> {
         self.moved(wrench.to_vector())
     }

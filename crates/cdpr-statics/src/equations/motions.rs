@@ -1,7 +1,7 @@
-//! Motions of the platform that are held, and motions that nothing resists.
+//! Constrained motions of the platform, and motions that nothing resists.
 //!
-//! What holds a motion takes any wrench along it: its row and column are left out of the balance. Fewer
-//! cables than free motions may leave motions to which no force answers, such as the rotation of a platform
+//! What constrains a motion takes any wrench along it: its row and column are left out of the balance. Fewer
+//! cables than free motions may leave motions that no force resists, such as the rotation of a platform
 //! that hangs on one cable. Along such a neutral motion v the stiffness is zero, `H v = 0`, and every pose is
 //! an equilibrium. An eigenvalue that is zero to rounding is no proof, because a light platform on stiff
 //! cables has one, too. So the platform is moved along v by a finite screw motion, and the balance is looked
@@ -98,7 +98,8 @@ fn stays_balanced(
     force + moment / length <= BALANCED * forces(problem, &moved) + 10.0 * stiffness * points
 }
 
-/// What takes the place of resistance where nothing resists: held and neutral motions stay at rest.
+/// Artificial stiffness on constrained and zero-stiffness motions: the 6 x 6 system is regular and they do
+/// not move.
 pub(crate) struct Pins {
     freedoms: Freedoms,
     /// For each neutral motion: (dp, dφ), and the covector that reads it from a motion.

@@ -1,7 +1,7 @@
 //! Partial derivatives of the equations of equilibrium with respect to the robot's parameters, the load and
 //! the pose.
 //!
-//! Between held ends the force of a cable follows from its span, its length and its material. The catenary
+//! Between fixed ends the force of a cable follows from its span, its length and its material. The catenary
 //! `(h, z) = (x, z)(f, L, w, EA)` with the stiffness K3 in space (S3), `K = C⁻¹` in its plane, `w = ρ g`
 //! and `EA = E S` gives for the force F_i on the platform
 //!
@@ -97,8 +97,8 @@ impl Reading {
     }
 }
 
-/// Partial derivatives with respect to all [`Inputs`], with lengths or tensions held. The columns of the pose
-/// are those of the pose that the cables are at.
+/// Partial derivatives with respect to all [`Inputs`], with lengths or tensions constant. The columns of the
+/// pose are those of the pose that the cables are at.
 pub(crate) struct Partials {
     /// dG, equation (D4), 6 x count.
     pub(crate) balance: Matrix6xX<f64>,
@@ -152,7 +152,7 @@ impl Partials {
     }
 }
 
-/// Derivatives of the tensions of `cables` at `pose` with the lengths held, n x count: `u_i·dF_i`.
+/// Derivatives of the tensions of `cables` at `pose` with the lengths constant, n x count: `u_i·dF_i`.
 pub(crate) fn tensions(inputs: &Inputs, pose: &Pose, cables: &[CableDerivatives]) -> DMatrix<f64> {
     read(inputs, pose, cables, Reading::tension)
 }
@@ -172,7 +172,7 @@ pub(crate) fn read(
     readings
 }
 
-/// Gives `add(column, i, dF_i, ds_i)` for every input that cable i answers to, equations (D1)-(D3).
+/// Gives `add(column, i, dF_i, ds_i)` for every input that cable i responds to, equations (D1)-(D3).
 fn each_effect(
     inputs: &Inputs,
     pose: &Pose,

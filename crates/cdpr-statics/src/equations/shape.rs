@@ -61,8 +61,8 @@ impl DirectProblem<'_> {
             let level = forwards * point.x + across * point.y + Vector3::z() * point.z;
             exit + Vector3::from(to_base(self.robot.gravity.level(), level.into()))
         };
-        let beside = catenary.leave_beside();
-        let in_plane = |point: Vector2<f64>| Vector3::new(point.x, beside, point.y);
+        let sideways = catenary.leave_beside();
+        let in_plane = |point: Vector2<f64>| Vector3::new(point.x, sideways, point.y);
         let beyond = catenary.profile(free).into_iter().map(in_plane);
         Ok(CableShape {
             points: catenary.on_the_pulley(on_pulley).into_iter().chain(beyond).map(in_space).collect(),

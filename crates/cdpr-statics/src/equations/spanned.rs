@@ -1,4 +1,4 @@
-//! A cable of a robot between its two points, with the force it carries and how it answers.
+//! A cable of a robot between its two points, with the force it carries and how it responds.
 //!
 //! The mechanics of a cable are those of the level frame, whose z axis points against gravity. Where the base
 //! frame is tilted, spans are rotated into the level frame and forces back. Over a pulley with a tilted axis
@@ -12,7 +12,7 @@ mod stiffness;
 use crate::equations::cable::{CablePlane, LinearizedCable, Span, between};
 use crate::problem::DirectProblem;
 pub(crate) use alone::in_its_plane;
-use cdpr_cable::kernel::{Response, closure_of_limp, response};
+use cdpr_cable::kernel::{Response, closure_of_slack, response};
 use cdpr_cable::{Catenary, Guide, SpatialCable, SpatialResponse};
 use cdpr_number::Real;
 use cdpr_number::vector::{dot, wrench};
@@ -27,18 +27,18 @@ pub(crate) struct SpannedCable<'a, T> {
     pub(crate) span: Span<T>,
     /// (fx, fz) on the cable at A [N].
     pub(crate) force: [T; 2],
-    answer: Answer<T>,
+    response: EndResponse<T>,
     level: Option<&'a Matrix3<f64>>,
 }
 
-/// How the end of a cable answers to forces.
-enum Answer<T> {
+/// How the end of a cable responds to forces.
+enum EndResponse<T> {
     /// In its plane.
     Planar(Response<T>),
     /// Over a tilted axis, in the level frame.
     Spatial(Box<SpatialResponse>),
     /// A slack cable without weight has no shape: its length without tension [m], and its guide.
-    Limp(Box<(f64, Option<Guide>)>),
+    Slack(Box<(f64, Option<Guide>)>),
 }
 
 /// A vector of the level frame in the base frame.
@@ -64,28 +64,28 @@ fn turned<T: Real>(rotation: &Matrix3<f64>, v: [T; 3]) -> [T; 3] {
     [0, 1, 2].map(|row| dot(&[0, 1, 2].map(|column| T::of(rotation[(row, column)])), &v))
 }
 
-/// How a cable answers over the vector r [m] in the level frame; its span is that of the plane it hangs in.
+/// How a cable responds over the vector r [m] in the level frame; its span is that of the plane it hangs in.
 #[inline(always)]
-fn answer<T: Real>(
+fn end_response<T: Real>(
     catenary: &Catenary,
     span: Span<T>,
     r: [T; 3],
     response: impl FnOnce() -> Response<T>,
-) -> (Span<T>, Answer<T>) {
-    if catenary.is_limp() {
-        return (span, Answer::Limp(Box::new((catenary.length_at_rest(), catenary.cable.guide))));
+) -> (Span<T>, EndResponse<T>) {
+    if catenary.is_slack_and_weightless() {
+        return (span, EndResponse::Slack(Box::new((catenary.length_at_rest(), catenary.cable.guide))));
     }
     if catenary.cable.leaves_its_plane() {
         let azimuth = span.plane.azimuth.map(T::value);
         let (azimuth, response) = hanging(catenary, azimuth.into(), r.map(T::value).into());
         let plane = CablePlane { azimuth: <[f64; 2]>::from(azimuth).map(T::of) };
-        return (Span { end: plane.project(r), plane }, Answer::Spatial(Box::new(response)));
+        return (Span { end: plane.project(r), plane }, EndResponse::Spatial(Box::new(response)));
     }
-    (span, Answer::Planar(response()))
+    (span, EndResponse::Planar(response()))
 }
 
 /// Azimuth of the plane in which a cable over a tilted axis hangs to `end` [m] with its force, and how it
-/// answers there.
+/// responds there.
 #[cold]
 fn hanging(
     catenary: &Catenary,
@@ -103,9 +103,9 @@ fn hanging(
         // From forwards, to the left.
         (response, way, forwards.perp(&way))
     };
-    let (mut response, mut way, mut beside) = at(forwards);
+    let (mut response, mut way, mut sideways) = at(forwards);
     for _ in 0..MAX_ITERATIONS {
-        if beside.abs() <= ROUNDING * way.norm() {
+        if sideways.abs() <= ROUNDING * way.norm() {
             break;
         }
         // What a turn of the plane by an angle moves across it: nearly the distance from the leave point.
@@ -113,17 +113,17 @@ fn hanging(
         let swing = fx * (response.flexibility * across).dot(&across);
         let reach = forwards.dot(&(end - response.end).xy()) + swing;
         let towards = if forwards.dot(&way) > 0.0 && reach > 0.0 {
-            forwards + across.xy() * (beside / reach)
+            forwards + across.xy() * (sideways / reach)
         } else {
             way
         };
         let Some(next) = towards.try_normalize(0.0) else { break };
         let turned = at(next);
-        if turned.2.abs() >= beside.abs() {
+        if turned.2.abs() >= sideways.abs() {
             break;
         }
         forwards = next;
-        (response, way, beside) = turned;
+        (response, way, sideways) = turned;
     }
     (forwards, response)
 }
@@ -136,8 +136,8 @@ impl<'a> SpannedCable<'a, f64> {
         let level = robot.gravity.level();
         let r =
             to_level(level, between(&pose.position.into(), &anchor_arm, &robot.cables[i].exit_point.into()));
-        let (span, answer) = answer(catenary, Span::new(r), r, || catenary.response());
-        Self { anchor_arm, span, force: catenary.force.into(), answer, level }
+        let (span, response) = end_response(catenary, Span::new(r), r, || catenary.response());
+        Self { anchor_arm, span, force: catenary.force.into(), response, level }
     }
 }
 
@@ -165,8 +165,8 @@ impl<'a, T: Real> SpannedCable<'a, T> {
         };
         let exit_point = <[f64; 3]>::from(cable.exit_point).map(T::of);
         let r = to_level(level, between(&position, &anchor_arm, &exit_point));
-        let (span, answer) = answer(&catenary, Span::new(r), r, response);
-        Self { anchor_arm, span, force, answer, level }
+        let (span, response) = end_response(&catenary, Span::new(r), r, response);
+        Self { anchor_arm, span, force, response, level }
     }
 
     /// F_i [N], the force on the platform.
@@ -181,14 +181,14 @@ impl<'a, T: Real> SpannedCable<'a, T> {
         wrench(&self.anchor_arm, &self.force_on_platform())
     }
 
-    /// How its end answers to forces in the plane of its span; `None` for a slack cable without weight, and
+    /// How its end responds to forces in the plane of its span; `None` for a slack cable without weight, and
     /// for one over a tilted axis.
     #[inline(always)]
     pub(crate) fn response(&self) -> Option<&Response<T>> {
-        if let Answer::Planar(response) = &self.answer { Some(response) } else { None }
+        if let EndResponse::Planar(response) = &self.response { Some(response) } else { None }
     }
 
-    /// The cable linearised about its force, of a cable that stays in the plane of its span.
+    /// The cable linearized about its force, of a cable that stays in the plane of its span.
     #[inline(always)]
     pub(crate) fn planar(&self) -> Option<LinearizedCable<T>> {
         self.response().map(|response| LinearizedCable::new(&self.span, self.force, response))
@@ -197,17 +197,17 @@ impl<'a, T: Real> SpannedCable<'a, T> {
     /// Misclosure [m]: from the end of the cable to its anchor point.
     #[inline(always)]
     pub(crate) fn misclosure(&self) -> [T; 2] {
-        match &self.answer {
-            Answer::Planar(response) => self.span.misclosure(response.end),
-            Answer::Spatial(spatial) => {
+        match &self.response {
+            EndResponse::Planar(response) => self.span.misclosure(response.end),
+            EndResponse::Spatial(spatial) => {
                 let end = <[f64; 3]>::from(spatial.end).map(T::of);
                 self.span.misclosure(self.span.plane.project(end))
             }
-            Answer::Limp(limp) => match &**limp {
-                (rest, None) => closure_of_limp(self.span.end, T::of(*rest)),
+            EndResponse::Slack(slack) => match &**slack {
+                (rest, None) => closure_of_slack(self.span.end, T::of(*rest)),
                 (rest, Some(guide)) => {
                     let end = self.span.plane.lift(self.span.end).map(T::value);
-                    let open = guide.closure_of_limp(end.into(), *rest);
+                    let open = guide.closure_of_slack(end.into(), *rest);
                     self.span.plane.project(<[f64; 3]>::from(open).map(T::of))
                 }
             },

@@ -59,7 +59,7 @@ impl KnownOptimum {
         }
     }
 
-    /// The optimum of `problem` on the branch of this answer; `None` where the branch ends on the way.
+    /// The optimum of `problem` on the branch of this one; `None` where the branch ends on the way.
     pub(super) fn followed<'a>(&self, problem: &InverseProblem<'a>) -> Option<Optimum<'a>> {
         let mut iterations = 0;
         let mut passed = None;
@@ -137,7 +137,7 @@ impl KnownOptimum {
             *iterations += 1;
             let (step, multipliers) = point.newton()?;
             let relative =
-                point.cables.iter().zip(&step).map(|(cable, d)| d.abs() / cable.held.chord_force());
+                point.cables.iter().zip(&step).map(|(cable, d)| d.abs() / cable.fixed.chord_force());
             let change = relative.fold(0.0, f64::max);
             if change > greatest {
                 return (nearly && !point.compute_violated_limits()?).then_some(point);

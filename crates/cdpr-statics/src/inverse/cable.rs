@@ -1,7 +1,7 @@
 //! The cables of a robot whose platform is at a given pose, each with its chord force as its only unknown.
 
 use super::problem::InverseProblem;
-use crate::equations::{ABOVE_LEAST, Bounds, Ends, Held, wrench};
+use crate::equations::{ABOVE_LEAST, Bounds, Ends, FixedEnds, wrench};
 use crate::error::StaticsError;
 use cdpr_cable::CableError;
 use cdpr_robot::{Freedoms, TensionLimits, Vector3, Vector6};
@@ -10,7 +10,7 @@ use cdpr_tension::Bound;
 /// One cable between its two points, at one chord force.
 #[derive(Clone)]
 pub(super) struct CableAtPose<'a> {
-    pub(super) held: Held<'a>,
+    pub(super) fixed: FixedEnds<'a>,
     ends: Ends<'a>,
     lever_arm: Vector3<f64>,
     /// Limits of the tension [N]; the least includes what the span demands, once it has been computed.
@@ -33,7 +33,7 @@ impl<'a> CableAtPose<'a> {
             if tension < cable.floor {
                 cable.compute_limit(Bound::Min)?;
                 let lowest = cable.chord_forces[0].unwrap_or_default();
-                cable.held = cable.at(tension.max(lowest))?;
+                cable.fixed = cable.at(tension.max(lowest))?;
             }
             Ok(cable)
         };
@@ -50,7 +50,7 @@ impl<'a> CableAtPose<'a> {
         let mut cable = Self::with_floor(problem, i, |_| chord_force)?;
         if let Some(bound) = limit {
             cable.compute_limit(bound)?;
-            cable.held = cable.at(cable.chord_forces[bound as usize].unwrap_or(chord_force))?;
+            cable.fixed = cable.at(cable.chord_forces[bound as usize].unwrap_or(chord_force))?;
         }
         Ok(cable)
     }
@@ -65,7 +65,7 @@ impl<'a> CableAtPose<'a> {
         let limits = problem.limits[i];
         let floor = ends.floor().max(limits.min);
         Ok(Self {
-            held: ends.at_chord_force(chord_force(floor))?,
+            fixed: ends.at_chord_force(chord_force(floor))?,
             ends,
             lever_arm: problem.robot.anchor_arm(problem.pose, i),
             limits,
@@ -76,7 +76,8 @@ impl<'a> CableAtPose<'a> {
         })
     }
 
-    /// Wrench about P of a force on the platform, its moment divided by a characteristic length [m]; zero along held motions.
+    /// Wrench about P of a force on the platform, its moment divided by a characteristic length [m]; zero
+    /// along constrained motions.
     fn wrench(&self, force: [f64; 3], characteristic_length: f64) -> Vector6<f64> {
         let mut wrench = wrench(&self.lever_arm, &force.into());
         wrench.fixed_rows_mut::<3>(3).unscale_mut(characteristic_length);
@@ -84,19 +85,19 @@ impl<'a> CableAtPose<'a> {
     }
 
     /// Tension and wrench with their derivatives at a chord force.
-    pub(super) fn row(&self, held: &Held, characteristic_length: f64) -> Row {
+    pub(super) fn row(&self, fixed: &FixedEnds, characteristic_length: f64) -> Row {
         Row {
-            tension: held.tension(),
-            tension_slope: held.tension_slope(),
-            wrench: self.wrench(self.ends.force(held), characteristic_length),
-            slope: self.wrench(self.ends.force_slope(held), characteristic_length),
+            tension: fixed.tension(),
+            tension_slope: fixed.tension_slope(),
+            wrench: self.wrench(self.ends.force(fixed), characteristic_length),
+            slope: self.wrench(self.ends.force_slope(fixed), characteristic_length),
             reference: self.reference,
         }
     }
 
     /// Second derivative of the Lagrangian, h_i of (I3).
     pub(super) fn hessian(&self, row: &Row, multipliers: &Vector6<f64>, characteristic_length: f64) -> f64 {
-        let (force, tension) = self.ends.curvatures(&self.held);
+        let (force, tension) = self.ends.curvatures(&self.fixed);
         row.tension_slope * row.tension_slope
             + (row.tension - row.reference) * tension
             + multipliers.dot(&self.wrench(force, characteristic_length))
@@ -109,21 +110,22 @@ impl<'a> CableAtPose<'a> {
 
     /// y·w'' [1/N].
     pub(super) fn bend(&self, y: &Vector6<f64>, characteristic_length: f64) -> f64 {
-        y.dot(&self.wrench(self.ends.curvatures(&self.held).0, characteristic_length))
+        y.dot(&self.wrench(self.ends.curvatures(&self.fixed).0, characteristic_length))
     }
 
     /// d²t/dσ² [1/N].
     pub(super) fn tension_curvature(&self) -> f64 {
-        self.ends.curvatures(&self.held).1
+        self.ends.curvatures(&self.fixed).1
     }
 
-    /// Changes of the chord force [N] that lead to the limits; where a limit's chord force is not known, a change that does not pass it, because t(σ) is convex with a slope of at most one.
+    /// Changes of the chord force [N] that lead to the limits; where a limit's chord force is not known, a
+    /// change that does not pass it, because t(σ) is convex with a slope of at most one.
     pub(super) fn step_bounds(&self) -> [f64; 2] {
-        let t = self.held.tension();
+        let t = self.fixed.tension();
         let change = |bound: Bound, estimate: f64| {
-            self.chord_forces[bound as usize].map_or(estimate, |at| at - self.held.chord_force())
+            self.chord_forces[bound as usize].map_or(estimate, |at| at - self.fixed.chord_force())
         };
-        let low = change(Bound::Min, (self.floor - t) / self.held.tension_slope());
+        let low = change(Bound::Min, (self.floor - t) / self.fixed.tension_slope());
         [low, change(Bound::Max, self.limits.max - t).max(low)]
     }
 
@@ -138,10 +140,10 @@ impl<'a> CableAtPose<'a> {
     /// [`CableError::TensionTooSmall`] where the span demands more than the greatest tension.
     pub(super) fn compute_limit(&mut self, bound: Bound) -> Result<(), CableError> {
         if bound == Bound::Max {
-            self.chord_forces[1] = Some(self.held.with_tension(self.limits.max)?.chord_force());
+            self.chord_forces[1] = Some(self.fixed.with_tension(self.limits.max)?.chord_force());
             return Ok(());
         }
-        let mut nearby = self.held.clone();
+        let mut nearby = self.fixed.clone();
         if self.limits.min < self.floor {
             nearby = self.ends.at_least_tension()?;
             let least = nearby.tension();
@@ -160,17 +162,17 @@ impl<'a> CableAtPose<'a> {
         Ok(())
     }
 
-    /// The limit whose chord force is not known though the cable is beyond it, or may be: it is near its least
-    /// tension.
+    /// The limit whose chord force is not known though the cable is beyond it, or may be: it is near its
+    /// least tension.
     pub(super) fn unknown_limit(&self) -> Option<Bound> {
-        let t = self.held.tension();
+        let t = self.fixed.tension();
         let beyond = [t < self.floor, t > self.limits.max];
         Bound::BOTH.into_iter().find(|bound| beyond[*bound as usize] && !self.limit_known(*bound))
     }
 
     /// The limit that the chord force is at.
     pub(super) fn at_limit(&self) -> Option<Bound> {
-        let here = Some(self.held.chord_force());
+        let here = Some(self.fixed.chord_force());
         Bound::BOTH.into_iter().find(|bound| self.chord_forces[*bound as usize] == here)
     }
 
@@ -206,9 +208,9 @@ impl<'a> CableAtPose<'a> {
         let along = |cable: &Self, force: [f64; 3]| y.dot(&cable.wrench(force, characteristic_length));
         let mut before: Option<[f64; 3]> = None;
         let mut least = f64::INFINITY;
-        for held in self.grid()? {
-            let value = along(self, self.ends.force(&held));
-            let here = [held.chord_force(), value, along(self, self.ends.force_slope(&held))];
+        for fixed in self.grid()? {
+            let value = along(self, self.ends.force(&fixed));
+            let here = [fixed.chord_force(), value, along(self, self.ends.force_slope(&fixed))];
             least = least.min(value);
             if let Some(before) = before.replace(here) {
                 least = least.min(below_tangents(before, here));
@@ -227,28 +229,28 @@ impl<'a> CableAtPose<'a> {
         y: &Vector6<f64>,
         characteristic_length: f64,
     ) -> Result<(f64, (f64, f64)), CableError> {
-        let part = |cable: &Self, held: &Held| {
-            let beyond = held.tension() - cable.reference;
-            0.5 * beyond * beyond + y.dot(&cable.wrench(cable.ends.force(held), characteristic_length))
+        let part = |cable: &Self, fixed: &FixedEnds| {
+            let beyond = fixed.tension() - cable.reference;
+            0.5 * beyond * beyond + y.dot(&cable.wrench(cable.ends.force(fixed), characteristic_length))
         };
-        let here = part(self, &self.held);
+        let here = part(self, &self.fixed);
         Ok((here, self.least_of(part)?))
     }
 
     /// The tension within the limits, on a grid of chord forces, at which a function is least, and its value.
-    fn least_of(&mut self, function: impl Fn(&Self, &Held) -> f64) -> Result<(f64, f64), CableError> {
+    fn least_of(&mut self, function: impl Fn(&Self, &FixedEnds) -> f64) -> Result<(f64, f64), CableError> {
         let mut least = (f64::NAN, f64::INFINITY);
-        for held in self.grid()? {
-            let value = function(self, &held);
+        for fixed in self.grid()? {
+            let value = function(self, &fixed);
             if value < least.1 {
-                least = (held.tension(), value);
+                least = (fixed.tension(), value);
             }
         }
         Ok(least)
     }
 
     /// The cable at chord forces from limit to limit.
-    fn grid(&mut self) -> Result<Vec<Held<'a>>, CableError> {
+    fn grid(&mut self) -> Result<Vec<FixedEnds<'a>>, CableError> {
         const INTERVALS: u32 = 12;
         for bound in Bound::BOTH {
             if !self.limit_known(bound) {
@@ -256,23 +258,23 @@ impl<'a> CableAtPose<'a> {
             }
         }
         let [low, high] = self.chord_forces.map(Option::unwrap_or_default);
-        let mut held = self.at(low)?;
+        let mut fixed = self.at(low)?;
         let next = |k: u32| {
-            held = held.with_chord_force(low * (high / low).powf(f64::from(k) / f64::from(INTERVALS)))?;
-            Ok(held.clone())
+            fixed = fixed.with_chord_force(low * (high / low).powf(f64::from(k) / f64::from(INTERVALS)))?;
+            Ok(fixed.clone())
         };
         (0..=INTERVALS).map(next).collect()
     }
 
     /// The cable at another chord force [N].
-    pub(super) fn at(&self, chord_force: f64) -> Result<Held<'a>, CableError> {
+    pub(super) fn at(&self, chord_force: f64) -> Result<FixedEnds<'a>, CableError> {
         // A step to a limit ends exactly there.
         let reached = self.chord_forces.iter().flatten().find(|at| (*at - chord_force).abs() <= 1e-14 * *at);
         let chord_force = reached.copied().unwrap_or(chord_force);
-        if chord_force == self.held.chord_force() {
-            Ok(self.held.clone())
+        if chord_force == self.fixed.chord_force() {
+            Ok(self.fixed.clone())
         } else {
-            self.held.with_chord_force(chord_force)
+            self.fixed.with_chord_force(chord_force)
         }
     }
 }

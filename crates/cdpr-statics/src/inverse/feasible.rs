@@ -11,7 +11,7 @@
 //!
 //! from that start, from the reference, from the middle of the limits and from tensions spread over them,
 //! each cable's for itself: other optima mostly differ in one cable or two. From every point where the
-//! balance holds the optimum is searched again.
+//! wrench is balanced the optimum is searched again.
 //!
 //! An optimum is the least of all if the tension of each cable makes its part of the Lagrangian least,
 //!
@@ -123,7 +123,7 @@ pub(super) fn refused<'a>(
 }
 
 /// Whether tensions within the limits that hold the pose are found from those of straight cables alone.
-pub(super) fn holds(problem: &InverseProblem) -> Result<bool, StaticsError> {
+pub(super) fn has_tensions(problem: &InverseProblem) -> Result<bool, StaticsError> {
     if let Some(tensions) = problem.closed_form()
         && Point::new(problem, &tensions)?.balance(CLEAR_GAIN)
     {
@@ -189,7 +189,7 @@ impl<'a> Point<'a> {
                 .cables
                 .iter()
                 .map(|cable| {
-                    damping * (1.0 + largest / cable.held.chord_force()).powi(2)
+                    damping * (1.0 + largest / cable.fixed.chord_force()).powi(2)
                         + cable.bend(&open, self.characteristic_length).max(0.0)
                 })
                 .collect();
@@ -250,7 +250,7 @@ impl<'a> Point<'a> {
 
     /// Whether a cable has more than this slackness.
     fn sags(&self, slackness: f64) -> bool {
-        self.cables.iter().any(|cable| cable.held.slackness() > slackness)
+        self.cables.iter().any(|cable| cable.fixed.slackness() > slackness)
     }
 
     /// Moves an optimum to better ones as long as (I11) leads to them. Returns whether (I11) proves the last
@@ -297,7 +297,7 @@ impl<'a> Point<'a> {
             }
         }
         Ok(changed.map(|(i, tension)| {
-            let mut tensions: Vec<f64> = self.cables.iter().map(|cable| cable.held.tension()).collect();
+            let mut tensions: Vec<f64> = self.cables.iter().map(|cable| cable.fixed.tension()).collect();
             tensions[i] = tension;
             tensions
         }))

@@ -23,7 +23,7 @@ mod straight;
 mod unique;
 
 use super::problem::InverseProblem;
-use super::{HeldPose, inverse_at, refuse_offsets};
+use super::{PoseLengths, inverse_at, refuse_offsets};
 use crate::error::StaticsError;
 use crate::out_of_limits::out_of_limits;
 use crate::problem::DirectProblem;
@@ -63,8 +63,8 @@ use sound::{Loops, longest};
 /// - [`StaticsError::FreeCoordinates`] where the free coordinates are not m - n.
 /// - [`StaticsError::NoRest`] where no such solution was found; it says what the nearest one lacks.
 /// - [`StaticsError::NotUnique`] where infinitely many lengths or tensions hold the platform.
-/// - [`StaticsError::Invalid`] for a coordinate that is named twice or held, for a pose or load that is not
-///   finite, and for offsets of tension set-points.
+/// - [`StaticsError::Invalid`] for a coordinate that is named twice or constrained, for a pose or load that
+///   is not finite, and for offsets of tension set-points.
 pub fn free_solutions<'a>(
     robot: &Robot,
     wanted: impl Into<WantedPose<'a>>,
@@ -89,7 +89,7 @@ fn solutions(robot: &Robot, wanted: &WantedPose, load: &Load) -> Result<FreeSolu
     Ok(found)
 }
 
-/// As many coordinates are free as cables are missing, each of them once and none that is held.
+/// As many coordinates are free as cables are missing, each of them once and none that is constrained.
 fn check_free(robot: &Robot, free: &[Coordinate]) -> Result<(), StaticsError> {
     let (cables, freedoms) = (robot.cables.len(), robot.freedoms());
     if free.len() != freedoms.count().saturating_sub(cables) {
@@ -101,7 +101,7 @@ fn check_free(robot: &Robot, free: &[Coordinate]) -> Result<(), StaticsError> {
             return Err(refused("each coordinate once"));
         }
         if !freedoms.contains(coordinate.component()) {
-            return Err(refused("a coordinate that is not held"));
+            return Err(refused("a coordinate that is not constrained"));
         }
     }
     Ok(())
@@ -109,23 +109,23 @@ fn check_free(robot: &Robot, free: &[Coordinate]) -> Result<(), StaticsError> {
 
 /// A stable solution nearer to the given pose than this, in radians and relative to the longest span, is
 /// taken for the nearest.
-pub(crate) const BESIDE: f64 = 0.03;
+pub(crate) const NEXT_TO_POSE: f64 = 0.03;
 
 /// What a solution next to given coordinates decides.
-enum Beside {
+enum Nearby {
     /// It is sound, taut, stable and so close that no other needs to be looked for.
-    Answer(Box<FreeSolution>),
+    Solution(Box<FreeSolution>),
     /// It is as close, but out of limits, a loop, below the ground or unstable.
     Refused(StaticsError),
     /// Nothing: it is far away, or a cable of it is paid out far.
     Open,
 }
 
-impl Beside {
-    /// The answer; `None` where nothing is decided.
-    fn answer(self) -> Result<Option<FreeSolution>, StaticsError> {
+impl Nearby {
+    /// The solution; `None` where nothing is decided.
+    fn solution(self) -> Result<Option<FreeSolution>, StaticsError> {
         match self {
-            Self::Answer(found) => Ok(Some(*found)),
+            Self::Solution(found) => Ok(Some(*found)),
             Self::Refused(error) => Err(error),
             Self::Open => Ok(None),
         }
@@ -133,42 +133,42 @@ impl Beside {
 }
 
 impl Search<'_> {
-    /// The solution that the search leads to from the given coordinates, if it is an answer.
-    fn beside(&self) -> Result<Option<FreeSolution>, StaticsError> {
+    /// The solution that the search leads to from the given coordinates, if it is one to return.
+    fn near_pose(&self) -> Result<Option<FreeSolution>, StaticsError> {
         let changes = vec![0.0; self.free.len()];
         let chord_forces = self.straight_forces(&changes);
         let Outcome::Found(point, unknowns, iterations) = self.descend(Unknowns { changes, chord_forces })
         else {
             return Ok(None);
         };
-        let Beside::Answer(found) = self.decided(point, iterations, BESIDE)? else { return Ok(None) };
+        let Nearby::Solution(found) = self.decided(point, iterations, NEXT_TO_POSE)? else { return Ok(None) };
         self.check_unique(&unknowns)?;
         Ok(Some(*found))
     }
 
     /// What a solution decides that is no farther than `reach` from the given coordinates.
-    fn decided(&self, point: Point, iterations: usize, reach: f64) -> Result<Beside, StaticsError> {
+    fn decided(&self, point: Point, iterations: usize, reach: f64) -> Result<Nearby, StaticsError> {
         let InverseProblem { robot, pose, load, .. } = self.problem;
-        if self.distance(pose, &point.held.equilibrium.pose) > reach {
-            return Ok(Beside::Open);
+        if self.distance(pose, &point.found.equilibrium.pose) > reach {
+            return Ok(Nearby::Open);
         }
-        if let Some(nearest) = Loops::Refused.fault(robot, &point.held) {
-            return Ok(Beside::Refused(StaticsError::NoRest { starts: 1, nearest }));
+        if let Some(nearest) = Loops::Refused.fault(robot, &point.found) {
+            return Ok(Nearby::Refused(StaticsError::NoRest { starts: 1, nearest }));
         }
-        let HeldPose { lengths, equilibrium } = point.held;
+        let PoseLengths { lengths, equilibrium } = point.found;
         let is_taut =
             longest(robot, &lengths, &equilibrium).is_some_and(|(_, chords)| chords <= LONGEST_TAUT);
         let is_within = out_of_limits(robot, &lengths, &[&equilibrium]).is_empty();
         if !(is_taut && is_within) {
-            return Ok(Beside::Open);
+            return Ok(Nearby::Open);
         }
         let found = FreeSolution::new(robot, load, lengths, equilibrium, iterations)?;
         if found.stability.is_stable() {
-            return Ok(Beside::Answer(Box::new(found)));
+            return Ok(Nearby::Solution(Box::new(found)));
         }
         let least_stiffness = found.stability.least_stiffness();
         let pose = Box::new(found.equilibrium.pose);
-        Ok(Beside::Refused(StaticsError::Unstable { pose, least_stiffness }))
+        Ok(Nearby::Refused(StaticsError::Unstable { pose, least_stiffness }))
     }
 }
 
@@ -179,7 +179,7 @@ impl Search<'_> {
 /// Those of [`free_solutions`].
 pub(crate) fn rest(robot: &Robot, wanted: &WantedPose, load: &Load) -> Result<FreeSolution, StaticsError> {
     check_free(robot, wanted.free)?;
-    let found = match Search::new(robot, &wanted.pose, load, wanted.free)?.beside()? {
+    let found = match Search::new(robot, &wanted.pose, load, wanted.free)?.near_pose()? {
         Some(found) => found,
         None => solutions(robot, wanted, load)?.first,
     };
@@ -191,11 +191,15 @@ pub(crate) fn rest(robot: &Robot, wanted: &WantedPose, load: &Load) -> Result<Fr
 ///
 /// # Errors
 /// Those of [`crate::inverse`].
-pub(crate) fn held_at(robot: &Robot, wanted: &WantedPose, load: &Load) -> Result<HeldPose, StaticsError> {
+pub(crate) fn lengths_at(
+    robot: &Robot,
+    wanted: &WantedPose,
+    load: &Load,
+) -> Result<PoseLengths, StaticsError> {
     if wanted.free.is_empty() {
         let found = inverse_at(robot, &wanted.pose, load, wanted.tension_reference)?;
-        return Ok(HeldPose { lengths: found.lengths, equilibrium: found.equilibrium });
+        return Ok(PoseLengths { lengths: found.lengths, equilibrium: found.equilibrium });
     }
     let FreeSolution { lengths, equilibrium, .. } = rest(robot, wanted, load)?;
-    Ok(HeldPose { lengths, equilibrium })
+    Ok(PoseLengths { lengths, equilibrium })
 }

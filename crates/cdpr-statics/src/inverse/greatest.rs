@@ -23,7 +23,7 @@
 //! limits that it rests on give Newton's method its equations (Fletcher and Sainz de la Maza, *Nonlinear
 //! programming and nonsmooth optimization by successive linear programming*, Math. Programming 43, 1989).
 
-use super::HeldPose;
+use super::PoseLengths;
 use super::limits::strain_limit;
 use super::maximization::{Aim, Maximization, Maximum};
 use super::problem::InverseProblem;
@@ -67,20 +67,20 @@ pub struct Blocking {
 }
 
 /// The greatest mass [kg] at the platform's centre of mass that tensions within the limits hold at a wanted
-/// pose, or at each of many, together with the `wrench` [N, N m] about P. A reference of the tensions does not
-/// act.
+/// pose, or at each of many, together with the `wrench` [N, N m] about P. A reference of the tensions does
+/// not act.
 ///
-/// It is zero or more. Where the platform is held with a mass only, not by its own weight, it is that mass or
-/// more.
+/// It is zero or more. Where the platform is in balance with a mass only, not by its own weight, it is at
+/// least that mass.
 ///
 /// # Errors
-/// Those of [`crate::inverse`]; [`StaticsError::NoTensions`] where no mass is held; [`StaticsError::Invalid`]
-/// for free coordinates, which leave no choice of the tensions.
+/// Those of [`crate::inverse`]; [`StaticsError::NoTensions`] where no mass is in balance;
+/// [`StaticsError::Invalid`] for free coordinates, which leave no choice of the tensions.
 pub fn greatest_payload<W: Wanted>(
     robot: &Robot,
     wanted: W,
     wrench: &Wrench,
-) -> W::Answers<Result<Greatest, StaticsError>> {
+) -> W::Results<Result<Greatest, StaticsError>> {
     one_by_one(wanted, |wanted| payload_at(robot, &whole(*wanted)?.pose, wrench))
 }
 
@@ -123,7 +123,7 @@ pub fn tension_margin<W: Wanted>(
     robot: &Robot,
     wanted: W,
     load: &Load,
-) -> W::Answers<Result<Greatest, StaticsError>> {
+) -> W::Results<Result<Greatest, StaticsError>> {
     one_by_one(wanted, |wanted| margin_at(robot, &whole(*wanted)?.pose, load))
 }
 
@@ -178,7 +178,7 @@ impl<'a> Bounded<'a> {
         Ok(Self { problem, strained })
     }
 
-    /// The refusal of a pose that is held only by tensions that strain a cable too much says so.
+    /// Where all tensions that hold a pose strain a cable too much, the refusal says so.
     fn reason(&self, refusal: StaticsError) -> StaticsError {
         let InverseProblem { robot, pose, load, .. } = self.problem;
         if !self.strained.contains(&true) {
@@ -198,9 +198,9 @@ impl<'a> Bounded<'a> {
         drawn: Option<&[TensionLimits]>,
     ) -> Result<Greatest, StaticsError> {
         let Maximum { ref point, iterations, .. } = found;
-        let HeldPose { lengths, equilibrium } = HeldPose::new(
+        let PoseLengths { lengths, equilibrium } = PoseLengths::new(
             self.problem.pose,
-            &point.cables.iter().map(|s| s.held.catenary()).collect::<Vec<_>>(),
+            &point.cables.iter().map(|s| s.fixed.catenary()).collect::<Vec<_>>(),
         );
         let direct = DirectProblem::new(self.problem.robot, &lengths, load)?;
         direct.check_strains(&equilibrium)?;

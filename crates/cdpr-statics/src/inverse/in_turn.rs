@@ -1,4 +1,4 @@
-//! The inverse model at poses that follow each other, most of which other means answer.
+//! The inverse model at poses that follow each other, most of which are solved by other means.
 //!
 //! Where the last pose had no tensions, the next one is likely to have none, and the tensions that came
 //! nearest to a balance there are near the least residual here.
@@ -24,8 +24,8 @@ impl<'a> InTurn<'a> {
         Self { robot, load, nearest: None }
     }
 
-    /// The answer of [`crate::inverse`] at the next pose.
-    pub(crate) fn answer(&mut self, pose: &Pose) -> Result<InverseSolution, StaticsError> {
+    /// The result of [`crate::inverse`] at the next pose.
+    pub(crate) fn solve(&mut self, pose: &Pose) -> Result<InverseSolution, StaticsError> {
         match self.refusal(pose) {
             Some(refusal) => Err(refusal),
             None => self.solution(pose),
@@ -41,14 +41,14 @@ impl<'a> InTurn<'a> {
         Some(refusal)
     }
 
-    /// The answer of [`crate::inverse`] at a pose that is not refused.
+    /// The result of [`crate::inverse`] at a pose that is not refused.
     pub(crate) fn solution(&mut self, pose: &Pose) -> Result<InverseSolution, StaticsError> {
         self.nearest = None;
         inverse_at(self.robot, pose, self.load, None).inspect_err(|refusal| self.keep(refusal))
     }
 
-    /// The last pose is held, found by other means.
-    pub(crate) fn held(&mut self) {
+    /// The last pose has a solution, found by other means.
+    pub(crate) fn solved_elsewhere(&mut self) {
         self.nearest = None;
     }
 

@@ -20,7 +20,7 @@ use cdpr_robot::{CableEnd, Pose, Robot, TensionLimits};
 pub fn limits_at<W: Wanted>(
     robot: &Robot,
     wanted: W,
-) -> W::Answers<Result<Vec<TensionLimits>, StaticsError>> {
+) -> W::Results<Result<Vec<TensionLimits>, StaticsError>> {
     one_by_one(wanted, |wanted| platform_limits(robot, &pose_alone(*wanted)?))
 }
 

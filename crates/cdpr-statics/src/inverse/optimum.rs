@@ -17,7 +17,7 @@ mod free_cables;
 
 use super::cable::{CableAtPose, Row};
 use super::problem::InverseProblem;
-use crate::equations::Held;
+use crate::equations::FixedEnds;
 use crate::error::StaticsError;
 use cdpr_cable::Catenary;
 use cdpr_robot::Vector6;
@@ -64,7 +64,8 @@ const LEAST_CURVATURE: f64 = 0.01;
 pub(super) const ROUNDING: f64 = 1e-14;
 pub(crate) const NEARLY_ROUNDING: f64 = 1e-11;
 
-/// Steps near the optimum that gain nothing, before one holds the balance exactly; next to rounding it is one.
+/// Steps near the optimum that gain nothing, before one keeps the balance exactly; next to rounding it is
+/// one.
 const MOST_STALLED: usize = 3;
 
 /// A residual above this, relative to wrench and tensions, is far above what elastic equations leave.
@@ -79,7 +80,8 @@ impl<'a> Point<'a> {
 
     /// The cables as they are, without multipliers.
     pub(super) fn of(problem: &InverseProblem<'a>, cables: Vec<CableAtPose<'a>>) -> Self {
-        let rows = cables.iter().map(|cable| cable.row(&cable.held, problem.characteristic_length)).collect();
+        let rows =
+            cables.iter().map(|cable| cable.row(&cable.fixed, problem.characteristic_length)).collect();
         Self {
             cables,
             rows,
@@ -115,28 +117,28 @@ impl<'a> Point<'a> {
 
     /// Moves every cable by a change of its chord force, within its limits. `None` where a cable cannot be
     /// closed.
-    pub(super) fn moved(&self, step: &[f64]) -> Option<Vec<Held<'a>>> {
+    pub(super) fn moved(&self, step: &[f64]) -> Option<Vec<FixedEnds<'a>>> {
         let moved = self.cables.iter().zip(step).map(|(cable, d)| {
-            let to = cable.held.chord_force() + d;
+            let to = cable.fixed.chord_force() + d;
             // A step to first order towards a limit does not leave the taut branch.
-            cable.at(to.max(0.1 * cable.held.chord_force())).ok()
+            cable.at(to.max(0.1 * cable.fixed.chord_force())).ok()
         });
         moved.collect()
     }
 
     /// The rows of the cables as they would be.
-    pub(super) fn rows_of(&self, moved: &[Held<'a>]) -> Vec<Row> {
+    pub(super) fn rows_of(&self, moved: &[FixedEnds<'a>]) -> Vec<Row> {
         self.cables
             .iter()
             .zip(moved)
-            .map(|(cable, held)| cable.row(held, self.characteristic_length))
+            .map(|(cable, fixed)| cable.row(fixed, self.characteristic_length))
             .collect()
     }
 
     /// Moves the cables, whose rows are those of [`Point::rows_of`].
-    pub(super) fn set(&mut self, moved: Vec<Held<'a>>, rows: Vec<Row>) {
-        for (cable, held) in self.cables.iter_mut().zip(moved) {
-            cable.held = held;
+    pub(super) fn set(&mut self, moved: Vec<FixedEnds<'a>>, rows: Vec<Row>) {
+        for (cable, fixed) in self.cables.iter_mut().zip(moved) {
+            cable.fixed = fixed;
         }
         self.rows = rows;
     }
@@ -333,16 +335,16 @@ impl<'a> Point<'a> {
         each.map(|(cable, row)| cable.hessian(row, &self.multipliers, self.characteristic_length)).collect()
     }
 
-    /// The answer at an optimum.
+    /// The solution at an optimum.
     pub(super) fn optimum(&self) -> Optimum<'a> {
         let mut multipliers = self.multipliers;
         multipliers.fixed_rows_mut::<3>(3).unscale_mut(self.characteristic_length);
         let tension = |cable: &CableAtPose| {
-            cable.at_limit().map_or_else(|| cable.held.tension(), |bound| cable.limit(bound))
+            cable.at_limit().map_or_else(|| cable.fixed.tension(), |bound| cable.limit(bound))
         };
         Optimum {
-            catenaries: self.cables.iter().map(|cable| cable.held.catenary()).collect(),
-            chord_forces: self.cables.iter().map(|cable| cable.held.chord_force()).collect(),
+            catenaries: self.cables.iter().map(|cable| cable.fixed.catenary()).collect(),
+            chord_forces: self.cables.iter().map(|cable| cable.fixed.chord_force()).collect(),
             tensions: self.cables.iter().map(tension).collect(),
             active: self.cables.iter().map(CableAtPose::at_limit).collect(),
             multipliers,

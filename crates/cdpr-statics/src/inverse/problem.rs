@@ -19,7 +19,7 @@ pub(super) struct InverseProblem<'a> {
     /// The length [m] that makes moments comparable with forces: of the platform, or of a cable where the
     /// platform is a point.
     pub(super) characteristic_length: f64,
-    /// w_ex, moments divided by the characteristic length [N]; zero along held motions.
+    /// w_ex, moments divided by the characteristic length [N]; zero along constrained motions.
     pub(super) external: Vector6<f64>,
 }
 

@@ -76,7 +76,7 @@ impl InverseProblem<'_> {
                 let residue = residual / (balance.wrench.norm() + tensions.iter().sum::<f64>());
                 StraightStart { tensions, value: None, residue, certificate: Some(direction) }
             }
-            // A start is no answer: without one from Clarabel the search begins at the reference.
+            // A start is not a solution: without one from Clarabel the search begins at the reference.
             Err(_) => {
                 let tensions = self.within_limits(&self.reference);
                 StraightStart { tensions, value: None, residue: 0.0, certificate: None }

@@ -12,7 +12,7 @@ pub(crate) fn refuse_offsets(wanted: WantedPose) -> Result<WantedPose, StaticsEr
     match wanted.tension_offsets {
         [] => Ok(wanted),
         given => {
-            let expected = "none here: deflections, their derivatives and `wound_lengths` take them";
+            let expected = "none here: deflections, their derivatives and `set_point_lengths` take them";
             Err(StaticsError::invalid(
                 "tension_offsets".to_owned(),
                 format!("a list of {}", given.len()),

@@ -20,24 +20,23 @@
 //!
 //! The number of parameters does not matter: each cable is evaluated once more at each of its four states.
 
-mod answer;
 mod cable;
+mod response;
 mod tensions;
 
 use crate::equations::LinearizedCable;
-use crate::lanes::adjoint::answer::Answer;
 pub(crate) use crate::lanes::adjoint::cable::GuideSlopes;
 use crate::lanes::adjoint::cable::{CableSlopes, torque};
+use crate::lanes::adjoint::response::CableResponse;
 use crate::lanes::chain::Trace;
 use crate::lanes::chain::shared::Shared;
 use crate::local::load::PlatformLoad;
 use crate::local::platform::{LinearizedPlatform, Robots};
-use crate::local::skew::{Skew, SkewCable};
-use cdpr_number::Number;
+use crate::local::skew::{Skew, SkewCable, refine};
 use cdpr_number::dense::{Lanes3, Lanes6, halves};
-use cdpr_number::lanes::{Lanes, Mask, Simd, WithSimd};
-use cdpr_number::three;
+use cdpr_number::lanes::{Lanes, Mask, Simd};
 use cdpr_number::vector::{cross, dot};
+use cdpr_number::{Number, apart, three};
 
 /// A deflection below this share of the longest cable has no direction, as in `derivatives`.
 const NO_DEFLECTION: f64 = 1e-12;
@@ -82,31 +81,16 @@ pub(crate) struct CableAdjoint<S: Simd> {
     pub(crate) guide: GuideSlopes<S>,
 }
 
-/// Derivatives of |dp| for the robots of `record`; the frame of each is its rotation matrix, by columns.
-#[inline(always)]
-pub(crate) fn adjoint<S: Simd>(
-    record: &Record<'_, S>,
-    displacement: &Lanes3<S>,
-    payload: &PlatformLoad<S>,
-    shared: &Shared,
-) -> Option<Adjoint<S>> {
-    payload.weight.apart(OfRecord { record, displacement, payload, shared })
-}
-
-/// Observations and maps share one function for each vector unit.
-struct OfRecord<'r, 'a, S: Simd> {
-    record: &'r Record<'a, S>,
-    displacement: &'r Lanes3<S>,
-    payload: &'r PlatformLoad<S>,
-    shared: &'r Shared,
-}
-
-impl<S: Simd> WithSimd for OfRecord<'_, '_, S> {
-    type Output = Option<Adjoint<S>>;
-
+apart! {
+    /// Derivatives of |dp| for the robots of `record`; the frame of each is its rotation matrix, by columns.
     #[inline(always)]
-    fn with_simd<Same: Simd>(self, _: Same) -> Option<Adjoint<S>> {
-        adjoint_of(self.record, self.displacement, self.payload, self.shared)
+    on(payload.weight) pub(crate) fn adjoint<'r, 'a, S: Simd>(
+        record: &'r Record<'a, S>,
+        displacement: &'r Lanes3<S>,
+        payload: &'r PlatformLoad<S>,
+        shared: &'r Shared,
+    ) -> Option<Adjoint<S>> {
+        adjoint_of(record, displacement, payload, shared)
     }
 }
 
@@ -150,7 +134,7 @@ fn adjoint_of<S: Simd>(
     // From here on the slopes by the set-points.
     for ((cable, found_cable), slope) in placed.cables.iter().zip(&mut found.cables).zip(&mut lengths) {
         let span = cable.span(&placed.position);
-        let (slopes, per_tension) = Answer::of(cable).of_length(&span.plane, *slope);
+        let (slopes, per_tension) = CableResponse::of(cable).of_length(&span.plane, *slope);
         *slope = per_tension;
         found_cable.add(&slopes, &placed.frame, &slopes.span);
         let r = three!(|k| placed.position[k] + cable.anchor_arm[k] - cable.exit_point[k]);
@@ -167,14 +151,14 @@ fn transposed_skew<S: Simd>(
     robots: &Robots<'_, S>,
     load: &PlatformLoad<S>,
     platform: &LinearizedPlatform<S>,
-    answers: &[Answer<Lanes<S>>],
+    responses: &[CableResponse<Lanes<S>>],
 ) -> Skew<S> {
     let mut skew = Skew { freedoms: robots.freedoms, moment: None, guided: Vec::new() };
     if let Some([x, y, z]) = load.moment {
         skew.moment = Some([-x, -y, -z]);
     }
-    for ((cable, linearized), answer) in robots.cables.iter().zip(&platform.cables).zip(answers) {
-        if let Some(stiffness) = answer.skew_stiffness() {
+    for ((cable, linearized), response) in robots.cables.iter().zip(&platform.cables).zip(responses) {
+        if let Some(stiffness) = response.skew_stiffness() {
             let (arm, plane) = (cable.anchor_arm, linearized.plane);
             skew.guided.push(SkewCable { arm, plane, stiffness });
         }
@@ -238,26 +222,26 @@ impl<S: Simd> Adjoint<S> {
         let zero = load.weight.all(0.0);
         let all = zero.less_or_equal(zero);
         let mut platform = LinearizedPlatform::new(zero, robots.cables.len());
-        let mut answers = Vec::with_capacity(robots.cables.len());
+        let mut responses = Vec::with_capacity(robots.cables.len());
         for (cable, linearized) in robots.cables.iter().zip(&mut platform.cables) {
             let span = cable.span(&robots.position);
-            let answer = Answer::of(cable);
-            *linearized = LinearizedCable::new(&span, cable.force, &answer.response);
-            answers.push(answer);
+            let response = CableResponse::of(cable);
+            *linearized = LinearizedCable::new(&span, cable.force, &response.response);
+            responses.push(response);
         }
         robots.assemble(load, &mut platform, all);
         let right = [motion[0], motion[1], motion[2], zero, zero, zero];
         let mut twist = platform.factored.solve(&right);
-        let skew = transposed_skew(robots, load, &platform, &answers);
+        let skew = transposed_skew(robots, load, &platform, &responses);
         if skew.moment.is_some() || !skew.guided.is_empty() {
-            self.decided = self.decided & skew.refine(&platform.factored, &right, &mut twist, arm);
+            self.decided = self.decided & refine(&skew, &platform.factored, &right, &mut twist, arm);
         }
         let (moved, turned) = halves(&twist);
-        let cables = robots.cables.iter().zip(&platform.cables).zip(&answers).zip(&mut self.cables);
-        for ((((cable, linearized), answer), found), length) in cables.zip(lengths) {
+        let cables = robots.cables.iter().zip(&platform.cables).zip(&responses).zip(&mut self.cables);
+        for ((((cable, linearized), response), found), length) in cables.zip(lengths) {
             let swung = cross(&turned, &cable.anchor_arm);
             let twisted = three!(|k| moved[k] + swung[k]);
-            let (slopes, per_length) = answer.at_length(linearized, &twisted);
+            let (slopes, per_length) = response.at_length(linearized, &twisted);
             *length += per_length;
             let force = linearized.plane.lift(cable.force);
             // -y_r·(ds x f)

@@ -11,15 +11,16 @@ pub(crate) mod shared;
 pub(crate) mod tensions;
 
 use crate::lanes::chain::free::{FreeMotion, rest};
-use crate::lanes::chain::lengths::FindLengths;
+use crate::lanes::chain::lengths::find_lengths;
 use crate::lanes::chain::shared::Shared;
 use crate::lanes::chain::tensions::{CableTension, Distribute, Distributed};
-use crate::local::freedoms::hold;
+use crate::local::freedoms::constrain;
 use crate::local::load::PlatformLoad;
+use crate::local::newton::solve;
 use crate::local::platform::{LaneResidual, LinearizedPlatform, Robots};
 use cdpr_number::dense::{Lanes3, Lanes6};
-use cdpr_number::lanes::{Lanes, MAX_LANES, Mask, Simd, WithSimd};
-use cdpr_number::{six, three};
+use cdpr_number::lanes::{Lanes, MAX_LANES, Mask, Simd};
+use cdpr_number::{apart, six, three};
 use smallvec::SmallVec;
 
 /// Robots at their wanted pose.
@@ -89,7 +90,7 @@ impl<S: Simd> Failures<S> {
     }
 }
 
-/// The answer for every robot.
+/// The outcome for every robot.
 pub(crate) struct Outcome<S: Simd> {
     pub(crate) failures: Failures<S>,
     /// dp [m].
@@ -108,30 +109,16 @@ pub(crate) struct Trace<'a, S: Simd> {
     pub(crate) states: Vec<Robots<'a, S>>,
 }
 
-/// Observes every robot: its displacement under the load, with the lengths that give the offset tensions at
-/// the wanted pose; `traced` with its states. All observers share one function for each vector unit.
-#[inline(always)]
-pub(crate) fn observe<'b, 'a, S: Simd>(
-    begin: &'b mut ChainStart<'a, S>,
-    shared: &'b Shared,
-    traced: bool,
-) -> (Outcome<S>, Trace<'a, S>) {
-    let simd = begin.robots.weight;
-    simd.apart(Chain { begin, shared, traced })
-}
-
-struct Chain<'b, 'a, S: Simd> {
-    begin: &'b mut ChainStart<'a, S>,
-    shared: &'b Shared,
-    traced: bool,
-}
-
-impl<'a, S: Simd> WithSimd for Chain<'_, 'a, S> {
-    type Output = (Outcome<S>, Trace<'a, S>);
-
+apart! {
+    /// Observes every robot: its displacement under the load, with the lengths that give the offset tensions
+    /// at the wanted pose; `traced` with its states.
     #[inline(always)]
-    fn with_simd<Same: Simd>(self, _: Same) -> Self::Output {
-        chain(self.begin, self.shared, self.traced)
+    on(begin.robots.weight) pub(crate) fn observe<'b, 'a, S: Simd>(
+        begin: &'b mut ChainStart<'a, S>,
+        shared: &'b Shared,
+        traced: bool,
+    ) -> (Outcome<S>, Trace<'a, S>) {
+        chain(begin, shared, traced)
     }
 }
 
@@ -166,14 +153,7 @@ fn chain<'a, S: Simd>(
         *demanded = found.demanded;
     }
     let mut platform = LinearizedPlatform::new(zero, spans.len());
-    let held = zero.apart(FindLengths {
-        robots,
-        platform: &mut platform,
-        set_points,
-        spans: &spans,
-        demanded: &demanded,
-        shared,
-    });
+    let with_lengths = find_lengths(robots, &mut platform, set_points, (&spans, &demanded), shared);
     let mut states = Vec::new();
     let mut keep = |robots: &Robots<'a, S>| {
         if traced {
@@ -184,24 +164,25 @@ fn chain<'a, S: Simd>(
 
     let own = PlatformLoad::weight(robots.weight);
     robots.assemble(&own, &mut platform, zero.less_or_equal(zero));
-    let (standing, unloaded) = robots.solve(&own, &mut platform, &shared.scale, converged & sound & held);
+    let (standing, unloaded) =
+        solve(robots, &own, &mut platform, &shared.scale, converged & sound & with_lengths);
     let (stood, stiffness) = (robots.position, platform.factored);
     let frame = robots.frame.clone();
     keep(robots);
 
     let load = payload.on(own.weight);
     // The first step follows the linearization at hand.
-    let added = hold(freedoms, payload.wrench(&robots.center));
+    let added = constrain(freedoms, payload.wrench(&robots.center));
     platform.gradient = six!(|k| platform.gradient[k] - added[k]);
-    let (answered, loaded) = robots.solve(&load, &mut platform, &shared.scale, standing);
-    let answered = robots.on_branch(&load, &platform, &stiffness, &shared.scale, answered);
+    let (standing_loaded, loaded) = solve(robots, &load, &mut platform, &shared.scale, standing);
+    let standing_loaded = robots.on_branch(&load, &platform, &stiffness, &shared.scale, standing_loaded);
     keep(robots);
     let mut failures = Failures::none(zero);
     failures.add(Stage::Tensions, converged);
     failures.add(Stage::Limits, sound);
-    failures.add(Stage::Lengths, held);
+    failures.add(Stage::Lengths, with_lengths);
     failures.add(Stage::Unloaded, standing);
-    failures.add(Stage::Loaded, answered);
+    failures.add(Stage::Loaded, standing_loaded);
     // Eq. (4)
     let displacement = three!(|k| robots.position[k] - stood[k]);
     let frames = [frame, robots.frame.clone()];

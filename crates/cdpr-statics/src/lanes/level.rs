@@ -1,7 +1,7 @@
 //! Gravity of the robots in the lanes, and the level frame of each, whose z axis points against it.
 //!
 //! The equations in lanes are those of a level base. Robots with gravity in another direction are rotated at
-//! the border: their points, pose and load into the level frame of their lane, and the answer back. The
+//! the border: their points, pose and load into the level frame of their lane, and the result back. The
 //! rotation is that of [`cdpr_robot::Gravity::level`].
 
 use cdpr_number::Number;

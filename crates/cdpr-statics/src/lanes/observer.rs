@@ -1,9 +1,10 @@
 //! Deflections of a robot with deviations of its parameters, many at a time.
 //!
 //! Robots with cables that are linear or have an elastic law, taut or sagging, at their limits or not, behind
-//! leads and over pulleys or without, are observed in the lanes of the vector unit (`lanes/chain.rs`), each from the tensions of the nominal robot, and with fewer cables than free motions
-//! also from its free coordinates (`lanes/chain/free.rs`). Any other robot is observed by the scalar models,
-//! which decide on every failure.
+//! leads and over pulleys or without, are observed in the lanes of the vector unit (`lanes/chain.rs`), each
+//! from the tensions of the nominal robot, and with fewer cables than free motions also from its free
+//! coordinates (`lanes/chain/free.rs`). Any other robot is observed by the scalar models, which decide on
+//! every failure.
 //!
 //! Where the sum of squares of the inverse model has several local minima, a perturbed robot is observed in
 //! the one that it shares with the nominal robot, as long as it exists. [`deflection`] of the same robot may
@@ -14,14 +15,12 @@ pub(crate) mod rows;
 mod slopes;
 
 use crate::error::StaticsError;
-use crate::inverse::{Branch, FreeBranch, HeldPose, InverseSolution, refuse_offsets, require_smooth};
+use crate::inverse::{Branch, FreeBranch, InverseSolution, PoseLengths, refuse_offsets, require_smooth};
 use crate::lanes::chain::{Outcome, Stage, observe};
 use crate::lanes::level::LevelFrame;
 use crate::lanes::observer::rows::{Nominal, Rows};
 use crate::lanes::reason::ScalarReason;
-use crate::loading::{
-    Deflection, deflection, deflection_beside, deflection_near, wind, wind_near, wind_rest,
-};
+use crate::loading::{Deflection, SetPointLengths, deflection_from, lengths_at_rest};
 use crate::state::{Load, Residual, WantedPose};
 use cdpr_number::lanes::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
 use cdpr_number::three;
@@ -29,6 +28,7 @@ use cdpr_robot::{Deviations, ParameterLayout, Perturbed, Pose, Robot, Vector3, V
 pub use motions::ObservationMotion;
 pub use slopes::ObservationSlopes;
 use std::array::from_fn;
+use std::marker::PhantomData;
 
 /// The deflection of one perturbed robot.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -76,7 +76,7 @@ pub trait Observed: Sized {
 
 impl Observed for Observation {
     fn in_lanes(batch: Batch) -> Vec<Result<Self, ScalarReason>> {
-        dispatch(batch)
+        dispatch(BatchOf(batch, PhantomData))
     }
 
     fn by_scalar_models(
@@ -103,7 +103,7 @@ pub struct Observer<'a> {
 /// The inverse model of the nominal robot, from which that of a deviating one is found.
 #[derive(Clone, Debug)]
 enum Wanted {
-    /// At a whole pose; `None` where it has no answer.
+    /// At a whole pose; `None` where it has no solution.
     Pose(Option<Branch>),
     /// Where it rests with free coordinates.
     Rest(FreeBranch),
@@ -137,7 +137,7 @@ impl<'a> Observer<'a> {
             require_smooth(robot)?;
             let (solution, branch) = Branch::of(robot, &pose).ok().unzip();
             let solution = solution.map(|InverseSolution { lengths, equilibrium, multipliers, .. }| {
-                (HeldPose { lengths, equilibrium }, multipliers)
+                (PoseLengths { lengths, equilibrium }, multipliers)
             });
             (pose, Wanted::Pose(branch), solution)
         } else {
@@ -162,7 +162,7 @@ impl<'a> Observer<'a> {
 
     /// Observes a robot for each row of a table, whose deviations are added to the parameters.
     ///
-    /// An answer depends on its own row alone, to the last digit, and agrees with
+    /// A result depends on its own row alone, to the last digit, and agrees with
     /// [`Observer::observe_one_by_one`] to rounding, but for one row in 10^4 of random robots: where a robot
     /// has several minima of its tensions, the scalar models take the one next to the nominal robot's, and
     /// this may take another, mostly the least of all, as [`deflection`] does (docs/VALIDATION.md).
@@ -193,28 +193,41 @@ impl<'a> Observer<'a> {
     /// # Errors
     /// [`StaticsError`] says why this robot has no deflection.
     pub fn deflection(&self, perturbed: &Perturbed) -> Result<Deflection, StaticsError> {
-        let (robot, offsets) = (&perturbed.robot, &perturbed.tension_offsets);
-        match &self.wanted {
-            Wanted::Pose(Some(branch)) => deflection_near(branch, robot, &self.pose, offsets, &self.load),
-            Wanted::Pose(None) => {
-                deflection(robot, WantedPose::at(&self.pose).tension_offsets(offsets), &self.load)
-            }
-            Wanted::Rest(branch) => deflection_beside(branch, robot, offsets, &self.load),
-        }
+        let Perturbed { robot, tension_offsets } = perturbed;
+        let PoseLengths { lengths, equilibrium } = match &self.wanted {
+            Wanted::Pose(branch) => self.lengths_at_pose(branch.as_ref(), robot, tension_offsets)?,
+            Wanted::Rest(branch) => lengths_at_rest(robot, tension_offsets, branch.nearby(robot)?)?.1,
+        };
+        deflection_from(robot, lengths, &self.load, &equilibrium)
     }
 
     /// Unstrained lengths [m] of the robot itself at the wanted pose, with `tension_offsets` [N] added to its
-    /// set-points, as [`crate::wound_lengths`] has them.
+    /// set-points, as [`crate::set_point_lengths`] has them.
     ///
     /// # Errors
     /// Those of the inverse model.
-    pub fn wound_lengths(&self, tension_offsets: &[f64]) -> Result<Vec<f64>, StaticsError> {
-        let robot = self.robot;
-        Ok(match &self.wanted {
-            Wanted::Pose(Some(branch)) => wind_near(branch, robot, &self.pose, tension_offsets)?.lengths,
-            Wanted::Pose(None) => wind(robot, &WantedPose::at(&self.pose), tension_offsets)?.lengths,
-            Wanted::Rest(branch) => wind_rest(robot, tension_offsets, branch.rest().clone())?.1.lengths,
-        })
+    pub fn set_point_lengths(&self, tension_offsets: &[f64]) -> Result<Vec<f64>, StaticsError> {
+        let found = match &self.wanted {
+            Wanted::Pose(branch) => self.lengths_at_pose(branch.as_ref(), self.robot, tension_offsets)?,
+            Wanted::Rest(branch) => lengths_at_rest(self.robot, tension_offsets, branch.rest().clone())?.1,
+        };
+        Ok(found.lengths)
+    }
+
+    /// The lengths for the set-points of a robot that deviates from this one, at the whole wanted pose.
+    fn lengths_at_pose(
+        &self,
+        branch: Option<&Branch>,
+        robot: &Robot,
+        tension_offsets: &[f64],
+    ) -> Result<PoseLengths, StaticsError> {
+        let found = match branch {
+            Some(branch) => {
+                SetPointLengths::from(robot, &self.pose, tension_offsets, branch.nearby(robot, &self.pose)?)
+            }
+            None => SetPointLengths::new(robot, &WantedPose::at(&self.pose), tension_offsets),
+        };
+        Ok(found?.into())
     }
 }
 
@@ -224,48 +237,81 @@ pub struct Batch<'a> {
     deviations: &'a [f64],
 }
 
-impl WithSimd for Batch<'_> {
-    type Output = Vec<Result<Observation, ScalarReason>>;
+/// What lanes observe at once, whichever axes their pulleys have.
+trait InLanes: Copy {
+    /// Whether it needs the platform frames.
+    const WITH_FRAMES: bool;
+
+    /// The observation in each lane, or why it was left.
+    fn read<S: Simd>(outcome: &Outcome<S>, of: &InRows<'_, S>) -> [Result<Self, ScalarReason>; MAX_LANES];
+}
+
+/// The robots whose outcome is read: their level frames, where these are not the base frame, and the lanes
+/// whose parameters are valid, and whose axes are upright.
+struct InRows<'a, S: Simd> {
+    level: Option<&'a LevelFrame<S>>,
+    valid: [Mask<S>; 2],
+    nominal: &'a Nominal,
+}
+
+/// A batch of which `T` is observed.
+struct BatchOf<'a, T>(Batch<'a>, PhantomData<T>);
+
+impl<T: InLanes> WithSimd for BatchOf<'_, T> {
+    type Output = Vec<Result<T, ScalarReason>>;
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
-        let Observer { robot, pose, load, layout, nominal, .. } = self.observer;
+        let Batch { observer: Observer { robot, pose, load, layout, nominal, .. }, deviations } = self.0;
         let parameters = layout.count();
-        let rows = self.deviations.len() / parameters;
+        let count = deviations.len() / parameters;
         let nominal = match nominal {
             Ok(nominal) => nominal,
-            Err(why) => return vec![Err(*why); rows],
+            Err(why) => return vec![Err(*why); count],
         };
-        let mut found = Vec::with_capacity(rows);
-        for rows in self.deviations.chunks(Lanes::<S>::COUNT * parameters) {
+        let mut found = Vec::with_capacity(count);
+        for rows in deviations.chunks(Lanes::<S>::COUNT * parameters) {
             let count = rows.len() / parameters;
             let rows = Rows::new(simd, rows, layout);
-            let mut answers = Answers::none();
+            let mut observed = ByAxes::none();
             for axes in nominal.axes() {
                 let (mut start, level, valid) = rows.robots(robot, pose, load, nominal, *axes);
                 if valid[1].any() {
+                    if T::WITH_FRAMES {
+                        start.robots.frame.extend(rows.frame(pose, level.as_ref()));
+                    }
                     let (outcome, _) = observe(&mut start, &nominal.shared, false);
-                    answers.assign(valid[1], read(&outcome, level.as_ref(), valid, nominal));
+                    let of = InRows { level: level.as_ref(), valid, nominal };
+                    observed.assign(valid[1], T::read(&outcome, &of));
                 }
-                if answers.are_complete() {
+                if observed.are_complete() {
                     break;
                 }
             }
-            found.extend(answers.take(count));
+            found.extend(observed.take(count));
         }
         found
     }
 }
 
-/// Answers in lanes that are evaluated one kind of axes after the other.
-struct Answers<T>([Option<Result<T, ScalarReason>>; MAX_LANES]);
+impl InLanes for Observation {
+    const WITH_FRAMES: bool = false;
 
-impl<T: Copy> Answers<T> {
+    #[inline(always)]
+    fn read<S: Simd>(outcome: &Outcome<S>, of: &InRows<'_, S>) -> [Result<Self, ScalarReason>; MAX_LANES] {
+        read(outcome, of)
+    }
+}
+
+/// Observations in lanes that are evaluated one kind of axes after the other.
+struct ByAxes<T>([Option<Result<T, ScalarReason>>; MAX_LANES]);
+
+impl<T: Copy> ByAxes<T> {
     fn none() -> Self {
         Self([None; MAX_LANES])
     }
 
-    /// Assigns the answers of the lanes that have these axes and no answer yet.
+    /// Assigns those of the lanes that have these axes and none yet.
     #[inline(always)]
     #[allow(clippy::needless_range_loop)]
     fn assign<S: Simd>(&mut self, own: Mask<S>, found: [Result<T, ScalarReason>; MAX_LANES]) {
@@ -290,14 +336,11 @@ impl<T: Copy> Answers<T> {
     }
 }
 
-/// The observation in each lane, or why it was left; the parameters of robots are `sound`, and their axes
-/// `upright`.
+/// The observation in each lane, or why it was left.
 #[inline(always)]
 fn read<S: Simd>(
     outcome: &Outcome<S>,
-    level: Option<&LevelFrame<S>>,
-    [sound, upright]: [Mask<S>; 2],
-    nominal: &Nominal,
+    &InRows { level, valid: [sound, upright], nominal }: &InRows<'_, S>,
 ) -> [Result<Observation, ScalarReason>; MAX_LANES] {
     let mut failures = outcome.failures;
     failures.add(Stage::Parameters, sound);

@@ -1,12 +1,12 @@
 //! The inverse model at many poses of one robot, one pose in each lane.
 //!
-//! The scalar model answers the first poses until one is held. Those after it come in blocks of [`BLOCK`],
-//! cut into [`SEQUENCES`] sequences, and the lanes go along them together: each pose starts from the last
-//! answer of its own sequence, with the horizontal forces and multipliers of its cables, and each sequence
-//! from the nearest end of one of the block before. What a lane does not decide, and what is not proved to be
-//! the least of all minima where cables sag, is left to the scalar model. After a pose without tensions the
-//! next one is first asked for a proof that it has none, from the tensions that came nearest there. No answer
-//! depends on the vector unit, because no sequence of a block knows another.
+//! The scalar model solves the first poses until one has tensions. Those after it come in blocks of
+//! [`BLOCK`], cut into [`SEQUENCES`] sequences, and the lanes go along them together: each pose starts from
+//! the last solution of its own sequence, with the horizontal forces and multipliers of its cables, and each
+//! sequence from the nearest end of one of the block before. What a lane does not decide, and what is not
+//! proved to be the least of all minima where cables sag, is left to the scalar model. After a pose without
+//! tensions the next one is first asked for a proof that it has none, from the tensions that came nearest
+//! there. No result depends on the vector unit, because no sequence of a block knows another.
 
 mod in_lanes;
 mod loaded;
@@ -18,7 +18,7 @@ use crate::error::StaticsError;
 #[cfg(doc)]
 use crate::inverse::free_solutions;
 use crate::inverse::{InTurn, InverseSolution, inverse_at, refuse_offsets, rest};
-use crate::lanes::poses::in_lanes::{Answer, Asked, InLanes, Near, Setting};
+use crate::lanes::poses::in_lanes::{Asked, InLanes, LaneSolution, Near, Setting};
 use crate::lanes::poses::placed::PlacedRobot;
 use crate::local::cable::Shape;
 use crate::problem::DirectProblem;
@@ -47,9 +47,10 @@ const STATIONARY: f64 = 1e-10;
 /// pose is taken without a search for others, else the first one of [`free_solutions`].
 ///
 /// **Many poses** should follow each other closely, as along the lines of a grid: robots with a cable for
-/// each free motion are then answered in the lanes of the vector unit, each pose from the one before it, and all others one by one. An answer found in lanes counts no
+/// each free motion are then solved in the lanes of the vector unit, each pose from the one before it, and
+/// all others one by one. A result found in lanes counts no
 /// iterations. It depends on the poses before it in the same call, in the last digits; it does not depend on
-/// the vector unit. Where (I1) has several minima, the answer to one pose is the best that several starts
+/// the vector unit. Where (I1) has several minima, the result at one pose is the best that several starts
 /// lead to; one in lanes with a cable that sags is proved to be the least of all on a grid of its tensions.
 ///
 /// ```
@@ -69,7 +70,7 @@ const STATIONARY: f64 = 1e-10;
 ///
 /// # Errors
 /// - [`StaticsError::NoTensions`] where no tensions within the limits were found that hold the pose.
-/// - [`StaticsError::Overstrained`] where the tensions strain a cable by more than the models hold for.
+/// - [`StaticsError::Overstrained`] where the tensions strain a cable by more than the models are valid for.
 /// - [`StaticsError::ExitLimit`] where the limits of a cable contradict each other at this pose.
 /// - [`StaticsError::Cable`] where a cable's own weight demands more than the greatest tension.
 /// - [`StaticsError::Invalid`] for a pose, load or reference that is not finite, a reference of another
@@ -82,7 +83,7 @@ pub fn inverse<W: Wanted>(
     robot: &Robot,
     wanted: W,
     load: &Load,
-) -> W::Answers<Result<InverseSolution, StaticsError>> {
+) -> W::Results<Result<InverseSolution, StaticsError>> {
     let one = |wanted: &WantedPose| {
         let wanted = refuse_offsets(*wanted)?;
         if wanted.free.is_empty() {
@@ -90,7 +91,7 @@ pub fn inverse<W: Wanted>(
         }
         rest(robot, &wanted, load).map(InverseSolution::from)
     };
-    wanted.answers(one, |poses| inverse_all(robot, poses, load))
+    wanted.results(one, |poses| inverse_all(robot, poses, load))
 }
 
 /// The inverse model at poses that follow each other.
@@ -102,7 +103,7 @@ fn inverse_all(robot: &Robot, poses: &[Pose], load: &Load) -> Vec<Result<Inverse
         }
         None => {
             let mut scalar = InTurn::new(robot, load);
-            poses.iter().map(|pose| scalar.answer(pose)).collect()
+            poses.iter().map(|pose| scalar.solve(pose)).collect()
         }
     }
 }
@@ -112,7 +113,7 @@ struct Sequence<'a> {
     poses: &'a [Pose],
     near: Near,
     scalar: InTurn<'a>,
-    answers: Vec<Result<InverseSolution, StaticsError>>,
+    results: Vec<Result<InverseSolution, StaticsError>>,
 }
 
 impl<'a> Setting<'a> {
@@ -123,16 +124,16 @@ impl<'a> Setting<'a> {
         Some(Self { placed, load, shared })
     }
 
-    /// Answers a block from the `ends` of the sequences before it, and leaves its own there.
+    /// Solves a block from the `ends` of the sequences before it, and leaves its own there.
     fn block(&self, poses: &'a [Pose], ends: &mut Vec<Near>) -> Vec<Result<InverseSolution, StaticsError>> {
-        let mut answers = Vec::with_capacity(poses.len());
+        let mut results = Vec::with_capacity(poses.len());
         let mut scalar = InTurn::new(self.placed.robot, self.load);
-        while let (true, Some(pose)) = (ends.is_empty(), poses.get(answers.len())) {
-            let answer = scalar.answer(pose);
-            ends.extend(answer.as_ref().ok().map(|solution| self.near(pose, solution)));
-            answers.push(answer);
+        while let (true, Some(pose)) = (ends.is_empty(), poses.get(results.len())) {
+            let result = scalar.solve(pose);
+            ends.extend(result.as_ref().ok().map(|solution| self.near(pose, solution)));
+            results.push(result);
         }
-        let rest = &poses[answers.len()..];
+        let rest = &poses[results.len()..];
         let length = rest.len().div_ceil(SEQUENCES).max(1);
         let sequence = |poses: &'a [Pose]| {
             let first = poses.first()?.position;
@@ -140,7 +141,7 @@ impl<'a> Setting<'a> {
             // The last one of several.
             let near = ends.iter().rev().min_by(|one, other| way(one).total_cmp(&way(other)))?.clone();
             let scalar = InTurn::new(self.placed.robot, self.load);
-            Some(Sequence { poses, near, scalar, answers: Vec::with_capacity(length) })
+            Some(Sequence { poses, near, scalar, results: Vec::with_capacity(length) })
         };
         let mut sequences: Vec<_> = rest.chunks(length).filter_map(sequence).collect();
         for k in 0..length {
@@ -149,20 +150,20 @@ impl<'a> Setting<'a> {
         if !sequences.is_empty() {
             ends.clear();
         }
-        for Sequence { near, answers: found, .. } in sequences {
+        for Sequence { near, results: found, .. } in sequences {
             ends.push(near);
-            answers.extend(found);
+            results.extend(found);
         }
-        answers
+        results
     }
 
-    /// Answers pose number `k` of every sequence; the last sequence may be shorter.
+    /// Solves pose number `k` of every sequence; the last sequence may be shorter.
     fn next(&self, sequences: &mut [Sequence], k: usize) {
         let mut open = Vec::with_capacity(sequences.len());
         for sequence in sequences {
             let Some(pose) = sequence.poses.get(k) else { continue };
             match sequence.scalar.refusal(pose) {
-                Some(refusal) => sequence.answers.push(Err(refusal)),
+                Some(refusal) => sequence.results.push(Err(refusal)),
                 None => open.push((pose, sequence)),
             }
         }
@@ -170,9 +171,9 @@ impl<'a> Setting<'a> {
             open.iter().map(|(pose, sequence)| Asked { pose, near: &sequence.near }).collect();
         let found = dispatch(Batch { setting: self, asked: &asked });
         for ((pose, sequence), found) in open.into_iter().zip(found) {
-            let answer = match found {
+            let result = match found {
                 Some((solution, near)) => {
-                    sequence.scalar.held();
+                    sequence.scalar.solved_elsewhere();
                     sequence.near = near;
                     Ok(solution)
                 }
@@ -180,26 +181,26 @@ impl<'a> Setting<'a> {
                     sequence.near = self.near(pose, solution);
                 }),
             };
-            sequence.answers.push(answer);
+            sequence.results.push(result);
         }
     }
 
-    /// The answer of a lane, if its equations hold to rounding.
-    fn solution(&self, pose: &Pose, answer: &Answer) -> Option<InverseSolution> {
-        let lengths = answer.cables.iter().map(|cable| cable.length).collect::<Vec<_>>();
-        let cable_forces = answer.cables.iter().map(|cable| cable.force).collect();
+    /// The result of a lane, if its equations are solved to rounding.
+    fn solution(&self, pose: &Pose, result: &LaneSolution) -> Option<InverseSolution> {
+        let lengths = result.cables.iter().map(|cable| cable.length).collect::<Vec<_>>();
+        let cable_forces = result.cables.iter().map(|cable| cable.force).collect();
         let equilibrium = Equilibrium { pose: *pose, cable_forces };
         let problem = DirectProblem::new(self.placed.robot, &lengths, self.load).ok()?;
         let residual = Residual::of(&problem, &equilibrium);
-        let tensions: Vec<f64> = answer.cables.iter().map(|cable| cable.tension).collect();
-        let stationarity = answer.cables.iter().map(|cable| cable.stationarity).fold(0.0, f64::max);
-        let holds = problem.check_strains(&equilibrium).is_ok()
+        let tensions: Vec<f64> = result.cables.iter().map(|cable| cable.tension).collect();
+        let stationarity = result.cables.iter().map(|cable| cable.stationarity).fold(0.0, f64::max);
+        let is_solved = problem.check_strains(&equilibrium).is_ok()
             && residual.is_rounding(&problem, &equilibrium)
             && stationarity <= STATIONARY * tensions.iter().sum::<f64>();
-        holds.then(|| InverseSolution {
+        is_solved.then(|| InverseSolution {
             tensions,
-            active: answer.cables.iter().map(|cable| cable.active).collect(),
-            multipliers: self.placed.both(PlacedRobot::to_base, &answer.multipliers),
+            active: result.cables.iter().map(|cable| cable.active).collect(),
+            multipliers: self.placed.both(PlacedRobot::to_base, &result.multipliers),
             iterations: 0,
             stationarity,
             residual,
@@ -208,7 +209,7 @@ impl<'a> Setting<'a> {
         })
     }
 
-    /// What an answer of the scalar model is for the next pose.
+    /// What a result of the scalar model is for the next pose.
     fn near(&self, pose: &Pose, solution: &InverseSolution) -> Near {
         let robot = self.placed.robot;
         let shape = |i: usize| Shape::of(robot, i, solution.lengths[i], &solution.equilibrium);
@@ -231,12 +232,12 @@ impl WithSimd for Batch<'_> {
     fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
         let mut found = Vec::with_capacity(self.asked.len());
         for asked in self.asked.chunks(Lanes::<S>::COUNT) {
-            let answers = InLanes { simd, setting: self.setting, asked }.answers();
-            found.extend(answers.into_iter().zip(asked).map(|(answer, Asked { pose, .. })| {
-                let answer = answer?;
-                let shapes = answer.cables.iter().map(|cable| cable.shape).collect();
-                let near = Near { position: pose.position, shapes, multipliers: answer.multipliers };
-                Some((self.setting.solution(pose, &answer)?, near))
+            let results = InLanes { simd, setting: self.setting, asked }.solutions();
+            found.extend(results.into_iter().zip(asked).map(|(result, Asked { pose, .. })| {
+                let result = result?;
+                let shapes = result.cables.iter().map(|cable| cable.shape).collect();
+                let near = Near { position: pose.position, shapes, multipliers: result.multipliers };
+                Some((self.setting.solution(pose, &result)?, near))
             }));
         }
         found

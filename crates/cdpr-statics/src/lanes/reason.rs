@@ -32,9 +32,9 @@ pub enum ScalarReason {
     /// No stable equilibrium with the load was found that is close to what the unloaded one predicts, so
     /// that the platform may fall while the load is raised.
     Loaded,
-    /// Derivatives were asked for that lanes do not have: with free coordinates, over tilted axes, where those by some
-    /// parameter may differ on its two sides or do not exist, and where a tension is at its greatest value at
-    /// the leave point of a pulley.
+    /// Derivatives were asked for that lanes do not have: with free coordinates, over tilted axes, where
+    /// those by some parameter may differ on its two sides or do not exist, and where a tension is at its
+    /// greatest value at the leave point of a pulley.
     Derivatives,
 }
 
@@ -91,7 +91,7 @@ impl ScalarReason {
 
     /// Why all robots like this one are left to the scalar models, if they are.
     pub(crate) fn of_all(robot: &Robot, free: &[Coordinate]) -> Option<Self> {
-        // The level frame, which deviates with gravity, holds other motions than the base frame.
+        // The level frame, which deviates with gravity, constrains other motions than the base frame.
         let inclined = robot.plane.is_some() && robot.gravity.is_vector();
         // Nothing resists the rotation about a single cable.
         let enough = robot.is_fully_actuated() || (robot.cables.len() > 1 && !free.is_empty());

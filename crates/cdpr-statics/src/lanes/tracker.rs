@@ -2,14 +2,15 @@
 
 use crate::direct::{DirectSolution, DirectStart, direct, follow_change};
 use crate::error::StaticsError;
+use crate::local::newton::solve;
 use crate::local::one_robot::fits_lanes;
 use crate::local::platform::Robots;
-use crate::problem::DirectProblem;
+use crate::problem::{DirectProblem, Unstable};
 use crate::state::{Equilibrium, Load, Residual};
 use cdpr_number::lanes::{Lanes, Simd, WithSimd, dispatch};
 use cdpr_robot::Robot;
 
-/// Follows the stable equilibrium of a robot while its cables are wound and its load changes.
+/// Follows the stable equilibrium of a robot while its lengths and its load change.
 ///
 /// ```
 /// use cdpr_robot::{Pose, Robot};
@@ -68,9 +69,9 @@ impl<'a> Tracker<'a> {
     /// change in proportion.
     ///
     /// Nothing is allocated where Newton's method ends near its prediction, at a stable equilibrium without
-    /// folded cables and without guides (up to 32 cables with AVX-512, 16 with AVX2). Otherwise the change is made in steps,
-    /// and where these strain a cable too much on the way or do not end, [`direct`] searches near the current
-    /// equilibrium.
+    /// folded cables and without guides (up to 32 cables with AVX-512, 16 with AVX2). Otherwise the change is
+    /// made in steps, and where these strain a cable too much on the way or do not end, [`direct`] searches
+    /// near the current equilibrium.
     ///
     /// # Errors
     /// [`StaticsError::BranchEnds`] where the platform falls on the way, and those of [`direct`]; the
@@ -118,6 +119,7 @@ impl WithSimd for Update<'_, '_> {
                 lengths: &tracker.lengths,
                 load: tracker.load,
                 length_of_rotations: None,
+                unstable: Unstable::Left,
             };
             match follow(simd, problem, &before, &tracker.equilibrium) {
                 Some(found) => found,
@@ -142,7 +144,7 @@ fn follow<'a, S: Simd>(
     let everywhere = zero.less_or_equal(zero);
     let (mut robots, mut platform, load) = problem.linearized(simd, now);
     let scale = problem.scale(now);
-    let (found, left) = robots.solve(&load, &mut platform, &scale, everywhere);
+    let (found, left) = solve(&mut robots, &load, &mut platform, &scale, everywhere);
     if !found.any() {
         return None;
     }

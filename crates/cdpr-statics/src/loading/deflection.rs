@@ -7,10 +7,8 @@
 use crate::direct::{DirectSolution, DirectStart, follow_load};
 use crate::equations::FORCES;
 use crate::error::StaticsError;
-use crate::inverse::{
-    Branch, FreeBranch, HeldPose, InverseSolution, held_at, inverse_at, lengths_for_tensions, limits_at,
-};
-use crate::problem::DirectProblem;
+use crate::inverse::{InverseSolution, PoseLengths, inverse_at, lengths_at, lengths_for_tensions, limits_at};
+use crate::problem::{DirectProblem, Unstable};
 use crate::state::{Equilibrium, Load, Wanted, WantedPose, one_by_one, rounding_of_closure};
 use cdpr_robot::{Pose, Robot, TensionLimits, Vector3, Vector6, Wrench};
 use cdpr_tension::offset;
@@ -70,8 +68,8 @@ impl Deflection {
     }
 }
 
-/// Cables wound for a pose with offset tension set-points.
-pub(crate) struct Wound {
+/// The lengths for the tension set-points of a whole pose.
+pub(crate) struct SetPointLengths {
     /// The inverse model under the platform's own weight.
     pub(crate) wanted: InverseSolution,
     /// Limits of the tensions at the platform.
@@ -81,7 +79,7 @@ pub(crate) struct Wound {
     /// The lengths that give these tensions at the pose [m].
     pub(crate) lengths: Vec<f64>,
     /// The pose with the cables' forces; not in balance unless all offsets are zero.
-    pub(crate) held: Equilibrium,
+    pub(crate) equilibrium: Equilibrium,
 }
 
 /// Deflection under `load` at a wanted pose or at each of many.
@@ -95,69 +93,40 @@ pub fn deflection<W: Wanted>(
     robot: &Robot,
     wanted: W,
     load: &Load,
-) -> W::Answers<Result<Deflection, StaticsError>> {
+) -> W::Results<Result<Deflection, StaticsError>> {
     one_by_one(wanted, |wanted| {
-        let HeldPose { lengths, equilibrium } = set_lengths(robot, wanted)?;
+        let PoseLengths { lengths, equilibrium } = set_lengths(robot, wanted)?;
         deflection_from(robot, lengths, load, &equilibrium)
     })
 }
 
-/// [`deflection`] of a robot that differs a little from the one whose inverse model is known.
-///
-/// # Errors
-/// Those of [`deflection`].
-pub(crate) fn deflection_near(
-    branch: &Branch,
-    robot: &Robot,
-    pose: &Pose,
-    tension_offsets: &[f64],
-    load: &Load,
-) -> Result<Deflection, StaticsError> {
-    let Wound { lengths, held, .. } = wind_near(branch, robot, pose, tension_offsets)?;
-    deflection_from(robot, lengths, load, &held)
-}
-
-/// [`deflection`] with free coordinates of a robot that differs a little from the one whose rest is known.
-///
-/// # Errors
-/// Those of [`deflection`].
-pub(crate) fn deflection_beside(
-    branch: &FreeBranch,
-    robot: &Robot,
-    tension_offsets: &[f64],
-    load: &Load,
-) -> Result<Deflection, StaticsError> {
-    let (_, HeldPose { lengths, equilibrium }) = wind_rest(robot, tension_offsets, branch.nearby(robot)?)?;
-    deflection_from(robot, lengths, load, &equilibrium)
-}
-
 /// The rest of a platform with free coordinates, without and with the offsets of tension set-points.
-pub(crate) fn wind_free(
+pub(crate) fn lengths_with_free(
     robot: &Robot,
     wanted: &WantedPose,
     tension_offsets: &[f64],
-) -> Result<(HeldPose, HeldPose), StaticsError> {
-    wind_rest(robot, tension_offsets, held_at(robot, wanted, &Load::none())?)
+) -> Result<(PoseLengths, PoseLengths), StaticsError> {
+    lengths_at_rest(robot, tension_offsets, lengths_at(robot, wanted, &Load::none())?)
 }
 
 /// A rest without and with the offsets of tension set-points.
-pub(crate) fn wind_rest(
+pub(crate) fn lengths_at_rest(
     robot: &Robot,
     tension_offsets: &[f64],
-    held: HeldPose,
-) -> Result<(HeldPose, HeldPose), StaticsError> {
+    rest: PoseLengths,
+) -> Result<(PoseLengths, PoseLengths), StaticsError> {
     check_offsets(robot, tension_offsets)?;
     if tension_offsets.iter().all(|offset| *offset == 0.0) {
-        return Ok((held.clone(), held));
+        return Ok((rest.clone(), rest));
     }
-    let rest = held.equilibrium.pose;
-    let limits = limits_at(robot, &rest)?;
-    let set_points = offset(&held.equilibrium.tensions(), tension_offsets, &limits);
-    let wound = lengths_for_tensions(robot, &rest, &set_points)?;
-    Ok((held, wound))
+    let pose = rest.equilibrium.pose;
+    let limits = limits_at(robot, &pose)?;
+    let set_points = offset(&rest.equilibrium.tensions(), tension_offsets, &limits);
+    let with_offsets = lengths_for_tensions(robot, &pose, &set_points)?;
+    Ok((rest, with_offsets))
 }
 
-/// Unstrained lengths [m] that give offset tension set-points while the platform is held at a wanted pose,
+/// Unstrained lengths [m] that give offset tension set-points while the platform is fixed at a wanted pose,
 /// or, with free coordinates, where it rests.
 ///
 /// The set-points are the tensions of the inverse model under the platform's own weight plus the offsets,
@@ -165,53 +134,54 @@ pub(crate) fn wind_rest(
 ///
 /// # Errors
 /// Those of [`crate::inverse`].
-pub fn wound_lengths<'a>(robot: &Robot, wanted: impl Into<WantedPose<'a>>) -> Result<Vec<f64>, StaticsError> {
+pub fn set_point_lengths<'a>(
+    robot: &Robot,
+    wanted: impl Into<WantedPose<'a>>,
+) -> Result<Vec<f64>, StaticsError> {
     Ok(set_lengths(robot, &wanted.into())?.lengths)
 }
 
 /// The lengths for a wanted pose, with its offsets.
-fn set_lengths(robot: &Robot, wanted: &WantedPose) -> Result<HeldPose, StaticsError> {
+fn set_lengths(robot: &Robot, wanted: &WantedPose) -> Result<PoseLengths, StaticsError> {
     let offsets = wanted.offsets_of(robot);
     if !wanted.free.is_empty() {
-        return Ok(wind_free(robot, wanted, &offsets)?.1);
+        return Ok(lengths_with_free(robot, wanted, &offsets)?.1);
     }
-    let Wound { lengths, held, .. } = wind(robot, wanted, &offsets)?;
-    Ok(HeldPose { lengths, equilibrium: held })
+    Ok(SetPointLengths::new(robot, wanted, &offsets)?.into())
 }
 
-/// Winds the cables for the whole of a wanted pose.
-pub(crate) fn wind(
-    robot: &Robot,
-    wanted: &WantedPose,
-    tension_offsets: &[f64],
-) -> Result<Wound, StaticsError> {
-    check_offsets(robot, tension_offsets)?;
-    let WantedPose { pose, tension_reference, .. } = wanted;
-    wind_from(robot, pose, tension_offsets, inverse_at(robot, pose, &Load::none(), *tension_reference)?)
+impl SetPointLengths {
+    /// Those of the whole of a wanted pose.
+    pub(crate) fn new(
+        robot: &Robot,
+        wanted: &WantedPose,
+        tension_offsets: &[f64],
+    ) -> Result<Self, StaticsError> {
+        check_offsets(robot, tension_offsets)?;
+        let WantedPose { pose, tension_reference, .. } = wanted;
+        let found = inverse_at(robot, pose, &Load::none(), *tension_reference)?;
+        Self::from(robot, pose, tension_offsets, found)
+    }
+
+    /// Those of `pose` with the solution of the inverse model at hand.
+    pub(crate) fn from(
+        robot: &Robot,
+        pose: &Pose,
+        tension_offsets: &[f64],
+        wanted: InverseSolution,
+    ) -> Result<Self, StaticsError> {
+        check_offsets(robot, tension_offsets)?;
+        let limits = limits_at(robot, pose)?;
+        let set_points = offset(&wanted.tensions, tension_offsets, &limits);
+        let PoseLengths { lengths, equilibrium } = lengths_for_tensions(robot, pose, &set_points)?;
+        Ok(Self { wanted, limits, set_points, lengths, equilibrium })
+    }
 }
 
-/// Winds the cables for `pose` of a robot that differs a little from the one whose inverse model is known.
-pub(crate) fn wind_near(
-    branch: &Branch,
-    robot: &Robot,
-    pose: &Pose,
-    tension_offsets: &[f64],
-) -> Result<Wound, StaticsError> {
-    check_offsets(robot, tension_offsets)?;
-    wind_from(robot, pose, tension_offsets, branch.nearby(robot, pose)?)
-}
-
-/// Winds the cables for `pose` with the answer of the inverse model at hand.
-pub(crate) fn wind_from(
-    robot: &Robot,
-    pose: &Pose,
-    tension_offsets: &[f64],
-    wanted: InverseSolution,
-) -> Result<Wound, StaticsError> {
-    let limits = limits_at(robot, pose)?;
-    let set_points = offset(&wanted.tensions, tension_offsets, &limits);
-    let HeldPose { lengths, equilibrium: held } = lengths_for_tensions(robot, pose, &set_points)?;
-    Ok(Wound { wanted, limits, set_points, lengths, held })
+impl From<SetPointLengths> for PoseLengths {
+    fn from(SetPointLengths { lengths, equilibrium, .. }: SetPointLengths) -> Self {
+        Self { lengths, equilibrium }
+    }
 }
 
 fn check_offsets(robot: &Robot, tension_offsets: &[f64]) -> Result<(), StaticsError> {
@@ -236,8 +206,9 @@ pub fn deflection_from(
     load: &Load,
     start: &Equilibrium,
 ) -> Result<Deflection, StaticsError> {
-    let unloaded =
-        DirectProblem::new(robot, &lengths, &Load::none())?.direct_held(DirectStart::Near(start))?;
+    let unloaded = DirectProblem::new(robot, &lengths, &Load::none())?
+        .with_unstable(Unstable::Refused)
+        .direct(DirectStart::Near(start))?;
     let loaded = follow_load(robot, &lengths, (&Load::none(), &unloaded), load)?;
     Ok(Deflection { lengths, unloaded, loaded })
 }

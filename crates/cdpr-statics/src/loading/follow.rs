@@ -8,7 +8,7 @@ use cdpr_robot::Robot;
 /// Follows the stable equilibrium near `start` from one setting to another.
 ///
 /// # Errors
-/// Those of [`direct`] at the first setting. That the equilibrium is lost on the way is an answer, not an
+/// Those of [`direct`] at the first setting. That the equilibrium is lost on the way is a result, not an
 /// error.
 pub fn follow(robot: &Robot, from: &Setting, to: &Setting, start: DirectStart) -> Result<Path, StaticsError> {
     DirectProblem::new(robot, &to.lengths, &to.load)?;

@@ -10,8 +10,8 @@
 //! ```
 //!
 //! with L and U the strains of the loading and unloading curves: each continues from where the cable is
-//! ([`Unloading`] says which part of U). One law holds for a whole cable; T* is its mean tension, over lead and
-//! arc of a guide, which carry T0, and over the free part, whose ends differ from its middle by half its
+//! ([`Unloading`] says which part of U). One law is that of a whole cable; T* is its mean tension, over lead
+//! and arc of a guide, which carry T0, and over the free part, whose ends differ from its middle by half its
 //! weight. With the mean, a turn keeps the length of the cable although its parts do not turn at once.
 //!
 //! The energy that the payload gives is the area `∮ m g dz` of payload over the height of its centre; the
@@ -21,8 +21,8 @@
 
 use crate::direct::{DirectSolution, DirectStart, follow_load};
 use crate::error::StaticsError;
-use crate::inverse::{HeldPose, held_at, refuse_offsets};
-use crate::problem::DirectProblem;
+use crate::inverse::{PoseLengths, lengths_at, refuse_offsets};
+use crate::problem::{DirectProblem, Unstable};
 use crate::state::{Equilibrium, Load, WantedPose};
 use cdpr_cable::{CableError, PiecewiseLaw, Segment};
 use cdpr_robot::{Robot, Vector3};
@@ -159,11 +159,13 @@ pub fn load_cycle<'a>(
         return invalid("laws", format!("a list of {}", laws.len()), &format!("{n}, one a cable"));
     }
     let mut robot = with_laws(robot, laws.iter().map(|law| law.loading.clone()).collect());
-    let HeldPose { lengths, equilibrium: held } = held_at(&robot, &wanted, &Load::none())?;
+    let PoseLengths { lengths, equilibrium: start } = lengths_at(&robot, &wanted, &Load::none())?;
     let mut ways = Vec::with_capacity(2);
     let mut means = Vec::with_capacity(3);
     let mut energies = vec![0.0; n];
-    let first = DirectProblem::new(&robot, &lengths, &Load::none())?.direct_held(DirectStart::Near(&held))?;
+    let first = DirectProblem::new(&robot, &lengths, &Load::none())?
+        .with_unstable(Unstable::Refused)
+        .direct(DirectStart::Near(&start))?;
     let mut here = CycleStep { payload: 0.0, solution: first };
     means.push(mean_tensions(&robot, &lengths, &here.solution.equilibrium)?);
     for up in [true, false] {
@@ -203,22 +205,25 @@ pub fn load_cycle<'a>(
         around * lengths[i] / robot.cables[i].properties.axial_stiffness()
     });
     let dissipated = dissipated.collect();
+    let payload_work = payload_work(&robot, &ways);
+    let tensions = (0..n).map(|i| [means[0][i], means[1][i], means[2][i]]).collect();
+    let (unloading, loading) = (ways.pop().unwrap_or_default(), ways.pop().unwrap_or_default());
+    Ok(LoadCycle { lengths, loading, unloading, tensions, dissipated, payload_work })
+}
+
+/// Work of gravity on the payload along the ways of a cycle [J], by the trapezoidal rule.
+fn payload_work(robot: &Robot, ways: &[Vec<CycleStep>]) -> f64 {
     let center = |solution: &DirectSolution| {
         let pose = &solution.equilibrium.pose;
         pose.position + pose.rotation * robot.platform.center_of_mass
     };
-    let payload_work = ways
-        .iter()
-        .flat_map(|way| way.windows(2))
-        .map(|pair| {
-            let [a, b] = [&pair[0], &pair[1]];
-            let weight = 0.5 * (a.payload + b.payload) * robot.gravity.vector();
-            weight.dot(&(center(&b.solution) - center(&a.solution)))
-        })
-        .sum();
-    let tensions = (0..n).map(|i| [means[0][i], means[1][i], means[2][i]]).collect();
-    let (unloading, loading) = (ways.pop().unwrap_or_default(), ways.pop().unwrap_or_default());
-    Ok(LoadCycle { lengths, loading, unloading, tensions, dissipated, payload_work })
+    let steps = ways.iter().flat_map(|way| way.windows(2));
+    let work = steps.map(|pair| {
+        let [a, b] = [&pair[0], &pair[1]];
+        let weight = 0.5 * (a.payload + b.payload) * robot.gravity.vector();
+        weight.dot(&(center(&b.solution) - center(&a.solution)))
+    });
+    work.sum()
 }
 
 fn with_laws(robot: &Robot, laws: Vec<PiecewiseLaw>) -> Robot {

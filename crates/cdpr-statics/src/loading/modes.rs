@@ -1,6 +1,6 @@
 //! Natural frequencies of the platform on its cables.
 //!
-//! With the lengths held, the stiffness K and the mass matrix M about P give the small free motions
+//! With the lengths constant, the stiffness K and the mass matrix M about P give the small free motions
 //! `(dp, dφ) = v sin 2πft` of the platform,
 //!
 //! ```text
@@ -17,15 +17,15 @@
 //!
 //! K is the symmetric part of the stiffness, [`crate::stiffness::Linearization::symmetric_stiffness`].
 //!
-//! These frequencies hold where the cables themselves vibrate much faster than the platform. The lowest
-//! frequency of each cable between ends at rest, (C29) of `cdpr_cable` with the mean of its end tensions, says
-//! whether they do: [`CableFrequency`].
+//! These frequencies are valid where the cables themselves vibrate much faster than the platform. The lowest
+//! frequency of each cable between ends at rest, (C29) of `cdpr_cable` with the mean of its end tensions,
+//! says whether they do: [`CableFrequency`].
 
 use crate::direct::{DirectStart, Stability};
 use crate::error::StaticsError;
-use crate::inverse::{held_at, refuse_offsets};
+use crate::inverse::{lengths_at, refuse_offsets};
 use crate::loading::small_motions::SmallMotions;
-use crate::problem::DirectProblem;
+use crate::problem::{DirectProblem, Unstable};
 use crate::state::{Equilibrium, Load, WantedPose};
 use cdpr_robot::{Robot, Vector3, Vector6};
 use nalgebra::Matrix6;
@@ -132,7 +132,7 @@ impl PoseModes {
 
 impl DirectProblem<'_> {
     /// The natural motions of the platform about a stable equilibrium of its own, the slowest first: six, or
-    /// as many as are not held.
+    /// as many as are not constrained.
     ///
     /// A payload moves as a point at the centre of mass. Motions that nothing resists have the frequency zero
     /// and no shares.
@@ -229,14 +229,14 @@ const ROUNDING: f64 = 1e-12;
 /// The natural motions of a robot at a wanted pose under the platform's weight and `load`.
 ///
 /// # Errors
-/// Those of [`crate::inverse`], of [`DirectProblem::direct_any`] and of [`DirectProblem::modes`].
+/// Those of [`crate::inverse`], of [`DirectProblem::direct`] and of [`DirectProblem::modes`].
 pub fn modes_at<'a>(
     robot: &Robot,
     wanted: impl Into<WantedPose<'a>>,
     load: &Load,
 ) -> Result<PoseModes, StaticsError> {
-    let wanted = held_at(robot, &refuse_offsets(wanted.into())?, load)?;
+    let wanted = lengths_at(robot, &refuse_offsets(wanted.into())?, load)?;
     let problem = DirectProblem::new(robot, &wanted.lengths, load)?;
-    let held = problem.direct_any(DirectStart::Near(&wanted.equilibrium))?;
-    PoseModes::new(&problem, held.equilibrium)
+    let found = problem.with_unstable(Unstable::Accepted).direct(DirectStart::Near(&wanted.equilibrium))?;
+    PoseModes::new(&problem, found.equilibrium)
 }

@@ -2,8 +2,8 @@
 
 use crate::direct::{DirectStart, Stability};
 use crate::error::StaticsError;
-use crate::inverse::{held_at, refuse_offsets};
-use crate::problem::DirectProblem;
+use crate::inverse::{lengths_at, refuse_offsets};
+use crate::problem::{DirectProblem, Unstable};
 use crate::state::{Equilibrium, Load, WantedPose};
 use cdpr_robot::Robot;
 use nalgebra::Matrix6;
@@ -28,21 +28,21 @@ pub struct PoseStiffness {
 /// stable or not.
 ///
 /// # Errors
-/// Those of [`crate::inverse`] and of [`DirectProblem::direct_any`].
+/// Those of [`crate::inverse`] and of [`DirectProblem::direct`].
 pub fn stiffness_at<'a>(
     robot: &Robot,
     wanted: impl Into<WantedPose<'a>>,
     load: &Load,
 ) -> Result<PoseStiffness, StaticsError> {
-    let wanted = held_at(robot, &refuse_offsets(wanted.into())?, load)?;
+    let wanted = lengths_at(robot, &refuse_offsets(wanted.into())?, load)?;
     let problem = DirectProblem::new(robot, &wanted.lengths, load)?;
-    let held = problem.direct_any(DirectStart::Near(&wanted.equilibrium))?;
-    let linearization = problem.linearize(&held.equilibrium)?;
+    let found = problem.with_unstable(Unstable::Accepted).direct(DirectStart::Near(&wanted.equilibrium))?;
+    let linearization = problem.linearize(&found.equilibrium)?;
     Ok(PoseStiffness {
         matrix: *linearization.stiffness(),
         symmetric_part: linearization.symmetric_stiffness(),
-        stability: held.stability,
+        stability: found.stability,
         lengths: wanted.lengths.clone(),
-        equilibrium: held.equilibrium,
+        equilibrium: found.equilibrium,
     })
 }

@@ -11,7 +11,7 @@ use cdpr_number::vector::dot;
 /// Largest correction of a prediction, relative to it.
 pub(crate) const MAX_CORRECTION: f64 = 0.2;
 
-/// Distance of poses, relative to the robot's size, that a correction may have beside that.
+/// Distance of poses, relative to the robot's size, that a correction may have in addition.
 pub(crate) const SAME_POSE: f64 = 1e-7;
 
 /// Share of the stiffness of every motion that is left where a branch does not end.

@@ -52,13 +52,13 @@ pub(crate) struct Shape<T> {
 
 impl Shape<f64> {
     /// Shape of cable `i` of a robot in an equilibrium.
-    pub(crate) fn of(robot: &Robot, i: usize, unstrained_length: f64, held: &Equilibrium) -> Self {
-        let force = held.cable_forces[i];
+    pub(crate) fn of(robot: &Robot, i: usize, unstrained_length: f64, at: &Equilibrium) -> Self {
+        let force = at.cable_forces[i];
         let catenary = Catenary { cable: robot.cable(i), unstrained_length, force };
-        let Span { plane, end } = SpannedCable::of(robot, &held.pose, i, &catenary).span;
-        let of_points = Span::new(end_in_level_frame(robot, &held.pose, i).into()).plane;
+        let Span { plane, end } = SpannedCable::of(robot, &at.pose, i, &catenary).span;
+        let of_points = Span::new(end_in_level_frame(robot, &at.pose, i).into()).plane;
         let forwards = plane.lift([1.0, 0.0]);
-        let cable = in_its_plane(robot, &held.pose, i, catenary);
+        let cable = in_its_plane(robot, &at.pose, i, catenary);
         let free = cable.free();
         let beyond = Vector2::from(end) - cable.leave_point();
         let (chord, height) = (beyond.norm(), beyond.y);
@@ -209,7 +209,7 @@ impl<S: Simd> LaneCable<'_, S> {
 
     /// Horizontal distance and height of A from the exit point, or from the leave point of a pulley [m].
     #[inline(always)]
-    pub(crate) fn held_end(&self, span: &Span<Lanes<S>>) -> Lanes2<S> {
+    pub(crate) fn free_end(&self, span: &Span<Lanes<S>>) -> Lanes2<S> {
         match &self.guided {
             None => span.end,
             Some(guided) => guided.seen(span).0.misclosure(guided.leave_point(&self.free()).position),

@@ -1,8 +1,9 @@
 //! Cables without guide, or the parts of cables beyond their guides, one in each lane.
 
 use cdpr_cable::kernel::{LaneEnd, Material, Response};
+use cdpr_number::apart;
 use cdpr_number::dense::Lanes2;
-use cdpr_number::lanes::{Lanes, Simd, WithSimd};
+use cdpr_number::lanes::{Lanes, Simd};
 
 /// A cable without guide, or the part of one beyond its guide.
 #[derive(Clone, Copy)]
@@ -21,7 +22,7 @@ impl<S: Simd> FreeCable<'_, S> {
     pub(crate) fn end(&self) -> LaneEnd<Lanes<S>> {
         match self.material.law {
             [] => self.material.end(self.length, self.force),
-            _ => self.length.apart(LawEnd(*self)),
+            _ => law_end(*self),
         }
     }
 
@@ -30,32 +31,19 @@ impl<S: Simd> FreeCable<'_, S> {
     pub(crate) fn response(&self) -> Response<Lanes<S>> {
         match self.material.law {
             [] => self.material.response(self.length, self.force),
-            _ => self.length.apart(LawResponse(*self)),
+            _ => law_response(*self),
         }
     }
 }
 
-/// A cable with a law.
-struct LawResponse<'a, S: Simd>(FreeCable<'a, S>);
-
-struct LawEnd<'a, S: Simd>(FreeCable<'a, S>);
-
-impl<S: Simd> WithSimd for LawResponse<'_, S> {
-    type Output = Response<Lanes<S>>;
-
+apart! {
     #[inline(always)]
-    fn with_simd<Same: Simd>(self, _: Same) -> Self::Output {
-        let FreeCable { material, length, force } = self.0;
-        material.response(length, force)
+    on(cable.length) fn law_end<'a, S: Simd>(cable: FreeCable<'a, S>) -> LaneEnd<Lanes<S>> {
+        cable.material.end(cable.length, cable.force)
     }
-}
-
-impl<S: Simd> WithSimd for LawEnd<'_, S> {
-    type Output = LaneEnd<Lanes<S>>;
 
     #[inline(always)]
-    fn with_simd<Same: Simd>(self, _: Same) -> Self::Output {
-        let FreeCable { material, length, force } = self.0;
-        material.end(length, force)
+    on(cable.length) fn law_response<'a, S: Simd>(cable: FreeCable<'a, S>) -> Response<Lanes<S>> {
+        cable.material.response(cable.length, cable.force)
     }
 }

@@ -10,8 +10,8 @@
 //! with (C21) to (C23) of `cdpr_cable`; what is left out is of second order.
 //!
 //! Over a tilted axis the cable hangs in a vertical plane that does not contain its entry point. The azimuth
-//! e_h of that plane is an unknown of the cable, as its force is: with the components of r_i along e_h, across
-//! it to the left and upwards,
+//! e_h of that plane is an unknown of the cable, as its force is: with the components of r_i along e_h,
+//! across it to the left and upwards,
 //!
 //! ```text
 //! (h, l, z) - A(F, L) = 0,      dF = (dfx, fx dθ, dfz)                                              (L19)
@@ -26,9 +26,9 @@ use crate::local::swivel::{Swivel, in_space};
 use cdpr_cable::kernel::{GuideTerms, GuidedInSpace, LaneEnd, LeavePoint, Response, SwivelAxis, Way};
 use cdpr_number::Number;
 use cdpr_number::dense::{Lanes2, Lanes3, replace};
-use cdpr_number::lanes::{Lanes, Mask, Simd, WithSimd};
-use cdpr_number::three;
+use cdpr_number::lanes::{Lanes, Mask, Simd};
 use cdpr_number::vector::{cross, dot};
+use cdpr_number::{apart, three};
 
 /// Horizontal distance of a cable's end from its leave point, in radii of its wheel, within which a slack
 /// cable may hang from either side of the wheel.
@@ -163,7 +163,7 @@ impl<S: Simd> Guided<S> {
     #[inline(always)]
     pub(crate) fn leave_point(&self, free: &FreeCable<'_, S>) -> LeavePoint<Lanes<S>> {
         match self.is_tilted() {
-            true => free.length.apart(Tilted(self, *free)).leave,
+            true => tilted_way(self, *free).leave,
             false => self.guide.leave_point(free.material.weight_per_length, free.length, free.force),
         }
     }
@@ -177,7 +177,7 @@ impl<S: Simd> Guided<S> {
     #[inline(always)]
     pub(crate) fn way(&self, free: &FreeCable<'_, S>) -> Way<Lanes<S>> {
         match self.is_tilted() {
-            true => free.length.apart(Tilted(self, *free)),
+            true => tilted_way(self, *free),
             false => way(&self.guide, free),
         }
     }
@@ -192,14 +192,7 @@ impl<S: Simd> Guided<S> {
         linearized: GuidedLinearization<'_, S>,
         active: Mask<S>,
     ) {
-        free.length.apart(Linearize { guided: self, free: *free, span: *span, linearized, active });
-    }
-
-    /// The lanes in which the cable over `span` ends within [`NEXT_TO_WHEEL`] radii of its leave point.
-    #[cold]
-    #[inline(never)]
-    pub(crate) fn is_next_to(&self, free: &FreeCable<'_, S>, span: &Span<Lanes<S>>) -> Mask<S> {
-        free.length.apart(IsNextTo(self, *free, *span))
+        linearize(self, *free, *span, linearized, active);
     }
 
     /// The end of the whole cable of this guide, (L12). A cable that is too short for its guide has a
@@ -207,7 +200,7 @@ impl<S: Simd> Guided<S> {
     #[cold]
     #[inline(never)]
     pub(crate) fn end(&self, free: &FreeCable<'_, S>, span: &Span<Lanes<S>>) -> GuidedEnd<S> {
-        free.length.apart(WholeEnd(self, *free, *span))
+        whole_end(self, *free, *span)
     }
 }
 
@@ -220,19 +213,6 @@ fn way<S: Simd>(guide: &GuideTerms<Lanes<S>>, free: &FreeCable<'_, S>) -> Way<La
     guide.way(weight_per_length, free.length, leave, stretch)
 }
 
-/// The way over a tilted axis: vertical ones are more frequent, and their code is faster without it.
-struct Tilted<'a, 'b, S: Simd>(&'a Guided<S>, FreeCable<'b, S>);
-
-impl<S: Simd> WithSimd for Tilted<'_, '_, S> {
-    type Output = Way<Lanes<S>>;
-
-    #[inline(always)]
-    fn with_simd<Same: Simd>(self, _: Same) -> Self::Output {
-        let Self(guided, free) = self;
-        way(&guided.in_plane(), &free)
-    }
-}
-
 /// The places of a guided cable in the linearized platform.
 pub(crate) struct GuidedLinearization<'a, S: Simd> {
     pub(crate) cable: &'a mut LinearizedCable<Lanes<S>>,
@@ -241,20 +221,24 @@ pub(crate) struct GuidedLinearization<'a, S: Simd> {
     pub(crate) swivel: Option<&'a mut Swivel<S>>,
 }
 
-struct Linearize<'a, 'b, S: Simd> {
-    guided: &'a Guided<S>,
-    free: FreeCable<'b, S>,
-    span: Span<Lanes<S>>,
-    linearized: GuidedLinearization<'a, S>,
-    active: Mask<S>,
-}
-
-impl<S: Simd> WithSimd for Linearize<'_, '_, S> {
-    type Output = ();
+apart! {
+    /// The way over a tilted axis: vertical ones are more frequent, and their code is faster without it.
+    #[inline(always)]
+    on(free.length) fn tilted_way<'a, 'b, S: Simd>(
+        guided: &'a Guided<S>,
+        free: FreeCable<'b, S>,
+    ) -> Way<Lanes<S>> {
+        way(&guided.in_plane(), &free)
+    }
 
     #[inline(always)]
-    fn with_simd<Same: Simd>(self, _: Same) {
-        let Self { guided, free, span, linearized, active } = self;
+    on(free.length) fn linearize<'a, 'b, S: Simd>(
+        guided: &'a Guided<S>,
+        free: FreeCable<'b, S>,
+        span: Span<Lanes<S>>,
+        linearized: GuidedLinearization<'a, S>,
+        active: Mask<S>,
+    ) {
         let (way, fx) = (guided.way(&free), free.force[0]);
         let missing = guided.whole_length - way.length;
         let change = FreeLength { missing: missing * way.free_per_length, per_force: way.free_per_force };
@@ -275,29 +259,25 @@ impl<S: Simd> WithSimd for Linearize<'_, '_, S> {
             }
         }
     }
-}
 
-struct IsNextTo<'a, 'b, S: Simd>(&'a Guided<S>, FreeCable<'b, S>, Span<Lanes<S>>);
-
-impl<S: Simd> WithSimd for IsNextTo<'_, '_, S> {
-    type Output = Mask<S>;
-
-    #[inline(always)]
-    fn with_simd<Same: Simd>(self, _: Same) -> Mask<S> {
-        let Self(guided, free, span) = self;
+    /// The lanes in which the cable over `span` ends within [`NEXT_TO_WHEEL`] radii of its leave point.
+    #[cold]
+    #[inline(never)]
+    on(free.length) pub(crate) fn is_next_to_wheel<'a, 'b, S: Simd>(
+        guided: &'a Guided<S>,
+        free: FreeCable<'b, S>,
+        span: Span<Lanes<S>>,
+    ) -> Mask<S> {
         let [beyond, _] = guided.seen(&span).0.misclosure(guided.leave_point(&free).position);
         beyond.less_or_equal(guided.guide.radius * NEXT_TO_WHEEL)
     }
-}
-
-struct WholeEnd<'a, 'b, S: Simd>(&'a Guided<S>, FreeCable<'b, S>, Span<Lanes<S>>);
-
-impl<S: Simd> WithSimd for WholeEnd<'_, '_, S> {
-    type Output = GuidedEnd<S>;
 
     #[inline(always)]
-    fn with_simd<Same: Simd>(self, _: Same) -> Self::Output {
-        let Self(guided, free, span) = self;
+    on(free.length) fn whole_end<'a, 'b, S: Simd>(
+        guided: &'a Guided<S>,
+        free: FreeCable<'b, S>,
+        span: Span<Lanes<S>>,
+    ) -> GuidedEnd<S> {
         let zero = free.length.all(0.0);
         let (way, LaneEnd { end: [x, z], tension, slackness }) = (guided.way(&free), free.end());
         let missing = guided.whole_length - way.length;

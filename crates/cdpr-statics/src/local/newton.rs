@@ -4,16 +4,17 @@
 
 use crate::equations::LinearizedCable;
 use crate::local::cable::FOLDED;
-use crate::local::freedoms::hold;
+use crate::local::freedoms::constrain;
+use crate::local::guided::is_next_to_wheel;
 use crate::local::load::PlatformLoad;
 use crate::local::platform::{LaneResidual, LinearizedPlatform, Robots, Scale, Steps};
-use crate::local::skew::Skew;
+use crate::local::skew::{Skew, refine};
 use cdpr_cable::kernel::LaneEnd;
 use cdpr_number::Number;
 use cdpr_number::dense::{Lanes3, Lanes6, add, halves, replace};
-use cdpr_number::lanes::{Lanes, Mask, Simd, WithSimd};
+use cdpr_number::lanes::{Lanes, Mask, Simd};
 use cdpr_number::vector::{cross, dot};
-use cdpr_number::{six, three};
+use cdpr_number::{apart, six, three};
 
 /// Iterations at rest, of which cables that become slack need the most.
 const MAX_ITERATIONS: usize = 12;
@@ -110,9 +111,9 @@ impl<S: Simd> Robots<'_, S> {
         }
         let residual = LaneResidual {
             closure: self.largest(closure),
-            wrench: hold(self.freedoms, six!(|k| all.wrench[k] - wrench[k])),
+            wrench: constrain(self.freedoms, six!(|k| all.wrench[k] - wrench[k])),
         };
-        let gradient = hold(self.freedoms, six!(|k| all.gradient[k] - wrench[k]));
+        let gradient = constrain(self.freedoms, six!(|k| all.gradient[k] - wrench[k]));
         replace(&mut platform.gradient, &gradient, near);
         let tensions = all.tensions + load.weight;
         let (force, moment) = halves(&residual.wrench);
@@ -150,7 +151,7 @@ impl<S: Simd> Robots<'_, S> {
         let linearized = &mut platform.cables[i];
         let miss = span.misclosure(end);
         let mut closure = dot(&miss, &miss);
-        let predicted = linearized.answer(cable.force, miss);
+        let predicted = linearized.after(cable.force, miss);
         let mut moved = LinearizedCable { plane: span.plane, predicted, ..*linearized };
         if let Some(swivel) = platform.swivels.get_mut(i) {
             closure += across * across;
@@ -169,21 +170,6 @@ impl<S: Simd> Robots<'_, S> {
             & slackness.less_or_equal(zero.all(folded))
             & !cable.may_be_overstrained(tension);
         [closure, failed.max((!sound).select(zero.all(1.0), zero))]
-    }
-
-    /// Newton's method on the direct model from a linearization, in the lanes `alive`.
-    ///
-    /// Returns the lanes that found a stable equilibrium, and its residual. The linearization is then one at
-    /// this equilibrium, with a stiffness from nearby. All callers share one function for each vector unit.
-    #[inline(always)]
-    pub(crate) fn solve(
-        &mut self,
-        load: &PlatformLoad<S>,
-        platform: &mut LinearizedPlatform<S>,
-        scale: &Scale,
-        alive: Mask<S>,
-    ) -> (Mask<S>, LaneResidual<S>) {
-        self.weight.apart(Solve { robots: self, load, platform, scale, alive })
     }
 
     #[inline(always)]
@@ -206,7 +192,7 @@ impl<S: Simd> Robots<'_, S> {
             if load.moment.is_some() {
                 // Where this does not converge, the steps do not either.
                 let skew = Skew { freedoms: self.freedoms, moment: load.moment, guided: Vec::new() };
-                skew.refine(&platform.factored, &gradient, &mut step, scale.characteristic_length);
+                refine(&skew, &platform.factored, &gradient, &mut step, scale.characteristic_length);
             }
             let (translation, rotation) = halves(&step);
             let turned = dot(&rotation, &rotation);
@@ -215,13 +201,13 @@ impl<S: Simd> Robots<'_, S> {
             // The linearization is invalid farther away; a comparison with NaN is false, which ends the lane.
             active = active & moved.less_or_equal(farthest) & turned.less_or_equal(turned_most);
             platform.steps.add(&step, scale.characteristic_length, active);
-            let [steady, held] = self.apply(&translation, &rotation, turned, platform, active);
-            let [steady, held] = [self.of_robot(steady), self.of_robot(held)];
-            active = active & held;
+            let [steady, clear] = self.apply(&translation, &rotation, turned, platform, active);
+            let [steady, clear] = [self.of_robot(steady), self.of_robot(clear)];
+            active = active & clear;
             let near = active & steady & moved.less_or_equal(small_step);
             if near.any() {
-                let (left, holds) = self.update(load, scale, platform, near);
-                let mut done = near & holds & platform.factored.positive;
+                let (left, solved) = self.update(load, scale, platform, near);
+                let mut done = near & solved & platform.factored.positive;
                 if !platform.free.is_empty() {
                     done = done & moved.less_or_equal(small_step * LAST_OF_GUIDED);
                 }
@@ -239,7 +225,7 @@ impl<S: Simd> Robots<'_, S> {
     }
 
     /// Moves the platforms and the forces of their cables where `active`. Returns the lanes in which no cable
-    /// changed so much that its stiffness is another one, and those in which none became slack beside
+    /// changed so much that its stiffness is another one, and those in which none became slack next to
     /// its wheel, from either side of which it may hang.
     #[inline(always)]
     fn apply(
@@ -250,7 +236,7 @@ impl<S: Simd> Robots<'_, S> {
         platform: &LinearizedPlatform<S>,
         active: Mask<S>,
     ) -> [Mask<S>; 2] {
-        let (mut steady, mut held) = (active, active);
+        let (mut steady, mut clear) = (active, active);
         // sin φ/φ and (1 - cos φ)/φ² to rounding for φ up to 0.1.
         let x = -square;
         let a =
@@ -277,8 +263,8 @@ impl<S: Simd> Robots<'_, S> {
                 let share = slackening.select(fx / (fx + lost), fx.all(1.0));
                 force = [fx - lost * share, fz + (force[1] - fz) * share];
                 if let Some(guided) = &cable.guided {
-                    let next_to = guided.is_next_to(&cable.free(), &cable.span(&self.position));
-                    held = held & !(slackening & next_to);
+                    let next_to = is_next_to_wheel(guided, cable.free(), cable.span(&self.position));
+                    clear = clear & !(slackening & next_to);
                 }
             }
             if let Some(guided) = &mut cable.guided {
@@ -299,25 +285,24 @@ impl<S: Simd> Robots<'_, S> {
         }
         let position = three!(|k| self.position[k] + translation[k]);
         replace(&mut self.position, &position, active);
-        [steady, held]
+        [steady, clear]
     }
 }
 
-/// The arguments of [`Robots::solve`].
-struct Solve<'b, 'a, S: Simd> {
-    robots: &'b mut Robots<'a, S>,
-    load: &'b PlatformLoad<S>,
-    platform: &'b mut LinearizedPlatform<S>,
-    scale: &'b Scale,
-    alive: Mask<S>,
-}
-
-impl<S: Simd> WithSimd for Solve<'_, '_, S> {
-    type Output = (Mask<S>, LaneResidual<S>);
-
+apart! {
+    /// Newton's method on the direct model from a linearization, in the lanes `alive`.
+    ///
+    /// Returns the lanes that found a stable equilibrium, and its residual. The linearization is then one at
+    /// this equilibrium, with a stiffness from nearby.
     #[inline(always)]
-    fn with_simd<Same: Simd>(self, _: Same) -> Self::Output {
-        self.robots.solve_here(self.load, self.platform, self.scale, self.alive)
+    on(robots.weight) pub(crate) fn solve<'b, 'a, S: Simd>(
+        robots: &'b mut Robots<'a, S>,
+        load: &'b PlatformLoad<S>,
+        platform: &'b mut LinearizedPlatform<S>,
+        scale: &'b Scale,
+        alive: Mask<S>,
+    ) -> (Mask<S>, LaneResidual<S>) {
+        robots.solve_here(load, platform, scale, alive)
     }
 }
 

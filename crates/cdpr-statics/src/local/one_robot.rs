@@ -4,6 +4,7 @@ use crate::equations::{SpannedCable, in_its_plane};
 use crate::local::cable::{LaneCable, law};
 use crate::local::guided::Guided;
 use crate::local::load::PlatformLoad;
+use crate::local::newton;
 use crate::local::platform::{Layout, LinearizedPlatform, Robots, Scale};
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Residual, rounding_of_closure};
@@ -19,7 +20,7 @@ pub(crate) struct Solved {
     pub(crate) residual: Residual,
     /// The first step (dp, ℓ dφ), which the linearization at the start predicts [m].
     pub(crate) first_step: Vector6<f64>,
-    /// Symmetric part of the stiffness, (S5); zero for held motions.
+    /// Symmetric part of the stiffness, (S5); zero for constrained motions.
     pub(crate) stiffness: Matrix6<f64>,
 }
 
@@ -27,7 +28,7 @@ pub(crate) struct Solved {
 /// material, and a level base under a planar robot.
 pub(crate) fn fits_lanes(robot: &Robot) -> bool {
     let Some(of_first) = robot.cables.first().map(law) else { return false };
-    // The level frame, which deviates with gravity, holds other motions than the base frame.
+    // The level frame, which deviates with gravity, constrains other motions than the base frame.
     let inclined = robot.plane.is_some() && robot.gravity.is_vector();
     robot.is_fully_actuated() && !inclined && robot.cables.iter().all(|cable| law(cable) == of_first)
 }
@@ -53,7 +54,7 @@ impl WithSimd for Solve<'_, '_> {
         let everywhere = zero.less_or_equal(zero);
         let (mut robots, mut platform, load) = problem.linearized(simd, state);
         let scale = problem.scale(state);
-        let (found, residual) = robots.solve(&load, &mut platform, &scale, everywhere);
+        let (found, residual) = newton::solve(&mut robots, &load, &mut platform, &scale, everywhere);
         if !found.any() {
             return None;
         }
@@ -103,7 +104,7 @@ impl<'a> DirectProblem<'a> {
         (robots, platform, load)
     }
 
-    /// Coordinates in the level frame, which the lanes hold.
+    /// Coordinates in the level frame, which the lanes have.
     #[inline(always)]
     fn in_level_frame(&self, v: Vector3<f64>) -> Vector3<f64> {
         self.robot.gravity.level().map_or(v, |level| level * v)
@@ -251,7 +252,7 @@ fn vector<S: Simd>(simd: S, v: &Vector3<f64>) -> [Lanes<S>; 3] {
     [Lanes::splat(simd, v.x), Lanes::splat(simd, v.y), Lanes::splat(simd, v.z)]
 }
 
-/// The vector that all lanes hold.
+/// The vector that all lanes have.
 #[inline(always)]
 fn back<S: Simd>(v: &[Lanes<S>; 3]) -> Vector3<f64> {
     Vector3::new(v[0].first(), v[1].first(), v[2].first())

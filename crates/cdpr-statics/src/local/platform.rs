@@ -1,10 +1,10 @@
 //! Platforms between their cables: their balance and their stiffness (S5).
 //!
-//! Each lane holds a robot, or a cable of one robot.
+//! Each lane has a robot, or a cable of one robot.
 
 use crate::equations::{CablePlane, LinearizedCable, add_stiffness};
 use crate::local::cable::LaneCable;
-use crate::local::freedoms::{hold, hold_matrix};
+use crate::local::freedoms::{constrain, constrain_matrix};
 use crate::local::guided::{FreeLength, GuidedLinearization};
 use crate::local::load::PlatformLoad;
 use crate::local::swivel::Swivel;
@@ -18,12 +18,12 @@ use cdpr_robot::Freedoms;
 use smallvec::{SmallVec, smallvec};
 use std::array::from_fn;
 
-/// What the lanes hold.
+/// What the lanes have.
 #[derive(Clone)]
 pub(crate) enum Layout<S: Simd> {
-    /// Each lane holds a robot.
+    /// Each lane has a robot.
     Robots,
-    /// Each lane holds a cable of one robot. The mask says which lanes of the last [`LaneCable`] count; the
+    /// Each lane has a cable of one robot. The mask says which lanes of the last [`LaneCable`] count; the
     /// others repeat a cable.
     Cables(Mask<S>),
 }
@@ -35,7 +35,7 @@ const INLINE: usize = 4;
 #[derive(Clone)]
 pub(crate) struct Robots<'a, S: Simd> {
     pub(crate) layout: Layout<S>,
-    /// The motions that are free; what holds the others takes any wrench.
+    /// The motions that are free; what constrains the others takes any wrench.
     pub(crate) freedoms: Freedoms,
     pub(crate) cables: SmallVec<[LaneCable<'a, S>; INLINE]>,
     /// Position of the platform [m].
@@ -173,7 +173,7 @@ impl<S: Simd> Robots<'_, S> {
     }
 
     /// The upper triangle of the stiffness here (S5), after linearizing all cables; one on the diagonal
-    /// for motions that are held.
+    /// for constrained motions.
     #[inline(always)]
     pub(crate) fn stiffness(
         &self,
@@ -199,7 +199,7 @@ impl<S: Simd> Robots<'_, S> {
     }
 
     /// Gradient of the potential with the predicted forces, and the upper triangle of its derivative, which
-    /// has one on the diagonal for motions that are held.
+    /// has one on the diagonal for constrained motions.
     ///
     /// Where moments are out of balance the derivative of the gradient is not symmetric. The skew part is
     /// dropped: it is proportional to the residual moment, which vanishes at equilibrium, and that under a
@@ -234,8 +234,8 @@ impl<S: Simd> Robots<'_, S> {
         hessian[3][5] += load.weight * cx * 0.5;
         hessian[4][5] += load.weight * cy * 0.5;
         let wrench = load.wrench(&self.center);
-        let gradient = hold(self.freedoms, six!(|k| gradient[k] - wrench[k]));
-        hold_matrix(self.freedoms, &mut hessian, zero + 1.0);
+        let gradient = constrain(self.freedoms, six!(|k| gradient[k] - wrench[k]));
+        constrain_matrix(self.freedoms, &mut hessian, zero + 1.0);
         (gradient, hessian)
     }
 
@@ -306,7 +306,7 @@ impl<S: Simd> Robots<'_, S> {
         }
     }
 
-    /// The lanes of robots all of whose cables have an answer of yes.
+    /// The lanes of the robots all of whose cables are in these lanes.
     #[inline(always)]
     pub(crate) fn of_robot(&self, of_cables: Mask<S>) -> Mask<S> {
         match self.layout {

@@ -18,11 +18,11 @@
 //! These iterations converge by the ratio of both parts, which is 1e-8 to 1e-6 for guides of most robots.
 
 use crate::equations::CablePlane;
-use crate::local::freedoms::hold;
+use crate::local::freedoms::constrain;
 use cdpr_number::dense::{Lanes3, Lanes6, SymmetricFactors, add, halves, replace};
-use cdpr_number::lanes::{Lanes, Mask, Simd, WithSimd};
+use cdpr_number::lanes::{Lanes, Mask, Simd};
 use cdpr_number::vector::{cross, dot};
-use cdpr_number::{six, three};
+use cdpr_number::{apart, six, three};
 use cdpr_robot::Freedoms;
 
 /// A change of the solution below this part of it ends (L18).
@@ -49,20 +49,6 @@ pub(crate) struct SkewCable<S: Simd> {
 }
 
 impl<S: Simd> Skew<S> {
-    /// Improves the solution of the symmetric part to that of the whole system, (L18); `arm` [m] makes
-    /// rotations comparable with translations. Returns the lanes in which it converged.
-    #[cold]
-    #[inline(never)]
-    pub(crate) fn refine(
-        &self,
-        symmetric: &SymmetricFactors<S>,
-        right: &Lanes6<S>,
-        solution: &mut Lanes6<S>,
-        arm: f64,
-    ) -> Mask<S> {
-        right[0].apart(Refinement { skew: self, symmetric, right, solution, arm })
-    }
-
     #[inline(always)]
     fn add_to(&self, right: &mut Lanes6<S>, solution: &Lanes6<S>) {
         let (moved, turned) = halves(solution);
@@ -77,24 +63,22 @@ impl<S: Simd> Skew<S> {
             let [h, z] = plane.project(three!(|k| moved[k] + swung[k]));
             add(right, arm, &plane.lift([-(*stiffness * z), *stiffness * h]));
         }
-        *right = hold(self.freedoms, *right);
+        *right = constrain(self.freedoms, *right);
     }
 }
 
-struct Refinement<'a, S: Simd> {
-    skew: &'a Skew<S>,
-    symmetric: &'a SymmetricFactors<S>,
-    right: &'a Lanes6<S>,
-    solution: &'a mut Lanes6<S>,
-    arm: f64,
-}
-
-impl<S: Simd> WithSimd for Refinement<'_, S> {
-    type Output = Mask<S>;
-
-    #[inline(always)]
-    fn with_simd<Same: Simd>(self, _: Same) -> Mask<S> {
-        let Self { skew, symmetric, right, solution, arm } = self;
+apart! {
+    /// Improves the solution of the symmetric part to that of the whole system, (L18); `arm` [m] makes
+    /// rotations comparable with translations. Returns the lanes in which it converged.
+    #[cold]
+    #[inline(never)]
+    on(right[0]) pub(crate) fn refine<'a, S: Simd>(
+        skew: &'a Skew<S>,
+        symmetric: &'a SymmetricFactors<S>,
+        right: &'a Lanes6<S>,
+        solution: &'a mut Lanes6<S>,
+        arm: f64,
+    ) -> Mask<S> {
         let mut active = right[0].less_or_equal(right[0]);
         for _ in 0..MAX_ITERATIONS {
             let mut right = *right;

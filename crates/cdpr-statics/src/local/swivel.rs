@@ -71,7 +71,8 @@ impl<S: Simd> Swivel<S> {
     }
 
     /// Adds to the prediction of a cable what its misclosure across the plane [m] adds, and assigns the force
-    /// across the plane by its whole misclosure `miss` [m] in the lanes that are `active`. Returns that force.
+    /// across the plane by its whole misclosure `miss` [m] in the lanes that are `active`. Returns that
+    /// force.
     #[inline(always)]
     pub(crate) fn close(
         &mut self,

@@ -86,62 +86,62 @@ impl From<Pose> for WantedPose<'_> {
     }
 }
 
-/// What a model is given: one wanted pose, which it answers with one result, or a slice of poses, which it
-/// answers with a list of them.
+/// What a model is given: one wanted pose, for which it has one result, or a slice of poses, for which it has
+/// a list of them.
 pub trait Wanted {
     /// One `T`, or one for each pose.
-    type Answers<T>;
+    type Results<T>;
 
-    /// The answer of `one`, or those of `many`.
+    /// The result of `one`, or those of `many`.
     #[doc(hidden)]
-    fn answers<T>(
+    fn results<T>(
         self,
         one: impl Fn(&WantedPose) -> T,
         many: impl FnOnce(&[Pose]) -> Vec<T>,
-    ) -> Self::Answers<T>;
+    ) -> Self::Results<T>;
 }
 
 impl Wanted for WantedPose<'_> {
-    type Answers<T> = T;
+    type Results<T> = T;
 
-    fn answers<T>(self, one: impl Fn(&WantedPose) -> T, _: impl FnOnce(&[Pose]) -> Vec<T>) -> T {
+    fn results<T>(self, one: impl Fn(&WantedPose) -> T, _: impl FnOnce(&[Pose]) -> Vec<T>) -> T {
         one(&self)
     }
 }
 
 impl Wanted for &Pose {
-    type Answers<T> = T;
+    type Results<T> = T;
 
-    fn answers<T>(self, one: impl Fn(&WantedPose) -> T, _: impl FnOnce(&[Pose]) -> Vec<T>) -> T {
+    fn results<T>(self, one: impl Fn(&WantedPose) -> T, _: impl FnOnce(&[Pose]) -> Vec<T>) -> T {
         one(&WantedPose::at(self))
     }
 }
 
 impl Wanted for &[Pose] {
-    type Answers<T> = Vec<T>;
+    type Results<T> = Vec<T>;
 
-    fn answers<T>(self, _: impl Fn(&WantedPose) -> T, many: impl FnOnce(&[Pose]) -> Vec<T>) -> Vec<T> {
+    fn results<T>(self, _: impl Fn(&WantedPose) -> T, many: impl FnOnce(&[Pose]) -> Vec<T>) -> Vec<T> {
         many(self)
     }
 }
 
 impl<const N: usize> Wanted for &[Pose; N] {
-    type Answers<T> = Vec<T>;
+    type Results<T> = Vec<T>;
 
-    fn answers<T>(self, _: impl Fn(&WantedPose) -> T, many: impl FnOnce(&[Pose]) -> Vec<T>) -> Vec<T> {
+    fn results<T>(self, _: impl Fn(&WantedPose) -> T, many: impl FnOnce(&[Pose]) -> Vec<T>) -> Vec<T> {
         many(self)
     }
 }
 
 impl Wanted for &Vec<Pose> {
-    type Answers<T> = Vec<T>;
+    type Results<T> = Vec<T>;
 
-    fn answers<T>(self, _: impl Fn(&WantedPose) -> T, many: impl FnOnce(&[Pose]) -> Vec<T>) -> Vec<T> {
+    fn results<T>(self, _: impl Fn(&WantedPose) -> T, many: impl FnOnce(&[Pose]) -> Vec<T>) -> Vec<T> {
         many(self)
     }
 }
 
-/// The answers to poses one after the other.
-pub(crate) fn one_by_one<W: Wanted, T>(wanted: W, one: impl Fn(&WantedPose) -> T) -> W::Answers<T> {
-    wanted.answers(&one, |poses| poses.iter().map(|pose| one(&WantedPose::at(pose))).collect())
+/// The results at poses one after the other.
+pub(crate) fn one_by_one<W: Wanted, T>(wanted: W, one: impl Fn(&WantedPose) -> T) -> W::Results<T> {
+    wanted.results(&one, |poses| poses.iter().map(|pose| one(&WantedPose::at(pose))).collect())
 }

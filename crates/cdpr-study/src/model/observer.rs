@@ -214,7 +214,7 @@ impl<'a> OutputObserver<'a> {
         if offsets.iter().all(|offset| *offset == 0.0) {
             return Ok(Cow::Borrowed(&self.nominal.lengths));
         }
-        self.lanes.wound_lengths(offsets).map(Cow::Owned)
+        self.lanes.set_point_lengths(offsets).map(Cow::Owned)
     }
 
     /// The outputs of any number of robots in their unit, and their derivatives with respect to the inputs of

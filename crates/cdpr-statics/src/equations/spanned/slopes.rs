@@ -1,6 +1,6 @@
 //! Derivatives of a cable between its two points by what it is, in the base frame.
 
-use crate::equations::spanned::{Answer, SpannedCable, to_base, to_level};
+use crate::equations::spanned::{EndResponse, SpannedCable, to_base, to_level};
 use cdpr_cable::{Catenary, HeldCable, HeldSlopes, HeldSpatialCable, SpatialCable, SpatialSlopes};
 use cdpr_robot::{Matrix3, Vector2, Vector3};
 
@@ -8,10 +8,10 @@ impl<'a> SpannedCable<'a, f64> {
     /// The position of the free end of the cable per unstrained length at constant force [m/m], in the base
     /// frame; zero for a slack cable without weight.
     pub(crate) fn end_per_length(&self) -> Vector3<f64> {
-        let slope = match &self.answer {
-            Answer::Planar(response) => self.span.plane.lift(response.end_per_length),
-            Answer::Spatial(spatial) => spatial.end_per_length.into(),
-            Answer::Limp(_) => [0.0; 3],
+        let slope = match &self.response {
+            EndResponse::Planar(response) => self.span.plane.lift(response.end_per_length),
+            EndResponse::Spatial(spatial) => spatial.end_per_length.into(),
+            EndResponse::Slack(_) => [0.0; 3],
         };
         self.based(slope.into())
     }
@@ -40,19 +40,19 @@ impl<'a> SpannedCable<'a, f64> {
         }
     }
 
-    /// Second derivatives of the force on the cable, which must fit its points, between its held ends, in the
-    /// base frame; `end` [m] leads from its exit to its anchor point in the level frame.
+    /// Second derivatives of the force on the cable, which must fit its points, between its fixed ends, in
+    /// the base frame; `end` [m] leads from its exit to its anchor point in the level frame.
     pub(crate) fn tension_slopes(&self, catenary: &Catenary<'a>, end: Vector3<f64>) -> HeldSlopes {
         if let Some(cable) = self.over_a_pulley(catenary) {
             return self.based_slopes(&HeldSpatialCable::of(cable, end).tension_slopes());
         }
-        let held = HeldCable::of(*catenary, self.span.end.into());
-        let slopes = held.tension_slopes();
+        let fixed = HeldCable::of(*catenary, self.span.end.into());
+        let slopes = fixed.tension_slopes();
         let lift = |v: Vector2<f64>| self.based(self.span.plane.lift(v.into()).into());
         let (forwards, up) = (lift(Vector2::x()), lift(Vector2::y()));
         let across = up.cross(&forwards);
         // v_x/h
-        let lateral = 1.0 / (self.span.chord() * held.tension_slope());
+        let lateral = 1.0 / (self.span.chord() * fixed.tension_slope());
         let [per_h, per_z] = slopes.per_end.map(lift);
         HeldSlopes {
             value: lift(slopes.force_per_tension),
@@ -68,14 +68,14 @@ impl<'a> SpannedCable<'a, f64> {
         }
     }
 
-    /// The force K3 d on the cable by which it answers to the unit motion `d` of its anchor point, with its
-    /// derivatives between held ends, in the base frame.
+    /// The force K3 d on the cable by which it responds to the unit motion `d` of its anchor point, with its
+    /// derivatives between fixed ends, in the base frame.
     pub(crate) fn stiffness_slopes(&self, catenary: &Catenary<'a>, d: Vector3<f64>) -> HeldSlopes {
         let d = to_level(self.level, d.into()).into();
         self.based_slopes(&self.in_space(catenary).stiffness_slopes(d))
     }
 
-    /// The force on the cable where it leaves its guide, with its derivatives between held ends, in the base
+    /// The force on the cable where it leaves its guide, with its derivatives between fixed ends, in the base
     /// frame.
     pub(crate) fn leave_force_slopes(&self, catenary: &Catenary<'a>) -> HeldSlopes {
         self.based_slopes(&self.in_space(catenary).leave_force_slopes())

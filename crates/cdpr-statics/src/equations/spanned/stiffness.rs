@@ -1,7 +1,7 @@
 //! The stiffness of a cable between its two points.
 
 use crate::equations::cable::{CablePlane, LinearizedCable};
-use crate::equations::spanned::{Answer, SpannedCable, to_base, to_level};
+use crate::equations::spanned::{EndResponse, SpannedCable, to_base, to_level};
 use cdpr_cable::Catenary;
 use cdpr_robot::{Matrix3, Vector3};
 
@@ -14,19 +14,19 @@ impl<'a> SpannedCable<'a, f64> {
     /// The cable linearized about its force; `None` for a slack cable without weight, which resists nothing.
     pub(crate) fn linearized(&self) -> Option<LinearizedInSpace<'a>> {
         let (plane, level) = (self.span.plane, self.level);
-        let (predicted, stiffness) = match &self.answer {
-            Answer::Planar(response) => {
+        let (predicted, stiffness) = match &self.response {
+            EndResponse::Planar(response) => {
                 let planar = LinearizedCable::new(&self.span, self.force, response);
                 (plane.lift(planar.predicted).into(), planar.stiffness_in_space().into())
             }
-            Answer::Spatial(spatial) => {
+            EndResponse::Spatial(spatial) => {
                 let stiffness = spatial.flexibility.try_inverse().unwrap_or_else(Matrix3::zeros);
                 let predicted = Vector3::from(plane.lift(self.force)) + stiffness * self.open();
                 (predicted, 0.5 * (stiffness + stiffness.transpose()))
             }
-            Answer::Limp(_) => return None,
+            EndResponse::Slack(_) => return None,
         };
-        let leaves = matches!(self.answer, Answer::Spatial(_));
+        let leaves = matches!(self.response, EndResponse::Spatial(_));
         Some(LinearizedInSpace { plane, predicted, stiffness, leaves, level })
     }
 
@@ -35,19 +35,19 @@ impl<'a> SpannedCable<'a, f64> {
     /// (C22).
     pub(crate) fn skew_stiffness(&self, catenary: &Catenary) -> Option<Matrix3<f64>> {
         catenary.cable.guide?;
-        let skew = match &self.answer {
-            Answer::Planar(response) => {
+        let skew = match &self.response {
+            EndResponse::Planar(response) => {
                 let asymmetry = catenary.asymmetry();
                 let determinant = response.determinant + asymmetry * asymmetry;
                 let forwards = Vector3::from(self.span.plane.lift([1.0, 0.0]));
                 let up = Vector3::z();
                 (up * forwards.transpose() - forwards * up.transpose()) * (asymmetry / determinant)
             }
-            Answer::Spatial(spatial) => {
+            EndResponse::Spatial(spatial) => {
                 let stiffness = spatial.flexibility.try_inverse()?;
                 0.5 * (stiffness - stiffness.transpose())
             }
-            Answer::Limp(_) => return None,
+            EndResponse::Slack(_) => return None,
         };
         Some(self.based_matrix(&skew))
     }

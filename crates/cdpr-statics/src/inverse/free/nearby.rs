@@ -7,14 +7,14 @@
 //! H' = H + (s - H y) sᵀH/(s·H y)                                                                  (I8)
 //! ```
 //!
-//! so that no slope is computed anew as long as every step halves the residual at least.
+//! so that no slope is computed again as long as every step halves the residual at least.
 
 use super::search::{Outcome, Point, ROUNDING, SINGULAR_VALUES, SOLVED, Search, Unknowns};
 use super::solution::FreeSolution;
 use super::sound::Loops;
-use super::{BESIDE, Beside, check_free, held_at};
+use super::{NEXT_TO_POSE, Nearby, check_free, lengths_at};
 use crate::error::StaticsError;
-use crate::inverse::HeldPose;
+use crate::inverse::PoseLengths;
 use crate::rest_fault::RestFault;
 use crate::state::{Equilibrium, Load, WantedPose};
 use cdpr_robot::{Coordinate, Pose, Robot};
@@ -25,7 +25,7 @@ use nalgebra::{DMatrix, DVector};
 #[derive(Clone, Debug)]
 pub(crate) struct FreeBranch {
     free: Vec<Coordinate>,
-    rest: HeldPose,
+    rest: PoseLengths,
     /// Where steps start; `None` where the slopes have no inverse.
     start: Option<Known>,
     /// Whether it is nearly that of straight cables, so that these show what becomes of it.
@@ -54,14 +54,14 @@ const REACH: f64 = 0.3;
 const STARTS: usize = 9;
 
 impl FreeBranch {
-    /// The rest of `robot` beside `pose`, as [`crate::inverse`] finds it.
+    /// The rest of `robot` near `pose`, as [`crate::inverse`] finds it.
     ///
     /// # Errors
     /// Those of [`crate::inverse`].
     pub(crate) fn of(robot: &Robot, pose: &Pose, free: &[Coordinate]) -> Result<Self, StaticsError> {
         check_free(robot, free)?;
         let none = Load::none();
-        let rest = held_at(robot, &WantedPose::at(pose).free(free), &none)?;
+        let rest = lengths_at(robot, &WantedPose::at(pose).free(free), &none)?;
         let search = Search::new(robot, &rest.equilibrium.pose, &none, free)?;
         let start = search
             .known(chord_forces(robot, &rest.equilibrium))
@@ -71,7 +71,7 @@ impl FreeBranch {
     }
 
     /// Where the platform rests.
-    pub(crate) fn rest(&self) -> &HeldPose {
+    pub(crate) fn rest(&self) -> &PoseLengths {
         &self.rest
     }
 
@@ -88,7 +88,7 @@ impl FreeBranch {
     ///
     /// # Errors
     /// [`StaticsError::NoRest`] and [`StaticsError::Unstable`] for such a rest; those of [`crate::inverse`].
-    pub(crate) fn nearby(&self, robot: &Robot) -> Result<HeldPose, StaticsError> {
+    pub(crate) fn nearby(&self, robot: &Robot) -> Result<PoseLengths, StaticsError> {
         let (pose, none) = (&self.rest.equilibrium.pose, Load::none());
         let search = Search::new(robot, pose, &none, &self.free)?;
         let found = match &self.start {
@@ -96,8 +96,8 @@ impl FreeBranch {
             None => None,
         };
         match found {
-            Some(FreeSolution { lengths, equilibrium, .. }) => Ok(HeldPose { lengths, equilibrium }),
-            None => held_at(robot, &WantedPose::at(pose).free(&self.free), &none),
+            Some(FreeSolution { lengths, equilibrium, .. }) => Ok(PoseLengths { lengths, equilibrium }),
+            None => lengths_at(robot, &WantedPose::at(pose).free(&self.free), &none),
         }
     }
 }
@@ -113,7 +113,7 @@ pub fn rest_near(
     near: &Equilibrium,
     load: &Load,
     free: &[Coordinate],
-) -> Result<HeldPose, StaticsError> {
+) -> Result<PoseLengths, StaticsError> {
     check_free(robot, free)?;
     let search = Search::new(robot, &near.pose, load, free)?;
     let chord_forces = search.in_proportion(chord_forces(robot, near));
@@ -124,8 +124,8 @@ pub fn rest_near(
         Outcome::Stuck(point) => return no_rest(search.left(&point)),
         Outcome::Lost => return no_rest(search.unbalanced()),
     };
-    match Loops::Refused.fault(robot, &point.held) {
-        None | Some(RestFault::Limit(_)) => Ok(point.held),
+    match Loops::Refused.fault(robot, &point.found) {
+        None | Some(RestFault::Limit(_)) => Ok(point.found),
         Some(fault) => no_rest(fault),
     }
 }
@@ -148,16 +148,16 @@ impl Search<'_> {
     /// [`StaticsError::NoRest`] and [`StaticsError::Unstable`] where it is refused or lost.
     fn belonging(&self, known: Known, is_straight: bool) -> Result<Option<FreeSolution>, StaticsError> {
         if let Some((point, _)) = self.follow(known) {
-            return self.decided(point, 0, REACH)?.answer();
+            return self.decided(point, 0, REACH)?.solution();
         }
         let given = vec![0.0; self.free.len()];
         let chord_forces = self.straight_forces(&given);
         // Whether a rest next to the known one may be left, whether one may be farther away.
         let (mut is_open, mut is_far, mut nearest) = (!is_straight, false, None);
         match self.reached(Unknowns { changes: given, chord_forces })? {
-            Ok(Beside::Answer(found)) => return Ok(Some(*found)),
-            Ok(Beside::Refused(error)) => return Err(error),
-            Ok(Beside::Open) => is_far = true,
+            Ok(Nearby::Solution(found)) => return Ok(Some(*found)),
+            Ok(Nearby::Refused(error)) => return Err(error),
+            Ok(Nearby::Open) => is_far = true,
             Err(left) => nearest = Some(left),
         }
         let starts = (0..if is_straight { STARTS } else { 0 }).map(|start| self.start(start, [REACH, REACH]));
@@ -169,9 +169,9 @@ impl Search<'_> {
             }
             if self.may_sag(&root) {
                 match self.reached(root.unknowns(self.least_force()))? {
-                    Ok(Beside::Answer(found)) => return Ok(Some(*found)),
-                    Ok(Beside::Refused(error)) => return Err(error),
-                    Ok(Beside::Open) => is_open = true,
+                    Ok(Nearby::Solution(found)) => return Ok(Some(*found)),
+                    Ok(Nearby::Refused(error)) => return Err(error),
+                    Ok(Nearby::Open) => is_open = true,
                     Err(_) => is_open |= tension > 0.0,
                 }
             }
@@ -189,14 +189,14 @@ impl Search<'_> {
     }
 
     /// What the solution decides to which the search leads, or what it leaves of the balance.
-    fn reached(&self, from: Unknowns) -> Result<Result<Beside, RestFault>, StaticsError> {
+    fn reached(&self, from: Unknowns) -> Result<Result<Nearby, RestFault>, StaticsError> {
         let (point, unknowns, iterations) = match self.descend(from) {
             Outcome::Found(point, unknowns, iterations) => (point, unknowns, iterations),
             Outcome::Stuck(point) => return Ok(Err(self.left(&point))),
             Outcome::Lost => return Ok(Err(self.unbalanced())),
         };
         let decided = self.decided(point, iterations, REACH)?;
-        if matches!(decided, Beside::Answer(_)) {
+        if matches!(decided, Nearby::Solution(_)) {
             self.check_unique(&unknowns)?;
         }
         Ok(Ok(decided))
@@ -205,7 +205,7 @@ impl Search<'_> {
     /// Whether straight cables hold the platform next to the given coordinates.
     fn is_straight(&self) -> bool {
         let root = self.straight_root(vec![0.0; self.free.len()]);
-        root.is_some_and(|root| root.distance <= BESIDE && root.slackest().1 > 0.0)
+        root.is_some_and(|root| root.distance <= NEXT_TO_POSE && root.slackest().1 > 0.0)
     }
 
     /// Chord forces [N] in proportion to the load, where this leaves less of the balance than the forces that
@@ -242,7 +242,7 @@ impl Search<'_> {
     /// The solution that steps lead to which halve the residual at least, and what is known of it.
     fn follow(&self, mut known: Known) -> Option<(Point, Known)> {
         let mut point = self.point(&known.changes, &known.chord_forces)?;
-        // Slopes are computed anew where those at hand do not halve the residual.
+        // Slopes are computed again where those at hand do not halve the residual.
         let mut exact = false;
         for _ in 0..MAX_STEPS {
             let norm = point.residual.norm();

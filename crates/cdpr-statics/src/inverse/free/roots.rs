@@ -5,7 +5,7 @@ use super::solution::{FreeSolution, FreeSolutions};
 use super::sound::{Loops, longest};
 use super::straight::{STRAIGHT_STARTS, StraightRoot};
 use crate::error::StaticsError;
-use crate::inverse::HeldPose;
+use crate::inverse::PoseLengths;
 use crate::inverse::problem::InverseProblem;
 use crate::out_of_limits::out_of_limits;
 use crate::rest_fault::RestFault;
@@ -14,8 +14,8 @@ use cdpr_cable::LONGEST_TAUT;
 /// Starts of the search among cables that sag.
 const STARTS: usize = 32;
 
-/// How far they are from the given angles [rad], and from its position relative to the longest span; every other
-/// start within a fifth of it.
+/// How far they are from the given angles [rad], and from its position relative to the longest span; every
+/// other start within a fifth of it.
 const REACH: [f64; 2] = [1.3, 0.4];
 const NEAR: [f64; 2] = [0.2 * REACH[0], 0.2 * REACH[1]];
 
@@ -82,7 +82,7 @@ impl<'s, 'a> Roots<'s, 'a> {
         let start = root.unknowns(self.search.least_force());
         let direct = self.search.descend(start.clone());
         let InverseProblem { robot, .. } = self.search.problem;
-        let is_sound = |point: &Point| self.loops.fault(robot, &point.held).is_none();
+        let is_sound = |point: &Point| self.loops.fault(robot, &point.found).is_none();
         match &direct {
             Outcome::Found(point, ..) if is_sound(point) => direct,
             _ => self.search.raised(start).unwrap_or(direct),
@@ -100,13 +100,13 @@ impl<'s, 'a> Roots<'s, 'a> {
             Outcome::Lost => return Ok(()),
         };
         let known = |root: &Root| {
-            self.search.distance(&root.solution.equilibrium.pose, &point.held.equilibrium.pose) <= SAME
+            self.search.distance(&root.solution.equilibrium.pose, &point.found.equilibrium.pose) <= SAME
         };
         if self.found.iter().any(known) {
             return Ok(());
         }
-        let fault = self.loops.fault(robot, &point.held);
-        let HeldPose { lengths, equilibrium } = point.held;
+        let fault = self.loops.fault(robot, &point.found);
+        let PoseLengths { lengths, equilibrium } = point.found;
         let solution = FreeSolution::new(robot, load, lengths, equilibrium, iterations)?;
         // Along its neutral motions a solution is the same.
         let same = |Root { solution: found, .. }: &Root| {
@@ -117,15 +117,15 @@ impl<'s, 'a> Roots<'s, 'a> {
             return Ok(());
         }
         let is_turned_about = self.search.is_turned_about(&unknowns.changes);
-        let angle = self.search.problem.pose.rotation.angle_to(&solution.equilibrium.pose.rotation);
+        let angle = self.search.problem.pose.angle_to(&solution.equilibrium.pose);
         let is_stable = solution.stability.is_stable();
         let is_turned_over = is_turned_about || (angle > TURNED_OVER && !is_stable);
         let fault = fault.or(is_turned_over.then_some(RestFault::TurnedOver { angle, is_stable }));
         if let Some(fault) = &fault {
             self.lacks(is_stable, 0.0, fault.clone());
         }
-        let is_no_answer = matches!(fault, Some(RestFault::Loop { .. } | RestFault::BelowGround { .. }));
-        if !is_no_answer && !is_turned_about {
+        let is_refused = matches!(fault, Some(RestFault::Loop { .. } | RestFault::BelowGround { .. }));
+        if !is_refused && !is_turned_about {
             self.found.push(Root { solution, unknowns, fault });
         }
         Ok(())
@@ -156,7 +156,7 @@ impl<'s, 'a> Roots<'s, 'a> {
         self.found
             .sort_by(|one, other| order(one).cmp(&order(other)).then(away(one).total_cmp(&away(other))));
         let mut found = std::mem::take(&mut self.found).into_iter();
-        // An unstable solution is no answer where a stable one is out of limits or below the ground alone.
+        // An unstable solution is not taken where a stable one is out of limits or below the ground alone.
         let is_named = self.nearest.as_ref().is_some_and(|nearest| {
             let is_near = matches!(nearest.fault, RestFault::Limit(_) | RestFault::BelowGround { .. });
             nearest.is_stable && is_near

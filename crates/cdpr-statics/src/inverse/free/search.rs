@@ -6,7 +6,7 @@
 //! not the solution.
 
 use crate::error::StaticsError;
-use crate::inverse::HeldPose;
+use crate::inverse::PoseLengths;
 use crate::inverse::cable::{CableAtPose, Row};
 use crate::inverse::problem::InverseProblem;
 use crate::rest_fault::RestFault;
@@ -47,7 +47,7 @@ pub(super) struct Search<'a> {
 
 /// A pose of the search with the wrench of its cables.
 pub(super) struct Point {
-    pub(super) held: HeldPose,
+    pub(super) found: PoseLengths,
     rows: Vec<Row>,
     /// F, moments divided by the characteristic length [N].
     pub(super) residual: Vector6<f64>,
@@ -116,8 +116,8 @@ impl<'a> Search<'a> {
         pose
     }
 
-    /// Whether the pitch is beyond a right angle: the pose is then that of another roll, pitch and yaw, of which
-    /// those that are given have other values. Where all three are free, none is given.
+    /// Whether the pitch is beyond a right angle: the pose is then that of another roll, pitch and yaw, of
+    /// which those that are given have other values. Where all three are free, none is given.
     pub(super) fn is_turned_about(&self, changes: &[f64]) -> bool {
         let [_, pitch, _] = self.angles(changes);
         let free = |coordinate| self.free.contains(&coordinate);
@@ -148,15 +148,15 @@ impl<'a> Search<'a> {
         let cable = |(i, force): (usize, &f64)| CableAtPose::near(&problem, i, *force, None).ok();
         let cables: Vec<CableAtPose> = chord_forces.iter().enumerate().map(cable).collect::<Option<_>>()?;
         let rows: Vec<Row> =
-            cables.iter().map(|cable| cable.row(&cable.held, characteristic_length)).collect();
+            cables.iter().map(|cable| cable.row(&cable.fixed, characteristic_length)).collect();
         let mut external = self.problem.load.total(self.problem.robot, &pose).to_vector();
         external.fixed_rows_mut::<3>(3).unscale_mut(characteristic_length);
         let external = self.problem.robot.freedoms().of_vector(&external);
         let residual = rows.iter().fold(external, |sum, row| sum + row.wrench);
         let forces = external.norm() + rows.iter().map(|row| row.wrench.norm()).sum::<f64>();
-        let catenaries: Vec<_> = cables.iter().map(|cable| cable.held.catenary()).collect();
-        let held = HeldPose::new(&pose, &catenaries);
-        residual.iter().all(|entry| entry.is_finite()).then_some(Point { held, rows, residual, forces })
+        let catenaries: Vec<_> = cables.iter().map(|cable| cable.fixed.catenary()).collect();
+        let found = PoseLengths::new(&pose, &catenaries);
+        residual.iter().all(|entry| entry.is_finite()).then_some(Point { found, rows, residual, forces })
     }
 
     /// dF/d(ln σ, q), with q in units; `None` where it is not finite, as for a force near zero.
@@ -295,7 +295,7 @@ impl<'a> Search<'a> {
     }
 
     /// Changes of the free coordinates at start number `index`: none, then points that fill a box evenly
-    /// (additive recurrence of the generalised golden ratio), `reach` from its middle [rad, longest spans].
+    /// (additive recurrence of the generalized golden ratio), `reach` from its middle [rad, longest spans].
     pub(super) fn start(&self, index: usize, reach: [f64; 2]) -> Vec<f64> {
         let dimension = self.free.len() as i32;
         let mut golden = 1.5_f64;

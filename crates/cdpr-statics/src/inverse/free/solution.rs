@@ -28,12 +28,12 @@ pub struct FreeSolution {
 #[derive(Clone, Debug, PartialEq)]
 pub struct FreeSolutions {
     /// The nearest to the given pose of the stable ones whose cables are taut; if none was found, the nearest
-    /// of the stable ones. An unstable one is first only where no stable one was found, in or out of the limits,
-    /// and if the platform is not turned over. All tensions are within their limits, no cable is a loop
-    /// and none is below the ground.
+    /// of the stable ones. An unstable one is first only where no stable one was found, in or out of the
+    /// limits, and if the platform is not turned over. All tensions are within their limits, no cable is a
+    /// loop and none is below the ground.
     pub first: FreeSolution,
-    /// The others, in the same order; those with tensions out of their limits and unstable ones that are turned
-    /// over come last.
+    /// The others, in the same order; those with tensions out of their limits and unstable ones that are
+    /// turned over come last.
     pub others: Vec<FreeSolution>,
 }
 

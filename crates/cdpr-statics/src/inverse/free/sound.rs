@@ -1,11 +1,11 @@
 //! What is expected of a solution with free coordinates, besides the balance.
 //!
-//! A balance alone is satisfied by cables that no winch should pay out: one that would have to push is replaced
-//! by a loop so long that its weight pushes. A solution is *sound* where no cable is a loop, none is below the
-//! ground, and all tensions are within their limits.
+//! A balance alone is satisfied by cables that no winch should pay out: one that would have to push is
+//! replaced by a loop so long that its weight pushes. A solution is *sound* where no cable is a loop, none is
+//! below the ground, and all tensions are within their limits.
 
 use super::solution::FreeSolution;
-use crate::inverse::HeldPose;
+use crate::inverse::PoseLengths;
 use crate::out_of_limits::{Limit, OutOfLimits, out_of_limits};
 use crate::problem::DirectProblem;
 use crate::rest_fault::RestFault;
@@ -16,9 +16,9 @@ use cdpr_robot::Robot;
 /// loop.
 ///
 /// A cable whose tension falls as it is paid out has at most 1.3 chords ([`crate::inverse`] takes no longer
-/// one). Beyond, the tension rises with the length, as more of the cable hangs on its ends. Three chords leave room
-/// for a heavy cable that hangs from a near exit point; one that is longer hangs lower than its chord is
-/// long, and carries its own weight more than the platform.
+/// one). Beyond, the tension rises with the length, as more of the cable hangs on its ends. Three chords
+/// leave room for a heavy cable that hangs from a near exit point; one that is longer hangs lower than its
+/// chord is long, and carries its own weight more than the platform.
 pub const LONGEST: f64 = 3.0;
 
 /// What bounds the cables of a solution.
@@ -32,8 +32,8 @@ pub(super) enum Loops {
 
 impl Loops {
     /// The first thing that is wrong about a solution, the most serious first.
-    pub(super) fn fault(self, robot: &Robot, held: &HeldPose) -> Option<RestFault> {
-        let HeldPose { lengths, equilibrium } = held;
+    pub(super) fn fault(self, robot: &Robot, found: &PoseLengths) -> Option<RestFault> {
+        let PoseLengths { lengths, equilibrium } = found;
         let (cable, chords) = longest(robot, lengths, equilibrium)?;
         if self == Self::Refused && chords > LONGEST {
             return Some(RestFault::Loop { cable, chords, most: LONGEST });

@@ -30,8 +30,8 @@ pub(super) struct StraightRoot {
 /// Starts of the search, a third of them in each box of [`REACHES`].
 pub(super) const STRAIGHT_STARTS: usize = 150;
 
-/// How far starts are from the given angles [rad], and from its position relative to the longest span: near, as
-/// far as platforms usually tilt, and all around.
+/// How far starts are from the given angles [rad], and from its position relative to the longest span: near,
+/// as far as platforms usually tilt, and all around.
 const REACHES: [[f64; 2]; 3] = [[0.26, 0.08], [1.3, 0.4], [std::f64::consts::PI, 1.0]];
 
 const MAX_ITERATIONS: usize = 60;

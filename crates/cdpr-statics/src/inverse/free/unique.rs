@@ -10,7 +10,7 @@
 
 use super::search::{Outcome, Point, SINGULAR_VALUES, Search, Unknowns};
 use crate::error::StaticsError;
-use crate::inverse::HeldPose;
+use crate::inverse::PoseLengths;
 use nalgebra::{DVector, SVD};
 
 /// Singular values below this share of the greatest may be those of a kernel: the differences of the slopes
@@ -37,11 +37,11 @@ impl Search<'_> {
         let Some(point) = self.point(&found.changes, &found.chord_forces) else { return Ok(()) };
         for direction in self.kernel(found, &point) {
             let Some(other) = self.along(found, &direction) else { continue };
-            let Some((cable, change)) = self.greatest_change(&point.held, &other.held) else { continue };
+            let Some((cable, change)) = self.greatest_change(&point.found, &other.found) else { continue };
             if change > CHANGED {
-                let lengths = [&point, &other].map(|one| one.held.lengths[cable]);
-                let tensions = [&point, &other].map(|one| one.held.equilibrium.tensions()[cable]);
-                let position = point.held.equilibrium.pose.position.into();
+                let lengths = [&point, &other].map(|one| one.found.lengths[cable]);
+                let tensions = [&point, &other].map(|one| one.found.equilibrium.tensions()[cable]);
+                let position = point.found.equilibrium.pose.position.into();
                 return Err(StaticsError::NotUnique { position, cable, lengths, tensions });
             }
         }
@@ -74,8 +74,8 @@ impl Search<'_> {
 
     /// The cable whose length or tension differs most between two solutions, and by how much: relative to the
     /// longest span, or to the greatest tension.
-    fn greatest_change(&self, one: &HeldPose, other: &HeldPose) -> Option<(usize, f64)> {
-        let [before, after] = [one, other].map(|held| held.equilibrium.tensions());
+    fn greatest_change(&self, one: &PoseLengths, other: &PoseLengths) -> Option<(usize, f64)> {
+        let [before, after] = [one, other].map(|of| of.equilibrium.tensions());
         let most = before.iter().copied().fold(0.0, f64::max);
         let change = |i: usize| {
             let of_length = (one.lengths[i] - other.lengths[i]).abs() / self.size;

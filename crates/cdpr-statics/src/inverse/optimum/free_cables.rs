@@ -12,13 +12,13 @@ impl Point<'_> {
         self.step_on_free_cables(hessian, ELASTICITY)
     }
 
-    /// The same with the balance held exactly, which needs cables that can pull in all directions.
+    /// The same with the balance kept exactly, which needs cables that can pull in all directions.
     pub(super) fn inelastic_step(&self, hessian: &[f64]) -> Option<(Vec<f64>, Vector6<f64>)> {
         let free = self.cables.iter().filter(|cable| cable.at_limit().is_none()).count();
         let balanced = (0..6).filter(|row| !self.is_constrained(*row)).count();
         let (step, multipliers) = self.step_on_free_cables(hessian, 0.0).filter(|_| free >= balanced)?;
         let small =
-            step.iter().zip(&self.cables).all(|(d, cable)| d.abs() <= 1e-3 * cable.held.chord_force());
+            step.iter().zip(&self.cables).all(|(d, cable)| d.abs() <= 1e-3 * cable.fixed.chord_force());
         small.then_some((step, multipliers))
     }
 

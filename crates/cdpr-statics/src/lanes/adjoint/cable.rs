@@ -1,11 +1,11 @@
 //! What the adjoint of an observation takes from each cable: derivatives of an output by its ends, its
 //! material and its guide.
 //!
-//! They follow from how its force and its length answer, (L8) and (L9). Second derivatives of the force by
+//! They follow from how its force and its length respond, (L8) and (L9). Second derivatives of the force by
 //! its tension are those of (L9) along `(f_t, L_t)`, found by tangents.
 
 use crate::equations::{CablePlane, LinearizedCable, Span};
-use crate::lanes::adjoint::answer::{Answer, GuideAnswer, Held};
+use crate::lanes::adjoint::response::{AtTension, CableResponse, GuideResponse};
 use crate::lanes::chain::limits::at_platform;
 use crate::lanes::chain::shared::Choice;
 use crate::local::cable::LaneCable;
@@ -79,7 +79,7 @@ impl<S: Simd> CableSlopes<S> {
     }
 }
 
-impl<S: Simd> Answer<Lanes<S>> {
+impl<S: Simd> CableResponse<Lanes<S>> {
     /// Slopes of an output that falls by `twisted`·df with the force (L8) on a cable of given length, and
     /// its derivative by the length.
     #[inline(always)]
@@ -108,9 +108,9 @@ impl<S: Simd> Answer<Lanes<S>> {
         plane: &CablePlane<Lanes<S>>,
         share: Lanes<S>,
     ) -> (CableSlopes<S>, Lanes<S>) {
-        let held = Held::of(self);
-        let along = [held.length_per_end[0] * share, held.length_per_end[1] * share];
-        (self.slopes(plane, along, share.all(0.0)), held.length_per_tension * share)
+        let at_tension = AtTension::of(self);
+        let along = [at_tension.length_per_end[0] * share, at_tension.length_per_end[1] * share];
+        (self.slopes(plane, along, share.all(0.0)), at_tension.length_per_tension * share)
     }
 
     /// Slopes of an output that grows by `along`·y and by `across` for each motion across the plane.
@@ -128,7 +128,7 @@ impl<S: Simd> Answer<Lanes<S>> {
     }
 }
 
-impl<S: Simd> GuideAnswer<Lanes<S>> {
+impl<S: Simd> GuideResponse<Lanes<S>> {
     /// Slopes of an output that grows by `along`·y in the plane and by `across` for each motion across it.
     #[inline(always)]
     fn slopes(&self, plane: &CablePlane<Lanes<S>>, along: &Lanes2<S>, across: Lanes<S>) -> GuideSlopes<S> {
@@ -155,11 +155,11 @@ fn in_space<S: Simd>(plane: &CablePlane<Lanes<S>>, along: Lanes2<S>, across: Lan
     [x - plane.azimuth[1] * across, y + plane.azimuth[0] * across, z]
 }
 
-/// A cable between held ends with the derivatives of (L9) by its tension.
+/// A cable between fixed ends with the derivatives of (L9) by its tension.
 pub(super) struct TensionSlopes<S: Simd> {
     plane: CablePlane<Lanes<S>>,
-    answer: Answer<Dual<Lanes<S>, 1>>,
-    held: Held<Dual<Lanes<S>, 1>>,
+    found: CableResponse<Dual<Lanes<S>, 1>>,
+    at_tension: AtTension<Dual<Lanes<S>, 1>>,
     /// f_t, in space.
     pub(super) force_per_tension: Lanes3<S>,
     /// df_t/dt, in space [1/N].
@@ -169,15 +169,15 @@ pub(super) struct TensionSlopes<S: Simd> {
 impl<S: Simd> TensionSlopes<S> {
     #[inline(always)]
     pub(super) fn of(cable: &LaneCable<'_, S>, span: &Span<Lanes<S>>) -> Self {
-        let answer = Answer::along_tension(cable);
-        let held = Held::of(&answer);
-        let [x, z] = held.force_per_tension;
+        let found = CableResponse::along_tension(cable);
+        let at_tension = AtTension::of(&found);
+        let [x, z] = at_tension.force_per_tension;
         Self {
             plane: span.plane,
             force_per_tension: span.plane.lift([x.value, z.value]),
             curvature: span.plane.lift([x.slopes[0], z.slopes[0]]),
-            answer,
-            held,
+            found,
+            at_tension,
         }
     }
 
@@ -185,26 +185,26 @@ impl<S: Simd> TensionSlopes<S> {
     /// constant tension.
     #[inline(always)]
     pub(super) fn slopes(&self, force: &Lanes3<S>, twisted: &Lanes3<S>, share: Lanes<S>) -> CableSlopes<S> {
-        let Self { plane, answer, held, .. } = self;
+        let Self { plane, found, at_tension, .. } = self;
         // Values of the one and slopes of the other.
         let (once, twice) = (plane.project(*force), plane.project(*twisted));
-        let normal = &held.normal;
+        let normal = &at_tension.normal;
         let once = normal[0] * Dual::constant(once[0]) + normal[1] * Dual::constant(once[1]);
         let twice =
             normal[0] * Dual::constant(twice[0] * share) + normal[1] * Dual::constant(twice[1] * share);
         let of = |by: [Dual<Lanes<S>, 1>; 2]| {
-            let turn = held.turn_per_end[0] * by[0] + held.turn_per_end[1] * by[1];
+            let turn = at_tension.turn_per_end[0] * by[0] + at_tension.turn_per_end[1] * by[1];
             (once * turn).value + (twice * turn).slopes[0]
         };
         let (one, zero) = (Dual::constant(share.all(1.0)), Dual::constant(share.all(0.0)));
-        let lateral = answer.response.lateral_flexibility.recip();
-        let [beside, beside_twice] = [sideways(plane, force), sideways(plane, twisted) * share];
-        let across = beside * lateral.value + beside_twice * lateral.slopes[0];
-        let guide = match &answer.guide {
+        let lateral = found.response.lateral_flexibility.recip();
+        let [lateral_once, lateral_twice] = [sideways(plane, force), sideways(plane, twisted) * share];
+        let across = lateral_once * lateral.value + lateral_twice * lateral.slopes[0];
+        let guide = match &found.guide {
             None => None,
             Some(guide) => {
                 let swung = lateral * guide.end.across_per_axis;
-                let across = beside * swung.value + beside_twice * swung.slopes[0];
+                let across = lateral_once * swung.value + lateral_twice * swung.slopes[0];
                 Some(GuideSlopes {
                     lead: -of(guide.end.per_lead),
                     radius: -of(guide.end.per_radius),
@@ -214,8 +214,8 @@ impl<S: Simd> TensionSlopes<S> {
         };
         CableSlopes {
             span: in_space(plane, [of([one, zero]), of([zero, one])], across),
-            weight: -of(answer.per_weight),
-            flexibility: -of(answer.per_flexibility),
+            weight: -of(found.per_weight),
+            flexibility: -of(found.per_flexibility),
             guide,
         }
     }

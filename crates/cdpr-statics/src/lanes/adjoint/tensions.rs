@@ -6,7 +6,7 @@ use crate::lanes::adjoint::{Adjoint, Record, add};
 use crate::lanes::chain::shared::Shared;
 use crate::lanes::chain::tensions::CableTension;
 use crate::local::cable::LaneCable;
-use crate::local::freedoms::{hold, hold_matrix};
+use crate::local::freedoms::{constrain, constrain_matrix};
 use crate::local::platform::Robots;
 use cdpr_number::dense::{Lanes3, Lanes6, Lanes6x6, SymmetricFactors, halves};
 use cdpr_number::lanes::{Lanes, Mask, Simd};
@@ -37,6 +37,8 @@ struct Chosen<'a, S: Simd> {
     /// The slope of the output by its tension, and by its greatest one.
     by_tension: Lanes<S>,
     by_bound: Lanes<S>,
+    /// The lanes where it is at its greatest tension.
+    high: Mask<S>,
 }
 
 impl<S: Simd> Adjoint<S> {
@@ -67,8 +69,7 @@ impl<S: Simd> Adjoint<S> {
         let balanced = factored.solve(&right);
         let (_, rotation) = halves(&record.multipliers);
         for (i, chosen) in cables.iter().enumerate() {
-            let [_, high] = record.trace.tensions[i].at_limits;
-            self.add_chosen(i, chosen, (placed, &rotation), &balanced, high, shared);
+            self.add_chosen(i, chosen, (placed, &rotation), &balanced, shared);
         }
         self.add_weight(placed, placed.weight, &six!(|k| -balanced[k]));
     }
@@ -107,7 +108,7 @@ impl<S: Simd> Adjoint<S> {
             self.decided = self.decided & (!(set_point.over | high) | guided.fixed());
         }
         self.cables[i].offset += set_point.offset.select(a, zero);
-        let column = hold(placed.freedoms, wrench(&cable.anchor_arm, &slopes.force_per_tension));
+        let column = constrain(placed.freedoms, wrench(&cable.anchor_arm, &slopes.force_per_tension));
         let curvature = -dot(&slopes.curvature, &motion) + 1.0;
         Chosen {
             span,
@@ -116,13 +117,13 @@ impl<S: Simd> Adjoint<S> {
             curvature_inv: on_bound.select(zero, curvature.recip()),
             by_tension: set_point.follows.select(a, zero),
             by_bound: set_point.over.select(a, zero),
+            high,
             slopes,
             cable,
         }
     }
 
-    /// Adds the slopes of cable `i` with the motion η = `balanced` and the rotation of the multipliers;
-    /// `high` are the lanes where it is at its greatest tension.
+    /// Adds the slopes of cable `i` with the motion η = `balanced` and the rotation of the multipliers.
     #[inline(always)]
     fn add_chosen(
         &mut self,
@@ -130,10 +131,10 @@ impl<S: Simd> Adjoint<S> {
         chosen: &Chosen<'_, S>,
         (placed, rotation): (&Robots<'_, S>, &Lanes3<S>),
         balanced: &Lanes6<S>,
-        high: Mask<S>,
         shared: &Shared,
     ) {
-        let Chosen { cable, span, slopes, motion, column, curvature_inv, by_tension, by_bound } = chosen;
+        let Chosen { cable, span, slopes, motion, column, curvature_inv, by_tension, by_bound, high } =
+            chosen;
         let (moved, turned) = halves(balanced);
         let swung = cross(&turned, &cable.anchor_arm);
         let twisted = three!(|k| moved[k] + swung[k]);
@@ -170,7 +171,7 @@ fn normal_equations<S: Simd>(placed: &Robots<'_, S>, cables: &[Chosen<'_, S>]) -
             }
         }
     }
-    hold_matrix(placed.freedoms, &mut matrix, zero + 1.0);
+    constrain_matrix(placed.freedoms, &mut matrix, zero + 1.0);
     (matrix, right)
 }
 

@@ -3,14 +3,15 @@
 //! Unknowns of the balance (I6) of `inverse/free.rs` are the horizontal forces of the cables, as in (L1), and
 //! the free coordinates q. A free coordinate shifts the platform or turns it about an axis ω; its anchor
 //! points then move by d, in the plane of the cable (d_h, d_z) and across it d_l. At constant fx this changes
-//! the closed force of a cable, with h the horizontal distance of its ends, by (L19) over a tilted axis, else by
+//! the closed force of a cable, with h the horizontal distance of its ends, by (L19) over a tilted axis, else
+//! by
 //!
 //! ```text
 //! dF = -(dz e_z + (fx/h) d_l e_l),      C (0, dz) + e dL = (d_h, d_z)                             (L15)
 //! ```
 //!
 //! and the balance by `[dF; s x dF + ds x F]` and by the lever of the weight. Newton's steps solve the six
-//! equations for as many unknowns, the last of which are the reactions of what holds a point or a planar
+//! equations for as many unknowns, the last of which are the reactions of what constrains a point or a planar
 //! platform. Angles are those of R = Rz(yaw) Ry(pitch) Rx(roll): with the axes at R,
 //!
 //! ```text
@@ -21,12 +22,12 @@
 //! A rotation by 2 atan(dq/2) is one by dq but for the third order, and needs no sine.
 
 use crate::equations::Span;
-use crate::inverse::{BESIDE, NEARLY_ROUNDING};
+use crate::inverse::{NEARLY_ROUNDING, NEXT_TO_POSE};
 use crate::lanes::chain::limits::limits_at;
 use crate::lanes::chain::shared::{LAST_DISTRIBUTION, MAX_DISTRIBUTIONS, Shared};
-use crate::lanes::held::HeldCable;
+use crate::lanes::fixed_ends::FixedEnds;
 use crate::local::cable::FOLDED;
-use crate::local::freedoms::hold;
+use crate::local::freedoms::constrain;
 use crate::local::load::PlatformLoad;
 use crate::local::newton::rotate;
 use crate::local::platform::{LinearizedPlatform, Robots};
@@ -85,7 +86,7 @@ impl<S: Simd> FreeMotion<S> {
     }
 }
 
-/// Moves platforms to where they rest under their own weight beside the given pose, and gives their cables
+/// Moves platforms to where they rest under their own weight near the given pose, and gives their cables
 /// the forces and lengths that they have there. `free` are the motions of the free coordinates in the order
 /// of [`cdpr_robot::Coordinate::ALL`], as many as cables are missing; `offsets` become set-points.
 ///
@@ -148,8 +149,8 @@ impl<S: Simd> WithSimd for Rest<'_, '_, S> {
         // Half the sum of squares is 4 sin²(φ/2): φ² is no more than this for such angles.
         let turned = turned * 0.5;
         let away = dot(&shift, &shift) / (size * size) + turned + turned * turned * (1.0 / 11.0);
-        let beside = away.less_or_equal(zero.all(BESIDE * BESIDE));
-        (found, beside & self.within_limits() & self.is_stable())
+        let is_near = away.less_or_equal(zero.all(NEXT_TO_POSE * NEXT_TO_POSE));
+        (found, is_near & self.within_limits() & self.is_stable())
     }
 }
 
@@ -164,26 +165,26 @@ impl<S: Simd> Rest<'_, '_, S> {
         let own = PlatformLoad::weight(robots.weight);
         let mut balance = own.wrench(&robots.center);
         let mut columns = [[zero; 6]; MOTIONS];
-        let mut all_held = Vec::with_capacity(cables);
+        let mut all_fixed = Vec::with_capacity(cables);
         for (i, (span, cable)) in spans.iter().zip(&robots.cables).enumerate() {
-            let (held, ends) = HeldCable::with_end_slopes(cable, span);
+            let (fixed, ends) = FixedEnds::with_end_slopes(cable, span);
             let (arm, plane) = (&cable.anchor_arm, cable.plane(span));
-            let pull = held.pull(cable, span);
+            let pull = fixed.pull(cable, span);
             add(&mut balance, arm, &pull);
-            add(&mut columns[i], arm, &held.pull_slope(cable, span));
+            add(&mut columns[i], arm, &fixed.pull_slope(cable, span));
             for (motion, column) in free.iter().zip(&mut columns[cables..]) {
                 let moved = motion.of(arm);
                 let [h, z] = plane.project(moved);
                 add(column, arm, &ends.pull(plane.azimuth, &[h, plane.across(moved), z]));
                 motion.add_lever(column, &moved, &pull);
             }
-            all_held.push((held, ends));
+            all_fixed.push((fixed, ends));
         }
         for (motion, column) in free.iter().zip(&mut columns[cables..]) {
             motion.add_lever(column, &motion.of(&robots.center), &[zero, zero, -robots.weight]);
         }
-        let held = (0..MOTIONS).filter(|k| !robots.freedoms.contains(*k));
-        for (k, column) in held.zip(&mut columns[cables + free.len()..]) {
+        let constrained = (0..MOTIONS).filter(|k| !robots.freedoms.contains(*k));
+        for (k, column) in constrained.zip(&mut columns[cables + free.len()..]) {
             column[k] = zero.all(1.0);
         }
         let per_arm = 1.0 / shared.scale.characteristic_length;
@@ -193,10 +194,10 @@ impl<S: Simd> Rest<'_, '_, S> {
             }
         }
         let step = solve_columns(&columns, &six!(|k| -balance[k]));
-        balance = hold(robots.freedoms, balance);
+        balance = constrain(robots.freedoms, balance);
         let mut moved = zero;
         for (i, (span, cable)) in spans.iter().zip(&mut robots.cables).enumerate() {
-            let (mut held, ends) = all_held[i];
+            let (mut fixed, ends) = all_fixed[i];
             let mut displacement = [zero; 3];
             for (motion, change) in free.iter().zip(&step[cables..]) {
                 let of = motion.of(&cable.anchor_arm);
@@ -205,10 +206,10 @@ impl<S: Simd> Rest<'_, '_, S> {
             let plane = cable.plane(span);
             let [h, z] = plane.project(displacement);
             let along = [h, plane.across(displacement), z];
-            held.across[0] += dot(&ends.across, &along);
-            held.closing[0] += dot(&ends.rise, &along);
-            held.closing[1] += dot(&ends.length, &along);
-            moved = moved.max(held.change(cable, step[i], active, compared));
+            fixed.across[0] += dot(&ends.across, &along);
+            fixed.closing[0] += dot(&ends.rise, &along);
+            fixed.closing[1] += dot(&ends.length, &along);
+            moved = moved.max(fixed.change(cable, step[i], active, compared));
         }
         for k in 0..free.len() {
             let change = active.select(step[cables + k], zero);
@@ -238,32 +239,32 @@ impl<S: Simd> Rest<'_, '_, S> {
         let none = !within;
         let cables = robots.cables.iter_mut().zip(&**spans).zip(&mut **offsets);
         for (((cable, span), offset), choice) in cables.zip(&shared.choices) {
-            let held = HeldCable::new(cable, span);
+            let fixed = FixedEnds::new(cable, span);
             let [least, greatest] = limits_at(cable, span, (choice.limits, choice.max_at), compared);
             let bearable = zero.all(choice.bearable);
             let [fx, fz] = cable.force;
             let exit = [fx, fz - cable.weight_per_length * cable.length];
             within = within
                 & zero.less_or_equal(fx)
-                & held.slackness.less_or_equal(zero.all(FOLDED))
-                & held.is_taut(cable, none)
-                & least.less_or_equal(held.tension)
-                & held.tension.less_or_equal(greatest)
-                & held.tension.less_or_equal(bearable)
+                & fixed.slackness.less_or_equal(zero.all(FOLDED))
+                & fixed.is_taut(cable, none)
+                & least.less_or_equal(fixed.tension)
+                & fixed.tension.less_or_equal(greatest)
+                & fixed.tension.less_or_equal(bearable)
                 & dot(&exit, &exit).sqrt().less_or_equal(bearable);
             if shared.ground > f64::NEG_INFINITY {
                 let anchor = robots.position[2] + cable.anchor_arm[2];
                 // At most how far the cable hangs below its anchor point, where it is level between its ends:
                 // fz²/w (t + fx), stretched by no more than the strain at which the models end.
                 let depth =
-                    fz * fz * (1.0 + MAX_STRAIN) * (cable.weight_per_length * (held.tension + fx)).recip();
+                    fz * fz * (1.0 + MAX_STRAIN) * (cable.weight_per_length * (fixed.tension + fx)).recip();
                 let lowest = anchor - depth;
                 let is_lower_end = fz.less_or_equal(zero) | zero.less_or_equal(exit[1]);
                 let ground = zero.all(shared.ground);
                 let above = ground.less_or_equal(lowest) | (anchor - span.end[1]).less_or_equal(lowest);
                 within = within & ground.less_or_equal(anchor) & (is_lower_end | above);
             }
-            let set_point = (held.tension + *offset).max(least);
+            let set_point = (fixed.tension + *offset).max(least);
             *offset = set_point.less_or_equal(greatest).select(set_point, greatest);
         }
         within

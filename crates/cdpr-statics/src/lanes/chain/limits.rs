@@ -9,11 +9,11 @@
 //! tension rises again. Newton's method for its slope over the logarithm of that force finds it.
 
 use crate::equations::{ABOVE_LEAST, Span};
-use crate::lanes::held::HeldCable;
+use crate::lanes::fixed_ends::FixedEnds;
 use crate::local::cable::LaneCable;
-use cdpr_number::Number;
 use cdpr_number::dense::{Lanes2, replace};
-use cdpr_number::lanes::{Lanes, Mask, Simd, WithSimd};
+use cdpr_number::lanes::{Lanes, Mask, Simd};
+use cdpr_number::{Number, apart};
 use cdpr_robot::{CableEnd, TensionLimits};
 
 /// A change below this, relative to the sum of tensions, the longest cable and the cable's own horizontal
@@ -40,7 +40,7 @@ pub(crate) fn limits_at<S: Simd>(
     match (max_at, &cable.guided) {
         (CableEnd::Exit, Some(_)) => {
             let (least, greatest) = (cable.length.all(limits.min), cable.length.all(limits.max));
-            [least, cable.length.apart(BelowPulley { cable, span, greatest, compared })]
+            [least, below_pulley(cable, span, greatest, compared)]
         }
         _ => plain_limits_at(cable, span, (limits, max_at)),
     }
@@ -63,46 +63,30 @@ pub(crate) fn plain_limits_at<S: Simd>(
 /// A cable whose tension exceeds the least one of its span by less than this share of it may come to it.
 const NEARBY: f64 = 0.2;
 
-/// Raises the least tension of a cable that `held` shows near the least one that its span demands, to where
-/// the scalar models hold it, and brings a cable below it there. Returns the lanes in which that was done.
-/// Where none is found the greatest tension is below zero.
-#[cold]
-#[inline(never)]
-pub(crate) fn demand<S: Simd>(
-    cable: &mut LaneCable<'_, S>,
-    span: &Span<Lanes<S>>,
-    held: &HeldCable<S>,
-    limits: &mut Lanes2<S>,
-    compared: [f64; 2],
-) -> Mask<S> {
-    cable.length.apart(Demand { cable, span, held, limits, compared })
-}
-
 /// Whether a cable may come to the least tension of its span.
 #[inline(always)]
-pub(crate) fn may_be_slack<S: Simd>(cable: &LaneCable<'_, S>, held: &HeldCable<S>) -> Mask<S> {
-    !held.exceeds_least(cable, cable.length.all(NEARBY))
+pub(crate) fn may_be_slack<S: Simd>(cable: &LaneCable<'_, S>, fixed: &FixedEnds<S>) -> Mask<S> {
+    !fixed.exceeds_least(cable, cable.length.all(NEARBY))
 }
 
-struct Demand<'a, 'b, S: Simd> {
-    cable: &'a mut LaneCable<'b, S>,
-    span: &'a Span<Lanes<S>>,
-    held: &'a HeldCable<S>,
-    limits: &'a mut Lanes2<S>,
-    compared: [f64; 2],
-}
-
-impl<S: Simd> WithSimd for Demand<'_, '_, S> {
-    type Output = Mask<S>;
-
-    #[inline(always)]
-    fn with_simd<Same: Simd>(self, _: Same) -> Mask<S> {
-        let Self { cable, span, held, limits, compared } = self;
+apart! {
+    /// Raises the least tension of a cable that `fixed` shows near the least one that its span demands, to
+    /// where the scalar models keep it, and brings a cable below it there. Returns the lanes in which that
+    /// was done. Where none is found the greatest tension is below zero.
+    #[cold]
+    #[inline(never)]
+    on(cable.length) pub(crate) fn demand<'a, 'b, S: Simd>(
+        cable: &'a mut LaneCable<'b, S>,
+        span: &'a Span<Lanes<S>>,
+        fixed: &'a FixedEnds<S>,
+        limits: &'a mut Lanes2<S>,
+        compared: [f64; 2],
+    ) -> Mask<S> {
         let zero = cable.length.all(0.0);
         let (length, force) = (cable.length, cable.force);
         let azimuth = cable.guided.as_ref().map(|guided| guided.azimuth());
-        let near = may_be_slack(cable, held);
-        let (mut at_least, mut active) = (*held, near);
+        let near = may_be_slack(cable, fixed);
+        let (mut at_least, mut active) = (*fixed, near);
         for _ in 0..MAX_ITERATIONS {
             let fx = cable.force[0];
             let slope = fx * at_least.tension_slope;
@@ -111,7 +95,7 @@ impl<S: Simd> WithSimd for Demand<'_, '_, S> {
             let change = change.less_or_equal(zero.all(LONGEST_CHANGE)).select(change, zero + LONGEST_CHANGE);
             let moved = at_least.change(cable, fx * change, active, compared);
             active = active & !moved.max(change.abs()).less_or_equal(zero.all(LAST_CHANGE));
-            at_least = HeldCable::new(cable, span);
+            at_least = FixedEnds::new(cable, span);
             if !active.any() {
                 break;
             }
@@ -119,11 +103,11 @@ impl<S: Simd> WithSimd for Demand<'_, '_, S> {
         let least = zero.all(ABOVE_LEAST) * at_least.closed;
         limits[0].replace(limits[0].max(least), near);
         limits[1].replace(zero.all(-1.0), near & active);
-        // Beside the least tension, where it has no slope: t = t_0 + t'' d²/2.
+        // Next to the least tension, where it has no slope: t = t_0 + t'' d²/2.
         let rise = (limits[0] - at_least.closed) * 2.0;
         let d = (rise / at_least.curvatures[0]).max(zero).sqrt();
         at_least.change(cable, d, near, compared);
-        let keeps = !near | (zero.less_or_equal(held.tension_slope) & limits[0].less_or_equal(held.closed));
+        let keeps = !near | (zero.less_or_equal(fixed.tension_slope) & limits[0].less_or_equal(fixed.closed));
         cable.length.replace(length, keeps);
         replace(&mut cable.force, &force, keeps);
         if let (Some(guided), Some(azimuth)) = (&mut cable.guided, &azimuth) {
@@ -137,26 +121,21 @@ impl<S: Simd> WithSimd for Demand<'_, '_, S> {
 #[inline(always)]
 pub(crate) fn at_platform<S: Simd>(cable: &LaneCable<'_, S>, exit: Lanes<S>, height: Lanes<S>) -> Lanes<S> {
     if !cable.law.is_empty() {
-        return exit.apart(WithLaw { cable, exit, height });
+        return with_law(cable, exit, height);
     }
     let half = cable.axial_flexibility * 0.5;
     let whole = exit + exit * exit * half + cable.weight_per_length * height;
     whole * 2.0 * ((whole * half * 4.0 + 1.0).sqrt() + 1.0).recip()
 }
 
-/// [`at_platform`] for a cable with a law.
-struct WithLaw<'a, 'b, S: Simd> {
-    cable: &'a LaneCable<'b, S>,
-    exit: Lanes<S>,
-    height: Lanes<S>,
-}
-
-impl<S: Simd> WithSimd for WithLaw<'_, '_, S> {
-    type Output = Lanes<S>;
-
+apart! {
+    /// [`at_platform`] for a cable with a law.
     #[inline(always)]
-    fn with_simd<Same: Simd>(self, _: Same) -> Lanes<S> {
-        let Self { cable, exit, height } = self;
+    on(exit) fn with_law<'a, 'b, S: Simd>(
+        cable: &'a LaneCable<'b, S>,
+        exit: Lanes<S>,
+        height: Lanes<S>,
+    ) -> Lanes<S> {
         let work = exit + cable.energy(exit) + cable.weight_per_length * height;
         let (mut tension, mut active) = (exit, exit.less_or_equal(exit));
         for _ in 0..MAX_ITERATIONS_OF_LAW {
@@ -170,31 +149,24 @@ impl<S: Simd> WithSimd for WithLaw<'_, '_, S> {
         }
         (active | work.less_or_equal(work.all(0.0))).select(exit.all(-1.0), tension)
     }
-}
 
-/// The greatest tension at the platform of a cable with the tension `greatest` at its leave point.
-struct BelowPulley<'a, 'b, S: Simd> {
-    cable: &'a mut LaneCable<'b, S>,
-    span: &'a Span<Lanes<S>>,
-    greatest: Lanes<S>,
-    compared: [f64; 2],
-}
-
-impl<S: Simd> WithSimd for BelowPulley<'_, '_, S> {
-    type Output = Lanes<S>;
-
+    /// The greatest tension at the platform of a cable with the tension `greatest` at its leave point.
     #[inline(always)]
-    fn with_simd<Same: Simd>(self, _: Same) -> Lanes<S> {
-        let Self { cable, span, greatest, compared } = self;
+    on(greatest) fn below_pulley<'a, 'b, S: Simd>(
+        cable: &'a mut LaneCable<'b, S>,
+        span: &'a Span<Lanes<S>>,
+        greatest: Lanes<S>,
+        compared: [f64; 2],
+    ) -> Lanes<S> {
         let (length, force) = (cable.length, cable.force);
         let (azimuth, everywhere) =
             (cable.guided.as_ref().map(|guided| guided.azimuth()), greatest.less_or_equal(greatest));
         let mut active = length.less_or_equal(length);
         let (mut found, mut taut) = (greatest, active);
         // From a cable that is slack Newton's method may lead to a longer one of the same tension.
-        let slack = may_be_slack(cable, &HeldCable::new(cable, span));
+        let slack = may_be_slack(cable, &FixedEnds::new(cable, span));
         if slack.any() {
-            let end = cable.held_end(span);
+            let end = cable.free_end(span);
             let straight = greatest * end[0] / (end[0] * end[0] + end[1] * end[1]).sqrt();
             cable.force[0].replace(straight.max(force[0]), slack);
             cable.hang(end, slack);
@@ -203,11 +175,11 @@ impl<S: Simd> WithSimd for BelowPulley<'_, '_, S> {
             let Some(guided) = &cable.guided else { break };
             let [_, rise] = guided.leave_point(&cable.free()).position;
             found.replace(at_platform(cable, greatest, span.end[1] - rise), active);
-            let held = HeldCable::leaving(guided, cable, span);
-            taut = (!active & taut) | (active & greatest.all(0.0).less_or_equal(held.tension_slope));
-            let way = held.way_to(found);
+            let fixed = FixedEnds::leaving(guided, cable, span);
+            taut = (!active & taut) | (active & greatest.all(0.0).less_or_equal(fixed.tension_slope));
+            let way = fixed.way_to(found);
             let own = way.abs() / cable.force[0];
-            let moved = held.change(cable, way, active, compared).max(own);
+            let moved = fixed.change(cable, way, active, compared).max(own);
             active = active & !moved.less_or_equal(moved.all(LAST_CHANGE));
             if !active.any() {
                 break;

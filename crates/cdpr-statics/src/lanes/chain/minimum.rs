@@ -67,7 +67,7 @@ pub(crate) fn is_least<S: Simd>(
     let here = lagrangian(dot(&cable.force, &cable.force).sqrt(), &cable.force, &gain, reference);
     let half_weight = cable.weight_per_length * 0.5;
     let mut is_least = here.less_or_equal(here);
-    // Beyond the least tension of the span, where it rises again, no cable is held.
+    // Beyond the least tension of the span, where it rises again, no cable is taut.
     let (mut before, mut beyond) = (*greatest * f64::INFINITY, !is_least);
     for [u, coth, stretch] in CATENARIES {
         let force = match &cable.guided {

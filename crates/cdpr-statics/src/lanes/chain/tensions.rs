@@ -2,7 +2,7 @@
 //! limits, in balance at the wanted pose.
 //!
 //! The shape of a cable is not solved for but takes part in the iteration. The unknown of a cable is its
-//! horizontal force fx, which at held ends is proportional to its chord force: all derivatives are finite,
+//! horizontal force fx, which at fixed ends is proportional to its chord force: all derivatives are finite,
 //! also at the least tension. With C the flexibility, `e = d(x, z)/dL` and c the misclosure at force and
 //! length,
 //!
@@ -23,7 +23,7 @@
 //! Where steps pass limits of the tensions, `cdpr_tension::box_problem` finds those within them.
 //!
 //! For a parabola fz is linear in fx and w'' zero; what sag adds is that of the inextensible catenary
-//! ([`HeldCable::curvature`]). A cable that begins near the least tension of its span has it for a limit, as
+//! ([`FixedEnds::curvature`]). A cable that begins near the least tension of its span has it for a limit, as
 //! in the scalar models; one that comes near it on the way is left to them.
 //!
 //! A lane stops by its own steps alone: the other lanes of a batch change none of its digits.
@@ -33,9 +33,9 @@ use crate::inverse::NEARLY_ROUNDING;
 use crate::lanes::chain::limits::{demand, limits_at, may_be_slack};
 use crate::lanes::chain::minimum::is_least;
 use crate::lanes::chain::shared::{LAST_DISTRIBUTION, LAST_REMAINDER, LAST_SHARE, MAX_DISTRIBUTIONS, Shared};
-use crate::lanes::held::HeldCable;
+use crate::lanes::fixed_ends::FixedEnds;
 use crate::local::cable::{FOLDED, LaneCable};
-use crate::local::freedoms::hold;
+use crate::local::freedoms::constrain;
 use crate::local::platform::Robots;
 use cdpr_number::Number;
 use cdpr_number::dense::{Lanes2, Lanes6, halves, replace};
@@ -152,7 +152,7 @@ struct Search<'b, 'a, S: Simd> {
     task: Distribute<'b, 'a, S>,
     cables: Vec<CableTension<S>>,
     /// The cables where they are, and their rows of (L3).
-    held: Vec<HeldCable<S>>,
+    fixed: Vec<FixedEnds<S>>,
     rows: Vec<BoundedUnknown<S>>,
     /// For each cable the lanes where its curvature is positive.
     convex: Vec<Mask<S>>,
@@ -188,7 +188,7 @@ impl<'b, 'a, S: Simd> Search<'b, 'a, S> {
         Self {
             task,
             cables,
-            held: Vec::with_capacity(count),
+            fixed: Vec::with_capacity(count),
             rows: Vec::with_capacity(count),
             convex: Vec::with_capacity(count),
             active,
@@ -209,38 +209,38 @@ impl<'b, 'a, S: Simd> Search<'b, 'a, S> {
     fn linearize(&mut self) -> Lanes6<S> {
         let Distribute { robots, external, multipliers, spans, shared, .. } = &self.task;
         let freedoms = robots.freedoms;
-        self.held.clear();
+        self.fixed.clear();
         self.rows.clear();
         self.convex.clear();
         let mut balance = **external;
         let cables = spans.iter().zip(&robots.cables).zip(&shared.choices);
         for ((span, cable), choice) in cables {
-            let held = HeldCable::new(cable, span);
-            let pull = wrench(&cable.anchor_arm, &held.pull(cable, span));
+            let fixed = FixedEnds::new(cable, span);
+            let pull = wrench(&cable.anchor_arm, &fixed.pull(cable, span));
             for k in 0..6 {
                 balance[k] += pull[k];
             }
-            let along = held.pull_slope(cable, span);
+            let along = fixed.pull_slope(cable, span);
             // w''·λ of a vertical force.
             let [sx, sy, _] = cable.anchor_arm;
             let lifted = multipliers[2] + sy * multipliers[3] - sx * multipliers[4];
-            let square = held.tension_slope * held.tension_slope;
-            let curvature = square + (held.tension + -choice.reference) * held.curvatures[0]
-                - lifted * held.curvatures[1];
+            let square = fixed.tension_slope * fixed.tension_slope;
+            let curvature = square + (fixed.tension + -choice.reference) * fixed.curvatures[0]
+                - lifted * fixed.curvatures[1];
             self.convex.push((square * LEAST_CURVATURE).less_or_equal(curvature));
             let curvature = curvature.abs().max(square * LEAST_CURVATURE);
             self.rows.push(BoundedUnknown::new(
                 wrench(&cable.anchor_arm, &along),
-                (held.closed + -choice.reference) * held.tension_slope,
+                (fixed.closed + -choice.reference) * fixed.tension_slope,
                 curvature.recip(),
                 multipliers,
             ));
-            self.held.push(held);
+            self.fixed.push(fixed);
         }
         if !freedoms.are_all() {
-            balance = hold(freedoms, balance);
+            balance = constrain(freedoms, balance);
             for row in &mut self.rows {
-                row.column = hold(freedoms, row.column);
+                row.column = constrain(freedoms, row.column);
             }
         }
         balance
@@ -253,15 +253,15 @@ impl<'b, 'a, S: Simd> Search<'b, 'a, S> {
         let compared = self.compared();
         let Distribute { robots, spans, .. } = &mut self.task;
         let mut slack = self.jumped;
-        for (cable, held) in robots.cables.iter().zip(&self.held) {
-            slack = slack | may_be_slack(cable, held);
+        for (cable, fixed) in robots.cables.iter().zip(&self.fixed) {
+            slack = slack | may_be_slack(cable, fixed);
         }
         if !slack.any() {
             return false;
         }
-        let cables = robots.cables.iter_mut().zip(*spans).zip(&self.held);
-        for (((cable, span), held), found) in cables.zip(&mut self.cables) {
-            found.demanded = demand(cable, span, held, &mut found.limits, compared);
+        let cables = robots.cables.iter_mut().zip(*spans).zip(&self.fixed);
+        for (((cable, span), fixed), found) in cables.zip(&mut self.cables) {
+            found.demanded = demand(cable, span, fixed, &mut found.limits, compared);
         }
         true
     }
@@ -271,17 +271,17 @@ impl<'b, 'a, S: Simd> Search<'b, 'a, S> {
     fn step(&mut self, balance: &Lanes6<S>) -> Step<S> {
         let mut multipliers = unbounded_step(&self.rows, balance);
         let mut outside = !self.active & self.active;
-        for ((row, held), found) in self.rows.iter_mut().zip(&self.held).zip(&self.cables) {
+        for ((row, fixed), found) in self.rows.iter_mut().zip(&self.fixed).zip(&self.cables) {
             row.prepare(&multipliers);
             let [least, greatest] = found.limits;
-            let tension = held.closed + held.tension_slope * (row.free - row.change);
+            let tension = fixed.closed + fixed.tension_slope * (row.free - row.change);
             outside = outside | !(least.less_or_equal(tension) & tension.less_or_equal(greatest));
         }
         // Limits change nothing in the other lanes.
         let (mut settled, bounded) = (!outside, self.active & outside);
         if bounded.any() {
-            for ((row, held), found) in self.rows.iter_mut().zip(&self.held).zip(&self.cables) {
-                row.bounds = found.limits.map(|limit| held.way_to(limit));
+            for ((row, fixed), found) in self.rows.iter_mut().zip(&self.fixed).zip(&self.cables) {
+                row.bounds = found.limits.map(|limit| fixed.way_to(limit));
             }
             let (raised, solved) = solve_within_bounds(&mut self.rows, balance, bounded, MAX_ITERATIONS);
             replace(&mut multipliers, &raised, bounded);
@@ -300,13 +300,13 @@ impl<'b, 'a, S: Simd> Search<'b, 'a, S> {
         let Distribute { robots, multipliers, spans, .. } = &mut self.task;
         let mut moved = self.before.all(0.0);
         let cables = spans.iter().zip(&mut robots.cables);
-        for ((row, held), (span, cable)) in self.rows.iter().zip(&self.held).zip(cables) {
+        for ((row, fixed), (span, cable)) in self.rows.iter().zip(&self.fixed).zip(cables) {
             let d = row.solution(step.bounded);
             let near = d.abs().less_or_equal(cable.force[0] * LONGEST_STEP);
-            let far = active & !near & !held.slackness.less_or_equal(d.all(SAGGING));
+            let far = active & !near & !fixed.slackness.less_or_equal(d.all(SAGGING));
             self.jumped = self.jumped | far;
-            let end = far.any().then(|| cable.held_end(span));
-            moved = moved.max(held.change(cable, d, active, compared));
+            let end = far.any().then(|| cable.free_end(span));
+            moved = moved.max(fixed.change(cable, d, active, compared));
             if let Some(end) = end {
                 cable.hang(end, far);
             }
@@ -325,8 +325,8 @@ impl<'b, 'a, S: Simd> Search<'b, 'a, S> {
         // A part of the sum of tensions is a greater one of a cable's own.
         let mut ends = self.active & moved.less_or_equal(moved.all(LAST_SHARE.sqrt()));
         if ends.any() {
-            for ((row, held), cable) in self.rows.iter().zip(&self.held).zip(&robots.cables) {
-                ends = ends & held.is_last(cable, row.solution(step.bounded), LAST_SHARE);
+            for ((row, fixed), cable) in self.rows.iter().zip(&self.fixed).zip(&robots.cables) {
+                ends = ends & fixed.is_last(cable, row.solution(step.bounded), LAST_SHARE);
             }
         }
         let last = step.settled & (ends | (self.active & small));
@@ -351,8 +351,8 @@ impl<'b, 'a, S: Simd> Search<'b, 'a, S> {
         let compared = self.compared();
         let Distribute { robots, offsets, .. } = &mut self.task;
         let zero = self.before.all(0.0);
-        let cables = self.rows.iter().zip(&self.held).zip(&mut robots.cables).zip(&mut **offsets);
-        for ((((row, held), cable), offset), found) in cables.zip(&mut self.cables) {
+        let cables = self.rows.iter().zip(&self.fixed).zip(&mut robots.cables).zip(&mut **offsets);
+        for ((((row, fixed), cable), offset), found) in cables.zip(&mut self.cables) {
             let [least, greatest] = found.limits;
             let [low, high] = row.active;
             found.keep(cable, row.active, last);
@@ -361,13 +361,13 @@ impl<'b, 'a, S: Simd> Search<'b, 'a, S> {
             let set_point = (chosen + *offset).max(least);
             let set_point = set_point.less_or_equal(greatest).select(set_point, greatest);
             let sound = zero.less_or_equal(cable.force[0])
-                & held.slackness.less_or_equal(zero.all(FOLDED))
-                & held.is_taut(cable, found.demanded)
+                & fixed.slackness.less_or_equal(zero.all(FOLDED))
+                & fixed.is_taut(cable, found.demanded)
                 & least.less_or_equal(greatest);
             self.sound = self.sound & (sound | !last);
             offset.replace(set_point, last);
-            let across = [zero, held.across[1]];
-            let there = HeldCable { closed: tension, closing: [zero; 2], across, ..*held };
+            let across = [zero, fixed.across[1]];
+            let there = FixedEnds { closed: tension, closing: [zero; 2], across, ..*fixed };
             there.change(cable, there.way_to(set_point), last, compared);
         }
     }

@@ -1,16 +1,16 @@
 //! Observations with the rotation of the platform under the load.
 
-use super::{Answers, Batch, Observation, Observed, Observer, read};
+use super::{Batch, BatchOf, InLanes, InRows, Observation, Observed, Observer, read};
 use crate::error::StaticsError;
-use crate::lanes::chain::observe;
+use crate::lanes::chain::Outcome;
 use crate::lanes::level::LevelFrame;
-use crate::lanes::observer::rows::Rows;
 use crate::lanes::reason::ScalarReason;
 use cdpr_number::dense::Lanes3;
-use cdpr_number::lanes::{Lanes, MAX_LANES, Simd, WithSimd, dispatch};
+use cdpr_number::lanes::{Lanes, MAX_LANES, Simd, dispatch};
 use cdpr_robot::{Matrix3, Pose, Vector3, orthonormalized};
 use smallvec::SmallVec;
 use std::array::from_fn;
+use std::marker::PhantomData;
 
 /// The deflection of one perturbed robot, with the rotation that belongs to it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,7 +24,7 @@ pub struct ObservationMotion {
 
 impl Observed for ObservationMotion {
     fn in_lanes(batch: Batch) -> Vec<Result<Self, ScalarReason>> {
-        dispatch(MotionBatch(batch))
+        dispatch(BatchOf(batch, PhantomData))
     }
 
     fn by_scalar_models(
@@ -38,42 +38,14 @@ impl Observed for ObservationMotion {
     }
 }
 
-/// Rows of deviations for the lanes, whose rotations are asked for.
-struct MotionBatch<'a>(Batch<'a>);
-
-impl WithSimd for MotionBatch<'_> {
-    type Output = Vec<Result<ObservationMotion, ScalarReason>>;
+impl InLanes for ObservationMotion {
+    const WITH_FRAMES: bool = true;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
-        let Batch { observer: Observer { robot, pose, load, layout, nominal, .. }, deviations } = self.0;
-        let parameters = layout.count();
-        let nominal = match nominal {
-            Ok(nominal) => nominal,
-            Err(why) => return vec![Err(*why); deviations.len() / parameters],
-        };
-        let mut found = Vec::with_capacity(deviations.len() / parameters);
-        for rows in deviations.chunks(Lanes::<S>::COUNT * parameters) {
-            let count = rows.len() / parameters;
-            let rows = Rows::new(simd, rows, layout);
-            let mut answers = Answers::none();
-            for axes in nominal.axes() {
-                let (mut start, level, valid) = rows.robots(robot, pose, load, nominal, *axes);
-                if valid[1].any() {
-                    start.robots.frame.extend(rows.frame(pose, level.as_ref()));
-                    let (outcome, _) = observe(&mut start, &nominal.shared, false);
-                    let frames = outcome.frames.each_ref().map(|of| in_base(of, level.as_ref()));
-                    let observed = read(&outcome, level.as_ref(), valid, nominal);
-                    let moved = from_fn(|lane| with_rotation(observed[lane], &frames, lane));
-                    answers.assign(valid[1], moved);
-                }
-                if answers.are_complete() {
-                    break;
-                }
-            }
-            found.extend(answers.take(count));
-        }
-        found
+    fn read<S: Simd>(outcome: &Outcome<S>, of: &InRows<'_, S>) -> [Result<Self, ScalarReason>; MAX_LANES] {
+        let frames = outcome.frames.each_ref().map(|frame| in_base(frame, of.level));
+        let observed = read(outcome, of);
+        from_fn(|lane| with_rotation(observed[lane], &frames, lane))
     }
 }
 

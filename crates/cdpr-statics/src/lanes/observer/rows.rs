@@ -1,14 +1,14 @@
 //! The nominal robot, and robots that deviate from it, one in each lane.
 
 use crate::equations::Ends;
-use crate::inverse::HeldPose;
+use crate::inverse::PoseLengths;
 use crate::lanes::chain::free::FreeMotion;
 use crate::lanes::chain::shared::{Choice, Shared};
 use crate::lanes::chain::{ChainStart, Stage};
 use crate::lanes::level::LevelFrame;
 use crate::lanes::reason::{ScalarReason, has_tilted_axes};
 use crate::local::cable::{LaneCable, Shape, law};
-use crate::local::freedoms::hold;
+use crate::local::freedoms::constrain;
 use crate::local::guided::Guided;
 use crate::local::load::PlatformLoad;
 use crate::local::platform::{Layout, Robots, Scale};
@@ -45,16 +45,17 @@ impl Nominal {
     pub(crate) fn new(
         robot: &Robot,
         load: &Load,
-        solution: Option<(HeldPose, Vector6<f64>)>,
+        solution: Option<(PoseLengths, Vector6<f64>)>,
         free: &[Coordinate],
     ) -> Result<Self, ScalarReason> {
         if let Some(why) = ScalarReason::of_all(robot, free) {
             return Err(why);
         }
-        let (HeldPose { lengths, equilibrium }, multipliers) = solution.ok_or(ScalarReason::NominalRobot)?;
+        let (PoseLengths { lengths, equilibrium }, multipliers) =
+            solution.ok_or(ScalarReason::NominalRobot)?;
         let (pose, tensions) = (&equilibrium.pose, equilibrium.tensions());
         let tension = tensions.iter().sum();
-        let problem = DirectProblem { robot, lengths: &lengths, load: *load, length_of_rotations: None };
+        let problem = DirectProblem::new(robot, &lengths, load).map_err(|_| ScalarReason::NominalRobot)?;
         let exits = robot.cables.iter().map(|cable| cable.exit_point.norm()).fold(0.0, f64::max);
         let reference = robot.reference();
         let choice = |(i, reference): (usize, &f64)| {
@@ -224,7 +225,7 @@ impl<'a, S: Simd> Rows<'a, S> {
                 start.robots.cables[i].guided = Some(Box::new(Guided::new(guide)));
             }
         }
-        start.multipliers = hold(robot.freedoms(), start.multipliers);
+        start.multipliers = constrain(robot.freedoms(), start.multipliers);
         if let Some(level) = &level {
             start.rotate(level);
         }

@@ -1,7 +1,7 @@
 //! Observations with the derivatives of |dp| by all parameters.
 
-use super::{Batch, Observation, Observed, Observer, Wanted, read};
-use crate::derivatives::{Derivatives, derivatives, derivatives_near};
+use super::{Batch, InRows, Observation, Observed, Observer, Wanted, read};
+use crate::derivatives::{Derivatives, derivatives, derivatives_from};
 use crate::error::StaticsError;
 use crate::lanes::adjoint::{Adjoint, GuideSlopes, Record, adjoint};
 use crate::lanes::chain::observe;
@@ -14,7 +14,7 @@ use cdpr_number::Number;
 use cdpr_number::lanes::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
 use cdpr_number::three;
 use cdpr_number::vector::dot;
-use cdpr_robot::{Axis, Parameter, Robot, RobotCable, TiltAxis};
+use cdpr_robot::{Axis, Parameter, Perturbed, Robot, RobotCable, TiltAxis};
 
 /// The deflection of one perturbed robot, with the derivatives of its length.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,11 +37,12 @@ impl Observed for ObservationSlopes {
         why: ScalarReason,
     ) -> Result<Self, StaticsError> {
         let Observer { robot, pose, load, layout, wanted, .. } = observer;
-        let perturbed = robot.perturbed(deviations)?;
-        let (robot, offsets) = (&perturbed.robot, &perturbed.tension_offsets);
-        let wanted_pose = WantedPose::at(pose).tension_offsets(offsets);
+        let Perturbed { robot, tension_offsets } = &robot.perturbed(deviations)?;
+        let wanted_pose = WantedPose::at(pose).tension_offsets(tension_offsets);
         let found = match wanted {
-            Wanted::Pose(Some(branch)) => derivatives_near(branch, robot, pose, offsets, load)?,
+            Wanted::Pose(Some(branch)) => {
+                derivatives_from(robot, wanted_pose, load, branch.nearby(robot, pose)?)?
+            }
             Wanted::Pose(None) => derivatives(robot, wanted_pose, load)?,
             Wanted::Rest(branch) => derivatives(robot, wanted_pose.free(branch.coordinates()), load)?,
         };
@@ -86,9 +87,9 @@ impl WithSimd for SlopesBatch<'_> {
                 decided = (adjoint.decided & rolling).to_array();
                 rows.write_slopes(robot, adjoint, level.as_ref(), &mut slopes);
             }
-            let answers = read(&outcome, level.as_ref(), valid, nominal);
-            for (lane, answer) in answers.into_iter().enumerate().take(count) {
-                found.push(match answer {
+            let observed = read(&outcome, &InRows { level: level.as_ref(), valid, nominal });
+            for (lane, observed) in observed.into_iter().enumerate().take(count) {
+                found.push(match observed {
                     Ok(_) if !decided[lane] => Err(ScalarReason::Derivatives),
                     Ok(observation) => {
                         let magnitude = slopes.iter().map(|slope| slope[lane]).collect();

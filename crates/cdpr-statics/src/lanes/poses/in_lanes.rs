@@ -1,14 +1,14 @@
 //! The inverse model at poses of one robot, one in each lane.
 
 use crate::equations::Span;
-use crate::lanes::chain::lengths::FindLengths;
+use crate::lanes::chain::lengths::find_lengths;
 use crate::lanes::chain::minimum::is_least;
 use crate::lanes::chain::shared::Shared;
 use crate::lanes::chain::tensions::{CableTension, Distribute, Distributed, SAGGING};
-use crate::lanes::held::HeldCable;
+use crate::lanes::fixed_ends::FixedEnds;
 use crate::lanes::poses::placed::{PlacedRobot, each};
 use crate::local::cable::Shape;
-use crate::local::freedoms::hold;
+use crate::local::freedoms::constrain;
 use crate::local::load::PlatformLoad;
 use crate::local::platform::{LinearizedPlatform, Robots};
 use crate::state::Load;
@@ -27,7 +27,7 @@ pub(crate) struct Setting<'a> {
     pub(crate) shared: Shared,
 }
 
-/// An answer, from which the next one is found.
+/// A result, from which the next one is found.
 #[derive(Clone)]
 pub(crate) struct Near {
     /// Of the platform [m].
@@ -44,12 +44,12 @@ pub(crate) struct Asked<'a> {
 }
 
 /// What a lane says of a pose.
-pub(crate) struct Answer {
-    pub(crate) cables: SmallVec<[CableAnswer; 8]>,
+pub(crate) struct LaneSolution {
+    pub(crate) cables: SmallVec<[LaneCableSolution; 8]>,
     pub(crate) multipliers: Vector6<f64>,
 }
 
-pub(crate) struct CableAnswer {
+pub(crate) struct LaneCableSolution {
     pub(crate) length: f64,
     pub(crate) force: Vector2<f64>,
     pub(crate) tension: f64,
@@ -67,13 +67,13 @@ pub(crate) struct InLanes<'a, S> {
 
 impl<S: Simd> InLanes<'_, S> {
     #[inline(always)]
-    pub(crate) fn answers(&self) -> Vec<Option<Answer>> {
+    pub(crate) fn solutions(&self) -> Vec<Option<LaneSolution>> {
         let Setting { placed, load, shared } = self.setting;
         let (robot, zero) = (placed.robot, self.all(0.0));
         let (mut robots, spans) = self.shaped();
         let weight = self.all((robot.platform.mass + load.payload) * robot.gravity.magnitude());
         let whole = PlatformLoad::new(weight, &placed.wrench_to_level(&load.wrench));
-        let external = hold(robots.freedoms, whole.wrench(&robots.center));
+        let external = constrain(robots.freedoms, whole.wrench(&robots.center));
         let mut multipliers = six!(|k| self.each(&|asked| asked.near.multipliers[k]));
         let mut set_points = vec![zero; spans.len()];
         let Distributed { converged, sound, cables } = zero.apart(Distribute {
@@ -87,17 +87,10 @@ impl<S: Simd> InLanes<'_, S> {
         let (demanded, limits): (Vec<_>, Vec<_>) =
             cables.iter().map(|CableTension { demanded, limits, .. }| (*demanded, *limits)).unzip();
         let mut platform = LinearizedPlatform::new(zero, spans.len());
-        let held = zero.apart(FindLengths {
-            robots: &mut robots,
-            platform: &mut platform,
-            set_points: &set_points,
-            spans: &spans,
-            demanded: &demanded,
-            shared,
-        });
-        let found = converged & sound & held;
+        let with_lengths = find_lengths(&mut robots, &mut platform, &set_points, (&spans, &demanded), shared);
+        let found = converged & sound & with_lengths;
         let found = found & self.is_least(&robots, &spans, &multipliers, &limits);
-        self.read(found, &robots, &spans, &multipliers, &set_points, &limits)
+        self.read(found, &robots, &spans, &multipliers, (&set_points, &limits))
     }
 
     #[inline(always)]
@@ -171,7 +164,7 @@ impl<S: Simd> InLanes<'_, S> {
         straight | least
     }
 
-    /// The answers of the lanes that `found` one.
+    /// The results of the lanes that `found` one.
     #[inline(always)]
     fn read(
         &self,
@@ -179,23 +172,23 @@ impl<S: Simd> InLanes<'_, S> {
         robots: &Robots<'_, S>,
         spans: &[Span<Lanes<S>>],
         multipliers: &Lanes6<S>,
-        set_points: &[Lanes<S>],
-        limits: &[Lanes2<S>],
-    ) -> Vec<Option<Answer>> {
+        (set_points, limits): (&[Lanes<S>], &[Lanes2<S>]),
+    ) -> Vec<Option<LaneSolution>> {
         let found = found.to_array();
         let multipliers_of = multipliers.map(Lanes::to_array);
-        let answer = |lane: usize| Answer {
+        let result = |lane: usize| LaneSolution {
             cables: SmallVec::new(),
             multipliers: Vector6::from_fn(|k, _| multipliers_of[k][lane]),
         };
-        let mut answers: Vec<_> =
-            (0..self.asked.len()).map(|lane| found[lane].then(|| answer(lane))).collect();
+        let mut results: Vec<_> =
+            (0..self.asked.len()).map(|lane| found[lane].then(|| result(lane))).collect();
         let choices = &self.setting.shared.choices;
         for (i, (cable, span)) in robots.cables.iter().zip(spans).enumerate() {
-            let held = HeldCable::new(cable, span);
-            let pull = wrench(&cable.anchor_arm, &held.pull_slope(cable, span));
+            let fixed = FixedEnds::new(cable, span);
+            let pull = wrench(&cable.anchor_arm, &fixed.pull_slope(cable, span));
             // (I2)
-            let slope = (held.tension + -choices[i].reference) + dot(multipliers, &pull) / held.tension_slope;
+            let slope =
+                (fixed.tension + -choices[i].reference) + dot(multipliers, &pull) / fixed.tension_slope;
             let shape = cable.shape(span);
             let length = cable.guided.as_ref().map_or(cable.length, |guided| guided.whole_length);
             let [slope, length, tension, x, z, least, greatest] =
@@ -204,8 +197,8 @@ impl<S: Simd> InLanes<'_, S> {
             let ([c, s], [tx, tz]) = (shape.turn.map(Lanes::to_array), shape.tangent.map(Lanes::to_array));
             let [chord_force, sag_force, longer] =
                 [shape.chord_force, shape.sag_force, shape.longer].map(Lanes::to_array);
-            for (lane, answer) in answers.iter_mut().enumerate() {
-                let Some(answer) = answer else { continue };
+            for (lane, result) in results.iter_mut().enumerate() {
+                let Some(result) = result else { continue };
                 let (active, stationarity) = match tension[lane] {
                     t if t == least[lane] => (Some(Bound::Min), (-slope[lane]).max(0.0)),
                     t if t == greatest[lane] => (Some(Bound::Max), slope[lane].max(0.0)),
@@ -218,7 +211,7 @@ impl<S: Simd> InLanes<'_, S> {
                     sag_force: sag_force[lane],
                     longer: longer[lane],
                 };
-                answer.cables.push(CableAnswer {
+                result.cables.push(LaneCableSolution {
                     length: length[lane],
                     force: Vector2::new(x[lane], z[lane]),
                     tension: tension[lane],
@@ -228,6 +221,6 @@ impl<S: Simd> InLanes<'_, S> {
                 });
             }
         }
-        answers
+        results
     }
 }

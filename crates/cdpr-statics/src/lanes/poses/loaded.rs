@@ -1,6 +1,6 @@
 //! What a load does to one robot at many poses with the lengths kept, one pose in each lane.
 //!
-//! From the cables that the inverse model wound, both equilibria follow by Newton's method of
+//! From the lengths of the inverse model both equilibria follow by Newton's method of
 //! `local/newton.rs`. The stiffness K of the loaded platform is linearized at the second one. Its least
 //! eigenvalue in (dp, ℓ dφ) is the stiffness of the softest motion, as [`crate::Stability`] has it, and
 //! that of `K v = (2π f)² M v` with the mass matrix of (V1) gives the lowest natural frequency. What a lane
@@ -17,8 +17,9 @@ use crate::lanes::reason::ScalarReason;
 use crate::loading::CableFrequency;
 #[cfg(doc)]
 use crate::loading::deflection_from;
-use crate::local::freedoms::{hold, hold_matrix};
+use crate::local::freedoms::{constrain, constrain_matrix};
 use crate::local::load::PlatformLoad;
+use crate::local::newton::solve;
 use crate::local::platform::{LaneResidual, LinearizedPlatform, Robots};
 use crate::state::{Equilibrium, Load};
 use cdpr_cable::{Catenary, is_slack};
@@ -31,11 +32,11 @@ use cdpr_robot::{Freedoms, Matrix3, Pose, Robot, Vector3};
 use smallvec::SmallVec;
 use std::f64::consts::TAU;
 
-/// What `load` does at every pose that the inverse model answered without it, the lengths kept: the figures
+/// What `load` does at every pose that the inverse model solved without it, the lengths kept: the figures
 /// of [`deflection_from`], and those of [`crate::derivatives`] where they exist.
 ///
-/// Robots with a cable for every free motion are answered in the lanes of the vector unit; derivatives over
-/// tilted axes are those of the scalar models. No answer depends on the others.
+/// Robots with a cable for every free motion are solved in the lanes of the vector unit; derivatives over
+/// tilted axes are those of the scalar models. No result depends on the others.
 ///
 /// # Errors
 /// Those of [`deflection_from`], for each pose.
@@ -52,7 +53,7 @@ pub fn loaded_poses<T: Loaded>(
     wanted.iter().zip(found).map(one).collect()
 }
 
-/// The answers of the lanes, with derivatives or without.
+/// The results of the lanes, with derivatives or without.
 fn in_lanes(
     robot: &Robot,
     wanted: &[&InverseSolution],
@@ -88,7 +89,7 @@ impl WithSimd for Batch<'_> {
         let Self { placed, wanted, load, slopes } = self;
         let mut found = Vec::with_capacity(wanted.len());
         for wanted in wanted.chunks(Lanes::<S>::COUNT) {
-            InLanes { simd, placed, wanted, load, slopes }.answer(&mut found);
+            InLanes { simd, placed, wanted, load, slopes }.solve(&mut found);
         }
         found
     }
@@ -124,9 +125,9 @@ struct Figures<S: Simd> {
 
 impl<S: Simd> InLanes<'_, S> {
     #[inline(always)]
-    fn answer(&self, answers: &mut Vec<Result<PoseSlopes, ScalarReason>>) {
+    fn solve(&self, results: &mut Vec<Result<PoseSlopes, ScalarReason>>) {
         let Self { simd, placed, wanted, load, .. } = *self;
-        let (mut robots, zero) = (self.wound(), self.all(0.0));
+        let (mut robots, zero) = (self.at_lengths(), self.all(0.0));
         let everywhere = zero.less_or_equal(zero);
         let mut record = self.slopes.map(|nominal| nominal.record(simd, placed, wanted, &robots));
         let mut platform = LinearizedPlatform::new(zero, robots.cables.len());
@@ -143,7 +144,7 @@ impl<S: Simd> InLanes<'_, S> {
             let weight = self.all(load.payload * placed.robot.gravity.magnitude());
             let added = PlatformLoad::new(weight, &placed.wrench_to_level(&load.wrench));
             // The first step follows the linearization at hand.
-            let wrench = hold(robots.freedoms, added.wrench(&robots.center));
+            let wrench = constrain(robots.freedoms, added.wrench(&robots.center));
             platform.gradient = six!(|k| platform.gradient[k] - wrench[k]);
             carried = added.on(carried.weight);
             payload = added;
@@ -167,7 +168,7 @@ impl<S: Simd> InLanes<'_, S> {
             &displacement,
             (&unloaded, loaded.as_ref().unwrap_or(&unloaded)),
             (&figures, slopes),
-            answers,
+            results,
         );
     }
 
@@ -176,9 +177,9 @@ impl<S: Simd> InLanes<'_, S> {
         Lanes::splat(self.simd, value)
     }
 
-    /// The robot with its cables as the inverse model wound them.
+    /// The robot with its cables with the lengths of the inverse model.
     #[inline(always)]
-    fn wound(&self) -> Robots<'_, S> {
+    fn at_lengths(&self) -> Robots<'_, S> {
         let Self { simd, placed, wanted, .. } = *self;
         let poses: SmallVec<[&Pose; MAX_LANES]> =
             wanted.iter().map(|wanted| &wanted.equilibrium.pose).collect();
@@ -212,7 +213,7 @@ impl<S: Simd> InLanes<'_, S> {
         carried: &PlatformLoad<S>,
         alive: Mask<S>,
     ) -> Settled<S> {
-        let (found, residual) = robots.solve(carried, platform, &self.placed.scale, alive);
+        let (found, residual) = solve(robots, carried, platform, &self.placed.scale, alive);
         let mut tensions = SmallVec::new();
         for cable in &robots.cables {
             let [fx, fz] = cable.force;
@@ -279,11 +280,11 @@ impl<S: Simd> InLanes<'_, S> {
                 }
             }
         }
-        hold_matrix(robots.freedoms, &mut matrix, m);
+        constrain_matrix(robots.freedoms, &mut matrix, m);
         matrix
     }
 
-    /// The answer of each lane, or the first link that failed; without a load the second equilibrium is the
+    /// The result of each lane, or the first stage that failed; without a load the second equilibrium is the
     /// first.
     #[inline(always)]
     fn read(
@@ -292,7 +293,7 @@ impl<S: Simd> InLanes<'_, S> {
         displacement: &Lanes3<S>,
         (unloaded, loaded): (&Settled<S>, &Settled<S>),
         (figures, slopes): (&Figures<S>, Option<SlopesOfLanes>),
-        answers: &mut Vec<Result<PoseSlopes, ScalarReason>>,
+        results: &mut Vec<Result<PoseSlopes, ScalarReason>>,
     ) {
         let Self { placed: PlacedRobot { robot, .. }, wanted, .. } = *self;
         let stands = unloaded.found.to_array();
@@ -308,13 +309,13 @@ impl<S: Simd> InLanes<'_, S> {
         let free: SmallVec<[_; 8]> = robots.cables.iter().map(|cable| cable.length.to_array()).collect();
         for lane in 0..wanted.len() {
             if !(stands[lane] && carries[lane]) {
-                answers.push(Err(if stands[lane] { ScalarReason::Loaded } else { ScalarReason::Unloaded }));
+                results.push(Err(if stands[lane] { ScalarReason::Loaded } else { ScalarReason::Unloaded }));
                 continue;
             }
             let mut magnitude = None;
             if self.slopes.is_some() {
                 let Some((slopes, _)) = slopes.as_ref().filter(|(_, decided)| decided[lane]) else {
-                    answers.push(Err(ScalarReason::Derivatives));
+                    results.push(Err(ScalarReason::Derivatives));
                     continue;
                 };
                 magnitude = Some(slopes.iter().map(|slope| slope[lane]).collect());
@@ -337,7 +338,7 @@ impl<S: Simd> InLanes<'_, S> {
                 slack: (0..robot.cables.len()).filter(is_slack).collect(),
                 scalar: None,
             };
-            answers.push(Ok(PoseSlopes { loaded, magnitude }));
+            results.push(Ok(PoseSlopes { loaded, magnitude }));
         }
     }
 }
@@ -350,7 +351,7 @@ fn least<S: Simd>(freedoms: Freedoms, mut matrix: Lanes6x6<S>) -> Lanes<S> {
         trace += row[k];
     }
     // No less than any eigenvalue of a stable stiffness.
-    hold_matrix(freedoms, &mut matrix, trace);
+    constrain_matrix(freedoms, &mut matrix, trace);
     least_eigenvalue(matrix)
 }
 

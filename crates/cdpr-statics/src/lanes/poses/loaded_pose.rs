@@ -121,7 +121,7 @@ impl Loaded for PoseSlopes {
                     found.magnitude().ok().map(|slopes| slopes.into_iter().take(parameters).collect());
                 (found.deflection, magnitude)
             }
-            // A pose without a derivative is held nevertheless.
+            // A pose without a derivative is solved nevertheless.
             Err(StaticsError::NoDerivative { .. }) => {
                 (deflection_from(robot, wanted.lengths.clone(), load, &wanted.equilibrium)?, None)
             }

@@ -37,7 +37,7 @@ impl<'a> Nominal<'a> {
         Self { robot: placed.robot, shared: placed.shared(load), none: vec![0.0; layout.count()], layout }
     }
 
-    /// What the adjoint needs of the inverse model, and of the cables as it wound them.
+    /// What the adjoint needs of the inverse model, and of the cables with its lengths.
     #[inline(always)]
     pub(crate) fn record<'n, S: Simd>(
         &self,

@@ -1,4 +1,4 @@
-//! How a cable answers to its ends, its material and its guide, for the adjoint of an observation.
+//! How a cable responds to its ends, its material and its guide, for the adjoint of an observation.
 //!
 //! At constant force and length the end of a cable moves by `e_w dw + e_f dφ` with its weight per length w
 //! and its axial flexibility `φ = 1/EA`. With `y = d(h, z) - e_w dw - e_f dφ`, C the flexibility, K its
@@ -28,10 +28,10 @@ use cdpr_cable::kernel::{GuideTerms, GuidedEndSlopes, Material, Response, Swivel
 use cdpr_number::dense::Lanes3;
 use cdpr_number::lanes::{Lanes, Simd, WithSimd};
 use cdpr_number::vector::dot;
-use cdpr_number::{Dual, Lanewise};
+use cdpr_number::{Dual, Lanewise, apart};
 
 /// A cable that is given its force and its length.
-pub(super) struct Answer<T> {
+pub(super) struct CableResponse<T> {
     /// The response, with the determinant of the whole C.
     pub(super) response: Response<T>,
     /// e_w.
@@ -39,17 +39,17 @@ pub(super) struct Answer<T> {
     /// e_f.
     pub(super) per_flexibility: [T; 2],
     /// What a guide adds.
-    pub(super) guide: Option<Box<GuideAnswer<T>>>,
+    pub(super) guide: Option<Box<GuideResponse<T>>>,
 }
 
-/// How a cable answers to what guides it.
-pub(super) struct GuideAnswer<T> {
+/// How a cable responds to what guides it.
+pub(super) struct GuideResponse<T> {
     /// a [m/N].
     asymmetry: T,
     pub(super) end: GuidedEndSlopes<T>,
 }
 
-impl<T: Lanewise> GuideAnswer<T> {
+impl<T: Lanewise> GuideResponse<T> {
     /// dx/dfz and dz/dfx from their mean.
     #[inline(always)]
     fn mixed(&self, mean: T) -> [T; 2] {
@@ -66,7 +66,7 @@ struct Question<'a, T> {
 }
 
 impl<T: Lanewise> WithSimd for Question<'_, T> {
-    type Output = Answer<T>;
+    type Output = CableResponse<T>;
 
     #[inline(always)]
     fn with_simd<Same: Simd>(self, _: Same) -> Self::Output {
@@ -79,7 +79,7 @@ impl<T: Lanewise> WithSimd for Question<'_, T> {
         };
         let force = [Dual::constant(force[0]), Dual::constant(force[1])];
         let [x, z] = material.end(Dual::constant(length), force).end;
-        Answer {
+        CableResponse {
             response,
             per_weight: [x.slopes[0], z.slopes[0]],
             per_flexibility: [x.slopes[1], z.slopes[1]],
@@ -88,8 +88,8 @@ impl<T: Lanewise> WithSimd for Question<'_, T> {
     }
 }
 
-impl<S: Simd> Answer<Lanes<S>> {
-    /// The answer of a cable to the force and the length that it has.
+impl<S: Simd> CableResponse<Lanes<S>> {
+    /// The response of a cable to the force and the length that it has.
     #[inline(always)]
     pub(super) fn of(cable: &LaneCable<'_, S>) -> Self {
         let question = Question { material: cable.material(), length: cable.length, force: cable.force };
@@ -107,15 +107,15 @@ impl<S: Simd> Answer<Lanes<S>> {
     }
 }
 
-impl<S: Simd> Answer<Dual<Lanes<S>, 1>> {
-    /// The answer of a cable between held ends with its derivatives by the tension.
+impl<S: Simd> CableResponse<Dual<Lanes<S>, 1>> {
+    /// The response of a cable between fixed ends with its derivatives by the tension.
     #[inline(always)]
     pub(super) fn along_tension(cable: &LaneCable<'_, S>) -> Self {
         let [x, z, longer] = match &cable.guided {
             None => {
                 let response = cable.response();
                 let [_, mixed, _] = response.flexibility;
-                let first = Held::of_flexibility(&response, [mixed, mixed]);
+                let first = AtTension::of_flexibility(&response, [mixed, mixed]);
                 [first.force_per_tension[0], first.force_per_tension[1], first.length_per_tension]
             }
             Some(guided) => first_over_guide(guided, cable),
@@ -144,15 +144,15 @@ impl<S: Simd> Answer<Dual<Lanes<S>, 1>> {
     }
 }
 
-/// The answer of a cable over a guide, whose length is that beyond its leave point; `lanes` are those of the
-/// vector unit.
+/// The response of a cable over a guide, whose length is that beyond its leave point; `lanes` are those of
+/// the vector unit.
 #[cold]
 #[inline(never)]
 fn over_guide<S: Simd, T: Lanewise>(
     guide: GuideTerms<T>,
     question: Question<'_, T>,
     lanes: Lanes<S>,
-) -> Answer<T> {
+) -> CableResponse<T> {
     lanes.apart(OverGuide { guide, question })
 }
 
@@ -162,10 +162,10 @@ struct OverGuide<'a, T> {
 }
 
 impl<T: Lanewise> WithSimd for OverGuide<'_, T> {
-    type Output = Answer<T>;
+    type Output = CableResponse<T>;
 
     #[inline(always)]
-    fn with_simd<Same: Simd>(self, same: Same) -> Answer<T> {
+    fn with_simd<Same: Simd>(self, same: Same) -> CableResponse<T> {
         let Self { guide, question } = self;
         let Question { material, length: free, force } = question;
         let w = material.weight_per_length;
@@ -179,44 +179,37 @@ impl<T: Lanewise> WithSimd for OverGuide<'_, T> {
         );
         let (response, asymmetry) = (way.response(force[0], &beyond.response), way.asymmetry());
         let determinant = response.determinant + asymmetry * asymmetry;
-        Answer {
+        CableResponse {
             response: Response { determinant, ..response },
             per_weight: end.per_weight,
             per_flexibility: end.per_flexibility,
-            guide: Some(Box::new(GuideAnswer { asymmetry, end })),
+            guide: Some(Box::new(GuideResponse { asymmetry, end })),
         }
     }
 }
 
-/// How the force at A and the length beyond the leave point change with the tension of a cable between held
-/// ends: f_t of (L9), and dLf by (C21).
-#[cold]
-#[inline(never)]
-fn first_over_guide<S: Simd>(guided: &Guided<S>, cable: &LaneCable<'_, S>) -> Lanes3<S> {
-    cable.length.apart(First(guided, cable))
-}
-
-struct First<'a, 'b, S: Simd>(&'a Guided<S>, &'a LaneCable<'b, S>);
-
-impl<S: Simd> WithSimd for First<'_, '_, S> {
-    type Output = Lanes3<S>;
-
-    #[inline(always)]
-    fn with_simd<Same: Simd>(self, _: Same) -> Lanes3<S> {
-        let Self(guided, cable) = self;
+apart! {
+    /// How the force at A and the length beyond the leave point change with the tension of a cable between
+    /// fixed ends: f_t of (L9), and dLf by (C21).
+    #[cold]
+    #[inline(never)]
+    on(cable.length) fn first_over_guide<'a, 'b, S: Simd>(
+        guided: &'a Guided<S>,
+        cable: &'a LaneCable<'b, S>,
+    ) -> Lanes3<S> {
         let way = guided.way(&cable.free());
         let (response, a) = (way.response(cable.force[0], &cable.response()), way.asymmetry());
         let [_, mixed, _] = response.flexibility;
         let determinant = response.determinant + a * a;
-        let held = Held::of_flexibility(&Response { determinant, ..response }, [mixed + a, mixed - a]);
-        let [x, z] = held.force_per_tension;
-        let longer = way.free_per_length * held.length_per_tension;
-        [x, z, longer + dot(&way.free_per_force, &held.force_per_tension)]
+        let at_tension = AtTension::of_flexibility(&Response { determinant, ..response }, [mixed + a, mixed - a]);
+        let [x, z] = at_tension.force_per_tension;
+        let longer = way.free_per_length * at_tension.length_per_tension;
+        [x, z, longer + dot(&way.free_per_force, &at_tension.force_per_tension)]
     }
 }
 
-/// A cable between held ends whose tension is given, equation (L9).
-pub(super) struct Held<T> {
+/// A cable between fixed ends whose tension is given, equation (L9).
+pub(super) struct AtTension<T> {
     /// n̂.
     pub(super) normal: [T; 2],
     /// (-e_z, e_x)/Δ, by which the end turns the force.
@@ -229,10 +222,10 @@ pub(super) struct Held<T> {
     pub(super) length_per_tension: T,
 }
 
-impl<T: Lanewise> Held<T> {
+impl<T: Lanewise> AtTension<T> {
     #[inline(always)]
-    pub(super) fn of(answer: &Answer<T>) -> Self {
-        let Answer { response, guide, .. } = answer;
+    pub(super) fn of(found: &CableResponse<T>) -> Self {
+        let CableResponse { response, guide, .. } = found;
         let [_, mixed, _] = response.flexibility;
         match guide {
             None => Self::of_flexibility(response, [mixed, mixed]),

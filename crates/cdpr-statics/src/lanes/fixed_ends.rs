@@ -1,4 +1,4 @@
-//! A cable at its held ends, one in each lane.
+//! A cable at its fixed ends, one in each lane.
 
 use crate::equations::Span;
 use crate::local::cable::LaneCable;
@@ -10,7 +10,7 @@ use cdpr_number::vector::dot;
 use cdpr_number::{Lanewise, Number};
 
 /// Part of a tension by which it has to exceed the least one of the span, as its slope and curvature tell.
-/// The scalar models hold cables at 0.001, which the estimate meets within a few percent.
+/// The scalar models keep cables at 0.001, which the estimate meets within a few percent.
 const NEAR_LEAST: f64 = 0.0015;
 
 /// The same of a cable that is not let below the least tension of its span.
@@ -22,9 +22,9 @@ const NEARLY_CHORD: f64 = 0.1;
 /// Greatest part of its horizontal force that a step takes away from a cable.
 const GREATEST_LOSS: f64 = 0.9;
 
-/// A cable at its held ends, equation (L1).
+/// A cable at its fixed ends, equation (L1).
 #[derive(Clone, Copy)]
-pub(crate) struct HeldCable<S: Simd> {
+pub(crate) struct FixedEnds<S: Simd> {
     /// t, and that with the closing force.
     pub(crate) tension: Lanes<S>,
     pub(crate) closed: Lanes<S>,
@@ -46,7 +46,7 @@ pub(crate) struct HeldCable<S: Simd> {
     pub(crate) across: Lanes2<S>,
 }
 
-impl<S: Simd> HeldCable<S> {
+impl<S: Simd> FixedEnds<S> {
     /// A cable between its ends.
     #[inline(always)]
     pub(crate) fn new(cable: &LaneCable<'_, S>, span: &Span<Lanes<S>>) -> Self {
@@ -66,18 +66,18 @@ impl<S: Simd> HeldCable<S> {
     /// A cable over a pulley. Its numbers are taken one by one: those of plain cables stay in registers.
     #[inline(always)]
     pub(crate) fn leaving(guided: &Guided<S>, cable: &LaneCable<'_, S>, span: &Span<Lanes<S>>) -> Self {
-        let held = Self::over_pulley(guided, cable, span);
+        let fixed = Self::over_pulley(guided, cable, span);
         Self {
-            tension: held.tension,
-            closed: held.closed,
-            flatness: held.flatness,
-            slackness: held.slackness,
-            closing: [held.closing[0], held.closing[1]],
-            rise: held.rise,
-            length_slope: held.length_slope,
-            tension_slope: held.tension_slope,
-            curvatures: [held.curvatures[0], held.curvatures[1]],
-            across: [held.across[0], held.across[1]],
+            tension: fixed.tension,
+            closed: fixed.closed,
+            flatness: fixed.flatness,
+            slackness: fixed.slackness,
+            closing: [fixed.closing[0], fixed.closing[1]],
+            rise: fixed.rise,
+            length_slope: fixed.length_slope,
+            tension_slope: fixed.tension_slope,
+            curvatures: [fixed.curvatures[0], fixed.curvatures[1]],
+            across: [fixed.across[0], fixed.across[1]],
         }
     }
 
@@ -105,7 +105,7 @@ impl<S: Simd> HeldCable<S> {
         let across = ux * here - uz;
         let tension_slope = ux + uz * rise + across * ux * tilt;
         let bent = response.slackness * (here * (2.0 / 3.0) - across * ux) * fx_inv;
-        let mut held = Self {
+        let mut fixed = Self {
             tension: response.tension,
             closed: response.tension + uz * closing[0],
             flatness: ux,
@@ -119,11 +119,11 @@ impl<S: Simd> HeldCable<S> {
         };
         let taut = response.slackness.at_most(TAUT);
         if !<Lanes<S> as Lanewise>::all(taut) {
-            held.curvatures[1] = taut.select(bent, held.curvature(cable, span));
+            fixed.curvatures[1] = taut.select(bent, fixed.curvature(cable, span));
         }
         // |n̂·f'|²/t = (|f'|² - t'²)/t
-        held.curvatures[0] = across * across * response.tension_inv + uz * held.curvatures[1];
-        held
+        fixed.curvatures[0] = across * across * response.tension_inv + uz * fixed.curvatures[1];
+        fixed
     }
 
     /// fz'' of the inextensible catenary. With u = w h/(2 fx), q = tanh u, φ = u/q and S = sinh u/u,
@@ -165,7 +165,7 @@ impl<S: Simd> HeldCable<S> {
             & (curvature * self.tension * share * 2.0).less_or_equal(slope * slope)
     }
 
-    /// The same, not next to the least tension, at which the scalar models hold a cable; it is known where it
+    /// The same, not next to the least tension, at which the scalar models keep a cable; it is known where it
     /// is `demanded`.
     #[inline(always)]
     pub(crate) fn is_taut(&self, cable: &LaneCable<'_, S>, demanded: Mask<S>) -> Mask<S> {
@@ -250,7 +250,7 @@ impl<S: Simd> HeldCable<S> {
     }
 }
 
-/// How a cable at its held ends responds to a motion of its anchor point along its plane, across it and
+/// How a cable at its fixed ends responds to a motion of its anchor point along its plane, across it and
 /// upwards, at constant fx.
 #[derive(Clone, Copy)]
 pub(crate) struct EndSlopes<S: Simd> {
@@ -283,8 +283,8 @@ impl<S: Simd> EndSlopes<S> {
     }
 }
 
-impl<S: Simd> HeldCable<S> {
-    /// A cable between its ends, with its answer to their motion.
+impl<S: Simd> FixedEnds<S> {
+    /// A cable between its ends, with its response to their motion.
     #[inline(always)]
     pub(crate) fn with_end_slopes(cable: &LaneCable<'_, S>, span: &Span<Lanes<S>>) -> (Self, EndSlopes<S>) {
         let response = cable.response();
@@ -314,10 +314,10 @@ struct Leaving<'a, 'b, S: Simd> {
 }
 
 impl<S: Simd> WithSimd for Leaving<'_, '_, S> {
-    type Output = HeldCable<S>;
+    type Output = FixedEnds<S>;
 
     #[inline(always)]
-    fn with_simd<Same: Simd>(self, _: Same) -> HeldCable<S> {
+    fn with_simd<Same: Simd>(self, _: Same) -> FixedEnds<S> {
         let response = self.cable.response();
         match self.guided.is_tilted() {
             true => self.in_space(&response).0,
@@ -328,49 +328,49 @@ impl<S: Simd> WithSimd for Leaving<'_, '_, S> {
 
 impl<S: Simd> Leaving<'_, '_, S> {
     #[inline(always)]
-    fn leave(&self, response: &Response<Lanes<S>>) -> (HeldCable<S>, EndSlopes<S>) {
+    fn leave(&self, response: &Response<Lanes<S>>) -> (FixedEnds<S>, EndSlopes<S>) {
         let Self { guided, cable, span } = self;
         let LeavePoint { position, tangent: [tx, tz], tension_inv, .. } = guided.leave_point(&cable.free());
         let mut ends = EndSlopes::plain(cable, span, response);
         let span = Span { plane: span.plane, end: span.misclosure(position) };
-        let mut held = HeldCable::plain(cable, &span, response);
+        let mut fixed = FixedEnds::plain(cable, &span, response);
         let ([_, xz, zz], [ex, ez]) = (response.flexibility, response.end_per_length);
         let signed = guided.guide.signed_radius();
         let per_turn = signed / (ex * tx + ez * tz);
         let falling = cable.weight_per_length * tx * tension_inv;
         let whole = (per_turn * falling + 1.0).recip();
-        let [dz, longer] = held.closing;
-        held.closing[1] += per_turn * whole * (tx * tension_inv * dz - falling * longer);
+        let [dz, longer] = fixed.closing;
+        fixed.closing[1] += per_turn * whole * (tx * tension_inv * dz - falling * longer);
         for k in [0, 2] {
             let turn = tx * tension_inv * ends.rise[k] - falling * ends.length[k];
             ends.length[k] += per_turn * whole * turn;
         }
-        let turn = (tx * held.rise - tz) * tension_inv - falling * held.length_slope;
-        held.length_slope += per_turn * whole * turn;
+        let turn = (tx * fixed.rise - tz) * tension_inv - falling * fixed.length_slope;
+        fixed.length_slope += per_turn * whole * turn;
         let bend = signed * whole * turn * turn / (tx * zz - tz * xz);
         let [_, uz] = response.direction;
-        held.curvatures[0] -= uz * bend;
-        held.curvatures[1] -= bend;
-        (held, ends)
+        fixed.curvatures[0] -= uz * bend;
+        fixed.curvatures[1] -= bend;
+        (fixed, ends)
     }
 
     /// The same over a tilted axis, (L19).
     #[inline(always)]
-    fn in_space(&self, response: &Response<Lanes<S>>) -> (HeldCable<S>, EndSlopes<S>) {
+    fn in_space(&self, response: &Response<Lanes<S>>) -> (FixedEnds<S>, EndSlopes<S>) {
         let Self { guided, cable, span } = self;
         let FixedInSpace { closing, per_force, per_end: [across, rise, length], beyond } =
             FixedInSpace::new(guided, &cable.free(), span, response);
-        let held = HeldCable::plain(cable, &beyond, response);
+        let fixed = FixedEnds::plain(cable, &beyond, response);
         let [ux, uz] = response.direction;
-        let held = HeldCable {
+        let fixed = FixedEnds {
             closed: response.tension + uz * closing[1],
             closing: [closing[1], closing[2]],
             rise: per_force[1],
             length_slope: per_force[2],
             tension_slope: ux + uz * per_force[1],
             across: [closing[0], per_force[0]],
-            ..held
+            ..fixed
         };
-        (held, EndSlopes { across, rise, length })
+        (fixed, EndSlopes { across, rise, length })
     }
 }

@@ -1,4 +1,4 @@
-//! A cable of a robot between its two points, both held, as a function of its chord force.
+//! A cable of a robot between its two points, both fixed, as a function of its chord force.
 
 use crate::equations::cable::Span;
 use crate::equations::spanned::{end, to_base};
@@ -36,7 +36,7 @@ pub(crate) struct Ends<'a> {
 
 /// A cable between its two points with the derivatives by its chord force.
 #[derive(Clone)]
-pub(crate) enum Held<'a> {
+pub(crate) enum FixedEnds<'a> {
     /// In the vertical plane of its points.
     Planar(HeldCable<'a>),
     /// Over a tilted axis.
@@ -50,21 +50,21 @@ impl<'a> Ends<'a> {
     }
 
     /// The cable with the chord force `chord_force` [N].
-    pub(crate) fn at_chord_force(&self, chord_force: f64) -> Result<Held<'a>, CableError> {
+    pub(crate) fn at_chord_force(&self, chord_force: f64) -> Result<FixedEnds<'a>, CableError> {
         if self.cable.leaves_its_plane() {
-            let held = HeldSpatialCable::at_chord_force(&self.cable, self.end, chord_force)?;
-            return Ok(Held::Spatial(Box::new(held)));
+            let fixed = HeldSpatialCable::at_chord_force(&self.cable, self.end, chord_force)?;
+            return Ok(FixedEnds::Spatial(Box::new(fixed)));
         }
-        Ok(Held::Planar(HeldCable::at_chord_force(&self.cable, self.span.end.into(), chord_force)?))
+        Ok(FixedEnds::Planar(HeldCable::at_chord_force(&self.cable, self.span.end.into(), chord_force)?))
     }
 
     /// The cable of least tension at A.
-    pub(crate) fn at_least_tension(&self) -> Result<Held<'a>, CableError> {
+    pub(crate) fn at_least_tension(&self) -> Result<FixedEnds<'a>, CableError> {
         if self.cable.leaves_its_plane() {
-            let held = HeldSpatialCable::at_least_tension(&self.cable, self.end)?;
-            return Ok(Held::Spatial(Box::new(held)));
+            let fixed = HeldSpatialCable::at_least_tension(&self.cable, self.end)?;
+            return Ok(FixedEnds::Spatial(Box::new(fixed)));
         }
-        Ok(Held::Planar(HeldCable::at_least_tension(&self.cable, self.span.end.into())?))
+        Ok(FixedEnds::Planar(HeldCable::at_least_tension(&self.cable, self.span.end.into())?))
     }
 
     /// Unstrained length [m] and force (fx, fz) [N] of the cable with the tension `tension` [N] at A.
@@ -81,9 +81,9 @@ impl<'a> Ends<'a> {
         if !self.cable.leaves_its_plane() {
             return Ok(catenary.leave_point().y);
         }
-        let held = self.at_chord_force(tension)?.with_tension(tension)?;
-        let Held::Spatial(held) = held else { return Ok(0.0) };
-        Ok(held.cable.in_plane().0.leave_point().y)
+        let fixed = self.at_chord_force(tension)?.with_tension(tension)?;
+        let FixedEnds::Spatial(fixed) = fixed else { return Ok(0.0) };
+        Ok(fixed.cable.in_plane().0.leave_point().y)
     }
 
     /// A tension [N] above which no cable over this span comes near its least one.
@@ -119,32 +119,32 @@ impl<'a> Ends<'a> {
 
     /// F_i [N], the force on the platform.
     #[inline]
-    pub(crate) fn force(&self, held: &Held) -> [f64; 3] {
-        match held {
-            Held::Planar(held) => self.on_platform(self.span.plane.lift(held.catenary.force.into())),
-            Held::Spatial(held) => self.on_platform(held.cable.force.into()),
+    pub(crate) fn force(&self, fixed: &FixedEnds) -> [f64; 3] {
+        match fixed {
+            FixedEnds::Planar(fixed) => self.on_platform(self.span.plane.lift(fixed.catenary.force.into())),
+            FixedEnds::Spatial(fixed) => self.on_platform(fixed.cable.force.into()),
         }
     }
 
     /// dF_i/dσ.
     #[inline]
-    pub(crate) fn force_slope(&self, held: &Held) -> [f64; 3] {
-        match held {
-            Held::Planar(held) => self.on_platform(self.span.plane.lift(held.force_slope.into())),
-            Held::Spatial(held) => self.on_platform(held.force_slope.into()),
+    pub(crate) fn force_slope(&self, fixed: &FixedEnds) -> [f64; 3] {
+        match fixed {
+            FixedEnds::Planar(fixed) => self.on_platform(self.span.plane.lift(fixed.force_slope.into())),
+            FixedEnds::Spatial(fixed) => self.on_platform(fixed.force_slope.into()),
         }
     }
 
     /// d²F_i/dσ² [1/N] and d²t/dσ² [1/N].
-    pub(crate) fn curvatures(&self, held: &Held) -> ([f64; 3], f64) {
-        match held {
-            Held::Planar(held) => {
-                let force = held.force_curvature();
-                (self.on_platform(self.span.plane.lift(force.into())), held.tension_curvature(&force))
+    pub(crate) fn curvatures(&self, fixed: &FixedEnds) -> ([f64; 3], f64) {
+        match fixed {
+            FixedEnds::Planar(fixed) => {
+                let force = fixed.force_curvature();
+                (self.on_platform(self.span.plane.lift(force.into())), fixed.tension_curvature(&force))
             }
-            Held::Spatial(held) => {
-                let force = held.force_curvature();
-                (self.on_platform(force.into()), held.tension_curvature(&force))
+            FixedEnds::Spatial(fixed) => {
+                let force = fixed.force_curvature();
+                (self.on_platform(force.into()), fixed.tension_curvature(&force))
             }
         }
     }
@@ -154,20 +154,20 @@ impl<'a> Ends<'a> {
     }
 }
 
-impl<'a> Held<'a> {
+impl<'a> FixedEnds<'a> {
     /// The same cable with another chord force [N].
     pub(crate) fn with_chord_force(&self, chord_force: f64) -> Result<Self, CableError> {
         Ok(match self {
-            Self::Planar(held) => Self::Planar(held.with_chord_force(chord_force)?),
-            Self::Spatial(held) => Self::Spatial(Box::new(held.with_chord_force(chord_force)?)),
+            Self::Planar(fixed) => Self::Planar(fixed.with_chord_force(chord_force)?),
+            Self::Spatial(fixed) => Self::Spatial(Box::new(fixed.with_chord_force(chord_force)?)),
         })
     }
 
     /// The same cable with the tension `tension` [N] at A, on its taut branch.
     pub(crate) fn with_tension(&self, tension: f64) -> Result<Self, CableError> {
         Ok(match self {
-            Self::Planar(held) => Self::Planar(held.with_tension(tension)?),
-            Self::Spatial(held) => Self::Spatial(Box::new(held.with_tension(tension)?)),
+            Self::Planar(fixed) => Self::Planar(fixed.with_tension(tension)?),
+            Self::Spatial(fixed) => Self::Spatial(Box::new(fixed.with_tension(tension)?)),
         })
     }
 
@@ -175,24 +175,24 @@ impl<'a> Held<'a> {
     #[inline]
     pub(crate) fn chord_force(&self) -> f64 {
         match self {
-            Self::Planar(held) => held.chord_force,
-            Self::Spatial(held) => held.chord_force,
+            Self::Planar(fixed) => fixed.chord_force,
+            Self::Spatial(fixed) => fixed.chord_force,
         }
     }
 
     /// t [N].
     pub(crate) fn tension(&self) -> f64 {
         match self {
-            Self::Planar(held) => held.tension(),
-            Self::Spatial(held) => held.tension(),
+            Self::Planar(fixed) => fixed.tension(),
+            Self::Spatial(fixed) => fixed.tension(),
         }
     }
 
     /// dt/dσ.
     pub(crate) fn tension_slope(&self) -> f64 {
         match self {
-            Self::Planar(held) => held.tension_slope(),
-            Self::Spatial(held) => held.tension_slope(),
+            Self::Planar(fixed) => fixed.tension_slope(),
+            Self::Spatial(fixed) => fixed.tension_slope(),
         }
     }
 
@@ -200,11 +200,11 @@ impl<'a> Held<'a> {
     /// that in the level frame.
     pub(crate) fn catenary(&self) -> Catenary<'a> {
         match self {
-            Self::Planar(held) => held.catenary,
-            Self::Spatial(held) => Catenary {
-                cable: held.cable.cable,
-                unstrained_length: held.cable.unstrained_length,
-                force: Vector2::new(held.cable.force.xy().norm(), held.cable.force.z),
+            Self::Planar(fixed) => fixed.catenary,
+            Self::Spatial(fixed) => Catenary {
+                cable: fixed.cable.cable,
+                unstrained_length: fixed.cable.unstrained_length,
+                force: Vector2::new(fixed.cable.force.xy().norm(), fixed.cable.force.z),
             },
         }
     }
@@ -212,8 +212,8 @@ impl<'a> Held<'a> {
     /// w c/2σ: half the angle, as a hyperbolic one, that the cable's direction turns through.
     pub(crate) fn slackness(&self) -> f64 {
         let (cable, chord) = match self {
-            Self::Planar(held) => (&held.catenary.cable, held.end.norm()),
-            Self::Spatial(held) => (&held.cable.cable, held.end.norm()),
+            Self::Planar(fixed) => (&fixed.catenary.cable, fixed.end.norm()),
+            Self::Spatial(fixed) => (&fixed.cable.cable, fixed.end.norm()),
         };
         0.5 * cable.weight_per_length * chord / self.chord_force()
     }

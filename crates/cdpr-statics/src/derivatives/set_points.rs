@@ -8,7 +8,7 @@ use super::optimum::{AtBound, Optimum, ROUNDING, Sides};
 use crate::equations::{ABOVE_LEAST, CableDerivatives, Ends, Inputs, Partials, Reading, read, tensions};
 use crate::error::StaticsError;
 use crate::inverse::InverseSolution;
-use crate::loading::Wound;
+use crate::loading::SetPointLengths;
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load};
 use cdpr_robot::{CableEnd, ParameterLayout, Pose, Robot, TensionLimits, Vector3};
@@ -88,13 +88,13 @@ impl Bounds {
 }
 
 /// From the wanted pose to the lengths.
-pub(super) struct Winding<'a> {
+pub(super) struct AtSetPoints<'a> {
     pub(super) robot: &'a Robot,
     pub(super) pose: &'a Pose,
     /// Tensions that are preferred [N]; `None` for the robot's own.
     pub(super) reference: Option<&'a [f64]>,
     pub(super) inputs: Inputs,
-    pub(super) wound: &'a Wound,
+    pub(super) cables: &'a SetPointLengths,
 }
 
 /// A multiplier below this share of the greatest tension may be rounding: the inverse model leaves 1e-11 of
@@ -106,7 +106,7 @@ fn same(one: f64, other: f64) -> bool {
     (one - other).abs() <= ROUNDING * one.max(other)
 }
 
-impl Winding<'_> {
+impl AtSetPoints<'_> {
     fn cables(
         &self,
         lengths: &[f64],
@@ -123,12 +123,12 @@ impl Winding<'_> {
             let least = ends.least_allowed(limits.min).map_err(StaticsError::cable(i))?;
             Ok([least, limits.max])
         };
-        self.wound.limits.iter().enumerate().map(of).collect()
+        self.cables.limits.iter().enumerate().map(of).collect()
     }
 
     /// Derivatives of the tensions of the inverse model.
     fn tensions(&self, bounds: &Bounds) -> Result<(Sides, Vec<AtBound>), StaticsError> {
-        let InverseSolution { lengths, active, equilibrium, multipliers, tensions, .. } = &self.wound.wanted;
+        let InverseSolution { lengths, active, equilibrium, multipliers, tensions, .. } = &self.cables.wanted;
         let problem = DirectProblem::new(self.robot, lengths, &Load::none())?;
         let forces = equilibrium.cable_forces.iter().enumerate();
         let rates: Vec<_> = forces
@@ -194,7 +194,7 @@ impl Winding<'_> {
 
     /// Derivatives of the set-points.
     pub(super) fn set_points(&self, tension_offsets: &[f64]) -> Result<SetPoints, StaticsError> {
-        let Wound { wanted, .. } = self.wound;
+        let SetPointLengths { wanted, .. } = self.cables;
         let n = tension_offsets.len();
         let values = self.bound_values()?;
         let set_point = |i: usize| {
@@ -215,7 +215,7 @@ impl Winding<'_> {
                 || same(wanted.tensions[i], values[i][bound as usize])
         };
         // A bound that the weight of a cable demands, or one at its exit point, changes with the inputs.
-        let demanded = |i: &usize| values[*i][0] > self.wound.limits[*i].min && meets(*i, Bound::Min);
+        let demanded = |i: &usize| values[*i][0] > self.cables.limits[*i].min && meets(*i, Bound::Min);
         let at_exit = |i: &usize| self.robot.max_at(*i) == CableEnd::Exit && meets(*i, Bound::Max);
         let [least, greatest]: [Vec<usize>; 2] =
             [(0..n).filter(demanded).collect(), (0..n).filter(at_exit).collect()];
@@ -261,11 +261,11 @@ impl Winding<'_> {
     /// Derivatives of the tensions that the weights of the cables in `which` demand; zero rows for all
     /// others.
     fn least_tensions(&self, which: &[usize]) -> Result<DMatrix<f64>, StaticsError> {
-        let mut rows = self.inputs.zeros(self.wound.set_points.len());
+        let mut rows = self.inputs.zeros(self.cables.set_points.len());
         if which.is_empty() {
             return Ok(rows);
         }
-        let mut cables = self.cables(&self.wound.lengths, &self.wound.held)?;
+        let mut cables = self.cables(&self.cables.lengths, &self.cables.equilibrium)?;
         for &i in which {
             let ends = Ends::of(self.robot, self.pose, i);
             let catenary = ends.at_least_tension().map_err(StaticsError::cable(i))?.catenary();
@@ -279,7 +279,7 @@ impl Winding<'_> {
     /// Derivatives of the tensions that the limits at the exit points leave to the cables in `which`; zero
     /// rows for all others.
     fn exit_limits(&self, which: &[usize]) -> Result<DMatrix<f64>, StaticsError> {
-        let mut rows = self.inputs.zeros(self.wound.set_points.len());
+        let mut rows = self.inputs.zeros(self.cables.set_points.len());
         if which.is_empty() {
             return Ok(rows);
         }
@@ -287,9 +287,9 @@ impl Winding<'_> {
             let reason = "the limit is that of a cable on a pulley, at its leave point";
             return Err(StaticsError::NoDerivative { quantity: "a tension on its greatest value", reason });
         }
-        let mut cables = self.cables(&self.wound.lengths, &self.wound.held)?;
+        let mut cables = self.cables(&self.cables.lengths, &self.cables.equilibrium)?;
         for &i in which {
-            cables[i] = CableDerivatives::of_exit_limit(self.robot, self.pose, i, self.wound.limits[i].max);
+            cables[i] = CableDerivatives::of_exit_limit(self.robot, self.pose, i, self.cables.limits[i].max);
         }
         let each = tensions(&self.inputs, self.pose, &cables);
         which.iter().for_each(|i| rows.set_row(*i, &each.row(*i)));
@@ -298,7 +298,7 @@ impl Winding<'_> {
 
     /// Derivatives of the lengths, equation (D7), a column for each of `set_points`.
     pub(super) fn lengths(&self, set_points: &DMatrix<f64>) -> Result<DMatrix<f64>, StaticsError> {
-        let cables = self.cables(&self.wound.lengths, &self.wound.held)?;
+        let cables = self.cables(&self.cables.lengths, &self.cables.equilibrium)?;
         let mut rows = tensions(&self.inputs, self.pose, &cables);
         rows.resize_horizontally_mut(set_points.ncols(), 0.0);
         for (i, cable) in cables.iter().enumerate() {
