@@ -133,8 +133,8 @@ impl FrequencyResponse {
         }
         let shaken = |(i, cable): (usize, &CableAtRest)| {
             // A cable without mass and force resists nothing.
-            let is_limp = cable.linear_density == 0.0 && cable.catenary.is_limp();
-            (!is_limp).then(|| ShakenCable::new(i, cable, highest)).transpose()
+            let is_shapeless = cable.linear_density == 0.0 && cable.catenary.is_slack_and_weightless();
+            (!is_shapeless).then(|| ShakenCable::new(i, cable, highest)).transpose()
         };
         let cables = cables.iter().enumerate().map(shaken).collect::<Result<_, _>>()?;
         Ok(Self { damping, highest, mass, stiffness, free, cables })

@@ -9,7 +9,7 @@ use crate::pose::modes::with_inertia;
 use cdpr_dynamics::{Damping, FrequencyResponse, Modes, Response, Wanted};
 use cdpr_report::{Amplitudes, amplitudes};
 use cdpr_robot::{Pose, Robot, Vector3, shown};
-use cdpr_statics::{DirectProblem, DirectStart, StaticsError, WantedPose, inverse};
+use cdpr_statics::{DirectProblem, DirectStart, StaticsError, Unstable, WantedPose, inverse};
 use serde::Serialize;
 use std::path::PathBuf;
 
@@ -80,7 +80,10 @@ impl Settings {
         let (robot, load) = (with_inertia(robot), self.at.load.load());
         let held = inverse(&robot, WantedPose::at(pose).free(&self.free.free), &load)?;
         let problem = DirectProblem::new(&robot, &held.lengths, &load)?;
-        let rest = problem.direct_any(DirectStart::Near(&held.equilibrium))?.equilibrium;
+        let rest = problem
+            .with_unstable(Unstable::Accepted)
+            .direct(DirectStart::Near(&held.equilibrium))?
+            .equilibrium;
         let response = FrequencyResponse::new(&problem, &rest, self.below, damping)?;
         let natural = Modes::new(&problem, &rest, Wanted::Below(self.below))?;
         let number = self.number.unwrap_or(NUMBER);
