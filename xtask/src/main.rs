@@ -245,7 +245,7 @@ fn gallery() -> ExitCode {
 }
 
 fn schemas() -> ExitCode {
-    for example in ["robot_schema", "study_schema"] {
+    for example in ["robot_schema", "study_schema", "events_schema"] {
         let code = cargo(&["run", "--quiet", "--example", example]);
         if code != ExitCode::SUCCESS {
             return code;

@@ -65,12 +65,12 @@ fn make() -> Outcome {
     let mut bind = Command::new(&wasm_bindgen);
     bind.args(["--target", "web", "--no-typescript", "--out-name", "cdpr_web", "--out-dir"]).arg(&bound);
     done(bind.arg(target.join(TARGET).join("web/cdpr_web.wasm")))?;
-    pack(&bound.join("cdpr_web_bg.wasm"), &dist.join("cdpr_web.wasm.gz"))?;
     eprintln!("page");
     done(Command::new("npm").args(["ci", "--no-audit", "--no-fund"]).current_dir(&page))?;
     done(Command::new("npm").args(["run", "build"]).current_dir(&page))?;
+    pack(&page, &bound.join("cdpr_web_bg.wasm"), &dist.join("cdpr_web.wasm.gz"))?;
     let script = dist.join("explorer.js");
-    pack(&script, &dist.join("explorer.js.gz"))?;
+    pack(&page, &script, &dist.join("explorer.js.gz"))?;
     fs::remove_file(script)?;
     fs::write(dist.join("SOURCES"), format!("{sources}\n"))?;
     for file in fs::read_dir(&dist)? {
@@ -80,12 +80,9 @@ fn make() -> Outcome {
     Ok(())
 }
 
-fn pack(file: &Path, packed: &Path) -> Outcome {
-    let output = Command::new("gzip").args(["-9", "--no-name", "--stdout"]).arg(file).output()?;
-    if !output.status.success() {
-        return Err(format!("gzip has not packed {}", file.display()).into());
-    }
-    Ok(fs::write(packed, output.stdout)?)
+/// Packs a file by gzip, by the script of the page.
+fn pack(page: &Path, file: &Path, packed: &Path) -> Outcome {
+    done(Command::new("node").arg("pack.mjs").args([file, packed]).current_dir(page))
 }
 
 /// Says where the products are not those of the sources: a warning, because the models may agree

@@ -24,6 +24,7 @@ const GROUPS: [Group; 8] = [
             "stiffness",
             "modes",
             "response",
+            "simulate",
             "capacity",
             "derivatives",
             "hysteresis",

@@ -10,4 +10,5 @@ pub(crate) mod inverse;
 pub(crate) mod modes;
 pub(crate) mod path;
 pub(crate) mod response;
+pub(crate) mod simulate;
 pub(crate) mod stiffness;

@@ -34,6 +34,7 @@ mod poses;
 mod questions;
 mod response;
 mod shell;
+mod simulate;
 mod strangers;
 mod study_blocks;
 mod study_poses;

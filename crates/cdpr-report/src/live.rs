@@ -57,8 +57,27 @@ pub(crate) fn data(json: &str) -> Markup {
 }
 
 /// A packed file in an element that no browser runs.
-pub(crate) fn packed(id: &str, file: &[u8]) -> Markup {
-    html! { script type="text/plain" id=(id) { (PreEscaped(BASE64_STANDARD.encode(file))) } }
+fn packed(id: &str, file: &[u8]) -> Markup {
+    html! { script type="text/plain" id=(id) { (PreEscaped(base85(file))) } }
+}
+
+/// Bytes as text, five characters for four bytes, the most significant first; the last one to three bytes have
+/// one character more than bytes. The digits from 0 to 84 are the characters from `(` to `|`, with `!` for `<`,
+/// so that nothing in the text can end an element. It is 6 % shorter than base 64.
+fn base85(bytes: &[u8]) -> String {
+    let mut text = String::with_capacity(bytes.len() / 4 * 5 + 5);
+    for four in bytes.chunks(4) {
+        let mut padded = [0; 4];
+        padded[..four.len()].copy_from_slice(four);
+        let value = u32::from_be_bytes(padded);
+        let digits = [85_u32.pow(4), 85_u32.pow(3), 85 * 85, 85, 1].map(|place| value / place % 85);
+        let character = |digit: &u32| match char::from(b'(' + *digit as u8) {
+            '<' => '!',
+            other => other,
+        };
+        text.extend(digits[..=four.len()].iter().map(character));
+    }
+    text
 }
 
 /// The explorer's script, worker, and models in the vector unit of WebAssembly.
@@ -90,6 +109,26 @@ pub(crate) fn policy(scripts: &[&str]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn packed_files_are_read_back_as_the_page_reads_them() {
+        // What `decoded` of unpack.js does.
+        let decoded = |text: &str| -> Vec<u8> {
+            let digit = |code: u8| u64::from(if code == b'!' { b'<' } else { code } - b'(');
+            let groups = text.as_bytes().chunks(5).flat_map(|five| {
+                let digits = five.iter().map(|code| digit(*code)).chain([84; 5]).take(5);
+                let value = digits.fold(0, |value, digit| 85 * value + digit);
+                u32::try_from(value).unwrap().to_be_bytes()[..five.len() - 1].to_vec()
+            });
+            groups.collect()
+        };
+        let bytes: Vec<u8> = (0..2048_u32).map(|k| ((k * k * 31) >> 3) as u8).chain([255; 7]).collect();
+        for length in [0, 1, 2, 3, 4, 5, 2049, 2050, 2051, 2052, 2055] {
+            let text = base85(&bytes[..length]);
+            assert_eq!(decoded(&text), bytes[..length]);
+            assert!(!text.contains('<') && text.len() == (5 * length).div_ceil(4), "{length}");
+        }
+    }
 
     #[test]
     fn the_scripts_do_not_end_their_elements() {

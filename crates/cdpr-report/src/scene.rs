@@ -1,7 +1,7 @@
-//! The robot at the poses of a study, as points in space. The page draws it with plotly.js.
+//! The robot at the poses of a study, as points in space, as the view of the explorer takes them.
 
 use crate::text;
-use cdpr_robot::{Axis, Matrix3, Pose, Robot, Vector3};
+use cdpr_robot::{Pose, Robot, Vector3};
 use cdpr_statics::{Deflection, DirectProblem, Equilibrium, Load, StaticsError};
 use cdpr_study::{Study, StudyError};
 use serde::{Serialize, Serializer};
@@ -17,8 +17,14 @@ const POINTS_ON_PULLEY: usize = 8;
 pub(crate) struct Scene {
     /// Exit points [m].
     pub(crate) exits: Vec<[f64; 3]>,
-    /// Indices of the exit points in the order of their angle around their middle, seen from above.
-    pub(crate) ring: Vec<usize>,
+    /// Anchor points in the frame of the platform [m].
+    anchors: Vec<[f64; 3]>,
+    /// Centre of mass in the frame of the platform [m].
+    center_of_mass: [f64; 3],
+    /// Indices of the exit points in the order of their angle around their middle, seen from above: one ring
+    /// or, where they are on two levels, a lower and an upper one.
+    #[serde(skip)]
+    pub(crate) rings: Vec<Vec<usize>>,
     /// Height of the floor [m].
     pub(crate) floor: f64,
     pub poses: Vec<ScenePose>,
@@ -40,8 +46,6 @@ pub(crate) struct ScenePose {
     pub lengths: Vec<f64>,
     /// Deflection |dp| [mm].
     pub deflection_mm: f64,
-    /// For a platform of coplanar anchor points, the axis closest to their normal.
-    flat: Option<&'static str>,
 }
 
 /// A pose as the explorer takes it: position [m], then quaternion w, x, y, z.
@@ -51,11 +55,17 @@ fn seven<S: Serializer>(pose: &Pose, serializer: S) -> Result<S::Ok, S::Error> {
     [x, y, z, w, i, j, k].serialize(serializer)
 }
 
+/// Points to a micrometre, which is finer than any screen.
+fn micrometres<S: Serializer>(points: &[[f64; 3]], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_seq(points.iter().map(|point| point.map(|x| (1e6 * x).round() / 1e6)))
+}
+
 /// Robot in equilibrium.
 #[derive(Serialize)]
 pub(crate) struct State {
-    /// Reference point P and centre of mass G [m].
-    position: [f64; 3],
+    #[serde(serialize_with = "seven")]
+    pose: Pose,
+    /// Centre of mass [m].
     center_of_mass: [f64; 3],
     /// Anchor points [m].
     pub(crate) anchors: Vec<[f64; 3]>,
@@ -66,10 +76,12 @@ pub(crate) struct State {
 #[derive(Serialize)]
 pub(crate) struct SceneCable {
     /// Points from the exit point, over the pulley, to the anchor point [m].
+    #[serde(serialize_with = "micrometres")]
     pub(crate) points: Vec<[f64; 3]>,
     /// Index of the point where the cable leaves its pulley: the first one of the free cable.
     free: usize,
     /// Points around the wheel of its pulley [m]; empty without one.
+    #[serde(serialize_with = "micrometres")]
     pub(crate) wheel: Vec<[f64; 3]>,
     /// Tension at the platform [N].
     pub tension: f64,
@@ -126,7 +138,14 @@ impl Scene {
         let lowest = exits.iter().map(|exit| exit[2]).fold(f64::INFINITY, f64::min);
         let anchors = poses.iter().flat_map(|pose| pose.loaded.anchors.iter().chain(&pose.unloaded.anchors));
         let floor = anchors.map(|anchor| anchor[2]).fold(lowest.min(0.0), f64::min);
-        Ok(Self { ring: around(&exits), floor, exits, poses })
+        Ok(Self {
+            anchors: study.robot.cables.iter().map(|cable| cable.anchor_point.into()).collect(),
+            center_of_mass: study.robot.platform.center_of_mass.into(),
+            rings: rings(&exits),
+            floor,
+            exits,
+            poses,
+        })
     }
 }
 
@@ -135,7 +154,6 @@ impl ScenePose {
         let rotated = if pose.quaternion() == [1.0, 0.0, 0.0, 0.0] { "" } else { ", rotated" };
         let unloaded = State::new(robot, &nominal.lengths, &nominal.unloaded.equilibrium)?;
         Ok(Self {
-            flat: flat(&unloaded.anchors),
             name: format!("{} m{rotated}", text::point(pose.position.as_slice())),
             parts: vec![part.to_owned()],
             loaded: State::new(robot, &nominal.lengths, &nominal.loaded.equilibrium)?,
@@ -164,7 +182,7 @@ impl State {
             })
         });
         Ok(Self {
-            position: pose.position.into(),
+            pose: *pose,
             center_of_mass: (pose.position + pose.rotation * robot.platform.center_of_mass).into(),
             anchors: (0..lengths.len()).map(|i| anchor(i).into()).collect(),
             cables: cables.collect::<Result<_, StaticsError>>()?,
@@ -177,32 +195,27 @@ impl State {
     }
 }
 
-/// Mean of points.
-fn middle(points: &[[f64; 3]]) -> Vector3<f64> {
-    points.iter().map(|point| Vector3::from(*point)).sum::<Vector3<f64>>() / points.len() as f64
-}
-
-/// Indices of points in the order of their angle around their middle, seen from above.
-fn around(points: &[[f64; 3]]) -> Vec<usize> {
-    let middle = middle(points);
+/// Indices of points in the order of their angle around their middle, seen from above, of each of the levels
+/// on which they are: two where a gap of more than 0.4 of their height separates them, else one.
+fn rings(points: &[[f64; 3]]) -> Vec<Vec<usize>> {
+    let middle = points.iter().map(|point| Vector3::from(*point)).sum::<Vector3<f64>>() / points.len() as f64;
     let angle = |i: &usize| (points[*i][1] - middle.y).atan2(points[*i][0] - middle.x);
-    let mut order: Vec<usize> = (0..points.len()).collect();
-    order.sort_by(|one, other| angle(one).total_cmp(&angle(other)));
-    order
-}
-
-/// For points within a thousandth of their extent of a plane, the axis closest to its normal.
-fn flat(points: &[[f64; 3]]) -> Option<&'static str> {
-    let middle = middle(points);
-    let spread: Matrix3<f64> = points
-        .iter()
-        .map(|point| Vector3::from(*point) - middle)
-        .map(|offset| offset * offset.transpose())
-        .fold(Matrix3::zeros(), |sum, part| sum + part);
-    let eigen = spread.symmetric_eigen();
-    let (least, normal) = (eigen.eigenvalues.imin(), eigen.eigenvalues.min());
-    let is_flat = normal < 1e-6 * eigen.eigenvalues.max();
-    is_flat.then(|| Axis::ALL[eigen.eigenvectors.column(least).iamax()].letter())
+    let mut rising: Vec<usize> = (0..points.len()).collect();
+    rising.sort_by(|one, other| points[*one][2].total_cmp(&points[*other][2]));
+    let height = |k: usize| points[rising[k]][2];
+    let whole = height(points.len() - 1) - height(0);
+    let extent = |axis: usize| {
+        let values = || points.iter().map(|point| point[axis]);
+        values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min)
+    };
+    let is_high = whole > 0.1 * extent(0).max(extent(1)).max(whole);
+    let split = (3..points.len().saturating_sub(2)).find(|&k| height(k) - height(k - 1) > 0.4 * whole);
+    let mut levels = match split.filter(|_| is_high) {
+        Some(split) => vec![rising[..split].to_vec(), rising[split..].to_vec()],
+        None => vec![rising],
+    };
+    levels.iter_mut().for_each(|level| level.sort_by(|one, other| angle(one).total_cmp(&angle(other))));
+    levels
 }
 
 #[cfg(test)]
@@ -229,9 +242,12 @@ mod tests {
     }
 
     #[test]
-    fn a_platform_is_flat_only_where_its_anchor_points_are_coplanar() {
-        let corners = [[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [1.0, 1.0, 1.0], [0.0, 1.0, 1.0]];
-        assert_eq!(flat(&corners), Some("z"));
-        assert_eq!(flat(&[&corners[..], &[[0.5, 0.5, 1.2]]].concat()), None);
+    fn exit_points_on_two_levels_have_a_ring_on_each() {
+        let corners = [[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.0]];
+        let level = |z: f64| corners.map(|[x, y]| [x, y, z]);
+        assert_eq!(rings(&level(3.0)), [vec![0, 2, 1, 3]]);
+        assert_eq!(rings(&[level(3.0), level(0.5)].concat()), [vec![4, 6, 5, 7], vec![0, 2, 1, 3]]);
+        // Heights of a survey are one level.
+        assert_eq!(rings(&[[0.0, 0.0, 3.0], [1.0, 1.0, 3.01], [1.0, 0.0, 3.0], [0.0, 1.0, 3.02]]).len(), 1);
     }
 }

@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 /// The page without the scripts and modules that it carries packed.
 fn page(results: &Results) -> String {
     let mut html = report(results).unwrap();
-    for id in ["plotly", "explorer-script", "module"] {
+    for id in ["explorer-script", "module"] {
         let start = html.find(&format!("<script type=\"text/plain\" id=\"{id}\">")).unwrap();
         let end = start + html[start..].find("</script>").unwrap();
         html.replace_range(start..end, "");
@@ -51,7 +51,7 @@ fn every_figure_of_the_study_is_in_the_report_with_the_bytes_of_its_file() {
     let named: BTreeSet<_> =
         attributes(&html, "id").into_iter().filter_map(|id| id.strip_prefix("figure-")).collect();
     assert_eq!(named, drawn.keys().map(String::as_str).chain(["robot"]).collect());
-    assert!(html.contains("id=\"plot-robot\"") && html.contains("id=\"plot-surface_E_rho\""));
+    assert!(html.contains("id=\"plot-robot\""));
 }
 
 #[test]
@@ -97,9 +97,9 @@ fn hostile_names_stay_text() {
         robot["source"] = json!(hostile);
     });
     let html = page(&results);
-    // The data, the worker, three packed files of which only the ends are left, and two scripts.
+    // The data, the worker, two packed files of which only the ends are left, and two scripts.
     assert_eq!(html.matches("<script").count(), 4);
-    assert_eq!(html.matches("</script").count(), 7);
+    assert_eq!(html.matches("</script").count(), 6);
     assert!(!html.contains("<img"));
     assert!(html.contains("&lt;script&gt;alert"));
 }
@@ -160,18 +160,4 @@ fn the_reason_stands_in_the_place_of_a_figure_that_cannot_be_drawn() {
     sampling.histogram = None;
     let html = page(&results);
     assert!(html.contains("No figure <code>all</code>: nothing to draw: histogram"));
-}
-
-#[test]
-fn a_page_without_contents_has_no_column_for_them() {
-    // Reports of `analyse` and `calibrate` have no contents: their text was as narrow as that column.
-    let html = page(&crate::common::cogiro());
-    let columns: Vec<&str> =
-        html.split('}').filter(|rule| rule.contains("grid-template-columns: 13rem")).collect();
-    assert_eq!(columns.len(), 1);
-    assert!(
-        columns[0].trim_start().starts_with("@media (min-width: 78rem) {\n  .page:has(> nav) {"),
-        "{}",
-        columns[0]
-    );
 }

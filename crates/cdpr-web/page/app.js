@@ -5,27 +5,34 @@ import { roundUp } from "./charts/scale.js";
 import { h, setText, undoStep, whenOther } from "./dom.js";
 import { entryWords, point, rangeWithUnit, sharePercent, short, withUnit } from "./format.js";
 import { extents, groundOf } from "./geometry.js";
-import { layout, WHOLE } from "./layout.js";
-import { loadOf, Mechanics, poseOf } from "./mechanics.js";
+import { layout, WIDE } from "./layout.js";
+import { Mechanics } from "./mechanics.js";
+import { Modes } from "./modes.js";
 import { Moves } from "./moves.js";
 import { DARK, LIGHT } from "./palette.js";
 import { Paper } from "./paper.js";
 import { cablesPanel } from "./panels/cables.js";
 import { chartsPanel, sentence } from "./panels/charts.js";
 import { commandsPanel } from "./panels/commands.js";
+import { displayPanel } from "./panels/display.js";
 import { filesPanel } from "./panels/files.js";
 import { loadPanel } from "./panels/load.js";
-import { chosenMotion, motionsPanel } from "./panels/motions.js";
+import { motionsPanel } from "./panels/motions.js";
 import { numbersPanel } from "./panels/numbers.js";
-import { numbers, pinPoses, pinsPanel } from "./panels/pins.js";
+import { numbers, pinsPanel } from "./panels/pins.js";
+import { pointsPanel } from "./panels/points.js";
 import { posePanel } from "./panels/pose.js";
 import { slicePanel, slicePixels } from "./panels/slice.js";
 import { notHeld, stagePanel } from "./panels/stage.js";
+import { timelinePanel } from "./panels/timeline.js";
 import { tolerancesPanel } from "./panels/tolerances.js";
-import { changedRobot, isChanged, shares, tolerances } from "./robot.js";
+import { trajectoryPanel } from "./panels/trajectory.js";
+import { changedRobot, isChanged, pointsOf, shares, tolerances } from "./robot.js";
+import { pictureOf } from "./picture.js";
 import { Sampling } from "./sampling.js";
 import { Slicing } from "./slicing.js";
 import { decode, initial, restore, Store } from "./state.js";
+import { Player } from "./trajectory/player.js";
 import { View } from "./view/scene.js";
 
 const SETTLED = 500;
@@ -33,12 +40,14 @@ const SETTLED = 500;
 export class App {
   mapWidth = 380;
   selected = null;
+  /** Whether the times of the trajectory are those of the speed. */
+  speedCounts = true;
+  /** The handles in the view: `translate`, `rotate`, `points`, `draw`, `off`. */
+  handle = "translate";
+  /** The name of the exit or anchor point that is chosen. */
+  point = null;
   range = 1;
-  modes = null;
-  modesFailure = null;
   version = 0;
-  #modesKey = "";
-  #asked = false;
   #settle = 0;
   #told = "";
   #queued = false;
@@ -65,7 +74,15 @@ export class App {
       this.#drawSlice();
       this.refresh();
     });
+    this.modes = new Modes(this, () => {
+      this.#draw();
+      this.refresh();
+    });
     this.moves = new Moves(this);
+    this.player = new Player(this, () => {
+      this.#draw();
+      this.refresh();
+    });
     this.paper = new Paper(this, () => {
       this.#repaint();
       this.#update();
@@ -120,13 +137,33 @@ export class App {
     this.store.set({ slice: { ...slice, shown } }, { commit: true });
     if (!shown) return;
     this.slicePanel.element.open = true;
-    if (this.element.classList.contains("whole")) this.slicePanel.element.scrollIntoView({ block: "start" });
+    this.slicePanel.element.scrollIntoView({ block: "start" });
   }
 
   setHandle(mode) {
+    this.handle = mode;
     this.view?.handles.set(mode);
-    this.view?.invalidate();
     this.stage.setHandle(mode);
+    this.#draw();
+    this.refresh();
+  }
+
+  /** Observes where the platform has come to rest. */
+  rest() {
+    this.#ask({ mechanics: false });
+  }
+
+  /** Opens a file that is dropped: a state of this page or a table of poses. */
+  async openFile(file) {
+    if (!file.name.endsWith(".json")) return this.trajectoryPanel.open(file);
+    this.live.textContent = this.open(await file.text(), file.name);
+  }
+
+  /** Chooses an exit or anchor point to be moved, or none. */
+  choosePoint(name) {
+    this.point = name;
+    if (name) this.pointsPanel.element.open = true;
+    this.setHandle("points");
   }
 
   /** The factor of the deflection: the one that is set, or one that makes it an eighth of the robot. */
@@ -184,7 +221,9 @@ export class App {
     this.address.dispose();
     this.engine.dispose();
     this.sampling.dispose();
+    this.player.dispose();
     this.charts.dispose();
+    this.timeline.dispose();
     this.sizes.disconnect();
     this.view?.dispose();
     this.dark.removeEventListener("change", this.#repaint);
@@ -192,37 +231,46 @@ export class App {
     this.less.removeEventListener("change", this.#redraw);
     this.#keyboard.removeEventListener("keydown", this.#keys);
     this.element.replaceChildren();
-    this.element.classList.remove("cdprx", "embedded", "whole", "phone");
+    this.element.classList.remove("cdprx", "embedded", "narrow");
   }
 
   #build() {
     this.stage = stagePanel(this);
     this.charts = chartsPanel(this);
     this.motions = motionsPanel(this);
+    this.slicePanel = slicePanel(this);
+    this.pointsPanel = pointsPanel(this);
+    this.trajectoryPanel = trajectoryPanel(this);
+    this.timeline = timelinePanel(this);
     const figures = numbersPanel(this);
-    const panels = [
-      posePanel,
-      loadPanel,
-      tolerancesPanel,
-      slicePanel,
-      cablesPanel,
-      commandsPanel,
-      pinsPanel,
-      filesPanel,
+    const side = [
+      posePanel(this),
+      loadPanel(this),
+      this.pointsPanel,
+      cablesPanel(this),
+      this.charts,
+      tolerancesPanel(this),
+      this.trajectoryPanel,
+      this.slicePanel,
+      this.motions,
+      displayPanel(this),
+      pinsPanel(this),
+      commandsPanel(this),
+      filesPanel(this),
     ];
-    const side = panels.map((make) => make(this));
-    this.slicePanel = side[panels.indexOf(slicePanel)];
-    side.splice(-3, 0, this.motions);
-    if (this.embedded && this.element.clientWidth < WHOLE) {
-      for (const panel of side) panel.element.open = false;
+    if (this.element.clientWidth < WIDE) {
+      for (const panel of side.slice(1)) panel.element.open = false;
     }
-    this.panels = [this.stage, figures, this.charts, ...side];
-    Object.assign(this, layout(this, { stage: this.stage, figures, charts: this.charts, side }));
+    this.panels = [this.stage, figures, this.timeline, ...side];
+    Object.assign(this, layout(this, { stage: this.stage, figures, timeline: this.timeline, side }));
     this.#keyboard.addEventListener("keydown", this.#keys);
     try {
       this.view = new View(this.stage.surface, this.robot, {
         grab: (phase, pose) => this.moves.grab(phase, pose),
+        grabPoint: (phase, place) => this.moves.grabPoint(phase, place),
+        choosePoint: (name) => this.choosePoint(name),
         goto: (position) => this.moves.goto(position),
+        waypoint: (position) => this.moves.waypoint(position),
       });
     } catch (error) {
       this.view = null;
@@ -265,39 +313,23 @@ export class App {
 
   #newRobot() {
     this.version += 1;
-    this.engine.setRobot(JSON.stringify(changedRobot(this.file, this.store.state.changes)));
+    const changed = changedRobot(this.file, this.store.state.changes);
+    Object.assign(this.robot, pointsOf(changed));
+    this.view?.reshape();
+    this.engine.setRobot(JSON.stringify(changed));
   }
 
   #ask({ restart = false, mechanics = true } = {}) {
     const { state } = this.store;
     if (mechanics) this.mechanics.update({ restart });
-    this.sampling.update(state, this.version);
+    if (this.player.playing) this.sampling.wait();
+    else this.sampling.update(state, this.version);
     this.slicing.update(state, this.version);
+    this.player.update(state, this.version);
     this.#drawSlice();
-    this.#askModes();
+    this.modes.update();
     if (!this.embedded) this.address.write();
     this.refresh();
-  }
-
-  // Modes are asked for while somebody looks at them, once the platform rests.
-  async #askModes() {
-    const { picture, failure, busy } = this.mechanics;
-    if (!this.motions.wanted() || !picture || failure || busy || this.#asked) return;
-    const { lengths, loaded } = picture;
-    const load = loadOf(this.store.state);
-    const key = JSON.stringify([lengths, load, loaded.pose, this.version]);
-    if (key === this.#modesKey) return;
-    this.#asked = true;
-    const {
-      answers: [answer],
-    } = await this.engine.ask("modes", [{ modes: { lengths, load, start: loaded.pose } }]);
-    this.#asked = false;
-    this.#modesKey = key;
-    this.modes = answer.ok ?? this.modes;
-    this.modesFailure = answer.error?.reason ?? null;
-    this.#draw();
-    this.refresh();
-    this.#askModes();
   }
 
   #mechanicsChanged() {
@@ -307,38 +339,14 @@ export class App {
       if (greatest > this.range || greatest < 0.4 * this.range) this.range = roundUp(greatest);
     }
     const { state } = this.store;
-    if (state.free.length > 0) this.sampling.update(state, this.version);
+    if (state.free.length > 0 && !this.player.playing) this.sampling.update(state, this.version);
     this.#draw();
-    this.#askModes();
+    this.modes.update();
     this.refresh();
   }
 
   #draw() {
-    const { picture, failure, pull, jump } = this.mechanics;
-    if (!this.view || !picture) return;
-    const { state } = this.store;
-    const force = state.force.map((value, k) => value + pull.force[k]);
-    const size = Math.hypot(...force);
-    const length = (0.22 * this.size * size) / (size + this.robot.mass * 9.81);
-    this.view.show({
-      loaded: picture.loaded,
-      unloaded: picture.unloaded,
-      rotation: picture.rotation,
-      wanted: failure ? failure.wanted : null,
-      faded: Boolean(failure),
-      handle: state.way === "anew" ? (state.free.length > 0 ? picture.unloaded?.pose : poseOf(state)) : null,
-      sag: state.view.sag,
-      range: this.range,
-      selected: this.selected,
-      deflection: this.deflectionFactor,
-      ghost: state.view.ghost,
-      names: state.view.names,
-      motion: chosenMotion(this, picture.loaded),
-      still: this.reduced,
-      force: size > 0 ? force.map((value) => (value / size) * length) : null,
-      jump,
-      pins: pinPoses(state),
-    });
+    if (this.view && this.mechanics.picture) this.view.show(pictureOf(this));
   }
 
   #redraw = () => this.#draw();
@@ -361,7 +369,7 @@ export class App {
     if (this.mechanics.busy || this.sampling.busy) return;
     const { state } = this.store;
     if (!this.embedded) this.address.write();
-    this.#askModes();
+    this.modes.update();
     setText(this.live, this.#sentence());
     const told = JSON.stringify(state);
     if (told === this.#told) return;

@@ -3,7 +3,7 @@
 import { readable } from "./format.js";
 
 // Lanes in the order in which they are served.
-const ORDER = ["pose", "modes", "observe", "slice"];
+const ORDER = ["pose", "modes", "path", "observe", "slice"];
 
 /** What a question resolves to where a newer one has taken its place. */
 export const STALE = Symbol("stale");

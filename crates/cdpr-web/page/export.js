@@ -3,6 +3,25 @@
 import { withUnit } from "./format.js";
 import { css, viridis } from "./charts/scale.js";
 
+/**
+ * Tensions along a trajectory as a table.
+ * @param {{times: number[], found: object[]}} track
+ * @param {function(number): {position: number[], rpy_deg: number[]}} poseAt
+ * @param {number} cables
+ */
+export function trackCsv({ times, found }, poseAt, cables) {
+  const names = ["t_s", "x_m", "y_m", "z_m", "roll_deg", "pitch_deg", "yaw_deg", "deflection_m"];
+  const tensions = Array.from({ length: cables }, (_, k) => `tension_${k + 1}_N`);
+  const lines = times.map((time, i) => {
+    const { position, rpy_deg } = poseAt(time);
+    const one = found[i] ?? {};
+    const forces = tensions.map((_, k) => one.tensions?.[k] ?? "");
+    const reason = one.failure ? `"${one.failure.reason.replaceAll('"', '""')}"` : "";
+    return [time, ...position, ...rpy_deg, one.deflection ?? "", ...forces, reason].join(",");
+  });
+  return [[...names, ...tensions, "reason"].join(","), ...lines, ""].join("\n");
+}
+
 /** Offers a file for download. */
 export function download(name, content, type) {
   const blob = content instanceof Blob ? content : new Blob([content], { type });

@@ -69,6 +69,11 @@ export function rangeWithUnit(least, greatest, unit) {
   return `${digits(least / factor)} to ${digits(greatest / factor)} ${prefix}${unit}`;
 }
 
+/** A number of things: 1 iteration, 3 iterations. */
+export function counted(count, word) {
+  return `${count} ${word}${count === 1 ? "" : "s"}`;
+}
+
 /** A residual: two digits and an exponent. */
 export function residual(value, unit) {
   return value === null || value === undefined ? "none" : `${value.toExponential(1)} ${unit}`;

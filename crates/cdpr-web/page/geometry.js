@@ -36,11 +36,19 @@ function feet({ anchors, start }) {
   return start ? anchorsAt(start.pose, anchors).map((anchor) => anchor[2]) : [];
 }
 
-/** Indices of the exit points in the order of their angle about the vertical through their middle. */
-export function ring(exits) {
-  const { middle } = extents(exits);
+/**
+ * Indices of the exit points in the order of their angle about the vertical through their middle: one ring or,
+ * where they are on two levels, a lower and an upper one.
+ */
+export function rings(exits) {
+  const { min, max, middle, size } = extents(exits);
+  const height = max[2] - min[2];
+  const rising = exits.map((_, k) => k).sort((a, b) => exits[a][2] - exits[b][2]);
+  const gap = (k) => exits[rising[k]][2] - exits[rising[k - 1]][2];
+  const split = rising.findIndex((_, k) => k > 2 && k < exits.length - 2 && gap(k) > 0.4 * height);
+  const levels = split > 0 && height > 0.1 * size ? [rising.slice(0, split), rising.slice(split)] : [rising];
   const angle = (k) => Math.atan2(exits[k][1] - middle[1], exits[k][0] - middle[0]);
-  return exits.map((_, k) => k).sort((a, b) => angle(a) - angle(b));
+  return levels.map((level) => level.sort((a, b) => angle(a) - angle(b)));
 }
 
 /**

@@ -1,19 +1,18 @@
-// How the parts of the page stand together.
+// Where the parts of the page are: the view keeps its place, and the panels scroll next to it or below it.
 
 import { button, h } from "./dom.js";
 import { digits } from "./format.js";
 
-// Widths [px] from which the page has two columns, and below which it is one of a phone.
-export const WHOLE = 990;
-const PHONE = 640;
+// Width [px] from which the panels are next to the view; below it they are under the view.
+export const WIDE = 760;
 
 /**
  * Puts the parts into the element of the page.
  * @param {object} app
- * @param {{stage: object, figures: object, charts: object, side: object[]}} parts panels
+ * @param {{stage: object, figures: object, timeline: object, side: object[]}} parts panels
  * @returns {{undo: HTMLButtonElement, redo: HTMLButtonElement, live: HTMLElement, sizes: ResizeObserver}}
  */
-export function layout(app, { stage, figures, charts, side }) {
+export function layout(app, { stage, figures, timeline, side }) {
   const { element, robot, store, refused, size, embedded } = app;
   const undo = button("Undo", () => store.undo(), { title: "Ctrl+Z" });
   const redo = button("Redo", () => store.redo(), { title: "Ctrl+Shift+Z" });
@@ -25,25 +24,26 @@ export function layout(app, { stage, figures, charts, side }) {
     { class: "head" },
     h(embedded ? "p" : "h1", { class: "title", text: robot.name }),
     h("p", { class: "kind", text: kind }),
-    robot.source && h("details", { class: "source" }, h("summary", {}, "Source"), h("p", {}, robot.source)),
     h("div", { class: "buttons" }, undo, redo, again),
   );
   const note = `Left out of the saved state: ${refused.join(", ")}.`;
   const main = h(
     embedded ? "div" : "main",
     { class: "main" },
-    refused.length > 0 && h("p", { class: "failure", text: note }),
-    ...[stage, figures, charts].map((panel) => panel.element),
+    ...[stage, figures, timeline].map((part) => part.element),
   );
-  const controls = side.map((panel) => panel.element);
-  const aside = h("aside", { class: "side", "aria-label": "Controls" }, ...controls);
+  const panels = h(
+    "div",
+    { class: "panels", tabindex: "-1" },
+    refused.length > 0 && h("p", { class: "failure", text: note }),
+    ...side.map((panel) => panel.element),
+    robot.source && h("p", { class: "hint" }, `Source of the robot: ${robot.source}`),
+  );
+  const aside = h("aside", { class: "side", "aria-label": "Controls" }, panels, stage.messages);
   element.classList.add("cdprx");
   element.classList.toggle("embedded", embedded);
   element.replaceChildren(head, main, aside, live);
-  const fit = () => {
-    element.classList.toggle("whole", element.clientWidth >= WHOLE);
-    element.classList.toggle("phone", element.clientWidth < PHONE);
-  };
+  const fit = () => element.classList.toggle("narrow", element.clientWidth < WIDE);
   const sizes = new ResizeObserver(fit);
   sizes.observe(element);
   fit();

@@ -5,6 +5,8 @@ import { h } from "./dom.js";
 import { Engine, workerCount } from "./engine.js";
 import { ofStudy } from "./robot.js";
 
+export { still } from "./still.js";
+
 const ADVICE =
   "It needs a browser with WebAssembly and workers, such as Firefox, Chrome, Edge or Safari of 2023 " +
   "or later. The program gives the same numbers: cdpr deflection --help.";

@@ -1,6 +1,8 @@
 // What keys, buttons and handles do to the platform.
 
-import { placeOf, rounded, turnedAngles, vectorBetween } from "./rotation.js";
+import { pointOf, withPoint } from "./robot.js";
+import { timed } from "./trajectory/track.js";
+import { placeOf, rounded, turned, turnedAngles, vectorBetween } from "./rotation.js";
 
 const AXES = ["x", "y", "z"];
 const ANGLES = ["roll", "pitch", "yaw"];
@@ -58,6 +60,25 @@ export class Moves {
     store.set({ position: position.map((value) => rounded(value, 6)) }, { commit: true });
   }
 
+  /** Adds a point to the trajectory, and goes there. */
+  waypoint(place) {
+    const { store, mechanics, robot, speed, arm } = this.app;
+    if (store.state.way === "kept") mechanics.renew();
+    const { state } = store;
+    const kept = place.map((value, k) =>
+      robot.held.includes(AXES[k]) || state.free.includes(AXES[k]) ? state.position[k] : value,
+    );
+    const position = this.#above(kept.map((value) => rounded(value, this.#decimals)));
+    const row = (at) => [0, ...at, ...state.rpy_deg];
+    const before = state.trajectory.length > 0 ? state.trajectory : [row(state.position)];
+    const isSame = JSON.stringify(before.at(-1).slice(1)) === JSON.stringify(row(position).slice(1));
+    this.app.speedCounts = true;
+    // The platform goes to the end.
+    this.app.player.time = Infinity;
+    const trajectory = timed(isSame ? before : [...before, row(position)], speed, arm);
+    store.set({ trajectory, position }, { commit: true });
+  }
+
   /** A hand on the handles of the view. */
   grab(phase, pose) {
     const { store, mechanics } = this.app;
@@ -72,14 +93,36 @@ export class Moves {
     if (phase === "end") this.#release();
   }
 
+  /** A hand on the handles of the chosen exit or anchor point. */
+  grabPoint(phase, place) {
+    const { store, mechanics, robot, point } = this.app;
+    if (phase === "begin") {
+      const { pose } = mechanics.picture.loaded;
+      this.taken = { place, from: pointOf(robot, point), pose: point.startsWith("a") ? pose : null };
+    }
+    if (phase === "end") store.commit();
+    if (phase !== "move") return;
+    const { from, pose, place: begin } = this.taken;
+    let step = place.map((value, k) => value - begin[k]);
+    if (pose) step = turned([pose[3], -pose[4], -pose[5], -pose[6]], step);
+    const now = from.map((value, k) =>
+      Math.abs(step[k]) < 1e-6 ? value : rounded(value + step[k], this.#decimals),
+    );
+    store.set({ changes: withPoint(store.state.changes, point, now) });
+  }
+
+  // Decimals of lengths [m] that a hand sets: those that the size of the robot asks for.
+  get #decimals() {
+    return Math.max(0, 4 - Math.floor(Math.log10(this.app.size)));
+  }
+
   // What the hand has moved, with a few digits; the rest is as it was.
   #moved(pose, { position, rpy_deg }) {
-    const decimals = Math.max(0, 4 - Math.floor(Math.log10(this.app.size)));
     const place = placeOf(pose);
     const kept = (now, before, digits) =>
       now.map((value, k) => (Math.abs(value - before[k]) < 1e-4 ? before[k] : rounded(value, digits)));
     return {
-      position: this.#above(kept(place.position, position, decimals)),
+      position: this.#above(kept(place.position, position, this.#decimals)),
       rpy_deg: kept(place.rpy_deg, rpy_deg, 2),
     };
   }

@@ -1,13 +1,12 @@
 // The robot and the study that the engine gets: the files with the changes that the page has made to them.
 
 import { quaternion } from "./rotation.js";
-import { firstSampling } from "./state.js";
 
 /**
- * The robot file with a changed modulus, density, tension reference and limits.
+ * The robot file with a changed modulus, density, tension reference, limits and points.
  * @param {object} file robot file
  * @param {{modulus: number, density: number, reference: number|string|null, least: number|null,
- *   greatest: number|null}} changes factors, tensions [N]
+ *   greatest: number|null, points: Object<string, number[]>}} changes factors, tensions [N], places [m]
  */
 export function changedRobot(file, changes) {
   const robot = structuredClone(file);
@@ -26,12 +25,55 @@ export function changedRobot(file, changes) {
     if (changes.least !== null && limits.min !== undefined) limits.min = changes.least;
     if (changes.greatest !== null && limits.max !== undefined) limits.max = changes.greatest;
   }
+  for (const [name, place] of Object.entries(changes.points))
+    robot.cables[Number(name.slice(1)) - 1][FIELDS[name[0]]] = place;
   return robot;
 }
 
+// Fields of a robot file, and of what `describe` answers, by the first letter of the name of a point.
+const FIELDS = { a: "anchor_point", b: "exit_point" };
+const LISTS = { a: "anchors", b: "exits" };
+
+/** The names of all exit points, b1, b2, .., and anchor points, a1, a2, .., as parameters of studies have. */
+export function pointNames(cables) {
+  return ["b", "a"].flatMap((kind) => Array.from({ length: cables }, (_, k) => `${kind}${k + 1}`));
+}
+
+/** Whether a value is a list of places [m] by the names of points. */
+export function arePoints(value, cables) {
+  const names = pointNames(cables);
+  const isPlace = (place) => Array.isArray(place) && place.length === 3 && place.every(Number.isFinite);
+  const isObject = value !== null && typeof value === "object" && !Array.isArray(value);
+  return isObject && Object.entries(value).every(([name, place]) => names.includes(name) && isPlace(place));
+}
+
+/** The place of a point [m]: an exit point in the base frame, an anchor point in that of the platform. */
+export function pointOf(robot, name) {
+  return robot[LISTS[name[0]]][Number(name.slice(1)) - 1];
+}
+
+/** Changes with a point at another place [m]. */
+export function withPoint(changes, name, place) {
+  return { ...changes, points: { ...changes.points, [name]: place } };
+}
+
+/** The exit and anchor points of a robot file. */
+export function pointsOf({ cables }) {
+  return {
+    exits: cables.map((cable) => cable.exit_point),
+    anchors: cables.map((cable) => cable.anchor_point),
+  };
+}
+
 /** Whether the robot is another one than that of the file. The tension reference is an option of commands. */
-export function isChanged({ modulus, density, least, greatest }) {
-  return modulus !== 1 || density !== 1 || least !== null || greatest !== null;
+export function isChanged({ modulus, density, least, greatest, points }) {
+  const isCable = modulus !== 1 || density !== 1 || least !== null || greatest !== null;
+  return isCable || Object.keys(points).length > 0;
+}
+
+/** The first sampling of a study file, by convention named `all`. */
+export function firstSampling(study) {
+  return study.samplings.all ?? Object.values(study.samplings)[0];
 }
 
 /**

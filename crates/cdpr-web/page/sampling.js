@@ -58,6 +58,11 @@ export class Sampling {
     if (!this.#refused(state) && !this.busy) this.#run();
   }
 
+  /** Lets what is observed be of the state before, until `update` asks again. */
+  wait() {
+    this.#wanted = null;
+  }
+
   /** Whether the effects are of the state on screen. */
   get hasEffects() {
     return this.effects !== null && this.effects.key === this.#wanted?.key;
@@ -145,7 +150,7 @@ export class Sampling {
     if (this.#refused(state)) return;
     if (this.#rate === null) await this.#measure(state);
     let count = 0;
-    while (count < state.observations && this.#wanted.key === key) {
+    while (count < state.observations && this.#wanted?.key === key) {
       const time = count === 0 ? LONGEST / 10 : LONGEST;
       const next = affordable(time, this.#rate, state.observations);
       if (next <= count) break;
@@ -163,10 +168,10 @@ export class Sampling {
     } = await ask(0);
     if (!this.#take({ key, study: text, coarse: false }, set, first, milliseconds)) return false;
     this.told();
-    if (this.#wanted.key !== key) return false;
+    if (this.#wanted?.key !== key) return false;
     const replicates = Math.max(2, this.study.replicates);
     const parts = await Promise.all(Array.from({ length: replicates }, (_, k) => ask(k + 1)));
-    if (this.#wanted.key !== key) return false;
+    if (this.#wanted?.key !== key) return false;
     const of = parts.map(({ answers: [, part] }) => part.ok?.effects).filter(Boolean);
     if (of.length < 2) {
       const error = parts.map(({ answers: [, part] }) => part.error).find(Boolean);
@@ -177,7 +182,7 @@ export class Sampling {
     const {
       answers: [, effects],
     } = await this.engine.ask("observe", [text, { effects: { of } }]);
-    if (this.#wanted.key !== key) return false;
+    if (this.#wanted?.key !== key) return false;
     if (effects.ok) this.effects = { ...effects.ok, key, observations: count };
     else this.failure = effects.error;
     this.told();
@@ -195,10 +200,10 @@ export class Sampling {
   }
 
   #take(asked, set, observed, milliseconds) {
-    if (this.#refused(this.#wanted.state)) return false;
+    if (this.#wanted === null || this.#refused(this.#wanted.state)) return false;
     const { error } = set.error ? set : observed;
     if (error) {
-      if (asked.key === this.#wanted.key) this.failure = error;
+      if (asked.key === this.#wanted?.key) this.failure = error;
       this.told();
       return false;
     }

@@ -4,12 +4,13 @@ import { effectBars } from "./charts/effects.js";
 import { histogram } from "./charts/histogram.js";
 import { heatMap } from "./charts/map.js";
 import { changedName, stem, studyName } from "./commands.js";
-import { cablesCsv, download, framed, observationsCsv } from "./export.js";
+import { cablesCsv, download, framed, observationsCsv, trackCsv } from "./export.js";
 import { digits, point, short } from "./format.js";
 import { PAPER } from "./palette.js";
 import { effectsTitle, histogramTitle } from "./panels/charts.js";
 import { mapTitle, quantityOf } from "./panels/slice.js";
 import { changedRobot, isChanged, studyOf, unobserved } from "./robot.js";
+import { poseAt } from "./trajectory/track.js";
 
 const WIDTH = 640;
 const SVG = "image/svg+xml";
@@ -23,6 +24,7 @@ export const FILES = {
   map: { words: "Slice (SVG)", ready: (app) => app.slicing.plane, file: mapFile },
   csv: { words: "Table of the cables (CSV)", ready: isFound, file: cablesFile },
   observations: { words: "Observations (CSV)", ready: observed, file: observationsFile },
+  trajectory: { words: "Tensions along the trajectory (CSV)", ready: hasTrack, file: trackFile },
   robot: { words: "Robot (JSON)", ready: () => true, file: robotFile },
   study: { words: "Study (JSON)", ready: hasStudy, file: studyFile },
   state: { words: "State of this page (JSON)", ready: () => true, file: stateFile },
@@ -49,6 +51,10 @@ function observed({ sampling }) {
   return sampling.hasSample && sampling.sample.summary.count > 1;
 }
 
+function hasTrack({ player: { track } }) {
+  return track !== null && track.done >= track.times.length;
+}
+
 function hasStudy({ robot: { study }, store }) {
   return study && unobserved(study, store.state) === null;
 }
@@ -71,6 +77,14 @@ function mapFile({ name, slicing, store }) {
 
 function cablesFile({ name, mechanics, robot }) {
   return [`${stem(name)}-cables.csv`, cablesCsv(mechanics.picture, robot.limits), "text/csv"];
+}
+
+function trackFile({ name, player: { track, rows }, robot }) {
+  return [
+    `${stem(name)}-trajectory.csv`,
+    trackCsv(track, (time) => poseAt(rows, time), robot.cables),
+    "text/csv",
+  ];
 }
 
 async function observationsFile({ name, sampling }) {

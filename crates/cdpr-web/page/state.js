@@ -1,10 +1,14 @@
 // The state of the page: what a link, a file and the steps of undo hold. No numbers are derived here.
 
+import { arePoints, firstSampling } from "./robot.js";
 import { placeOf, rounded } from "./rotation.js";
 import { QUANTITIES } from "./slices.js";
+import { areRows } from "./trajectory/track.js";
 
 export const FORMAT = "cdpr-explorer/1";
 const MEMORY = 200;
+// Most rows of a trajectory that a link holds; a saved state holds all.
+const LINKED = 60;
 const COORDINATES = ["x", "y", "z", "roll", "pitch", "yaw"];
 
 // Values of fields of which not every one of their kind will do.
@@ -13,6 +17,7 @@ const CHOICES = {
   quantity: (value) => QUANTITIES.some(([field]) => field === value),
   cells: (value) => Number.isInteger(value) && value >= 2 && value <= 200,
   reference: (value) => value === null || value === "mid" || Number.isFinite(value),
+  points: arePoints,
 };
 
 /**
@@ -38,18 +43,15 @@ export function initial(robot) {
       reference: scalarReference(robot.reference),
       least: null,
       greatest: null,
+      points: {},
     },
     tolerances: {},
     observations: robot.study ? firstSampling(robot.study).observations : 2048,
     view: { sag: 1, deflection: 0, motion: "still", ghost: true, names: true },
+    trajectory: [],
     slice: { shown: false, normal: "z", at: rounded(pose[2], 6), quantity: "deflection_mm", cells: 33 },
     pins: [null, null],
   };
-}
-
-/** The first sampling of a study file, by convention named `all`. */
-export function firstSampling(study) {
-  return study.samplings.all ?? Object.values(study.samplings)[0];
 }
 
 /**
@@ -69,7 +71,7 @@ export function restore(saved, first) {
     if (["format", "robot", "cables"].includes(field)) continue;
     if (field in first && alike(value, first[field], field)) {
       const nested = ["changes", "view", "slice"].includes(field);
-      state[field] = nested ? { ...first[field], ...known(value, first[field]) } : value;
+      state[field] = nested ? { ...first[field], ...known(value, first[field], first.cables) } : value;
     } else refused.push(field);
   }
   if (state.lengths?.length !== first.cables) state.lengths = null;
@@ -77,10 +79,14 @@ export function restore(saved, first) {
   return { state, refused };
 }
 
-/** The state as a link holds it: the fields that differ from the first state, as base64url of JSON. */
+/**
+ * The state as a link holds it: the fields that differ from the first state, as base64url of JSON, without a
+ * long trajectory.
+ */
 export function encode(state, first) {
   const saved = { format: FORMAT };
   for (const field of Object.keys(first)) {
+    if (field === "trajectory" && state.trajectory.length > LINKED) continue;
     if (JSON.stringify(state[field]) !== JSON.stringify(first[field])) saved[field] = state[field];
   }
   const bytes = new TextEncoder().encode(JSON.stringify(saved));
@@ -187,6 +193,7 @@ function alike(value, first, field) {
     return Array.isArray(value) && value.length === 2 && value.every((pin) => !pin || isPin(pin));
   if (field === "way") return value === "anew" || value === "kept";
   if (field === "free") return Array.isArray(value) && value.every((name) => COORDINATES.includes(name));
+  if (field === "trajectory") return areRows(value);
   if (field === "tolerances") return isObject(value) && Object.values(value).every((factor) => factor >= 0);
   if (Array.isArray(first)) return numbers(value) && value.length === first.length;
   if (typeof first === "number") return Number.isFinite(value);
@@ -207,10 +214,10 @@ function numbers(list) {
 }
 
 // The fields of a part of the state whose values are such as they can have.
-function known(value, first) {
+function known(value, first, cables) {
   const fits = (name, inner) => {
     if (!(name in first)) return false;
-    if (name in CHOICES) return CHOICES[name](inner);
+    if (name in CHOICES) return CHOICES[name](inner, cables);
     if (first[name] === null) return inner === null || Number.isFinite(inner);
     return typeof inner === "number"
       ? Number.isFinite(inner) && typeof first[name] === "number"

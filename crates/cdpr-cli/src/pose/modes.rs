@@ -92,7 +92,7 @@ impl Settings {
 }
 
 /// The robot, with an assumed inertia where it has none and rotates.
-pub(super) fn with_inertia(robot: &Robot) -> Cow<'_, Robot> {
+pub(crate) fn with_inertia(robot: &Robot) -> Cow<'_, Robot> {
     if !robot.lacks_inertia() {
         return Cow::Borrowed(robot);
     }

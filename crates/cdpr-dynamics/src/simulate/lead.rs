@@ -1,10 +1,20 @@
 //! How a cable comes to the point where its free part begins.
+//!
+//! Lead and arc are a spring of the unstrained length l that is longer by e than at rest; its end moves along the
+//! direction u of a straight cable to the anchor point, from its leave point B, both corrected by what sag changes
+//! at rest:
+//!
+//! ```text
+//! r_0 = B + (e - arc + arc at rest) u,    (m_0 + μ l/3) ë = (f_0 + m_0 g) u - T(e) - w u_z e/(1 + ε)       (X4)
+//! ```
+//!
+//! The last term is the weight of the cable that has come out. Cable on a pulley has no mass.
 
 use super::mesh::{Material, Pull};
 use cdpr_cable::Guide;
 use cdpr_robot::{Matrix3, Robot, Vector3};
 
-/// A lead and a pulley. Cable on them has no mass of its own; the mass of a lead is at its end, see (N10).
+/// A lead and a pulley. Cable on them has no mass of its own; a third of that of a lead is at its end.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lead {
     guide: Guide,

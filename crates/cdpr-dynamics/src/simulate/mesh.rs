@@ -1,4 +1,26 @@
-//! Points of a cable, and what it pulls with: (N8).
+//! Points of a cable, and the forces on them.
+//!
+//! With the place r of the material at the unstrained length s from the exit, the mass μ per unstrained length and
+//! the ratio τ of the viscous to the elastic modulus,
+//!
+//! ```text
+//! μ r̈ = n' + μ g,    r' = (1 + ε) t,    n = (T(ε) + τ dT/dε dε/dt) t                               (X1)
+//! ```
+//!
+//! with T(ε) zero for a cable that nothing stretches. On elements of the length h, r is the polynomial through
+//! Lobatto's points with the weights w_k, whose derivative at the point j is `2/h Σ D_jk r_k`. Integration with
+//! the same points leaves a mass and a force at each,
+//!
+//! ```text
+//! m_k = μ h w_k/2,    f_k = -Σ_j w_j D_jk n_j                                                      (X2)
+//! ```
+//!
+//! A winch changes the length L of the free part. Points stay at their shares ξ of it, so that material flows
+//! past them with `ds/dt = -(1 - ξ) dL/dt`:
+//!
+//! ```text
+//! dr_k/dt = v_k + r' ds/dt,    dv_k/dt = f_k/m_k + g + v' ds/dt,    v_0 = r' dL/dt                 (X3)
+//! ```
 
 use crate::polynomial::{lobatto, lobatto_slopes};
 use cdpr_cable::Cable;

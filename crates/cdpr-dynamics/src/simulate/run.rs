@@ -368,7 +368,7 @@ impl System<'_> {
                 } else {
                     halves[k].extend(own);
                 }
-                let usual = if k == 0 { scale[0] } else { scale[n] };
+                let usual = if k == 0 { scale[n - 1] } else { scale[2 * n - 1] };
                 let size = halves[k].len();
                 scales[k].resize(size, usual);
             }

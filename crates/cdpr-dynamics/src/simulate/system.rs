@@ -1,4 +1,14 @@
-//! Platform and cables in motion: (N8) to (N11).
+//! Platform and cables in motion.
+//!
+//! The end of each cable moves with the platform; its mass is a point mass there. With their sum M about P, the
+//! forces F at the levers s, and the angular velocity ω in the base frame,
+//!
+//! ```text
+//! M (dv/dt, dω/dt) = (Σ F - m ω × (ω × s), Σ s × (F - m ω × (ω × s)) - ω × I ω)                    (X5)
+//! ```
+//!
+//! Newton's method needs `σ² M + σ C + K` for a real and a complex σ. Each cable has a narrow band in it, which is
+//! eliminated; six unknowns are left.
 
 use super::band::Factored;
 use super::cable::{CableInMotion, CableMatrices, End, Instant};

@@ -111,11 +111,13 @@ impl Projection {
 
     /// Draws posts from the floor to the exit points, beams between these, and the axes of the base frame.
     fn frame(&self, area: &Area, scene: &Scene) -> Result<(), DrawingError> {
-        let corner = |i: usize| scene.exits[scene.ring[i % scene.ring.len()]];
         let foot = |[x, y, _]: [f64; 3]| [x, y, scene.floor];
-        for i in 0..scene.ring.len() {
-            self.line(area, FRAME, [foot(corner(i)), corner(i), corner(i + 1)].into_iter())?;
-            self.line(area, FRAME, [foot(corner(i)), foot(corner(i + 1))].into_iter())?;
+        for ring in &scene.rings {
+            let corner = |i: usize| scene.exits[ring[i % ring.len()]];
+            for i in 0..ring.len() {
+                self.line(area, FRAME, [foot(corner(i)), corner(i), corner(i + 1)].into_iter())?;
+                self.line(area, FRAME, [foot(corner(i)), foot(corner(i + 1))].into_iter())?;
+            }
         }
         scene.exits.iter().try_for_each(|exit| self.dot(area, *exit, BLACK))?;
         for axis in Axis::ALL {

@@ -3,7 +3,7 @@
 mod drawings;
 
 use crate::page::analysis::drawings::{cobweb, scatter};
-use crate::page::elements::{cell, numeric, plain_page, table};
+use crate::page::elements::{Document, Section, cell, numeric, table};
 use crate::text;
 use cdpr_robot::shown;
 use cdpr_sensitivity::{LevelMean, WassersteinBures};
@@ -19,7 +19,20 @@ const DRAWN: usize = 9;
 pub fn analysis_report(table: &GivenTable, found: &TableAnalysis) -> String {
     let name = std::path::Path::new(&found.table).file_name().map(|name| name.to_string_lossy().into_owned());
     let title = format!("Analysis of {}", shown(&name.unwrap_or_else(|| found.table.clone())));
-    let body = html! {
+    let output = |(number, (name, analysis)): (usize, (&String, &Analysis))| {
+        Section::new(format!("output{}", number + 1), name, of_output(table, name, analysis))
+    };
+    let mut sections: Vec<Section> = found.outputs.iter().enumerate().map(output).collect();
+    if let Some(vector) = &found.vector {
+        let title = format!("Vector ({})", vector.columns.join(", "));
+        sections.push(Section::new("vector", title, of_vector(vector)));
+    }
+    let version = env!("CARGO_PKG_VERSION");
+    Document { title: &title, version, header: header(&title, found), sections, live: None }.write()
+}
+
+fn header(title: &str, found: &TableAnalysis) -> Markup {
+    html! {
         header {
             h1 { (title) }
             p {
@@ -44,33 +57,26 @@ pub fn analysis_report(table: &GivenTable, found: &TableAnalysis) -> String {
                 }
             }
         }
-        @for (number, (name, analysis)) in found.outputs.iter().enumerate() {
-            section id={ "output" (number + 1) } {
-                h2 { (name) }
-                (verdict(analysis))
-                (summary(name, analysis))
-                (measures(analysis))
-                @if analysis.limit.is_some() { (at_limit(analysis)) }
-                @for note in &analysis.notes { p.note { (note) "." } }
-                @let drawn = leading(analysis).into_iter().take(DRAWN).collect::<Vec<_>>();
-                @if let Some(y) = column(table, name) {
-                    @for input in &drawn {
-                        @if let Some(x) = column(table, &input.input) { (scatter(&input.input, x, name, y, analysis)) }
-                    }
-                    @let axes = drawn.iter().map(|input| input.input.as_str());
-                    @let axes = axes.filter_map(|axis| Some((axis, column(table, axis)?)));
-                    (cobweb(&axes.collect::<Vec<_>>(), (name, y), analysis))
-                }
+    }
+}
+
+fn of_output(table: &GivenTable, name: &str, analysis: &Analysis) -> Markup {
+    html! {
+        (verdict(analysis))
+        (summary(name, analysis))
+        (measures(analysis))
+        @if analysis.limit.is_some() { (at_limit(analysis)) }
+        @for note in &analysis.notes { p.note { (note) "." } }
+        @let drawn = leading(analysis).into_iter().take(DRAWN).collect::<Vec<_>>();
+        @if let Some(y) = column(table, name) {
+            @for input in &drawn {
+                @if let Some(x) = column(table, &input.input) { (scatter(&input.input, x, name, y, analysis)) }
             }
+            @let axes = drawn.iter().map(|input| input.input.as_str());
+            @let axes = axes.filter_map(|axis| Some((axis, column(table, axis)?)));
+            (cobweb(&axes.collect::<Vec<_>>(), (name, y), analysis))
         }
-        @if let Some(vector) = &found.vector {
-            section id="vector" {
-                h2 { "Vector (" (vector.columns.join(", ")) ")" }
-                (of_vector(vector))
-            }
-        }
-    };
-    plain_page(&title, env!("CARGO_PKG_VERSION"), &body)
+    }
 }
 
 fn column<'a>(table: &'a GivenTable, name: &str) -> Option<&'a [f64]> {
@@ -110,7 +116,7 @@ fn verdict(analysis: &Analysis) -> Markup {
     let verdict = &analysis.verdict;
     let head = ["level", "rows", "mean"];
     html! {
-        @for sentence in &verdict.sentences { p { (sentence) "." } }
+        @for sentence in &verdict.sentences { p { (text::capital(sentence)) "." } }
         p {
             (counted(verdict.tests, "test")) " of all inputs and measures, corrected together: one or more \
              false certainties in 5 % of all tables at most."

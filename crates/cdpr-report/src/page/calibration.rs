@@ -3,7 +3,7 @@
 mod drawings;
 
 use crate::page::calibration::drawings::{against, correlations, in_space, workspace};
-use crate::page::elements::{cell, numeric, plain_page, table};
+use crate::page::elements::{Document, Section, cell, numeric, table};
 use cdpr_calibration::{CalibrationSummary, Fit, ParameterSummary};
 use cdpr_robot::{Robot, shown};
 use maud::{Markup, html};
@@ -13,35 +13,28 @@ const MOST_TRENDS: usize = 20;
 
 /// Writes the report of a calibration as the text of an HTML file, which needs no other file and no script.
 pub fn calibration_report(robot: &Robot, summary: &CalibrationSummary, found: &Fit) -> String {
-    let body = html! {
-        (head(robot, summary, found))
-        section id="residuals" {
-            h2 { "Residuals" }
-            (by_sensor(summary))
-            (in_space(found))
-            (outliers(summary))
-            h3 { "Against place and load" }
-            (trends(summary))
-            (against(found))
-            (splits(summary))
-        }
-        section id="parameters" {
-            h2 { "Parameters" }
-            (parameters(summary))
-            (unidentifiable(summary))
-        }
-        @if let Some(map) = &summary.workspace {
-            section id="workspace" {
-                h2 { "Position over the workspace" }
-                (workspace(map))
-            }
-        }
-        section id="correlations" {
-            h2 { "Correlations of what is left" }
-            (correlations(found))
-        }
+    let residuals = html! {
+        (by_sensor(summary))
+        (in_space(found))
+        (outliers(summary))
+        h3 { "Against place and load" }
+        (trends(summary))
+        (against(found))
+        (splits(summary))
     };
-    plain_page(&format!("Calibration of {}", shown(&summary.robot)), summary.version, &body)
+    let unknowns = html! { (parameters(summary)) (unidentifiable(summary)) };
+    let map = summary.workspace.as_ref();
+    let map = map.map(|map| Section::new("workspace", "Position over the workspace", workspace(map)));
+    let sections = [
+        Some(Section::new("residuals", "Residuals", residuals)),
+        Some(Section::new("parameters", "Parameters", unknowns)),
+        map,
+        Some(Section::new("correlations", "Correlations of what is left", correlations(found))),
+    ];
+    let title = format!("Calibration of {}", shown(&summary.robot));
+    let header = head(robot, summary, found);
+    let sections = sections.into_iter().flatten().collect();
+    Document { title: &title, version: summary.version, header, sections, live: None }.write()
 }
 
 fn head(robot: &Robot, summary: &CalibrationSummary, found: &Fit) -> Markup {

@@ -1,56 +1,121 @@
-//! Elements of the sections: figures, tables, numbers.
+//! The document of every report, and the elements of its sections: figures, tables, numbers.
 
+use crate::live::{UNPACK, data, models, policy, script};
 use crate::text;
-use cdpr_robot::shown_lines;
+use cdpr_robot::{shown, shown_lines};
 use cdpr_study::Figure;
+use cdpr_web::page as explorer;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use std::borrow::Cow;
 
 /// Style of every page.
-pub(crate) const STYLE: &str = include_str!("page.css");
+const STYLE: &str = include_str!("page.css");
 
 /// Part of a page in which no character of a name is obeyed.
-pub(crate) fn inert(part: &Markup) -> PreEscaped<Cow<'_, str>> {
+fn inert(part: &Markup) -> PreEscaped<Cow<'_, str>> {
     PreEscaped(shown_lines(&part.0))
 }
 
 /// Content security policy of pages without scripts: styles of the page itself, and nothing else.
 const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'";
 
-/// The text of an HTML file without scripts that needs no other file.
-pub(crate) fn plain_page(title: &str, version: &str, body: &Markup) -> String {
-    let page = html! {
-        (DOCTYPE)
-        html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta http-equiv="Content-Security-Policy" content=(POLICY);
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                meta name="color-scheme" content="light dark";
-                meta name="generator" content={ "cdpr " (version) };
-                title { (title) }
-                style { (PreEscaped(STYLE)) }
+/// A report: every kind has the same style, a header, and sections with a list of them.
+pub(crate) struct Document<'a> {
+    /// Title of the window.
+    pub(crate) title: &'a str,
+    /// Version of the program.
+    pub(crate) version: &'a str,
+    pub(crate) header: Markup,
+    pub(crate) sections: Vec<Section>,
+    /// The robot that computes in it.
+    pub(crate) live: Option<Live<'a>>,
+}
+
+/// What a page needs for a robot that computes.
+pub(crate) struct Live<'a> {
+    /// Its window.
+    pub(crate) dialog: Markup,
+    /// The data of the page, as JSON.
+    pub(crate) json: &'a str,
+    /// The script of the page.
+    pub(crate) script: &'static str,
+}
+
+impl Document<'_> {
+    /// The text of an HTML file that needs no other file.
+    pub(crate) fn write(&self) -> String {
+        let policy = self.live.as_ref().map_or(POLICY.to_owned(), |live| policy(&[UNPACK, live.script]));
+        let page = html! {
+            (DOCTYPE)
+            html lang="en" {
+                head {
+                    meta charset="utf-8";
+                    meta http-equiv="Content-Security-Policy" content=(policy);
+                    meta name="viewport" content="width=device-width, initial-scale=1";
+                    meta name="color-scheme" content="light dark";
+                    meta name="generator" content={ "cdpr " (self.version) };
+                    title { (shown(self.title)) }
+                    style { (PreEscaped(STYLE)) @if self.live.is_some() { (PreEscaped(explorer::STYLE)) } }
+                }
+                body {
+                    a.skip href="#content" { "Skip to the content" }
+                    div.page { (self.contents()) (self.main()) }
+                    @if let Some(live) = &self.live {
+                        (inert(&live.dialog))
+                        (data(live.json))
+                        (models())
+                        (script(UNPACK))
+                        (script(live.script))
+                    }
+                }
             }
-            body { div.page { main id="content" {
-                (inert(body))
-                footer { "Written by cdpr " (version) "." }
-            } } }
+        };
+        page.into_string()
+    }
+
+    fn contents(&self) -> Markup {
+        html! {
+            nav aria-label="Contents" {
+                ol {
+                    li { a href="#content" { "At a glance" } }
+                    @for section in &self.sections {
+                        li { a href={ "#" (section.id) } { (shown(&section.title)) } }
+                    }
+                }
+            }
         }
-    };
-    page.into_string()
+    }
+
+    fn main(&self) -> Markup {
+        html! {
+            main id="content" {
+                (inert(&self.header))
+                @for section in &self.sections {
+                    section id=(section.id) {
+                        h2 { (shown(&section.title)) }
+                        (inert(&section.body))
+                    }
+                }
+                footer {
+                    "Written by cdpr " (self.version) "."
+                    @if self.live.is_some() { " The robot in space is drawn by three.js (MIT licence)." }
+                }
+            }
+        }
+    }
 }
 
 /// Section of the report.
 pub(crate) struct Section {
     /// Anchor in the page.
-    pub(crate) id: &'static str,
+    pub(crate) id: String,
     pub(crate) title: String,
     pub(crate) body: Markup,
 }
 
 impl Section {
-    pub(crate) fn new(id: &'static str, title: impl Into<String>, body: Markup) -> Self {
-        Self { id, title: title.into(), body }
+    pub(crate) fn new(id: impl Into<String>, title: impl Into<String>, body: Markup) -> Self {
+        Self { id: id.into(), title: title.into(), body }
     }
 }
 

@@ -1,56 +1,15 @@
 //! Sections with the results of a study: distributions, surfaces, effects, measures of sensitivity.
 
 use crate::draw::LEADING;
-use crate::page::elements::{Section, cell, figure, numeric, svg, table};
+use crate::page::elements::{Section, cell, figure, numeric, table};
 use crate::page::glance::{samplings, surfaces as all_surfaces};
-use crate::parameters::{self, axis_of};
+use crate::parameters;
 use crate::text;
 use cdpr_study::{
     Evidence, Figure, FitSummary, InputMeasures, MEASURES, Measure, Output, Quantity, Results,
-    SamplingSummary, SensitivitySummary, SurfaceSummary, is_resolved,
+    SamplingSummary, SensitivitySummary, is_resolved,
 };
-use maud::{Markup, PreEscaped, html};
-use serde::Serialize;
-
-/// The values of a surface that the page's script draws in space.
-#[derive(Serialize)]
-pub(crate) struct SpaceSurface {
-    name: String,
-    x: Vec<f64>,
-    y: Vec<f64>,
-    /// Output in its unit, one row for each value of y; `None` where the observation failed.
-    z: Vec<Vec<Option<f64>>>,
-    labels: [String; 2],
-    /// Name and unit of the output.
-    output: String,
-}
-
-/// All surfaces of the results whose two axes have a label and a unit.
-pub(crate) fn in_space(results: &Results) -> Vec<SpaceSurface> {
-    let drawn = all_surfaces(&results.summary).filter_map(|(name, summary)| {
-        let result = results.surfaces.get(name)?;
-        let (x_label, x_scale) = axis_of(&summary.parameters[0]).ok()?;
-        let (y_label, y_scale) = axis_of(&summary.parameters[1]).ok()?;
-        let rows = result.y.len();
-        let row = |j: usize| {
-            result.values.iter().skip(j).step_by(rows).map(|value| value.as_ref().ok().copied()).collect()
-        };
-        Some(SpaceSurface {
-            name: name.to_owned(),
-            x: result.x.iter().map(|value| x_scale * value).collect(),
-            y: result.y.iter().map(|value| y_scale * value).collect(),
-            z: (0..rows).map(row).collect(),
-            labels: [x_label, y_label],
-            output: short_axis(summary.output),
-        })
-    });
-    drawn.collect()
-}
-
-/// Name of the output in short and its unit.
-fn short_axis(output: Output) -> String {
-    format!("{} [{}]", output.short(), output.unit())
-}
+use maud::{Markup, html};
 
 /// Histograms of all samplings with their fitted laws.
 pub(crate) fn distributions(results: &Results, figures: &[Figure]) -> Option<Section> {
@@ -106,43 +65,22 @@ fn fits(sampling: &SamplingSummary) -> Markup {
     html! { @if !rows.is_empty() { (table(caption, &head, &rows)) } }
 }
 
-/// The output over two parameters, as surface and heat map.
+/// The output over two parameters, as heat maps with contour lines.
 pub(crate) fn surfaces(results: &Results, figures: &[Figure]) -> Option<Section> {
     let all: Vec<_> =
         all_surfaces(&results.summary).filter(|(name, _)| results.surfaces.contains_key(*name)).collect();
     let body = html! {
         @for (name, summary) in &all {
             h3 { (summary.title) }
-            @match svg(figures, name) {
-                Err(error) => p.note { "No figure " code { (name) } ": " (error) "." },
-                Ok(svg) => (surface(name, summary, svg)),
-            }
+            @let [x, y] = &summary.parameters;
+            @let alt = format!("Heat map of the {} over {x} and {y}", summary.output.short());
+            (figure(name, &alt, figures, &html! {
+                (text::capital(&summary.output.axis())) " over " (parameters::symbol(x)) " and "
+                (parameters::symbol(y)) "; all other parameters are nominal."
+            }))
         }
     };
     (!all.is_empty()).then(|| Section::new("surfaces", "Two parameters at a time", body))
-}
-
-/// Both views of a surface, in space and as a heat map, with the buttons that switch between them.
-fn surface(name: &str, summary: &SurfaceSummary, svg: &str) -> Markup {
-    let [x, y] = &summary.parameters;
-    let symbols = (parameters::symbol(x), parameters::symbol(y));
-    let view = |kind: &str| format!("{kind} of the {} over {x} and {y}", summary.output.short());
-    html! {
-        figure id={ "figure-" (name) } data-surface=(name) {
-            div.switch role="group" aria-label="Show as" {
-                button type="button" data-show="space" aria-pressed="false" { "Surface in space" }
-                button type="button" data-show="map" aria-pressed="true" { "Heat map" }
-            }
-            div.plot.space id={ "plot-" (name) } role="img" tabindex="0"
-                aria-label=(view("Surface")) hidden {}
-            div.drawing.map role="img" tabindex="0" aria-label=(view("Heat map")) { (PreEscaped(svg)) }
-            figcaption {
-                (text::capital(&summary.output.axis())) " over " (symbols.0) " and " (symbols.1)
-                "; all other parameters are nominal." " "
-                span.file { "File: " (name) ".svg" }
-            }
-        }
-    }
 }
 
 /// Effects of the coordinates of the anchor and exit points.

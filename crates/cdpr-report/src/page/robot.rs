@@ -79,9 +79,8 @@ fn view(robot: &Robot, scene: &Scene, region: Option<&FoundRegion>) -> Markup {
             noscript { p.note { "Only the view in space needs JavaScript." } }
             figcaption {
                 span id="robot-note" {} " The colour of a cable shows its tension at the platform. Grey "
-                "posts and ring: a frame through the exit points, because a robot file describes no other. "
-                "Drag to "
-                "rotate; click, then wheel or pinch to zoom; with the "
+                "posts and rings: a frame through the exit points, because a robot file describes no other. "
+                "Drag to turn; click, then wheel or pinch to zoom; with the "
                 "keyboard: arrows, + and \u{2212}."
                 @if let Some(region) = region {
                     " The region in which tensions within the limits hold the platform with "

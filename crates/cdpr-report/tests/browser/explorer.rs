@@ -53,9 +53,7 @@ fn path(described: &Value) -> Vec<Value> {
 /// Asks a worker of its own in the page, with the module that the page has; the answers and its time [ms].
 const ASK: &str = r#"(asks) => new Promise(async (done, failed) => {
   const text = (id) => document.getElementById(id).textContent;
-  const packed = Uint8Array.from(atob(text("module")), (c) => c.charCodeAt(0));
-  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
-  const module = await WebAssembly.compile(await new Response(stream).arrayBuffer());
+  const module = await WebAssembly.compile(await packed.bytes("module"));
   const worker = new Worker(URL.createObjectURL(new Blob([text("worker")], { type: "text/javascript" })));
   worker.onmessage = ({ data }) => {
     if (data.broken) failed(data.broken);

@@ -26,7 +26,7 @@ const FIELD: &str = r#"
   window.enter = (name) => { const { input } = field(name); input.focus(); input.select(); };"#;
 
 /// The explorer of CAROCA with its first numbers, and the deflection of the native model at a height [mm].
-fn caroca() -> (Page, impl FnMut(f64) -> String) {
+pub(crate) fn caroca() -> (Page, impl FnMut(f64) -> String) {
     let robot = data("robots/caroca.json");
     let file = write_page("caroca-fields", &robot);
     let mut page = Page::open(chromium());
@@ -130,51 +130,4 @@ fn observations_of_another_state_are_hidden_with_the_reason() {
     page.wait_for(&seen);
     page.evaluate("document.querySelector('.stagebar input[value=kept]').click()");
     page.wait_for(&says("the lengths are kept"));
-}
-
-#[test]
-fn the_view_has_most_of_a_window_and_a_dark_page_is_printed_in_dark_on_white() {
-    let (mut page, _) = caroca();
-    let window = json!({"width": 1440, "height": 900, "deviceScaleFactor": 1, "mobile": false});
-    page.call("Emulation.setDeviceMetricsOverride", window);
-    let share = "(() => { const { width, height } = document.querySelector('.picture').getBoundingClientRect(); \
-         return width * height / (innerWidth * innerHeight); })()";
-    assert!(page.evaluate(share).as_f64().unwrap() > 0.5);
-    let color = "document.querySelector('.chart text').getAttribute('fill')";
-    page.wait_for("document.querySelector('.chart text')");
-    let dark = page.evaluate(color);
-    page.evaluate("dispatchEvent(new Event('beforeprint'))");
-    assert_eq!([page.evaluate(color), dark.clone()], [json!("#59636e"), json!("#9aa5b1")]);
-    // The middle of the sky, as it is printed.
-    let sky = "[...document.querySelector('canvas.paper').getContext('2d').getImageData(9, 9, 1, 1).data]";
-    assert!(page.evaluate(sky)[0].as_f64().unwrap() > 200.0);
-    page.evaluate("dispatchEvent(new Event('afterprint'))");
-    assert_eq!(page.evaluate(color), dark);
-    assert_eq!(page.evaluate("document.querySelector('canvas.paper')"), Value::Null);
-}
-
-#[test]
-fn banners_leave_most_of_a_small_view_free_and_are_read_by_scrolling() {
-    let (mut page, _) = caroca();
-    // As many as a pose without tensions, a platform below the floor and old results have together.
-    let shown = "(() => { const list = document.querySelector('.banners'); \
-         for (let k = 0; k < 9; k++) { const one = document.createElement('div'); one.className = 'banner'; \
-         one.textContent = 'no tensions between 50 N and 15000.763 N hold the platform at this pose '.repeat(3); \
-         list.append(one); } \
-         const [picture, banners] = ['.picture', '.banners'].map((name) => \
-         document.querySelector(name).getBoundingClientRect()); \
-         const covered = Math.min(picture.bottom, banners.bottom) - Math.max(picture.top, banners.top); \
-         return { share: covered / picture.height, scrolls: list.scrollHeight > list.clientHeight }; })()";
-    // On a phone they stand below the view.
-    for (width, height, most, scrolls) in [(900, 500, 0.45, true), (420, 640, 0.0, false)] {
-        let window = json!({"width": width, "height": height, "deviceScaleFactor": 1, "mobile": false});
-        page.call("Emulation.setDeviceMetricsOverride", window);
-        page.wait_for(&format!(
-            "document.querySelector('.cdprx').classList.contains('phone') === {}",
-            !scrolls
-        ));
-        let shown = page.evaluate(shown);
-        assert!(shown["share"].as_f64().unwrap() <= most, "{width}: {shown}");
-        assert_eq!(shown["scrolls"], json!(scrolls), "{width}: {shown}");
-    }
 }

@@ -9,5 +9,9 @@
 mod common;
 mod explorer;
 mod fields;
+mod kinds;
+mod layout;
 mod page;
+mod points;
 mod report;
+mod timeline;

@@ -5,6 +5,7 @@ import { digits, entryWords, lengthUnit, parameterWords, sharePercent } from "..
 import { effectBars, largest } from "../charts/effects.js";
 import { histogram } from "../charts/histogram.js";
 import { shares, tolerances } from "../robot.js";
+import { panel } from "./panel.js";
 
 /** @param {object} app */
 export function chartsPanel(app) {
@@ -19,7 +20,7 @@ export function chartsPanel(app) {
     h(
       "section",
       { "aria-label": "Histogram of the deflection" },
-      h("h2", { text: "Deflection under the payload, of robots within the tolerances" }),
+      h("h3", { text: "Deflection under the payload, of robots within the tolerances" }),
       first,
       numbers,
       counted,
@@ -27,7 +28,7 @@ export function chartsPanel(app) {
     h(
       "section",
       { "aria-label": "Largest effects" },
-      h("h2", { text: "Largest effects" }),
+      h("h3", { text: "Largest effects" }),
       second,
       h(
         "p",
@@ -37,17 +38,12 @@ export function chartsPanel(app) {
     ),
   ];
   const pair = h("div", { class: "pair" }, ...parts);
-  const element = h(
-    "section",
-    { class: "charts", "aria-label": "Uncertainty of the deflection" },
-    says,
-    failed,
-    pair,
-  );
+  const charts = h("div", { class: "charts" }, says, failed, pair);
+  const { element, update: updateOpen } = panel("Uncertainty", { open: true, update }, charts);
   const [firstOther, secondOther] = [whenOther(), whenOther()];
-  const observer = new ResizeObserver(() => update());
-  observer.observe(element);
-  return { element, update, dispose: () => observer.disconnect() };
+  const observer = new ResizeObserver(() => updateOpen());
+  observer.observe(charts);
+  return { element, update: updateOpen, dispose: () => observer.disconnect() };
 
   function update() {
     if (!robot.study) {
@@ -58,7 +54,7 @@ export function chartsPanel(app) {
     failed.hidden = !failure;
     if (failure) setText(failed, `No observations here: ${reasonWords(app, failure)}.`);
     pair.hidden = failure?.kind === "unobserved";
-    element.classList.toggle("stale", Boolean(failure) || !sampling.hasEffects);
+    charts.classList.toggle("stale", Boolean(failure) || !sampling.hasEffects);
     setText(says, sentence(app));
     const { palette } = app;
     const width = Math.max(240, Math.floor(first.clientWidth));

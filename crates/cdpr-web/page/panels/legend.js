@@ -17,15 +17,19 @@ export function legendOf(app) {
 
   function update() {
     const { store, slicing, mechanics, range } = app;
-    tensions.update("tension at the platform [N]", [0, range / 2, range]);
+    const [factor, unit] = range >= 1e4 ? [1e-3, "kN"] : [1, "N"];
+    tensions.update(
+      `tension at the platform [${unit}]`,
+      [0, range / 2, range].map((value) => factor * value),
+    );
     const quantity = quantityOf(store.state.slice.quantity);
     const found = slicing.plane && rangeOf(slicing.cells, quantity.field);
     slice.element.hidden = !found;
     if (found) {
-      const [factor, unit] = shownIn(quantity, found);
-      const [min, max] = found.map((value) => factor * value);
+      const [times, name] = shownIn(quantity, found);
+      const [min, max] = found.map((value) => times * value);
       const middle = isWide(found) ? Math.sqrt(min * max) : (min + max) / 2;
-      slice.update(`slice: ${quantity.words} [${unit}]`, [min, middle, max]);
+      slice.update(`slice: ${quantity.words} [${name}]`, [min, middle, max]);
     }
     const lines = [];
     if (found) lines.push("click on the slice to go there");
@@ -36,7 +40,11 @@ export function legendOf(app) {
   }
 }
 
-function scaleOf(scale) {
+/**
+ * A bar of colours with its title and three numbers.
+ * @param {function(number): number[]} scale
+ */
+export function scaleOf(scale) {
   const colors = stops(scale).map(([t, color]) => `${color} ${100 * t}%`);
   const bar = h("div", {
     class: "gradient",

@@ -14,7 +14,7 @@ export function motionsPanel(app) {
   return { ...made, wanted: () => made.element.open || store.state.view.motion !== "still" };
 
   function update() {
-    const { modes } = app;
+    const { found: modes } = app.modes;
     const { motion } = store.state.view;
     const options = [["still", "no motion", ""]];
     for (const [k, one] of (modes?.motions ?? []).entries()) {
@@ -43,12 +43,12 @@ export function motionsPanel(app) {
       if (focused) list.querySelector(`[data-value="${focused}"]`)?.focus();
       drawn = key;
     }
-    setText(note, app.modesFailure ? `No motions here: ${app.modesFailure}.` : noteOf(app));
+    setText(note, app.modes.failure ? `No motions here: ${app.modes.failure}.` : noteOf(app));
   }
 }
 
 /** What is said of the motions, most important first. */
-export function noteOf({ modes, reduced, mechanics }) {
+export function noteOf({ modes: { found: modes }, reduced, mechanics }) {
   const sentences = ["With the load, on these lengths. The size of a motion is exaggerated."];
   if (mechanics.failure) sentences.unshift("These are of the last state that was found.");
   if (modes?.warning) sentences.unshift(`Note: ${modes.warning.replace(/\s+/g, " ")}.`);
@@ -66,7 +66,7 @@ export function noteOf({ modes, reduced, mechanics }) {
 export function chosenMotion(app, loaded) {
   const [kind, k] = app.store.state.view.motion.split(":");
   if (kind === "motion" && k === "0" && loaded.softest) return loaded.softest;
-  if (kind === "motion") return app.modes?.motions[k] ?? null;
-  if (kind === "mode") return app.modes?.frequencies[k] ?? null;
+  if (kind === "motion") return app.modes.found?.motions[k] ?? null;
+  if (kind === "mode") return app.modes.found?.frequencies[k] ?? null;
   return null;
 }

@@ -1,6 +1,6 @@
-// The 3D view with its tools, legend and marks of what went wrong or jumped.
+// The 3D view with its tools and legend, and the messages on what went wrong or jumped.
 
-import { button, check, choice, h, linear, logarithmic, setText, slider } from "../dom.js";
+import { button, choice, h, setText } from "../dom.js";
 import { digits, lossWords, point, short, withUnit } from "../format.js";
 import { KEYS } from "../moves.js";
 import { legendOf } from "./legend.js";
@@ -17,7 +17,6 @@ export function stagePanel(app) {
     role: "application",
     "aria-label": `3D view of ${app.robot.name}. ${KEY_WORDS}`,
   });
-  const view = (patch) => store.set({ view: { ...store.state.view, ...patch } });
   const way = choice(
     "Cables",
     [
@@ -31,6 +30,8 @@ export function stagePanel(app) {
     [
       ["translate", "move"],
       ["rotate", "turn"],
+      ["points", "points"],
+      ["draw", "draw", "Each click in the view adds a point to the trajectory."],
       ["off", "off"],
     ],
     (mode) => app.setHandle(mode),
@@ -57,59 +58,32 @@ export function stagePanel(app) {
       ["side", () => app.view?.look("side")],
       ["platform", () => app.view?.toPlatform()],
     ].map(([name, act]) => button(name, act)),
-    button("+", () => app.view?.zoom(0.8), { "aria-label": "zoom in" }),
-    button("−", () => app.view?.zoom(1.25), { "aria-label": "zoom out" }),
-    button("⟲", () => app.view?.turn(-0.25), { "aria-label": "turn the view to the left" }),
-    button("⟳", () => app.view?.turn(0.25), { "aria-label": "turn the view to the right" }),
-  );
-  const sag = slider({
-    label: "sag ×",
-    scale: logarithmic(1, 1000),
-    digits: 3,
-    min: 0,
-    input: (value) => view({ sag: value }),
-    commit: () => store.commit(),
-  });
-  const arrow = slider({
-    label: "deflection ×",
-    scale: logarithmic(1, 1e5),
-    digits: 3,
-    min: 0,
-    input: (value) => view({ deflection: value }),
-    commit: () => store.commit(),
-  });
-  const auto = check(
-    "fitting",
-    (on) => {
-      view({ deflection: on ? 0 : app.deflectionFactor });
-      store.commit();
-    },
-    "choose the factor of the deflection to fit the view",
-  );
-  const ghost = check("outline without load", (on) => {
-    view({ ghost: on });
-    store.commit();
-  });
-  const names = check("numbers of cables", (on) => {
-    view({ names: on });
-    store.commit();
-  });
-  const options = h(
-    "details",
-    { class: "options" },
-    h("summary", {}, "Display"),
-    h("div", { class: "inside" }, sag.element, arrow.element, auto.element, ghost.element, names.element),
+    h(
+      "span",
+      { class: "turns" },
+      button("+", () => app.view?.zoom(0.8), { "aria-label": "zoom in" }),
+      button("−", () => app.view?.zoom(1.25), { "aria-label": "zoom out" }),
+      button("⟲", () => app.view?.turn(-0.25), { "aria-label": "turn the view to the left" }),
+      button("⟳", () => app.view?.turn(0.25), { "aria-label": "turn the view to the right" }),
+    ),
   );
   const workspace = button("Workspace", () => app.toggleSlice(), {
     title: "a slice of the workspace, to see where the platform can go and to go there",
   });
-  const banners = h("div", { class: "banners" }, failure, jump, low, pull);
+  const messages = h("div", { class: "banners" }, failure, jump, low, pull);
   const picture = h("div", { class: "picture" }, surface);
+  const view = h("div", { class: "view" }, picture, legend.element, looks);
+  for (const kind of ["dragover", "drop"])
+    view.addEventListener(kind, (event) => {
+      event.preventDefault();
+      const [file] = event.dataTransfer.files;
+      if (kind === "drop" && file) app.openFile(file);
+    });
   const element = h(
     "section",
     { class: "stage", "aria-label": "Robot" },
-    h("div", { class: "stagebar" }, way.element, handle.element, workspace, options),
-    h("div", { class: "view" }, picture, banners, legend.element, looks),
+    h("div", { class: "stagebar" }, way.element, handle.element, workspace),
+    view,
   );
   surface.addEventListener("keydown", (event) => {
     const key = KEYS[event.key];
@@ -118,16 +92,11 @@ export function stagePanel(app) {
     // With Shift the keys turn about the axis in which they would move.
     moves.nudge(key[0], key[1], event.shiftKey, event.altKey ? 10 : 1);
   });
-  return { element, surface, update, setHandle: handle.set };
+  return { element, surface, messages, update, setHandle: handle.set };
 
   function update() {
     const { state } = store;
     way.set(state.way);
-    sag.set(state.view.sag);
-    arrow.set(app.deflectionFactor);
-    auto.set(state.view.deflection === 0);
-    ghost.set(state.view.ghost);
-    names.set(state.view.names);
     legend.update();
     workspace.setAttribute("aria-pressed", String(state.slice.shown));
     const failed = mechanics.failure;
@@ -187,7 +156,8 @@ export function groundWords({ ground, store: { state }, mechanics: { picture } }
   const isBelow = (value, i) => i % 3 === 2 && value < ground - 1e-9;
   const hanging = cables.flatMap(({ points }, k) => (points.some(isBelow) ? [k + 1] : []));
   if (hanging.length > 0) return `Cables that hang below ${place}: ${hanging.join(", ")}.`;
-  return state.position[2] <= ground ? `The platform is at ${place}, and goes no lower here.` : "";
+  if (state.position[2] < ground) return `The pose is below ${place}.`;
+  return state.position[2] === ground ? `The platform is at ${place}, and goes no lower here.` : "";
 }
 
 /** A jump in words. */

@@ -10,7 +10,7 @@ const state = {
   force: [0, 0, 0],
   moment: [0, 0, 0],
   free: [],
-  changes: { modulus: 1, density: 1, reference: null, least: null, greatest: null },
+  changes: { modulus: 1, density: 1, reference: null, least: null, greatest: null, points: {} },
 };
 const given = {
   file: "cogiro.json",

@@ -1,14 +1,28 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { bodyPoints, exaggerated, floorOf, followed, groundOf, moved, ring } from "../geometry.js";
-import { changedRobot, isChanged, ofStudy, scaled, shares, studyOf, unobserved, width } from "../robot.js";
+import { bodyPoints, exaggerated, floorOf, followed, groundOf, moved, rings } from "../geometry.js";
+import {
+  arePoints,
+  changedRobot,
+  isChanged,
+  ofStudy,
+  pointNames,
+  pointOf,
+  pointsOf,
+  scaled,
+  shares,
+  studyOf,
+  unobserved,
+  width,
+  withPoint,
+} from "../robot.js";
 import { initial } from "../state.js";
 import { cellAt, mapFrame, mapScales } from "../charts/map.js";
 import { viridis } from "../charts/scale.js";
 import { cableStyle } from "../view/style.js";
 import { emptyCells, extreme, fill, plane, positionOf, rangeOf, rowOrder } from "../slices.js";
 
-const none = { modulus: 1, density: 1, reference: null, least: null, greatest: null };
+const none = { modulus: 1, density: 1, reference: null, least: null, greatest: null, points: {} };
 const uniform = (half) => ({ law: { uniform: { min: -half, max: half } } });
 
 test("changes reach common and single cables, and leave the file alone", () => {
@@ -18,7 +32,14 @@ test("changes reach common and single cables, and leave the file alone", () => {
     cables: [{ cable: { youngs_modulus: 2e11, linear_density: 0.1 } }, { tension_limits: { max: 300 } }],
   };
   const before = structuredClone(file);
-  const robot = changedRobot(file, { modulus: 0.5, density: 2, reference: "mid", least: 10, greatest: 400 });
+  const robot = changedRobot(file, {
+    modulus: 0.5,
+    density: 2,
+    reference: "mid",
+    least: 10,
+    greatest: 400,
+    points: {},
+  });
   assert.deepEqual(file, before);
   assert.equal(robot.cable.youngs_modulus, 5e10);
   assert.equal(robot.cable.law.segments[0].modulus, 4e10);
@@ -29,6 +50,29 @@ test("changes reach common and single cables, and leave the file alone", () => {
   assert.deepEqual(changedRobot(file, none), file);
   assert.equal(isChanged({ ...none, reference: 5 }), false);
   assert.equal(isChanged({ ...none, density: 2 }), true);
+});
+
+test("a point that is moved is one of the robot, and a number of another robot's is refused", () => {
+  const cables = [0, 1].map((k) => ({ exit_point: [k, 0, 3], anchor_point: [0, k, 0] }));
+  const changes = withPoint(withPoint(none, "b2", [1, 0.5, 3]), "a1", [0.1, 0, 0]);
+  const robot = changedRobot({ cables }, changes);
+  assert.deepEqual(pointsOf(robot), {
+    exits: [
+      [0, 0, 3],
+      [1, 0.5, 3],
+    ],
+    anchors: [
+      [0.1, 0, 0],
+      [0, 1, 0],
+    ],
+  });
+  assert.deepEqual(cables[1].exit_point, [1, 0, 3]);
+  assert.deepEqual(pointOf(pointsOf(robot), "b2"), [1, 0.5, 3]);
+  assert.equal(isChanged(changes), true);
+  assert.deepEqual(pointNames(2), ["b1", "b2", "a1", "a2"]);
+  assert.equal(arePoints(changes.points, 2), true);
+  for (const wrong of [{ b3: [0, 0, 0] }, { b1: [0, 0] }, { b1: [0, 0, null] }, [], null, "b1"])
+    assert.equal(arePoints(wrong, 2), false);
 });
 
 test("laws scale with their deviations and keep their shapes", () => {
@@ -176,18 +220,26 @@ test("bodies have a volume: flat ones and bars get a thickness, a point mass is 
   assert.deepEqual(bodyPoints([...box, [0, 0, -1]], 10).length, 5);
 });
 
-test("the ring goes around", () => {
+test("a ring goes around each level of exit points", () => {
   const exits = [
     [1, 1, 3],
     [-1, -1, 3],
     [1, -1, 3],
     [-1, 1, 3],
   ];
-  const order = ring(exits);
-  for (let k = 0; k < 4; k++) {
-    const [a, b] = [exits[order[k]], exits[order[(k + 1) % 4]]];
-    assert.equal(Math.hypot(a[0] - b[0], a[1] - b[1]), 2);
-  }
+  const isClosed = (order) =>
+    order.forEach((k, j) => {
+      const [a, b] = [exits[k], exits[order[(j + 1) % order.length]]];
+      assert.deepEqual([Math.hypot(a[0] - b[0], a[1] - b[1]), a[2]], [2, b[2]]);
+    });
+  assert.equal(rings(exits).length, 1);
+  rings(exits).forEach(isClosed);
+  exits.push(...exits.map(([x, y]) => [x, y, 0.5]));
+  assert.deepEqual(
+    rings(exits).map((order) => order.length),
+    [4, 4],
+  );
+  rings(exits).forEach(isClosed);
 });
 
 test("the ground is that of the file, else zero below a surveyed frame, else unknown", () => {
@@ -268,14 +320,19 @@ test("a study in place of the template gives pose, payload and tolerances", () =
 
 test("a slack cable has the colour of its tension, and no dark edge", () => {
   const options = { range: 600, faded: false, selected: false };
-  const [taut, slack] = [false, true].map((slack) => cableStyle({ tension: 506, slack, limit: null }, options));
+  const [taut, slack] = [false, true].map((slack) =>
+    cableStyle({ tension: 506, slack, limit: null }, options),
+  );
   assert.deepEqual(slack.color, viridis(506 / 600));
   assert.deepEqual(taut.color, slack.color);
   assert.deepEqual([taut.hasEdge, slack.hasEdge], [true, false]);
   const weak = cableStyle({ tension: 3, slack: true, limit: "min" }, options);
   assert.notDeepEqual(weak.color, slack.color);
   assert.equal(weak.mark, "warn");
-  assert.equal(cableStyle({ tension: 3, slack: true, limit: "min" }, { ...options, selected: true }).mark, "ink");
+  assert.equal(
+    cableStyle({ tension: 3, slack: true, limit: "min" }, { ...options, selected: true }).mark,
+    "ink",
+  );
   assert.deepEqual(cableStyle({ tension: 3, slack: true, limit: "min" }, { ...options, faded: true }), {
     color: null,
     hasEdge: false,

@@ -1,8 +1,8 @@
-// The frame of the robot: floor, posts, the ring through the exit points, and the numbers of the cables.
+// The frame of the robot: floor, posts, the rings through the exit points, and the numbers of the cables.
 
 import { GridHelper, Group } from "three";
 import { h, setText } from "../dom.js";
-import { ring } from "../geometry.js";
+import { rings } from "../geometry.js";
 import { Segments } from "./segments.js";
 import { roundUp } from "../charts/scale.js";
 
@@ -15,13 +15,9 @@ export class Frame {
   constructor(parent, exits, box) {
     this.group = new Group();
     parent.add(this.group);
+    this.floor = box.floor;
     this.lines = new Segments(this.group, 4 * exits.length + 8, { linewidth: 2, opacity: 0.85 });
-    const order = ring(exits);
-    for (const exit of exits) {
-      if (exit[2] > box.floor) this.lines.line([...exit, exit[0], exit[1], box.floor]);
-    }
-    order.forEach((k, j) => this.lines.line([...exits[k], ...exits[order[(j + 1) % order.length]]]));
-    this.lines.done();
+    this.draw(exits);
     const cell = roundUp(box.size / 12);
     const count = 2 * Math.ceil((0.75 * box.size) / cell);
     this.cell = cell;
@@ -33,6 +29,17 @@ export class Frame {
       box.floor - 1e-4 * box.size,
     );
     this.group.add(this.grid);
+  }
+
+  /** Draws the posts and the rings through exit points. */
+  draw(exits) {
+    this.lines.clear();
+    for (const exit of exits) {
+      if (exit[2] > this.floor) this.lines.line([...exit, exit[0], exit[1], this.floor]);
+    }
+    for (const order of rings(exits))
+      order.forEach((k, j) => this.lines.line([...exits[k], ...exits[order[(j + 1) % order.length]]]));
+    this.lines.done();
   }
 
   /** @param {object} palette */

@@ -16,23 +16,18 @@ import { Vector3 } from "three";
 import { bodyPoints } from "../geometry.js";
 
 export class Platform {
+  pins = [];
+
   /**
    * @param {import("three").Object3D} parent
    * @param {{anchors: number[][], center_of_mass: number[]}} robot
    * @param {number} size of the robot [m]
    */
-  constructor(parent, { anchors, center_of_mass }, size) {
-    const points = bodyPoints(anchors, size);
-    const geometry = points
-      ? new ConvexGeometry(points.map((point) => new Vector3(...point)))
-      : new SphereGeometry(0.012 * size, 24, 16);
-    const edges = points
-      ? new EdgesGeometry(geometry, 12)
-      : new EdgesGeometry(new SphereGeometry(0.012 * size, 10, 6), 1);
-    this.reach = points ? Math.max(...points.map((point) => Math.hypot(...point))) : 0.012 * size;
+  constructor(parent, robot, size) {
+    this.size = size;
     this.body = new Group();
     this.surface = new Mesh(
-      geometry,
+      undefined,
       new MeshLambertMaterial({
         transparent: true,
         opacity: 0.82,
@@ -42,21 +37,34 @@ export class Platform {
         polygonOffsetUnits: 1,
       }),
     );
-    this.rim = outline(edges);
-    const mass = new Mesh(
-      new SphereGeometry(0.06 * this.reach, 16, 12),
+    this.mass = new Mesh(
+      new SphereGeometry(1, 16, 12),
       new MeshBasicMaterial({ depthTest: false, transparent: true }),
     );
-    mass.position.set(...center_of_mass);
-    mass.renderOrder = 5;
-    this.mass = mass;
-    this.body.add(this.surface, this.rim, mass);
-    this.ghost = outline(edges);
-    this.tip = outline(edges);
-    this.wanted = outline(edges);
-    this.pins = [outline(edges), outline(edges)];
+    this.mass.position.set(...robot.center_of_mass);
+    this.mass.renderOrder = 5;
+    [this.rim, this.ghost, this.tip, this.wanted, ...this.pins] = Array.from({ length: 6 }, outline);
+    this.body.add(this.surface, this.rim, this.mass);
     parent.add(this.body, this.ghost, this.tip, this.wanted, ...this.pins);
     for (const part of [this.ghost, this.tip, this.wanted, ...this.pins]) part.visible = false;
+    this.shape(robot);
+  }
+
+  /** Gives the platform the hull of these anchor points. */
+  shape({ anchors }) {
+    const points = bodyPoints(anchors, this.size);
+    const geometry = points
+      ? new ConvexGeometry(points.map((point) => new Vector3(...point)))
+      : new SphereGeometry(0.012 * this.size, 24, 16);
+    const edges = points
+      ? new EdgesGeometry(geometry, 12)
+      : new EdgesGeometry(new SphereGeometry(0.012 * this.size, 10, 6), 1);
+    this.reach = points ? Math.max(...points.map((point) => Math.hypot(...point))) : 0.012 * this.size;
+    this.surface.geometry.dispose();
+    this.surface.geometry = geometry;
+    this.rim.geometry.dispose();
+    for (const one of [this.rim, this.ghost, this.tip, this.wanted, ...this.pins]) one.geometry = edges;
+    this.mass.scale.setScalar(0.06 * this.reach);
   }
 
   /** @param {object} palette */
@@ -88,6 +96,6 @@ export function place(object, pose) {
   object.quaternion.set(qx, qy, qz, qw);
 }
 
-function outline(edges) {
-  return new LineSegments(edges, new LineBasicMaterial());
+function outline() {
+  return new LineSegments(undefined, new LineBasicMaterial());
 }

@@ -4,6 +4,7 @@ import {
   AmbientLight,
   DirectionalLight,
   PerspectiveCamera,
+  Plane,
   Raycaster,
   Scene,
   Vector2,
@@ -18,29 +19,39 @@ import { Cables } from "./cables.js";
 import { Frame, Names } from "./frame.js";
 import { Handles } from "./handles.js";
 import { Platform, place } from "./platform.js";
+import { PointMarks } from "./points.js";
 import { Segments } from "./segments.js";
 import { SlicePicture } from "./slice.js";
 
-const LOOKS = { default: [-0.75, -1.25, 0.55], top: [0, -1e-3, 1], front: [0, -1, 0.02], side: [1, 0, 0.02] };
+const LOOKS = { default: [-0.75, -1.25, 0.5], top: [0, -1e-3, 1], front: [0, -1, 0.02], side: [1, 0, 0.02] };
 const PERIOD = 1.6;
+// Height of the buttons in the view [px], below which the robot begins.
+const TOOLS = 36;
 
 /**
  * @typedef {{loaded: object, unloaded: object|null, wanted: number[]|null, faded: boolean, sag: number,
  *   range: number,
  *   selected: number|null, deflection: number, ghost: boolean, motion: object|null, still: boolean,
  *   force: number[]|null, jump: {before: number[], after: number[]|null}|null,
- *   pins: Array<number[]|null>}} Picture
+ *   pins: Array<number[]|null>, track: number[], isDrawn: boolean,
+ *   points: {chosen: string|null, numbers: number[]|null}|null}} Picture
  */
 
 export class View {
   #needed = true;
+  // The look that the camera keeps when the size of the view changes, until a hand turns it.
+  #kept = null;
   #frame = 0;
+  // The trajectory that is drawn.
+  #line = null;
   #pick = new Raycaster();
 
   /**
    * @param {HTMLElement} container
    * @param {object} robot answer to `describe`
-   * @param {{grab: function(string, number[]): void, goto: function(number[]): void}} hooks
+   * @param {{grab: function(string, number[]): void, grabPoint: function(string, number[]): void,
+   *   choosePoint: function(string): void, goto: function(number[]): void,
+   *   waypoint: function(number[]): void}|null} hooks of a hand; the robot is not moved without them
    */
   constructor(container, robot, hooks) {
     this.container = container;
@@ -62,6 +73,7 @@ export class View {
     this.scene.add(sun);
     this.orbit = new OrbitControls(this.camera, this.surface);
     this.orbit.addEventListener("change", () => this.invalidate());
+    this.orbit.addEventListener("start", () => this.#release());
     this.frame = new Frame(this.scene, robot.exits, this.box);
     this.names = new Names(container, robot.exits);
     this.slice = new SlicePicture(this.scene);
@@ -70,20 +82,29 @@ export class View {
     this.arrow = new Arrow(this.scene);
     this.force = new Arrow(this.scene);
     this.jump = new Arrow(this.scene);
+    this.points = new PointMarks(this.scene, container, robot.cables);
     this.trace = new Segments(this.scene, 400, { linewidth: 2, opacity: 0.8 });
-    this.handles = new Handles(this.scene, this.camera, this.surface, robot.held, {
-      grab: (phase, pose) => {
-        this.orbit.enabled = phase === "end";
-        hooks.grab(phase, pose);
-      },
-      change: () => this.invalidate(),
-    });
-    this.#listen();
+    this.track = new Segments(this.scene, 2100, { linewidth: 2.5 });
+    if (hooks) this.#takeHandles();
     this.resize = new ResizeObserver(() => this.fit());
     this.resize.observe(container);
     this.fit();
     this.look("default");
     this.#frame = requestAnimationFrame(this.#loop);
+  }
+
+  #takeHandles() {
+    const { hooks, robot } = this;
+    const taken = (tell) => (phase, place) => {
+      this.orbit.enabled = phase === "end";
+      tell(phase, place);
+    };
+    this.handles = new Handles(this.scene, this.camera, this.surface, robot.held, {
+      grab: taken(hooks.grab),
+      grabPoint: taken(hooks.grabPoint),
+      change: () => this.invalidate(),
+    });
+    this.#listen();
   }
 
   /** @param {object} palette */
@@ -95,6 +116,7 @@ export class View {
     this.force.material.color.set(palette.force);
     this.jump.material.color.set(palette.warn);
     this.trace.material.color.set(palette.warn);
+    this.track.material.color.set(palette.force);
     if (this.picture) this.show(this.picture);
     this.invalidate();
   }
@@ -134,9 +156,31 @@ export class View {
     this.trace.clear();
     if (jump?.path) this.trace.line(jump.path.flat());
     this.trace.done();
-    this.handles.follow(wanted ?? picture.handle ?? loaded.pose);
+    if (this.#line !== picture.track) {
+      this.#line = picture.track;
+      this.track.clear();
+      this.track.line(picture.track);
+      this.track.done();
+    }
+    this.handles?.follow(wanted ?? picture.handle ?? loaded.pose);
+    this.points.draw(picture.points && { ...picture.points, places: this.#places(loaded) }, this.palette);
+    this.handles?.followPoint(this.points.place);
     this.#pose(0);
     this.invalidate();
+  }
+
+  /** Takes over other exit and anchor points of the robot. */
+  reshape() {
+    this.frame.draw(this.robot.exits);
+    this.names.exits = this.robot.exits;
+    this.platform.shape(this.robot);
+    this.invalidate();
+  }
+
+  // Exit and anchor points by their names.
+  #places({ anchors }) {
+    const named = (kind, list) => list.map((place, k) => [`${kind}${k + 1}`, place]);
+    return Object.fromEntries([...named("b", this.robot.exits), ...named("a", anchors)]);
   }
 
   /** Shows a slice, or none. */
@@ -149,21 +193,28 @@ export class View {
 
   /** Looks at the whole robot from one of `LOOKS`. */
   look(name) {
-    const { min, max, floor } = this.box;
-    this.#lookAt([min[0], min[1], Math.min(floor, min[2])], max, new Vector3(...LOOKS[name]));
+    this.#kept = name;
+    const { floor } = this.box;
+    const feet = this.robot.exits.map(([x, y, z]) => [x, y, Math.min(z, floor)]);
+    const anchors = this.picture?.loaded.anchors ?? [];
+    this.#lookAt([...this.robot.exits, ...feet, ...anchors], new Vector3(...LOOKS[name]));
   }
 
   /** Looks at the platform from where the camera is. */
   toPlatform() {
     if (!this.picture) return;
+    this.#release();
     const { pose } = this.picture.loaded;
-    const reach = 2.2 * this.platform.reach;
-    const corner = (sign) => [0, 1, 2].map((k) => pose[k] + sign * reach);
-    this.#lookAt(corner(-1), corner(1), this.camera.position.clone().sub(this.orbit.target));
+    const reach = 1.6 * this.platform.reach;
+    const ends = [0, 1, 2].flatMap((axis) =>
+      [-reach, reach].map((step) => pose.slice(0, 3).with(axis, pose[axis] + step)),
+    );
+    this.#lookAt(ends, this.camera.position.clone().sub(this.orbit.target));
   }
 
   /** Moves the camera towards its target, or away from it. */
   zoom(factor) {
+    this.#release();
     this.camera.position.sub(this.orbit.target).multiplyScalar(factor).add(this.orbit.target);
     this.orbit.update();
     this.invalidate();
@@ -171,7 +222,20 @@ export class View {
 
   /** Turns the camera about its target [rad]. */
   turn(angle) {
+    this.#release();
     this.camera.position.sub(this.orbit.target).applyAxisAngle(this.camera.up, angle).add(this.orbit.target);
+    this.orbit.update();
+    this.invalidate();
+  }
+
+  /** Raises the camera about its target [rad]. */
+  tilt(angle) {
+    this.#release();
+    const back = this.camera.position.clone().sub(this.orbit.target);
+    const height = Math.asin(back.z / back.length());
+    const right = new Vector3().crossVectors(this.camera.up, back).normalize();
+    const step = Math.min(1.5, Math.max(-1.5, height + angle)) - height;
+    this.camera.position.copy(back.applyAxisAngle(right, -step).add(this.orbit.target));
     this.orbit.update();
     this.invalidate();
   }
@@ -184,7 +248,12 @@ export class View {
     this.renderer.setSize(this.width, this.height);
     this.camera.aspect = this.width / this.height;
     this.camera.updateProjectionMatrix();
+    if (this.#kept) this.look(this.#kept);
     this.invalidate();
+  }
+
+  #release() {
+    this.#kept = null;
   }
 
   /** The picture as it is now. */
@@ -193,34 +262,47 @@ export class View {
     const named = Boolean(this.picture?.names);
     this.names.element.hidden = !named;
     if (named) this.names.place(this.camera, this.#scratch, this.width, this.height);
+    this.points.follow(this.camera, this.width, this.height);
     return this.surface;
   }
 
   dispose() {
     cancelAnimationFrame(this.#frame);
     this.resize.disconnect();
-    this.handles.dispose();
+    this.handles?.dispose();
     this.orbit.dispose();
     this.renderer.dispose();
     this.surface.remove();
     this.names.element.remove();
+    this.points.dispose();
   }
 
-  // From a direction, and so far away that the box from `min` to `max` fills the view.
-  #lookAt(min, max, direction) {
-    const center = new Vector3(...min).add(new Vector3(...max)).multiplyScalar(0.5);
+  // From a direction, and so near that points just fit into the view.
+  #lookAt(points, direction) {
     const back = direction.normalize();
     const right = new Vector3().crossVectors(this.camera.up, back).normalize();
     const up = new Vector3().crossVectors(back, right);
-    const tangent = 0.96 * Math.tan((this.camera.fov * Math.PI) / 360);
-    let distance = 0;
-    for (let k = 0; k < 8; k++) {
-      const corner = new Vector3(...[0, 1, 2].map((axis) => ((k >> axis) & 1 ? max : min)[axis])).sub(center);
-      const across = Math.max(Math.abs(corner.dot(right)) / this.camera.aspect, Math.abs(corner.dot(up)));
-      distance = Math.max(distance, across / tangent + corner.dot(back));
-    }
-    this.orbit.target.copy(center);
-    this.camera.position.copy(center).addScaledVector(back, distance);
+    const tangent = 0.93 * Math.tan((this.camera.fov * Math.PI) / 360);
+    const vectors = points.map((point) => new Vector3(...point));
+    const target = vectors.reduce((sum, one) => sum.addScaledVector(one, 1 / points.length), new Vector3());
+    // Each side of the view is a plane through the camera. With the slopes of two opposite planes, the points
+    // bound the distance d and the shift s of the camera: a / upper + n <= d + s / upper, n - a / lower <=
+    // d - s / lower, where a is the place of a point along the axis and n how near it is.
+    const fitted = (axis, lower, upper) => {
+      const seen = vectors.map((one) => [
+        one.clone().sub(target).dot(axis),
+        one.clone().sub(target).dot(back),
+      ]);
+      const above = Math.max(...seen.map(([along, near]) => along / upper + near));
+      const below = Math.max(...seen.map(([along, near]) => near - along / lower));
+      const shift = (above - below) / (1 / lower + 1 / upper);
+      return { distance: below + shift / lower, shift };
+    };
+    const across = fitted(right, tangent * this.camera.aspect, tangent * this.camera.aspect);
+    const along = fitted(up, tangent, tangent * (1 - Math.min(0.3, (2 * TOOLS) / this.height)));
+    target.addScaledVector(right, across.shift).addScaledVector(up, along.shift);
+    this.orbit.target.copy(target);
+    this.camera.position.copy(target).addScaledVector(back, Math.max(across.distance, along.distance));
     this.orbit.update();
     this.invalidate();
   }
@@ -264,21 +346,46 @@ export class View {
   // A click on the slice goes there; a drag turns the view.
   #listen() {
     let down = null;
-    this.surface.addEventListener("pointerdown", (event) => {
-      down = [event.clientX, event.clientY];
-    });
+    const choose = ({ offsetX, offsetY }) => {
+      const name = this.points.at([offsetX, offsetY], this.camera, this.width, this.height);
+      if (name && !this.handles.controls.axis) this.hooks.choosePoint(name);
+    };
+    this.surface.addEventListener(
+      "pointerdown",
+      (event) => {
+        down = [event.clientX, event.clientY];
+        choose(event);
+      },
+      // Before the handles, which then are where the point is.
+      { capture: true },
+    );
     this.surface.addEventListener("pointerup", (event) => {
       const still = down && Math.hypot(event.clientX - down[0], event.clientY - down[1]) < 4;
       down = null;
-      if (!still || this.handles.taken || this.handles.controls.axis || !this.slice.mesh.visible) return;
+      if (!still || this.handles.taken || this.handles.controls.axis) return;
       const box = this.surface.getBoundingClientRect();
       const at = new Vector2(
         ((event.clientX - box.left) / box.width) * 2 - 1,
         1 - ((event.clientY - box.top) / box.height) * 2,
       );
       this.#pick.setFromCamera(at, this.camera);
+      if (this.picture?.isDrawn) return this.#drawn();
+      if (!this.slice.mesh.visible) return;
       const [hit] = this.#pick.intersectObject(this.slice.mesh);
       if (hit) this.hooks.goto(hit.point.toArray());
     });
+  }
+
+  // A point of a trajectory where the pointer is, in the plane through the platform across the axis along
+  // which the camera looks most; seen from well above, that of its height.
+  #drawn() {
+    const { direction } = this.#pick.ray;
+    const size = direction.toArray().map(Math.abs);
+    const axis = size[2] > 0.25 ? 2 : size[0] > size[1] ? 0 : 1;
+    const [x, y, z] = this.picture.handle ?? this.picture.loaded.pose;
+    const normal = new Vector3().setComponent(axis, 1);
+    const plane = new Plane().setFromNormalAndCoplanarPoint(normal, new Vector3(x, y, z));
+    const hit = this.#pick.ray.intersectPlane(plane, new Vector3());
+    if (hit && hit.distanceTo(this.orbit.target) < 10 * this.box.size) this.hooks.waypoint(hit.toArray());
   }
 }

@@ -1,8 +1,9 @@
 //! Drawings of an analysis: an output against an input, and rows as lines across all axes.
 
 use crate::drawing::axis::extent;
+use crate::page::plot::{BLACK, BLUE, Plot, RED};
 use crate::text::digits;
-use cdpr_robot::shown_lines;
+use cdpr_robot::{shown, shown_lines};
 use cdpr_study::Analysis;
 use maud::{Markup, PreEscaped, html};
 use std::fmt::Write;
@@ -16,43 +17,39 @@ const LINES: usize = 300;
 /// Parts of equal numbers of rows, whose means are joined.
 const PARTS: usize = 20;
 
-const BLUE: &str = "#0072b2";
-const RED: &str = "#d55e00";
-
 /// Output against input: a dot a row, red where the limit fails, and the means over parts of the rows.
 pub(super) fn scatter(input: &str, x: &[f64], output: &str, y: &[f64], analysis: &Analysis) -> Markup {
     let mut rows: Vec<(f64, f64)> =
         x.iter().copied().zip(y.iter().copied()).filter(|(x, y)| x.is_finite() && y.is_finite()).collect();
-    let (across, up) = (Scale::of(rows.iter().map(|row| row.0)), Scale::of(rows.iter().map(|row| row.1)));
-    let place = |(x, y): (f64, f64)| (WIDTH * across.share(x), HEIGHT * (1.0 - up.share(y)));
-    let mut svg = drawing();
-    for &row in rows.iter().step_by(rows.len().div_ceil(POINTS).max(1)) {
-        let (px, py) = place(row);
-        let color = if fails(analysis, row.1) { RED } else { BLUE };
-        // Writing to a string cannot fail.
-        let _ = write!(
-            svg,
+    if rows.is_empty() {
+        return html! {};
+    }
+    let (across, up) = (extent(rows.iter().map(|row| row.0)), extent(rows.iter().map(|row| row.1)));
+    let mut plot = Plot::new([WIDTH, HEIGHT], (&shown(input), across), (&shown(output), up));
+    for &(x, y) in rows.iter().step_by(rows.len().div_ceil(POINTS).max(1)) {
+        let (px, py) = (plot.x(x), plot.y(y));
+        let color = if fails(analysis, y) { RED } else { BLUE };
+        plot.add(format_args!(
             "<circle cx=\"{px:.1}\" cy=\"{py:.1}\" r=\"1.5\" fill=\"{color}\" fill-opacity=\"0.5\"/>"
-        );
+        ));
     }
     rows.sort_by(|one, other| one.0.total_cmp(&other.0));
     let means = rows.chunks(rows.len().div_ceil(PARTS).max(1)).map(|part| {
         let size = part.len() as f64;
         let sum = part.iter().fold((0.0, 0.0), |sum, row| (sum.0 + row.0, sum.1 + row.1));
-        place((sum.0 / size, sum.1 / size))
+        (plot.x(sum.0 / size), plot.y(sum.1 / size))
     });
     let line: Vec<String> = means.map(|(x, y)| format!("{x:.1},{y:.1}")).collect();
-    let _ = write!(
-        svg,
-        "<polyline points=\"{}\" fill=\"none\" stroke=\"black\" stroke-width=\"2\"/></svg>",
+    plot.add(format_args!(
+        "<polyline points=\"{}\" fill=\"none\" stroke=\"{BLACK}\" stroke-width=\"2\"/>",
         line.join(" ")
-    );
+    ));
     html! {
         figure {
-            div.drawing role="img" aria-label={ (output) " against " (input) } { (PreEscaped(svg)) }
+            div.drawing.small role="img" aria-label={ (output) " against " (input) } { (PreEscaped(plot.finish())) }
             figcaption {
-                (output) " from " (up.ends()) " against " (input) " from " (across.ends())
-                "; the line joins means of " (PARTS) " parts of the rows."
+                (output) " against " (input) "; the line joins means of " (PARTS) " parts of the rows."
+                @if analysis.limit.is_some() { " Red: the limit fails." }
             }
         }
     }
@@ -81,7 +78,7 @@ pub(super) fn cobweb(inputs: &[(&str, &[f64])], output: (&str, &[f64]), analysis
     let room = 30.0;
     let mut svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {wide} {}\" width=\"{wide}\">\
-         <rect width=\"{wide}\" height=\"{}\" fill=\"white\"/>",
+         <rect width=\"{wide}\" height=\"{}\" fill=\"#FFFFFF\"/>",
         HEIGHT + room,
         HEIGHT + room
     );
@@ -104,9 +101,9 @@ pub(super) fn cobweb(inputs: &[(&str, &[f64])], output: (&str, &[f64]), analysis
     for (axis, (name, _)) in axes.iter().enumerate() {
         let _ = write!(
             svg,
-            "<line x1=\"{x:.1}\" y1=\"0\" x2=\"{x:.1}\" y2=\"{HEIGHT}\" stroke=\"black\"/>\
+            "<line x1=\"{x:.1}\" y1=\"0\" x2=\"{x:.1}\" y2=\"{HEIGHT}\" stroke=\"{BLACK}\"/>\
              <text x=\"{x:.1}\" y=\"{:.1}\" font-size=\"11\" font-family=\"sans-serif\" \
-             text-anchor=\"middle\">{}</text>",
+             text-anchor=\"middle\" fill=\"{BLACK}\">{}</text>",
             HEIGHT + 18.0,
             html! { (shown_lines(name)) }.0,
             x = at(axis)
@@ -131,14 +128,6 @@ fn fails(analysis: &Analysis, y: f64) -> bool {
     analysis.limit.is_some_and(|failures| !failures.limit.holds(y))
 }
 
-/// The opening of a drawing.
-fn drawing() -> String {
-    format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" width=\"{WIDTH}\">\
-         <rect width=\"{WIDTH}\" height=\"{HEIGHT}\" fill=\"white\"/>"
-    )
-}
-
 /// Places of values between their least and greatest.
 struct Scale {
     low: f64,
@@ -155,9 +144,5 @@ impl Scale {
     fn share(&self, value: f64) -> f64 {
         let range = self.high - self.low;
         if range > 0.0 { 0.02 + 0.96 * (value - self.low) / range } else { 0.5 }
-    }
-
-    fn ends(&self) -> String {
-        format!("{} to {}", digits(self.low, 4), digits(self.high, 4))
     }
 }

@@ -1,9 +1,12 @@
 //! Drawings of a calibration: arrows, maps, residuals against place, correlations.
 
+use crate::drawing::axis::extent;
 use crate::page::elements::numeric;
+use crate::page::plot::{BLUE, Plot, RED};
 use cdpr_calibration::{Fit, UncertaintyMap, arrows};
 use maud::{Markup, PreEscaped, html};
 use std::fmt::Write;
+use std::ops::Range;
 
 /// Side of a square drawing [px].
 const SIDE: f64 = 420.0;
@@ -26,7 +29,7 @@ pub(super) fn in_space(found: &Fit) -> Markup {
     html! {
         @for (name, axes) in views {
             figure {
-                div.drawing role="img" aria-label={ "Residuals of the position " (name) } {
+                div.drawing.small role="img" aria-label={ "Residuals of the position " (name) } {
                     (PreEscaped(arrow_view(&arrows, axes, longest)))
                 }
                 figcaption {
@@ -41,38 +44,33 @@ pub(super) fn in_space(found: &Fit) -> Markup {
 type Arrow = ([f64; 3], [f64; 3], [f64; 3]);
 
 fn arrow_view(arrows: &[Arrow], [u, v]: [usize; 2], longest: f64) -> String {
-    let range = |k: usize| {
-        let of = |pick: fn(f64, f64) -> f64, from| arrows.iter().map(|(at, ..)| at[k]).fold(from, pick);
-        (of(f64::min, f64::INFINITY), of(f64::max, f64::NEG_INFINITY))
+    let range = |k: usize| extent(arrows.iter().map(|(at, ..)| at[k]));
+    let (across, up) = (range(u), range(v));
+    // Both axes have one scale, with room for the arrows.
+    let half = 0.5 * (across.end - across.start).max(up.end - up.start).max(1e-9) * (1.0 + 2.0 * LONGEST);
+    let widened = |range: Range<f64>| {
+        let middle = 0.5 * (range.start + range.end);
+        middle - half..middle + half
     };
-    let ((least_u, most_u), (least_v, most_v)) = (range(u), range(v));
-    let extent = (most_u - least_u).max(most_v - least_v).max(1e-9);
-    let room = 0.5 * (1.0 - 1.0 / (1.0 + 2.0 * LONGEST));
-    let scale = SIDE * (1.0 - 2.0 * room) / extent;
+    let names = ["x [m]", "y [m]", "z [m]"];
+    let mut plot = Plot::new([SIDE, SIDE], (names[u], widened(across)), (names[v], widened(up)));
     let per_residual = if longest > 0.0 { SIDE * LONGEST / longest } else { 0.0 };
-    let x = |value: f64| SIDE * room + scale * (value - least_u);
-    let y = |value: f64| SIDE * (1.0 - room) - scale * (value - least_v);
-    let mut svg = square();
     for (at, before, after) in arrows {
-        let (px, py) = (x(at[u]), y(at[v]));
-        for (residual, color) in [(before, "#d55e00"), (after, "#0072b2")] {
+        let (px, py) = (plot.x(at[u]), plot.y(at[v]));
+        for (residual, color) in [(before, RED), (after, BLUE)] {
             let (ex, ey) = (px + per_residual * residual[u], py - per_residual * residual[v]);
-            // Writing to a string cannot fail.
-            let _ = write!(
-                svg,
-                "<line x1=\"{px:.1}\" y1=\"{py:.1}\" x2=\"{ex:.1}\" y2=\"{ey:.1}\" stroke=\"{color}\" \
-                 stroke-width=\"1.5\"/><circle cx=\"{ex:.1}\" cy=\"{ey:.1}\" r=\"2\" fill=\"{color}\"/>"
-            );
+            plot.line([px, py, ex, ey], color);
+            plot.add(format_args!("<circle cx=\"{ex:.1}\" cy=\"{ey:.1}\" r=\"2\" fill=\"{color}\"/>"));
         }
     }
-    svg + "</svg>"
+    plot.finish()
 }
 
 /// The opening of a square drawing.
 fn square() -> String {
     format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {SIDE} {SIDE}\" width=\"{SIDE}\">\
-         <rect width=\"{SIDE}\" height=\"{SIDE}\" fill=\"white\"/>"
+         <rect width=\"{SIDE}\" height=\"{SIDE}\" fill=\"#FFFFFF\"/>"
     )
 }
 
@@ -84,13 +82,13 @@ pub(super) fn workspace(map: &UncertaintyMap) -> Markup {
             @let most = whole(values);
             @if most > 0.0 {
                 figure {
-                    div.drawing role="img" aria-label={ "Standard deviation of the position, " (name) } {
+                    div.drawing.small role="img" aria-label={ "Standard deviation of the position, " (name) } {
                         (PreEscaped(squares(map, values, most)))
                     }
                     figcaption {
                         "Standard deviation of a coordinate of the position " (name) ", at "
-                        (numeric(map.z, 3)) " m: white is 0, the darkest " (numeric(1e3 * most, 3))
-                        " mm; no colour where the level platform is not held."
+                        (numeric(map.z, 3)) " m: no colour is 0, the strongest " (numeric(1e3 * most, 3))
+                        " mm; left out where the level platform is not held."
                     }
                 }
             }
@@ -99,24 +97,27 @@ pub(super) fn workspace(map: &UncertaintyMap) -> Markup {
 }
 
 fn squares(map: &UncertaintyMap, values: &[Option<f64>], most: f64) -> String {
-    let (width, height) = (SIDE / map.x.len() as f64, SIDE / map.y.len() as f64);
-    let mut svg = square();
+    let edges = |values: &[f64]| {
+        let Range { start, end } = extent(values.iter().copied());
+        let half = 0.5 * (end - start) / (values.len().max(2) - 1) as f64;
+        start - half..end + half
+    };
+    let (across, up) = (edges(&map.x), edges(&map.y));
+    let mut plot = Plot::new([SIDE, SIDE], ("x [m]", across.clone()), ("y [m]", up.clone()));
+    let width = (plot.x(across.end) - plot.x(across.start)) / map.x.len() as f64;
+    let height = (plot.y(up.start) - plot.y(up.end)) / map.y.len() as f64;
     for (k, value) in values.iter().enumerate() {
         let Some(value) = value else { continue };
-        let (column, row) = (k % map.x.len(), k / map.x.len());
-        let (x, y) = (column as f64 * width, SIDE - (row + 1) as f64 * height);
-        // Writing to a string cannot fail.
-        let _ = write!(
-            svg,
-            "<rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{width:.1}\" height=\"{height:.1}\" fill=\"#0072b2\" \
-             fill-opacity=\"{:.2}\"><title>({:.2}, {:.2}) m: {:.4} mm</title></rect>",
+        let (at_x, at_y) = (map.x[k % map.x.len()], map.y[k / map.x.len()]);
+        let (x, y) = (plot.x(at_x) - 0.5 * width, plot.y(at_y) - 0.5 * height);
+        plot.add(format_args!(
+            "<rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{width:.1}\" height=\"{height:.1}\" fill=\"{BLUE}\" \
+             fill-opacity=\"{:.2}\"><title>({at_x:.2}, {at_y:.2}) m: {:.4} mm</title></rect>",
             value / most,
-            map.x[column],
-            map.y[row],
             1e3 * value
-        );
+        ));
     }
-    svg + "</svg>"
+    plot.finish()
 }
 
 /// Residuals in standard deviations of their noise against coordinates of the pose and against the load.
@@ -131,16 +132,14 @@ pub(super) fn against(found: &Fit) -> Markup {
     let most = found.after.iter().map(|of| of.standardized().abs()).fold(3.0, f64::max);
     html! {
         @for (name, places) in &of {
-            @let least = places.iter().copied().fold(f64::INFINITY, f64::min);
-            @let greatest = places.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-            @if greatest > least {
+            @let range = extent(places.iter().copied());
+            @if range.end > range.start {
                 figure {
-                    div.drawing role="img" aria-label={ "Residuals against " (name) } {
-                        (PreEscaped(points(found, places, [least, greatest], most)))
+                    div.drawing.small role="img" aria-label={ "Residuals against " (name) } {
+                        (PreEscaped(points(found, (name, range), places, most)))
                     }
                     figcaption {
-                        "Residuals against " (name) ", from " (numeric(least, 3)) " to " (numeric(greatest, 3))
-                        "; the frame is " (numeric(most, 3)) " standard deviations of the noise high on both sides."
+                        "Residuals against " (name) ", in standard deviations of the noise."
                     }
                 }
             }
@@ -148,16 +147,13 @@ pub(super) fn against(found: &Fit) -> Markup {
     }
 }
 
-fn points(found: &Fit, places: &[f64], [least, greatest]: [f64; 2], most: f64) -> String {
-    let mut svg = square();
-    let middle = 0.5 * SIDE;
-    let _ = write!(svg, "<line x1=\"0\" y1=\"{middle}\" x2=\"{SIDE}\" y2=\"{middle}\" stroke=\"#999\"/>");
+fn points(found: &Fit, place: (&str, Range<f64>), places: &[f64], most: f64) -> String {
+    let mut plot = Plot::new([SIDE, 0.6 * SIDE], place, ("residual [std]", -most..most));
     for of in &found.after {
-        let x = SIDE * (0.02 + 0.96 * (places[of.row] - least) / (greatest - least));
-        let y = middle - 0.48 * SIDE * of.standardized() / most;
-        let _ = write!(svg, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"1.6\" fill=\"#0072b2\"/>");
+        let (x, y) = (plot.x(places[of.row]), plot.y(of.standardized()));
+        plot.add(format_args!("<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"1.6\" fill=\"{BLUE}\"/>"));
     }
-    svg + "</svg>"
+    plot.finish()
 }
 
 pub(super) fn correlations(found: &Fit) -> Markup {
@@ -172,7 +168,7 @@ pub(super) fn correlations(found: &Fit) -> Markup {
             if correlation.abs() < 0.02 {
                 continue;
             }
-            let color = if correlation > 0.0 { "#0072b2" } else { "#d55e00" };
+            let color = if correlation > 0.0 { BLUE } else { RED };
             let _ = write!(
                 svg,
                 "<rect x=\"{:.2}\" y=\"{:.2}\" width=\"{side:.2}\" height=\"{side:.2}\" fill=\"{color}\" \
@@ -187,7 +183,7 @@ pub(super) fn correlations(found: &Fit) -> Markup {
     }
     html! {
         figure {
-            div.drawing role="img" aria-label="Correlations of the unknowns" { (PreEscaped(svg + "</svg>")) }
+            div.drawing.small role="img" aria-label="Correlations of the unknowns" { (PreEscaped(svg + "</svg>")) }
             figcaption {
                 "Correlations of the first " (n) " unknowns in the order of the table: blue is positive."
             }
