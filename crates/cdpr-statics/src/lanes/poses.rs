@@ -185,28 +185,27 @@ impl<'a> Setting<'a> {
         }
     }
 
-    /// The result of a lane, if its equations are solved to rounding.
-    fn solution(&self, pose: &Pose, result: &LaneSolution) -> Option<InverseSolution> {
-        let lengths = result.cables.iter().map(|cable| cable.length).collect::<Vec<_>>();
-        let cable_forces = result.cables.iter().map(|cable| cable.force).collect();
-        let equilibrium = Equilibrium { pose: *pose, cable_forces };
+    /// The solution of a lane, if its equations are solved to rounding, and what it is for the next pose.
+    fn checked(&self, pose: &Pose, solution: LaneSolution) -> Option<(InverseSolution, Near)> {
+        let LaneSolution { lengths, forces, tensions, active, stationarity, near } = solution;
+        let equilibrium = Equilibrium { pose: *pose, cable_forces: forces };
         let problem = DirectProblem::new(self.placed.robot, &lengths, self.load).ok()?;
         let residual = Residual::of(&problem, &equilibrium);
-        let tensions: Vec<f64> = result.cables.iter().map(|cable| cable.tension).collect();
-        let stationarity = result.cables.iter().map(|cable| cable.stationarity).fold(0.0, f64::max);
         let is_solved = problem.check_strains(&equilibrium).is_ok()
             && residual.is_rounding(&problem, &equilibrium)
             && stationarity <= STATIONARY * tensions.iter().sum::<f64>();
-        is_solved.then(|| InverseSolution {
+        let multipliers = self.placed.both(PlacedRobot::to_base, &near.multipliers);
+        let solution = InverseSolution {
+            lengths,
             tensions,
-            active: result.cables.iter().map(|cable| cable.active).collect(),
-            multipliers: self.placed.both(PlacedRobot::to_base, &result.multipliers),
+            active,
+            multipliers,
+            equilibrium,
             iterations: 0,
             stationarity,
             residual,
-            lengths,
-            equilibrium,
-        })
+        };
+        is_solved.then_some((solution, near))
     }
 
     /// What a result of the scalar model is for the next pose.
@@ -233,12 +232,8 @@ impl WithSimd for Batch<'_> {
         let mut found = Vec::with_capacity(self.asked.len());
         for asked in self.asked.chunks(Lanes::<S>::COUNT) {
             let results = InLanes { simd, setting: self.setting, asked }.solutions();
-            found.extend(results.into_iter().zip(asked).map(|(result, Asked { pose, .. })| {
-                let result = result?;
-                let shapes = result.cables.iter().map(|cable| cable.shape).collect();
-                let near = Near { position: pose.position, shapes, multipliers: result.multipliers };
-                Some((self.setting.solution(pose, &result)?, near))
-            }));
+            let checked = |(result, asked): (Option<_>, &Asked)| self.setting.checked(asked.pose, result?);
+            found.extend(results.into_iter().zip(asked).map(checked));
         }
         found
     }

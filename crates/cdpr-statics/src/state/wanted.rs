@@ -117,29 +117,19 @@ impl Wanted for &Pose {
     }
 }
 
-impl Wanted for &[Pose] {
-    type Results<T> = Vec<T>;
+macro_rules! many_poses {
+    ($([$($kind:tt)*] $poses:ty),+) => {$(
+        impl<$($kind)*> Wanted for $poses {
+            type Results<T> = Vec<T>;
 
-    fn results<T>(self, _: impl Fn(&WantedPose) -> T, many: impl FnOnce(&[Pose]) -> Vec<T>) -> Vec<T> {
-        many(self)
-    }
+            fn results<T>(self, _: impl Fn(&WantedPose) -> T, many: impl FnOnce(&[Pose]) -> Vec<T>) -> Vec<T> {
+                many(self)
+            }
+        }
+    )+};
 }
 
-impl<const N: usize> Wanted for &[Pose; N] {
-    type Results<T> = Vec<T>;
-
-    fn results<T>(self, _: impl Fn(&WantedPose) -> T, many: impl FnOnce(&[Pose]) -> Vec<T>) -> Vec<T> {
-        many(self)
-    }
-}
-
-impl Wanted for &Vec<Pose> {
-    type Results<T> = Vec<T>;
-
-    fn results<T>(self, _: impl Fn(&WantedPose) -> T, many: impl FnOnce(&[Pose]) -> Vec<T>) -> Vec<T> {
-        many(self)
-    }
-}
+many_poses!([] &[Pose], [const N: usize] &[Pose; N], [] &Vec<Pose>);
 
 /// The results at poses one after the other.
 pub(crate) fn one_by_one<W: Wanted, T>(wanted: W, one: impl Fn(&WantedPose) -> T) -> W::Results<T> {

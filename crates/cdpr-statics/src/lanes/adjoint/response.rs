@@ -26,7 +26,7 @@ use crate::local::cable::LaneCable;
 use crate::local::guided::Guided;
 use cdpr_cable::kernel::{GuideTerms, GuidedEndSlopes, Material, Response, SwivelAxis};
 use cdpr_number::dense::Lanes3;
-use cdpr_number::lanes::{Lanes, Simd, WithSimd};
+use cdpr_number::lanes::{Lanes, Simd};
 use cdpr_number::vector::dot;
 use cdpr_number::{Dual, Lanewise, apart};
 
@@ -59,17 +59,15 @@ impl<T: Lanewise> GuideResponse<T> {
 
 /// A cable to be evaluated: its material, its length and the force at A.
 #[derive(Clone, Copy)]
-struct Question<'a, T> {
+struct GivenCable<'a, T> {
     material: Material<'a, T>,
     length: T,
     force: [T; 2],
 }
 
-impl<T: Lanewise> WithSimd for Question<'_, T> {
-    type Output = CableResponse<T>;
-
+impl<T: Lanewise> GivenCable<'_, T> {
     #[inline(always)]
-    fn with_simd<Same: Simd>(self, _: Same) -> Self::Output {
+    fn response(self) -> CableResponse<T> {
         let Self { material, length, force } = self;
         let response = material.response(length, force);
         let material = Material {
@@ -92,10 +90,10 @@ impl<S: Simd> CableResponse<Lanes<S>> {
     /// The response of a cable to the force and the length that it has.
     #[inline(always)]
     pub(super) fn of(cable: &LaneCable<'_, S>) -> Self {
-        let question = Question { material: cable.material(), length: cable.length, force: cable.force };
+        let given = GivenCable { material: cable.material(), length: cable.length, force: cable.force };
         match &cable.guided {
-            None => cable.length.apart(question),
-            Some(guided) => over_guide(guided.guide, question, cable.length),
+            None => without_guide(given, cable.length),
+            Some(guided) => over_guide(guided.guide, given, cable.length),
         }
     }
 
@@ -127,9 +125,9 @@ impl<S: Simd> CableResponse<Dual<Lanes<S>, 1>> {
             axial_flexibility: Dual::constant(cable.axial_flexibility),
         };
         let force = [along(cable.force[0], x), along(cable.force[1], z)];
-        let question = Question { material, length: along(cable.length, longer), force };
+        let given = GivenCable { material, length: along(cable.length, longer), force };
         match &cable.guided {
-            None => cable.length.apart(question),
+            None => without_guide(given, cable.length),
             Some(guided) => {
                 let GuideTerms { lead, radius, .. } = guided.guide;
                 let signed_radius = guided.guide.signed_radius();
@@ -138,38 +136,33 @@ impl<S: Simd> CableResponse<Dual<Lanes<S>, 1>> {
                     radius: Dual::constant(radius),
                     axis: SwivelAxis::Vertical(Dual::constant(signed_radius)),
                 };
-                over_guide(guide, question, cable.length)
+                over_guide(guide, given, cable.length)
             }
         }
     }
 }
 
-/// The response of a cable over a guide, whose length is that beyond its leave point; `lanes` are those of
-/// the vector unit.
-#[cold]
-#[inline(never)]
-fn over_guide<S: Simd, T: Lanewise>(
-    guide: GuideTerms<T>,
-    question: Question<'_, T>,
-    lanes: Lanes<S>,
-) -> CableResponse<T> {
-    lanes.apart(OverGuide { guide, question })
-}
-
-struct OverGuide<'a, T> {
-    guide: GuideTerms<T>,
-    question: Question<'a, T>,
-}
-
-impl<T: Lanewise> WithSimd for OverGuide<'_, T> {
-    type Output = CableResponse<T>;
-
+apart! {
     #[inline(always)]
-    fn with_simd<Same: Simd>(self, same: Same) -> CableResponse<T> {
-        let Self { guide, question } = self;
-        let Question { material, length: free, force } = question;
+    on(lanes) fn without_guide<'a, S: Simd, T: Lanewise>(
+        given: GivenCable<'a, T>,
+        lanes: Lanes<S>,
+    ) -> CableResponse<T> {
+        given.response()
+    }
+
+    /// The response of a cable over a guide, whose length is that beyond its leave point; `lanes` are those of
+    /// the vector unit.
+    #[cold]
+    #[inline(never)]
+    on(lanes) fn over_guide<'a, S: Simd, T: Lanewise>(
+        guide: GuideTerms<T>,
+        given: GivenCable<'a, T>,
+        lanes: Lanes<S>,
+    ) -> CableResponse<T> {
+        let GivenCable { material, length: free, force } = given;
         let w = material.weight_per_length;
-        let beyond = question.with_simd(same);
+        let beyond = given.response();
         let leave = guide.leave_point(w, free, force);
         let way = guide.way(w, free, leave, material.stretch(leave.tension));
         let end = guide.end_slopes(
@@ -201,7 +194,8 @@ apart! {
         let (response, a) = (way.response(cable.force[0], &cable.response()), way.asymmetry());
         let [_, mixed, _] = response.flexibility;
         let determinant = response.determinant + a * a;
-        let at_tension = AtTension::of_flexibility(&Response { determinant, ..response }, [mixed + a, mixed - a]);
+        let response = Response { determinant, ..response };
+        let at_tension = AtTension::of_flexibility(&response, [mixed + a, mixed - a]);
         let [x, z] = at_tension.force_per_tension;
         let longer = way.free_per_length * at_tension.length_per_tension;
         [x, z, longer + dot(&way.free_per_force, &at_tension.force_per_tension)]

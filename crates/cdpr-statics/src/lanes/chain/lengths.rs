@@ -38,8 +38,8 @@ apart! {
         let mut all = zero.less_or_equal(zero);
         platform.follow_guides(robots);
         let cables = robots.cables.iter_mut().zip(&mut platform.cables);
-        for (i, ((span, set_point), (cable, linearized))) in spans.iter().zip(set_points).zip(cables).enumerate()
-        {
+        let each = spans.iter().zip(set_points).zip(cables).enumerate();
+        for (i, ((span, set_point), (cable, linearized))) in each {
             let (mut active, mut taut) = (all, all);
             for _ in 0..MAX_ITERATIONS {
                 let fixed = match &cable.guided {
@@ -78,8 +78,8 @@ apart! {
                 swivel.predicted = zero;
             }
             // A root with a cable of negative length is invalid.
-            all = all & !active & taut & zero.less_or_equal(cable.length) & zero.less_or_equal(cable.force[0]);
             let [fx, fz] = cable.force;
+            all = all & !active & taut & zero.less_or_equal(cable.length) & zero.less_or_equal(fx);
             all = all & !cable.may_be_overstrained((fx * fx + fz * fz).sqrt());
         }
         all

@@ -43,19 +43,15 @@ pub(crate) struct Asked<'a> {
     pub(crate) near: &'a Near,
 }
 
-/// What a lane says of a pose.
+/// Solution of one lane, its equations still to be checked.
 pub(crate) struct LaneSolution {
-    pub(crate) cables: SmallVec<[LaneCableSolution; 8]>,
-    pub(crate) multipliers: Vector6<f64>,
-}
-
-pub(crate) struct LaneCableSolution {
-    pub(crate) length: f64,
-    pub(crate) force: Vector2<f64>,
-    pub(crate) tension: f64,
-    pub(crate) active: Option<Bound>,
+    pub(crate) lengths: Vec<f64>,
+    pub(crate) forces: Vec<Vector2<f64>>,
+    pub(crate) tensions: Vec<f64>,
+    pub(crate) active: Vec<Option<Bound>>,
+    /// Greatest error of (I2) in a cable [N].
     pub(crate) stationarity: f64,
-    pub(crate) shape: Shape<f64>,
+    pub(crate) near: Near,
 }
 
 /// Poses, one for each lane; lanes without a pose of their own repeat the last one.
@@ -176,9 +172,18 @@ impl<S: Simd> InLanes<'_, S> {
     ) -> Vec<Option<LaneSolution>> {
         let found = found.to_array();
         let multipliers_of = multipliers.map(Lanes::to_array);
+        let count = spans.len();
         let result = |lane: usize| LaneSolution {
-            cables: SmallVec::new(),
-            multipliers: Vector6::from_fn(|k, _| multipliers_of[k][lane]),
+            lengths: Vec::with_capacity(count),
+            forces: Vec::with_capacity(count),
+            tensions: Vec::with_capacity(count),
+            active: Vec::with_capacity(count),
+            stationarity: 0.0,
+            near: Near {
+                position: self.asked[lane].pose.position,
+                shapes: Vec::with_capacity(count),
+                multipliers: Vector6::from_fn(|k, _| multipliers_of[k][lane]),
+            },
         };
         let mut results: Vec<_> =
             (0..self.asked.len()).map(|lane| found[lane].then(|| result(lane))).collect();
@@ -204,21 +209,18 @@ impl<S: Simd> InLanes<'_, S> {
                     t if t == greatest[lane] => (Some(Bound::Max), slope[lane].max(0.0)),
                     _ => (None, slope[lane].abs()),
                 };
-                let shape = Shape {
+                result.near.shapes.push(Shape {
                     turn: [c[lane], s[lane]],
                     tangent: [tx[lane], tz[lane]],
                     chord_force: chord_force[lane],
                     sag_force: sag_force[lane],
                     longer: longer[lane],
-                };
-                result.cables.push(LaneCableSolution {
-                    length: length[lane],
-                    force: Vector2::new(x[lane], z[lane]),
-                    tension: tension[lane],
-                    active,
-                    stationarity,
-                    shape,
                 });
+                result.lengths.push(length[lane]);
+                result.forces.push(Vector2::new(x[lane], z[lane]));
+                result.tensions.push(tension[lane]);
+                result.active.push(active);
+                result.stationarity = result.stationarity.max(stationarity);
             }
         }
         results
