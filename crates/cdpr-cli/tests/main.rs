@@ -18,6 +18,7 @@ mod equilibria;
 mod explore;
 #[cfg(debug_assertions)]
 mod faults;
+mod first_answers;
 mod folder;
 mod grammar;
 mod hysteresis;
@@ -41,5 +42,7 @@ mod study_run;
 mod study_together;
 mod tensions;
 mod tolerances;
+#[cfg(unix)]
+mod transcripts;
 mod verdict;
 mod workspace;

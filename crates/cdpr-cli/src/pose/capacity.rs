@@ -3,7 +3,7 @@
 use crate::answer::{OutOfLimits, decimal, vector};
 use crate::arguments::{FreeArguments, With, count, with};
 use crate::error::ProgramError;
-use crate::output::{Ending, narrow_table, table};
+use crate::output::{Ending, print_sentence, table};
 use crate::pose::at_pose::{Failure, RobotAtPose, Row};
 use crate::questions;
 use crate::wrenches::WrenchArguments;
@@ -11,7 +11,7 @@ use cdpr_assess::{
     Block, CableDistance, Capacity, Clearance, Figure, PlatformDistance, TiltTowards, WrenchSet, capacity_at,
     clearance_under, tilt_at,
 };
-use cdpr_robot::{Pose, Robot, broken, significant};
+use cdpr_robot::{Pose, Robot, significant};
 use cdpr_statics::capacity::tension_margin;
 use cdpr_statics::{Load, StaticsError, WantedPose};
 use serde::Serialize;
@@ -39,6 +39,10 @@ pub(crate) fn run(Settings { at, free, set, with }: &Settings) -> Result<Ending,
     let with = with.clone().unwrap_or_default();
     with.check(&["tilt"])?;
     let tilt = with.value("tilt", Some(8), count::<1, 360>)?;
+    if tilt.is_some() && !free.free.is_empty() {
+        let expected = "--with tilt: expected no --free: there the rotation follows from the position";
+        return Err(ProgramError::Usage(expected.to_owned()));
+    }
     questions::about_wrenches(&at.robot()?, set.wrenches());
     let solve = |robot: &Robot, pose: &_| {
         let found = capacity_at(robot, WantedPose::at(pose).free(&free.free), &load, &set);
@@ -299,9 +303,9 @@ impl Answer {
 
     fn print(&self, heading: &str) {
         for sentence in self.sentences(heading) {
-            broken(&sentence).iter().for_each(|line| println!("{line}"));
+            print_sentence(&sentence);
         }
-        let mut rows = narrow_table(&["", "value", "blocked by"]);
+        let mut rows = table(&["", "value", "blocked by"]);
         let mut told: Vec<&str> = Vec::new();
         for (name, shown) in self.all() {
             let value = match shown.value {

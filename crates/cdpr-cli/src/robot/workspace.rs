@@ -7,7 +7,7 @@ use crate::arguments::{
     UncertaintyArgument, With, count, region, with,
 };
 use crate::error::ProgramError;
-use crate::output::{Details, Ending, drawn, narrow_table, patiently, progress, table};
+use crate::output::{Details, Ending, drawn, patiently, print_sentence, progress, table, wide_table};
 use crate::questions;
 use crate::wrenches::WrenchArguments;
 use cdpr_assess::{
@@ -15,7 +15,7 @@ use cdpr_assess::{
     compute_workspace, workspace_boundary, write_workspace,
 };
 use cdpr_report::{layers, workspace_maps};
-use cdpr_robot::{Rotation3, broken, counted, listing, shown, significant};
+use cdpr_robot::{Rotation3, counted, listing, shown, significant};
 use cdpr_study::Extremes;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -171,18 +171,18 @@ fn print(summary: &WorkspaceSummary) {
     let percent = 100.0 * held as f64 / all.max(1) as f64;
     let of =
         format!("{} holds {held} of {} ({percent:.1} %)", shown(&summary.robot), counted(all, "position"));
-    say(&format!("{of}, {}.", summary.conditions()));
+    print_sentence(&format!("{of}, {}.", summary.conditions()));
     let others = summary.status.iter().filter(|(status, _)| **status != HELD);
     let others: Vec<String> =
         others.map(|(status, count)| format!("{count} {}", status.replace('_', " "))).collect();
     if !others.is_empty() {
-        say(&listing("Not held: ", &others, "."));
+        print_sentence(&listing("Not held: ", &others, "."));
     }
     if summary.too_much > 0 {
         let positions = counted(summary.too_much, "position");
-        say(&format!("At {positions} tensions are above tension_limits.max or a breaking force."));
+        print_sentence(&format!("At {positions} tensions are above tension_limits.max or a breaking force."));
     }
-    let mut rows = narrow_table(&["over the positions held", "least", "greatest"]);
+    let mut rows = table(&["over the positions held", "least", "greatest"]);
     for (name, extremes) in ranges(summary) {
         if let Some(Extremes { min, max, .. }) = extremes {
             rows.add_row([name.to_owned(), significant(min, 4), significant(max, 4)]);
@@ -192,13 +192,8 @@ fn print(summary: &WorkspaceSummary) {
         println!("{rows}");
     }
     if let Some(BoundarySummary { measure, error, unit, .. }) = &summary.boundary {
-        say(&format!("The region held has {measure:.4} {unit}, with an error of {error:.1e}."));
+        print_sentence(&format!("The region held has {measure:.4} {unit}, with an error of {error:.1e}."));
     }
-}
-
-/// Prints a sentence in lines of 80 columns.
-fn say(sentence: &str) {
-    broken(sentence).iter().for_each(|line| println!("{line}"));
 }
 
 /// What ranges over the positions held.
@@ -250,7 +245,7 @@ fn print_details(summary: &WorkspaceSummary) {
             println!("{count:8} {why}");
         }
     }
-    let mut rows = table(&["over the positions held", "least", "at [m]", "greatest", "at [m]"]);
+    let mut rows = wide_table(&["over the positions held", "least", "at [m]", "greatest", "at [m]"]);
     let position = |[x, y, z]: [f64; 3]| format!("{x:.3}, {y:.3}, {z:.3}");
     for (name, extremes) in ranges(summary) {
         if let Some(Extremes { min, min_at, max, max_at }) = extremes {

@@ -1,7 +1,7 @@
 //! The analysis of a table on the terminal.
 
-use crate::output::{narrow_table, table};
-use cdpr_robot::{broken, counted, significant};
+use crate::output::{print_sentence, table, wide_table};
+use cdpr_robot::{counted, significant};
 use cdpr_study::{
     Analysis, Dependence, Estimate, Finding, InputAnalysis, LevelMean, LimitFailures, OutputLimit,
     TableAnalysis, VectorAnalysis, is_resolved,
@@ -23,25 +23,27 @@ pub(in crate::study) fn print(found: &TableAnalysis) {
     print_table(found);
 }
 
-/// Prints a sentence in lines of 80 columns.
-fn say(sentence: &str) {
-    broken(sentence).iter().for_each(|line| println!("{line}"));
-}
-
 /// Which inputs matter, the values, and the leading inputs.
 fn print_answer(name: &str, analysis: &Analysis) {
     let verdict = &analysis.verdict;
     let mut before = format!("{name}: ");
-    verdict.sentences.iter().for_each(|sentence| say(&(std::mem::take(&mut before) + sentence)));
+    verdict.sentences.iter().for_each(|sentence| print_sentence(&(std::mem::take(&mut before) + sentence)));
     let of = &analysis.summary;
     let [mean, std, min, max] = [of.mean, of.std, of.min, of.max].map(number);
     let values = counted(of.count, "value");
-    say(&format!("mean {mean}, deviation {std}, range {min} to {max}; {values}, {} failed", of.failed));
+    print_sentence(&format!(
+        "mean {mean}, deviation {std}, range {min} to {max}; {values}, {} failed",
+        of.failed
+    ));
     if let Some(failures) = analysis.limit {
-        say(&of_limit(&failures));
+        print_sentence(&of_limit(&failures));
     }
     for condition in &verdict.conditions {
-        say(&format!("{}: {}", if condition.is_question() { "question" } else { "note" }, condition.text));
+        print_sentence(&format!(
+            "{}: {}",
+            if condition.is_question() { "question" } else { "note" },
+            condition.text
+        ));
     }
     print_leading(analysis);
     if analysis.limit.is_some() {
@@ -51,7 +53,7 @@ fn print_answer(name: &str, analysis: &Analysis) {
 
 /// The leading inputs by their first-order shares, and the test that finds each.
 fn print_leading(analysis: &Analysis) {
-    let mut rows = narrow_table(&["input", "first-order share [%]", "found by"]);
+    let mut rows = table(&["input", "first-order share [%]", "found by"]);
     let verdict = &analysis.verdict;
     let finding = |of: &InputAnalysis| {
         let is_it = |finding: &&Finding| finding.input == of.input;
@@ -70,11 +72,19 @@ fn print_leading(analysis: &Analysis) {
     }
     println!("{rows}");
     let level = 100.0 * analysis.level;
-    say(&format!(
+    print_sentence(&format!(
         "first-order share of the variance with its {level} % interval; found by: the clearest of {}, all of \
          them corrected together",
         counted(verdict.tests, "test")
     ));
+    let mut words: Vec<String> = Vec::new();
+    for measure in verdict.certain.iter().chain(&verdict.related).map(|found| found.measure) {
+        let word = format!("{}: {}", measure.word(), measure.meaning());
+        if !words.contains(&word) {
+            words.push(word);
+        }
+    }
+    print_sentence(&words.join("; "));
 }
 
 /// A share in percent with its interval, unless this is wider than the share.
@@ -93,13 +103,13 @@ fn resolved(share: &Estimate) -> String {
 /// What makes the limit fail.
 fn print_causes(analysis: &Analysis) {
     let strength = |input: &InputAnalysis| input.limit.map_or(0.0, |at| at.target.r_squared);
-    let mut rows = narrow_table(&["makes the limit fail", "target R\u{b2}", "p"]);
+    let mut rows = table(&["related to the failures", "target R\u{b2}", "p"]);
     let causes = leading(analysis, strength).into_iter();
     for (input, at) in causes.filter_map(|input| Some((input, input.limit?))).take(LEADING) {
         rows.add_row([input.input.clone(), format!("{:.3}", at.target.r_squared), p_value(Some(at.target))]);
     }
     if rows.row_count() > 0 {
-        println!("{rows}");
+        println!("{rows}\np of each input alone, not corrected for the number of inputs");
     }
 }
 
@@ -147,10 +157,13 @@ pub(in crate::study) fn print_details(found: &TableAnalysis) {
 
 /// Inputs by their index, the greatest first.
 fn print_vector(vector: &VectorAnalysis) {
-    say(&format!("({}): how much an input moves the law of this vector", vector.columns.join(", ")));
+    print_sentence(&format!(
+        "({}): how much an input moves the law of this vector",
+        vector.columns.join(", ")
+    ));
     let mut leading: Vec<_> = vector.bures.iter().collect();
     leading.sort_by(|one, other| other.1.index.value.total_cmp(&one.1.index.value));
-    let mut rows = narrow_table(&["input", "Wasserstein-Bures", "of which by the means"]);
+    let mut rows = table(&["input", "Wasserstein-Bures", "of which by the means"]);
     let cell = |of: &Estimate| format!("{:.3} \u{b1} {:.3}", of.value, 0.5 * of.width());
     for (input, of) in leading.into_iter().take(MOST) {
         rows.add_row([input.clone(), cell(&of.index), cell(&of.means)]);
@@ -211,7 +224,7 @@ fn print_inputs(analysis: &Analysis) {
         "PAWN",
         "\u{3b4}, at least",
     ];
-    let mut rows = table(&header);
+    let mut rows = wide_table(&header);
     let leading = leading(analysis, |input| input.dependence.map_or(0.0, |dependence| dependence.r_squared));
     let two = |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:.2}"));
     let percent = |share: f64| format!("{:.1}", 100.0 * share);
@@ -279,7 +292,7 @@ fn of_limit(failures: &LimitFailures) -> String {
 fn print_limit(analysis: &Analysis) {
     let strength = |input: &InputAnalysis| input.limit.map_or(0.0, |at| at.target.r_squared);
     let mut rows =
-        table(&["input", "target R\u{b2}", "p", "conditional R\u{b2}", "p", "place of the failures"]);
+        wide_table(&["input", "target R\u{b2}", "p", "conditional R\u{b2}", "p", "place of the failures"]);
     let mut any = false;
     for input in leading(analysis, strength).into_iter().take(MOST) {
         let Some(at) = input.limit else { continue };
