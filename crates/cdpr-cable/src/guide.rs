@@ -80,7 +80,7 @@ impl Guide {
 
     /// Where a straight cable to `end` [m] from D leaves the wheel; `None` where `end` lies within the wheel,
     /// or where the cable would have to lean back towards the swivel axis.
-    pub(crate) fn straight(&self, end: Vector3<f64>) -> Option<Straight> {
+    pub fn straight(&self, end: Vector3<f64>) -> Option<Straight> {
         let r = self.radius;
         if r == 0.0 {
             return Some(Straight { leave: Vector3::zeros(), free: end.norm(), guided: self.lead });
@@ -117,11 +117,12 @@ pub(crate) fn in_plane([x, z]: [f64; 2]) -> Vector3<f64> {
 }
 
 /// A straight cable over a guide.
-pub(crate) struct Straight {
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Straight {
     /// Leave point from D [m].
-    pub(crate) leave: Vector3<f64>,
+    pub leave: Vector3<f64>,
     /// Length beyond it [m].
-    pub(crate) free: f64,
+    pub free: f64,
     /// Length of lead and arc [m].
-    pub(crate) guided: f64,
+    pub guided: f64,
 }

@@ -46,7 +46,7 @@ pub use catenary::shape::FromLeavePoint;
 pub use catenary::spatial::{HeldSlopes, SpatialCable, SpatialResponse, SpatialSlopes};
 pub use catenary::{Catenary, LONGEST_TAUT, SLACK_BELOW_OWN_WEIGHTS, is_slack};
 pub use error::{CableError, MAX_STRAIN};
-pub use guide::{Entry, Guide};
+pub use guide::{Entry, Guide, Straight};
 pub use law::{ElasticLaw, PiecewiseLaw, Segment};
 pub use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 pub use number::{counted, short, shortened};

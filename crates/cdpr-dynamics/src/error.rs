@@ -23,6 +23,29 @@ pub enum DynamicsError {
         /// Values that are valid.
         expected: String,
     },
+    /// Text that is no list of events.
+    #[error("events: {0}")]
+    Events(cdpr_robot::JsonError),
+    /// An event that is not possible.
+    #[error("event {}{}{field} is {value}: expected {expected}", index + 1, if field.is_empty() { "" } else { ", " })]
+    Event {
+        /// Its number, from 0.
+        index: usize,
+        /// Name of the field; empty for the whole event.
+        field: String,
+        /// Its value.
+        value: String,
+        /// Values that are valid.
+        expected: String,
+    },
+    /// A motion whose steps become too short.
+    #[error(
+        "the motion cannot be followed beyond {time:.6} s: no step of time is short enough for its error;          try fewer elements of a higher degree, more damping, or a greater tolerance"
+    )]
+    Stalled {
+        /// When [s].
+        time: f64,
+    },
     /// A cable with mass that nothing stretches.
     #[error(
         "cable {} hangs without tension at a point, where a cable has no natural frequency; \
@@ -53,6 +76,10 @@ impl From<DynamicsError> for StaticsError {
             DynamicsError::Statics(error) => error,
             DynamicsError::Robot(error) => error.into(),
             DynamicsError::Invalid { field, value, expected } => invalid(field, value, expected),
+            DynamicsError::Events(_) | DynamicsError::Event { .. } => {
+                invalid("events", text, "events of this robot".to_owned())
+            }
+            DynamicsError::Stalled { .. } => invalid("motion", text, "one that can be followed".to_owned()),
             DynamicsError::Folded { .. } | DynamicsError::NotStable { .. } => {
                 invalid("equilibrium", text, "one with natural motions".to_owned())
             }

@@ -28,6 +28,7 @@ mod error;
 mod modes;
 mod platform;
 mod polynomial;
+pub mod simulate;
 
 pub use error::DynamicsError;
 pub use modes::{Mode, Modes, Wanted, modes_at};

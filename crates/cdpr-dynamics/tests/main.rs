@@ -4,3 +4,5 @@
 
 mod reference;
 mod robots;
+mod simulated;
+mod transients;

@@ -7,19 +7,19 @@ use cdpr_robot::{
 use cdpr_statics::{DirectProblem, DirectStart, Load, Matrix6};
 use serde_json::Value;
 
-fn number(value: &Value) -> f64 {
+pub(crate) fn number(value: &Value) -> f64 {
     value.as_f64().unwrap()
 }
 
-fn numbers(value: &Value) -> Vec<f64> {
+pub(crate) fn numbers(value: &Value) -> Vec<f64> {
     value.as_array().unwrap().iter().map(number).collect()
 }
 
-fn vector(value: &Value) -> Vector3<f64> {
+pub(crate) fn vector(value: &Value) -> Vector3<f64> {
     Vector3::from_row_slice(&numbers(value))
 }
 
-fn matrix(value: &Value) -> Matrix3<f64> {
+pub(crate) fn matrix(value: &Value) -> Matrix3<f64> {
     Matrix3::from_fn(|i, j| number(&value[i][j]))
 }
 

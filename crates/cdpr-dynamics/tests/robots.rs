@@ -5,7 +5,7 @@ use cdpr_robot::{Gravity, Pose, Robot, Rotation3};
 use cdpr_statics::{DirectProblem, DirectStart, Load, StaticsError, WantedPose, inverse};
 
 /// Robots with a pose that they hold and the coordinates that are found there.
-const ROBOTS: [(&str, [f64; 3], &str); 6] = [
+pub(crate) const ROBOTS: [(&str, [f64; 3], &str); 6] = [
     (include_str!("../../../data/robots/caroca.json"), [0.4, 0.3, 1.75], ""),
     (include_str!("../../../data/robots/cogiro.json"), [0.0, 0.0, 2.0], ""),
     (include_str!("../../../data/robots/fast.json"), [0.0, 0.0, 140.0], ""),
@@ -14,13 +14,13 @@ const ROBOTS: [(&str, [f64; 3], &str); 6] = [
     (include_str!("../../../data/robots/four-cables.json"), [0.3, 0.2, 2.0], "roll,pitch"),
 ];
 
-fn robot(file: &str) -> Robot {
+pub(crate) fn robot(file: &str) -> Robot {
     let mut robot = Robot::from_json(file).unwrap();
     robot.platform.inertia = Some(robot.platform.inertia.unwrap_or_else(|| robot.assumed_inertia()));
     robot
 }
 
-fn wanted<'a>(pose: &'a Pose, free: &'a [cdpr_robot::Coordinate]) -> WantedPose<'a> {
+pub(crate) fn wanted<'a>(pose: &'a Pose, free: &'a [cdpr_robot::Coordinate]) -> WantedPose<'a> {
     WantedPose::at(pose).free(free)
 }
 
@@ -46,7 +46,7 @@ fn the_first_motions_are_the_same_by_number_and_below_a_frequency() {
     }
 }
 
-fn free_coordinates(names: &str) -> Vec<cdpr_robot::Coordinate> {
+pub(crate) fn free_coordinates(names: &str) -> Vec<cdpr_robot::Coordinate> {
     names.split(',').filter(|name| !name.is_empty()).map(|name| name.parse().unwrap()).collect()
 }
 

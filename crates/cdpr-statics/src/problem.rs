@@ -59,6 +59,16 @@ impl<'a> DirectProblem<'a> {
         self.lengths
     }
 
+    /// The robot.
+    pub fn robot(&self) -> &'a Robot {
+        self.robot
+    }
+
+    /// The load.
+    pub fn load(&self) -> Load {
+        self.load
+    }
+
     /// Number of cables n.
     pub(crate) fn cables(&self) -> usize {
         self.lengths.len()

@@ -1,12 +1,12 @@
 //! What small motions of the platform about an equilibrium depend on: masses, and the stiffness and the shape
 //! of every cable.
 
-use crate::equations::{Balance, CablePlane, SpannedCable};
+use crate::equations::{Balance, CablePlane, SpannedCable, cables_at};
 use crate::error::StaticsError;
 use crate::problem::DirectProblem;
 use crate::state::Equilibrium;
 use cdpr_cable::Catenary;
-use cdpr_robot::{Freedoms, Matrix3, Pose, Vector3};
+use cdpr_robot::{Freedoms, Matrix3, Pose, Vector2, Vector3};
 use nalgebra::Matrix6;
 
 /// Platform and cables about an equilibrium. Motions are (dp, dφ): the translation of P [m] and a rotation
@@ -61,6 +61,17 @@ impl<'a> DirectProblem<'a> {
             cables: cables.collect(),
             free: self.robot.freedoms().components(),
         })
+    }
+
+    /// The cables at a pose, each in its own equilibrium, whether the platform is in one or not.
+    ///
+    /// # Errors
+    /// [`StaticsError::Invalid`] for a pose that is not finite; [`StaticsError::Cable`] for a cable without
+    /// an equilibrium there.
+    pub fn cables_at(&self, pose: &Pose) -> Result<Equilibrium, StaticsError> {
+        let cables = Equilibrium { pose: *pose, cable_forces: vec![Vector2::zeros(); self.cables()] };
+        self.check("pose", &cables)?;
+        cables_at(self, pose)
     }
 
     fn at_rest(&self, pose: &Pose, i: usize, catenary: Catenary<'a>) -> CableAtRest<'a> {

@@ -1,0 +1,57 @@
+//! Motion over time, with the mass, sag and elasticity of the cables.
+
+mod band;
+mod cable;
+mod event;
+mod lead;
+mod mesh;
+mod radau;
+mod run;
+mod setting;
+mod system;
+mod winch;
+
+pub use event::{Change, CutAt, Event, events_from_json, events_schema};
+pub use radau::Work;
+pub use run::{Difference, Energy, Sample, Series};
+pub use setting::{Discretization, Settings};
+pub use winch::Profile;
+
+use crate::error::DynamicsError;
+use cdpr_statics::{DirectProblem, Equilibrium};
+use run::run;
+
+/// The motion of a robot from rest under events.
+///
+/// It is computed twice, with [`Settings::discretization`] and with a coarser one: their differences are in
+/// [`Series::difference`].
+///
+/// # Errors
+/// [`DynamicsError::Invalid`] for settings and events that are not possible; [`DynamicsError::Stalled`] where no
+/// step is short enough; those of [`DirectProblem::small_motions`].
+pub fn simulate(
+    problem: &DirectProblem,
+    rest: &Equilibrium,
+    events: &[Event],
+    settings: &Settings,
+) -> Result<Series, DynamicsError> {
+    settings.check()?;
+    event::check(problem, events)?;
+    let solve = |discretization: Discretization, ends_at_slack| {
+        let coarse = Settings { tolerance: 4.0 * settings.tolerance, ..*settings };
+        rayon::join(
+            || run(problem, rest, events, settings, (discretization, ends_at_slack)),
+            || run(problem, rest, events, &coarse, (discretization.coarser(), ends_at_slack)),
+        )
+    };
+    let (mut fine, mut coarse) = match settings.discretization {
+        Some(discretization) => solve(discretization, false),
+        None => solve(Discretization::TAUT, true),
+    };
+    let is_slack = |series: &Result<Series, _>| series.as_ref().is_ok_and(|series| series.slack.contains(&true));
+    if settings.discretization.is_none() && (is_slack(&fine) || is_slack(&coarse)) {
+        (fine, coarse) = solve(Discretization::SLACK, false);
+    }
+    let (fine, coarse) = (fine?, coarse?);
+    Ok(Series { difference: fine.difference_to(&coarse), ..fine })
+}

@@ -1,0 +1,398 @@
+//! One cable in motion: its unknowns, what moves them, and what it does to the platform.
+
+use super::band::Band;
+use super::lead::{Lead, Way};
+use super::mesh::{Forces, Material, Mesh, Part, Points, Pull, Rule};
+use super::winch::Ramp;
+use cdpr_robot::{Matrix3, Vector3, Vector6};
+
+/// Where a cable begins.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Start {
+    /// At its exit point.
+    Fixed(Vector3<f64>),
+    /// Behind its lead and pulley: one unknown, by which they are longer than at rest.
+    Led(Lead),
+    /// Nowhere: it has parted at its exit.
+    Loose,
+}
+
+/// A cable in motion.
+#[derive(Clone, Debug)]
+pub(super) struct CableInMotion<'a> {
+    pub(super) index: usize,
+    pub(super) material: Material<'a>,
+    /// In the platform frame [m].
+    pub(super) anchor: Vector3<f64>,
+    pub(super) start: Start,
+    /// Elements; none of a cable without mass, which is straight.
+    pub(super) mesh: Option<Mesh>,
+    /// Unstrained length at rest, of the free part or, without elements, of the whole cable [m].
+    pub(super) length: f64,
+    /// Least tension at rest [N].
+    pub(super) least_tension: f64,
+    pub(super) ramps: Vec<Ramp>,
+    /// Index of its first unknown.
+    pub(super) first: usize,
+}
+
+/// Place and velocity of an anchor point.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct End {
+    pub(super) lever: Vector3<f64>,
+    pub(super) position: Vector3<f64>,
+    pub(super) velocity: Vector3<f64>,
+}
+
+/// A cable at an instant.
+#[derive(Clone, Debug)]
+pub(super) struct Instant {
+    pub(super) points: Points,
+    pub(super) forces: Forces,
+    /// Unstrained length [m] and its rate [m/s].
+    pub(super) length: (f64, f64),
+    way: Option<Way>,
+}
+
+impl Instant {
+    /// Whether it carries no elastic tension at a point.
+    pub(super) fn is_slack(&self) -> bool {
+        self.forces.pulls.iter().any(|pull| pull.elastic <= 0.0)
+    }
+}
+
+/// What a cable adds to the platform.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct OnPlatform {
+    /// Force at the anchor point [N].
+    pub(super) force: Vector3<f64>,
+    /// Mass there [kg].
+    pub(super) mass: f64,
+}
+
+/// Matrices of one cable: of its own unknowns, and with the motions of the platform.
+#[derive(Clone, Debug)]
+pub(super) struct CableMatrices {
+    pub(super) first: usize,
+    pub(super) mass: Vec<f64>,
+    pub(super) stiffness: Band<f64>,
+    pub(super) damping: Band<f64>,
+    pub(super) coupling: Vec<[Vector6<f64>; 2]>,
+}
+
+impl CableInMotion<'_> {
+    /// Unknowns where the cable begins.
+    fn of_start(&self) -> usize {
+        match (&self.start, &self.mesh) {
+            (Start::Led(_), Some(_)) => 1,
+            (Start::Loose, Some(_)) => 3,
+            _ => 0,
+        }
+    }
+
+    /// Number of unknowns.
+    pub(super) fn size(&self, rule: &Rule) -> usize {
+        self.of_start() + self.mesh.as_ref().map_or(0, |mesh| 3 * (mesh.size(rule) - 2))
+    }
+
+    /// Unstrained length [m] and its rate [m/s] at a time [s].
+    pub(super) fn length_at(&self, time: f64) -> (f64, f64) {
+        self.ramps.iter().fold((self.length, 0.0), |(length, rate), ramp| {
+            let [by, speed] = ramp.at(time);
+            (length - by, rate - speed)
+        })
+    }
+
+    /// The cable at a time; `own` are its unknowns and their rates.
+    pub(super) fn at(&self, rule: &Rule, time: f64, end: &End, own: [&[f64]; 2]) -> Instant {
+        let length = self.length_at(time);
+        let way = match &self.start {
+            Start::Led(lead) => Some(lead.way(&end.position)),
+            _ => None,
+        };
+        let Some(mesh) = &self.mesh else { return self.straight(end, length, way) };
+        let size = mesh.size(rule);
+        let mut points = Points { positions: Vec::with_capacity(size), velocities: Vec::with_capacity(size) };
+        let begin = match &self.start {
+            Start::Fixed(exit) => [*exit, Vector3::zeros()],
+            Start::Led(lead) => way.map_or([Vector3::zeros(); 2], |way| {
+                [lead.end(&way, own[0][0]), way.direction * own[1][0]]
+            }),
+            Start::Loose => own.map(|own| Vector3::from_column_slice(&own[..3])),
+        };
+        points.positions.push(begin[0]);
+        points.velocities.push(begin[1]);
+        for k in (self.of_start()..own[0].len()).step_by(3) {
+            points.positions.push(Vector3::from_column_slice(&own[0][k..k + 3]));
+            points.velocities.push(Vector3::from_column_slice(&own[1][k..k + 3]));
+        }
+        points.positions.push(end.position);
+        points.velocities.push(end.velocity);
+        // Material comes out of the exit along the cable.
+        if let (true, Some(part)) = (length.1 != 0.0, mesh.parts(rule, length.0).next()) {
+            let slope = part.slopes(&rule.slopes[0], &points).0;
+            points.velocities[0] += slope * length.1;
+        }
+        let forces = mesh.forces(rule, &self.material, length, &points);
+        Instant { points, forces, length, way }
+    }
+
+    /// A straight cable without mass.
+    fn straight(&self, end: &End, (length, growth): (f64, f64), way: Option<Way>) -> Instant {
+        let exit = match &self.start {
+            Start::Fixed(exit) => Some(*exit),
+            Start::Led(_) => way.map(|way| way.point),
+            Start::Loose => None,
+        };
+        let mut forces = Forces { forces: Vec::new(), masses: Vec::new(), flow: None, pulls: Vec::new() };
+        let mut points = Points { positions: Vec::new(), velocities: Vec::new() };
+        if let Some(exit) = exit {
+            let span = end.position - exit;
+            let (free, guided) = way.map_or((span.norm(), 0.0), |way| (way.free, way.guided));
+            let along = way.map_or_else(|| span / free.max(f64::MIN_POSITIVE), |way| way.direction);
+            let stretch = (free + guided) / length;
+            let rate = (along.dot(&end.velocity) - stretch * growth) / length;
+            let pull = self.material.stretched(along, stretch, rate);
+            forces.pulls.push(pull);
+            forces.forces.push(-along * pull.tension);
+            forces.masses.push(0.0);
+            points.positions = vec![exit, end.position];
+            points.velocities = vec![Vector3::zeros(), end.velocity];
+        }
+        Instant { points, forces, length: (length, growth), way }
+    }
+
+    /// What it adds to the platform.
+    pub(super) fn on_platform(&self, at: &Instant) -> OnPlatform {
+        match (at.forces.forces.last(), at.forces.masses.last()) {
+            (Some(force), Some(mass)) => OnPlatform { force: *force, mass: *mass },
+            _ => OnPlatform::default(),
+        }
+    }
+
+    /// Tension at exit and anchor point [N].
+    pub(super) fn tensions(&self, at: &Instant) -> [f64; 2] {
+        let tension = |pull: Option<&Pull>| pull.map_or(0.0, |pull| pull.tension);
+        let exit = if matches!(self.start, Start::Loose) { 0.0 } else { tension(at.forces.pulls.first()) };
+        [exit, tension(at.forces.pulls.last())]
+    }
+
+    /// Mass, and force without that of gravity, of the unknown where a cable with a lead begins.
+    fn of_lead(&self, lead: &Lead, at: &Instant, own: [&[f64]; 2]) -> [f64; 2] {
+        let Some(way) = &at.way else { return [1.0, 0.0] };
+        let (pull, _) = lead.pull(&self.material, own[0][0], own[1][0]);
+        let force = at.forces.forces[0].dot(&way.direction) - pull.tension;
+        [at.forces.masses[0] + lead.mass(&self.material), force]
+    }
+
+    /// Rates and accelerations of its unknowns.
+    pub(super) fn slopes(
+        &self,
+        at: &Instant,
+        own: [&[f64]; 2],
+        gravity: &Vector3<f64>,
+        [rates, accelerations]: [&mut [f64]; 2],
+    ) {
+        if self.mesh.is_none() {
+            return;
+        }
+        let mut next = 0;
+        if let (Start::Led(lead), Some(way)) = (&self.start, &at.way) {
+            let [mass, force] = self.of_lead(lead, at, own);
+            rates[0] = own[1][0];
+            accelerations[0] = (force + at.forces.masses[0] * gravity.dot(&way.direction)) / mass;
+            next = 1;
+        }
+        let first = usize::from(!matches!(self.start, Start::Loose));
+        for point in first..at.points.positions.len() - 1 {
+            let mut acceleration = at.forces.forces[point] / at.forces.masses[point] + gravity;
+            let mut rate = Vector3::from_column_slice(&own[1][next..next + 3]);
+            if let Some((velocities, more)) = &at.forces.flow {
+                rate += velocities[point];
+                acceleration += more[point];
+            }
+            rates[next..next + 3].copy_from_slice(rate.as_slice());
+            accelerations[next..next + 3].copy_from_slice(acceleration.as_slice());
+            next += 3;
+        }
+    }
+
+    /// Energy [J]: kinetic without that of the anchor point's mass, and stored; power [W] of the winch, and
+    /// power lost.
+    pub(super) fn energy(
+        &self,
+        rule: &Rule,
+        at: &Instant,
+        own: [&[f64]; 2],
+        gravity: &Vector3<f64>,
+    ) -> [f64; 4] {
+        let [mut kinetic, mut stored, mut lost] = [0.0; 3];
+        let pulls = &at.forces.pulls;
+        let Some(mesh) = &self.mesh else {
+            if let Some(pull) = pulls.first() {
+                let (length, growth) = at.length;
+                let own = self.material.energy(pull);
+                let lost = pull.viscosity * pull.rate * pull.rate * length;
+                return [0.0, own * length, growth * (own - pull.tension * pull.stretch), lost];
+            }
+            return [0.0; 4];
+        };
+        let count = rule.degree + 1;
+        for (e, part) in mesh.parts(rule, at.length.0).enumerate() {
+            for (j, [_, weight]) in rule.points.iter().enumerate() {
+                let pull = &pulls[e * count + j];
+                let length = 0.5 * weight * part.length;
+                stored += length * self.material.energy(pull);
+                lost += length * pull.viscosity * pull.rate * pull.rate;
+            }
+        }
+        let last = at.points.positions.len() - 1;
+        for (point, mass) in at.forces.masses.iter().enumerate() {
+            stored -= mass * gravity.dot(&at.points.positions[point]);
+            if point < last {
+                kinetic += 0.5 * mass * at.points.velocities[point].norm_squared();
+            }
+        }
+        if let Start::Led(lead) = &self.start {
+            let [more, loss] = lead.energy(&self.material, own[0][0], own[1][0]);
+            (stored, lost) = (stored + more, lost + loss);
+            kinetic += 0.5 * lead.mass(&self.material) * own[1][0] * own[1][0];
+        }
+        let (exit, growth) = (&pulls[0], at.length.1);
+        let density = self.material.density;
+        let leaves = 0.5 * density * at.points.velocities[0].norm_squared() + self.material.energy(exit)
+            - density * gravity.dot(&at.points.positions[0]);
+        [kinetic, stored, growth * (leaves - exit.tension * exit.stretch), lost]
+    }
+
+    /// Matrices about an instant, and stiffness and damping at the anchor point.
+    pub(super) fn matrices(
+        &self,
+        rule: &Rule,
+        at: &Instant,
+        lever: &Vector3<f64>,
+        own: [&[f64]; 2],
+    ) -> (CableMatrices, [Matrix3<f64>; 2]) {
+        let size = self.size(rule);
+        let width = (3 * rule.degree + 2).min(size.max(1) - 1);
+        let mut matrices = CableMatrices {
+            first: self.first,
+            mass: vec![0.0; size],
+            stiffness: Band::zeros(size, width),
+            damping: Band::zeros(size, width),
+            coupling: vec![[Vector6::zeros(); 2]; size],
+        };
+        let mut at_end = [Matrix3::zeros(); 2];
+        let Some(mesh) = &self.mesh else {
+            if let Some(pull) = at.forces.pulls.first() {
+                let across = way_length(at, at.length.0 * pull.stretch);
+                at_end = [pull.stiffness(at.length.0, across), pull.damping(at.length.0)];
+            }
+            return (matrices, at_end);
+        };
+        let points = at.points.positions.len();
+        let columns: Vec<Columns> = (0..points).map(|point| self.columns(at, point, points)).collect();
+        for (point, columns) in columns.iter().enumerate().take(points - 1) {
+            if let Columns::Own(unknowns) = columns {
+                unknowns.iter().for_each(|(unknown, _)| matrices.mass[*unknown] = at.forces.masses[point]);
+            }
+        }
+        if let Start::Led(lead) = &self.start {
+            matrices.mass[0] = self.of_lead(lead, at, own)[0];
+            let (_, [stiffness, damping]) = lead.pull(&self.material, own[0][0], own[1][0]);
+            matrices.stiffness.add(0, 0, stiffness);
+            matrices.damping.add(0, 0, damping);
+        }
+        let arm = lever.cross_matrix();
+        for (e, part) in mesh.parts(rule, at.length.0).enumerate() {
+            let pulls = &at.forces.pulls[e * (rule.degree + 1)..][..=rule.degree];
+            for a in 0..=rule.degree {
+                for b in 0..=rule.degree {
+                    let blocks = || part.blocks(rule, pulls, [a, b]);
+                    match (&columns[part.first + a], &columns[part.first + b]) {
+                        (Columns::Own(rows), Columns::Own(columns)) if b <= a => {
+                            let [stiffness, damping] = blocks();
+                            for (i, along) in rows {
+                                for (j, other) in columns {
+                                    matrices.stiffness.add(*i, *j, along.dot(&(stiffness * other)));
+                                    matrices.damping.add(*i, *j, along.dot(&(damping * other)));
+                                }
+                            }
+                        }
+                        (Columns::Own(rows), Columns::Platform) => {
+                            let blocks = blocks();
+                            for (i, along) in rows {
+                                for (coupling, block) in matrices.coupling[*i].iter_mut().zip(&blocks) {
+                                    let pull = block.tr_mul(along);
+                                    let moment = -arm.tr_mul(&pull);
+                                    let both = [pull.x, pull.y, pull.z, moment.x, moment.y, moment.z];
+                                    *coupling += Vector6::from(both);
+                                }
+                            }
+                        }
+                        (Columns::Platform, Columns::Platform) => {
+                            let blocks = blocks();
+                            (0..2).for_each(|k| at_end[k] += blocks[k]);
+                        }
+                        _ => {}
+                    }
+                }
+            }
+        }
+        (matrices, at_end)
+    }
+
+    /// The unknowns that move a point.
+    fn columns(&self, at: &Instant, point: usize, points: usize) -> Columns {
+        let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
+        if point + 1 == points {
+            return Columns::Platform;
+        }
+        let at_start = self.of_start();
+        match (&self.start, &at.way) {
+            (Start::Fixed(_), _) if point == 0 => Columns::Fixed,
+            (Start::Led(_), Some(way)) if point == 0 => Columns::Own(vec![(0, way.direction)]),
+            (Start::Loose, _) if point == 0 => Columns::Own((0..3).map(|k| (k, axes[k])).collect()),
+            _ => Columns::Own((0..3).map(|k| (at_start + 3 * (point - 1) + k, axes[k])).collect()),
+        }
+    }
+}
+
+fn way_length(at: &Instant, whole: f64) -> f64 {
+    at.way.map_or(whole, |way| way.free)
+}
+
+/// The unknowns that move a point, each with its direction.
+enum Columns {
+    Fixed,
+    Platform,
+    Own(Vec<(usize, Vector3<f64>)>),
+}
+
+impl Part {
+    /// Stiffness and damping between two points.
+    fn blocks(&self, rule: &Rule, pulls: &[Pull], [a, b]: [usize; 2]) -> [Matrix3<f64>; 2] {
+        let mut blocks = [Matrix3::zeros(); 2];
+        for (j, pull) in pulls.iter().enumerate() {
+            let row = &rule.slopes[j];
+            let share = 2.0 / self.length * rule.points[j][1] * row[a] * row[b];
+            let along: Matrix3<f64> = pull.along * pull.along.transpose();
+            let across = pull.across / pull.stretch;
+            blocks[0] += (along * (pull.modulus - across) + Matrix3::identity() * across) * share;
+            blocks[1] += along * (pull.viscosity * share);
+        }
+        blocks
+    }
+}
+
+impl Pull {
+    /// Stiffness of a straight cable of an unstrained length and a length across which it turns [m].
+    fn stiffness(&self, length: f64, free: f64) -> Matrix3<f64> {
+        let along = self.along * self.along.transpose();
+        along * (self.modulus / length) + (Matrix3::identity() - along) * (self.across / free)
+    }
+
+    fn damping(&self, length: f64) -> Matrix3<f64> {
+        self.along * self.along.transpose() * (self.viscosity / length)
+    }
+}

@@ -1,0 +1,224 @@
+//! What happens to a robot in motion.
+
+use super::winch::Profile;
+use crate::error::DynamicsError;
+use cdpr_robot::{JsonError, Vector3, Vector6, from_json};
+use cdpr_statics::DirectProblem;
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// A change at a time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Event {
+    /// When [s].
+    pub time: f64,
+    /// What.
+    pub change: Change,
+}
+
+/// A change of the load, of a cable, or of the place where a motion begins.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Change {
+    /// This payload is added at the centre of mass, or removed if it is negative [kg].
+    Payload(f64),
+    /// The cable with this index, from 0, parts.
+    Cut {
+        /// Index from 0.
+        cable: usize,
+        /// Where.
+        at: CutAt,
+    },
+    /// From now on this wrench of constant components in the base frame acts at P, besides the load and in
+    /// place of that of an earlier event [N, N m].
+    Wrench {
+        /// Force [N].
+        force: Vector3<f64>,
+        /// Moment [N m].
+        moment: Vector3<f64>,
+    },
+    /// The motion begins with the platform held away from its rest: (dp, dφ), the translation [m] and the
+    /// rotation vector [rad] in the base frame. The cables have their static shape there.
+    Displace(Vector6<f64>),
+    /// The winch of a cable takes cable in, or pays it out if the length is negative.
+    Shorten {
+        /// Index from 0.
+        cable: usize,
+        /// Unstrained length [m].
+        by: f64,
+        /// Duration [s].
+        over: f64,
+        /// How.
+        profile: Profile,
+    },
+}
+
+/// Where a cable parts.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum CutAt {
+    /// At the platform, which it leaves.
+    #[default]
+    Anchor,
+    /// At the exit point or pulley: the platform carries it on.
+    Exit,
+}
+
+/// An event of an event file: a time and one change.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(title = "event")]
+struct Entry {
+    /// When [s], zero or later.
+    t: f64,
+    /// Payload that is added at the centre of mass, or removed if it is negative [kg].
+    payload: Option<f64>,
+    /// Number of the cable that parts, from 1.
+    cut: Option<usize>,
+    /// Where it parts; at its anchor point if left out.
+    at: Option<CutAt>,
+    /// Force at P from now on, in the base frame [N]; it ends that of an earlier event.
+    force: Option<[f64; 3]>,
+    /// Moment from now on, in the base frame [N m].
+    moment: Option<[f64; 3]>,
+    /// At the time 0 only: where the platform is held before it is released, as translation [m] and rotation
+    /// vector [rad] in the base frame.
+    displace: Option<[f64; 6]>,
+    /// A cable that its winch takes in.
+    shorten: Option<Shorten>,
+}
+
+/// A cable that its winch takes in.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Shorten {
+    /// Number of the cable, from 1.
+    cable: usize,
+    /// Unstrained length that is taken in, or paid out if it is negative [m].
+    by: f64,
+    /// Duration [s].
+    over: f64,
+    /// How: linear, cosine or polynomial; cosine if left out.
+    #[serde(default)]
+    profile: Profile,
+}
+
+/// The JSON Schema of an event file, as pretty-printed text.
+pub fn events_schema() -> String {
+    format!("{:#}\n", schemars::schema_for!(Vec<Entry>).as_value())
+}
+
+/// The events of an event file: a JSON array with an object for each.
+///
+/// # Errors
+/// [`DynamicsError::Events`] for text that is no such array; [`DynamicsError::Event`] for an event without a
+/// change or with several.
+pub fn events_from_json(text: &str) -> Result<Vec<Event>, DynamicsError> {
+    let entries: Vec<Entry> = from_json(text).map_err(|error: JsonError| DynamicsError::Events(error))?;
+    entries.into_iter().enumerate().map(|(index, entry)| entry.event(index)).collect()
+}
+
+impl Entry {
+    fn event(self, index: usize) -> Result<Event, DynamicsError> {
+        let wrong = |field: &str, value: String, expected: &str| DynamicsError::Event {
+            index,
+            field: field.to_owned(),
+            value,
+            expected: expected.to_owned(),
+        };
+        let cable = |field: &str, number: usize| {
+            number.checked_sub(1).ok_or_else(|| wrong(field, "0".to_owned(), "the number of a cable, from 1"))
+        };
+        let mut changes = Vec::new();
+        changes.extend(self.payload.map(Change::Payload));
+        if let Some(number) = self.cut {
+            changes.push(Change::Cut { cable: cable("cut", number)?, at: self.at.unwrap_or_default() });
+        } else if self.at.is_some() {
+            return Err(wrong("at", "given".to_owned(), "`cut` with it, the number of a cable"));
+        }
+        if self.force.is_some() || self.moment.is_some() {
+            let vector = |given: Option<[f64; 3]>| given.map_or_else(Vector3::zeros, Vector3::from);
+            changes.push(Change::Wrench { force: vector(self.force), moment: vector(self.moment) });
+        }
+        changes.extend(self.displace.map(|motion| Change::Displace(Vector6::from(motion))));
+        if let Some(Shorten { cable: number, by, over, profile }) = self.shorten {
+            changes.push(Change::Shorten { cable: cable("shorten.cable", number)?, by, over, profile });
+        }
+        match changes[..] {
+            [change] => Ok(Event { time: self.t, change }),
+            _ => {
+                let found = format!("an event with {} changes", changes.len());
+                let expected = "one of payload, cut, force with moment, displace, shorten";
+                Err(wrong("", found, expected))
+            }
+        }
+    }
+}
+
+/// Checks events for a robot.
+pub(super) fn check(problem: &DirectProblem, events: &[Event]) -> Result<(), DynamicsError> {
+    /// Greatest change that is computed: of masses [kg], forces [N] and moments [N m].
+    const MOST: f64 = 1e12;
+    let robot = problem.robot();
+    let mut mass = robot.platform.mass + problem.load().payload;
+    let mut order: Vec<usize> = (0..events.len()).collect();
+    order.sort_by(|one, other| events[*one].time.total_cmp(&events[*other].time));
+    for index in order {
+        let event = &events[index];
+        let wrong = |field: &str, value: String, expected: String| {
+            Err(DynamicsError::Event { index, field: field.to_owned(), value, expected })
+        };
+        if !(event.time.is_finite() && event.time >= 0.0) {
+            return wrong("t", format!("{:?}", event.time), "a time [s], zero or more".to_owned());
+        }
+        let exists = |cable: usize| cable < robot.cables.len();
+        let cables = format!("the number of a cable, 1 to {}", robot.cables.len());
+        match &event.change {
+            Change::Payload(payload) => {
+                mass += payload;
+                if !(payload.abs() <= MOST && mass > 0.0) {
+                    let expected = "a payload [kg] that leaves platform and payload a mass above zero";
+                    return wrong("payload", format!("{payload:?}"), expected.to_owned());
+                }
+            }
+            Change::Cut { cable, .. } if !exists(*cable) => {
+                return wrong("cut", (cable + 1).to_string(), cables);
+            }
+            Change::Cut { .. } => {}
+            Change::Wrench { force, moment } => {
+                for (name, vector) in [("force", force), ("moment", moment)] {
+                    if !vector.iter().all(|component| component.abs() <= MOST) {
+                        let value = format!("{:?}", vector.as_slice());
+                        return wrong(name, value, format!("three numbers of {MOST:.0e} at most"));
+                    }
+                }
+            }
+            Change::Displace(motion) => {
+                if event.time != 0.0 {
+                    let expected = "0: a motion begins there, and no platform jumps later";
+                    return wrong("t", format!("{:?}", event.time), expected.to_owned());
+                }
+                let free = robot.freedoms();
+                for k in 0..6 {
+                    if !motion[k].is_finite() || (motion[k] != 0.0 && !free.contains(k)) {
+                        let expected = "a number, 0 for a motion that the platform has not";
+                        return wrong(&format!("displace[{k}]"), format!("{:?}", motion[k]), expected.to_owned());
+                    }
+                }
+            }
+            Change::Shorten { cable, by, over, .. } => {
+                if !exists(*cable) {
+                    return wrong("shorten.cable", (cable + 1).to_string(), cables);
+                }
+                let length = problem.lengths()[*cable];
+                if !(by.is_finite() && *by < 0.9 * length && *by > -10.0 * length) {
+                    let expected = format!("less than 90 % of the cable's {length:.4} m");
+                    return wrong("shorten.by", format!("{by:?}"), expected);
+                }
+                if !(over.is_finite() && *over > 0.0) {
+                    return wrong("shorten.over", format!("{over:?}"), "a duration [s] above zero".to_owned());
+                }
+            }
+        }
+    }
+    Ok(())
+}

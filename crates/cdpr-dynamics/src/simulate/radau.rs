@@ -1,0 +1,301 @@
+//! Radau IIA of order 5 with step control (E. Hairer, G. Wanner, *Solving Ordinary Differential Equations II*,
+//! second edition, 1996, section IV.8), for motions whose Newton matrix has a structure of its own.
+
+use nalgebra::{Complex, ComplexField};
+
+/// Equations of motion `y' = f(t, y)`.
+pub(super) trait Equations {
+    /// What Newton's method needs of f at a state.
+    type Linearization: Linearization;
+
+    /// f at a time [s] and a state.
+    fn slopes(&self, time: f64, state: &[f64]) -> Vec<f64>;
+
+    /// The derivative of f by the state.
+    fn linearize(&self, time: f64, state: &[f64]) -> Self::Linearization;
+
+    /// The error of each component that is accepted.
+    fn scale(&self) -> &[f64];
+}
+
+/// The derivative J of f, approximately.
+pub(super) trait Linearization {
+    /// Factors of `σ - J`.
+    type Factors<T: ComplexField<RealField = f64> + Copy>;
+
+    /// Factors of `σ - J`; `None` for a singular matrix.
+    fn factor<T: ComplexField<RealField = f64> + Copy>(&self, shift: T) -> Option<Self::Factors<T>>;
+
+    /// x of `(σ - J) x = right`.
+    fn solve<T: ComplexField<RealField = f64> + Copy>(&self, by: &Self::Factors<T>, right: &[T]) -> Vec<T>;
+}
+
+const S6: f64 = 2.449_489_742_783_178;
+const C: [f64; 3] = [(4.0 - S6) / 10.0, (4.0 + S6) / 10.0, 1.0];
+/// Weights of the stages in an integral over the step.
+pub(super) const WEIGHTS: [f64; 3] = [(16.0 - S6) / 36.0, (16.0 + S6) / 36.0, 1.0 / 9.0];
+const E: [f64; 3] = [(-13.0 - 7.0 * S6) / 3.0, (-13.0 + 7.0 * S6) / 3.0, -1.0 / 3.0];
+/// Eigenvalues of the inverse of the matrix of the method, and the transformation that makes it diagonal.
+const REAL: f64 = 3.637_834_252_744_496;
+const COMPLEX: Complex<f64> = Complex { re: 2.681_082_873_627_752_3, im: -3.050_430_199_247_410_5 };
+const T: [[f64; 3]; 3] = [
+    [0.094_438_762_488_975_24, -0.141_255_295_020_954_21, 0.030_029_194_105_147_424],
+    [0.250_213_122_965_333_3, 0.204_129_352_293_799_93, -0.382_942_112_757_261_94],
+    [1.0, 1.0, 0.0],
+];
+const TI: [[f64; 3]; 3] = [
+    [4.178_718_591_551_904, 0.327_682_820_761_062_4, 0.523_376_445_499_449_5],
+    [-4.178_718_591_551_904, -0.327_682_820_761_062_4, 0.476_623_554_500_550_44],
+    [0.502_872_634_945_786_9, -2.571_926_949_855_605_4, 0.596_039_204_828_224_9],
+];
+/// Coefficients of the collocation polynomial: of x, x², x³ for each stage.
+const P: [[f64; 3]; 3] = [
+    [13.0 / 3.0 + 7.0 * S6 / 3.0, -23.0 / 3.0 - 22.0 * S6 / 3.0, 10.0 / 3.0 + 5.0 * S6],
+    [13.0 / 3.0 - 7.0 * S6 / 3.0, -23.0 / 3.0 + 22.0 * S6 / 3.0, 10.0 / 3.0 - 5.0 * S6],
+    [1.0 / 3.0, -8.0 / 3.0, 10.0 / 3.0],
+];
+
+const MOST_ITERATIONS: usize = 6;
+/// Newton's method ends at this share of the error that is accepted.
+const NEWTON_TOLERANCE: f64 = 0.01;
+const LEAST_FACTOR: f64 = 0.2;
+const GREATEST_FACTOR: f64 = 8.0;
+/// Shortest step, relative to the time that a solution has run [s].
+const SHORTEST: f64 = 1e-13;
+
+/// A solution in progress.
+pub(super) struct Radau<S: Equations> {
+    pub(super) time: f64,
+    pub(super) state: Vec<f64>,
+    /// Step that the errors allow [s].
+    step: f64,
+    slopes: Vec<f64>,
+    newton: Option<Newton<S::Linearization>>,
+    is_current: bool,
+    /// The last step [s], its stages and its error.
+    last: Option<(f64, [Vec<f64>; 3], f64)>,
+    pub(super) work: Work,
+}
+
+/// What a solution took.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Work {
+    /// Steps that were accepted.
+    pub steps: usize,
+    /// Steps that were repeated.
+    pub rejected: usize,
+    /// Evaluations of the equations of motion.
+    pub evaluations: usize,
+    /// Factorizations of the matrices of Newton's method.
+    pub factorizations: usize,
+}
+
+struct Newton<L: Linearization> {
+    at: L,
+    factors: Option<(f64, L::Factors<f64>, L::Factors<Complex<f64>>)>,
+}
+
+/// A step that was accepted: its length [s] and the states of its three stages.
+pub(super) struct Step {
+    pub(super) length: f64,
+    pub(super) stages: [(f64, Vec<f64>); 3],
+}
+
+/// No step is short enough.
+pub(super) struct Stalled;
+
+impl<S: Equations> Radau<S> {
+    pub(super) fn new(equations: &S, time: f64, state: Vec<f64>, step: f64) -> Self {
+        let slopes = equations.slopes(time, &state);
+        let work = Work { evaluations: 1, ..Work::default() };
+        Self { time, state, step, slopes, newton: None, is_current: false, last: None, work }
+    }
+
+    /// One step, not beyond `until` [s].
+    pub(super) fn advance(&mut self, equations: &S, until: f64) -> Result<Step, Stalled> {
+        let mut was_rejected = false;
+        loop {
+            let left = until - self.time;
+            let h = left / (left / self.step - 1e-9).ceil().max(1.0);
+            if h < SHORTEST * (1.0 + self.time.abs()) || !h.is_finite() {
+                return Err(Stalled);
+            }
+            let Some(newton) = self.newton(equations, h) else {
+                self.step = 0.5 * h;
+                continue;
+            };
+            let solved = self.stages(equations, &newton, h);
+            let Some((stages, iterations, rate)) = solved else {
+                if self.is_current {
+                    self.step = 0.5 * h;
+                    self.newton = Some(newton);
+                } else {
+                    self.newton = None;
+                }
+                continue;
+            };
+            let mut error = self.error(equations, &newton, &stages, h, None);
+            if error > 1.0 && was_rejected {
+                error = self.error(equations, &newton, &stages, h, Some(()));
+            }
+            let most = MOST_ITERATIONS as f64;
+            let safety = 0.9 * (2.0 * most + 1.0) / (2.0 * most + iterations as f64);
+            let factor = safety * self.factor(h, error);
+            if error.is_nan() || error > 1.0 {
+                self.step = h * if error.is_nan() { LEAST_FACTOR } else { factor.max(LEAST_FACTOR) };
+                self.newton = Some(newton);
+                self.work.rejected += 1;
+                was_rejected = true;
+                continue;
+            }
+            let renew = iterations > 2 && rate > 1e-3;
+            self.newton = (!renew).then_some(newton);
+            self.is_current = false;
+            if renew || factor > 1.2 || factor < 0.9 {
+                self.step = h * factor.min(GREATEST_FACTOR);
+            } else if h > self.step * (1.0 - 1e-9) {
+                self.step = h;
+            }
+            return Ok(self.accept(equations, h, stages, error));
+        }
+    }
+
+    fn accept(&mut self, equations: &S, h: f64, stages: [Vec<f64>; 3], error: f64) -> Step {
+        let at = |k: usize| {
+            let state = self.state.iter().zip(&stages[k]).map(|(y, z)| y + z).collect();
+            (self.time + C[k] * h, state)
+        };
+        let step = Step { length: h, stages: [at(0), at(1), at(2)] };
+        self.time += h;
+        self.state.clone_from(&step.stages[2].1);
+        self.slopes = equations.slopes(self.time, &self.state);
+        self.last = Some((h, stages, error));
+        self.work.steps += 1;
+        self.work.evaluations += 1;
+        step
+    }
+
+    /// The linearization with the factors for a step, the ones at hand where they serve.
+    fn newton(&mut self, equations: &S, h: f64) -> Option<Newton<S::Linearization>> {
+        let mut newton = self.newton.take().unwrap_or_else(|| {
+            self.is_current = true;
+            Newton { at: equations.linearize(self.time, &self.state), factors: None }
+        });
+        let serves = newton.factors.as_ref().is_some_and(|(at, ..)| (at / h - 1.0).abs() < 1e-6);
+        if !serves {
+            self.work.factorizations += 1;
+            let real = newton.at.factor(REAL / h)?;
+            newton.factors = Some((h, real, newton.at.factor(COMPLEX / h)?));
+        }
+        Some(newton)
+    }
+
+    /// The stages minus the state, the iterations and their rate.
+    fn stages(
+        &mut self,
+        equations: &S,
+        newton: &Newton<S::Linearization>,
+        h: f64,
+    ) -> Option<([Vec<f64>; 3], usize, f64)> {
+        let (n, scale) = (self.state.len(), equations.scale());
+        let (_, real, complex) = newton.factors.as_ref()?;
+        let mut z = self.guess(h);
+        let mut w = combined(&TI, &z);
+        let (mut before, mut rate) = (None, 0.0);
+        for iteration in 1..=MOST_ITERATIONS {
+            let slopes: [Vec<f64>; 3] = std::array::from_fn(|k| {
+                let state: Vec<f64> = self.state.iter().zip(&z[k]).map(|(y, z)| y + z).collect();
+                equations.slopes(self.time + C[k] * h, &state)
+            });
+            self.work.evaluations += 3;
+            if slopes.iter().flatten().any(|slope| !slope.is_finite()) {
+                return None;
+            }
+            let slopes = combined(&TI, &slopes);
+            let right: Vec<f64> = (0..n).map(|i| slopes[0][i] - REAL / h * w[0][i]).collect();
+            let first = newton.at.solve(real, &right);
+            let right: Vec<Complex<f64>> = (0..n)
+                .map(|i| {
+                    Complex::new(slopes[1][i], slopes[2][i]) - COMPLEX / h * Complex::new(w[1][i], w[2][i])
+                })
+                .collect();
+            let others = newton.at.solve(complex, &right);
+            let steps = (0..n).map(|i| (first[i] / scale[i], others[i] / scale[i]));
+            let square: f64 = steps.map(|(one, other)| one * one + other.norm_sqr()).sum();
+            let norm = (square / (3 * n) as f64).sqrt();
+            for i in 0..n {
+                w[0][i] += first[i];
+                w[1][i] += others[i].re;
+                w[2][i] += others[i].im;
+            }
+            z = combined(&T, &w);
+            if let Some(before) = before {
+                rate = norm / before;
+                let left = (MOST_ITERATIONS - iteration) as i32;
+                if !(rate < 1.0) || f64::powi(rate, left) / (1.0 - rate) * norm > NEWTON_TOLERANCE {
+                    return None;
+                }
+            } else if !norm.is_finite() {
+                return None;
+            }
+            if norm == 0.0 || (before.is_some() && rate / (1.0 - rate) * norm < NEWTON_TOLERANCE) {
+                return Some((z, iteration, rate));
+            }
+            before = Some(norm);
+        }
+        None
+    }
+
+    /// Where the polynomial of the last step leads.
+    fn guess(&self, h: f64) -> [Vec<f64>; 3] {
+        let n = self.state.len();
+        let Some((last, stages, _)) = &self.last else { return std::array::from_fn(|_| vec![0.0; n]) };
+        let share = |k: usize, x: f64| P[k][0] * x + P[k][1] * x * x + P[k][2] * x * x * x;
+        std::array::from_fn(|to| {
+            let x = 1.0 + C[to] * h / last;
+            let shares: [f64; 3] = std::array::from_fn(|k| share(k, x) - share(k, 1.0));
+            (0..n).map(|i| (0..3).map(|k| shares[k] * stages[k][i]).sum()).collect()
+        })
+    }
+
+    /// Root mean square of the error estimate, relative to what is accepted.
+    fn error(
+        &mut self,
+        equations: &S,
+        newton: &Newton<S::Linearization>,
+        stages: &[Vec<f64>; 3],
+        h: f64,
+        again: Option<()>,
+    ) -> f64 {
+        let n = self.state.len();
+        let Some((_, real, _)) = &newton.factors else { return f64::NAN };
+        let sum = |i: usize| (0..3).map(|k| E[k] * stages[k][i]).sum::<f64>() / h;
+        let right: Vec<f64> = (0..n).map(|i| self.slopes[i] + sum(i)).collect();
+        let mut error = newton.at.solve(real, &right);
+        if again.is_some() {
+            let state: Vec<f64> = self.state.iter().zip(&error).map(|(y, e)| y + e).collect();
+            let slopes = equations.slopes(self.time, &state);
+            self.work.evaluations += 1;
+            let right: Vec<f64> = (0..n).map(|i| slopes[i] + sum(i)).collect();
+            error = newton.at.solve(real, &right);
+        }
+        let squares = error.iter().zip(equations.scale()).map(|(error, scale)| (error / scale).powi(2));
+        (squares.sum::<f64>() / n as f64).sqrt()
+    }
+
+    /// By how much the step may change (K. Gustafsson's predictive control).
+    fn factor(&self, h: f64, error: f64) -> f64 {
+        let error = error.max(1e-10);
+        let predicted = self.last.as_ref().map_or(1.0, |(last, _, before)| {
+            h / last * (before.max(1e-10) / error).powf(0.25)
+        });
+        predicted.min(1.0) * error.powf(-0.25)
+    }
+}
+
+fn combined(matrix: &[[f64; 3]; 3], parts: &[Vec<f64>; 3]) -> [Vec<f64>; 3] {
+    std::array::from_fn(|row| {
+        let [a, b, c] = matrix[row];
+        (0..parts[0].len()).map(|i| a * parts[0][i] + b * parts[1][i] + c * parts[2][i]).collect()
+    })
+}

@@ -1,0 +1,208 @@
+//! How a motion is computed, and how it begins.
+
+use super::cable::{CableInMotion, Start};
+use super::lead::{Lead, Rest};
+use super::mesh::{Material, Mesh, Points, Rule};
+use super::system::{Body, System};
+use crate::error::{DynamicsError, positive};
+use cdpr_cable::{Cable, FromLeavePoint};
+use cdpr_robot::{Matrix3, Vector3};
+use cdpr_statics::vibration::CableAtRest;
+use cdpr_statics::{DirectProblem, Equilibrium, Load};
+
+/// Elements of each cable.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Discretization {
+    /// Number of elements.
+    pub elements: usize,
+    /// Degree of the polynomial on each.
+    pub degree: usize,
+}
+
+impl Discretization {
+    /// Few elements of a high degree, for cables that stay taut.
+    pub const TAUT: Self = Self { elements: 3, degree: 5 };
+    /// A chain of straight elements: where a cable goes slack, its direction jumps along it.
+    pub const SLACK: Self = Self { elements: 80, degree: 1 };
+
+    /// One that is coarser.
+    pub(super) fn coarser(self) -> Self {
+        let Self { elements, degree } = self;
+        if elements > 1 {
+            Self { elements: elements - elements.div_ceil(3), degree }
+        } else {
+            Self { elements, degree: (degree - degree.div_ceil(4)).max(1) }
+        }
+    }
+}
+
+/// How a motion is computed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// End [s].
+    pub until: f64,
+    /// Samples for each second [Hz].
+    pub rate: f64,
+    /// Ratio τ of the viscous to the elastic modulus of the cables [s].
+    pub damping: f64,
+    /// Elements of each cable. Without, there are [`Discretization::TAUT`], and [`Discretization::SLACK`] once
+    /// a cable goes slack.
+    pub discretization: Option<Discretization>,
+    /// Error of a step that is accepted, as a position [m].
+    pub tolerance: f64,
+}
+
+/// Most elements of a cable.
+const MOST_ELEMENTS: usize = 128;
+
+impl Settings {
+    /// Motion until a time [s] with 100 samples for each second, without damping.
+    pub fn until(until: f64) -> Self {
+        Self { until, rate: 100.0, damping: 0.0, discretization: None, tolerance: 5e-8 }
+    }
+
+    /// Greatest number of samples.
+    const MOST_SAMPLES: f64 = 1e7;
+
+    pub(super) fn check(&self) -> Result<(), DynamicsError> {
+        positive("until", self.until, "a time [s] above zero")?;
+        positive("rate", self.rate, "samples for each second [Hz], above zero")?;
+        positive("tolerance", self.tolerance, "a length [m] above zero")?;
+        let invalid = |field, value: f64, expected: &str| {
+            Err(DynamicsError::Invalid { field, value: format!("{value:?}"), expected: expected.to_owned() })
+        };
+        if !(self.damping.is_finite() && self.damping >= 0.0) {
+            return invalid("damping", self.damping, "a time [s], zero or more");
+        }
+        if self.until * self.rate > Self::MOST_SAMPLES {
+            return invalid("rate", self.rate, "1e7 samples at most, until the end");
+        }
+        let Some(Discretization { elements, degree }) = self.discretization else { return Ok(()) };
+        if !(1..=1000).contains(&elements) {
+            return invalid("elements", elements as f64, "1 to 1000 elements of each cable");
+        }
+        if !(1..=64).contains(&degree) {
+            return invalid("degree", degree as f64, "a degree of 1 to 64");
+        }
+        Ok(())
+    }
+
+    /// Platform and cables at a pose with cables in equilibrium, and the unknowns.
+    pub(super) fn system<'a>(
+        &self,
+        problem: &DirectProblem<'a>,
+        rest: &Equilibrium,
+        Discretization { elements, degree }: Discretization,
+    ) -> Result<(System<'a>, Vec<f64>), DynamicsError> {
+        let (robot, load) = (problem.robot(), problem.load());
+        let small = problem.small_motions(rest)?;
+        let rule = Rule::new(degree);
+        let pose = &rest.pose;
+        let mut free = [false; 6];
+        small.free.iter().for_each(|k| free[*k] = true);
+        let mut system = System {
+            rule,
+            cables: Vec::new(),
+            body: body(robot, &load),
+            rotation: pose.rotation,
+            gravity: robot.gravity.vector(),
+            free,
+            scale: Vec::new(),
+        };
+        let mut state: Vec<f64> = pose.position.iter().copied().chain([0.0; 3]).collect();
+        for (index, at_rest) in small.cables.iter().enumerate() {
+            let (cable, own) = self.cable(problem, &system.rule, (index, at_rest), rest, elements);
+            system.cables.push(CableInMotion { first: state.len(), ..cable });
+            state.extend(own);
+        }
+        state.extend(vec![0.0; state.len()]);
+        system.scale = self.scale(&system, robot.platform_size());
+        Ok((system, state))
+    }
+
+    /// Errors of the unknowns and of their velocities that are accepted.
+    pub(super) fn scale(&self, system: &System, size: f64) -> Vec<f64> {
+        /// Angular frequency of the motions whose velocities count as much as their positions [1/s].
+        const FREQUENCY: f64 = 300.0;
+        let n = system.size();
+        let mut scale = vec![self.tolerance; n];
+        scale[3..6].fill(self.tolerance / size.max(f64::MIN_POSITIVE));
+        scale.extend_from_within(..);
+        scale[n..].iter_mut().for_each(|value| *value *= FREQUENCY);
+        scale
+    }
+
+    fn cable<'a>(
+        &self,
+        problem: &DirectProblem<'a>,
+        rule: &Rule,
+        (index, at_rest): (usize, &CableAtRest<'a>),
+        rest: &Equilibrium,
+        elements: usize,
+    ) -> (CableInMotion<'a>, Vec<f64>) {
+        let robot = problem.robot();
+        let whole = at_rest.catenary;
+        let free = whole.free();
+        let density = at_rest.linear_density;
+        let material =
+            Material { cable: Cable { guide: None, ..free.cable }, density, damping: self.damping, relaxing: None };
+        let end = rest.pose.position + at_rest.lever;
+        let lift = |x: f64, z: f64| at_rest.axes * Vector3::new(x, 0.0, z);
+        let last = if whole.is_limp() { None } else { Some(free.end_position()) };
+        let exit = robot.cables[index].exit_point;
+        // A slack cable without weight has no shape: its points are put on the chord.
+        let point = |share: f64| match last {
+            Some(last) => {
+                let behind = free.point(FromLeavePoint(share * free.unstrained_length)) - last;
+                end + lift(behind.x, behind.y)
+            }
+            None => exit + (end - exit) * share,
+        };
+        let leave = point(0.0);
+        let begin = lift(free.force.x, free.exit_vertical_force());
+        let tension = begin.norm();
+        let direction = if tension > 0.0 { begin / tension } else { (end - leave).normalize() };
+        let rest = Rest { anchor: end, leave, direction, tension };
+        let lead = Lead::new(robot, index, &material, &rest);
+        let tension_at = |share: f64| free.tension(FromLeavePoint(share * free.unstrained_length));
+        let mesh = (density > 0.0).then(|| {
+            let mut mesh = Mesh::equal(elements);
+            while rule.degree > 1 && !whole.is_limp() && mesh.ends.len() <= MOST_ELEMENTS {
+                let still = Points::still(mesh.shares(rule).iter().map(|share| point(*share)));
+                if mesh.is_exact(rule, &material, (free.unstrained_length, &still), tension_at) {
+                    break;
+                }
+                mesh = Mesh::equal(2 * (mesh.ends.len() - 1));
+            }
+            mesh
+        });
+        let mut own = Vec::new();
+        if let Some(mesh) = &mesh {
+            own.extend(lead.iter().map(|_| 0.0));
+            let shares = mesh.shares(rule);
+            own.extend(shares[1..shares.len() - 1].iter().flat_map(|share| <[f64; 3]>::from(point(*share))));
+        }
+        let cable = CableInMotion {
+            index,
+            material,
+            anchor: robot.cables[index].anchor_point,
+            start: lead.map_or(Start::Fixed(exit), Start::Led),
+            length: if mesh.is_some() { free.unstrained_length } else { whole.unstrained_length },
+            mesh,
+            least_tension: tension_at(free.lowest_arc_length().0 / free.unstrained_length),
+            ramps: Vec::new(),
+            first: 0,
+        };
+        (cable, own)
+    }
+}
+
+fn body(robot: &cdpr_robot::Robot, load: &Load) -> Body {
+    let platform = &robot.platform;
+    Body {
+        mass: platform.mass + load.payload,
+        center: platform.center_of_mass,
+        inertia: platform.inertia.unwrap_or_else(Matrix3::zeros),
+        wrench: [load.wrench.force, Vector3::zeros(), load.wrench.moment, Vector3::zeros()],
+    }
+}
