@@ -20,6 +20,7 @@ mod explore;
 mod faults;
 mod first_answers;
 mod folder;
+mod forty_mistakes;
 mod grammar;
 mod hysteresis;
 mod library;

@@ -30,10 +30,17 @@ fn robots_at_rest_stay_at_rest() {
         let from = series.samples[0].pose;
         let way = moved(&series, &from);
         let off = rest.pose.motion_to(&from).norm();
-        println!("{}: moves {way:e}, off {off:e}, residual {:e}, {:?}", robot.name, series.residual, series.work);
+        println!(
+            "{}: moves {way:e}, off {off:e}, residual {:e}, {:?}",
+            robot.name, series.residual, series.work
+        );
         let tensions = rest.tensions();
         for (i, [exit, anchor]) in series.samples[0].tensions.iter().enumerate() {
-            println!("   {i} {exit:.6} {anchor:.6} {:.6} {:.6}", rest.exit_tensions(&robot, &lengths)[i], tensions[i]);
+            println!(
+                "   {i} {exit:.6} {anchor:.6} {:.6} {:.6}",
+                rest.exit_tensions(&robot, &lengths)[i],
+                tensions[i]
+            );
         }
     }
 }
@@ -52,7 +59,11 @@ fn a_platform_put_where_it_rests_with_a_payload_stays_there_with_it() {
         let events = [at(Change::Displace(motion)), at(Change::Payload(payload))];
         match simulate(&problem, &rest, &events, &Settings::until(1.0)) {
             Ok(series) => println!(
-                "{}: deflects {:e}, moves {:e} {:?}", robot.name, motion.norm(), moved(&series, &loaded.pose), series.work
+                "{}: deflects {:e}, moves {:e} {:?}",
+                robot.name,
+                motion.norm(),
+                moved(&series, &loaded.pose),
+                series.work
             ),
             Err(error) => println!("{}: {error}", robot.name),
         }
@@ -69,7 +80,10 @@ fn cables_part_and_winches_turn_on_every_robot() {
             Change::Cut { cable: 0, at: CutAt::Anchor },
             Change::Cut { cable: 1, at: CutAt::Exit },
             Change::Shorten { cable: 2, by: 1e-3 * lengths[2], over: 0.2, profile: Profile::Polynomial },
-            Change::Wrench { force: Vector3::new(0.0, 0.1 * 9.81 * robot.platform.mass, 0.0), moment: Vector3::zeros() },
+            Change::Wrench {
+                force: Vector3::new(0.0, 0.1 * 9.81 * robot.platform.mass, 0.0),
+                moment: Vector3::zeros(),
+            },
         ] {
             let events = [Event { time: 0.1, change }];
             let settings = Settings { damping: 2e-4, ..Settings::until(0.5) };
@@ -77,7 +91,13 @@ fn cables_part_and_winches_turn_on_every_robot() {
             match simulate(&problem, &rest, &events, &settings) {
                 Ok(series) => println!(
                     "{}: {change:?}: moves {:.3e}, {:?} {:?} drift {:e} kin {:e} {:.1?}",
-                    robot.name, moved(&series, &rest.pose), series.difference, series.work, series.energy.drift, series.energy.kinetic, clock.elapsed()
+                    robot.name,
+                    moved(&series, &rest.pose),
+                    series.difference,
+                    series.work,
+                    series.energy.drift,
+                    series.energy.kinetic,
+                    clock.elapsed()
                 ),
                 Err(error) => println!("{}: {change:?} {error} {:.1?}", robot.name, clock.elapsed()),
             }

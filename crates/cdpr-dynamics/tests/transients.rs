@@ -94,7 +94,12 @@ fn platforms_move_as_chains_of_many_elements_do() {
         }
         println!(
             "{name}: position {position:.2e} m, rotation {rotation:.2e}, tension {tension:.3} N; difference {:?}; energy {:?}; rest {:.1e}; {:?}; peak 3 {:?}; {:.2?}",
-            series.difference, series.energy, series.residual, series.work, series.peaks[2], clock.elapsed()
+            series.difference,
+            series.energy,
+            series.residual,
+            series.work,
+            series.peaks[2],
+            clock.elapsed()
         );
     }
 }

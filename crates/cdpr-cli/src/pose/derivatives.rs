@@ -236,7 +236,7 @@ impl Slopes {
         (0..self.parameters.len()).flat_map(of).collect()
     }
 
-    /// The deflection, and the parameters that change it most per unit of the size by which they are uncertain.
+    /// The deflection, and the parameters that change it most, each by a unit of the size of its uncertainty.
     fn print(&self, heading: &str, details: bool) {
         print_sentence(&format!("{heading}: |dp| = {:.5} mm under the load.", self.deflection_magnitude_mm));
         self.uncertainty.iter().for_each(Uncertainty::print);

@@ -141,7 +141,9 @@ impl Case {
     /// Asks about lengths, mass, load and start.
     fn question(&self, robot: &Robot) {
         questions::about_lengths(robot, &self.lengths);
-        questions::ask(self.mass.and_then(|mass| plausible::mass("mass", mass)));
+        // A mass that is not positive is refused.
+        let mass = self.mass.filter(|mass| *mass > 0.0);
+        questions::ask(mass.and_then(|mass| plausible::mass(robot, "mass", mass)));
         questions::about_load(robot, &self.load());
         if let Some(start) = self.pose.as_ref().and_then(|numbers| poses::pose_of(numbers).ok()) {
             questions::about_pose(robot, "pose", &start);

@@ -359,7 +359,10 @@ impl System<'_> {
             for k in 0..2 {
                 let own = &parts[k][range.clone()];
                 let more = cable.size(&self.rule) + usize::from(matches!(was.start, Start::Led(_)));
-                if more > own.len() && matches!(cable.start, Start::Loose) && !matches!(was.start, Start::Loose) {
+                if more > own.len()
+                    && matches!(cable.start, Start::Loose)
+                    && !matches!(was.start, Start::Loose)
+                {
                     halves[k].extend(begin[k].iter());
                     halves[k].extend(&own[usize::from(matches!(was.start, Start::Led(_)))..]);
                 } else {

@@ -144,8 +144,12 @@ impl Settings {
         let whole = at_rest.catenary;
         let free = whole.free();
         let density = at_rest.linear_density;
-        let material =
-            Material { cable: Cable { guide: None, ..free.cable }, density, damping: self.damping, relaxing: None };
+        let material = Material {
+            cable: Cable { guide: None, ..free.cable },
+            density,
+            damping: self.damping,
+            relaxing: None,
+        };
         let end = rest.pose.position + at_rest.lever;
         let lift = |x: f64, z: f64| at_rest.axes * Vector3::new(x, 0.0, z);
         let last = if whole.is_limp() { None } else { Some(free.end_position()) };

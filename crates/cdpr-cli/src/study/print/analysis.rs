@@ -3,8 +3,8 @@
 use crate::output::{print_sentence, table, wide_table};
 use cdpr_robot::{counted, significant};
 use cdpr_study::{
-    Analysis, Dependence, Estimate, Finding, InputAnalysis, LevelMean, LimitFailures, OutputLimit,
-    TableAnalysis, VectorAnalysis, is_resolved,
+    Analysis, Dependence, Estimate, InputAnalysis, LeadingInputs, LevelMean, LimitFailures, OutputLimit,
+    TableAnalysis, VectorAnalysis,
 };
 
 /// Inputs in a table on the terminal.
@@ -53,51 +53,11 @@ fn print_answer(name: &str, analysis: &Analysis) {
 
 /// The leading inputs by their first-order shares, and the test that finds each.
 fn print_leading(analysis: &Analysis) {
-    let mut rows = table(&["input", "first-order share [%]", "found by"]);
-    let verdict = &analysis.verdict;
-    let finding = |of: &InputAnalysis| {
-        let is_it = |finding: &&Finding| finding.input == of.input;
-        let certain = verdict.certain.iter().find(is_it).map(|found| found.measure.word().to_owned());
-        let related = || verdict.related.iter().find(is_it);
-        certain.or_else(|| related().map(|found| format!("{}, cause or not", found.measure.word())))
-    };
-    // Those that are found first.
-    let place = |input: &InputAnalysis| {
-        let share = input.first.map_or(f64::NEG_INFINITY, |first| first.value);
-        if finding(input).is_some() { share.max(0.0) + 2.0 } else { share }
-    };
-    for input in leading(analysis, place).into_iter().take(LEADING) {
-        let share = input.first.map_or("-".to_owned(), |of| resolved(&of));
-        rows.add_row([input.input.clone(), share, finding(input).unwrap_or("-".to_owned())]);
-    }
-    println!("{rows}");
-    let level = 100.0 * analysis.level;
-    print_sentence(&format!(
-        "first-order share of the variance with its {level} % interval; found by: the clearest of {}, all of \
-         them corrected together",
-        counted(verdict.tests, "test")
-    ));
-    let mut words: Vec<String> = Vec::new();
-    for measure in verdict.certain.iter().chain(&verdict.related).map(|found| found.measure) {
-        let word = format!("{}: {}", measure.word(), measure.meaning());
-        if !words.contains(&word) {
-            words.push(word);
-        }
-    }
-    print_sentence(&words.join("; "));
-}
-
-/// A share in percent with its interval, unless this is wider than the share.
-fn resolved(share: &Estimate) -> String {
-    match is_resolved(share.value, [share.low, share.high]) {
-        true => format!(
-            "{:.1} ({:.1} to {:.1})",
-            100.0 * share.value,
-            100.0 * share.low.max(0.0),
-            100.0 * share.high.min(1.0)
-        ),
-        false => "not resolved".to_owned(),
-    }
+    let LeadingInputs { rows, captions } = LeadingInputs::of(analysis);
+    let mut lines = table(&LeadingInputs::HEADER);
+    lines.add_rows(rows);
+    println!("{lines}");
+    captions.iter().for_each(|caption| print_sentence(caption));
 }
 
 /// What makes the limit fail.
@@ -229,7 +189,7 @@ fn print_inputs(analysis: &Analysis) {
     let two = |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:.2}"));
     let percent = |share: f64| format!("{:.1}", 100.0 * share);
     for input in leading.iter().take(MOST) {
-        let first = input.first.map(|first| resolved(&first));
+        let first = input.first.map(|first| first.percent());
         let shares = input.shares.map(|of| format!("{}, {}", percent(of.closed), percent(of.total)));
         let over = |value: f64, noise: f64| {
             if value > noise { format!("{value:.3}") } else { format!("({value:.3})") }
