@@ -91,7 +91,7 @@ impl Wanted {
             capacity: with.has("capacity")?,
             distances: with.has("distances")?,
             tilt: with.value("tilt", Some(4), count::<1, 360>)?,
-            boundary: with.value("boundary", Some(Way::Anew), way)?,
+            boundary: with.value("boundary", Some(Way::Recomputed), way)?,
             layers: with.value("layers", None, count::<0, 10_000>)?.unwrap_or(12),
         })
     }
@@ -205,10 +205,10 @@ fn ranges(summary: &WorkspaceSummary) -> [(&'static str, Option<Extremes>); 14] 
         ("that of the slowest cable [Hz]", summary.lowest_cable_frequency_hz),
         ("greatest tension [N]", summary.greatest_tension),
         ("least tension [N]", summary.least_tension),
-        ("greatest tension, distributed anew [N]", summary.anew_greatest_tension),
-        ("greatest payload, distributed anew [kg]", summary.payload_anew_kg),
+        ("greatest tension, recomputed [N]", summary.recomputed_greatest_tension),
+        ("greatest payload, recomputed [kg]", summary.payload_recomputed_kg),
         ("greatest payload, lengths kept [kg]", summary.payload_kept_kg),
-        ("margin, distributed anew [N]", summary.margin_anew),
+        ("margin, recomputed [N]", summary.margin_recomputed),
         ("margin, lengths kept [N]", summary.margin_kept),
         ("distance of the nearest cables [mm]", summary.nearest_cables_mm),
         ("distance of cables and platform [mm]", summary.nearest_to_platform_mm),
@@ -234,9 +234,9 @@ fn print_details(summary: &WorkspaceSummary) {
         );
     }
     if summary.is_loaded() {
-        println!("with the tensions distributed anew:");
+        println!("with the tensions recomputed:");
     }
-    counts(&summary.anew_status);
+    counts(&summary.recomputed_status);
     // Without a load these are the counts above, unless they say more.
     let says_more = summary.left_out.keys().any(|why| !summary.status.contains_key(why.as_str()));
     if says_more || summary.is_loaded() && !summary.left_out.is_empty() {
