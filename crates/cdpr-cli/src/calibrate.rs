@@ -18,7 +18,7 @@ pub(crate) enum Command {
     /// They leave the least uncertainty together, and are compared with random and outermost poses.
     #[command(after_help = "Example: cdpr calibrate plan caroca --region=-2:2:5,-1:1:3,1:2.5:3 \
                       --uncertainty a=0.002,b=0.002,youngs_modulus=5e9 --noise position=1e-4,rotation=1e-4 \
-                      --work=-1:1:3,-1:1:3,1.5:2:2 --criterion mean-position --number 20")]
+                      --work=-1:1:3,-1:1:3,1.5:2:2 --with criterion=mean-position --number 20")]
     Plan(Box<plan::Settings>),
     /// Find which parameters measurements identify.
     ///

@@ -3,6 +3,7 @@
 use cdpr_assess::AssessError;
 use cdpr_cable::{CableError, RecordError};
 use cdpr_calibration::CalibrationError;
+use cdpr_dynamics::DynamicsError;
 use cdpr_exchange::{ExchangeError, Lacking};
 use cdpr_report::ReportError;
 use cdpr_robot::{JsonError, QuaternionError, counted};
@@ -22,6 +23,8 @@ pub(crate) enum ProgramError {
     Record(#[from] RecordError),
     #[error("{}", asked_for(.0))]
     Exchange(#[from] ExchangeError),
+    #[error(transparent)]
+    Dynamics(#[from] DynamicsError),
     #[error(transparent)]
     Statics(#[from] StaticsError),
     #[error("{}", with_options(.0))]

@@ -23,6 +23,7 @@ const GROUPS: [Group; 8] = [
             "deflection",
             "stiffness",
             "modes",
+            "simulate",
             "capacity",
             "derivatives",
             "hysteresis",

@@ -60,7 +60,7 @@ enum Command {
     Inverse(pose::inverse::Settings),
     /// Find where the platform rests for given lengths.
     #[command(after_help = "Example: cdpr direct data/robots/caroca.json \
-                      --lengths 4.44,4.54,4.36,4.26,4.26,4.36,4.54,4.44 --certify")]
+                      --lengths 4.44,4.54,4.36,4.26,4.26,4.36,4.54,4.44 --with certificate")]
     Direct(pose::direct::Settings),
     /// Compute how far a load displaces the platform.
     #[command(after_help = "Example: cdpr deflection data/robots/caroca.json --pose 0,0,1.75 --payload 50")]
@@ -77,6 +77,14 @@ enum Command {
   cdpr modes cogiro --pose 0,0,2 --below 6 --format json
   cdpr modes cogiro --pose 0,0,2 --massless")]
     Modes(pose::modes::Settings),
+    /// Follow the motion of platform and cables after events.
+    ///
+    /// From rest, at a pose or for lengths: a payload that is dropped, a cable that parts, a force, a platform
+    /// that is released, a winch that takes cable in. Cables have their mass, their sag and their elasticity,
+    /// and may go slack. The series of samples goes to --out, a CSV file, or is printed with --format csv.
+    #[command(after_help = "Example: cdpr simulate cogiro --pose 0,0,2 --payload 50 \
+                      --events data/events/payload-dropped.json --until 2 --damping 2e-4 --out series.csv")]
+    Simulate(Box<pose::simulate::Settings>),
     /// Find what a robot can carry at a pose.
     ///
     /// And how far its tensions are from their limits: with the tensions distributed again by the winches,
@@ -211,6 +219,7 @@ fn run(command: Command) -> Result<Ending, ProgramError> {
         Command::Deflection(settings) => return pose::deflection::run(&settings),
         Command::Stiffness(settings) => return pose::stiffness::run(&settings),
         Command::Modes(settings) => return pose::modes::run(&settings),
+        Command::Simulate(settings) => return pose::simulate::run(&settings),
         Command::Capacity(settings) => return pose::capacity::run(&settings),
         Command::Derivatives(settings) => return pose::derivatives::run(&settings),
         Command::Hysteresis(settings) => return pose::hysteresis::run(&settings),

@@ -9,4 +9,5 @@ pub(crate) mod hysteresis;
 pub(crate) mod inverse;
 pub(crate) mod modes;
 pub(crate) mod path;
+pub(crate) mod simulate;
 pub(crate) mod stiffness;

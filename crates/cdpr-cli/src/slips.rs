@@ -59,7 +59,7 @@ const OPTIONS: [(&str, &str); 56] = [
     ("--load", "a load is `--payload` [kg], `--force fx,fy,fz` [N] or `--moment mx,my,mz` [N m]"),
     ("--mass", "a mass on the platform is `--payload` [kg]; its own is in the robot file"),
     ("--poses", "one pose is `--pose x,y,z`"),
-    ("--certificate", "the proof of an equilibrium is requested with `--certify`"),
+    ("--certificate", "the proof of an equilibrium is requested with `--with certificate`"),
     ("--plane", "a plane is `--region z=1.75`"),
     ("--box", "a box is `--region -2:2:9,-1:1:5,1:2:3`"),
     ("--grid", "a region has its numbers of points, `--region -2:2:9,-1:1:5,1.75`"),

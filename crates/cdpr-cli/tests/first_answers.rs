@@ -66,7 +66,7 @@ fn answers_about_a_robot_and_its_calibration_are_80_columns_wide() {
         let held = [&["inverse", robot, &at, "--format", "json"], free].concat();
         let held: Value = serde_json::from_str(&answered(cdpr_in(here, &held))).unwrap();
         let lengths: Vec<_> = held["lengths"].as_array().unwrap().iter().map(ToString::to_string).collect();
-        narrow(here, &["direct", robot, "--lengths", &lengths.join(","), &at, "--certify"]);
+        narrow(here, &["direct", robot, "--lengths", &lengths.join(","), &at, "--with", "certificate"]);
         let name = |what: &str| format!("{robot}-{what}");
         let [x, y, z]: [f64; 3] =
             pose.split(',').map(|x| x.parse().unwrap()).collect::<Vec<_>>().try_into().unwrap();

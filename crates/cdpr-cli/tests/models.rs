@@ -125,7 +125,8 @@ fn the_direct_model_finds_the_equilibria_of_40_digit_arithmetic_from_a_file() {
             robot_path.to_str().unwrap(),
             "--from",
             case_path.to_str().unwrap(),
-            "--certify",
+            "--with",
+            "certificate",
         ]);
         let far = (vector(&found["position"]) - vector(&expected["position"])).norm();
         assert!(far < 1e-9, "{}: {far} m", robot.name);

@@ -336,7 +336,7 @@ fn along_a_path_lengths_are_continuous_and_jumps_have_a_column() {
     let robot = data_path("reference/robots/stadium.json");
     let path: String = (0..=20).map(|k| format!("{},-4.667,10\n", -2.5 + 0.25 * f64::from(k))).collect();
     let file = File::new(&format!("{path}0,0,100\n2.5,-4.667,10\n"));
-    let along = ["inverse", &robot, "--path"];
+    let along = ["inverse", &robot, "--with", "path"];
     let found = lines(&file.run(3, &[&along[..], &["--format", "json"]].concat()));
     let held: Vec<_> = found.iter().filter(|line| line["error"].is_null()).collect();
     assert_eq!((found.len(), held.len()), (23, 22));
@@ -350,7 +350,7 @@ fn along_a_path_lengths_are_continuous_and_jumps_have_a_column() {
     let jump = rows.headers().unwrap().iter().position(|column| column == "jump").unwrap();
     let cells: Vec<_> = rows.records().map(|row| row.unwrap()[jump].to_owned()).collect();
     assert!(cells.iter().enumerate().all(|(k, cell)| cell == if k == 21 { "" } else { "false" }));
-    let alone = cdpr(&["inverse", &robot, "--pose", "0,0,10", "--path"]);
+    let alone = cdpr(&["inverse", &robot, "--pose", "0,0,10", "--with", "path"]);
     assert_eq!(alone.status.code(), Some(2));
 }
 

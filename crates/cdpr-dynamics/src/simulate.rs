@@ -48,8 +48,7 @@ pub fn simulate(
         Some(discretization) => solve(discretization, false),
         None => solve(Discretization::TAUT, true),
     };
-    let is_slack =
-        |series: &Result<Series, _>| series.as_ref().is_ok_and(|series| series.slack.contains(&true));
+    let is_slack = |series: &Result<Series, _>| series.as_ref().is_ok_and(|series| series.slack.contains(&true));
     if settings.discretization.is_none() && (is_slack(&fine) || is_slack(&coarse)) {
         (fine, coarse) = solve(Discretization::SLACK, false);
     }

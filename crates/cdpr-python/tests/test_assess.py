@@ -41,7 +41,7 @@ def test_certificates_are_those_of_the_program(name):
     robot = cdpr.Robot.from_file(name)
     lengths = robot.inverse(ROBOTS[name]).lengths
     given = ",".join(map(repr, lengths.tolist()))
-    theirs = answer("direct", name, "--lengths", given, "--payload", "2", "--certify")["certificate"]
+    theirs = answer("direct", name, "--lengths", given, "--payload", "2", "--with", "certificate")["certificate"]
     found = robot.certify(lengths, payload=2)
     for field in ("position", "rotation", "force", "least_stiffness", "stable"):
         assert getattr(found, field) == theirs[field]

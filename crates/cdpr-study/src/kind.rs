@@ -25,6 +25,8 @@ pub enum InputKind {
     Poses,
     /// Cases of the direct model.
     Cases,
+    /// Events of a motion.
+    Events,
     /// A table or summary in a folder of results.
     Results,
     /// A table to be analysed.
@@ -44,7 +46,7 @@ impl InputKind {
         MEGABYTE
             * match self {
                 Self::Robot | Self::Cable | Self::Foreign | Self::Law => 4,
-                Self::Study | Self::Poses | Self::Cases | Self::Block | Self::Errors | Self::Measurements => {
+                Self::Study | Self::Poses | Self::Cases | Self::Events | Self::Block | Self::Errors | Self::Measurements => {
                     32
                 }
                 Self::Record => 64,
@@ -111,6 +113,7 @@ impl fmt::Display for InputKind {
             Self::Record => "a record",
             Self::Poses => "a list of poses",
             Self::Cases => "a file of cases",
+            Self::Events => "a file of events",
             Self::Results => "a file of results",
             Self::Table => "a table",
             Self::Block => "a block",

@@ -35,7 +35,7 @@ pub(crate) fn run() -> Result<(), String> {
         let choose =
             ["calibrate", "plan", &robot, "--poses", &candidates, "--number", "20", "--uncertainty", &model];
         let work = ["--work=-1.5:1.5:3,-0.8:0.8:3,1.5:2:2", "--noise", "position=1e-4,rotation=1e-4"];
-        let out = ["--criterion", criterion, "--out", &plan];
+        let out = ["--with", &format!("criterion={criterion}"), "--out", &plan];
         let found = answer(&[&choose[..], &work, &out].concat(), &[0])?;
         for (set, name) in [("plan", criterion), ("random", "random"), ("outermost", "outermost")] {
             let of = |field: &str| number(&found[set][field]);

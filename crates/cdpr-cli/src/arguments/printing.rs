@@ -94,6 +94,12 @@ pub(crate) struct Printing {
 }
 
 impl Printing {
+    /// The file for a table, where --out names one and nothing else is to be printed as CSV.
+    pub(crate) fn table_file(&self) -> Option<&Path> {
+        let is_csv = |path: &Path| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv"));
+        self.out.as_deref().filter(|path| is_csv(path) && self.format.is_none())
+    }
+
     /// The format, once the answer is directed to its file.
     pub(crate) fn format(&self) -> Format {
         let ending = self.out.as_deref().and_then(Path::extension).and_then(|ending| ending.to_str());

@@ -12,6 +12,7 @@ use crate::questions;
 use cdpr_calibration::{AtWork, Calibration, Criterion, PosePlan, Quality};
 use cdpr_robot::{Pose, Robot, counted, rounded, shown, significant};
 use cdpr_study::OutputLimit;
+use clap::ValueEnum;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -29,9 +30,11 @@ pub(crate) struct Settings {
     #[arg(long = "number", value_name = "N", default_value_t = 20)]
     #[arg(value_parser = arguments::count::<1, 100_000>)]
     count: usize,
-    /// What the set is to be best in.
-    #[arg(long, value_enum, default_value_t = CriterionName::Information)]
-    criterion: CriterionName,
+    /// criterion=NAME, what the set is to be best in: information about all parameters together (D-optimal,
+    /// if left out), parameters, for their mean variance (A-optimal), mean-position, worst-position
+    /// (G-optimal) or mean-deflection, where the robot works.
+    #[arg(long, value_name = "NAMES", value_parser = arguments::with)]
+    with: Option<arguments::With>,
     /// Positions where the robot works, as those of --region: the position with given lengths, or the
     /// deflection by the load, is to be exact there.
     #[arg(long, value_name = "REGION", value_parser = region, allow_hyphen_values = true)]
@@ -92,15 +95,28 @@ impl CriterionName {
 }
 
 impl Settings {
+    fn criterion(&self) -> Result<CriterionName, ProgramError> {
+        let with = self.with.clone().unwrap_or_default();
+        with.check(&["criterion"])?;
+        let found = with.value("criterion", None, |name| {
+            let names = || CriterionName::value_variants().iter().filter_map(ValueEnum::to_possible_value);
+            CriterionName::from_str(name, true).map_err(|_| {
+                let names: Vec<_> = names().map(|name| name.get_name().to_owned()).collect();
+                format!("expected {}", names.join(", "))
+            })
+        })?;
+        Ok(found.unwrap_or(CriterionName::Information))
+    }
+
     /// What is to be exact where the robot works, and how exact [m].
     fn at_work(&self) -> Result<(AtWork, Option<f64>), ProgramError> {
-        let (_, of_criterion) = self.criterion.meant();
+        let (_, of_criterion) = self.criterion()?.meant();
         let Some(limit) = &self.limit else { return Ok((of_criterion.unwrap_or(AtWork::Position), None)) };
         let (name, most) =
             arguments::upper(limit, &["position_mm", "deflection_mm"]).map_err(ProgramError::Usage)?;
         let of = if name == "position_mm" { AtWork::Position } else { AtWork::Deflection };
         if of_criterion.is_some_and(|criterion| criterion != of) {
-            let usage = format!("--limit {name} and --criterion: expected both of the same quantity");
+            let usage = format!("--limit {name} and --with criterion: expected both of the same quantity");
             return Err(ProgramError::Usage(usage));
         }
         Ok((of, Some(1e-3 * most)))
@@ -108,14 +124,14 @@ impl Settings {
 }
 
 pub(super) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
-    let (criterion, of_work) = settings.criterion.meant();
+    let (criterion, of_work) = settings.criterion()?.meant();
     let (of, accuracy) = settings.at_work()?;
     let robot = settings.preference.open_robot(settings.robot.path())?;
     let candidates = settings.candidates.read(&robot)?;
     let measurements = settings.known.measurements(&robot)?;
     let uncertainties = settings.known.deviations(&robot)?;
     if of_work.is_some() && settings.work.is_none() {
-        let usage = "--criterion: expected --work, too, where the robot works";
+        let usage = "--with criterion: expected --work, too, where the robot works";
         return Err(ProgramError::Usage(usage.to_owned()));
     }
     let mut calibration = Calibration::new(&robot, &uncertainties)?.with_free(&settings.free.free);

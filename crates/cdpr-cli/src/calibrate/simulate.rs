@@ -14,12 +14,6 @@ use cdpr_robot::{CableEnd, counted};
 use serde_json::json;
 use std::path::PathBuf;
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-enum CellsAt {
-    Platform,
-    Winch,
-}
-
 /// A robot that deviates from its file, and what is measured.
 #[derive(clap::Args)]
 pub(crate) struct Settings {
@@ -33,9 +27,9 @@ pub(crate) struct Settings {
     noise: NoiseArgument,
     #[command(flatten)]
     sensors: SensorArguments,
-    /// Where the load cells sit.
-    #[arg(long, value_enum, default_value_t = CellsAt::Platform)]
-    tension_at: CellsAt,
+    /// winch-cells: load cells sit at the winches, where they are at the platform otherwise.
+    #[arg(long, value_name = "NAMES", value_parser = arguments::with)]
+    with: Option<arguments::With>,
     #[command(flatten)]
     load: LoadArguments,
     #[command(flatten)]
@@ -60,6 +54,8 @@ pub(crate) struct Settings {
 
 pub(super) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     let robot = settings.preference.open_robot(settings.robot.path())?;
+    let with = settings.with.clone().unwrap_or_default();
+    with.check(&["winch-cells"])?;
     let poses = settings.candidates.read(&robot)?;
     let model = settings.uncertainty.needed(&robot)?;
     let noise = settings.noise.named(&robot);
@@ -88,10 +84,7 @@ pub(super) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
         noise,
         markers: &markers,
         errors: &errors,
-        tension_at: match settings.tension_at {
-            CellsAt::Platform => CableEnd::Anchor,
-            CellsAt::Winch => CableEnd::Exit,
-        },
+        tension_at: if with.has("winch-cells")? { CableEnd::Exit } else { CableEnd::Anchor },
         seed: settings.seed,
     })?;
     let (header, lines) = write_measurements(&rows);

@@ -40,9 +40,9 @@ pub(crate) struct Settings {
     /// Where the search starts; if left out, where straight cables would hold a point.
     #[command(flatten)]
     pose: PoseArguments,
-    /// Prove how close the exact equilibrium is.
-    #[arg(long)]
-    certify: bool,
+    /// certificate: prove how close the exact equilibrium is.
+    #[arg(long, value_name = "NAMES", value_parser = arguments::with)]
+    with: Option<arguments::With>,
     /// JSON file with cases: one, a list, or one a line, as `cdpr inverse --format json` prints them; - for
     /// the standard input.
     ///
@@ -83,7 +83,7 @@ struct Case {
 
 pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     let robot = questions::open_robot(settings.robot.path())?;
-    let name = shown(&robot.name);
+    let (name, certify) = (shown(&robot.name), settings.certify()?);
     let cases = match (&settings.from, &settings.lengths) {
         (Some(path), _) => Cases::read(path)?,
         (None, lengths) => Cases::One(Box::new(settings.case(lengths.as_ref())?)),
@@ -91,7 +91,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     match cases {
         Cases::One(case) => {
             case.question(&robot);
-            let answer = patiently("solving", || solve(&robot, &case, "the equilibrium", settings.certify));
+            let answer = patiently("solving", || solve(&robot, &case, "the equilibrium", certify));
             let answer = match &settings.from {
                 Some(path) => answer.map_err(ProgramError::in_file(path))?,
                 None => answer?,
@@ -104,7 +104,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
             let progress = progress(cases.len(), "cases");
             let answer = |(i, case): (usize, &Case)| {
                 let name = format!("the equilibrium of case {}", i + 1);
-                let answer = solve(&robot, case, &name, settings.certify).into();
+                let answer = solve(&robot, case, &name, certify).into();
                 progress.inc(1);
                 answer
             };
@@ -122,6 +122,12 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
 }
 
 impl Settings {
+    fn certify(&self) -> Result<bool, ProgramError> {
+        let with = self.with.clone().unwrap_or_default();
+        with.check(&["certificate"])?;
+        with.has("certificate")
+    }
+
     fn case(&self, lengths: Option<&arguments::List>) -> Result<Case, ProgramError> {
         let pose = self.pose.given()?.map(|pose| poses::pose_numbers(&pose).to_vec());
         Ok(Case {
@@ -131,7 +137,7 @@ impl Settings {
             moment: self.moment,
             payload: self.payload,
             pose,
-            certify: self.certify,
+            certify: self.certify()?,
             ..Case::default()
         })
     }

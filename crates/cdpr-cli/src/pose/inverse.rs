@@ -20,23 +20,27 @@ pub(crate) struct Settings {
     at: RobotAtPose,
     #[command(flatten)]
     free: FreeArguments,
-    /// The poses of the file are a path: lengths change steadily along it, and `jump` says where they cannot.
+    /// path: the poses of the file are a path, along which lengths change steadily; `jump` says where they
+    /// cannot. loops: with free coordinates also solutions whose cables are of any length.
     ///
-    /// Several sets of tensions may be the best of all near them. Each pose then keeps to the one of the pose
-    /// before, as long as it exists between them, even where another becomes better.
-    #[arg(long, requires = "poses", conflicts_with = "free")]
-    path: bool,
-    /// With free coordinates also solutions of a kind: loops, whose cables are of any length.
-    #[arg(long, value_name = "NAMES", value_parser = with, requires = "free")]
+    /// Several sets of tensions may be the best of all near them. Each pose of a path then keeps to the one of
+    /// the pose before, as long as it exists between them, even where another becomes better.
+    #[arg(long, value_name = "NAMES", value_parser = with)]
     with: Option<With>,
 }
 
-pub(crate) fn run(Settings { at, free, path, with }: &Settings) -> Result<Ending, ProgramError> {
+pub(crate) fn run(Settings { at, free, with }: &Settings) -> Result<Ending, ProgramError> {
     let load = at.load.load();
     let with = with.clone().unwrap_or_default();
-    with.check(&["loops"])?;
+    with.check(&["path", "loops"])?;
     let loops = with.has("loops")?;
-    if *path {
+    if loops && free.free.is_empty() {
+        return Err(ProgramError::Usage("--with loops: expected --free, too".to_owned()));
+    }
+    if with.has("path")? {
+        if !free.free.is_empty() {
+            return Err(ProgramError::Usage("--with path: expected no --free".to_owned()));
+        }
         let robot = at.robot()?;
         let mut path = InversePath::new(&robot);
         return at.answer_in_order(&robot, |pose| {

@@ -92,7 +92,7 @@ impl Settings {
 }
 
 /// The robot, with an assumed inertia where it has none and rotates.
-fn with_inertia(robot: &Robot) -> Cow<'_, Robot> {
+pub(crate) fn with_inertia(robot: &Robot) -> Cow<'_, Robot> {
     if robot.platform.inertia.is_some() || (3..6).all(|k| !robot.freedoms().contains(k)) {
         return Cow::Borrowed(robot);
     }

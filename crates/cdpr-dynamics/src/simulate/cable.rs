@@ -115,8 +115,9 @@ impl CableInMotion<'_> {
         let mut points = Points { positions: Vec::with_capacity(size), velocities: Vec::with_capacity(size) };
         let begin = match &self.start {
             Start::Fixed(exit) => [*exit, Vector3::zeros()],
-            Start::Led(lead) => way
-                .map_or([Vector3::zeros(); 2], |way| [lead.end(&way, own[0][0]), way.direction * own[1][0]]),
+            Start::Led(lead) => way.map_or([Vector3::zeros(); 2], |way| {
+                [lead.end(&way, own[0][0]), way.direction * own[1][0]]
+            }),
             Start::Loose => own.map(|own| Vector3::from_column_slice(&own[..3])),
         };
         points.positions.push(begin[0]);

@@ -201,11 +201,7 @@ pub(super) fn check(problem: &DirectProblem, events: &[Event]) -> Result<(), Dyn
                 for k in 0..6 {
                     if !motion[k].is_finite() || (motion[k] != 0.0 && !free.contains(k)) {
                         let expected = "a number, 0 for a motion that the platform has not";
-                        return wrong(
-                            &format!("displace[{k}]"),
-                            format!("{:?}", motion[k]),
-                            expected.to_owned(),
-                        );
+                        return wrong(&format!("displace[{k}]"), format!("{:?}", motion[k]), expected.to_owned());
                     }
                 }
             }
@@ -219,11 +215,7 @@ pub(super) fn check(problem: &DirectProblem, events: &[Event]) -> Result<(), Dyn
                     return wrong("shorten.by", format!("{by:?}"), expected);
                 }
                 if !(over.is_finite() && *over > 0.0) {
-                    return wrong(
-                        "shorten.over",
-                        format!("{over:?}"),
-                        "a duration [s] above zero".to_owned(),
-                    );
+                    return wrong("shorten.over", format!("{over:?}"), "a duration [s] above zero".to_owned());
                 }
             }
         }

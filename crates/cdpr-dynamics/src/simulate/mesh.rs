@@ -156,10 +156,10 @@ impl Mesh {
     }
 
     pub(super) fn parts(&self, rule: &Rule, length: f64) -> impl Iterator<Item = Part> {
-        self.ends
-            .windows(2)
-            .enumerate()
-            .map(move |(e, ends)| Part { first: e * rule.degree, length: length * (ends[1] - ends[0]) })
+        self.ends.windows(2).enumerate().map(move |(e, ends)| Part {
+            first: e * rule.degree,
+            length: length * (ends[1] - ends[0]),
+        })
     }
 
     /// Number of points.

@@ -286,10 +286,9 @@ impl<S: Equations> Radau<S> {
     /// By how much the step may change (K. Gustafsson's predictive control).
     fn factor(&self, h: f64, error: f64) -> f64 {
         let error = error.max(1e-10);
-        let predicted = self
-            .last
-            .as_ref()
-            .map_or(1.0, |(last, _, before)| h / last * (before.max(1e-10) / error).powf(0.25));
+        let predicted = self.last.as_ref().map_or(1.0, |(last, _, before)| {
+            h / last * (before.max(1e-10) / error).powf(0.25)
+        });
         predicted.min(1.0) * error.powf(-0.25)
     }
 }

@@ -359,16 +359,13 @@ impl System<'_> {
             for k in 0..2 {
                 let own = &parts[k][range.clone()];
                 let more = cable.size(&self.rule) + usize::from(matches!(was.start, Start::Led(_)));
-                if more > own.len()
-                    && matches!(cable.start, Start::Loose)
-                    && !matches!(was.start, Start::Loose)
-                {
+                if more > own.len() && matches!(cable.start, Start::Loose) && !matches!(was.start, Start::Loose) {
                     halves[k].extend(begin[k].iter());
                     halves[k].extend(&own[usize::from(matches!(was.start, Start::Led(_)))..]);
                 } else {
                     halves[k].extend(own);
                 }
-                let usual = if k == 0 { scale[0] } else { scale[n] };
+                let usual = if k == 0 { scale[n - 1] } else { scale[2 * n - 1] };
                 let size = halves[k].len();
                 scales[k].resize(size, usual);
             }

@@ -120,8 +120,7 @@ impl System<'_> {
             bodies.push((part.mass, end.lever, part.force + part.mass * self.gravity));
         }
         let (mut total, mut first, mut second) = (0.0, Vector3::zeros(), inertia);
-        let (mut force, mut moment) =
-            (body.force(), body.moment() - frame.spin.cross(&(inertia * frame.spin)));
+        let (mut force, mut moment) = (body.force(), body.moment() - frame.spin.cross(&(inertia * frame.spin)));
         for (mass, lever, pull) in bodies {
             let pulling = pull - mass * frame.spin.cross(&frame.spin.cross(&lever));
             force += pulling;
@@ -208,10 +207,10 @@ impl Equations for System<'_> {
         rates[..3].copy_from_slice(frame.velocity.as_slice());
         let turn = rotation_rate(&Vector3::from_column_slice(&state[3..6]), &frame.spin);
         rates[3..6].copy_from_slice(turn.as_slice());
-        let motion = acting
-            .mass
-            .cholesky()
-            .map_or_else(|| Vector6::repeat(f64::NAN), |factors| factors.solve(&acting.wrench));
+        let motion = acting.mass.cholesky().map_or_else(
+            || Vector6::repeat(f64::NAN),
+            |factors| factors.solve(&acting.wrench),
+        );
         accelerations[..6].copy_from_slice(motion.as_slice());
         for (cable, (_, at)) in self.cables.iter().zip(&instants) {
             let range = cable.first..cable.first + cable.size(&self.rule);
@@ -292,8 +291,9 @@ impl Linearization for Matrices {
 
     fn factor<T: ComplexField<RealField = f64> + Copy>(&self, shift: T) -> Option<Factors<T>> {
         let real = T::from_real;
-        let mut platform =
-            self.mass.map(real) * (shift * shift) + self.damping.map(real) * shift + self.stiffness.map(real);
+        let mut platform = self.mass.map(real) * (shift * shift)
+            + self.damping.map(real) * shift
+            + self.stiffness.map(real);
         let mut cables = Vec::with_capacity(self.cables.len());
         for cable in &self.cables {
             let mut band = cable.stiffness.map(&cable.damping, |k, c| real(k) + shift * real(c));
