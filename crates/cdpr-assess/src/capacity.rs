@@ -9,7 +9,7 @@
 //! margin = min over the set of the distance from the tensions to the nearest limit (W2)
 //! ```
 //!
-//! With the tensions *distributed anew* they are the best that the limits allow, see
+//! With the tensions *recomputed* they are the best that the limits allow, see
 //! [`cdpr_statics::capacity::greatest_payload`] and [`cdpr_statics::capacity::tension_margin`]; both are
 //! concave in the wrench if the cables are straight, so that the corners of a box stand for all of it
 //! (Bouchard, Gosselin, Moore, *On the ability of a cable-driven robot to generate a prescribed set of
@@ -77,15 +77,15 @@ impl WrenchSet {
 /// What can be carried at a pose.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Capacity {
-    /// Greatest payload [kg], tensions distributed anew.
-    pub payload_anew: Result<Figure, StaticsError>,
+    /// Greatest payload [kg], tensions recomputed.
+    pub payload_recomputed: Result<Figure, StaticsError>,
     /// Greatest payload [kg] with the lengths kept: until a tension reaches any of its limits.
     pub payload_kept: Result<Figure, StaticsError>,
     /// Greatest payload [kg] with the lengths kept, whichever cables become slack: until a tension reaches
     /// its greatest value or a breaking force.
     pub payload_kept_slack: Result<Figure, StaticsError>,
-    /// Margin of the tensions [N], distributed anew.
-    pub margin_anew: Result<Figure, StaticsError>,
+    /// Margin of the tensions [N], recomputed.
+    pub margin_recomputed: Result<Figure, StaticsError>,
     /// Margin of the tensions [N] with the lengths kept.
     pub margin_kept: Result<Figure, StaticsError>,
 }
@@ -148,7 +148,7 @@ pub enum Block {
 ///
 /// Margins are those under the whole `load`; payloads are found beside its wrench, in place of its payload.
 /// The wrenches of `set` add to the load. Free coordinates are found under each load, if the tensions are
-/// distributed anew.
+/// recomputed.
 pub fn capacity_at<'a>(
     robot: &Robot,
     wanted: impl Into<WantedPose<'a>>,
@@ -190,7 +190,7 @@ pub(crate) fn capacity_of(
             .direct(DirectStart::Near(&equilibrium))?;
         Ok(Rest { lengths, equilibrium, stands: Some((none, found)) })
     });
-    let anew = |load: &Load, near: &Rest| rest_on(robot, near, load, free);
+    let recomputed = |load: &Load, near: &Rest| rest_on(robot, near, load, free);
     let kept = |load: &Load, near: &Rest| near.under(robot, load);
     let payload = |(first, answer): Way, counts: fn(Limit) -> bool| {
         set.least(smallest, |wrench| {
@@ -205,7 +205,7 @@ pub(crate) fn capacity_of(
             Ok((nearest.distance, vec![nearest.block()]))
         })
     };
-    let (anew, kept): (Way, Way) = ((&first, &anew), (&unloaded, &kept));
+    let (recomputed, kept): (Way, Way) = ((&first, &recomputed), (&unloaded, &kept));
     let any = |limit| limit != Limit::MaxElsewhere;
     let payload_kept = payload(kept, any);
     let is_max = |limit: Limit| matches!(limit, Limit::Max | Limit::BreakingForce | Limit::Strain);
@@ -213,10 +213,10 @@ pub(crate) fn capacity_of(
         figure.blocking.iter().all(|block| matches!(block, Block::Limit { limit, .. } if is_max(*limit)))
     });
     Capacity {
-        payload_anew: if free.is_empty() {
+        payload_recomputed: if free.is_empty() {
             set.least(smallest, |wrench| greatest_payload(robot, pose, wrench).map(found))
         } else {
-            payload(anew, any)
+            payload(recomputed, any)
         },
         payload_kept_slack: if first_is_max && set.wrenches.len() == 1 {
             payload_kept.clone()
@@ -224,12 +224,12 @@ pub(crate) fn capacity_of(
             payload(kept, |limit| matches!(limit, Limit::Max | Limit::BreakingForce))
         },
         payload_kept,
-        margin_anew: if free.is_empty() {
+        margin_recomputed: if free.is_empty() {
             set.least(smallest_force, |wrench| {
                 tension_margin(robot, pose, &loaded(load.payload, wrench)).map(found)
             })
         } else {
-            margin(anew)
+            margin(recomputed)
         },
         margin_kept: margin(kept),
     }

@@ -77,7 +77,7 @@ pub fn clearance_at(
     Ok(clearance)
 }
 
-/// The distances of the cables that bear `load` at a wanted pose, with the tensions distributed anew.
+/// The distances of the cables that bear `load` at a wanted pose, with the tensions recomputed.
 ///
 /// # Errors
 /// Those of [`inverse`].

@@ -53,6 +53,10 @@ pub fn inspect(robot: &Robot) -> Vec<Finding> {
     let doubts = plausible::robot(robot).into_iter().map(Finding::from);
     let mut findings = Findings { robot, list: doubts.collect() };
     let doubtful = !findings.list.is_empty();
+    // Of points in another unit nothing follows that would be of use.
+    if findings.list.iter().any(|finding| finding.field == "cables[*].exit_point") {
+        return findings.list;
+    }
     findings.gravity();
     findings.limits();
     findings.points();
@@ -201,9 +205,19 @@ impl Findings<'_> {
             cables.iter().map(|cable| cable.exit_point).collect(),
             cables.iter().map(|cable| cable.anchor_point).collect(),
         ];
+        let together = cables.len() > 1 && anchors.iter().all(|point| (point - anchors[0]).norm() < 1e-9);
+        if together && !self.robot.platform.point {
+            self.add(
+                Severity::Note,
+                "cables[*].anchor_point",
+                format!("{:?} m", anchors[0].as_slice()),
+                "one place for all cables, which hold no rotation of the platform there",
+                "\"point\": true in `platform` for a point mass, such as a camera",
+            );
+        }
         for (name, points) in [("exit_point", &exits), ("anchor_point", &anchors)] {
-            // All cables of a point mass end at one place.
-            if self.robot.platform.point && name == "anchor_point" {
+            // That of all cables has been said.
+            if together && name == "anchor_point" {
                 continue;
             }
             for (j, point) in points.iter().enumerate() {

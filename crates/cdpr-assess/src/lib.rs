@@ -38,7 +38,7 @@ pub use robustness::{
 pub use tilt::{Tilt, TiltTowards, tilt_at};
 pub use tolerance::{Limit, Limited, Reached, Tolerance, ToleranceBudget, tolerance_budget};
 pub use workspace::question::{Further, TiltDirections, Way, Workspace};
-pub use workspace::results::{Anew, Dominant, HELD, Held, WorkspacePose};
+pub use workspace::results::{Dominant, HELD, Held, Recomputed, WorkspacePose};
 pub use workspace::row::WorkspaceRow;
 pub use workspace::summary::{BoundarySummary, WorkspaceSummary};
 pub use workspace::{compute_workspace, workspace_boundary};

@@ -7,7 +7,7 @@
 //! ```
 //!
 //! so that its upward axis leans towards θ. α grows in steps of 15° while tensions within the limits,
-//! distributed anew, hold the platform ([`cdpr_statics::is_feasible`]); then bisection finds the angle at which
+//! recomputed, hold the platform ([`cdpr_statics::is_feasible`]); then bisection finds the angle at which
 //! they end. A gap that lies between two steps is not seen. The orientation workspace of cable-driven robots
 //! is defined so by Gouttefarde, Merlet, Daney (*Wrench-feasible workspace of parallel cable-driven
 //! mechanisms*, ICRA 2007), as the orientations at a position that are wrench-feasible.

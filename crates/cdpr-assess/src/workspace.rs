@@ -3,7 +3,7 @@
 //!
 //! A load can come onto the platform in two ways. Where the lengths are kept, as in the paper, the platform
 //! yields, and its tensions are what the direct model says. Where the winches hold the pose, the tensions are
-//! distributed anew, by the inverse model with the load. A pose may be held in one way and not in the other.
+//! recomputed, by the inverse model with the load. A pose may be held in one way and not in the other.
 
 pub(crate) mod question;
 pub(crate) mod results;
@@ -15,7 +15,7 @@ use crate::capacity::capacity_of;
 use crate::clearance::clearance_at;
 use crate::tilt::tilt_at;
 use crate::workspace::question::{TiltDirections, Way, Workspace, check};
-use crate::workspace::results::{Anew, Dominant, Held, WorkspacePose};
+use crate::workspace::results::{Dominant, Held, Recomputed, WorkspacePose};
 use cdpr_dynamics::Swing;
 use cdpr_robot::{Axis, Pose, Vector3};
 use cdpr_statics::batch::{LoadedPose, PoseSlopes, loaded_poses};
@@ -65,7 +65,8 @@ pub fn compute_workspace(
                 return Err(StudyError::Stopped);
             }
             let loaded = loaded.get(k).map(|found| found.as_ref().map_err(Clone::clone));
-            let anew = loaded.clone().filter(|_| has_load).map(|found| Anew::of(workspace, found?));
+            let recomputed =
+                loaded.clone().filter(|_| has_load).map(|found| Recomputed::of(workspace, found?));
             let capacity = further.capacity.zip(unloaded.get(k)).map(|(set, found)| {
                 Box::new(capacity_of(robot, pose, &load, set, free, found.as_ref().map_err(Clone::clone)))
             });
@@ -76,7 +77,7 @@ pub fn compute_workspace(
                 Box::new(tilt_at(robot, pose, &load, count, accuracy))
             });
             tick();
-            Ok(WorkspacePose { pose: *pose, outcome, anew, capacity, clearance, tilt })
+            Ok(WorkspacePose { pose: *pose, outcome, recomputed, capacity, clearance, tilt })
         };
         poses.par_iter().enumerate().zip(outcomes(workspace, poses)).map(one).collect()
     };
@@ -188,7 +189,7 @@ fn tensions_at_rest<'a>(
     Ok(&wound_up.tensions)
 }
 
-impl Anew {
+impl Recomputed {
     fn of(workspace: &Workspace, wound_up: &InverseSolution) -> Result<Self, StaticsError> {
         let [least_tension, greatest_tension] = range(tensions_at_rest(workspace, wound_up)?);
         Ok(Self { least_tension, greatest_tension })
@@ -214,14 +215,14 @@ pub fn workspace_boundary(
     let is_inside = |position: &Vector3<f64>| {
         let pose = Pose { position: *position, rotation };
         match (way, free) {
-            (Way::Anew, []) => has_tensions(&pose, load),
+            (Way::Recomputed, []) => has_tensions(&pose, load),
             (Way::Kept, []) if !has_tensions(&pose, &Load::none()) => false,
             (Way::Kept, []) => {
                 loaded_from(workspace, &[inverse(robot, &pose, &Load::none())]).into_iter().all(within)
             }
             (Way::Kept, _) => within(held_free(workspace, &pose).map(|(held, _)| held)),
             // Free coordinates are found whatever the limits are.
-            (Way::Anew, _) => wound_up(workspace, &[pose], load).into_iter().flatten().any(|found| {
+            (Way::Recomputed, _) => wound_up(workspace, &[pose], load).into_iter().flatten().any(|found| {
                 let within = |(i, t): (usize, &f64)| *t <= robot.limits(i).max && *t >= robot.limits(i).min;
                 tensions_at_rest(workspace, &found)
                     .is_ok_and(|tensions| tensions.iter().enumerate().all(within))

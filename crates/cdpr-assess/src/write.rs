@@ -30,10 +30,10 @@ pub fn begin_workspace(folder: &Path, if_exists: IfExists) -> Result<ResultsFold
             "platform_frequency",
             "dominant_tolerance",
             "greatest_tension",
-            "greatest_tension_anew",
-            "payload_anew",
+            "greatest_tension_recomputed",
+            "payload_recomputed",
             "payload_kept",
-            "margin_anew",
+            "margin_recomputed",
             "nearest_cables",
             "nearest_to_platform",
             "tilt",
@@ -87,7 +87,7 @@ pub struct FoundRegion {
     pub robot: String,
     /// Hash of the robot ([`cdpr_study::robot_hash`]).
     pub robot_hash: String,
-    /// How the load is borne: `anew` or `kept`.
+    /// How the load is borne: `recomputed` or `kept`.
     pub way: String,
     /// Mass added at the platform's centre of mass [kg].
     pub payload: f64,

@@ -40,8 +40,8 @@ fn of_weightless_cables_the_figures_are_those_of_the_linear_program() {
     let mut worst = [0.0_f64; 3];
     for (pose, row) in &poses {
         let found = capacity_at(&robot, pose, &Load::none(), &alone);
-        let margin = capacity_at(&robot, pose, &Load::none(), &boxed).margin_anew;
-        let figures = [found.payload_anew, found.margin_anew, margin];
+        let margin = capacity_at(&robot, pose, &Load::none(), &boxed).margin_recomputed;
+        let figures = [found.payload_recomputed, found.margin_recomputed, margin];
         let names = ["straight_payload", "straight_margin", "straight_box_margin"];
         for ((figure, name), worst) in figures.into_iter().zip(names).zip(&mut worst) {
             let exact = row[name].as_f64().unwrap();
@@ -60,7 +60,7 @@ fn of_sagging_cables_payload_and_distances_are_those_of_an_independent_program()
     for (pose, row) in &poses {
         let found = capacity_at(&robot, pose, &Load::none(), &WrenchSet::of(Vec::new()));
         let exact = row["payload"].as_f64().unwrap();
-        let payload = found.payload_anew.unwrap().value;
+        let payload = found.payload_recomputed.unwrap().value;
         payloads = payloads.max((payload / exact - 1.0).abs());
         assert!(payload < row["straight_payload"].as_f64().unwrap());
 
@@ -102,7 +102,7 @@ fn with_the_lengths_kept_the_payload_ends_where_a_tension_reaches_its_limit() {
         let payload = found.payload_kept_slack.unwrap().value;
         assert!(payload >= found.payload_kept.unwrap().value);
         // Payloads are those of two poses, because the platform yields; margins are those of one.
-        assert!(found.margin_anew.unwrap().value > found.margin_kept.unwrap().value);
+        assert!(found.margin_recomputed.unwrap().value > found.margin_kept.unwrap().value);
     }
 }
 
@@ -112,8 +112,9 @@ fn with_free_coordinates_the_payload_ends_where_a_tension_reaches_its_limit() {
     let free = [Coordinate::Roll, Coordinate::Pitch];
     let set = WrenchSet::of(Vec::new());
     for pose in [Pose::at(0.5, 0.3, 2.0), Pose::at(0.4, 0.2, 1.5)] {
-        let found =
-            capacity_at(&robot, WantedPose::at(&pose).free(&free), &Load::none(), &set).payload_anew.unwrap();
+        let found = capacity_at(&robot, WantedPose::at(&pose).free(&free), &Load::none(), &set)
+            .payload_recomputed
+            .unwrap();
         let [Block::Limit { cable, limit: Limit::Max, value, .. }] = found.blocking[..] else {
             panic!("{found:?}")
         };
@@ -154,13 +155,13 @@ fn few_cables_points_and_planes_have_a_capacity_or_say_why_not() {
     few.cables = [1, 3, 5, 7].map(|i| few.cables[i].clone()).to_vec();
     let set = WrenchSet::of(Vec::new());
     let pose = Pose::at(0.3, 0.2, 2.0);
-    let refused = capacity_at(&few, pose, &Load::none(), &set).payload_anew.unwrap_err();
+    let refused = capacity_at(&few, pose, &Load::none(), &set).payload_recomputed.unwrap_err();
     assert!(matches!(refused, StaticsError::FreeCoordinates { cables: 4, .. }));
     let free = [Coordinate::Roll, Coordinate::Yaw];
     let found = capacity_at(&few, WantedPose::at(&pose).free(&free), &Load::none(), &set);
     // No stable solution has this pose.
     assert!(matches!(found.payload_kept, Err(StaticsError::Unstable { .. })));
-    let payload = found.payload_anew.unwrap();
+    let payload = found.payload_recomputed.unwrap();
     let Block::Limit { cable, limit: Limit::Max, value, .. } = payload.blocking[0] else { panic!() };
     let rests =
         free_solutions(&few, WantedPose::at(&pose).free(&free), &Load::payload(payload.value)).unwrap();
@@ -172,7 +173,7 @@ fn few_cables_points_and_planes_have_a_capacity_or_say_why_not() {
     point.cables.iter_mut().for_each(|cable| cable.anchor_point = Vector3::zeros());
     point.platform.point = true;
     let found = capacity_at(&point, pose, &Load::none(), &set);
-    assert!(found.payload_anew.unwrap().value > 100.0 && found.margin_anew.unwrap().value > 0.0);
+    assert!(found.payload_recomputed.unwrap().value > 100.0 && found.margin_recomputed.unwrap().value > 0.0);
     let held = inverse(&point, &pose, &Load::none()).unwrap();
     let clearance = clearance_at(&point, &held.lengths, &held.equilibrium).unwrap();
     assert_eq!((clearance.cables, clearance.platform), (None, None));

@@ -28,12 +28,12 @@ fn a_robot_with_four_cables_has_a_workspace_of_its_held_coordinates() {
         assert_eq!(held.displacement, exact.displacement());
         assert_eq!(held.least_stiffness, exact.loaded.stability.least_stiffness());
         assert!(held.swing.unwrap().lowest > 0.0 && held.dominant.is_some());
-        let anew = inverse(&robot, WantedPose::at(&found.pose).free(&free), &workspace.load)
+        let recomputed = inverse(&robot, WantedPose::at(&found.pose).free(&free), &workspace.load)
             .unwrap()
             .equilibrium
             .tensions();
-        let range = found.anew.clone().unwrap().unwrap();
-        assert!(anew.contains(&range.least_tension) && anew.contains(&range.greatest_tension));
+        let range = found.recomputed.clone().unwrap().unwrap();
+        assert!(recomputed.contains(&range.least_tension) && recomputed.contains(&range.greatest_tension));
     }
     let workspace = Workspace { free: &free[..1], ..workspace };
     let message = compute_workspace(&workspace, &|| (), &|| false).unwrap_err().to_string();
@@ -54,9 +54,10 @@ fn tensions_of_a_map_with_free_coordinates_are_within_their_limits() {
         further: Further::default(),
     };
     let poses = compute_workspace(&workspace, &|| (), &|| false).unwrap();
-    let anew: Vec<_> = poses.iter().filter_map(|found| found.anew.as_ref()?.as_ref().ok()).collect();
-    assert_eq!((poses.len(), anew.len()), (36, 27));
-    assert!(anew.iter().all(|range| range.least_tension >= 10.0 && range.greatest_tension <= 5000.0));
+    let recomputed: Vec<_> =
+        poses.iter().filter_map(|found| found.recomputed.as_ref()?.as_ref().ok()).collect();
+    assert_eq!((poses.len(), recomputed.len()), (36, 27));
+    assert!(recomputed.iter().all(|range| range.least_tension >= 10.0 && range.greatest_tension <= 5000.0));
 }
 
 #[test]
@@ -77,8 +78,8 @@ fn a_position_that_is_held_upside_down_alone_is_unstable() {
     for found in poses {
         // The platform is upright on the line y = 0.06 m alone.
         let upright = found.pose.position.y < 0.1;
-        let anew = found.anew.as_ref().unwrap();
+        let recomputed = found.recomputed.as_ref().unwrap();
         assert_eq!(found.outcome.as_ref().err().map(kind), (!upright).then_some("unstable"));
-        assert_eq!(anew.as_ref().err().map(kind), (!upright).then_some("unstable"));
+        assert_eq!(recomputed.as_ref().err().map(kind), (!upright).then_some("unstable"));
     }
 }

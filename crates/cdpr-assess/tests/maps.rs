@@ -247,22 +247,22 @@ fn check(robot: &Robot, load: &Load, found: &WorkspacePose, most: f64) -> Result
         let (one, other) = (one.map(StaticsError::kind), other.map(StaticsError::kind));
         if one == other { Ok(()) } else { Err(format!("{what}: {one:?} for {other:?}")) }
     };
-    let anew = (*load != Load::none()).then(|| inverse(robot, &found.pose, load));
+    let recomputed = (*load != Load::none()).then(|| inverse(robot, &found.pose, load));
     failures(
-        "anew",
-        found.anew.as_ref().and_then(|anew| anew.as_ref().err()),
-        anew.as_ref().and_then(|anew| anew.as_ref().err()),
+        "recomputed",
+        found.recomputed.as_ref().and_then(|recomputed| recomputed.as_ref().err()),
+        recomputed.as_ref().and_then(|recomputed| recomputed.as_ref().err()),
     )?;
-    if let (Some(Ok(found)), Some(Ok(anew))) = (&found.anew, anew) {
+    if let (Some(Ok(found)), Some(Ok(recomputed))) = (&found.recomputed, recomputed) {
         same(
-            "least tension anew",
+            "least tension recomputed",
             found.least_tension,
-            anew.tensions.iter().copied().fold(f64::MAX, f64::min),
+            recomputed.tensions.iter().copied().fold(f64::MAX, f64::min),
         )?;
         same(
-            "greatest tension anew",
+            "greatest tension recomputed",
             found.greatest_tension,
-            anew.tensions.iter().copied().fold(0.0, f64::max),
+            recomputed.tensions.iter().copied().fold(0.0, f64::max),
         )?;
     }
     let kept = deflection(robot, &found.pose, load);

@@ -99,9 +99,9 @@ fn every_position_is_what_the_models_say_of_it() {
         assert!((held.least_stiffness - stiffness).abs() < SAME * stiffness);
         assert_eq!(held.swing, None);
         assert!(held.is_within_limits());
-        let anew = inverse(&robot, &pose, &Load::payload(50.0)).unwrap().tensions;
-        let found = found.anew.clone().unwrap().unwrap();
-        assert_range(&anew, [found.least_tension, found.greatest_tension]);
+        let recomputed = inverse(&robot, &pose, &Load::payload(50.0)).unwrap().tensions;
+        let found = found.recomputed.clone().unwrap().unwrap();
+        assert_range(&recomputed, [found.least_tension, found.greatest_tension]);
 
         let variances: Vec<f64> = deviations.iter().map(|std| std * std).collect();
         let (left, right) = (exact.magnitude().unwrap(), exact.right().magnitude().unwrap());
@@ -178,14 +178,14 @@ fn the_stadium_robot_is_held_wherever_an_independent_program_finds_tensions() {
         let rows = file["poses"].as_array().unwrap().iter().filter(|row| row[0] == payload);
         let rows: Vec<_> = rows.collect();
         assert_eq!(rows.len(), poses.len());
-        let (mut kept, mut anew, mut independent) = (0, 0, 0);
+        let (mut kept, mut recomputed, mut independent) = (0, 0, 0);
         for (row, found) in rows.iter().zip(&poses) {
             let position = found.pose.position;
             assert_eq!((row[1].as_f64(), row[2].as_f64()), (Some(position.x), Some(position.y)));
             kept += usize::from(found.outcome.as_ref().is_ok_and(cdpr_assess::Held::is_within_limits));
             let tensions = inverse(&robot, &found.pose, &load);
-            anew += usize::from(tensions.is_ok());
-            if let Some(status) = &found.anew {
+            recomputed += usize::from(tensions.is_ok());
+            if let Some(status) = &found.recomputed {
                 assert_eq!(status.is_ok(), tensions.is_ok());
             }
             if let Some(least) = row[3].as_f64() {
@@ -195,10 +195,10 @@ fn the_stadium_robot_is_held_wherever_an_independent_program_finds_tensions() {
             }
         }
         println!(
-            "{payload} kg: held at {kept} positions with the lengths kept, at {anew} with the tensions \
-            distributed anew, at {independent} by the independent program"
+            "{payload} kg: held at {kept} positions with the lengths kept, at {recomputed} with the tensions \
+            recomputed, at {independent} by the independent program"
         );
-        assert!(anew >= independent && independent > 0);
+        assert!(recomputed >= independent && independent > 0);
     }
 }
 
@@ -259,12 +259,12 @@ fn further_columns_are_what_is_said_of_each_pose() {
     for (found, row) in poses.iter().zip(&summary.rows) {
         let pose = &found.pose;
         let capacity = capacity_at(&robot, pose, &load, &set);
-        assert_eq!(row.payload_anew_kg, capacity.payload_anew.ok().map(|figure| figure.value));
-        assert_eq!(row.margin_anew, capacity.margin_anew.ok().map(|figure| figure.value));
+        assert_eq!(row.payload_recomputed_kg, capacity.payload_recomputed.ok().map(|figure| figure.value));
+        assert_eq!(row.margin_recomputed, capacity.margin_recomputed.ok().map(|figure| figure.value));
         let tilt = tilt_at(&robot, pose, &load, 4, 1e-3).ok();
         let least = tilt.as_ref().and_then(|tilt| tilt.least());
         assert_eq!(row.tilt_deg, least.map(|least| least.angle.to_degrees()));
-        assert_eq!(row.tilt_deg.is_some(), row.anew_status == Some("held"));
+        assert_eq!(row.tilt_deg.is_some(), row.recomputed_status == Some("held"));
         let near = clearance_under(&robot, pose, &load).ok().and_then(|found| found.cables);
         assert_eq!(row.nearest_cables_mm.is_some(), near.is_some());
         if let (Some(found), Some(near)) = (row.nearest_cables_mm, near) {
@@ -272,7 +272,7 @@ fn further_columns_are_what_is_said_of_each_pose() {
             assert!((found - 1e3 * near.distance).abs() < 1e-6, "{found} and {near:?} mm");
         }
     }
-    assert!(summary.tilt_deg.unwrap().min > 1.0 && summary.payload_anew_kg.unwrap().max > 1000.0);
+    assert!(summary.tilt_deg.unwrap().min > 1.0 && summary.payload_recomputed_kg.unwrap().max > 1000.0);
     let left: usize = summary.left_out.values().sum();
     assert_eq!(left + summary.status["held"], poses.len());
 }
@@ -328,8 +328,8 @@ fn the_boundary_runs_between_what_is_held_and_what_is_not() {
         free: &[],
         further: Further::default(),
     };
-    let coarse = workspace_boundary(&workspace(plane(9)), Way::Anew, &|| false).unwrap();
-    let fine = workspace_boundary(&workspace(plane(17)), Way::Anew, &|| false).unwrap();
+    let coarse = workspace_boundary(&workspace(plane(9)), Way::Recomputed, &|| false).unwrap();
+    let fine = workspace_boundary(&workspace(plane(17)), Way::Recomputed, &|| false).unwrap();
     println!("{} +- {} m2, {} +- {} m2", coarse.measure, coarse.error, fine.measure, fine.error);
     assert!((coarse.measure - fine.measure).abs() < coarse.error + fine.error);
     assert!(fine.error < 2e-3 * fine.measure && coarse.error < 1e-2 * coarse.measure);
@@ -348,7 +348,7 @@ fn the_boundary_runs_between_what_is_held_and_what_is_not() {
     assert!(open.norm() < 1e-9, "the mesh is closed");
 
     let line = Grid::new([axis(-1.0, 1.0, 3), axis(0.0, 0.0, 1), axis(1.0, 1.0, 1)]).unwrap();
-    let refused = workspace_boundary(&workspace(line), Way::Anew, &|| false).unwrap_err();
+    let refused = workspace_boundary(&workspace(line), Way::Recomputed, &|| false).unwrap_err();
     assert!(
         refused.to_string().starts_with("grid is [3, 1, 1] points: expected a plane or a box"),
         "{refused}"
@@ -372,10 +372,10 @@ fn a_payload_that_is_missing_at_a_position_that_is_held_has_its_reason() {
     };
     let poses = compute_workspace(&workspace, &|| (), &|| false).unwrap();
     for row in &WorkspaceSummary::new(&workspace, &poses).rows {
-        assert_eq!((row.status, row.payload_anew_kg, row.payload_kept_kg), ("held", None, None));
-        let anew = row.payload_anew_blocked_by.as_ref().unwrap();
+        assert_eq!((row.status, row.payload_recomputed_kg, row.payload_kept_kg), ("held", None, None));
+        let recomputed = row.payload_recomputed_blocked_by.as_ref().unwrap();
         let kept = row.payload_kept_blocked_by.as_ref().unwrap();
-        println!("{anew}\n{kept}");
-        assert!(anew.contains("no tensions between") && !kept.is_empty());
+        println!("{recomputed}\n{kept}");
+        assert!(recomputed.contains("no tensions between") && !kept.is_empty());
     }
 }

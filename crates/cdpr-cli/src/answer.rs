@@ -2,10 +2,10 @@
 //!
 //! JSON is in SI units; cables are numbered from 1, as in `a1.x`.
 
-use crate::output::{Ending, table};
+use crate::output::{Ending, print_sentence, table};
 use cdpr_cable::SLACK_BELOW_OWN_WEIGHTS;
 pub(crate) use cdpr_robot::decimal;
-use cdpr_robot::{CableEnd, Pose, Robot, counted};
+use cdpr_robot::{CableEnd, Pose, Robot, counted, significant};
 use cdpr_statics::stiffness::Mode;
 use cdpr_statics::{Bound, DirectSolution, Equilibrium, Stability};
 use serde::Serialize;
@@ -64,7 +64,7 @@ impl OutOfLimits {
     }
 
     pub(crate) fn print(list: &[Self]) {
-        list.iter().for_each(|one| println!("{}", one.found));
+        list.iter().for_each(|one| print_sentence(&one.found.to_string()));
     }
 
     /// In one cell of a table.
@@ -97,7 +97,9 @@ impl Neutral {
     pub(crate) fn print(list: &[Self]) {
         for Self { translation, rotation } in list {
             let (translation, rotation) = (vector(translation, 4), vector(rotation, 4));
-            println!("nothing resists the motion {translation} m/m with the rotation {rotation} rad/m");
+            print_sentence(&format!(
+                "nothing resists the motion {translation} m/m with the rotation {rotation} rad/m"
+            ));
         }
     }
 }
@@ -109,6 +111,9 @@ pub(crate) struct Found {
     position: [f64; 3],
     /// Rows of the rotation matrix R.
     rotation: [[f64; 3]; 3],
+    /// Position and angles in words.
+    #[serde(skip)]
+    place: String,
     /// Force (fx, fz) on each cable at its anchor point, in its vertical plane.
     cable_forces: Vec<[f64; 2]>,
     pub(crate) tensions: Vec<f64>,
@@ -142,6 +147,7 @@ impl Found {
         Self {
             position: equilibrium.pose.position.into(),
             rotation: rows(&equilibrium.pose),
+            place: exact_place(&equilibrium.pose),
             cable_forces: forces(equilibrium),
             tensions: equilibrium.tensions(),
             exit_tensions: equilibrium.exit_tensions(robot, lengths),
@@ -164,48 +170,64 @@ impl Found {
         OutOfLimits::ending(&self.out_of_limits)
     }
 
-    pub(crate) fn print(&self, lengths: &[f64]) {
-        println!("position  {} m", vector(&self.position, 6));
-        for (i, row) in self.rotation.iter().enumerate() {
-            let [a, b, c] = row.map(|entry| decimal(entry, 6));
-            println!("{}  [{a:>9} {b:>9} {c:>9}]", if i == 0 { "rotation" } else { "        " });
-        }
-        print_cables(lengths, &self.cable_forces, &self.tensions, &self.exit_tensions);
+    /// Where it rests, and its cables.
+    pub(crate) fn print(&self, name: &str, lengths: &[f64]) {
+        print_sentence(&format!("{name} rests at {}, {}.", self.place, stability_word(self.stable)));
+        print_cables(lengths, &self.tensions, &self.exit_tensions);
+        self.print_rest();
+    }
+
+    /// Tensions out of limits, stability, slack cables and residuals.
+    pub(crate) fn print_rest(&self) {
         OutOfLimits::print(&self.out_of_limits);
         let Report { method, iterations, least_stiffness, slack_cables, sagging_cables, .. } = &self.report;
-        let stable = if self.stable { "stable" } else { "unstable" };
-        println!(
-            "{stable}, softest motion {least_stiffness:.1} N/m; {method}, {}",
-            counted(*iterations, "iteration")
-        );
+        let iterations = counted(*iterations, "iteration");
+        println!("softest motion {least_stiffness:.1} N/m; {method}, {iterations}");
         Neutral::print(&self.neutral);
         if !slack_cables.is_empty() {
             println!("slack cables: {} (they carry less than their own weight)", numbers(slack_cables));
         }
         if !sagging_cables.is_empty() {
-            println!(
-                "sagging cables: {} (longer than the distance of their points)",
-                numbers(sagging_cables)
-            );
+            let cables = numbers(sagging_cables);
+            println!("sagging cables: {cables} (longer than the distance of their points)");
         }
         self.residual.print();
     }
+
+    /// Whether it is stable.
+    pub(crate) fn is_stable(&self) -> bool {
+        self.stable
+    }
 }
 
-/// Prints lengths, forces and tensions of all cables, these at the platform and at the exit point.
-pub(crate) fn print_cables(lengths: &[f64], forces: &[[f64; 2]], tensions: &[f64], exit_tensions: &[f64]) {
-    let header = ["cable", "unstrained length [m]", "fx [N]", "fz [N]", "tension [N]", "at exit [N]"];
-    let mut rows = table(&header);
-    let tensions = tensions.iter().zip(exit_tensions);
-    for (i, ((length, [fx, fz]), (tension, exit))) in lengths.iter().zip(forces).zip(tensions).enumerate() {
-        rows.add_row([
-            (i + 1).to_string(),
-            format!("{length:.6}"),
-            decimal(*fx, 3),
-            decimal(*fz, 3),
-            decimal(*tension, 3),
-            decimal(*exit, 3),
-        ]);
+/// `stable` or `unstable`.
+pub(crate) fn stability_word(stable: bool) -> &'static str {
+    if stable { "stable" } else { "unstable" }
+}
+
+/// Least and greatest of the tensions [N] in words, such as `55.07 to 412.3 N`.
+pub(crate) fn tension_range(tensions: &[f64]) -> String {
+    let [least, greatest] = [
+        tensions.iter().copied().fold(f64::INFINITY, f64::min),
+        tensions.iter().copied().fold(0.0, f64::max),
+    ]
+    .map(|tension| significant(tension, 4));
+    if least == greatest { format!("{least} N") } else { format!("{least} to {greatest} N") }
+}
+
+/// Position and angles of a pose, to a micrometre.
+pub(crate) fn exact_place(pose: &Pose) -> String {
+    let (roll, pitch, yaw) = pose.rotation.euler_angles();
+    let angles = [roll, pitch, yaw].map(f64::to_degrees);
+    let position = vector(pose.position.as_slice(), 6);
+    format!("{position} m with (roll, pitch, yaw) = {} degrees", vector(&angles, 4))
+}
+
+/// Prints lengths and tensions of all cables, these at the platform and at the exit point.
+pub(crate) fn print_cables(lengths: &[f64], tensions: &[f64], exit_tensions: &[f64]) {
+    let mut rows = table(&["cable", "unstrained length [m]", "tension [N]", "at exit point [N]"]);
+    for (i, (length, (tension, exit))) in lengths.iter().zip(tensions.iter().zip(exit_tensions)).enumerate() {
+        rows.add_row([(i + 1).to_string(), format!("{length:.6}"), decimal(*tension, 3), decimal(*exit, 3)]);
     }
     println!("{rows}");
 }

@@ -149,6 +149,9 @@ fn with_options(error: &StudyError) -> String {
                 _ => error.to_string(),
             };
         }
+        StudyError::OtherKind { found: InputKind::Robot, kind: InputKind::Study, .. } => {
+            ": `cdpr study new` writes a study of it"
+        }
         StudyError::OtherKind { found: InputKind::Robot, .. } => ": `cdpr robot check` takes it",
         StudyError::OtherKind { found: InputKind::Study, .. } => {
             ": `cdpr study run` takes it, and the robot file is the one that its field `robot` names"

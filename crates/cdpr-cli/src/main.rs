@@ -64,7 +64,7 @@ enum Command {
     Direct(pose::direct::Settings),
     /// Compute how far a load displaces the platform.
     #[command(after_help = "Example: cdpr deflection data/robots/caroca.json --pose 0,0,1.75 --payload 50")]
-    Deflection(RobotAtFreePose),
+    Deflection(pose::deflection::Settings),
     /// Compute the Cartesian stiffness and its softest motions.
     #[command(after_help = "Example: cdpr stiffness data/robots/caroca.json --pose 0,0,1.75")]
     Stiffness(RobotAtFreePose),

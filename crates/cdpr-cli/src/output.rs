@@ -4,7 +4,7 @@ use crate::error::ProgramError;
 use crate::questions;
 use crate::said::{self, Said};
 use cdpr_report::ReportError;
-use cdpr_robot::shown_lines;
+use cdpr_robot::{COLUMNS, broken, shown_lines};
 use cdpr_study::{IfExists, check_replaceable, write_text};
 use comfy_table::{ContentArrangement, Table, presets};
 use indicatif::{ProgressBar, ProgressState, ProgressStyle, WeakProgressBar};
@@ -163,17 +163,22 @@ pub(crate) struct Details {
     pub(crate) details: bool,
 }
 
-/// An empty table.
-pub(crate) fn table(header: &[&str]) -> Table {
-    let mut table = Table::new();
-    table.load_style(presets::UTF8_FULL_CONDENSED).set_header(header);
-    table
+/// Prints a sentence on lines of at most 80 columns.
+pub(crate) fn print_sentence(sentence: &str) {
+    broken(sentence).iter().for_each(|line| println!("{line}"));
 }
 
 /// An empty table whose long cells are broken, so that a line has at most 80 columns.
-pub(crate) fn narrow_table(header: &[&str]) -> Table {
-    let mut table = table(header);
-    table.set_content_arrangement(ContentArrangement::Dynamic).set_width(80);
+pub(crate) fn table(header: &[&str]) -> Table {
+    let mut table = wide_table(header);
+    table.set_content_arrangement(ContentArrangement::Dynamic).set_width(COLUMNS as u16);
+    table
+}
+
+/// An empty table that is as wide as its cells, for `--details`.
+pub(crate) fn wide_table(header: &[&str]) -> Table {
+    let mut table = Table::new();
+    table.load_style(presets::UTF8_FULL_CONDENSED).set_header(header);
     table
 }
 

@@ -149,7 +149,7 @@ pub(crate) fn about_markers(robot: &Robot, markers: impl IntoIterator<Item = Vec
 
 /// Asks about a map on which no position is held.
 pub(crate) fn about_map(summary: &WorkspaceSummary) {
-    let held = summary.rows.iter().any(|row| row.status == HELD || row.anew_status == Some(HELD));
+    let held = summary.rows.iter().any(|row| row.status == HELD || row.recomputed_status == Some(HELD));
     ask((!held).then(|| plausible::nothing_held(summary.rows.len())));
 }
 
@@ -157,7 +157,7 @@ pub(crate) fn about_map(summary: &WorkspaceSummary) {
 pub(crate) fn few_held(summary: &WorkspaceSummary) -> Option<String> {
     let is_held = |status: Option<&str>| status == Some(HELD);
     let rows = &summary.rows;
-    let held = rows.iter().filter(|row| is_held(Some(row.status)) || is_held(row.anew_status)).count();
+    let held = rows.iter().filter(|row| is_held(Some(row.status)) || is_held(row.recomputed_status)).count();
     let all = rows.len();
     (held > 0 && 2 * held < all)
         .then(|| format!("fewer than half of the positions are held, {held} of {all}"))

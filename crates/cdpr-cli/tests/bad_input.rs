@@ -1,6 +1,6 @@
 //! Every kind of bad input on the command line and in files, with the whole message as a snapshot.
 //!
-//! After a change, `INSTA_UPDATE=always cargo test -p cdpr-cli bad_input` writes the snapshot anew; read the
+//! After a change, `INSTA_UPDATE=always cargo test -p cdpr-cli bad_input` writes the snapshot again; read the
 //! difference as a user would.
 
 use crate::common::{cdpr_in, data_text as data, text};

@@ -27,11 +27,15 @@ fn a_grid_of_poses_tells_geometry_but_no_offset_of_a_tension() {
     assert_eq!(json["best_poses"].as_array().unwrap().len(), 4);
     assert_eq!(json["best_poses"][0]["pose"].as_array().unwrap().len(), 7);
 
-    let text = text(run(&arguments).stdout);
-    for words in
-        ["CAROCA: measured at 9 poses", "9 poses left out: infeasible_tension", "+1.00 dt8", "adds [bit]"]
-    {
+    let short = text(run(&arguments).stdout);
+    assert!(
+        short.starts_with("CAROCA: 9 poses identify 48 of 58 combinations of the parameters.\n"),
+        "{short}"
+    );
+    let text = text(run(&[&arguments[..], &["--details"]].concat()).stdout);
+    for words in ["9 poses left out: infeasible tension", "+1.00 dt8", "adds [bit]"] {
         assert!(text.contains(words), "{words}: {text}");
+        assert!(short.contains(words) || words == "+1.00 dt8", "{words}: {short}");
     }
 }
 

@@ -45,12 +45,14 @@ pub(crate) fn text(bytes: Vec<u8>) -> String {
 /// takes.
 pub(crate) fn answered(output: Output) -> String {
     let said = text(output.stderr);
-    let is_time = |line: &str| {
-        let seconds = line.rsplit_once(", ").and_then(|(_, time)| time.strip_suffix(" s"));
-        seconds.is_some_and(|seconds| seconds.parse::<u64>().is_ok())
-    };
-    assert!(output.status.success() && said.lines().all(is_time), "{said}");
+    assert!(output.status.success() && said.lines().all(is_progress), "{said}");
     text(output.stdout)
+}
+
+/// Whether a line says how long a command takes so far.
+pub(crate) fn is_progress(line: &str) -> bool {
+    let seconds = line.rsplit_once(", ").and_then(|(_, time)| time.strip_suffix(" s"));
+    seconds.is_some_and(|seconds| seconds.parse::<u64>().is_ok())
 }
 
 /// Files by their names.

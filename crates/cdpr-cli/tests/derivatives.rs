@@ -66,7 +66,7 @@ fn a_platform_with_inertia_has_derivatives_of_its_frequency() {
     for (found, exact) in json["frequency_hz"].as_array().unwrap().iter().zip(&slopes) {
         assert_eq!(found.as_f64(), Some(*exact));
     }
-    assert!(text(run(&data(name), &at).stdout).contains("d frequency [mHz]"));
+    assert!(text(run(&data(name), &[&at[..], &["--details"]].concat()).stdout).contains("d frequency [mHz]"));
 }
 
 #[test]
@@ -81,7 +81,7 @@ fn a_parameter_with_two_sides_has_both_in_json_table_and_csv() {
     let right = left.right();
     let one_sided = json["one_sided"].as_array().unwrap();
     assert!(!one_sided.is_empty() && one_sided.len() == left.one_sided.len());
-    let table = text(run(&ipanema, &load).stdout);
+    let table = text(run(&ipanema, &[&load[..], &["--details"]].concat()).stdout);
     for (found, exact) in one_sided.iter().zip(&left.one_sided) {
         let name = left.inputs.parameters[exact.column].to_string();
         assert_eq!(found["parameter"], name);
@@ -116,15 +116,20 @@ fn a_parameter_with_two_sides_has_both_in_json_table_and_csv() {
 
 #[test]
 fn the_table_begins_with_what_matters_most() {
-    let output = run(&caroca(), &["--pose", "0,0,1.75", "--payload", "50"]);
-    let table = text(output.stdout);
+    let printed = |more: &[&str]| {
+        text(run(&caroca(), &[&["--pose", "0,0,1.75", "--payload", "50"], more].concat()).stdout)
+    };
+    let short = printed(&[]);
+    assert_eq!(short.lines().filter(|line| line.starts_with('\u{2502}')).count(), 11, "{short}");
+    assert!(short.contains("52 more, and other derivatives: with --details"), "{short}");
+    let table = printed(&["--details"]);
     let lines: Vec<_> = table.lines().collect();
-    assert_eq!(lines[0], "CAROCA at (0, 0, 1.75) m: |dp| = 1.33124 mm under the load");
+    assert_eq!(lines[0], "CAROCA at (0, 0, 1.75) m: |dp| = 1.33124 mm under the load.");
     assert!(
         lines[4].contains("youngs_modulus") && lines[4].contains("-12.88879") && lines[4].contains("GPa")
     );
     assert!(!table.contains("-0.00000 "));
-    assert_eq!(lines.len(), 4 + 62 + 2);
+    assert_eq!(lines.len(), 4 + 62 + 3);
     assert!(lines[67].contains("platform.inertia"));
 }
 

@@ -31,7 +31,7 @@ fn what_a_robot_is_fits_in_a_few_lines() {
         let said = answered(cdpr(&["robot", "show", file.name]));
         let before_the_source: Vec<&str> =
             said.lines().take_while(|line| !line.starts_with("source")).collect();
-        assert!(before_the_source.len() == 6, "{said}");
+        assert!((6..=8).contains(&before_the_source.len()), "{said}");
     }
     let entry: Value =
         serde_json::from_str(&answered(cdpr(&["robot", "show", "irma4u", "--format", "json"]))).unwrap();

@@ -18,7 +18,9 @@ mod equilibria;
 mod explore;
 #[cfg(debug_assertions)]
 mod faults;
+mod first_answers;
 mod folder;
+mod forty_mistakes;
 mod grammar;
 mod hysteresis;
 mod library;
@@ -43,5 +45,7 @@ mod study_run;
 mod study_together;
 mod tensions;
 mod tolerances;
+#[cfg(unix)]
+mod transcripts;
 mod verdict;
 mod workspace;

@@ -206,7 +206,7 @@ fn a_case_without_answer_keeps_its_place_among_the_others() {
     let apart = vector(&found[3]["position"]) - exact.equilibrium.pose.position;
     assert!(apart.norm() < 1e-12, "{apart}");
     let text = text(cdpr(&["direct", &robot, "--from", path.to_str().unwrap()]).stdout);
-    assert!(text.contains("case 2\nno answer: cable ") && text.contains("case 4\nposition  (0.3"), "{text}");
+    assert!(text.contains("Case 2 has no answer: cable ") && text.contains("Case 4 rests at (0.3"), "{text}");
 }
 
 #[test]
@@ -218,7 +218,10 @@ fn the_deflection_is_that_of_the_paper_s_nominal_robot() {
     assert_eq!(number(&found["magnitude_mm"]), 1e3 * exact.magnitude());
     assert_eq!(numbers(&found["deflection_mm"]), (1e3 * exact.displacement()).as_slice());
     assert_eq!(numbers(&found["loaded"]["tensions"]), exact.loaded.equilibrium.tensions());
-    assert!(printed(&arguments).contains("dp = (0.00000, 0.00000, -1.33124) mm, |dp| = 1.33124 mm"));
+    assert!(printed(&arguments).starts_with(
+        "CAROCA at (0, 0, 1.75) m is displaced by 1.33124 mm; it stays stable.\n\
+         dp = (0.00000, 0.00000, -1.33124) mm\n"
+    ));
 }
 
 #[test]
@@ -242,16 +245,18 @@ fn the_stiffness_predicts_the_displacement_under_a_small_force() {
         found["eigenvalues"].as_array().unwrap().iter().map(|v| number(&v["stiffness"])).collect();
     assert!(values.is_sorted() && values[0] > 0.0 && found["stable"] == true);
     assert!(close(values[0], number(&found["least_stiffness"]), 1e-12));
-    assert!(printed(&arguments).contains("stable; least stiffness"));
+    assert!(
+        printed(&arguments).starts_with("CAROCA at (0.4, 0.2, 1.5) m is stable; its softest motion has ")
+    );
 }
 
 #[test]
 fn a_check_ends_with_its_own_code_where_it_warns() {
     let notes = printed(&["robot", "check", &data_path("robots/caroca.json")]);
-    assert!(notes.contains(
+    assert!(notes.replace('\n', " ").contains(
         "note: cable 3, cables[2].exit_point is [-3.5, 2.0, 3.5] m: the same place as that of cable 1"
     ));
-    assert!(notes.ends_with("CAROCA: 8 cables, 0 warnings, 5 notes\n"), "{notes}");
+    assert!(notes.starts_with("CAROCA: 8 cables, no warnings, 5 notes.\n"), "{notes}");
     assert_eq!(answer(&["robot", "check", &data_path("robots/cogiro.json")]), json!([]));
 
     let folder = TempDir::new().unwrap();
@@ -288,7 +293,7 @@ fn a_platform_that_falls_on_the_way_to_its_load_is_an_answer_with_exit_code_3() 
     let asked = [&asked[..], &["--moment", "400,-300,100"]].concat();
     let fallen = cdpr(&asked);
     assert_eq!(fallen.status.code(), Some(3));
-    let said = text(fallen.stdout);
+    let said = text(fallen.stdout).replace('\n', " ");
     let fallen = cdpr(&[&asked[..], &["--format", "json"]].concat());
     assert_eq!(fallen.status.code(), Some(3));
     let error = &serde_json::from_str::<Value>(&text(fallen.stdout)).unwrap()["error"];

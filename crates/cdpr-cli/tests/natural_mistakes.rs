@@ -193,7 +193,10 @@ fn slips_in_a_robot_file_have_cause_place_and_remedy() {
         &["string \"steel-4mm\", expected its properties, {"],
     );
     let error = refused(folder.path(), &["robot", "check", "own.json"]);
-    contains(&error, &["cable 3, cables[2].linear_density", "properties of one cable stand in its `cable`"]);
+    contains(
+        &error,
+        &["cable 3, cables[2].linear_density", "the properties of one cable are in its `cable`"],
+    );
     contains(&refused(folder.path(), &["robot", "check", "."]), &[". is a folder: expected a robot file"]);
     contains(&refused(folder.path(), &["robot", "check", "corgiro"]), &["near are cogiro"]);
     let lengths = ["direct", "cogiro", "--lengths", "4.44,4.54,4.36,4.26"];

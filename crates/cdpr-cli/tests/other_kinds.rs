@@ -52,7 +52,7 @@ fn a_file_of_another_kind_is_named_with_the_command_that_takes_it() {
         ),
         (
             "study run robot.json".to_owned(),
-            "robot.json is a robot file: expected a study file: `cdpr robot check`",
+            "robot.json is a robot file: expected a study file: `cdpr study new`",
         ),
         (format!("inverse law.json {at}"), "law.json is a law file: expected a robot file: `cdpr hysteresis"),
         (

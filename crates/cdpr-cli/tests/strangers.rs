@@ -20,7 +20,7 @@ fn a_name_neither_moves_the_cursor_nor_adds_a_line_and_json_keeps_it() {
         answered(cdpr().arg("inverse").arg(&robot).args(arguments).output().unwrap())
     };
     let table = inverse("text");
-    assert!(table.starts_with("\\u001b[31m\\u202eCAROCA\\u000aproved: exact at (0, 0, 1.75) m\n"), "{table}");
+    assert!(table.starts_with("\\u001b[31m\\u202eCAROCA\\u000aproved: exact at (0, 0, 1.75) m: "), "{table}");
     bench.change("study.json", |study| {
         study["samplings"] = json!({});
         study["surfaces"].as_object_mut().unwrap().values_mut().for_each(|surface| {

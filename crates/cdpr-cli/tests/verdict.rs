@@ -99,7 +99,7 @@ fn a_study_without_measures_of_sensitivity_has_a_recommended_one_and_names_what_
 
 /// A table of Ishigami's function `sin x1 + 7 sin² x2 + 0.1 x3⁴ sin x1` and of `x5` with noise, 500 rows of
 /// twelve independent inputs.
-fn ishigami_among_twelve(folder: &Path) {
+pub(crate) fn ishigami_among_twelve(folder: &Path) {
     let mut state = 0x9e37_79b9_7f4a_7c15_u64;
     // Multiplicative congruential generator of P. L'Ecuyer (1999), its upper 53 bits.
     let mut uniform = || {
@@ -112,7 +112,7 @@ fn ishigami_among_twelve(folder: &Path) {
         let x: Vec<f64> = (0..12).map(|_| std::f64::consts::PI * (2.0 * uniform() - 1.0)).collect();
         let y = x[0].sin() + 7.0 * x[1].sin().powi(2) + 0.1 * x[2].powi(4) * x[0].sin();
         let z = x[4] + uniform();
-        let cells = x.iter().chain([&y, &z]).map(f64::to_string).collect::<Vec<_>>();
+        let cells = x.iter().chain([&y, &z]).map(|x| format!("{x:.5}")).collect::<Vec<_>>();
         table += &(cells.join(",") + "\n");
     }
     std::fs::write(folder.join("table.csv"), table).unwrap();
@@ -126,11 +126,11 @@ fn of_twelve_inputs_of_ishigami_three_are_certain_to_matter_and_x2_is_first() {
     let printed = answered(cdpr_in(folder.path(), &analyse));
     assert_narrow(&printed);
     let first = printed.lines().next().unwrap();
-    let certain = first.strip_prefix("y: certain to matter: ").unwrap();
+    let certain = first.strip_prefix("y: 3 of 12 inputs are certain to matter: ").unwrap();
     let names: Vec<&str> = certain.split(", ").filter_map(|of| of.split_once(" (")).map(|of| of.0).collect();
     assert_eq!(names, ["x2", "x1", "x3"], "{printed}");
     assert!(printed.contains("not settled by 500 rows, more of them may: x4, x5, x6"), "{printed}");
-    assert!(printed.contains("z: certain to matter: x5 (trend)"), "{printed}");
+    assert!(printed.contains("z: 1 of 12 inputs is certain to matter: x5 (trend)"), "{printed}");
     let found: Value = serde_json::from_str(&answered(cdpr_in(
         folder.path(),
         &[&analyse[..], &["--format", "json"]].concat(),

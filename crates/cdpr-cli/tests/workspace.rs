@@ -40,7 +40,7 @@ fn a_plane_is_written_as_table_summary_and_maps_the_same_on_any_number_of_thread
             "deflection.svg",
             "dominant_tolerance.svg",
             "greatest_tension.svg",
-            "greatest_tension_anew.svg",
+            "greatest_tension_recomputed.svg",
             "least_stiffness.svg",
             "workspace.csv",
             "workspace.json"
@@ -62,7 +62,7 @@ fn a_plane_is_written_as_table_summary_and_maps_the_same_on_any_number_of_thread
         (&columns["status"][31], &columns["dominant"][31]),
         (&"held".into(), &"youngs_modulus".into())
     );
-    assert_eq!(columns.get("payload_anew_kg"), None, "what was not asked for has no column");
+    assert_eq!(columns.get("payload_recomputed_kg"), None, "what was not asked for has no column");
     assert!(columns.as_object().unwrap().values().all(|column| column.as_array().unwrap().len() == 63));
     assert_eq!(
         (&columns["status"][0], &columns["magnitude_mm"][0]),
@@ -97,7 +97,7 @@ fn a_box_has_maps_of_its_layers_and_a_study_may_give_the_tolerances() {
     assert_eq!(files(&folder.path().join("out")).len(), 7, "the box is a plane: y has one coordinate");
     run(folder.path(), &["--region=-1:1:2,0:1:2,1:2:2", "--payload", "50", "--out", "box"]);
     let names: Vec<_> = files(&folder.path().join("box")).into_iter().map(|(name, _)| name).collect();
-    let layers = ["deflection", "greatest_tension_anew", "greatest_tension", "least_stiffness"]
+    let layers = ["deflection", "greatest_tension_recomputed", "greatest_tension", "least_stiffness"]
         .map(|name| [format!("{name}_z00.svg"), format!("{name}_z01.svg")]);
     assert_eq!(names[..8], layers.concat());
     assert_eq!(names[8..], ["workspace.csv", "workspace.json"]);
@@ -130,7 +130,10 @@ fn any_load_and_any_orientation_have_a_workspace_and_without_a_load_nothing_is_d
     // The map of the load goes, and a file of the user stays.
     std::fs::write(folder.path().join("out/mine.svg"), "mine").unwrap();
     let unloaded = summary(&[]);
-    assert_eq!((&unloaded["anew_status"], unloaded["columns"].get("anew_status")), (&json!({}), None));
+    assert_eq!(
+        (&unloaded["recomputed_status"], unloaded["columns"].get("recomputed_status")),
+        (&json!({}), None)
+    );
     assert_eq!((&unloaded["magnitude_mm"], unloaded["columns"].get("magnitude_mm")), (&Value::Null, None));
     assert!(unloaded["least_stiffness"]["min"].as_f64().unwrap() > 0.0);
     assert!(!folder.path().join("out/deflection.svg").exists());

@@ -71,7 +71,7 @@ def test_texts_are_categories_and_the_verdict_is_that_of_the_program():
     x = numpy.array([a, colour, generator.uniform(size=300)], dtype=object).T
     found = cdpr.analyse(x, 2 * a + 3 * (colour == "blue"), names=["a", "colour", "inert"])
     assert sorted(found.certain) == ["a", "colour"] and found.related == {}
-    assert found.verdict.startswith("certain to matter: ")
+    assert found.verdict.startswith("2 of 3 inputs are certain to matter: ")
     levels = found.content["inputs"][1]["levels"]
     assert [level["level"] for level in levels] == ["blue", "green", "red"]
     assert numpy.isnan(found.effect[1]) and not numpy.isnan(found.effect[0])

@@ -197,11 +197,11 @@ def test_a_path_is_that_of_the_program(name, more, tmp_path):
 
 
 @pytest.mark.parametrize("name, plane, payload, way", [
-    ("cogiro", ("z", 1.5), 100, "anew"), ("caroca", ("z", 1.75), 50, "kept"), ("ipanema-3", ("z", 1.3), 10, "anew"),
-    ("segesta", ("z", 0.5), 1, "anew"),
+    ("cogiro", ("z", 1.5), 100, "recomputed"), ("caroca", ("z", 1.75), 50, "kept"),
+    ("ipanema-3", ("z", 1.3), 10, "recomputed"), ("segesta", ("z", 0.5), 1, "recomputed"),
 ])
 def test_a_boundary_is_that_of_the_program(name, plane, payload, way, tmp_path):
-    boundary = "boundary" if way == "anew" else f"boundary={way}"
+    boundary = "boundary" if way == "recomputed" else f"boundary={way}"
     done = command("workspace", name, "--region", f"::5,::4,{plane[1]}", "--payload", payload, "--with", boundary,
                    "--out", tmp_path / "theirs")
     # It ends with 3 where less than half of the positions are held, as around a region.
@@ -215,11 +215,11 @@ def test_a_boundary_is_that_of_the_program(name, plane, payload, way, tmp_path):
     area = sum(0.5 * numpy.sum(x * numpy.roll(y, -1) - numpy.roll(x, -1) * y)
                for x, y in (polygon[:, :2].T for polygon in ours.polygons))
     assert ours.measure > 0 and area == pytest.approx(ours.measure, rel=0.05, abs=3 * ours.error)
-    with pytest.raises(cdpr.InputError, match='way is "x": expected anew or kept'):
+    with pytest.raises(cdpr.InputError, match='way is "x": expected recomputed or kept'):
         cdpr.Robot.from_file(name).boundary(plane=plane, payload=payload, way="x")
 
 
-def test_a_report_is_written_anew(data, tmp_path):
+def test_a_report_is_written_recomputed(data, tmp_path):
     results = cdpr.study.run(data / "studies" / "caroca.json", tmp_path / "results", observations=64)
     before = (tmp_path / "results" / "report.html").read_text()
     (tmp_path / "results" / "report.html").unlink()

@@ -127,14 +127,14 @@ def test_the_capacity_is_that_of_the_command_line(caroca, caroca_file):
     wrenches = [[100, 0, 0, 0, 0, 0], [0, 0, -200, 0, 0, 0]]
     found = caroca.capacity(TURNED, payload=50, wrenches=wrenches, tilt=4)
     for kind in ("payload", "margin"):
-        for way in ("anew", "kept"):
+        for way in ("recomputed", "kept"):
             assert getattr(found, f"{kind}_{way}") == printed[kind][way]["value"]
     assert found.payload_kept_slack == printed["payload_kept_slack"]["value"]
     assert found.nearest_cables == printed["nearest_cables"]["distance"]
     assert found.nearest_to_platform == printed["nearest_to_platform"]["distance"]
     reached = numpy.degrees(found.tilt) - [towards["angle_deg"] for towards in printed["tilt"]]
     assert numpy.abs(reached).max() <= 0.01 + 1e-9
-    block = printed["margin"]["anew"]["blocking"][0]
+    block = printed["margin"]["recomputed"]["blocking"][0]
     assert f"cable {block['cable']} at its {block['limit']}" in found.blocked_by[3]
     with pytest.raises(cdpr.InputError, match="wrenches has the shape"):
         caroca.capacity(TURNED, wrenches=[1, 2, 3])
@@ -206,10 +206,10 @@ def test_a_workspace_is_that_of_the_command_line(caroca, caroca_file, tmp_path):
     assert found.status == column("status")
     assert found.reasons == column("reason")
     assert found.dominant == column("dominant")
-    assert found.anew_status == column("anew_status")
-    assert found.anew_reasons == column("anew_reason")
+    assert found.recomputed_status == column("recomputed_status")
+    assert found.recomputed_reasons == column("recomputed_reason")
     for name in ("least_tension", "greatest_tension", "least_stiffness", "dominant_share",
-                 "anew_least_tension", "anew_greatest_tension"):
+                 "recomputed_least_tension", "recomputed_greatest_tension"):
         same(getattr(found, name), [numpy.nan if value is None else value for value in column(name)])
     bare = caroca.workspace(x=(-3, 3, 7), y=0, z=1.75, payload=0)
     assert numpy.isnan(bare.magnitude).all() and not numpy.isnan(bare.least_stiffness).any()

@@ -76,6 +76,7 @@ def test_a_run_writes_what_the_command_line_writes(study, expected, tmp_path):
         written = lines[row + 1].split(",")
         assert written[-2] == table["status"][row]
         assert [float(number) for number in written[:-2]] == list(table[row])[:-1]
+    assert results.verdict["mechanical"].startswith("Mean deflection ")
     mean = results.summary["studies"]["mechanical"]["magnitude_mm"]["mean"]
     assert abs(numpy.nanmean(table["magnitude_mm"]) - mean) < 1e-12
     pandas = pytest.importorskip("pandas")

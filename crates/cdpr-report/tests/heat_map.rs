@@ -46,17 +46,21 @@ fn a_map_has_every_cell_the_hatching_the_frame_and_the_exit_points() {
     let summary = summary_with(&robot, Grid::over_frame(&robot, Axis::Z, 1.75, [9, 7]).unwrap(), further);
     let count_held = |of: &dyn Fn(&WorkspaceRow) -> bool| summary.rows.iter().filter(|row| of(row)).count();
     let kept = 63 - count_held(&|row| row.status == "held");
-    let anew = 63 - count_held(&|row| row.anew_status == Some("held"));
-    assert!(anew > 0 && kept >= anew && kept < 63, "{kept} {anew}");
+    let recomputed = 63 - count_held(&|row| row.recomputed_status == Some("held"));
+    assert!(recomputed > 0 && kept >= recomputed && kept < 63, "{kept} {recomputed}");
     let without = |value: fn(&WorkspaceRow) -> Option<f64>| {
         summary.rows.iter().filter(|row| value(row).is_none()).count()
     };
     for quantity in MapQuantity::ALL {
         let (not_held, words) = match quantity {
-            MapQuantity::GreatestTensionAnew => (anew, "tensions distributed anew"),
-            MapQuantity::PayloadAnew => (without(|row| row.payload_anew_kg), "tensions distributed anew"),
+            MapQuantity::GreatestTensionRecomputed => (recomputed, "tensions recomputed"),
+            MapQuantity::PayloadRecomputed => {
+                (without(|row| row.payload_recomputed_kg), "tensions recomputed")
+            }
             MapQuantity::PayloadKept => (without(|row| row.payload_kept_kg), "lengths kept"),
-            MapQuantity::MarginAnew => (without(|row| row.margin_anew), "distance of the tensions"),
+            MapQuantity::MarginRecomputed => {
+                (without(|row| row.margin_recomputed), "distance of the tensions")
+            }
             MapQuantity::NearestCables => (without(|row| row.nearest_cables_mm), "nearest two cables"),
             MapQuantity::NearestToPlatform => (without(|row| row.nearest_to_platform_mm), "and platform"),
             MapQuantity::Tilt => (without(|row| row.tilt_deg), "worst direction"),

@@ -96,7 +96,8 @@ struct PlatformEntry {
 
 #[derive(Serialize, Deserialize, JsonSchema, Clone)]
 #[serde(deny_unknown_fields)]
-#[serde(expecting = "its properties, {\"linear_density\": .., \"youngs_modulus\": .., \"diameter\": ..}")]
+#[serde(expecting = "its properties, {\"linear_density\": .., \"youngs_modulus\": .., \"diameter\": ..}; \
+                 `cdpr robot list` shows those of known cables")]
 pub(crate) struct PropertiesEntry {
     /// Diameter [m].
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -61,25 +61,34 @@ fn plain(message: &str, field: &str) -> String {
         message
     };
     let is_matrix = field.ends_with(']') && message.ends_with("expected an array of length 3");
-    let is_own = field.starts_with("cables[") && CABLE.iter().any(|name| message.starts_with(name));
-    match (is_matrix, is_own) {
-        (true, _) => message + "; a diagonal matrix is [[a, 0, 0], [0, b, 0], [0, 0, c]]",
-        (_, true) => message + "; properties of one cable stand in its `cable`",
-        _ => message,
+    if is_matrix {
+        return message + "; a diagonal matrix is [[a, 0, 0], [0, b, 0], [0, 0, c]]";
+    }
+    let home = home(&message, field).map(|home| format!("; {home}"));
+    message + &home.unwrap_or_default()
+}
+
+/// Where a field of a robot file belongs that is one level too high.
+fn home(message: &str, field: &str) -> Option<&'static str> {
+    let name = message.strip_prefix("unknown field `")?.split('`').next()?;
+    let in_cables = field.starts_with("cables[");
+    let is_robot = in_cables || message.contains("`platform`") && message.contains("`cables`");
+    match name {
+        "mass" | "center_of_mass" | "inertia" | "point" if is_robot => Some("it is a field of `platform`"),
+        "linear_density" | "section" | "diameter" | "youngs_modulus" | "breaking_force" if in_cables => {
+            Some("the properties of one cable are in its `cable`")
+        }
+        "linear_density" | "section" | "diameter" | "youngs_modulus" | "breaking_force" if is_robot => {
+            Some("the properties of all cables are in `cable`")
+        }
+        "min" | "max" | "max_at" if is_robot => Some("it is a field of `tension_limits`"),
+        "exit_point" | "anchor_point" if is_robot && !in_cables => Some("each entry of `cables` has its own"),
+        _ => None,
     }
 }
 
 /// What counts and seeds are.
 const COUNT: &str = "expected a whole number, 0 to 1.8e19";
-
-/// How messages begin that are about a cable's properties at a wrong place.
-const CABLE: [&str; 5] = [
-    "unknown field `linear_density`",
-    "unknown field `section`",
-    "unknown field `diameter`",
-    "unknown field `youngs_modulus`",
-    "unknown field `breaking_force`",
-];
 
 /// A natural slip at a place of a text: a comment, a comma too many, a decimal comma.
 fn slip(text: &str, line: usize, column: usize, message: &str) -> Option<String> {

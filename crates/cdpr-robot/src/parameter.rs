@@ -91,8 +91,8 @@ impl TiltAxis {
 
 impl Parameter {
     /// The names of all parameters, as messages list them.
-    pub const NAMES: &str = "mass, linear_density, youngs_modulus, a1.x ..., b1.x ..., cog.x ..., dt1 ...; \
-         with pulleys r1 ..., tilt1.u ...; with leads lead1 ...; with gravity as a vector gravity.x ...";
+    pub const NAMES: &str = "mass, linear_density, youngs_modulus, a1.x ..., b1.x ... (anchor and exit point of cable 1), \
+         cog.x ..., dt1 ...; with pulleys r1 ..., tilt1.u ...; with leads lead1 ...; with gravity as a vector gravity.x ...";
 
     /// Name of the group that a study can give one law: `a`, `b`, `cog`, `dt`, `r`, `lead`, `tilt` or
     /// `gravity`.

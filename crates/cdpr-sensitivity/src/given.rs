@@ -26,6 +26,7 @@ pub mod evidence;
 pub mod expansion;
 pub mod halves;
 pub mod hsic;
+pub mod leading;
 pub mod levels;
 pub mod limit;
 mod measures;

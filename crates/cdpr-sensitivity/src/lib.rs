@@ -93,6 +93,7 @@ pub use given::evidence::Measure;
 pub use given::expansion::{GivenExpansion, given_expansion};
 pub use given::halves::{Half, halves};
 pub use given::hsic::{Dependence, Rows, dependence, dependence_of_event};
+pub use given::leading::LeadingInputs;
 pub use given::levels::LevelMean;
 pub use given::limit::{InputAtLimit, Limit, LimitFailures};
 pub use given::pawn::{Pawn, pawn};
@@ -120,6 +121,6 @@ pub use measure::shapley::{ShapleyEffect, shapley_effects};
 pub use measure::sobol_indices::{PairIndex, SobolIndex, SobolIndices, sobol_indices, vector_sobol_indices};
 #[cfg(feature = "faer")]
 pub use measure::subspace::{ActiveSubspace, active_subspace};
-pub use sample::interval::Estimate;
+pub use sample::interval::{Estimate, is_resolved};
 pub use sample::random::{Bootstrap, derived_seed};
 pub use sample::summary::{Bins, Histogram, Moments, Sample, Summary};

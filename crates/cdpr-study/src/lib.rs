@@ -63,12 +63,10 @@ pub use analysis::summary::Summary;
 pub use analysis::surface::{SurfaceResult, SurfaceSummary, SurfaceValues, compute_surface};
 pub use analysis::values::ValueSummary;
 pub use analysis::verdict::PartVerdict;
-pub use analysis::verdict::recommendation::{
-    Basis, MATTERS, Recommendation, RecommendedIndex, Standing, is_resolved,
-};
+pub use analysis::verdict::recommendation::{Basis, MATTERS, Recommendation, RecommendedIndex, Standing};
 pub use cdpr_sensitivity::{
     Analyser, Analysis, BestFit, Delta, Dependence, Estimate, Evidence, Family, Finding, InputAnalysis,
-    LevelMean, Limit as OutputLimit, LimitFailures, Pawn, Truncation,
+    LeadingInputs, LevelMean, Limit as OutputLimit, LimitFailures, Pawn, Truncation, is_resolved,
 };
 pub use error::StudyError;
 pub use file::cable_law::{CableLaw, LAW_FORMAT, LawFile, UnloadingCurve, law_json, law_schema};

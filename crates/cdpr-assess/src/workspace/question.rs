@@ -48,17 +48,17 @@ pub struct TiltDirections {
 /// How a load comes onto the platform.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Way {
-    /// The winches hold the pose: tensions are distributed anew.
-    Anew,
+    /// The winches hold the pose: tensions are recomputed.
+    Recomputed,
     /// The lengths are kept.
     Kept,
 }
 
 impl Way {
-    /// `anew` or `kept`.
+    /// `recomputed` or `kept`.
     pub fn name(self) -> &'static str {
         match self {
-            Self::Anew => "anew",
+            Self::Recomputed => "recomputed",
             Self::Kept => "kept",
         }
     }

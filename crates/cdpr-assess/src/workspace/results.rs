@@ -18,11 +18,11 @@ pub struct WorkspacePose {
     /// The result with the lengths kept under the load, or the reason why no tensions hold the platform or
     /// bear the load.
     pub outcome: Result<Held, StaticsError>,
-    /// The tensions distributed anew under the load, or the reason why they cannot be; `None` without a load.
-    pub anew: Option<Result<Anew, StaticsError>>,
+    /// The tensions recomputed under the load, or the reason why they cannot be; `None` without a load.
+    pub recomputed: Option<Result<Recomputed, StaticsError>>,
     /// What can be carried, if asked for.
     pub capacity: Option<Box<Capacity>>,
-    /// Distances of the cables that bear the load, tensions distributed anew, if asked for.
+    /// Distances of the cables that bear the load, tensions recomputed, if asked for.
     pub clearance: Option<Box<Result<Clearance, StaticsError>>>,
     /// How far the platform may tilt under the load, if asked for.
     pub tilt: Option<Box<Result<Tilt, StaticsError>>>,
@@ -30,7 +30,7 @@ pub struct WorkspacePose {
 
 /// Tensions within the limits that hold a pose under the load.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Anew {
+pub struct Recomputed {
     /// Least tension at the platform [N].
     pub least_tension: f64,
     /// Greatest tension at the platform [N].

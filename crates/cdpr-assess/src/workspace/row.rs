@@ -44,22 +44,22 @@ pub struct WorkspaceRow {
     pub std_mm: Option<f64>,
     /// Why the pose is not held, or a value is missing.
     pub reason: Option<String>,
-    /// `held` where tensions distributed anew hold the pose under the load, else the kind of failure; this
+    /// `held` where tensions recomputed hold the pose under the load, else the kind of failure; this
     /// and the following are empty without a load.
-    pub anew_status: Option<&'static str>,
-    pub anew_least_tension: Option<f64>,
-    pub anew_greatest_tension: Option<f64>,
-    pub anew_reason: Option<String>,
-    /// Greatest mass at the centre of mass [kg], tensions distributed anew; this and all that follows is
+    pub recomputed_status: Option<&'static str>,
+    pub recomputed_least_tension: Option<f64>,
+    pub recomputed_greatest_tension: Option<f64>,
+    pub recomputed_reason: Option<String>,
+    /// Greatest mass at the centre of mass [kg], tensions recomputed; this and all that follows is
     /// empty where it was not asked for or does not exist.
-    pub payload_anew_kg: Option<f64>,
+    pub payload_recomputed_kg: Option<f64>,
     /// The cables and limits that block it, in words; where it is missing at a pose that is held, why.
-    pub payload_anew_blocked_by: Option<String>,
+    pub payload_recomputed_blocked_by: Option<String>,
     /// Greatest mass at the centre of mass [kg], lengths kept.
     pub payload_kept_kg: Option<f64>,
     pub payload_kept_blocked_by: Option<String>,
     /// Distance of the tensions from the nearest limit [N].
-    pub margin_anew: Option<f64>,
+    pub margin_recomputed: Option<f64>,
     pub margin_kept: Option<f64>,
     /// Distance of the nearest two cables.
     pub nearest_cables_mm: Option<f64>,
@@ -85,8 +85,8 @@ impl WorkspaceRow {
         let overflow = dominant.is_some_and(|dominant| !dominant.std.is_finite());
         let dominant = dominant.filter(|_| !overflow);
         let swing = held.and_then(|held| held.swing);
-        let anew = pose.anew.as_ref();
-        let tensions = anew.and_then(|anew| anew.as_ref().ok());
+        let recomputed = pose.recomputed.as_ref();
+        let tensions = recomputed.and_then(|recomputed| recomputed.as_ref().ok());
         let value = |of: FigureOf| {
             let figure = of(pose.capacity.as_deref()?).as_ref().ok()?;
             Some(figure.value).filter(|value| value.is_finite())
@@ -127,15 +127,17 @@ impl WorkspaceRow {
                 Ok(held) => Some(in_words(&held.out_of_limits)),
                 Err(error) => Some(error.to_string()),
             },
-            anew_status: anew.map(|anew| anew.as_ref().map_or_else(StaticsError::kind, |_| HELD)),
-            anew_least_tension: tensions.map(|anew| anew.least_tension),
-            anew_greatest_tension: tensions.map(|anew| anew.greatest_tension),
-            anew_reason: anew.and_then(|anew| anew.as_ref().err().map(ToString::to_string)),
-            payload_anew_kg: value(|capacity| &capacity.payload_anew),
-            payload_anew_blocked_by: blocked_by(pose, |capacity| &capacity.payload_anew),
+            recomputed_status: recomputed
+                .map(|recomputed| recomputed.as_ref().map_or_else(StaticsError::kind, |_| HELD)),
+            recomputed_least_tension: tensions.map(|recomputed| recomputed.least_tension),
+            recomputed_greatest_tension: tensions.map(|recomputed| recomputed.greatest_tension),
+            recomputed_reason: recomputed
+                .and_then(|recomputed| recomputed.as_ref().err().map(ToString::to_string)),
+            payload_recomputed_kg: value(|capacity| &capacity.payload_recomputed),
+            payload_recomputed_blocked_by: blocked_by(pose, |capacity| &capacity.payload_recomputed),
             payload_kept_kg: value(|capacity| &capacity.payload_kept),
             payload_kept_blocked_by: blocked_by(pose, |capacity| &capacity.payload_kept),
-            margin_anew: value(|capacity| &capacity.margin_anew),
+            margin_recomputed: value(|capacity| &capacity.margin_recomputed),
             margin_kept: value(|capacity| &capacity.margin_kept),
             nearest_cables_mm: cables.map(|near| 1e3 * near.distance),
             nearest_cables: cables.map(|CableDistance { pair: [i, j], .. }| format!("{} {}", i + 1, j + 1)),
@@ -209,15 +211,15 @@ pub(super) fn columns<S: Serializer>(rows: &[WorkspaceRow], serializer: S) -> Re
         dominant_share,
         std_mm,
         reason,
-        anew_status,
-        anew_least_tension,
-        anew_greatest_tension,
-        anew_reason,
-        payload_anew_kg,
-        payload_anew_blocked_by,
+        recomputed_status,
+        recomputed_least_tension,
+        recomputed_greatest_tension,
+        recomputed_reason,
+        payload_recomputed_kg,
+        payload_recomputed_blocked_by,
         payload_kept_kg,
         payload_kept_blocked_by,
-        margin_anew,
+        margin_recomputed,
         margin_kept,
         nearest_cables_mm,
         nearest_cables,

@@ -38,9 +38,9 @@ pub struct WorkspaceSummary {
     pub uncertainties: IndexMap<String, f64>,
     /// Number of positions by status, with the lengths kept under the load.
     pub status: BTreeMap<&'static str, usize>,
-    /// Number of positions by status, with the tensions distributed anew under the load; empty without a
+    /// Number of positions by status, with the tensions recomputed under the load; empty without a
     /// load.
-    pub anew_status: BTreeMap<&'static str, usize>,
+    pub recomputed_status: BTreeMap<&'static str, usize>,
     /// Number of positions that are left out, by what keeps each from being `held`, with the lengths kept:
     /// the kind of failure, or the cable and the limit that its tension passes.
     pub left_out: BTreeMap<String, usize>,
@@ -62,15 +62,15 @@ pub struct WorkspaceSummary {
     pub greatest_tension: Option<Extremes>,
     /// Least tension [N].
     pub least_tension: Option<Extremes>,
-    /// Greatest tension [N] where tensions are distributed anew, over the positions that they hold.
-    pub anew_greatest_tension: Option<Extremes>,
-    /// Greatest payload [kg], tensions distributed anew; this and the following over the positions at which
+    /// Greatest tension [N] where tensions are recomputed, over the positions that they hold.
+    pub recomputed_greatest_tension: Option<Extremes>,
+    /// Greatest payload [kg], tensions recomputed; this and the following over the positions at which
     /// it exists, if asked for.
-    pub payload_anew_kg: Option<Extremes>,
+    pub payload_recomputed_kg: Option<Extremes>,
     /// Greatest payload [kg], lengths kept.
     pub payload_kept_kg: Option<Extremes>,
-    /// Margin of the tensions [N], distributed anew.
-    pub margin_anew: Option<Extremes>,
+    /// Margin of the tensions [N], recomputed.
+    pub margin_recomputed: Option<Extremes>,
     /// Margin of the tensions [N], lengths kept.
     pub margin_kept: Option<Extremes>,
     /// Distance of the nearest two cables [mm].
@@ -89,7 +89,7 @@ pub struct WorkspaceSummary {
 /// The region of the positions that are held.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct BoundarySummary {
-    /// How the load is borne: `anew` or `kept`.
+    /// How the load is borne: `recomputed` or `kept`.
     pub way: &'static str,
     /// Its area [m²] in a plane, its volume [m³] in a box.
     pub measure: f64,
@@ -144,11 +144,12 @@ impl WorkspaceSummary {
     /// Summarizes the poses of a workspace.
     pub fn new(workspace: &Workspace, poses: &[WorkspacePose]) -> Self {
         let rows: Vec<_> = poses.iter().map(|pose| WorkspaceRow::new(workspace, pose)).collect();
-        let (mut status, mut anew_status, mut dominant) = (BTreeMap::new(), BTreeMap::new(), BTreeMap::new());
+        let (mut status, mut recomputed_status, mut dominant) =
+            (BTreeMap::new(), BTreeMap::new(), BTreeMap::new());
         for row in &rows {
             *status.entry(row.status).or_insert(0) += 1;
-            if let Some(anew) = row.anew_status {
-                *anew_status.entry(anew).or_insert(0) += 1;
+            if let Some(recomputed) = row.recomputed_status {
+                *recomputed_status.entry(recomputed).or_insert(0) += 1;
             }
             if let Some(name) = &row.dominant {
                 *dominant.entry(name.clone()).or_insert(0) += 1;
@@ -167,7 +168,7 @@ impl WorkspaceSummary {
             grid: workspace.grid,
             uncertainties: causes.iter().map(|cause| (cause.name.clone(), cause.law.std())).collect(),
             status,
-            anew_status,
+            recomputed_status,
             left_out: left_out(poses),
             too_much: poses.iter().filter(|pose| pose.is_too_much()).count(),
             dominant,
@@ -177,10 +178,10 @@ impl WorkspaceSummary {
             lowest_frequency_hz: held_extremes(&rows, |row| row.lowest_frequency_hz),
             greatest_tension: held_extremes(&rows, |row| row.greatest_tension),
             least_tension: held_extremes(&rows, |row| row.least_tension),
-            anew_greatest_tension: extremes(rows.iter(), |row| row.anew_greatest_tension),
-            payload_anew_kg: extremes(rows.iter(), |row| row.payload_anew_kg),
+            recomputed_greatest_tension: extremes(rows.iter(), |row| row.recomputed_greatest_tension),
+            payload_recomputed_kg: extremes(rows.iter(), |row| row.payload_recomputed_kg),
             payload_kept_kg: extremes(rows.iter(), |row| row.payload_kept_kg),
-            margin_anew: extremes(rows.iter(), |row| row.margin_anew),
+            margin_recomputed: extremes(rows.iter(), |row| row.margin_recomputed),
             margin_kept: extremes(rows.iter(), |row| row.margin_kept),
             nearest_cables_mm: extremes(rows.iter(), |row| row.nearest_cables_mm),
             nearest_to_platform_mm: extremes(rows.iter(), |row| row.nearest_to_platform_mm),

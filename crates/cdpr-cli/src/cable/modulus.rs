@@ -3,7 +3,7 @@
 use crate::arguments::endings;
 use crate::arguments::{Named, Printing, named, number};
 use crate::error::ProgramError;
-use crate::output::{patiently, table};
+use crate::output::{patiently, print_sentence, table};
 use crate::questions;
 use cdpr_cable::{Phase, Record, SecantModulus, Specimen};
 use cdpr_report::{Cycle, CycleBranch, cycle};
@@ -120,6 +120,13 @@ pub(super) fn run(settings: &Settings) -> Result<(), ProgramError> {
 }
 
 fn print(found: &Found) {
+    for InRange { from_percent, to_percent, loading, .. } in found.ranges.iter().take(1) {
+        let [modulus, error] = [loading.modulus_gpa, loading.standard_uncertainty_gpa];
+        print_sentence(&format!(
+            "While loading, from {from_percent} to {to_percent} %: {modulus:.2} GPa, standard deviation \
+             {error:.2} GPa."
+        ));
+    }
     let mut rows = table(&[
         "range [%]",
         "loading [GPa]",

@@ -5,13 +5,13 @@ use crate::arguments::{
 };
 use crate::calibrate::sensors::{NoiseArgument, SensorArguments};
 use crate::error::ProgramError;
-use crate::output::{Details, Ending, narrow_table, patiently, table};
+use crate::output::{Details, Ending, patiently, print_sentence, table, wide_table};
 use cdpr_calibration::{
     Calibrated, CalibrationError, CalibrationSummary, Campaign, Fit, FitSettings, Measurements,
     ParameterSummary, RobustLoss, Unknowns, carry_out, read_measurements,
 };
 use cdpr_report::calibration_report;
-use cdpr_robot::{Robot, broken, counted, listing, rounded, shown, significant};
+use cdpr_robot::{Robot, counted, listing, rounded, shown, significant};
 use cdpr_study::{ErrorModel, InputKind, check_table, read_bytes};
 use std::path::PathBuf;
 
@@ -192,13 +192,13 @@ fn print(summary: &CalibrationSummary) {
         sentences.push(listing("Far from the model: ", &lines, "."));
     }
     sentences.extend(summary.warnings.iter().map(|warning| format!("warning: {warning}")));
-    sentences.iter().flat_map(|sentence| broken(sentence)).for_each(|line| println!("{line}"));
+    sentences.iter().for_each(|sentence| print_sentence(sentence));
     let mut moved: Vec<_> = all().collect();
     let share = |of: &ParameterSummary| {
         of.std.filter(|std| *std > 0.0).map_or(0.0, |std| ((of.after - of.before) / std).abs())
     };
     moved.sort_by(|one, other| share(other.1).total_cmp(&share(one.1)));
-    let mut rows = narrow_table(&["moved most", "before", "after", "std", "identifiable"]);
+    let mut rows = table(&["moved most", "before", "after", "std", "identifiable"]);
     for (name, of) in moved.into_iter().take(LEADING) {
         rows.add_row([
             name.clone(),
@@ -226,7 +226,7 @@ fn print_details(summary: &CalibrationSummary, found: &Fit) {
         summary.degrees_of_freedom
     );
     let mut rows =
-        table(&["sensor", "numbers", "rms before", "rms after", "after/noise", "predicted", "unit"]);
+        wide_table(&["sensor", "numbers", "rms before", "rms after", "after/noise", "predicted", "unit"]);
     for (name, of) in &summary.residuals {
         rows.add_row([
             (*name).to_owned(),
@@ -241,7 +241,7 @@ fn print_details(summary: &CalibrationSummary, found: &Fit) {
     println!("{rows}");
     let columns =
         ["parameter", "before", "after", "std", "std by data alone", "moved [prior std]", "identifiable"];
-    let mut rows = table(&columns);
+    let mut rows = wide_table(&columns);
     for (name, of) in summary.parameters.iter().chain(&summary.sensors) {
         rows.add_row([
             name.clone(),

@@ -4,10 +4,10 @@ use crate::arguments::poses;
 use crate::arguments::{self, FreeArguments, Preference, Printing, RobotArgument};
 use crate::calibrate::candidates::{Candidates, Known, add, ending};
 use crate::error::ProgramError;
-use crate::output::{Ending, patiently, table};
+use crate::output::{Details, Ending, patiently, print_sentence, table};
 use crate::questions;
 use cdpr_calibration::{Calibration, Combination, Identifiability, ParameterValue};
-use cdpr_robot::{Pose, Robot, counted, rounded, shown};
+use cdpr_robot::{Pose, Robot, counted, rounded, shown, significant};
 use cdpr_statics::Load;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -34,6 +34,8 @@ pub(crate) struct Settings {
     count: usize,
     #[command(flatten)]
     printing: Printing,
+    #[command(flatten)]
+    details: Details,
 }
 
 pub(super) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
@@ -50,7 +52,7 @@ pub(super) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
         let found = calibration.identify(0..poses.len());
         Output::new(poses, refused, &found, &calibration, settings.count)
     });
-    settings.printing.format().print(&output, |output| print(&robot, output))?;
+    settings.printing.format().print(&output, |output| print(&robot, output, settings.details.details))?;
     Ok(ending(output.poses, all))
 }
 
@@ -111,32 +113,49 @@ impl Output {
     }
 }
 
-fn print(robot: &Robot, output: &Output) {
-    println!("{}: measured at {}", shown(&robot.name), counted(output.poses, "pose"));
-    for (reason, count) in &output.refused {
-        println!("{} left out: {reason}", counted(*count, "pose"));
+/// What measurements at all poses identify, and which poses contribute most.
+fn print(robot: &Robot, output: &Output, details: bool) {
+    let (known, unknown) = (output.identifiable.len(), output.unidentifiable.len());
+    let poses = counted(output.poses, "pose");
+    let all = known + unknown;
+    print_sentence(&format!(
+        "{}: {poses} identify {known} of {all} combinations of the parameters.",
+        shown(&robot.name)
+    ));
+    let mut left: Vec<_> = output.remaining.iter().collect();
+    left.sort_by(|(_, one), (_, other)| other.total_cmp(one));
+    if let (Some((worst, most)), Some((best, least))) = (left.first(), left.last()) {
+        let [most, least] = [most, least].map(|ratio| significant(100.0 * **ratio, 3));
+        print_sentence(&format!("Uncertainty left: {least} % ({best}) to {most} % ({worst})."));
     }
+    for (reason, count) in &output.refused {
+        println!("{} left out: {}", counted(*count, "pose"), reason.replace('_', " "));
+    }
+    if details {
+        print_details(output);
+    }
+    let mut rows = table(&["best poses: x, y, z [m], qw, qx, qy, qz", "adds [bit]"]);
+    for best in &output.best_poses {
+        let pose = best.pose.map(|number| rounded(number, 6).to_string()).join(", ");
+        rows.add_row([pose, format!("{:.2}", best.information_bits)]);
+    }
+    println!("{rows}");
+}
+
+/// Each combination of parameters and each parameter.
+fn print_details(output: &Output) {
     let words = |part: &Part| {
         let largest = part.weights.iter().take(5).map(|(name, weight)| format!("{weight:+.2} {name}"));
         largest.collect::<Vec<_>>().join(" ")
     };
     let mut rows = table(&["signal/noise", "combination of parameters, each in units of its uncertainty"]);
-    for part in &output.identifiable {
-        rows.add_row([format!("{:.3e}", part.signal_to_noise), words(part)]);
-    }
-    for part in &output.unidentifiable {
-        rows.add_row(["0".to_owned(), words(part)]);
+    for part in output.identifiable.iter().chain(&output.unidentifiable) {
+        rows.add_row([significant(part.signal_to_noise, 4), words(part)]);
     }
     println!("{rows}");
     let mut rows = table(&["parameter", "uncertainty left [%]"]);
     for (name, ratio) in &output.remaining {
         rows.add_row([name.clone(), format!("{:.2}", 100.0 * ratio)]);
-    }
-    println!("{rows}");
-    let mut rows = table(&["best poses: x, y, z [m], qw, qx, qy, qz", "adds [bit]"]);
-    for best in &output.best_poses {
-        let pose = best.pose.map(|number| rounded(number, 6).to_string()).join(", ");
-        rows.add_row([pose, format!("{:.2}", best.information_bits)]);
     }
     println!("{rows}");
 }

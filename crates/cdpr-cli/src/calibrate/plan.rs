@@ -7,10 +7,10 @@ use crate::arguments::{
 };
 use crate::calibrate::candidates::{Candidates, Known, add, ending};
 use crate::error::ProgramError;
-use crate::output::{Details, Ending, narrow_table, patiently, table};
+use crate::output::{Details, Ending, patiently, print_sentence, table};
 use crate::questions;
 use cdpr_calibration::{AtWork, Calibration, Criterion, PosePlan, Quality};
-use cdpr_robot::{Pose, Robot, broken, counted, rounded, shown, significant};
+use cdpr_robot::{Pose, Robot, counted, rounded, shown, significant};
 use cdpr_study::OutputLimit;
 use clap::ValueEnum;
 use serde::Serialize;
@@ -243,7 +243,7 @@ fn answer(robot: &Robot, output: &Plan) -> String {
 
 fn print_plan(robot: &Robot, output: &Plan, details: bool) {
     let count = output.poses.len();
-    broken(&answer(robot, output)).iter().for_each(|line| println!("{line}"));
+    print_sentence(&answer(robot, output));
     match output.needed {
         Some(Some(needed)) => println!("{} reach the accuracy", counted(needed, "pose")),
         Some(None) => println!("{} do not reach the accuracy", counted(count, "pose")),
@@ -253,7 +253,7 @@ fn print_plan(robot: &Robot, output: &Plan, details: bool) {
     for (reason, count) in &output.refused {
         println!("{} left out: {reason}", counted(*count, "pose"));
     }
-    let mut rows = narrow_table(&[
+    let mut rows = table(&[
         "set of poses",
         "information [bit]",
         "std of parameters left [%]",

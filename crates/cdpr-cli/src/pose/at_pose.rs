@@ -7,7 +7,7 @@ use crate::arguments::{
 };
 use crate::error::ProgramError;
 use crate::lists::{PoseTable, pose_file};
-use crate::output::{Ending, patiently, progress};
+use crate::output::{Ending, patiently, print_sentence, progress};
 use crate::questions;
 use cdpr_robot::{Pose, Robot, shown};
 use cdpr_statics::StaticsError;
@@ -296,7 +296,9 @@ pub(crate) fn print_fall(
     let failure = Failure::from(error);
     match format {
         Format::Json => print_line::<()>(pose, &[], Err(&failure))?,
-        Format::Text | Format::Csv => println!("{}\n{}", heading(robot, pose), failure.message),
+        Format::Text | Format::Csv => {
+            print_sentence(&format!("{}: {}", heading(robot, pose), failure.message));
+        }
     }
     Ok(Ending::SomethingWrong)
 }

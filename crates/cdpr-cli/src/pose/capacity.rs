@@ -3,7 +3,7 @@
 use crate::answer::{OutOfLimits, decimal, vector};
 use crate::arguments::{FreeArguments, With, count, with};
 use crate::error::ProgramError;
-use crate::output::{Ending, narrow_table, table};
+use crate::output::{Ending, print_sentence, table};
 use crate::pose::at_pose::{Failure, RobotAtPose, Row};
 use crate::questions;
 use crate::wrenches::WrenchArguments;
@@ -11,7 +11,7 @@ use cdpr_assess::{
     Block, CableDistance, Capacity, Clearance, Figure, PlatformDistance, TiltTowards, WrenchSet, capacity_at,
     clearance_under, tilt_at,
 };
-use cdpr_robot::{Pose, Robot, broken, significant};
+use cdpr_robot::{Pose, Robot, significant};
 use cdpr_statics::capacity::tension_margin;
 use cdpr_statics::{Load, StaticsError, WantedPose};
 use serde::Serialize;
@@ -39,11 +39,15 @@ pub(crate) fn run(Settings { at, free, set, with }: &Settings) -> Result<Ending,
     let with = with.clone().unwrap_or_default();
     with.check(&["tilt"])?;
     let tilt = with.value("tilt", Some(8), count::<1, 360>)?;
+    if tilt.is_some() && !free.free.is_empty() {
+        let expected = "--with tilt: expected no --free: there the rotation follows from the position";
+        return Err(ProgramError::Usage(expected.to_owned()));
+    }
     questions::about_wrenches(&at.robot()?, set.wrenches());
     let solve = |robot: &Robot, pose: &_| {
         let found = capacity_at(robot, WantedPose::at(pose).free(&free.free), &load, &set);
         // Whatever else fails, fails with it.
-        if let (Err(error), Err(_)) = (&found.payload_kept, &found.margin_anew) {
+        if let (Err(error), Err(_)) = (&found.payload_kept, &found.margin_recomputed) {
             return Err(error.clone());
         }
         let clearance = clearance_under(robot, WantedPose::at(pose).free(&free.free), &load).ok();
@@ -66,7 +70,7 @@ struct Answer {
     payload_kept_slack: Shown,
     /// Distance of the tensions from the nearest limit.
     margin: Ways,
-    /// The nearest two cables and the cable nearest to the platform [m], tensions distributed anew; `null`
+    /// The nearest two cables and the cable nearest to the platform [m], tensions recomputed; `null`
     /// where no tensions bear the load, or all cables share points.
     nearest_cables: Option<NearCables>,
     nearest_to_platform: Option<NearPlatform>,
@@ -113,8 +117,8 @@ struct NearPlatform {
 /// Both ways to bear a load.
 #[derive(Serialize)]
 struct Ways {
-    /// Tensions distributed anew.
-    anew: Shown,
+    /// Tensions recomputed.
+    recomputed: Shown,
     /// Lengths kept.
     kept: Shown,
 }
@@ -205,8 +209,13 @@ impl Shown {
 
 impl Row for Answer {
     fn columns(_: &Robot) -> Vec<String> {
-        let names =
-            ["payload_anew_kg", "payload_kept_kg", "payload_kept_slack_kg", "margin_anew_n", "margin_kept_n"];
+        let names = [
+            "payload_recomputed_kg",
+            "payload_kept_kg",
+            "payload_kept_slack_kg",
+            "margin_recomputed_n",
+            "margin_kept_n",
+        ];
         let both = |name: &str| {
             let blocked = name.rsplit_once('_').map_or(name, |(start, _)| start);
             [name.to_owned(), format!("{blocked}_blocked_by")]
@@ -255,9 +264,9 @@ impl Answer {
         let shown = |figure| Shown::new(figure, set);
         let (cables, platform) = clearance.map_or((None, None), |found| (found.cables, found.platform));
         Self {
-            payload: Ways { anew: shown(found.payload_anew), kept: shown(found.payload_kept) },
+            payload: Ways { recomputed: shown(found.payload_recomputed), kept: shown(found.payload_kept) },
             payload_kept_slack: shown(found.payload_kept_slack),
-            margin: Ways { anew: shown(found.margin_anew), kept: shown(found.margin_kept) },
+            margin: Ways { recomputed: shown(found.margin_recomputed), kept: shown(found.margin_kept) },
             nearest_cables: cables
                 .map(|CableDistance { distance, pair }| NearCables { distance, cables: pair.map(|i| i + 1) }),
             nearest_to_platform: platform
@@ -268,17 +277,17 @@ impl Answer {
 
     fn all(&self) -> [(&'static str, &Shown); 5] {
         [
-            ("greatest payload [kg], tensions distributed anew", &self.payload.anew),
+            ("greatest payload [kg], tensions recomputed", &self.payload.recomputed),
             ("greatest payload [kg], lengths kept", &self.payload.kept),
             ("greatest payload [kg], lengths kept, slack allowed", &self.payload_kept_slack),
-            ("margin [N], tensions distributed anew", &self.margin.anew),
+            ("margin [N], tensions recomputed", &self.margin.recomputed),
             ("margin [N], lengths kept", &self.margin.kept),
         ]
     }
 
     /// What the robot carries, and how far its tensions are from their limits.
     fn sentences(&self, heading: &str) -> Vec<String> {
-        let payload = &self.payload.anew;
+        let payload = &self.payload.recomputed;
         let limit = |of: &Blocking| of.words.split(',').next().unwrap_or_default().to_owned();
         let by =
             payload.blocking.first().map_or_else(String::new, |first| format!("; then {}", limit(first)));
@@ -287,7 +296,7 @@ impl Answer {
             None if payload.error.is_some() => format!("{heading} carries nothing: {}.", payload.cause()),
             None => format!("{heading} is beyond a limit without any payload{by}."),
         };
-        let margin = self.margin.anew.value.map(|margin| match margin {
+        let margin = self.margin.recomputed.value.map(|margin| match margin {
             ..0.0 => format!(
                 "No tensions within the limits hold this pose: they miss them by {} N.",
                 significant(-margin, 4)
@@ -299,9 +308,9 @@ impl Answer {
 
     fn print(&self, heading: &str) {
         for sentence in self.sentences(heading) {
-            broken(&sentence).iter().for_each(|line| println!("{line}"));
+            print_sentence(&sentence);
         }
-        let mut rows = narrow_table(&["", "value", "blocked by"]);
+        let mut rows = table(&["", "value", "blocked by"]);
         let mut told: Vec<&str> = Vec::new();
         for (name, shown) in self.all() {
             let value = match shown.value {

@@ -1,20 +1,31 @@
-//! `cdpr deflection`: how far a load displaces and rotates the platform, with both equilibria.
+//! `cdpr deflection`: how far a load displaces and rotates the platform.
 
-use crate::answer::{Found, OutOfLimits, vector};
+use crate::answer::{Found, OutOfLimits, decimal, vector};
 use crate::error::ProgramError;
-use crate::output::Ending;
+use crate::output::{Details, Ending, print_sentence, table};
 use crate::pose::at_pose::{RobotAtFreePose, Row, cells, numbered};
 use cdpr_robot::{Robot, Vector3};
 use cdpr_statics::{Deflection, WantedPose, deflection};
 use serde::Serialize;
 
-pub(crate) fn run(RobotAtFreePose { at, free }: &RobotAtFreePose) -> Result<Ending, ProgramError> {
+/// The robot, its poses and the load.
+#[derive(clap::Args)]
+pub(crate) struct Settings {
+    #[command(flatten)]
+    at: RobotAtFreePose,
+    #[command(flatten)]
+    details: Details,
+}
+
+pub(crate) fn run(
+    Settings { at: RobotAtFreePose { at, free }, details }: &Settings,
+) -> Result<Ending, ProgramError> {
     let load = at.load.some_load()?;
     let solve = |robot: &Robot, pose: &_| {
         let found = deflection(robot, WantedPose::at(pose).free(&free.free), &load)?;
         Ok(Answer::new(robot, &found))
     };
-    at.answer(solve, Answer::print)
+    at.answer(solve, |answer, heading| answer.print(heading, details.details))
 }
 
 /// The deflection, in SI units unless the name says otherwise.
@@ -72,16 +83,35 @@ impl Answer {
         }
     }
 
-    fn print(&self, heading: &str) {
-        println!("{heading}");
-        println!("dp = {} mm, |dp| = {:.5} mm", vector(&self.deflection_mm, 5), self.magnitude_mm);
+    fn print(&self, heading: &str, details: bool) {
+        let stays = match self.loaded.is_stable() {
+            true => "it stays stable",
+            false => "it is unstable then",
+        };
+        print_sentence(&format!("{heading} is displaced by {:.5} mm; {stays}.", self.magnitude_mm));
+        println!("dp = {} mm", vector(&self.deflection_mm, 5));
         if self.magnitude_mm == 0.0 {
             println!("no displacement above rounding, {:.1e} mm", self.rounding_mm);
         }
         println!("rotated by {} degrees", vector(&self.rotation_deg, 5));
-        println!("\nunder its own weight");
-        self.unloaded.print(&self.lengths);
-        println!("\nwith the load");
-        self.loaded.print(&self.lengths);
+        if details {
+            println!();
+            self.unloaded.print("Under its own weight the platform", &self.lengths);
+            println!();
+            return self.loaded.print("With the load the platform", &self.lengths);
+        }
+        let mut rows = table(&["cable", "unstrained length [m]", "tension [N]", "with the load [N]"]);
+        let tensions = self.unloaded.tensions.iter().zip(&self.loaded.tensions);
+        for (i, (length, (unloaded, loaded))) in self.lengths.iter().zip(tensions).enumerate() {
+            let numbers = [decimal(*unloaded, 3), decimal(*loaded, 3)];
+            rows.add_row([(i + 1).to_string(), format!("{length:.6}")].into_iter().chain(numbers));
+        }
+        println!("{rows}");
+        if !self.unloaded.out_of_limits.is_empty() {
+            println!("under its own weight:");
+            OutOfLimits::print(&self.unloaded.out_of_limits);
+        }
+        println!("with the load:");
+        self.loaded.print_rest();
     }
 }

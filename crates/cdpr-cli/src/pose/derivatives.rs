@@ -3,7 +3,7 @@
 use crate::answer::{OutOfLimits, bound_name, decimal};
 use crate::arguments::UncertaintyArgument;
 use crate::error::ProgramError;
-use crate::output::{Ending, table};
+use crate::output::{Details, Ending, print_sentence, table, wide_table};
 use crate::pose::at_pose::{RobotAtFreePose, Row, cells};
 use cdpr_dynamics::{DynamicsError, FrequencyDerivatives};
 use cdpr_robot::{Parameter, Robot};
@@ -20,10 +20,12 @@ pub(crate) struct Settings {
     at: RobotAtFreePose,
     #[command(flatten)]
     errors: UncertaintyArgument,
+    #[command(flatten)]
+    details: Details,
 }
 
 pub(crate) fn run(
-    Settings { at: RobotAtFreePose { at, free }, errors }: &Settings,
+    Settings { at: RobotAtFreePose { at, free }, errors, details }: &Settings,
 ) -> Result<Ending, ProgramError> {
     let load = at.load.some_load()?;
     let robot = at.robot()?;
@@ -35,7 +37,7 @@ pub(crate) fn run(
         slopes.uncertainty = model.as_ref().map(|model| Uncertainty::new(model, &found)).transpose()?;
         Ok(slopes)
     };
-    at.answer(solve, Slopes::print)
+    at.answer(solve, |slopes, heading| slopes.print(heading, details.details))
 }
 
 /// What an error model makes of |dp|, to first order.
@@ -47,8 +49,11 @@ struct Uncertainty {
     shares: IndexMap<String, f64>,
 }
 
-/// Causes that a table names.
+/// Causes that are named.
 const NAMED: usize = 5;
+
+/// Parameters of the table without `--details`.
+const LEADING: usize = 10;
 
 impl Uncertainty {
     fn new(model: &ErrorModel, found: &Derivatives) -> Result<Self, StaticsError> {
@@ -67,7 +72,8 @@ impl Uncertainty {
     fn print(&self) {
         let named = self.shares.iter().take(NAMED);
         let named: Vec<_> = named.map(|(name, share)| format!("{name} {:.1} %", 100.0 * share)).collect();
-        println!("standard deviation of |dp|: {:.5} mm; {}", self.std_mm, named.join(", "));
+        let (std, named) = (self.std_mm, named.join(", "));
+        print_sentence(&format!("Its standard deviation is {std:.5} mm; shares: {named}."));
     }
 }
 
@@ -237,8 +243,48 @@ impl Slopes {
         (0..self.parameters.len()).flat_map(of).collect()
     }
 
-    fn print(&self, heading: &str) {
-        println!("{heading}: |dp| = {:.5} mm under the load", self.deflection_magnitude_mm);
+    /// The deflection, and the parameters that change it most, each by a unit of the size of its uncertainty.
+    fn print(&self, heading: &str, details: bool) {
+        print_sentence(&format!("{heading}: |dp| = {:.5} mm under the load.", self.deflection_magnitude_mm));
+        self.uncertainty.iter().for_each(Uncertainty::print);
+        let mut rows = self.rows();
+        let size = |(_, index, slope): &(String, usize, Slope)| {
+            (slope.magnitude_mm * handy_unit(&self.inputs[*index]).1).abs()
+        };
+        rows.sort_by(|one, other| size(other).total_cmp(&size(one)));
+        if details {
+            self.print_all(&rows);
+        } else {
+            let mut lines = table(&["parameter", "d|dp| [\u{b5}m]", "per"]);
+            for (name, index, slope) in rows.iter().take(LEADING) {
+                let (unit, step) = handy_unit(&self.inputs[*index]);
+                lines.add_row([name, &micrometres(slope.magnitude_mm * step), unit]);
+            }
+            println!("{lines}");
+            if let Some(more) = rows.len().checked_sub(LEADING).filter(|more| *more > 0) {
+                println!("{more} more, and other derivatives: with --details");
+            }
+        }
+        for TwoSlopes { parameter, cables, bounds, .. } in &self.one_sided {
+            let at =
+                |(cable, bound): (&usize, &&str)| format!("cable {cable} leaves its {bound}imum tension");
+            let cables: Vec<_> = cables.iter().zip(bounds).map(at).collect();
+            print_sentence(&format!("{parameter}: {} on one side only", cables.join(", ")));
+        }
+        self.without.iter().for_each(|reason| print_sentence(reason));
+        if let Some(Swing { platform_frequency_hz, platform_share, frequency_gap }) = &self.swing {
+            print_sentence(&format!(
+                "The platform swings at {platform_frequency_hz:.4} Hz, with {} % of the energy of that motion; the \
+                 nearest other frequency is {} % away.",
+                decimal(100.0 * platform_share, 1),
+                decimal(100.0 * frequency_gap, 2)
+            ));
+        }
+        OutOfLimits::print(&self.out_of_limits);
+    }
+
+    /// All derivatives of all parameters.
+    fn print_all(&self, rows: &[(String, usize, Slope)]) {
         let mut header = vec![
             "parameter",
             "d|dp| [\u{b5}m]",
@@ -250,21 +296,16 @@ impl Slopes {
         ];
         header.extend(self.least_stiffness.as_ref().map(|_| "d stiffness [N/m]"));
         header.extend(self.frequency_hz.as_ref().map(|_| "d frequency [mHz]"));
-        let units: Vec<_> = self.inputs.iter().map(handy_unit).collect();
-        let mut rows = self.rows();
-        let size = |(_, index, slope): &(String, usize, Slope)| (slope.magnitude_mm * units[*index].1).abs();
-        rows.sort_by(|one, other| size(other).total_cmp(&size(one)));
-        let mut lines = table(&header);
+        let mut lines = wide_table(&header);
         for (name, index, slope) in rows {
-            let (unit, step) = units[index];
-            let micrometres = |slope: f64| decimal(1e3 * slope * step, 5);
-            let [dx, dy, dz] = slope.deflection_mm.map(micrometres);
+            let (unit, step) = handy_unit(&self.inputs[*index]);
+            let [dx, dy, dz] = slope.deflection_mm.map(|slope| micrometres(slope * step));
             let lengths = slope.unstrained_lengths.iter();
             let largest = lengths.fold(0.0, |size: f64, slope| size.max(slope.abs()));
             let softest = [slope.least_stiffness, slope.frequency_hz.map(|slope| 1e3 * slope)];
             let row = [
-                name,
-                micrometres(slope.magnitude_mm),
+                name.clone(),
+                micrometres(slope.magnitude_mm * step),
                 unit.to_owned(),
                 dx,
                 dy,
@@ -275,23 +316,12 @@ impl Slopes {
             lines.add_row(row.into_iter().chain(softest));
         }
         println!("{lines}");
-        for TwoSlopes { parameter, cables, bounds, .. } in &self.one_sided {
-            let at =
-                |(cable, bound): (&usize, &&str)| format!("cable {cable} leaves its {bound}imum tension");
-            let cables: Vec<_> = cables.iter().zip(bounds).map(at).collect();
-            println!("{parameter}: {} on one side only", cables.join(", "));
-        }
-        self.without.iter().for_each(|reason| println!("{reason}"));
-        if let Some(Swing { platform_frequency_hz, platform_share, frequency_gap }) = &self.swing {
-            println!(
-                "frequency of the platform: {platform_frequency_hz:.4} Hz, with {} % of the energy of its motion;",
-                decimal(100.0 * platform_share, 1)
-            );
-            println!("the nearest other frequency is {} % away", decimal(100.0 * frequency_gap, 2));
-        }
-        self.uncertainty.iter().for_each(Uncertainty::print);
-        OutOfLimits::print(&self.out_of_limits);
     }
+}
+
+/// A length [mm] in micrometres.
+fn micrometres(millimetres: f64) -> String {
+    decimal(1e3 * millimetres, 5)
 }
 
 impl Row for Slopes {

@@ -6,10 +6,10 @@ use crate::answer::Found;
 use crate::arguments::poses::{self, PoseArguments};
 use crate::arguments::{self, Printing, RobotArgument};
 use crate::error::ProgramError;
-use crate::output::{Ending, patiently, progress};
+use crate::output::{Ending, patiently, print_sentence, progress};
 use crate::pose::at_pose::Failure;
 use crate::questions;
-use cdpr_robot::{Robot, Vector3, Wrench, from_json, plausible};
+use cdpr_robot::{Robot, Vector3, Wrench, from_json, plausible, shown};
 use cdpr_statics::{Certificate, DirectProblem, DirectStart, Load, StaticsError, check_lengths, rough_pose};
 use cdpr_study::{InputKind, StudyError, other_kind, read_text};
 use serde::de::IgnoredAny;
@@ -83,7 +83,7 @@ struct Case {
 
 pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     let robot = questions::open_robot(settings.robot.path())?;
-    let certify = settings.certify()?;
+    let (name, certify) = (shown(&robot.name), settings.certify()?);
     let cases = match (&settings.from, &settings.lengths) {
         (Some(path), _) => Cases::read(path)?,
         (None, lengths) => Cases::One(Box::new(settings.case(lengths.as_ref())?)),
@@ -96,7 +96,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
                 Some(path) => answer.map_err(ProgramError::in_file(path))?,
                 None => answer?,
             };
-            settings.printing.format().print(&answer, |answer| answer.print(&case.lengths))?;
+            settings.printing.format().print(&answer, |answer| answer.print(&name, &case.lengths))?;
             Ok(answer.ending())
         }
         Cases::List(cases) => {
@@ -112,8 +112,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
             progress.finish_and_clear();
             settings.printing.format().print(&answers, |answers| {
                 for (i, (entry, case)) in answers.iter().zip(&cases).enumerate() {
-                    println!("case {}", i + 1);
-                    entry.print(&case.lengths);
+                    entry.print(&format!("Case {}", i + 1), &case.lengths);
                 }
             })?;
             let well = answers.iter().all(|entry| entry.ending() == Ending::Well);
@@ -148,7 +147,9 @@ impl Case {
     /// Asks about lengths, mass, load and start.
     fn question(&self, robot: &Robot) {
         questions::about_lengths(robot, &self.lengths);
-        questions::ask(self.mass.and_then(|mass| plausible::mass("mass", mass)));
+        // A mass that is not positive is refused.
+        let mass = self.mass.filter(|mass| *mass > 0.0);
+        questions::ask(mass.and_then(|mass| plausible::mass(robot, "mass", mass)));
         questions::about_load(robot, &self.load());
         if let Some(start) = self.pose.as_ref().and_then(|numbers| poses::pose_of(numbers).ok()) {
             questions::about_pose(robot, "pose", &start);
@@ -263,14 +264,16 @@ impl Answer {
         }
     }
 
-    fn print(&self, lengths: &[f64]) {
-        self.found.print(lengths);
+    fn print(&self, name: &str, lengths: &[f64]) {
+        self.found.print(name, lengths);
         match &self.certificate {
-            Some(Proof::Given { position, rotation, force, least_stiffness, .. }) => println!(
-                "proved: exact to {position:.1e} m, {rotation:.1e} rad, {force:.1e} N; \
+            Some(Proof::Given { position, rotation, force, least_stiffness, .. }) => {
+                print_sentence(&format!(
+                    "proved: exact to {position:.1e} m, {rotation:.1e} rad, {force:.1e} N; \
                  softest motion at least {least_stiffness:.1} N/m"
-            ),
-            Some(Proof::None { error }) => println!("{}", error.message),
+                ))
+            }
+            Some(Proof::None { error }) => print_sentence(&error.message),
             None => {}
         }
     }
@@ -284,10 +287,10 @@ impl Entry {
         }
     }
 
-    fn print(&self, lengths: &[f64]) {
+    fn print(&self, name: &str, lengths: &[f64]) {
         match self {
-            Self::Answer(answer) => answer.print(lengths),
-            Self::Failed { error } => println!("no answer: {}", error.message),
+            Self::Answer(answer) => answer.print(name, lengths),
+            Self::Failed { error } => print_sentence(&format!("{name} has no answer: {}", error.message)),
         }
     }
 }

@@ -7,11 +7,11 @@ use crate::arguments::{
     self, FreeArguments, Preference, Printing, RobotArgument, With, number, payload, with,
 };
 use crate::error::ProgramError;
-use crate::output::{Ending, patiently, table};
+use crate::output::{Ending, patiently, print_sentence, table};
 use crate::pose::at_pose::print_fall;
 use crate::questions;
 use cdpr_report::{Cycle, CycleBranch, cycle};
-use cdpr_robot::Robot;
+use cdpr_robot::{Robot, Vector3, shown};
 use cdpr_statics::hysteresis::{CycleStep, HysteresisLaw, LoadCycle, Unloading, load_cycle};
 use cdpr_statics::{Load, StaticsError, WantedPose};
 use cdpr_study::{CableLaw, InputKind, StudyError, elastic_laws, open_law, open_record};
@@ -96,7 +96,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
         cycle => cycle?,
     };
     let found = Found::new(&robot, &laws, &cycle);
-    settings.printing.format().print(&found, print)?;
+    settings.printing.format().print(&found, |found| print(&robot, found))?;
     if found.cables.iter().any(|cable| cable.dissipated_j < 0.0) {
         eprintln!(
             "warning: the loop of a cable runs the wrong way round and gives energy: in its range of tension \
@@ -181,9 +181,15 @@ impl Found {
     }
 }
 
-fn print(found: &Found) {
+fn print(robot: &Robot, found: &Found) {
+    let left = Vector3::from(found.residual_mm).norm();
+    let displaced = Vector3::from(found.deflection_mm).norm();
+    print_sentence(&format!(
+        "{}: the payload displaces the platform by {displaced:.4} mm; {left:.5} mm are left when it is gone.",
+        shown(&robot.name)
+    ));
     let mut rows =
-        table(&["cable", "own weight [N]", "payload [N]", "removed [N]", "E [GPa]", "dissipated [mJ]"]);
+        table(&["cable", "unloaded [N]", "payload [N]", "removed [N]", "E [GPa]", "dissipated [mJ]"]);
     for (i, cable) in found.cables.iter().enumerate() {
         let [a, b, c] = [cable.tension_own_weight_n, cable.tension_payload_n, cable.tension_removed_n]
             .map(|tension| format!("{tension:.2}"));

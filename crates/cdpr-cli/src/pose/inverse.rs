@@ -4,7 +4,7 @@ use crate::answer::{self, Neutral, OutOfLimits, Residual, bound_name};
 use crate::arguments::poses::{COLUMNS, pose_numbers};
 use crate::arguments::{FreeArguments, With, with};
 use crate::error::ProgramError;
-use crate::output::Ending;
+use crate::output::{Ending, print_sentence};
 use crate::pose::at_pose::{RobotAtPose, Row, cells, numbered};
 use cdpr_robot::{Pose, Robot};
 use cdpr_statics::free_coordinates::{FreeSolution, FreeSolutions, free_solutions};
@@ -98,6 +98,9 @@ struct Resting {
     found_pose: [f64; 7],
     /// Angles of R = Rz(yaw) Ry(pitch) Rx(roll).
     roll_pitch_yaw_deg: [f64; 3],
+    /// Both in words.
+    #[serde(skip)]
+    place: String,
     lengths: Vec<f64>,
     tensions: Vec<f64>,
     exit_tensions: Vec<f64>,
@@ -132,13 +135,18 @@ impl Stays {
     }
 
     fn word(&self) -> &'static str {
-        if self.stable { "stable" } else { "unstable" }
+        answer::stability_word(self.stable)
     }
 
     fn print(&self) {
-        println!("{} with these lengths, softest motion {:.1} N/m", self.word(), self.least_stiffness);
+        println!("softest motion with these lengths {:.1} N/m", self.least_stiffness);
         Neutral::print(&self.neutral);
     }
+}
+
+/// The sentence that a pose is held, and how.
+fn held(heading: &str, tensions: &[f64], stays: &Stays) -> String {
+    format!("{heading}: tensions of {} hold it, {}.", answer::tension_range(tensions), stays.word())
 }
 
 /// A cable that hangs in a loop.
@@ -157,6 +165,7 @@ impl Resting {
         Self {
             found_pose: pose_numbers(&equilibrium.pose),
             roll_pitch_yaw_deg: [roll, pitch, yaw].map(f64::to_degrees),
+            place: answer::exact_place(&equilibrium.pose),
             lengths: lengths.clone(),
             tensions: tensions.clone(),
             exit_tensions: equilibrium.exit_tensions(robot, lengths),
@@ -171,13 +180,6 @@ impl Resting {
             iterations: *iterations,
             residual: Residual::new(residual),
         }
-    }
-
-    /// Position and angles in one line.
-    fn place(&self) -> String {
-        let (position, angles) =
-            (answer::vector(&self.found_pose[..3], 6), answer::vector(&self.roll_pitch_yaw_deg, 4));
-        format!("{position} m, (roll, pitch, yaw) = {angles} degrees")
     }
 }
 
@@ -210,10 +212,10 @@ impl Rest {
     }
 
     fn print(&self, heading: &str) {
-        let Resting { lengths, cable_forces, tensions, exit_tensions, .. } = &self.first;
-        println!("{heading}");
-        println!("rests at {}", self.first.place());
-        answer::print_cables(lengths, cable_forces, tensions, exit_tensions);
+        let Resting { place, lengths, tensions, exit_tensions, stays, .. } = &self.first;
+        print_sentence(&held(heading, tensions, stays));
+        print_sentence(&format!("It rests at {place}."));
+        answer::print_cables(lengths, tensions, exit_tensions);
         self.first.stays.print();
         OutOfLimits::print(&self.first.out_of_limits);
         for LoopedCable { cable, chords } in &self.first.loops {
@@ -222,7 +224,7 @@ impl Rest {
         self.first.residual.print();
         for other in &self.others {
             let beyond = if other.out_of_limits.is_empty() { "" } else { ", out of limits," };
-            println!("also {}{beyond} at {}", other.stays.word(), other.place());
+            print_sentence(&format!("also {}{beyond} at {}", other.stays.word(), other.place));
         }
     }
 }
@@ -291,8 +293,8 @@ impl Answer {
     }
 
     fn print(&self, heading: &str) {
-        println!("{heading}");
-        answer::print_cables(&self.lengths, &self.cable_forces, &self.tensions, &self.exit_tensions);
+        print_sentence(&held(heading, &self.tensions, &self.stays));
+        answer::print_cables(&self.lengths, &self.tensions, &self.exit_tensions);
         self.stays.print();
         OutOfLimits::print(&self.out_of_limits);
         for (i, bound) in self.report.active.iter().enumerate() {

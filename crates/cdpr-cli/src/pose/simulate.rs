@@ -5,7 +5,7 @@ use crate::arguments::{
     self, Format, FreeArguments, LoadArguments, Preference, Printing, RobotArgument, With, print_record,
 };
 use crate::error::ProgramError;
-use crate::output::{Ending, narrow_table, patiently};
+use crate::output::{Ending, patiently, table};
 use crate::pose::modes::with_inertia;
 use crate::questions;
 use cdpr_dynamics::simulate::{Discretization, Sample, Series, events_from_json, simulate};
@@ -281,7 +281,7 @@ impl Answer {
             "In the last quarter of {until} s it swings by up to {} mm about its mean place.",
             mm(self.swing_m)
         );
-        let mut rows = narrow_table(&["cable", "at 0 s [N]", "greatest [N]", "at [s]", "slack", "above"]);
+        let mut rows = table(&["cable", "at 0 s [N]", "greatest [N]", "at [s]", "slack", "above"]);
         for (i, cable) in self.cables.iter().enumerate() {
             let above = |above: Above| format!("{} {}", above.limit, significant(above.value_n, 4));
             rows.add_row([

@@ -2,9 +2,9 @@
 
 use crate::answer::{self, Neutral, OutOfLimits, decimal};
 use crate::error::ProgramError;
-use crate::output::{Ending, table};
+use crate::output::{Ending, print_sentence, table};
 use crate::pose::at_pose::{RobotAtFreePose, Row, cells};
-use cdpr_robot::Robot;
+use cdpr_robot::{Robot, significant};
 use cdpr_statics::WantedPose;
 use cdpr_statics::stiffness::{PoseStiffness, stiffness_at};
 use serde::Serialize;
@@ -98,29 +98,28 @@ impl Answer {
     }
 
     fn print(&self, heading: &str) {
-        println!("{heading}: K in (dp, d\u{3c6}) [N/m, N/rad, N, N m/rad]");
-        let print = |matrix: &[[f64; 6]; 6]| {
-            for row in matrix {
-                println!("{}", row.map(|entry| format!("{:>14}", decimal(entry, 1))).concat());
-            }
-        };
-        print(&self.stiffness);
-        if !self.symmetric {
-            println!("symmetric part of K, whose eigenvalues follow:");
-            print(&self.symmetric_part);
-        }
+        let stable = answer::stability_word(self.stable);
+        let least = significant(self.least_stiffness, 5);
+        print_sentence(&format!("{heading} is {stable}; its softest motion has {least} N/m."));
         let mut rows = table(&["eigenvalue [N/m]", "translation [m/m]", "rotation [rad/m]"]);
         for Eigenvalue { stiffness, translation, rotation } in &self.eigenvalues {
             let words = |vector: &[f64; 3]| answer::vector(vector, 4);
             rows.add_row([format!("{stiffness:.1}"), words(translation), words(rotation)]);
         }
         println!("{rows}");
-        let stable = if self.stable { "stable" } else { "unstable" };
-        println!(
-            "{stable}; least stiffness {:.1} N/m, with rotations times \u{2113} = {:.4} m",
-            self.least_stiffness, self.characteristic_length
-        );
+        println!("rotations times \u{2113} = {:.4} m", self.characteristic_length);
         Neutral::print(&self.neutral);
         OutOfLimits::print(&self.out_of_limits);
+        println!("K in (dp, d\u{3c6}) [N/m, N/rad, N, N m/rad]:");
+        let print = |matrix: &[[f64; 6]; 6]| {
+            for row in matrix {
+                println!("{}", row.map(|entry| format!("{:>13}", decimal(entry, 1))).concat());
+            }
+        };
+        print(&self.stiffness);
+        if !self.symmetric {
+            println!("its symmetric part, which has these eigenvalues:");
+            print(&self.symmetric_part);
+        }
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::arguments::{Preference, Printing, RobotArgument};
 use crate::error::ProgramError;
-use crate::output::{Ending, patiently};
+use crate::output::{Ending, patiently, print_sentence};
 use cdpr_assess::{Finding, Severity, inspect};
 use cdpr_robot::{counted, numbered, shown};
 
@@ -22,17 +22,14 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     let findings = patiently("inspecting the robot", || inspect(&robot));
     let warnings = findings.iter().filter(|finding| finding.severity == Severity::Warning).count();
     settings.printing.format().print(&findings, |findings| {
+        let [warned, notes] = [(warnings, "warning"), (findings.len() - warnings, "note")]
+            .map(|(count, word)| if count > 0 { counted(count, word) } else { format!("no {word}s") });
+        let cables = counted(robot.cables.len(), "cable");
+        print_sentence(&format!("{}: {cables}, {warned}, {notes}.", shown(&robot.name)));
         for Finding { severity, field, value, why, remedy } in findings {
-            println!("{severity}: {} is {value}: {why}", numbered(field));
-            println!("    remedy: {remedy}");
+            print_sentence(&format!("{severity}: {} is {value}: {why}", numbered(field)));
+            print_sentence(&format!("remedy: {remedy}"));
         }
-        println!(
-            "{}: {}, {}, {}",
-            shown(&robot.name),
-            counted(robot.cables.len(), "cable"),
-            counted(warnings, "warning"),
-            counted(findings.len() - warnings, "note")
-        );
     })?;
     Ok(if warnings > 0 { Ending::SomethingWrong } else { Ending::Well })
 }

@@ -2,7 +2,7 @@
 
 use crate::arguments::Printing;
 use crate::error::ProgramError;
-use crate::output::table;
+use crate::output::{print_sentence, table};
 use crate::questions;
 use cdpr_robot::library::{CABLES, ROBOTS};
 use cdpr_robot::{Grade, Robot, Vector3, shown};
@@ -55,7 +55,7 @@ pub(super) fn run(settings: &Settings) -> Result<(), ProgramError> {
     Ok(settings.printing.format().print(&Library { robots, cables }, |Library { robots, cables }| {
         print_robots(robots);
         print_cables(cables);
-        println!("cdpr robot show NAME prints what a robot is, where it is from and what is assumed");
+        println!("cdpr robot show NAME prints what a robot is, its source and what is assumed");
     })?)
 }
 
@@ -103,12 +103,11 @@ pub(super) fn exit_points(robot: &Robot) -> Vec<Vector3<f64>> {
 }
 
 fn print_robots(robots: &[RobotEntry]) {
-    let mut table = table(&["name", "robot", "cables", "platform [kg]", "exit points [m]", "grade"]);
+    let mut table = table(&["name", "cables", "mass [kg]", "exit points [m]", "grade"]);
     for robot in robots {
         let [x, y, z] = robot.extent_m;
         table.add_row([
             robot.name.to_owned(),
-            shown(&robot.title).to_string(),
             robot.cables.to_string(),
             robot.mass_kg.to_string(),
             format!("{x:.1} x {y:.1} x {z:.1}"),
@@ -116,12 +115,13 @@ fn print_robots(robots: &[RobotEntry]) {
         ]);
     }
     println!("{table}");
-    println!("grade: surveyed on the robot itself; from a paper or a file of its makers; nominal values");
+    print_sentence(
+        "grade: surveyed on the robot itself; from a paper or a file of its makers; nominal values",
+    );
 }
 
 fn print_cables(cables: &[CableEntry]) {
-    let mut table =
-        table(&["name", "section [mm²]", "density [kg/m]", "modulus [GPa]", "breaking force [N]"]);
+    let mut table = table(&["name", "section [mm²]", "mass [kg/m]", "E [GPa]", "breaks at [N]"]);
     for cable in cables {
         table.add_row([
             cable.name.to_owned(),
@@ -133,6 +133,7 @@ fn print_cables(cables: &[CableEntry]) {
     }
     println!("{table}");
     for cable in cables {
-        println!("{}: {}", cable.name, shown(cable.source.as_deref().unwrap_or("source not known")));
+        let source = shown(cable.source.as_deref().unwrap_or("source not known"));
+        print_sentence(&format!("{}: {source}", cable.name));
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::arguments::{Printing, RobotArgument};
 use crate::error::ProgramError;
+use crate::output::print_sentence;
 use crate::questions;
 use crate::robot::library::{exit_points, extent};
 use cdpr_robot::{CableEnd, Grade, Robot, counted, rounded, shown};
@@ -108,22 +109,22 @@ fn words([min, max]: [f64; 2]) -> String {
 fn print(robot: &Shown) {
     let sides = |[x, y, z]: [f64; 3]| format!("{x:.2} x {y:.2} x {z:.2} m");
     let inertia = if robot.has_inertia { "" } else { ", inertia not known" };
-    println!(
+    print_sentence(&format!(
         "{}: {}, {} free motions, platform of {} kg{inertia}",
         shown(&robot.name),
         counted(robot.cables, "cable"),
         robot.free_motions,
         robot.mass
-    );
+    ));
     println!("exit points in a box of    {}", sides(robot.exit_points));
     println!("anchor points in a box of  {}", sides(robot.anchor_points));
     let law = if robot.has_laws { ", with an elastic law" } else { "" };
-    println!(
+    print_sentence(&format!(
         "cables: {} kg/m, EA {} N{law}; {}",
         words(robot.linear_density),
         words(robot.axial_stiffness),
         counted(robot.pulleys, "pulley")
-    );
+    ));
     let ends: Vec<&str> = robot
         .max_at
         .iter()
@@ -135,15 +136,16 @@ fn print(robot: &Shown) {
     let breaking = robot
         .breaking_force
         .map_or_else(String::new, |force| format!("; breaking force {} N", words([force; 2])));
-    println!(
+    print_sentence(&format!(
         "tensions: {} to {} N at the {}{breaking}",
         words(robot.min_tension),
         words(robot.max_tension),
         ends.join(" and ")
-    );
+    ));
     let grade = robot.grade.map_or_else(|| "not graded".to_owned(), |grade| grade.to_string());
-    println!("grade: {grade}\nsource: {}", shown(robot.source.as_deref().unwrap_or("not known")));
+    println!("grade: {grade}");
+    print_sentence(&format!("source: {}", shown(robot.source.as_deref().unwrap_or("not known"))));
     for assumed in &robot.assumed {
-        println!("assumed: {}", shown(assumed));
+        print_sentence(&format!("assumed: {}", shown(assumed)));
     }
 }

@@ -6,7 +6,7 @@ use crate::arguments::{
     UncertaintyArgument, With, count, region, with,
 };
 use crate::error::ProgramError;
-use crate::output::{Details, Ending, drawn, narrow_table, patiently, progress, table};
+use crate::output::{Details, Ending, drawn, patiently, print_sentence, progress, table, wide_table};
 use crate::questions;
 use crate::wrenches::WrenchArguments;
 use cdpr_assess::{
@@ -14,7 +14,7 @@ use cdpr_assess::{
     compute_workspace, workspace_boundary, write_workspace,
 };
 use cdpr_report::{layers, workspace_maps};
-use cdpr_robot::{Rotation3, broken, counted, listing, shown, significant};
+use cdpr_robot::{Rotation3, counted, listing, shown, significant};
 use cdpr_study::Extremes;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -90,7 +90,7 @@ impl Wanted {
             capacity: with.has("capacity")?,
             distances: with.has("distances")?,
             tilt: with.value("tilt", Some(4), count::<1, 360>)?,
-            boundary: with.value("boundary", Some(Way::Anew), way)?,
+            boundary: with.value("boundary", Some(Way::Recomputed), way)?,
             layers: with.value("layers", None, count::<0, 10_000>)?.unwrap_or(12),
         })
     }
@@ -168,18 +168,18 @@ fn print(summary: &WorkspaceSummary) {
     let percent = 100.0 * held as f64 / all.max(1) as f64;
     let of =
         format!("{} holds {held} of {} ({percent:.1} %)", shown(&summary.robot), counted(all, "position"));
-    say(&format!("{of}, {}.", summary.conditions()));
+    print_sentence(&format!("{of}, {}.", summary.conditions()));
     let others = summary.status.iter().filter(|(status, _)| **status != HELD);
     let others: Vec<String> =
         others.map(|(status, count)| format!("{count} {}", status.replace('_', " "))).collect();
     if !others.is_empty() {
-        say(&listing("Not held: ", &others, "."));
+        print_sentence(&listing("Not held: ", &others, "."));
     }
     if summary.too_much > 0 {
         let positions = counted(summary.too_much, "position");
-        say(&format!("At {positions} tensions are above tension_limits.max or a breaking force."));
+        print_sentence(&format!("At {positions} tensions are above tension_limits.max or a breaking force."));
     }
-    let mut rows = narrow_table(&["over the positions held", "least", "greatest"]);
+    let mut rows = table(&["over the positions held", "least", "greatest"]);
     for (name, extremes) in ranges(summary) {
         if let Some(Extremes { min, max, .. }) = extremes {
             rows.add_row([name.to_owned(), significant(min, 4), significant(max, 4)]);
@@ -189,13 +189,8 @@ fn print(summary: &WorkspaceSummary) {
         println!("{rows}");
     }
     if let Some(BoundarySummary { measure, error, unit, .. }) = &summary.boundary {
-        say(&format!("The region held has {measure:.4} {unit}, with an error of {error:.1e}."));
+        print_sentence(&format!("The region held has {measure:.4} {unit}, with an error of {error:.1e}."));
     }
-}
-
-/// Prints a sentence in lines of 80 columns.
-fn say(sentence: &str) {
-    broken(sentence).iter().for_each(|line| println!("{line}"));
 }
 
 /// What ranges over the positions held.
@@ -207,10 +202,10 @@ fn ranges(summary: &WorkspaceSummary) -> [(&'static str, Option<Extremes>); 14] 
         ("lowest natural frequency [Hz]", summary.lowest_frequency_hz),
         ("greatest tension [N]", summary.greatest_tension),
         ("least tension [N]", summary.least_tension),
-        ("greatest tension, distributed anew [N]", summary.anew_greatest_tension),
-        ("greatest payload, distributed anew [kg]", summary.payload_anew_kg),
+        ("greatest tension, recomputed [N]", summary.recomputed_greatest_tension),
+        ("greatest payload, recomputed [kg]", summary.payload_recomputed_kg),
         ("greatest payload, lengths kept [kg]", summary.payload_kept_kg),
-        ("margin, distributed anew [N]", summary.margin_anew),
+        ("margin, recomputed [N]", summary.margin_recomputed),
         ("margin, lengths kept [N]", summary.margin_kept),
         ("distance of the nearest cables [mm]", summary.nearest_cables_mm),
         ("distance of cables and platform [mm]", summary.nearest_to_platform_mm),
@@ -236,9 +231,9 @@ fn print_details(summary: &WorkspaceSummary) {
         );
     }
     if summary.is_loaded() {
-        println!("with the tensions distributed anew:");
+        println!("with the tensions recomputed:");
     }
-    counts(&summary.anew_status);
+    counts(&summary.recomputed_status);
     // Without a load these are the counts above, unless they say more.
     let says_more = summary.left_out.keys().any(|why| !summary.status.contains_key(why.as_str()));
     if says_more || summary.is_loaded() && !summary.left_out.is_empty() {
@@ -247,7 +242,7 @@ fn print_details(summary: &WorkspaceSummary) {
             println!("{count:8} {why}");
         }
     }
-    let mut rows = table(&["over the positions held", "least", "at [m]", "greatest", "at [m]"]);
+    let mut rows = wide_table(&["over the positions held", "least", "at [m]", "greatest", "at [m]"]);
     let position = |[x, y, z]: [f64; 3]| format!("{x:.3}, {y:.3}, {z:.3}");
     for (name, extremes) in ranges(summary) {
         if let Some(Extremes { min, min_at, max, max_at }) = extremes {

@@ -1,6 +1,6 @@
 //! `cdpr analyse`: what a table of inputs and outputs says.
 
-use crate::arguments::{self, Format, Overwrite, Threads};
+use crate::arguments::{self, Format, Overwrite, Threads, With, count, with};
 use crate::error::ProgramError;
 use crate::output::{Details, Ending, patiently};
 use crate::study::print::analysis;
@@ -33,6 +33,9 @@ pub(crate) struct Settings {
     /// Confidence of the intervals.
     #[arg(long, default_value_t = 0.95, allow_negative_numbers = true)]
     confidence: f64,
+    /// Settings: hsic-rows=N, the rows that HSIC takes at most (2000); its time grows with their square.
+    #[arg(long, value_name = "NAMES", value_parser = with)]
+    with: Option<With>,
     /// Seed of all that is random.
     #[arg(long, default_value_t = 2017, value_parser = arguments::seed, allow_negative_numbers = true)]
     seed: u64,
@@ -52,7 +55,11 @@ pub(crate) struct Settings {
 
 pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     settings.threads.start()?;
-    let analyser = Analyser { level: settings.confidence, ..Analyser::new(settings.seed) };
+    let with = settings.with.clone().unwrap_or_default();
+    with.check(&["hsic-rows"])?;
+    let rows = count::<{ Analyser::LEAST_DEPENDENCE_ROWS }, { Analyser::MOST_DEPENDENCE_ROWS }>;
+    let mut analyser = Analyser { level: settings.confidence, ..Analyser::new(settings.seed) };
+    analyser.dependence_rows = with.value("hsic-rows", None, rows)?.unwrap_or(analyser.dependence_rows);
     let request = TableRequest {
         inputs: settings.inputs.clone(),
         outputs: settings.outputs.clone(),

@@ -24,7 +24,7 @@ pub(crate) struct RunSettings {
     /// Continue with the blocks of this study that the folder holds.
     #[arg(long, conflicts_with = "overwrite")]
     resume: bool,
-    /// Start anew: remove blocks, tables and figures of the study in the folder, whatever study that is.
+    /// Begin again: remove blocks, tables and figures of the study in the folder, whatever study that is.
     #[arg(long)]
     overwrite: bool,
     /// Make only the i-th of n shares of the blocks, into a folder shared with the other shards.

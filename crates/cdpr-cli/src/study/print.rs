@@ -3,8 +3,8 @@
 pub(super) mod analysis;
 mod sensitivity;
 
-use crate::output::{narrow_table, table};
-use cdpr_robot::{broken, shown};
+use crate::output::{print_sentence, table, wide_table};
+use cdpr_robot::shown;
 use cdpr_study::{
     Extremes, Output, Overview, PartVerdict, PosesSummary, Recommendation, StudySummary, Summary, Timings,
 };
@@ -25,7 +25,7 @@ pub(super) fn print(summary: &Summary) {
 fn print_verdict(name: &str, verdict: &PartVerdict) {
     let mut before = format!("{name}: ");
     for sentence in &verdict.sentences {
-        broken(&(std::mem::take(&mut before) + sentence)).iter().for_each(|line| println!("{line}"));
+        print_sentence(&(std::mem::take(&mut before) + sentence));
     }
     if let Some(recommendation) = &verdict.recommendation {
         print_leading(recommendation);
@@ -33,12 +33,12 @@ fn print_verdict(name: &str, verdict: &PartVerdict) {
 }
 
 fn print_leading(recommendation: &Recommendation) {
-    let mut rows = narrow_table(&["input", "share, or index"]);
+    let mut rows = table(&["input", "share, or index"]);
     for of in recommendation.inputs.iter().take(LEADING) {
         rows.add_row([of.input.clone(), recommendation.cell(of)]);
     }
     println!("{rows}");
-    broken(&recommendation.caption()).iter().for_each(|line| println!("{line}"));
+    print_sentence(&recommendation.caption());
 }
 
 /// Prints all results of a study, and how long each took.
@@ -63,7 +63,7 @@ fn print_results(summary: &Summary) {
     let output = summary.studies.values().next().map_or_else(Output::default, StudySummary::output);
     let of_unit = ["nominal", "mean", "std", "min", "max"].map(|name| format!("{name} [{}]", output.unit()));
     let header = ["part", "n", "failed"].into_iter().chain(of_unit.iter().map(String::as_str));
-    let mut rows = table(&header.chain(["best fit"]).collect::<Vec<_>>());
+    let mut rows = wide_table(&header.chain(["best fit"]).collect::<Vec<_>>());
     for (name, study) in &summary.studies {
         let counts = [study.observations(), study.failed().values().sum()].map(|count| count.to_string());
         let Overview { nominal, mean, std, min, max, best_fit } = study.overview();

@@ -2,7 +2,7 @@
 
 use crate::arguments::Printing;
 use crate::error::ProgramError;
-use crate::output::{narrow_table, patiently};
+use crate::output::{patiently, table};
 use cdpr_robot::{counted, shown, significant};
 use cdpr_study::{Provisional, SoFar, Status, StoredStudy, open_results, status};
 use clap::Args;
@@ -43,7 +43,7 @@ fn print(status: &Status) {
         }
     }
     println!("\n{} (hash {})", shown(&status.study), status.hash);
-    let mut rows = narrow_table(&["sampling", "design", "blocks", "missing", "observations", "of", "failed"]);
+    let mut rows = table(&["sampling", "design", "blocks", "missing", "observations", "of", "failed"]);
     for (name, sampling) in &status.samplings {
         for (design, found) in &sampling.designs {
             let failed: usize = found.failed.values().sum();

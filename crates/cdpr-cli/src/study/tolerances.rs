@@ -2,7 +2,7 @@
 
 use crate::arguments::{self, Named, Preference, Printing, Threads};
 use crate::error::ProgramError;
-use crate::output::{Details, narrow_table, patiently, table};
+use crate::output::{Details, patiently, print_sentence, table};
 use cdpr_assess::{Limit, Limited, Reached, ToleranceBudget, tolerance_budget};
 use cdpr_robot::shown;
 use cdpr_study::{Estimate, OutputLimit};
@@ -66,11 +66,8 @@ pub(super) fn run(settings: &Settings) -> Result<(), ProgramError> {
 
 /// The answer, and each tolerance as it is and as it is to be.
 fn print(budget: &ToleranceBudget) {
-    for sentence in budget.sentences() {
-        println!("{sentence}");
-    }
-    println!();
-    let mut rows = narrow_table(&["tolerance", "std now", "tighten to", "times", "share of variance [%]"]);
+    budget.sentences().iter().for_each(|sentence| print_sentence(sentence));
+    let mut rows = table(&["tolerance", "std now", "tighten to", "times", "share of variance [%]"]);
     for tolerance in &budget.tolerances {
         let kept = tolerance.factor == 1.0;
         let tightened = |text: String| if kept { "-".to_owned() } else { text };

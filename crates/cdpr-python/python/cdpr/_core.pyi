@@ -958,7 +958,7 @@ class Robot:
         plane: tuple[str, float] | None = None,
         grid: tuple[int, int] | None = None,
         payload: float,
-        way: str = "anew",
+        way: str = "recomputed",
         free: Sequence[str] | None = None,
     ) -> Boundary:
         """Finds the boundary of the region that the cables hold under a payload, with the platform level.
@@ -980,8 +980,8 @@ class Robot:
             as `Robot.workspace` takes them: a plane or a box.
         payload : float
             Mass added at the platform's centre of mass [kg].
-        way : str, default 'anew'
-            How the load is borne: "anew", the winches distribute the tensions, or "kept", with the lengths.
+        way : str, default 'recomputed'
+            How the load is borne: with the tensions "recomputed" by the winches, or the lengths "kept".
         free : sequence of str, optional
             Names of the coordinates of the pose that are found, for a robot with fewer cables than free
             motions.
@@ -1054,7 +1054,7 @@ class Robot:
         --------
         >>> import cdpr
         >>> robot = cdpr.Robot.from_file("cogiro")
-        >>> robot.capacity([[0, 0, 2], [1, 0, 2]]).payload_anew.shape  # [kg]
+        >>> robot.capacity([[0, 0, 2], [1, 0, 2]]).payload_recomputed.shape  # [kg]
         (2,)
         """
     @overload
@@ -1756,7 +1756,7 @@ class Capacity(Generic[_N, _R]):
 
     The answer is of one pose, or of m: then every field has a first axis of m, with NaN where there is no
     answer, and `reasons` says why. A payload is -inf where a limit is passed even without one. With
-    `anew` the winches distribute the tensions anew, with `kept` the lengths are kept.
+    `recomputed` the winches compute the tensions again, with `kept` the lengths are kept.
     """
 
     def __new__(cls, *fields: Any) -> Capacity: ...
@@ -1781,7 +1781,7 @@ class Capacity(Generic[_N, _R]):
             The frame.
         """
     @property
-    def payload_anew(self) -> _N:
+    def payload_recomputed(self) -> _N:
         """Greatest mass at the centre of mass [kg]."""
     @property
     def payload_kept(self) -> _N:
@@ -1790,7 +1790,7 @@ class Capacity(Generic[_N, _R]):
     def payload_kept_slack(self) -> _N:
         """The same, whichever cables become slack [kg]."""
     @property
-    def margin_anew(self) -> _N:
+    def margin_recomputed(self) -> _N:
         """Distance of the tensions from the nearest limit [N]."""
     @property
     def margin_kept(self) -> _N:
@@ -2255,19 +2255,19 @@ class Workspace:
     def std(self) -> _Floats:
         """Standard deviation of |dp| from all uncertain parameters [m], (m,)."""
     @property
-    def anew_status(self) -> list[str | None]:
-        """`held` where tensions distributed anew hold the position under the load, or the kind of failure;
+    def recomputed_status(self) -> list[str | None]:
+        """`held` where tensions recomputed hold the position under the load, or the kind of failure;
         None without a load; m of them.
         """
     @property
-    def anew_reasons(self) -> list[str | None]:
-        """Why no tensions distributed anew hold a position, None where they do; m of them."""
+    def recomputed_reasons(self) -> list[str | None]:
+        """Why no tensions recomputed hold a position, None where they do; m of them."""
     @property
-    def anew_least_tension(self) -> _Floats:
-        """Least tension, distributed anew [N], (m,)."""
+    def recomputed_least_tension(self) -> _Floats:
+        """Least tension, recomputed [N], (m,)."""
     @property
-    def anew_greatest_tension(self) -> _Floats:
-        """Greatest tension, distributed anew [N], (m,)."""
+    def recomputed_greatest_tension(self) -> _Floats:
+        """Greatest tension, recomputed [N], (m,)."""
 
 def pose(
     position: ArrayLike, rotation: ArrayLike | Any | None = None, *, rpy_deg: ArrayLike | None = None

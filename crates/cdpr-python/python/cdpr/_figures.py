@@ -7,7 +7,7 @@ from typing import Any
 
 #: What is drawn of an answer: a field, its label, and what its elements are of.
 _DRAWN = {
-    "Capacity": ("payload_anew", "greatest payload [kg]", "pose"),
+    "Capacity": ("payload_recomputed", "greatest payload [kg]", "pose"),
     "Certificate": ("position", "bound on the distance of P [m]", "case"),
     "Deflection": ("magnitude", "displacement |dp| [m]", "case"),
     "DirectSolution": ("tensions", "tension [N]", "cable"),

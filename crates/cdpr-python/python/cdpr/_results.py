@@ -87,6 +87,12 @@ class Results:
         summary: dict[str, Any] = json.loads(self._text("summary.json"))
         return summary
 
+    @property
+    def verdict(self) -> dict[str, str]:
+        """The answer of each part of the study in words, as the program prints it."""
+        studies = self.summary["studies"].items()
+        return {name: "\n".join(part["verdict"]["sentences"]) for name, part in studies}
+
     def sampling(self, name: str) -> Sampling:
         """Reads the results of a sampling at one pose.
 

@@ -9,7 +9,7 @@
 >>> found.certain
 ['b', 'a']
 >>> print(found.verdict)
-certain to matter: b (location), a (HSIC)
+2 of 3 inputs are certain to matter: b (location), a (HSIC)
 not settled by 500 rows, more of them may: c
 """
 

@@ -51,8 +51,8 @@ impl Robot {
     ///     as `Robot.workspace` takes them: a plane or a box.
     /// payload : float
     ///     Mass added at the platform's centre of mass [kg].
-    /// way : str, default 'anew'
-    ///     How the load is borne: "anew", the winches distribute the tensions, or "kept", with the lengths.
+    /// way : str, default 'recomputed'
+    ///     How the load is borne: with the tensions "recomputed" by the winches, or the lengths "kept".
     /// free : sequence of str, optional
     ///     Names of the coordinates of the pose that are found, for a robot with fewer cables than free
     ///     motions.
@@ -74,7 +74,9 @@ impl Robot {
     /// >>> region = robot.boundary(plane=("z", 2), grid=(4, 4), payload=50)
     /// >>> region.polygons[0].shape[1], region.measure > 0  # [m], [m²]
     /// (3, True)
-    #[pyo3(signature = (*, x=None, y=None, z=None, plane=None, grid=None, payload, way="anew", free=None))]
+    #[pyo3(signature = (
+        *, x=None, y=None, z=None, plane=None, grid=None, payload, way="recomputed", free=None
+    ))]
     #[allow(clippy::too_many_arguments)]
     fn boundary(
         &self,
@@ -90,9 +92,9 @@ impl Robot {
     ) -> Answer<Boundary> {
         let free = coordinates(free)?;
         let way = match way {
-            "anew" => Way::Anew,
+            "recomputed" => Way::Recomputed,
             "kept" => Way::Kept,
-            _ => return Err(Raised::Input(format!("way is {way:?}: expected anew or kept"))),
+            _ => return Err(Raised::Input(format!("way is {way:?}: expected recomputed or kept"))),
         };
         let workspace = cdpr_assess::Workspace {
             robot: &self.robot,

@@ -13,17 +13,17 @@ answer! {
     ///
     /// The answer is of one pose, or of m: then every field has a first axis of m, with NaN where there is no
     /// answer, and `reasons` says why. A payload is -inf where a limit is passed even without one. With
-    /// `anew` the winches distribute the tensions anew, with `kept` the lengths are kept.
+    /// `recomputed` the winches compute the tensions again, with `kept` the lengths are kept.
     #[pyclass(frozen, get_all, module = "cdpr")]
     pub(crate) struct Capacity {
         /// Greatest mass at the centre of mass [kg].
-        payload_anew: Py<PyAny>,
+        payload_recomputed: Py<PyAny>,
         /// Greatest mass at the centre of mass until a tension reaches any of its limits [kg].
         payload_kept: Py<PyAny>,
         /// The same, whichever cables become slack [kg].
         payload_kept_slack: Py<PyAny>,
         /// Distance of the tensions from the nearest limit [N].
-        margin_anew: Py<PyAny>,
+        margin_recomputed: Py<PyAny>,
         /// Distance of the tensions from the nearest limit [N].
         margin_kept: Py<PyAny>,
         /// What blocks each of these five, in words, or why it does not exist; a list of five.
@@ -102,7 +102,7 @@ impl Robot {
     /// --------
     /// >>> import cdpr
     /// >>> robot = cdpr.Robot.from_file("cogiro")
-    /// >>> robot.capacity([[0, 0, 2], [1, 0, 2]]).payload_anew.shape  # [kg]
+    /// >>> robot.capacity([[0, 0, 2], [1, 0, 2]]).payload_recomputed.shape  # [kg]
     /// (2,)
     #[pyo3(signature = (pose, *, payload=None, force=None, moment=None, wrenches=None, tilt=0, free=None))]
     #[allow(clippy::too_many_arguments)]
@@ -126,7 +126,7 @@ impl Robot {
             let (pose, load) = (poses.pose(case)?, loads.load(case)?);
             let found = capacity_at(&self.robot, WantedPose::at(&pose).free(&free), &load, &set);
             // Whatever else fails, fails with it.
-            if let (Err(error), Err(_)) = (&found.payload_kept, &found.margin_anew) {
+            if let (Err(error), Err(_)) = (&found.payload_kept, &found.margin_recomputed) {
                 return Err(error.clone());
             }
             let tilted = || tilt_at(&self.robot, &pose, &load, tilt, TILT_ACCURACY);
@@ -134,10 +134,10 @@ impl Robot {
                 clearance: clearance_under(&self.robot, WantedPose::at(&pose).free(&free), &load).ok(),
                 tilt: (tilt > 0).then(tilted).transpose()?,
                 figures: [
-                    found.payload_anew,
+                    found.payload_recomputed,
                     found.payload_kept,
                     found.payload_kept_slack,
-                    found.margin_anew,
+                    found.margin_recomputed,
                     found.margin_kept,
                 ],
             })
@@ -155,10 +155,10 @@ impl Robot {
             found.figures.iter().map(words).collect()
         };
         Ok(Capacity {
-            payload_anew: figure(0)?,
+            payload_recomputed: figure(0)?,
             payload_kept: figure(1)?,
             payload_kept_slack: figure(2)?,
-            margin_anew: figure(3)?,
+            margin_recomputed: figure(3)?,
             margin_kept: figure(4)?,
             blocked_by: all.lists(words)?,
             nearest_cables: all.number(|found| {

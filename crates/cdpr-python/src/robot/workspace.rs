@@ -50,15 +50,15 @@ answer! {
         dominant_share: Py<PyAny>,
         /// Standard deviation of |dp| from all uncertain parameters [m], (m,).
         std: Py<PyAny>,
-        /// `held` where tensions distributed anew hold the position under the load, or the kind of failure;
+        /// `held` where tensions recomputed hold the position under the load, or the kind of failure;
         /// None without a load; m of them.
-        anew_status: Vec<Option<String>>,
-        /// Why no tensions distributed anew hold a position, None where they do; m of them.
-        anew_reasons: Vec<Option<String>>,
-        /// Least tension, distributed anew [N], (m,).
-        anew_least_tension: Py<PyAny>,
-        /// Greatest tension, distributed anew [N], (m,).
-        anew_greatest_tension: Py<PyAny>,
+        recomputed_status: Vec<Option<String>>,
+        /// Why no tensions recomputed hold a position, None where they do; m of them.
+        recomputed_reasons: Vec<Option<String>>,
+        /// Least tension, recomputed [N], (m,).
+        recomputed_least_tension: Py<PyAny>,
+        /// Greatest tension, recomputed [N], (m,).
+        recomputed_greatest_tension: Py<PyAny>,
     }
 }
 
@@ -162,10 +162,10 @@ impl Robot {
             dominant: rows.iter().map(|row| row.dominant.clone()).collect(),
             dominant_share: column(&|row| Some(held(row)?.dominant?.share)),
             std: column(&|row| Some(held(row)?.dominant?.std)),
-            anew_status: rows.iter().map(|row| row.anew_status.map(str::to_owned)).collect(),
-            anew_reasons: rows.iter().map(|row| row.anew_reason.clone()).collect(),
-            anew_least_tension: column(&|row| rows[row].anew_least_tension),
-            anew_greatest_tension: column(&|row| rows[row].anew_greatest_tension),
+            recomputed_status: rows.iter().map(|row| row.recomputed_status.map(str::to_owned)).collect(),
+            recomputed_reasons: rows.iter().map(|row| row.recomputed_reason.clone()).collect(),
+            recomputed_least_tension: column(&|row| rows[row].recomputed_least_tension),
+            recomputed_greatest_tension: column(&|row| rows[row].recomputed_greatest_tension),
         })
     }
 }

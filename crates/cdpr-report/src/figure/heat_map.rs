@@ -22,14 +22,14 @@ pub enum MapQuantity {
     PlatformFrequency,
     /// Greatest tension of any cable, without and with the load.
     GreatestTension,
-    /// Greatest tension of any cable where tensions are distributed anew under the load.
-    GreatestTensionAnew,
-    /// Greatest payload where tensions are distributed anew.
-    PayloadAnew,
+    /// Greatest tension of any cable where tensions are recomputed under the load.
+    GreatestTensionRecomputed,
+    /// Greatest payload where tensions are recomputed.
+    PayloadRecomputed,
     /// Greatest payload with the lengths kept.
     PayloadKept,
-    /// Distance of the tensions, distributed anew, from the nearest limit.
-    MarginAnew,
+    /// Distance of the tensions, recomputed, from the nearest limit.
+    MarginRecomputed,
     /// Distance of the nearest two cables.
     NearestCables,
     /// Distance of the cable nearest to the platform.
@@ -45,10 +45,10 @@ impl MapQuantity {
         Self::LeastStiffness,
         Self::PlatformFrequency,
         Self::GreatestTension,
-        Self::GreatestTensionAnew,
-        Self::PayloadAnew,
+        Self::GreatestTensionRecomputed,
+        Self::PayloadRecomputed,
         Self::PayloadKept,
-        Self::MarginAnew,
+        Self::MarginRecomputed,
         Self::NearestCables,
         Self::NearestToPlatform,
         Self::Tilt,
@@ -61,10 +61,10 @@ impl MapQuantity {
             Self::LeastStiffness => "least_stiffness",
             Self::PlatformFrequency => "platform_frequency",
             Self::GreatestTension => "greatest_tension",
-            Self::GreatestTensionAnew => "greatest_tension_anew",
-            Self::PayloadAnew => "payload_anew",
+            Self::GreatestTensionRecomputed => "greatest_tension_recomputed",
+            Self::PayloadRecomputed => "payload_recomputed",
             Self::PayloadKept => "payload_kept",
-            Self::MarginAnew => "margin_anew",
+            Self::MarginRecomputed => "margin_recomputed",
             Self::NearestCables => "nearest_cables",
             Self::NearestToPlatform => "nearest_to_platform",
             Self::Tilt => "tilt",
@@ -74,7 +74,7 @@ impl MapQuantity {
     /// Whether it exists in this workspace.
     fn exists(self, summary: &WorkspaceSummary) -> bool {
         match self {
-            Self::Deflection | Self::GreatestTensionAnew => summary.is_loaded(),
+            Self::Deflection | Self::GreatestTensionRecomputed => summary.is_loaded(),
             Self::LeastStiffness | Self::GreatestTension => true,
             _ => summary.rows.iter().any(|row| self.value(row).is_some()),
         }
@@ -82,19 +82,19 @@ impl MapQuantity {
 
     /// How the load is borne, for the title.
     fn under_load(self) -> &'static str {
-        if self.is_anew() { "tensions distributed anew" } else { "lengths kept" }
+        if self.is_recomputed() { "tensions recomputed" } else { "lengths kept" }
     }
 
     /// Whether a position is held, with all tensions within the limits.
     fn is_held(self, row: &WorkspaceRow) -> bool {
-        match row.anew_status {
-            Some(status) if self.is_anew() => status == HELD,
+        match row.recomputed_status {
+            Some(status) if self.is_recomputed() => status == HELD,
             // Without a load both ways are one.
             _ => row.status == HELD,
         }
     }
 
-    fn is_anew(self) -> bool {
+    fn is_recomputed(self) -> bool {
         !matches!(
             self,
             Self::Deflection
@@ -111,12 +111,12 @@ impl MapQuantity {
             Self::Deflection => ("static deflection", "|dp|", "mm"),
             Self::LeastStiffness => ("stiffness of the softest motion", "least stiffness", "kN/m"),
             Self::PlatformFrequency => ("natural frequency of the platform", "frequency", "Hz"),
-            Self::GreatestTension | Self::GreatestTensionAnew => {
+            Self::GreatestTension | Self::GreatestTensionRecomputed => {
                 ("greatest tension", "greatest tension", "N")
             }
-            Self::PayloadAnew => ("greatest payload, tensions distributed anew", "payload", "kg"),
+            Self::PayloadRecomputed => ("greatest payload, tensions recomputed", "payload", "kg"),
             Self::PayloadKept => ("greatest payload, lengths kept", "payload", "kg"),
-            Self::MarginAnew => ("distance of the tensions from their limits", "margin", "N"),
+            Self::MarginRecomputed => ("distance of the tensions from their limits", "margin", "N"),
             Self::NearestCables => ("distance of the nearest two cables", "distance", "mm"),
             Self::NearestToPlatform => ("distance of cables and platform", "distance", "mm"),
             Self::Tilt => ("tilt in the worst direction", "tilt", "degrees"),
@@ -130,10 +130,10 @@ impl MapQuantity {
             Self::LeastStiffness => row.least_stiffness.map(|stiffness| 1e-3 * stiffness),
             Self::PlatformFrequency => row.platform_frequency_hz,
             Self::GreatestTension => row.greatest_tension,
-            Self::GreatestTensionAnew => row.anew_greatest_tension,
-            Self::PayloadAnew => row.payload_anew_kg,
+            Self::GreatestTensionRecomputed => row.recomputed_greatest_tension,
+            Self::PayloadRecomputed => row.payload_recomputed_kg,
             Self::PayloadKept => row.payload_kept_kg,
-            Self::MarginAnew => row.margin_anew,
+            Self::MarginRecomputed => row.margin_recomputed,
             Self::NearestCables => row.nearest_cables_mm,
             Self::NearestToPlatform => row.nearest_to_platform_mm,
             Self::Tilt => row.tilt_deg,

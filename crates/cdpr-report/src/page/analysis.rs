@@ -6,7 +6,7 @@ use crate::page::analysis::drawings::{cobweb, scatter};
 use crate::page::elements::{Document, Section, cell, numeric, table};
 use crate::text;
 use cdpr_robot::shown;
-use cdpr_sensitivity::{LevelMean, WassersteinBures};
+use cdpr_sensitivity::{LeadingInputs, LevelMean, WassersteinBures};
 use cdpr_study::{Analysis, Dependence, GivenTable, InputAnalysis, TableAnalysis, VectorAnalysis};
 use maud::{Markup, html};
 
@@ -115,8 +115,11 @@ fn counted(count: usize, word: &str) -> String {
 fn verdict(analysis: &Analysis) -> Markup {
     let verdict = &analysis.verdict;
     let head = ["level", "rows", "mean"];
+    let LeadingInputs { rows: leading, captions } = LeadingInputs::of(analysis);
+    let leading: Vec<Vec<Markup>> = leading.iter().map(|row| row.iter().map(cell).collect()).collect();
     html! {
         @for sentence in &verdict.sentences { p { (text::capital(sentence)) "." } }
+        (table(&text::capital(&captions.join(". ")), &LeadingInputs::HEADER, &leading))
         p {
             (counted(verdict.tests, "test")) " of all inputs and measures, corrected together: one or more \
              false certainties in 5 % of all tables at most."

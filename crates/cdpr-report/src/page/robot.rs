@@ -85,7 +85,7 @@ fn view(robot: &Robot, scene: &Scene, region: Option<&FoundRegion>) -> Markup {
                 @if let Some(region) = region {
                     " The region in which tensions within the limits hold the platform with "
                     (text::digits(region.payload, 4)) " kg, "
-                    (if region.way == "kept" { "with its lengths kept" } else { "tensions distributed anew" })
+                    (if region.way == "kept" { "with its lengths kept" } else { "tensions recomputed" })
                     ", has " (text::digits(region.measure, 4))
                     (if region.triangles.is_empty() { " m\u{b2}." } else { " m\u{b3}." })
                 }

@@ -9,6 +9,7 @@ use crate::pose::quaternion::{QuaternionError, rotation_in_order};
 use crate::robot::Robot;
 use crate::wrench::Wrench;
 use nalgebra::{Rotation3, Vector3};
+use std::f64::consts::PI;
 
 /// Distance of a position from the frame over the frame's size, beyond which it is in another unit.
 const FAR: f64 = 10.0;
@@ -22,12 +23,19 @@ const TURN: f64 = 360.0;
 const SURVEYED: f64 = 1e-3;
 /// What cables may stretch: beyond it two of them do not reach each other's exit points.
 const STRETCH: f64 = 1.2;
+/// Distance of an angle typed in radians from the exact one: 3.14 for a half turn [rad].
+const TYPED_RADIANS: f64 = 2e-3;
 /// Units that lengths and positions are typed in by mistake.
 const MILLIMETRES: [(&str, f64); 2] = [("mm", 1e-3), ("cm", 1e-2)];
 
-/// Doubts about the mass of a platform [kg] that replaces the one of a robot file.
-pub fn mass(quantity: &str, value: f64) -> Option<Doubt> {
-    file::mass(quantity, value)
+/// Doubts about the mass of a platform [kg] with all it carries, which replaces the one of the robot file.
+pub fn mass(robot: &Robot, quantity: &str, value: f64) -> Option<Doubt> {
+    let own = robot.platform.mass;
+    file::mass(quantity, value).or_else(|| {
+        let less = format!("less than half of the platform's own {} kg", four_digits(own));
+        let meant = format!("a payload, which is added to the {} kg", four_digits(own));
+        (value < 0.5 * own).then(|| Doubt::new(quantity, format!("{} kg", four_digits(value)), less, meant))
+    })
 }
 
 /// Doubts about a Young's modulus [Pa].
@@ -86,11 +94,19 @@ pub fn in_ground(robot: &Robot, quantity: &str, pose: &Pose) -> Option<Doubt> {
     })
 }
 
-/// Angles of more than a turn [degrees].
+/// Angles [degrees] of more than a turn, or that are a half, a quarter or an eighth of a turn in radians.
 pub fn angles(quantity: &str, angles: [f64; 3]) -> Option<Doubt> {
+    let typed = angles.map(four_digits).join(", ");
+    let turns = [1.0, 2.0, 4.0].map(|part| (PI / part, 180.0 / part));
+    let in_radians =
+        |angle: f64| turns.into_iter().find(|(turn, _)| (angle.abs() - turn).abs() < TYPED_RADIANS);
+    if let Some((angle, (_, degrees))) = angles.iter().find_map(|angle| Some((angle, in_radians(*angle)?))) {
+        let why = format!("{} is an angle of {degrees} degrees in radians", four_digits(*angle));
+        let meant = format!("angles in degrees, {} for it", degrees.copysign(*angle));
+        return Some(Doubt::new(quantity, format!("{typed} degrees"), why, meant));
+    }
     let angle = angles.into_iter().find(|angle| angle.abs() > TURN)?;
     let within = four_digits((angle + 0.5 * TURN).rem_euclid(TURN) - 0.5 * TURN);
-    let typed = angles.map(four_digits).join(", ");
     let why = format!("{} degrees are more than a turn", four_digits(angle));
     let meant = format!("angles in degrees; {within} degrees are the same rotation");
     Some(Doubt::new(quantity, format!("{typed} degrees"), why, meant))

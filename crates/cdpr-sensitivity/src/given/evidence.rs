@@ -70,6 +70,19 @@ impl Measure {
             Self::Dependence => "HSIC",
         }
     }
+
+    /// What the output does where the test finds an input.
+    #[must_use]
+    pub const fn meaning(self) -> &'static str {
+        match self {
+            Self::Trend => "it rises or falls with the input",
+            Self::Location => "its level differs along the input",
+            Self::Spread => "its scatter differs along the input",
+            Self::Together => "it depends on the input and another one together",
+            Self::Neighbours => "it is alike where the input is",
+            Self::Dependence => "it depends on the input in any way",
+        }
+    }
 }
 
 /// Result of a test.

@@ -272,8 +272,12 @@ impl Verdict {
             let are = if self.rows == 1 { "is" } else { "are" };
             vec![format!("no verdict: {} {are} too few", counted(self.rows, "different row"))]
         } else {
-            let certain = if self.certain.is_empty() { "none".to_owned() } else { names(&self.certain) };
-            vec![format!("certain to matter: {certain}")]
+            let (certain, all) = (self.certain.len(), counted(inputs.len(), "input"));
+            vec![match certain {
+                0 => format!("none of {all} is certain to matter"),
+                1 => format!("1 of {all} is certain to matter: {}", names(&self.certain)),
+                _ => format!("{certain} of {all} are certain to matter: {}", names(&self.certain)),
+            }]
         };
         if !self.related.is_empty() {
             self.sentences.push(format!("related, cause or not: {}", names(&self.related)));

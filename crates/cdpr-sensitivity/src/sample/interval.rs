@@ -58,11 +58,28 @@ pub struct Estimate {
     pub high: f64,
 }
 
+/// Whether a value is at least as large as its interval is wide.
+#[must_use]
+pub fn is_resolved(value: f64, [low, high]: [f64; 2]) -> bool {
+    high - low <= value.abs()
+}
+
 impl Estimate {
     /// Width of the interval.
     #[must_use]
     pub fn width(&self) -> f64 {
         self.high - self.low
+    }
+
+    /// A share in percent with its interval, unless this is wider than the share.
+    #[must_use]
+    pub fn percent(&self) -> String {
+        let [value, low, high] =
+            [self.value, self.low.max(0.0), self.high.min(1.0)].map(|share| 100.0 * share);
+        match is_resolved(self.value, [self.low, self.high]) {
+            true => format!("{value:.1} ({low:.1} to {high:.1})"),
+            false => "not resolved".to_owned(),
+        }
     }
 
     /// Mean of at least two values with its interval, Eq. (CI1).

@@ -14,25 +14,33 @@ use tolerances::{Tolerances, two_digits};
 /// What the fields of a study file mean, for people; the format itself has no comments.
 pub const TEMPLATE_NOTES: &str = "\
 The study runs as it is. Replace by what you know of your robot:
-  payload                mass added to the platform, whose effect is the deflection [kg]
-  error_models           law of each parameter's deviation from the robot file, in SI units
-    mass, linear_density, youngs_modulus     platform [kg], all cables [kg/m], [Pa]
-    a, b, cog, dt        anchor points, exit points, centre of mass [m], tension set-points [N]
-    r, lead, tilt        of cables over pulleys: radii, leads [m], tilts of swivel axes [rad]
-    gravity              components of a vector of gravity [m/s\u{b2}];
-                         the entry of a parameter, such as a3.x, takes precedence over that of its group
-    law                  uniform {min, max}, normal {mean, std}, truncated_normal,
-                         triangular {min, mode, max}, beta
-    steps                optional: {nearest: {step: 0.001}} rounds values to steps of 1 mm
-  samplings              all parameters vary at once: pose (position [m]; quaternion [w, x, y, z] or
-                         rpy_deg) or poses (a list or a grid), error model, observations;
-                         free: coordinates of the pose that are found, for a robot with fewer cables than free
-                         motions
-  surfaces               two parameters vary over a grid, all others are as in the robot file
-  replicates             scrambled samplings behind the intervals of signed effects
-  sensitivity            all measures of sensitivity; without it the study is faster
-  seed                   the same seed gives the same numbers
-All fields: docs/schemas/cdpr-study-1.schema.json. Then: cdpr study run FILE --out results";
+  payload          mass added to the platform, whose effect is the deflection
+                   [kg]
+  error_models     law of each parameter's deviation from the robot file, in SI
+                   units
+    mass           mass of the platform [kg]
+    linear_density, youngs_modulus     of all cables [kg/m], [Pa]
+    a, b, cog, dt  anchor points, exit points, centre of mass [m], tension
+                   set-points [N]
+    r, lead, tilt  of cables over pulleys: radii [m], leads [m], tilts of swivel
+                   axes [rad]
+    gravity        components of a vector of gravity [m/s\u{b2}]; the entry of a
+                   parameter, such as a3.x, takes precedence over that of its
+                   group
+    law            uniform {min, max}, normal {mean, std}, truncated_normal,
+                   triangular {min, mode, max}, beta
+    steps          optional: {nearest: {step: 0.001}} rounds values to steps of
+                   1 mm
+  samplings        all parameters vary at once: pose (position [m]; quaternion
+                   [w, x, y, z] or rpy_deg) or poses (a list or a grid), error
+                   model, observations; free: coordinates of the pose that are
+                   found, for a robot with fewer cables than free motions
+  surfaces         two parameters vary over a grid, all others are as in the
+                   robot file
+  replicates       scrambled samplings behind the intervals of signed effects
+  sensitivity      all measures of sensitivity; without it the study is faster
+  seed             the same seed gives the same numbers
+All fields: docs/schemas/cdpr-study-1.schema.json. Then: cdpr study run FILE";
 
 /// How many observations a template makes: few enough for any robot, and for Sobol' indices with intervals.
 /// With free coordinates each that the scalar models have to search for takes thousands of times as long, and
@@ -87,7 +95,7 @@ pub fn template_cost(robot: &Robot) -> String {
         part(axis * axis, true, "surface (points of x times points of y)"),
     ];
     let lines = parts.concat();
-    format!("Observations of each part; `--observations N` makes fewer of all but the surface:{lines}")
+    format!("Observations of each part (`--observations N`: fewer of all but the surface):{lines}")
 }
 
 /// A study file for `robot`, in which `robot_path` names the robot file. Without a position it takes one on

@@ -4,6 +4,7 @@
 use crate::error::StudyError;
 use crate::kind::InputKind;
 use crate::table::{Table, TableError};
+use cdpr_robot::library::ROBOTS;
 use serde::de::IgnoredAny;
 use std::fs::File;
 use std::io::{self, ErrorKind, Read};
@@ -173,7 +174,13 @@ pub(crate) fn open(path: &Path, kind: InputKind) -> Result<File, StudyError> {
     options.read(true);
     #[cfg(unix)]
     std::os::unix::fs::OpenOptionsExt::custom_flags(&mut options, libc::O_NONBLOCK | libc::O_NOCTTY);
-    let file = options.open(path).map_err(unread)?;
+    let file = options.open(path).map_err(|source| match kind {
+        // The name of a robot where a study of it is expected.
+        InputKind::Study if ROBOTS.iter().any(|robot| Path::new(robot.name) == path) => {
+            StudyError::OtherKind { path: path.to_owned(), found: InputKind::Robot, kind }
+        }
+        _ => unread(source),
+    })?;
     let found = file.metadata().map_err(unread)?.file_type();
     if !found.is_file() {
         let found = described(found);

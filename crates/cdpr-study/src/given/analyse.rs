@@ -108,8 +108,7 @@ impl Chosen {
         let Some(&output) = outputs.first().filter(|_| !inputs.is_empty()) else {
             return Err(table.invalid("columns of numbers", &table.columns.len().to_string(), "2 or more"));
         };
-        let like =
-            if guessed && request.inputs.is_empty() { table.like_outputs(&inputs, output) } else { vec![] };
+        let like = if request.inputs.is_empty() { table.like_outputs(&inputs, output) } else { vec![] };
         let mut questions = vec![];
         if !like.is_empty() {
             let one = like.len() == 1;

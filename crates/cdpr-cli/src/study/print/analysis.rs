@@ -1,10 +1,10 @@
 //! The analysis of a table on the terminal.
 
-use crate::output::{narrow_table, table};
-use cdpr_robot::{broken, counted, significant};
+use crate::output::{print_sentence, table, wide_table};
+use cdpr_robot::{counted, significant};
 use cdpr_study::{
-    Analysis, Dependence, Estimate, Finding, InputAnalysis, LevelMean, LimitFailures, OutputLimit,
-    TableAnalysis, VectorAnalysis, is_resolved,
+    Analysis, Dependence, Estimate, InputAnalysis, LeadingInputs, LevelMean, LimitFailures, OutputLimit,
+    TableAnalysis, VectorAnalysis,
 };
 
 /// Inputs in a table on the terminal.
@@ -23,25 +23,27 @@ pub(in crate::study) fn print(found: &TableAnalysis) {
     print_table(found);
 }
 
-/// Prints a sentence in lines of 80 columns.
-fn say(sentence: &str) {
-    broken(sentence).iter().for_each(|line| println!("{line}"));
-}
-
 /// Which inputs matter, the values, and the leading inputs.
 fn print_answer(name: &str, analysis: &Analysis) {
     let verdict = &analysis.verdict;
     let mut before = format!("{name}: ");
-    verdict.sentences.iter().for_each(|sentence| say(&(std::mem::take(&mut before) + sentence)));
+    verdict.sentences.iter().for_each(|sentence| print_sentence(&(std::mem::take(&mut before) + sentence)));
     let of = &analysis.summary;
     let [mean, std, min, max] = [of.mean, of.std, of.min, of.max].map(number);
     let values = counted(of.count, "value");
-    say(&format!("mean {mean}, deviation {std}, range {min} to {max}; {values}, {} failed", of.failed));
+    print_sentence(&format!(
+        "mean {mean}, deviation {std}, range {min} to {max}; {values}, {} failed",
+        of.failed
+    ));
     if let Some(failures) = analysis.limit {
-        say(&of_limit(&failures));
+        print_sentence(&of_limit(&failures));
     }
     for condition in &verdict.conditions {
-        say(&format!("{}: {}", if condition.is_question() { "question" } else { "note" }, condition.text));
+        print_sentence(&format!(
+            "{}: {}",
+            if condition.is_question() { "question" } else { "note" },
+            condition.text
+        ));
     }
     print_leading(analysis);
     if analysis.limit.is_some() {
@@ -51,55 +53,23 @@ fn print_answer(name: &str, analysis: &Analysis) {
 
 /// The leading inputs by their first-order shares, and the test that finds each.
 fn print_leading(analysis: &Analysis) {
-    let mut rows = narrow_table(&["input", "first-order share [%]", "found by"]);
-    let verdict = &analysis.verdict;
-    let finding = |of: &InputAnalysis| {
-        let is_it = |finding: &&Finding| finding.input == of.input;
-        let certain = verdict.certain.iter().find(is_it).map(|found| found.measure.word().to_owned());
-        let related = || verdict.related.iter().find(is_it);
-        certain.or_else(|| related().map(|found| format!("{}, cause or not", found.measure.word())))
-    };
-    // Those that are found first.
-    let place = |input: &InputAnalysis| {
-        let share = input.first.map_or(f64::NEG_INFINITY, |first| first.value);
-        if finding(input).is_some() { share.max(0.0) + 2.0 } else { share }
-    };
-    for input in leading(analysis, place).into_iter().take(LEADING) {
-        let share = input.first.map_or("-".to_owned(), |of| resolved(&of));
-        rows.add_row([input.input.clone(), share, finding(input).unwrap_or("-".to_owned())]);
-    }
-    println!("{rows}");
-    let level = 100.0 * analysis.level;
-    say(&format!(
-        "first-order share of the variance with its {level} % interval; found by: the clearest of {}, all of \
-         them corrected together",
-        counted(verdict.tests, "test")
-    ));
-}
-
-/// A share in percent with its interval, unless this is wider than the share.
-fn resolved(share: &Estimate) -> String {
-    match is_resolved(share.value, [share.low, share.high]) {
-        true => format!(
-            "{:.1} ({:.1} to {:.1})",
-            100.0 * share.value,
-            100.0 * share.low.max(0.0),
-            100.0 * share.high.min(1.0)
-        ),
-        false => "not resolved".to_owned(),
-    }
+    let LeadingInputs { rows, captions } = LeadingInputs::of(analysis);
+    let mut lines = table(&LeadingInputs::HEADER);
+    lines.add_rows(rows);
+    println!("{lines}");
+    captions.iter().for_each(|caption| print_sentence(caption));
 }
 
 /// What makes the limit fail.
 fn print_causes(analysis: &Analysis) {
     let strength = |input: &InputAnalysis| input.limit.map_or(0.0, |at| at.target.r_squared);
-    let mut rows = narrow_table(&["makes the limit fail", "target R\u{b2}", "p"]);
+    let mut rows = table(&["related to the failures", "target R\u{b2}", "p"]);
     let causes = leading(analysis, strength).into_iter();
     for (input, at) in causes.filter_map(|input| Some((input, input.limit?))).take(LEADING) {
         rows.add_row([input.input.clone(), format!("{:.3}", at.target.r_squared), p_value(Some(at.target))]);
     }
     if rows.row_count() > 0 {
-        println!("{rows}");
+        println!("{rows}\np of each input alone, not corrected for the number of inputs");
     }
 }
 
@@ -147,10 +117,13 @@ pub(in crate::study) fn print_details(found: &TableAnalysis) {
 
 /// Inputs by their index, the greatest first.
 fn print_vector(vector: &VectorAnalysis) {
-    say(&format!("({}): how much an input moves the law of this vector", vector.columns.join(", ")));
+    print_sentence(&format!(
+        "({}): how much an input moves the law of this vector",
+        vector.columns.join(", ")
+    ));
     let mut leading: Vec<_> = vector.bures.iter().collect();
     leading.sort_by(|one, other| other.1.index.value.total_cmp(&one.1.index.value));
-    let mut rows = narrow_table(&["input", "Wasserstein-Bures", "of which by the means"]);
+    let mut rows = table(&["input", "Wasserstein-Bures", "of which by the means"]);
     let cell = |of: &Estimate| format!("{:.3} \u{b1} {:.3}", of.value, 0.5 * of.width());
     for (input, of) in leading.into_iter().take(MOST) {
         rows.add_row([input.clone(), cell(&of.index), cell(&of.means)]);
@@ -211,12 +184,12 @@ fn print_inputs(analysis: &Analysis) {
         "PAWN",
         "\u{3b4}, at least",
     ];
-    let mut rows = table(&header);
+    let mut rows = wide_table(&header);
     let leading = leading(analysis, |input| input.dependence.map_or(0.0, |dependence| dependence.r_squared));
     let two = |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:.2}"));
     let percent = |share: f64| format!("{:.1}", 100.0 * share);
     for input in leading.iter().take(MOST) {
-        let first = input.first.map(|first| resolved(&first));
+        let first = input.first.map(|first| first.percent());
         let shares = input.shares.map(|of| format!("{}, {}", percent(of.closed), percent(of.total)));
         let over = |value: f64, noise: f64| {
             if value > noise { format!("{value:.3}") } else { format!("({value:.3})") }
@@ -279,7 +252,7 @@ fn of_limit(failures: &LimitFailures) -> String {
 fn print_limit(analysis: &Analysis) {
     let strength = |input: &InputAnalysis| input.limit.map_or(0.0, |at| at.target.r_squared);
     let mut rows =
-        table(&["input", "target R\u{b2}", "p", "conditional R\u{b2}", "p", "place of the failures"]);
+        wide_table(&["input", "target R\u{b2}", "p", "conditional R\u{b2}", "p", "place of the failures"]);
     let mut any = false;
     for input in leading(analysis, strength).into_iter().take(MOST) {
         let Some(at) = input.limit else { continue };

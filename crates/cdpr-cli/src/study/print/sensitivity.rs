@@ -1,6 +1,6 @@
 //! The measures of sensitivity of a sampling on the terminal.
 
-use crate::output::table;
+use crate::output::wide_table;
 use cdpr_study::{MEASURES, Measure, Output, Quantity, SensitivitySummary, is_resolved};
 
 /// Number of leading inputs in the table.
@@ -33,7 +33,7 @@ fn print_inputs(output: Output, found: &SensitivitySummary) {
     let bracketed = found.inputs.iter().any(|input| input.total_bracket().is_some());
     let brackets: &[&str] = if bracketed { &BRACKETS } else { &[] };
     let labels = measures.iter().map(|measure| measure.label).chain(brackets.iter().copied());
-    let mut rows = table(&["input"].into_iter().chain(labels).collect::<Vec<_>>());
+    let mut rows = wide_table(&["input"].into_iter().chain(labels).collect::<Vec<_>>());
     for input in found.leading().into_iter().take(MOST) {
         let cell = |measure: &Measure| match (measure.quantity, (measure.interval)(input)) {
             (Quantity::Index, _) => number((measure.value)(input), 1.0, 2),
@@ -64,7 +64,8 @@ fn print_groups(output: Output, found: &SensitivitySummary) {
     let (unit, per_unit) = output.fine_unit();
     if !found.groups.is_empty() {
         let morris = format!("Morris \u{b5}* [{unit}]");
-        let mut rows = table(&["group", "inputs", morris.as_str(), "Sobol' first [%]", "Sobol' total [%]"]);
+        let mut rows =
+            wide_table(&["group", "inputs", morris.as_str(), "Sobol' first [%]", "Sobol' total [%]"]);
         for group in &found.groups {
             let index = |value, low: Option<f64>, high: Option<f64>| {
                 low.zip(high).map_or_else(String::new, |(low, high)| interval(value, [low, high]))
@@ -91,8 +92,14 @@ fn print_groups(output: Output, found: &SensitivitySummary) {
 }
 
 fn print_methods(found: &SensitivitySummary) {
-    let mut rows =
-        table(&["method", "observations", "failed", "seconds", "R\u{b2} [%]", "leave-one-out error [%]"]);
+    let mut rows = wide_table(&[
+        "method",
+        "observations",
+        "failed",
+        "seconds",
+        "R\u{b2} [%]",
+        "leave-one-out error [%]",
+    ]);
     for (name, method) in &found.methods {
         rows.add_row([
             (*name).to_owned(),

@@ -21,6 +21,7 @@
 //! The first basis that settles an input is recommended, in this order: derivatives, expansion, Sobol'.
 //! Where none does, Shapley effects or ranks, which have no bounds, put the inputs in an order.
 
+use cdpr_sensitivity::is_resolved;
 use serde::{Deserialize, Serialize};
 
 /// Share of the variance from which on an input matters.
@@ -148,11 +149,6 @@ pub(crate) fn recommend(
     let orders = |of: &Candidate| matches!(of.said, Said::Values(_));
     let chosen = candidates.iter().position(settles).or(candidates.iter().position(orders)).unwrap_or(0);
     (chosen < candidates.len()).then(|| candidates.swap_remove(chosen).recommendation(names, confidence))
-}
-
-/// Whether a value is at least as large as its interval is wide.
-pub fn is_resolved(value: f64, [low, high]: [f64; 2]) -> bool {
-    high - low <= value.abs()
 }
 
 impl TotalBounds {
