@@ -195,7 +195,7 @@ fn derivatives_over_poses_are_those_of_the_scalar_models() {
         let (mut in_lanes, mut worst, mut compared) = (0, 0.0_f64, 0);
         let references: Vec<_> = wanted.iter().collect();
         for (wanted, found) in wanted.iter().zip(loaded_poses::<PoseSlopes>(&robot, &references, &load)) {
-            let alone = derivatives_from(&robot, &wanted.equilibrium.pose, &load, wanted.clone());
+            let alone = derivatives_from(&robot, wanted.equilibrium.pose, &load, wanted.clone());
             let (found, alone) = match (found, alone) {
                 (Ok(found), Ok(alone)) => (found, alone),
                 (Ok(found), Err(StaticsError::NoDerivative { .. })) => {

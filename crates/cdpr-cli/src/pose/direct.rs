@@ -271,7 +271,7 @@ impl Answer {
                 print_sentence(&format!(
                     "proved: exact to {position:.1e} m, {rotation:.1e} rad, {force:.1e} N; \
                  softest motion at least {least_stiffness:.1} N/m"
-                ))
+                ));
             }
             Some(Proof::None { error }) => print_sentence(&error.message),
             None => {}

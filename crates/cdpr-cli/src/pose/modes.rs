@@ -219,8 +219,15 @@ impl Answer {
 impl Motion {
     /// The direction in which the platform moves most, and the axis about which it turns most.
     fn direction(&self) -> String {
+        /// Share of the platform below which its direction is rounding.
+        const LEAST_SHARE: f64 = 1e-4;
+        if self.platform_share < LEAST_SHARE {
+            return "cables alone".to_owned();
+        }
+        // Of components that are equal but for rounding the first one.
         let largest = |vector: &[f64; 3]| {
-            let axis = (0..3).max_by(|one, other| vector[*one].abs().total_cmp(&vector[*other].abs()));
+            let most = vector.iter().fold(0.0, |most: f64, component| most.max(component.abs()));
+            let axis = vector.iter().position(|component| component.abs() >= (1.0 - 1e-6) * most);
             ["x", "y", "z"][axis.unwrap_or_default()]
         };
         let still = |vector: &[f64; 3]| vector.iter().all(|component| *component == 0.0);
@@ -232,10 +239,10 @@ impl Motion {
     }
 }
 
-/// The cables with the largest shares, by number.
+/// The cables with the largest shares, by number; of shares that are equal but for rounding the first.
 fn most(shares: &[f64]) -> String {
     let mut order: Vec<_> = shares.iter().enumerate().collect();
-    order.sort_by(|one, other| other.1.total_cmp(one.1));
+    order.sort_by(|one, other| (1e6 * other.1).round().total_cmp(&(1e6 * one.1).round()));
     let named = order.iter().take(2).filter(|(_, share)| **share >= 0.0005);
     let named = named.map(|(i, share)| format!("{}: {}", i + 1, decimal(100.0 * **share, 1)));
     named.collect::<Vec<_>>().join(", ")

@@ -13,7 +13,6 @@ use cdpr_robot::{Pose, Robot, Vector3, counted, rounded, shown, significant};
 use cdpr_statics::{DirectProblem, DirectStart, WantedPose, inverse, rough_pose};
 use cdpr_study::{InputKind, read_text};
 use serde::Serialize;
-use std::borrow::Cow;
 use std::path::PathBuf;
 
 /// A robot at rest, what happens to it, and for how long it is followed.
@@ -91,7 +90,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
         Format::Csv => {
             print_record(&answer.columns);
             records().for_each(|record| {
-                print_record(&record.iter().map(|cell| format!("{cell:?}")).collect::<Vec<_>>())
+                print_record(&record.iter().map(|cell| format!("{cell:?}")).collect::<Vec<_>>());
             });
         }
         format => {
@@ -214,7 +213,7 @@ struct Energy {
 }
 
 impl Answer {
-    fn new(robot: &Cow<'_, Robot>, rest: &Pose, lengths: &[f64], series: &Series) -> Self {
+    fn new(robot: &Robot, rest: &Pose, lengths: &[f64], series: &Series) -> Self {
         let distance = |sample: &Sample| (sample.pose.position - rest.position).norm();
         let (mut greatest, mut at, mut rotation) = (0.0, 0.0, 0.0_f64);
         for sample in &series.samples {

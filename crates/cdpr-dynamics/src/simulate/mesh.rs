@@ -124,6 +124,9 @@ pub(super) struct Part {
     pub(super) length: f64,
 }
 
+/// Velocities and accelerations of points.
+type Flow = (Vec<Vector3<f64>>, Vec<Vector3<f64>>);
+
 /// What acts on the points of a cable.
 #[derive(Clone, Debug)]
 pub(super) struct Forces {
@@ -132,7 +135,7 @@ pub(super) struct Forces {
     /// Mass of each point [kg].
     pub(super) masses: Vec<f64>,
     /// What the material that flows past the points adds to their velocity [m/s] and acceleration [m/s²].
-    pub(super) flow: Option<(Vec<Vector3<f64>>, Vec<Vector3<f64>>)>,
+    pub(super) flow: Option<Flow>,
     /// Tension at every point of every element.
     pub(super) pulls: Vec<Pull>,
 }

@@ -39,14 +39,14 @@ const E: [f64; 3] = [(-13.0 - 7.0 * S6) / 3.0, (-13.0 + 7.0 * S6) / 3.0, -1.0 / 
 const REAL: f64 = 3.637_834_252_744_496;
 const COMPLEX: Complex<f64> = Complex { re: 2.681_082_873_627_752_3, im: -3.050_430_199_247_410_5 };
 const T: [[f64; 3]; 3] = [
-    [0.094_438_762_488_975_24, -0.141_255_295_020_954_21, 0.030_029_194_105_147_424],
-    [0.250_213_122_965_333_3, 0.204_129_352_293_799_93, -0.382_942_112_757_261_94],
+    [0.094_438_762_488_975_24, -0.141_255_295_020_954_2, 0.030_029_194_105_147_424],
+    [0.250_213_122_965_333_3, 0.204_129_352_293_799_93, -0.382_942_112_757_261_9],
     [1.0, 1.0, 0.0],
 ];
 const TI: [[f64; 3]; 3] = [
     [4.178_718_591_551_904, 0.327_682_820_761_062_4, 0.523_376_445_499_449_5],
     [-4.178_718_591_551_904, -0.327_682_820_761_062_4, 0.476_623_554_500_550_44],
-    [0.502_872_634_945_786_9, -2.571_926_949_855_605_4, 0.596_039_204_828_224_9],
+    [0.502_872_634_945_786_9, -2.571_926_949_855_605, 0.596_039_204_828_224_9],
 ];
 /// Coefficients of the collocation polynomial: of x, x², x³ for each stage.
 const P: [[f64; 3]; 3] = [
@@ -90,9 +90,12 @@ pub struct Work {
     pub factorizations: usize,
 }
 
+/// The step [s] and the factors of its two matrices.
+type Factors<L> = (f64, <L as Linearization>::Factors<f64>, <L as Linearization>::Factors<Complex<f64>>);
+
 struct Newton<L: Linearization> {
     at: L,
-    factors: Option<(f64, L::Factors<f64>, L::Factors<Complex<f64>>)>,
+    factors: Option<Factors<L>>,
 }
 
 /// A step that was accepted: its length [s] and the states of its three stages.
@@ -134,9 +137,9 @@ impl<S: Equations> Radau<S> {
                 }
                 continue;
             };
-            let mut error = self.error(equations, &newton, &stages, h, None);
+            let mut error = self.error(equations, &newton, &stages, h, false);
             if error > 1.0 && was_rejected {
-                error = self.error(equations, &newton, &stages, h, Some(()));
+                error = self.error(equations, &newton, &stages, h, true);
             }
             let most = MOST_ITERATIONS as f64;
             let safety = 0.9 * (2.0 * most + 1.0) / (2.0 * most + iterations as f64);
@@ -151,10 +154,8 @@ impl<S: Equations> Radau<S> {
             let renew = iterations > 2 && rate > 1e-3;
             self.newton = (!renew).then_some(newton);
             self.is_current = false;
-            if renew || factor > 1.2 || factor < 0.9 {
+            if renew || !(0.9..=1.2).contains(&factor) {
                 self.step = h * factor.min(GREATEST_FACTOR);
-            } else if h > self.step * (1.0 - 1e-9) {
-                self.step = h;
             }
             return Ok(self.accept(equations, h, stages, error));
         }
@@ -201,7 +202,7 @@ impl<S: Equations> Radau<S> {
         let (_, real, complex) = newton.factors.as_ref()?;
         let mut z = self.guess(h);
         let mut w = combined(&TI, &z);
-        let (mut before, mut rate) = (None, 0.0);
+        let (mut before, mut rate) = (None, 0.0_f64);
         for iteration in 1..=MOST_ITERATIONS {
             let slopes: [Vec<f64>; 3] = std::array::from_fn(|k| {
                 let state: Vec<f64> = self.state.iter().zip(&z[k]).map(|(y, z)| y + z).collect();
@@ -232,7 +233,10 @@ impl<S: Equations> Radau<S> {
             if let Some(before) = before {
                 rate = norm / before;
                 let left = (MOST_ITERATIONS - iteration) as i32;
-                if !(rate < 1.0) || f64::powi(rate, left) / (1.0 - rate) * norm > NEWTON_TOLERANCE {
+                if rate.is_nan()
+                    || rate >= 1.0
+                    || f64::powi(rate, left) / (1.0 - rate) * norm > NEWTON_TOLERANCE
+                {
                     return None;
                 }
             } else if !norm.is_finite() {
@@ -265,14 +269,14 @@ impl<S: Equations> Radau<S> {
         newton: &Newton<S::Linearization>,
         stages: &[Vec<f64>; 3],
         h: f64,
-        again: Option<()>,
+        again: bool,
     ) -> f64 {
         let n = self.state.len();
         let Some((_, real, _)) = &newton.factors else { return f64::NAN };
         let sum = |i: usize| (0..3).map(|k| E[k] * stages[k][i]).sum::<f64>() / h;
         let right: Vec<f64> = (0..n).map(|i| self.slopes[i] + sum(i)).collect();
         let mut error = newton.at.solve(real, &right);
-        if again.is_some() {
+        if again {
             let state: Vec<f64> = self.state.iter().zip(&error).map(|(y, e)| y + e).collect();
             let slopes = equations.slopes(self.time, &state);
             self.work.evaluations += 1;

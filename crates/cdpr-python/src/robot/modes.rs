@@ -152,7 +152,7 @@ impl Robot {
             platform_shares: rows(1, &|mode, out| out[0] = mode.platform_share)?,
             swing_shares: rows(1, &|mode, out| out[0] = mode.swing_share)?,
             cable_shares: rows(self.robot.cables.len(), &|mode, out| {
-                out.copy_from_slice(&mode.cable_shares)
+                out.copy_from_slice(&mode.cable_shares);
             })?,
             translations: rows(3, &|mode, out| out.copy_from_slice(mode.translation.as_slice()))?,
             rotations: rows(3, &|mode, out| out.copy_from_slice(mode.rotation.as_slice()))?,

@@ -113,7 +113,7 @@ impl Loaded for PoseSlopes {
         load: &Load,
         why: ScalarReason,
     ) -> Result<Self, StaticsError> {
-        let found = derivatives_from(robot, &wanted.equilibrium.pose, load, wanted.clone());
+        let found = derivatives_from(robot, wanted.equilibrium.pose, load, wanted.clone());
         let (deflection, magnitude) = match found {
             Ok(found) => {
                 let parameters = ParameterLayout::of(robot).count();
