@@ -724,8 +724,8 @@ class Robot:
     ) -> Modes[float, None]:
         """Computes the natural motions of platform and cables, the lengths held.
 
-        Cables have mass: where they vibrate about as fast as the platform, they move together with it. None of
-        the motions is missing, which a count proves. Arguments are of one case, or have a first axis of m
+        Cables have mass: where they vibrate about as fast as the platform, they move together with it. None
+        of the motions is missing, which a count proves. Arguments are of one case, or have a first axis of m
         cases.
 
         Parameters
@@ -1740,8 +1740,8 @@ class MasslessModes(Generic[_R]):
         """Share of the weight in the energy of each motion, (6,)."""
     @property
     def cable_frequencies_hz(self) -> _Floats:
-        """The lowest frequency of each cable between ends at rest [Hz], (n,); NaN for one without mass. Where it
-        is less than twice as high, the cables' mass changes the motions: see `Robot.modes`.
+        """The lowest frequency of each cable between ends at rest [Hz], (n,); NaN for one without mass.
+        Where it is less than twice as high, the cables' mass changes the motions: see `Robot.modes`.
         """
     @property
     def reasons(self) -> _R:
@@ -1964,7 +1964,9 @@ class PathStates:
         """Stiffness of the softest motion with the load [N/m], (m,)."""
     @property
     def platform_frequency(self) -> _Floats:
-        """Frequency with which the platform swings with the load, the mass of cables included [Hz], (m,); NaN for a robot without `inertia`."""
+        """Frequency with which the platform swings with the load, the mass of cables included [Hz], (m,);
+        NaN for a robot without `inertia`.
+        """
     @property
     def platform_share(self) -> _Floats:
         """Share of the platform in the kinetic energy of that motion, (m,)."""
@@ -2238,7 +2240,9 @@ class Workspace:
         """Stiffness of the softest motion with the load [N/m], (m,)."""
     @property
     def platform_frequency(self) -> _Floats:
-        """Frequency with which the platform swings with the load, the mass of cables included [Hz], (m,); NaN for a robot without inertia."""
+        """Frequency with which the platform swings with the load, the mass of cables included [Hz], (m,);
+        NaN for a robot without inertia.
+        """
     @property
     def platform_share(self) -> _Floats:
         """Share of the platform in the kinetic energy of that motion, (m,)."""
