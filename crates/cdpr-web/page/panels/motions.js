@@ -50,6 +50,8 @@ export function motionsPanel(app) {
 /** What is said of the motions, most important first. */
 export function noteOf({ modes: { found: modes }, reduced, mechanics }) {
   const sentences = ["With the load, on these lengths. The size of a motion is exaggerated."];
+  if (modes?.frequencies?.length > 0)
+    sentences.push("Frequencies leave out the mass of the cables; `cdpr modes` has it.");
   if (mechanics.failure) sentences.unshift("These are of the last state that was found.");
   if (modes?.warning) sentences.unshift(`Note: ${modes.warning.replace(/\s+/g, " ")}.`);
   if (modes?.reason) sentences.unshift(`No natural frequencies: ${modes.reason}.`);
