@@ -1,5 +1,7 @@
-//! Natural motions with the mass of the cables: at one pose, with and without the counts.
+//! Natural motions with the mass of the cables: at one pose, with and without the counts; and a fifth of a second
+//! of motion.
 
+use cdpr_dynamics::simulate::{Change, CutAt, Event, Settings, simulate};
 use cdpr_dynamics::{Modes, MovingPlatform, Wanted};
 use cdpr_robot::{Pose, Robot};
 use cdpr_statics::{DirectProblem, DirectStart, Load, inverse};
@@ -36,5 +38,28 @@ fn modes(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, modes);
+/// A dropped payload on taut cables, and a cable that parts, after which others go slack.
+#[allow(clippy::unwrap_used)]
+fn motions(criterion: &mut Criterion) {
+    let robot = Robot::from_json(CASES[0].1).unwrap();
+    let load = Load::payload(50.0);
+    let held = inverse(&robot, &Pose::at(0.0, 0.0, 2.0), &load).unwrap();
+    let problem = DirectProblem::new(&robot, &held.lengths, &load).unwrap();
+    let rest = problem.direct(DirectStart::Near(&held.equilibrium)).unwrap().equilibrium;
+    let settings = Settings { damping: 2e-4, ..Settings::until(0.2) };
+    let mut group = criterion.benchmark_group("simulate");
+    group.sample_size(10);
+    for (name, change) in [
+        ("cogiro/payload", Change::Payload(-50.0)),
+        ("cogiro/cut", Change::Cut { cable: 0, at: CutAt::Anchor }),
+    ] {
+        let events = [Event { time: 0.0, change }];
+        group.bench_function(name, |bencher| {
+            bencher.iter(|| simulate(&problem, black_box(&rest), &events, &settings).unwrap());
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(benches, modes, motions);
 criterion_main!(benches);
