@@ -40,7 +40,8 @@ pub enum DynamicsError {
     },
     /// A motion whose steps become too short.
     #[error(
-        "the motion cannot be followed beyond {time:.6} s: no step of time is short enough for its error;          try fewer elements of a higher degree, more damping, or a greater tolerance"
+        "the motion cannot be followed beyond {time:.6} s: no step of time is short enough for its error; \
+         try fewer elements of a higher degree, more damping, or a greater tolerance"
     )]
     Stalled {
         /// When [s].

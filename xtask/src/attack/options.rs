@@ -8,7 +8,7 @@ use std::path::Path;
 use std::process::Command;
 
 /// A good call of each command in the folder of all cases.
-const CALLS: [&str; 25] = [
+const CALLS: [&str; 27] = [
     "cable catenary weight=1,stiffness=1e6 --length 4.3 --end 4,-1",
     "inverse robot.json --pose 0,0,1.75",
     "direct robot.json --lengths 4.44,4.54,4.36,4.26,4.26,4.36,4.54,4.44",
@@ -33,6 +33,8 @@ const CALLS: [&str; 25] = [
     "hysteresis robot.json --law law.json --pose 0,0,1.75 --payload 50",
     "cable density --mass 0.203 --length 2",
     "modes robot.json --pose 0,0,1.75",
+    "response robot.json --pose 0,0,1.75 --below 10 --number 5",
+    "simulate robot.json --pose 0,0,1.75 --events events.json --until 0.02",
     "cable modulus record.csv --breaking-force 10290 --section 1.2566e-5 --length 1 --range 5-10",
     "study tolerances study.json --sampling mechanical --observations 100 --limit deflection_mm<1",
 ];
@@ -60,6 +62,7 @@ pub(super) fn prepare(folder: &Path) -> io::Result<()> {
     let row = "4.44,4.54,4.36,4.26,4.26,4.36,4.54,4.44";
     let rows: String = (0..6).map(|k| format!("0,0,1.75{k},{row}\n")).collect();
     let header = "x_m,y_m,z_m,l1_m,l2_m,l3_m,l4_m,l5_m,l6_m,l7_m,l8_m\n";
+    fs::write(folder.join("events.json"), "[{\"t\": 0, \"payload\": 1}]")?;
     fs::write(folder.join("measured.csv"), format!("{header}{rows}"))?;
     fs::write(folder.join("points.csv"), "bx,by,bz,ax,ay,az\n1,1,1,0.1,0.1,0\n-1,1,1,-0.1,0.1,0\n")
 }

@@ -8,6 +8,7 @@ use crate::error::ProgramError;
 use crate::output::{Ending, patiently, table};
 use crate::pose::modes::with_inertia;
 use crate::questions;
+use cdpr_dynamics::DynamicsError;
 use cdpr_dynamics::simulate::{Discretization, Sample, Series, events_from_json, simulate};
 use cdpr_robot::{Pose, Robot, Vector3, counted, rounded, shown, significant};
 use cdpr_statics::{DirectProblem, DirectStart, WantedPose, inverse, rough_pose};
@@ -73,7 +74,10 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     }
     let rest = rest.equilibrium;
     let found = patiently("simulating", || simulate(&problem, &rest, &events, &how));
-    let series = found.map_err(ProgramError::in_file(&settings.events))?;
+    let series = found.map_err(|error| match error {
+        DynamicsError::Event { .. } => ProgramError::in_file(&settings.events)(error),
+        error => error.into(),
+    })?;
     let answer = Answer::new(&robot, &rest.pose, &lengths, &series);
     let records = || series.samples.iter().map(|sample| record(&rest.pose, sample));
     if let Some(path) = settings.printing.table_file() {

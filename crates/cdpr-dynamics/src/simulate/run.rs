@@ -160,14 +160,17 @@ impl Run<'_> {
         kinks.sort_by(f64::total_cmp);
         let mut kinks = kinks.into_iter().peekable();
         let mut applied = 0;
-        for sample in samples {
+        // The motion goes on to its end, whether that is a sample or not.
+        for (sample, is_sample) in samples.map(|time| (time, true)).chain([(settings.until, false)]) {
             while let Some(kink) = kinks.next_if(|kink| *kink <= sample) {
                 self.until(kink)?;
                 let state = self.radau.state.clone();
                 self.restart(state, &mut applied);
             }
             self.until(sample)?;
-            self.sample();
+            if is_sample {
+                self.sample();
+            }
             if !self.may_go_on() {
                 break;
             }
@@ -219,9 +222,11 @@ impl Run<'_> {
             self.system.turn(&mut self.radau.state);
             self.watch();
             if !self.may_go_on() {
-                break;
+                return Ok(());
             }
         }
+        // Without the rounding of the steps.
+        self.radau.time = time;
         Ok(())
     }
 

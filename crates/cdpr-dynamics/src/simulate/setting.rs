@@ -61,6 +61,9 @@ impl Settings {
         Self { until, rate: 100.0, damping: 0.0, discretization: None, tolerance: 5e-9 }
     }
 
+    /// Greatest damping [s]: thousands of times that of a cable.
+    const MOST_DAMPING: f64 = 1.0;
+
     /// Greatest number of samples.
     const MOST_SAMPLES: f64 = 1e7;
 
@@ -71,8 +74,8 @@ impl Settings {
         let invalid = |field, value: f64, expected: &str| {
             Err(DynamicsError::Invalid { field, value: format!("{value:?}"), expected: expected.to_owned() })
         };
-        if !(self.damping.is_finite() && self.damping >= 0.0) {
-            return invalid("damping", self.damping, "a time [s], zero or more");
+        if !(0.0..=Self::MOST_DAMPING).contains(&self.damping) {
+            return invalid("damping", self.damping, "a time [s], 0 to 1");
         }
         if self.until * self.rate > Self::MOST_SAMPLES {
             return invalid("rate", self.rate, "1e7 samples at most, until the end");
