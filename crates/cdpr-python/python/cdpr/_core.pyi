@@ -20,6 +20,7 @@ __all__ = [
     "DirectSolution",
     "Expansion",
     "InverseSolution",
+    "MasslessModes",
     "Modes",
     "Morris",
     "Observations",
