@@ -136,7 +136,7 @@ impl MovingCable {
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     #![allow(clippy::unwrap_used)]
 
     use super::*;
@@ -146,6 +146,24 @@ mod tests {
 
     fn number(value: &Value) -> f64 {
         value.as_f64().unwrap()
+    }
+
+    /// A cable of `motion.json` in its own plane.
+    pub(crate) fn of_reference(case: &Value) -> CableAtRest<'static> {
+        let density = number(&case["linear_density"]);
+        let catenary = Catenary {
+            cable: Cable::linear(density * number(&case["gravity"]), number(&case["axial_stiffness"])),
+            unstrained_length: number(&case["unstrained_length"]),
+            force: Vector2::new(number(&case["end_force_x"]), number(&case["end_force_z"])),
+        };
+        CableAtRest {
+            lever: Vector3::zeros(),
+            axes: Matrix3::identity(),
+            catenary,
+            linear_density: density,
+            end_stiffness: catenary.stiffness(Vector2::x()),
+            stiffness: Matrix6::zeros(),
+        }
     }
 
     /// K_dyn of the end of a cable at a frequency [Hz], (N4).
@@ -163,20 +181,7 @@ mod tests {
         let file: Value = serde_json::from_str(include_str!("../../../data/reference/motion.json")).unwrap();
         let (mut stiffnesses, mut frequencies) = (0, 0);
         for case in file["cables"].as_array().unwrap() {
-            let density = number(&case["linear_density"]);
-            let catenary = Catenary {
-                cable: Cable::linear(density * number(&case["gravity"]), number(&case["axial_stiffness"])),
-                unstrained_length: number(&case["unstrained_length"]),
-                force: Vector2::new(number(&case["end_force_x"]), number(&case["end_force_z"])),
-            };
-            let cable = CableAtRest {
-                lever: Vector3::zeros(),
-                axes: Matrix3::identity(),
-                catenary,
-                linear_density: density,
-                end_stiffness: catenary.stiffness(Vector2::x()),
-                stiffness: Matrix6::zeros(),
-            };
+            let cable = of_reference(case);
             let expected: Vec<f64> = case["frequencies_hz"].as_array().unwrap().iter().map(number).collect();
             let at = case["dynamic_stiffness"].as_array().map_or(&[][..], Vec::as_slice);
             let all = at.iter().map(|at| number(&at["frequency_hz"])).chain(expected.iter().copied());

@@ -198,11 +198,11 @@ impl Free<'_> {
         }
         let directions = soft.iter().map(|k| more.eigenvectors.column(*k).into_owned().into()).collect();
         let across = whole.m22.recip() - response.lateral_flexibility;
-        let mut beside = Beginning::fixed();
+        let mut lateral = Beginning::fixed();
         if across > ROUNDING * response.lateral_flexibility {
-            beside = Beginning { directions: vec![[1.0]], matrices: Matrices::zeros(1) };
-            beside.matrices.stiffness[(0, 0)] = across.recip();
+            lateral = Beginning { directions: vec![[1.0]], matrices: Matrices::zeros(1) };
+            lateral.matrices.stiffness[(0, 0)] = across.recip();
         }
-        (Beginning { directions, matrices }, beside)
+        (Beginning { directions, matrices }, lateral)
     }
 }

@@ -310,8 +310,7 @@ mod tests {
     #![allow(clippy::unwrap_used)]
 
     use super::*;
-    use cdpr_cable::{Cable, Catenary};
-    use cdpr_statics::Vector2;
+    use crate::cable::tests::of_reference;
     use serde_json::Value;
 
     #[test]
@@ -321,20 +320,8 @@ mod tests {
         let mut compared = 0;
         for case in file["cables"].as_array().unwrap() {
             let Some(references) = case["dynamic_stiffness"].as_array() else { continue };
-            let density = number(&case["linear_density"]);
-            let catenary = Catenary {
-                cable: Cable::linear(density * number(&case["gravity"]), number(&case["axial_stiffness"])),
-                unstrained_length: number(&case["unstrained_length"]),
-                force: Vector2::new(number(&case["end_force_x"]), number(&case["end_force_z"])),
-            };
-            let cable = CableAtRest {
-                lever: Vector3::zeros(),
-                axes: Matrix3::identity(),
-                catenary,
-                linear_density: density,
-                end_stiffness: catenary.stiffness(Vector2::x()),
-                stiffness: Matrix6::zeros(),
-            };
+            let cable = of_reference(case);
+            let catenary = cable.catenary;
             let highest = references.iter().map(|at| number(&at["frequency_hz"])).fold(0.1, f64::max);
             let shaken = ShakenCable::new(0, &cable, highest).unwrap();
             let free = Free { cable: 0, free: catenary };

@@ -51,7 +51,7 @@ pub struct BoxProblem<'a> {
     pub multipliers: Vector6<f64>,
 }
 
-/// The solution of a [`BoxProblem`], or what is nearest to one within the bounds where there is none.
+/// The solution of a [`BoxProblem`]; of an infeasible one the point within the bounds that comes nearest to one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BoxSolution {
     /// d.

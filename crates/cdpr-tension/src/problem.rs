@@ -75,7 +75,7 @@ pub enum TensionError {
         /// What would be right.
         expected: &'static str,
     },
-    /// Clarabel stopped without a solution and without a proof that there is none.
+    /// Clarabel stopped with neither a solution nor a proof of infeasibility.
     #[error("the solver of the tensions stopped with status {status}")]
     Solver {
         /// The status it reported.

@@ -46,7 +46,7 @@ const TOLERANCE: f64 = 1e-10;
 
 impl Program {
     /// # Errors
-    /// [`TensionError::Solver`] where Clarabel ends with neither a solution nor a proof that there is none.
+    /// [`TensionError::Solver`] where Clarabel ends with neither a solution nor a proof of infeasibility.
     pub(crate) fn solve(&self) -> Result<Outcome, TensionError> {
         let (n, m) = (self.gradient.len(), self.equations.len());
         let rows: Vec<&(Vec<f64>, f64)> = self.equations.iter().chain(&self.inequalities).collect();

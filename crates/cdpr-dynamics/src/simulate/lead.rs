@@ -1,11 +1,12 @@
 //! How a cable comes to the point where its free part begins.
 //!
-//! Lead and arc are a spring of the unstrained length l that is longer by e than at rest; its end moves along the
-//! direction u of a straight cable to the anchor point, from its leave point B, both corrected by what sag changes
-//! at rest:
+//! Lead and arc are a spring of the unstrained length l that is longer by e than at rest. Its end moves along
+//! the direction u of a straight cable to the anchor point, from its leave point B, both corrected by what sag
+//! changes at rest:
 //!
 //! ```text
-//! r_0 = B + (e - arc + arc at rest) u,    (m_0 + μ l/3) ë = (f_0 + m_0 g) u - T(e) - w u_z e/(1 + ε)       (X4)
+//! r_0 = B + (e - arc + arc at rest) u
+//! (m_0 + μ l/3) ë = (f_0 + m_0 g) u - T(e) - w u_z e/(1 + ε)                                       (X4)
 //! ```
 //!
 //! The last term is the weight of the cable that has come out. Cable on a pulley has no mass.

@@ -1,7 +1,7 @@
 //! Points of a cable, and the forces on them.
 //!
-//! With the place r of the material at the unstrained length s from the exit, the mass μ per unstrained length and
-//! the ratio τ of the viscous to the elastic modulus,
+//! With the place r of the material at the unstrained length s from the exit, the mass μ per unstrained length
+//! and the ratio τ of the viscous to the elastic modulus,
 //!
 //! ```text
 //! μ r̈ = n' + μ g,    r' = (1 + ε) t,    n = (T(ε) + τ dT/dε dε/dt) t                               (X1)
