@@ -3,12 +3,12 @@
 use crate::answer::{OutOfLimits, decimal};
 use crate::arguments::{self, Format, FreeArguments, With, endings, print_record, with};
 use crate::error::ProgramError;
-use crate::output::{Ending, table};
+use crate::output::{Ending, print_sentence, table};
 use crate::pose::at_pose::{RobotAtPose, Row};
 use crate::pose::modes::with_inertia;
 use cdpr_dynamics::{Damping, FrequencyResponse, Modes, Response, Wanted};
 use cdpr_report::{Amplitudes, amplitudes};
-use cdpr_robot::{Pose, Robot, Vector3, shown};
+use cdpr_robot::{Pose, Robot, Vector3, shown, significant};
 use cdpr_statics::{DirectProblem, DirectStart, StaticsError, Unstable, WantedPose, inverse};
 use serde::Serialize;
 use std::path::PathBuf;
@@ -177,9 +177,16 @@ impl Answer {
     }
 
     fn print(&self, heading: &str) {
-        println!("{heading}: shaken by a force, at a point of the platform.");
-        if let Some(still) = self.frequencies.first() {
-            println!("At rest a force moves it by up to {:.5} mm/N.", 1e3 * still.amplitude_m_per_n);
+        let greatest = |one: &&At, other: &&At| one.amplitude_m_per_n.total_cmp(&other.amplitude_m_per_n);
+        if let (Some(still), Some(most)) =
+            (self.frequencies.first(), self.frequencies.iter().max_by(greatest))
+        {
+            print_sentence(&format!(
+                "{heading}: a force shakes the point by up to {} mm/N, at {:.4} Hz; at rest it moves it by {} mm/N.",
+                significant(1e3 * most.amplitude_m_per_n, 3),
+                most.frequency_hz,
+                significant(1e3 * still.amplitude_m_per_n, 3)
+            ));
         }
         println!(
             "Damping of the cables: stretch {} s, drag {} 1/s. The largest peaks:",
@@ -188,7 +195,7 @@ impl Answer {
         let names = ["frequency [Hz]", "amplitude [mm/N]", "x, y, z along [mm/N]", "winches [mm/mm]"];
         let mut rows = table(&names);
         for at in self.peaks().into_iter().take(LISTED) {
-            let millimetres = |value: f64| decimal(1e3 * value, 5);
+            let millimetres = |value: f64| significant(1e3 * value, 3);
             let winches = at.of_winches().into_iter().fold(0.0, f64::max);
             let along = at.along().map(millimetres).join(" ");
             let cells = [
