@@ -5,7 +5,7 @@ use crate::arguments::{
     self, Format, FreeArguments, LoadArguments, Preference, Printing, RobotArgument, With, print_record,
 };
 use crate::error::ProgramError;
-use crate::output::{Ending, patiently, table};
+use crate::output::{Ending, patiently, print_sentence, table};
 use crate::pose::modes::with_inertia;
 use crate::questions;
 use cdpr_dynamics::DynamicsError;
@@ -273,7 +273,7 @@ impl Answer {
         let mm = |metres: f64| significant(1e3 * metres, 3);
         let [x, y, z] = <[f64; 3]>::from(rest.position).map(|value| rounded(value, 4));
         let turned = significant(rest.rotation.angle().to_degrees(), 3);
-        println!("{name}, at rest at ({x}, {y}, {z}) m, turned by {turned} deg");
+        print_sentence(&format!("{name}, at rest at ({x}, {y}, {z}) m, turned by {turned} deg"));
         println!(
             "The platform moves up to {} mm and {} deg from its rest, at {} s.",
             mm(self.greatest_distance_m),
