@@ -63,10 +63,10 @@ tasks:
                  FUNCTION/MEASURE; docs/STATISTICS.md) or peers (beside SALib and OpenTURNS, which pip
                  installs into target/peers/statistics; there FUNCTION is a part of the names of measures)
   calibration PART [CAMPAIGNS | FILES]
-                 prints the figures of calibration in docs/VALIDATION.md and docs/calibration.md; PART is
+                 prints the figures of calibration in docs/VALIDATION.md; PART is
                  recovery, troubles (outliers, biases, far starts), wrong (models), sensors, speed, scipy,
                  campaigns (beside SciPy, with the coverage of the stds: campaigns of each robot, and how many
-                 of them SciPy calibrates), circle (the whole example, with its pictures and copies of its
+                 of them SciPy calibrates), circle (a whole example, with copies of its
                  results) or irma4u (a user's copy of its campaigns)
   fuzz [SECONDS] runs every fuzz target of tests/fuzz for SECONDS (60), on nightly with cargo-fuzz
   attack         runs the program on bad files and arguments, with 10 s and 1 GiB for each, and fails where it
