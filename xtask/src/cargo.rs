@@ -21,11 +21,12 @@ pub(crate) fn cdpr_command(command: &[&str]) -> Command {
     cargo_command(&[&["run", "--quiet", "--bin", "cdpr", "--"], command].concat())
 }
 
-/// An example of a crate with its arguments, without the messages of cargo, for the caller to start.
-pub(crate) fn example_command(package: &str, example: &str, arguments: &[&str]) -> Command {
-    cargo_command(
-        &[&["run", "--quiet", "--package", package, "--example", example, "--"], arguments].concat(),
-    )
+/// An example with its arguments, without the messages of cargo, for the caller to start.
+///
+/// As in [`cdpr`], no package is named: everything would be compiled again with the features of that package
+/// alone.
+pub(crate) fn example_command(example: &str, arguments: &[&str]) -> Command {
+    cargo_command(&[&["run", "--quiet", "--example", example, "--"], arguments].concat())
 }
 
 /// Whether cargo succeeds with a subcommand and its arguments.

@@ -147,7 +147,7 @@ fn caroca_study(mut rest: Vec<String>) -> ExitCode {
 /// Prints the published figures next to those of the study, and writes them to `published.txt`.
 fn compared(out: &Path) -> Result<(), String> {
     let figures = root().join("data/reference/published.json").display().to_string();
-    let mut command = example_command("cdpr-study", "published", &[&figures, &out.display().to_string()]);
+    let mut command = example_command("published", &[&figures, &out.display().to_string()]);
     let output = command.output().map_err(|error| format!("cannot start cargo: {error}"))?;
     if !output.status.success() {
         return Err(String::from_utf8_lossy(&output.stderr).into_owned());
@@ -162,7 +162,7 @@ fn robustness(mut rest: Vec<String>) -> ExitCode {
     default(&mut rest, "--robot", "data/robots/cogiro.json");
     eprintln!("building the example (a few minutes the first time), then looking for poses");
     let rest: Vec<&str> = rest.iter().map(String::as_str).collect();
-    cargo(&[&["run", "--package", "cdpr-report", "--example", "robustness", "--"][..], &rest].concat())
+    cargo(&[&["run", "--example", "robustness", "--"][..], &rest].concat())
 }
 
 fn throughput(rest: &[String]) -> ExitCode {
@@ -176,8 +176,7 @@ fn throughput(rest: &[String]) -> ExitCode {
     let observations = Some(option("--observations")).filter(|number| !number.is_empty());
     let observations = observations.unwrap_or_else(|| "1000000".to_owned());
     let threads = option("--threads");
-    let mut command =
-        vec!["run", "--package", "cdpr-study", "--example", "throughput", "--", &study, "mechanical"];
+    let mut command = vec!["run", "--example", "throughput", "--", &study, "mechanical"];
     command.push(&observations);
     if !threads.is_empty() {
         command.push(&threads);
