@@ -4,13 +4,13 @@
 
 #![allow(clippy::print_stderr, clippy::print_stdout)]
 
-mod answer;
 mod attack;
 mod bench;
 mod cable;
 mod calibration;
 mod cargo;
 mod dist;
+mod evidence;
 mod fuzz;
 mod gallery;
 mod led;
@@ -71,6 +71,10 @@ tasks:
   fuzz [SECONDS] runs every fuzz target of tests/fuzz for SECONDS (60), on nightly with cargo-fuzz
   attack         runs the program on bad files and arguments, with 10 s and 1 GiB for each, and fails where it
                  panics, hangs or touches a file outside of its folder of results
+  evidence [CASE..]
+                 runs the comparisons of data/evidence/cases.json, all or those that begin so, keeps their figures
+                 there and writes the tables of docs/trust.md; --check compares the figures in the folder
+                 CDPR_EVIDENCE, which a run of the tests has written, with those that are kept
   dist           makes what a release consists of in target/dist: the program, on Linux one that runs on
                  any, the wheel, the packed crates, the book, notes and checksums
   web [--check]  makes the module and the page of `cdpr explore` in crates/cdpr-web/dist, or says whether these
@@ -99,8 +103,9 @@ fn main() -> ExitCode {
         Some("fuzz") => fuzz::run(&rest),
         Some("attack") => attack::run(),
         Some("dist") => dist::run(&rest),
+        Some("evidence") => ended(evidence::run(&rest)),
         Some("web") => web::run(&rest),
-        Some("gallery") => gallery(),
+        Some("gallery") => ended(gallery::run()),
         Some("schemas") => schemas(),
         Some("help" | "--help" | "-h") => {
             eprintln!("{HELP}");
@@ -134,14 +139,7 @@ fn caroca_study(mut rest: Vec<String>) -> ExitCode {
     }
     let (out, settings) = without(&rest, "--out");
     let cables = || cable::run(Path::new(out), &settings);
-    match compared(Path::new(out)).and_then(|()| cables()).and_then(|()| led::run(Path::new(out), &settings))
-    {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("error: {error}");
-            ExitCode::FAILURE
-        }
-    }
+    ended(compared(Path::new(out)).and_then(|()| cables()).and_then(|()| led::run(Path::new(out), &settings)))
 }
 
 /// Prints the published figures next to those of the study, and writes them to `published.txt`.
@@ -233,8 +231,9 @@ fn without<'a>(arguments: &'a [String], option: &str) -> (&'a str, Vec<&'a str>)
     (value, rest)
 }
 
-fn gallery() -> ExitCode {
-    match gallery::run() {
+/// The exit code of a task, and its message.
+fn ended(outcome: Result<(), String>) -> ExitCode {
+    match outcome {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("error: {error}");

@@ -2,8 +2,7 @@
 //! robot, study with what is left. Prints its figures, and writes its pictures and the robot that later
 //! studies take.
 
-use crate::answer::{answer, number, output, parsed, write};
-use crate::cargo::root;
+use crate::cargo::{answer, number, output, parsed, root, write};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
