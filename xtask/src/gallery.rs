@@ -5,8 +5,7 @@
 //! with fewer cables than free motions is drawn with straight cables at the pose that `cdpr inverse --free`
 //! finds.
 
-use crate::answer::{answer, number, output, parsed, write};
-use crate::cargo::root;
+use crate::cargo::{answer, number, output, parsed, root, write};
 use serde_json::{Value, json};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};

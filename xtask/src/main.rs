@@ -4,13 +4,13 @@
 
 #![allow(clippy::print_stderr, clippy::print_stdout)]
 
-mod answer;
 mod attack;
 mod bench;
 mod cable;
 mod calibration;
 mod cargo;
 mod dist;
+mod evidence;
 mod fuzz;
 mod gallery;
 mod led;
@@ -71,6 +71,10 @@ tasks:
   fuzz [SECONDS] runs every fuzz target of tests/fuzz for SECONDS (60), on nightly with cargo-fuzz
   attack         runs the program on bad files and arguments, with 10 s and 1 GiB for each, and fails where it
                  panics, hangs or touches a file outside of its folder of results
+  evidence [CASE..]
+                 runs the comparisons of data/evidence/cases.json, all or those that begin so, keeps their figures
+                 there and writes the tables of docs/trust.md; --check compares the figures in the folder
+                 CDPR_EVIDENCE, which a run of the tests has written, with those that are kept
   dist           makes what a release consists of in target/dist: the program, on Linux one that runs on
                  any, the wheel, the packed crates, the book, notes and checksums
   web [--check]  makes the module and the page of `cdpr explore` in crates/cdpr-web/dist, or says whether these
@@ -99,8 +103,9 @@ fn main() -> ExitCode {
         Some("fuzz") => fuzz::run(&rest),
         Some("attack") => attack::run(),
         Some("dist") => dist::run(&rest),
+        Some("evidence") => ended(evidence::run(&rest)),
         Some("web") => web::run(&rest),
-        Some("gallery") => gallery(),
+        Some("gallery") => ended(gallery::run()),
         Some("schemas") => schemas(),
         Some("help" | "--help" | "-h") => {
             eprintln!("{HELP}");
@@ -134,20 +139,13 @@ fn caroca_study(mut rest: Vec<String>) -> ExitCode {
     }
     let (out, settings) = without(&rest, "--out");
     let cables = || cable::run(Path::new(out), &settings);
-    match compared(Path::new(out)).and_then(|()| cables()).and_then(|()| led::run(Path::new(out), &settings))
-    {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("error: {error}");
-            ExitCode::FAILURE
-        }
-    }
+    ended(compared(Path::new(out)).and_then(|()| cables()).and_then(|()| led::run(Path::new(out), &settings)))
 }
 
 /// Prints the published figures next to those of the study, and writes them to `published.txt`.
 fn compared(out: &Path) -> Result<(), String> {
     let figures = root().join("data/reference/published.json").display().to_string();
-    let mut command = example_command("cdpr-study", "published", &[&figures, &out.display().to_string()]);
+    let mut command = example_command("published", &[&figures, &out.display().to_string()]);
     let output = command.output().map_err(|error| format!("cannot start cargo: {error}"))?;
     if !output.status.success() {
         return Err(String::from_utf8_lossy(&output.stderr).into_owned());
@@ -162,7 +160,7 @@ fn robustness(mut rest: Vec<String>) -> ExitCode {
     default(&mut rest, "--robot", "data/robots/cogiro.json");
     eprintln!("building the example (a few minutes the first time), then looking for poses");
     let rest: Vec<&str> = rest.iter().map(String::as_str).collect();
-    cargo(&[&["run", "--package", "cdpr-report", "--example", "robustness", "--"][..], &rest].concat())
+    cargo(&[&["run", "--example", "robustness", "--"][..], &rest].concat())
 }
 
 fn throughput(rest: &[String]) -> ExitCode {
@@ -176,8 +174,7 @@ fn throughput(rest: &[String]) -> ExitCode {
     let observations = Some(option("--observations")).filter(|number| !number.is_empty());
     let observations = observations.unwrap_or_else(|| "1000000".to_owned());
     let threads = option("--threads");
-    let mut command =
-        vec!["run", "--package", "cdpr-study", "--example", "throughput", "--", &study, "mechanical"];
+    let mut command = vec!["run", "--example", "throughput", "--", &study, "mechanical"];
     command.push(&observations);
     if !threads.is_empty() {
         command.push(&threads);
@@ -234,8 +231,9 @@ fn without<'a>(arguments: &'a [String], option: &str) -> (&'a str, Vec<&'a str>)
     (value, rest)
 }
 
-fn gallery() -> ExitCode {
-    match gallery::run() {
+/// The exit code of a task, and its message.
+fn ended(outcome: Result<(), String>) -> ExitCode {
+    match outcome {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("error: {error}");

@@ -1,8 +1,7 @@
 //! A calibration of CAROCA from its beginning: tolerances, study, plan, campaign, calibrated robot, study with
 //! what is left. Prints its figures, and writes the robot that later studies take.
 
-use crate::answer::{answer, number, output, parsed, write};
-use crate::cargo::root;
+use crate::cargo::{answer, number, output, parsed, root, write};
 use serde_json::Value;
 use std::path::Path;
 

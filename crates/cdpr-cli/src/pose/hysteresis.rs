@@ -1,10 +1,10 @@
 //! `cdpr hysteresis`: where a payload that is put on and taken off again leaves the platform.
 
 use crate::answer::{OutOfLimits, vector};
-use crate::arguments::endings;
 use crate::arguments::poses::PoseArguments;
 use crate::arguments::{
-    self, FreeArguments, Preference, Printing, RobotArgument, With, number, payload, with,
+    self, FigureArgument, FreeArguments, Preference, Printing, RobotArgument, With, figure, number, payload,
+    with,
 };
 use crate::error::ProgramError;
 use crate::output::{Ending, patiently, print_sentence, table};
@@ -46,9 +46,9 @@ pub(crate) struct Settings {
     /// the part of the unloading curve with the same tensions and not the part from its start.
     #[arg(long, value_name = "NAMES", value_parser = with)]
     with: Option<With>,
-    /// File for a figure of payload over height (SVG).
-    #[arg(long, value_parser = endings::svg)]
-    figure: Option<PathBuf>,
+    /// File for a figure of payload over height (.svg, .pdf, .png); behind its name: width=MM, untitled.
+    #[arg(long, value_name = "FILE", value_parser = figure)]
+    figure: Option<FigureArgument>,
     #[command(flatten)]
     printing: Printing,
 }
@@ -107,8 +107,8 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
              turning point from which it was measured"
         );
     }
-    if let Some(path) = &settings.figure {
-        settings.printing.overwrite.write(path, &draw(&robot, &cycle, &found)?)?;
+    if let Some(file) = &settings.figure {
+        file.write(&settings.printing.overwrite, &draw(&robot, &cycle, &found)?)?;
     }
     Ok(OutOfLimits::ending(&found.out_of_limits))
 }
