@@ -146,7 +146,9 @@ fn three_shards_merged_equal_one_run_and_are_not_analysed_before_all_are_there()
     // The last third, as a job array of Slurm has it.
     let mut command = bench.study_command(&["run", "study.json", "--out", "shards", "--shard", "auto/3"]);
     assert!(command.env("SLURM_ARRAY_TASK_ID", "2").output().unwrap().status.success());
+    assert!(bench.done(&["status", "shards"]).contains("observations: cdpr study merge analyses it."));
     bench.done(&merge);
+    assert!(bench.done(&["status", "shards"]).starts_with("Complete and analysed, "));
     assert_same(&bench, "whole", "shards");
     // A task that a scheduler runs again leaves what has been analysed as it is.
     bench.run("shards", &["--shard", "2/3"]);

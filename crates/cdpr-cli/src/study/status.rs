@@ -28,8 +28,11 @@ fn print(status: &Status) {
     let all = || status.samplings.values().flat_map(|sampling| sampling.designs.values());
     let (done, wanted) =
         all().fold((0, 0), |(done, wanted), of| (done + of.observed, wanted + of.observations));
-    if status.complete {
-        println!("Complete, {}: cdpr study merge analyses it.", counted(done, "observation"));
+    let observations = counted(done, "observation");
+    if status.complete && status.analysed {
+        println!("Complete and analysed, {observations}.");
+    } else if status.complete {
+        println!("Complete, {observations}: cdpr study merge analyses it.");
     } else {
         let percent = 100.0 * done as f64 / wanted.max(1) as f64;
         println!("Not complete: {done} of {} ({percent:.1} %).", counted(wanted, "observation"));

@@ -22,6 +22,8 @@ pub struct Status {
     pub hash: String,
     /// Whether all blocks exist, so that the study can be merged.
     pub complete: bool,
+    /// Whether tables and figures have been made of them.
+    pub analysed: bool,
     /// Its samplings by name.
     pub samplings: IndexMap<String, SamplingStatus>,
     /// Files of the analysed results that were changed or removed after the run that wrote them.
@@ -142,7 +144,8 @@ pub fn status(study: &Study, blocks: &Blocks) -> Result<Status, StudyError> {
     let mut all = samplings.values().flat_map(|sampling: &SamplingStatus| sampling.designs.values());
     let complete = all.all(|design| design.blocks_missing == 0);
     let changed = blocks.changed_results()?;
-    Ok(Status { study: study.file.name.clone(), hash: study.hash()?, complete, samplings, changed })
+    let analysed = blocks.are_analysed();
+    Ok(Status { study: study.file.name.clone(), hash: study.hash()?, complete, analysed, samplings, changed })
 }
 
 /// Checks that all blocks of the study in `folder` exist.

@@ -212,15 +212,18 @@ impl Blocks {
         [SUMMARY_NAME, REPORT_NAME].into_iter().try_for_each(|name| self.results()?.remove(name))
     }
 
+    /// Whether an analysis of the blocks has been concluded.
+    pub(crate) fn are_analysed(&self) -> bool {
+        self.results.join(SUMMARY_NAME).exists()
+    }
+
     /// Files of the analysed results that were changed or removed after the run that wrote them. There are
     /// none while another run makes new ones.
     ///
     /// # Errors
     /// [`StudyError::Read`] and those of the list.
     pub(crate) fn changed_results(&self) -> Result<Vec<PathBuf>, StudyError> {
-        let state = || {
-            Ok::<_, StudyError>((self.results.join(SUMMARY_NAME).exists(), Manifest::read(&self.results)?))
-        };
+        let state = || Ok::<_, StudyError>((self.are_analysed(), Manifest::read(&self.results)?));
         let before = state()?;
         let changed = if before.0 { changed_files(&self.results)? } else { Vec::new() };
         Ok(if state()? == before { changed } else { Vec::new() })
