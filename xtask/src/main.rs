@@ -65,7 +65,7 @@ tasks:
                  measures calibrations; PART is
                  recovery, troubles (outliers, biases, far starts), wrong (models), sensors, speed, scipy,
                  campaigns (beside SciPy, with the coverage of the stds: campaigns of each robot, and how many
-                 of them SciPy calibrates), circle (the whole example, with its pictures and copies of its
+                 of them SciPy calibrates), circle (a whole example, with copies of its
                  results) or irma4u (a user's copy of its campaigns)
   fuzz [SECONDS] runs every fuzz target of tests/fuzz for SECONDS (60), on nightly with cargo-fuzz
   attack         runs the program on bad files and arguments, with 10 s and 1 GiB for each, and fails where it
