@@ -46,8 +46,7 @@ tasks:
                  failures, for the robots and poses of data/benchmarks/throughput.json, or those whose names
                  contain NAME
   scaling [--observations N]
-                 runs the same over 10^3, 10^4 .. N observations (1000000) on 1 and 2 threads, see
-                 docs/PERFORMANCE.md
+                 runs the same over 10^3, 10^4 .. N observations (1000000) on 1 and 2 threads
   bench [--strict] [--save-baseline] [ARGS]
                  runs all criterion benchmarks, or those that ARGS choose (a part of a name and other options
                  of criterion), counts their instructions where valgrind is installed, and prints both beside
@@ -56,14 +55,14 @@ tasks:
   bench-peers    solves the direct model and an observation with cdpr, and with SciPy, Octave and Ceres
                  where these are installed, see docs/PEERS.md
   statistics TABLE [STUDIES [FUNCTION]]
-                 measures how often estimators of cdpr-sensitivity are right, see docs/VALIDATION.md; TABLE is
+                 measures how often estimators of cdpr-sensitivity are right, and keeps whole tables for docs/statistics.md; TABLE is
                  choice (of a fitted law), indices (of Sobol'), expansions,
                  given (first-order indices of tables), levels (of tests of tables), verdicts (of tables with
                  known truth), brackets (bounds by derivatives), measures (all of them, of functions with FUNCTION in their names, or of
-                 FUNCTION/MEASURE; docs/STATISTICS.md) or peers (beside SALib and OpenTURNS, which pip
+                 FUNCTION/MEASURE) or peers (beside SALib and OpenTURNS, which pip
                  installs into target/peers/statistics; there FUNCTION is a part of the names of measures)
   calibration PART [CAMPAIGNS | FILES]
-                 prints the figures of calibration in docs/VALIDATION.md; PART is
+                 measures calibrations; PART is
                  recovery, troubles (outliers, biases, far starts), wrong (models), sensors, speed, scipy,
                  campaigns (beside SciPy, with the coverage of the stds: campaigns of each robot, and how many
                  of them SciPy calibrates), circle (a whole example, with copies of its

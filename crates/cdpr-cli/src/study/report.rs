@@ -33,6 +33,11 @@ pub(crate) struct Settings {
 }
 
 #[derive(Serialize)]
+struct Drawn {
+    figures: Vec<String>,
+}
+
+#[derive(Serialize)]
 struct Written {
     report: String,
 }
@@ -43,7 +48,11 @@ pub(super) fn run(settings: &Settings) -> Result<(), ProgramError> {
         let drawn = figures(&Results::read(folder)?);
         let drawn: Vec<_> =
             drawn.into_iter().filter_map(|figure| Some((figure.name, figure.svg.ok()?))).collect();
-        return write_figures(figure, &drawn, overwrite);
+        write_figures(figure, &drawn, overwrite)?;
+        let figures = figure.iter().map(|figure| figure.path.to_string_lossy().into_owned()).collect();
+        let text =
+            |Drawn { figures }: &Drawn| figures.iter().for_each(|figure| println!("figure in {figure}"));
+        return Ok(format.print(&Drawn { figures }, text)?);
     }
     let (results, page) = patiently("drawing the report", || -> Result<_, ProgramError> {
         let results = Results::read(folder)?;
