@@ -26,11 +26,7 @@ impl ToleranceBudget {
             ]
         } else {
             vec![
-                listing(
-                    &format!("For {wanted} % below {limit} mm, tighten "),
-                    &tightened,
-                    " of the present width.",
-                ),
+                listing(&format!("For {wanted} % below {limit} mm, tighten the width of "), &tightened, "."),
                 format!(
                     "Then {} of the robots keep it, now {}.",
                     reached(&self.tightened),
