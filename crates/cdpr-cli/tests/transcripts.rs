@@ -90,7 +90,8 @@ fn answered(page: &str, folder: &Path) -> String {
             within = line == "```console";
         } else if within {
             if let Some(command) = line.strip_prefix("$ ") {
-                writeln!(answered, "$ {command}\n{}", printed(folder, command).trim_end()).unwrap();
+                writeln!(answered, "{}", format!("$ {command}\n{}", printed(folder, command)).trim_end())
+                    .unwrap();
             }
             continue;
         }
