@@ -156,7 +156,7 @@ pub(super) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
             .iter()
             .map(|pose| poses::pose_numbers(&poses[*pose]).map(|number| number.to_string()).join(","))
             .collect();
-        settings.overwrite.write(out, &format!("{}\n{}\n", poses::COLUMNS.join(","), lines.join("\n")))?;
+        settings.overwrite.write(out, format!("{}\n{}\n", poses::COLUMNS.join(","), lines.join("\n")))?;
     }
     let output = Plan::new(&poses, refused, found, accuracy);
     let text = |output: &Plan| print_plan(&robot, output, settings.details.details);
