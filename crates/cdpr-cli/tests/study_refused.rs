@@ -108,3 +108,26 @@ fn a_folder_that_cannot_be_written_is_refused_before_anything_runs() {
     std::fs::write(bench.path("out"), "a file").unwrap();
     assert!(refusal(&bench, &[]).starts_with("error: cannot write out: "));
 }
+
+#[test]
+fn a_study_with_errors_in_a_file_is_refused_at_the_place_in_its_own_text() {
+    let with_file = |change: &dyn Fn(&mut Value)| {
+        let bench = bench();
+        let tolerances = serde_json::to_string(&json!({"mass": {"law": {"normal": {"mean": 0, "std": 1}}}}));
+        std::fs::write(bench.path("tolerances.json"), tolerances.unwrap()).unwrap();
+        bench.change("study.json", |study| {
+            for model in study["error_models"].as_object_mut().unwrap().values_mut() {
+                *model = json!({"file": "tolerances.json"});
+            }
+            change(study);
+        });
+        let text = std::fs::read_to_string(bench.path("study.json")).unwrap();
+        (refusal(&bench, &[]), text)
+    };
+    let (message, _) = with_file(&|study| drop(study.as_object_mut().unwrap().remove("payload")));
+    assert!(message.contains("line 1, column 1: the whole text: missing field `payload`"), "{message}");
+    let (message, text) = with_file(&|study| study["payload"] = json!(-1));
+    let line = text.lines().position(|line| line.contains("\"payload\"")).unwrap() + 1;
+    assert!(message.contains("payload is -1: expected a finite mass"), "{message}");
+    assert!(message.contains(&format!("(line {line}, column ")), "{message}");
+}

@@ -334,8 +334,14 @@ impl StudyError {
     }
 
     /// The error with the place of its field in the study file's text, if it has one.
-    pub(crate) fn placed(self, text: &str) -> Self {
-        let position = match &self {
+    pub(crate) fn placed(mut self, text: &str) -> Self {
+        let position = match &mut self {
+            Self::Format { source, .. } => {
+                if let Some((line, column)) = place_of(text, &source.field) {
+                    (source.line, source.column) = (line, column);
+                }
+                None
+            }
             Self::Invalid { field, .. } | Self::Nominal { field, .. } | Self::Statistics { field, .. } => {
                 place_of(text, field)
             }

@@ -13,7 +13,6 @@ use crate::model::prepare::FEWEST_OBSERVATIONS;
 use crate::model::study::Study;
 use crate::names::BLOCKS_NAME;
 use cdpr_robot::{Coordinate, Robot, RobotError, TensionDistribution, TensionReference, from_json};
-use std::borrow::Cow;
 use std::path::Path;
 
 /// Designs of a sampling besides the first: intervals of a quantile need no more.
@@ -64,12 +63,15 @@ impl Study {
     fn read(text: &str, path: &Path, robot: Option<Robot>) -> Result<Self, StudyError> {
         let whole = with_error_files(text, path)?;
         let study = match robot {
-            Some(robot) => Self::of(file_of(&whole, path)?, robot, path),
-            None => Self::unchecked(&whole, path)?,
+            Some(robot) => file_of(&whole, path).map(|file| Self::of(file, robot, path)),
+            None => Self::unchecked(&whole, path),
         };
-        // Where files were put in, places are not those of the user's text.
-        let is_own = matches!(whole, Cow::Borrowed(_));
-        study.validate().map_err(|error| if is_own { error.placed(text) } else { error })?;
+        // Where files were put in, places of the whole text are not those of the user's.
+        let study = study.map_err(|error| match &error {
+            StudyError::Format { path: of, .. } if of == path && whole != text => error.placed(text),
+            _ => error,
+        })?;
+        study.validate().map_err(|error| error.placed(text))?;
         Ok(study)
     }
 
