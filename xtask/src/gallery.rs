@@ -5,6 +5,8 @@
 //! with fewer cables than free motions is drawn with straight cables at the pose that `cdpr inverse --free`
 //! finds.
 
+mod film;
+
 use crate::cargo::{answer, number, output, parsed, root, write};
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -43,6 +45,7 @@ pub(crate) fn run() -> Result<(), String> {
         std::fs::create_dir_all(folder)
             .map_err(|error| format!("cannot make {}: {error}", folder.display()))?;
     }
+    film::run()?;
     let mut page = String::from(
         "# Robots that are known
 
