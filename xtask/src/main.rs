@@ -14,6 +14,7 @@ mod dist;
 mod fuzz;
 mod gallery;
 mod led;
+mod moordyn;
 mod peers;
 mod scaling;
 mod statistics;
@@ -55,6 +56,8 @@ tasks:
                  where a median has grown
   bench-peers    solves the direct model and an observation with cdpr, and with SciPy, Octave and Ceres
                  where these are installed, see docs/PEERS.md
+  bench-moordyn  follows the same motions by cdpr and by MoorDyn, which pip installs into target/peers/moordyn,
+                 prints agreement and times, and writes them to data/benchmarks/moordyn.json
   statistics TABLE [STUDIES [FUNCTION]]
                  measures how often estimators of cdpr-sensitivity are right, see docs/VALIDATION.md; TABLE is
                  choice (of a fitted law), indices (of Sobol'), expansions,
@@ -94,6 +97,7 @@ fn main() -> ExitCode {
         Some("scaling") => scaling::run(&rest),
         Some("bench") => bench::run(rest),
         Some("bench-peers") => peers::bench(),
+        Some("bench-moordyn") => moordyn::bench(),
         Some("statistics") => statistics::run(&rest),
         Some("calibration") => calibration::run(&rest),
         Some("fuzz") => fuzz::run(&rest),

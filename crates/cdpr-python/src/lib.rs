@@ -60,6 +60,10 @@ mod _core {
     #[pymodule_export]
     use crate::robot::properties::cable::Cable;
     #[pymodule_export]
+    use crate::robot::response::Response;
+    #[pymodule_export]
+    use crate::robot::simulate::{Motion, MotionState, MotionSummary};
+    #[pymodule_export]
     use crate::robot::stiffness::Stiffness;
     #[pymodule_export]
     use crate::robot::workspace::Workspace;

@@ -16,6 +16,8 @@ pub(crate) mod observe;
 pub(crate) mod path;
 pub(crate) mod pose;
 pub(crate) mod properties;
+pub(crate) mod response;
+pub(crate) mod simulate;
 pub(crate) mod stiffness;
 pub(crate) mod workspace;
 
