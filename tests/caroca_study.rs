@@ -1,7 +1,7 @@
 //! The study of the paper reproduces the figures of an independent model, on any number of threads.
 //!
 //! The expected values and tolerances are those of an independent program of about 200 lines, run with 200
-//! 000 random observations (docs/VALIDATION.md).
+//! 000 random observations.
 
 use cdpr_study::{
     Evidence, Family, Part, SamplingSummary, Session, Study, SurfaceSummary, analyse, compute_surface,

@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 
+mod book;
 mod caroca_study;
 mod data_files;
 mod layers;

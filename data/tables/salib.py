@@ -1,4 +1,4 @@
-"""Prints what SALib says of a table beside `cdpr analyse`, for docs/VALIDATION.md.
+"""Prints what SALib says of a table beside `cdpr analyse`.
 
 pip install SALib; cargo build --release -p cdpr-cli; python data/tables/salib.py target/release/cdpr [ROWS]
 """

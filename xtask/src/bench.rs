@@ -15,6 +15,8 @@ const TIME_NOISE: f64 = 0.10;
 const COUNT_NOISE: f64 = 0.01;
 
 const BASELINE: &str = "data/benchmarks/baseline.json";
+/// The same as a table of the book.
+const BOOK: &str = "data/benchmarks/baseline.md";
 
 /// A figure beside that of the baseline.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -164,8 +166,22 @@ fn write_baseline(run: &Run) -> Result<(), BenchError> {
     let folder = path.parent().map_or(Ok(()), std::fs::create_dir_all);
     let written = folder.and_then(|()| std::fs::write(&path, text + "\n"));
     written.map_err(|source| BenchError::File { path, source })?;
-    println!("written: {BASELINE}");
+    let path = root().join(BOOK);
+    std::fs::write(&path, table(run)).map_err(|source| BenchError::File { path, source })?;
+    println!("written: {BASELINE}, {BOOK}");
     Ok(())
+}
+
+/// The baseline as the book has it.
+fn table(run: &Run) -> String {
+    let mut table = format!("{}\n\n", run.machine.text());
+    table += "| benchmark | median | each | instructions |\n|---|---|---|---|\n";
+    for Benchmark { name, elements, median_ns, instructions, .. } in &run.benchmarks {
+        let each = if *elements > 1 { duration(median_ns / *elements as f64) } else { String::new() };
+        let count = instructions.map_or_else(String::new, |count| count.to_string());
+        table += &format!("| `{name}` | {} | {each} | {count} |\n", duration(*median_ns));
+    }
+    table
 }
 
 /// Duration with a unit and three digits, from 1 ns on.

@@ -5,8 +5,7 @@
 
 #![allow(clippy::print_stdout)]
 
-use crate::answer::{answer, number};
-use crate::cargo::{cdpr, cdpr_command, root};
+use crate::cargo::{answer, cdpr, cdpr_command, number, root};
 use serde_json::Value;
 use std::fmt::Write;
 use std::path::Path;

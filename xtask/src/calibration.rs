@@ -1,5 +1,4 @@
-//! `cargo xtask calibration PART`: the figures of docs/calibration.md and of calibration in
-//! docs/VALIDATION.md.
+//! `cargo xtask calibration PART`: how well calibrations do.
 //!
 //! The tests of `cdpr-calibration` print what they measure; with `CDPR_CAMPAIGNS` they run as many campaigns
 //! as a table needs.

@@ -1,5 +1,6 @@
 //! Cargo and the program, in this workspace.
 
+use serde_json::Value;
 use std::path::Path;
 use std::process::{Command, ExitCode};
 
@@ -21,11 +22,12 @@ pub(crate) fn cdpr_command(command: &[&str]) -> Command {
     cargo_command(&[&["run", "--quiet", "--bin", "cdpr", "--"], command].concat())
 }
 
-/// An example of a crate with its arguments, without the messages of cargo, for the caller to start.
-pub(crate) fn example_command(package: &str, example: &str, arguments: &[&str]) -> Command {
-    cargo_command(
-        &[&["run", "--quiet", "--package", package, "--example", example, "--"], arguments].concat(),
-    )
+/// An example with its arguments, without the messages of cargo, for the caller to start.
+///
+/// As in [`cdpr`], no package is named: everything would be compiled again with the features of that package
+/// alone.
+pub(crate) fn example_command(example: &str, arguments: &[&str]) -> Command {
+    cargo_command(&[&["run", "--quiet", "--example", example, "--"], arguments].concat())
 }
 
 /// Whether cargo succeeds with a subcommand and its arguments.
@@ -56,4 +58,33 @@ pub(crate) fn done(command: &mut Command) -> Result<(), Box<dyn std::error::Erro
         Ok(status) => Err(format!("`{program}` has failed with {status}").into()),
         Err(error) => Err(format!("`{program}` cannot be started ({error}): install it").into()),
     }
+}
+
+/// What a command answers as JSON, with one of these exit codes.
+pub(crate) fn answer(arguments: &[&str], codes: &[i32]) -> Result<Value, String> {
+    parsed(&output(&[arguments, &["--format", "json"]].concat(), codes)?)
+}
+
+/// Standard output of a command that ends with one of these exit codes.
+pub(crate) fn output(arguments: &[&str], codes: &[i32]) -> Result<String, String> {
+    let output = cdpr_command(arguments).output().map_err(|error| format!("cannot start cargo: {error}"))?;
+    if !output.status.code().is_some_and(|code| codes.contains(&code)) {
+        return Err(format!("cdpr {}: {}", arguments.join(" "), String::from_utf8_lossy(&output.stderr)));
+    }
+    Ok(String::from_utf8_lossy(&output.stdout).into_owned())
+}
+
+/// A text as JSON.
+pub(crate) fn parsed(text: &str) -> Result<Value, String> {
+    serde_json::from_str(text).map_err(|error| error.to_string())
+}
+
+/// Writes a file.
+pub(crate) fn write(path: &Path, text: &str) -> Result<(), String> {
+    std::fs::write(path, text).map_err(|error| format!("cannot write {}: {error}", path.display()))
+}
+
+/// A number of JSON; NaN where the value is not a number.
+pub(crate) fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or(f64::NAN)
 }

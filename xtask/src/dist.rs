@@ -48,8 +48,10 @@ pub(crate) fn run(rest: &[String]) -> ExitCode {
 /// The program, on Linux with everything linked in, so that it runs on any.
 fn program(folder: &Path) -> Outcome {
     let host = host()?;
+    let features = "cdpr-cli/figures,cdpr-cli/parquet";
+    let package = ["--package", "cdpr-cli", "--features", features];
     let mut build =
-        cargo_command(&["build", "--release", "--locked", "--package", "cdpr-cli", "--target", &host]);
+        cargo_command(&[&["build", "--release", "--locked", "--target", &host], &package[..]].concat());
     // For a smaller program: what nobody calls across crates is left out.
     build.env("CARGO_PROFILE_RELEASE_STRIP", "symbols").env("CARGO_PROFILE_RELEASE_LTO", "fat");
     // On macOS the system's own library is there, and on Windows that of the compiler is linked in.

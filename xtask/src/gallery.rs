@@ -5,8 +5,9 @@
 //! with fewer cables than free motions is drawn with straight cables at the pose that `cdpr inverse --free`
 //! finds.
 
-use crate::answer::{answer, number, output, parsed, write};
-use crate::cargo::root;
+mod film;
+
+use crate::cargo::{answer, number, output, parsed, root, write};
 use serde_json::{Value, json};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -44,6 +45,7 @@ pub(crate) fn run() -> Result<(), String> {
         std::fs::create_dir_all(folder)
             .map_err(|error| format!("cannot make {}: {error}", folder.display()))?;
     }
+    film::run()?;
     let mut page = String::from(
         "# Robots that are known
 

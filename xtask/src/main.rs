@@ -4,17 +4,16 @@
 
 #![allow(clippy::print_stderr, clippy::print_stdout)]
 
-mod answer;
 mod attack;
 mod bench;
 mod cable;
 mod calibration;
 mod cargo;
 mod dist;
+mod evidence;
 mod fuzz;
 mod gallery;
 mod led;
-mod moordyn;
 mod peers;
 mod scaling;
 mod statistics;
@@ -47,8 +46,7 @@ tasks:
                  failures, for the robots and poses of data/benchmarks/throughput.json, or those whose names
                  contain NAME
   scaling [--observations N]
-                 runs the same over 10^3, 10^4 .. N observations (1000000) on 1 and 2 threads, see
-                 docs/PERFORMANCE.md
+                 runs the same over 10^3, 10^4 .. N observations (1000000) on 1 and 2 threads
   bench [--strict] [--save-baseline] [ARGS]
                  runs all criterion benchmarks, or those that ARGS choose (a part of a name and other options
                  of criterion), counts their instructions where valgrind is installed, and prints both beside
@@ -59,21 +57,25 @@ tasks:
   bench-moordyn  follows the same motions by cdpr and by MoorDyn, which pip installs into target/peers/moordyn,
                  prints agreement and times, and writes them to data/benchmarks/moordyn.json
   statistics TABLE [STUDIES [FUNCTION]]
-                 measures how often estimators of cdpr-sensitivity are right, see docs/VALIDATION.md; TABLE is
+                 measures how often estimators of cdpr-sensitivity are right, and keeps whole tables for docs/statistics.md; TABLE is
                  choice (of a fitted law), indices (of Sobol'), expansions,
                  given (first-order indices of tables), levels (of tests of tables), verdicts (of tables with
                  known truth), brackets (bounds by derivatives), measures (all of them, of functions with FUNCTION in their names, or of
-                 FUNCTION/MEASURE; docs/STATISTICS.md) or peers (beside SALib and OpenTURNS, which pip
+                 FUNCTION/MEASURE) or peers (beside SALib and OpenTURNS, which pip
                  installs into target/peers/statistics; there FUNCTION is a part of the names of measures)
   calibration PART [CAMPAIGNS | FILES]
-                 prints the figures of calibration in docs/VALIDATION.md and docs/calibration.md; PART is
+                 measures calibrations; PART is
                  recovery, troubles (outliers, biases, far starts), wrong (models), sensors, speed, scipy,
                  campaigns (beside SciPy, with the coverage of the stds: campaigns of each robot, and how many
-                 of them SciPy calibrates), circle (the whole example, with its pictures and copies of its
+                 of them SciPy calibrates), circle (a whole example, with copies of its
                  results) or irma4u (a user's copy of its campaigns)
   fuzz [SECONDS] runs every fuzz target of tests/fuzz for SECONDS (60), on nightly with cargo-fuzz
   attack         runs the program on bad files and arguments, with 10 s and 1 GiB for each, and fails where it
                  panics, hangs or touches a file outside of its folder of results
+  evidence [CASE..]
+                 runs the comparisons of data/evidence/cases.json, all or those that begin so, keeps their figures
+                 there and writes the tables of docs/trust.md; --check compares the figures in the folder
+                 CDPR_EVIDENCE, which a run of the tests has written, with those that are kept
   dist           makes what a release consists of in target/dist: the program, on Linux one that runs on
                  any, the wheel, the packed crates, the book, notes and checksums
   web [--check]  makes the module and the page of `cdpr explore` in crates/cdpr-web/dist, or says whether these
@@ -97,14 +99,15 @@ fn main() -> ExitCode {
         Some("scaling") => scaling::run(&rest),
         Some("bench") => bench::run(rest),
         Some("bench-peers") => peers::bench(),
-        Some("bench-moordyn") => moordyn::bench(),
+        Some("bench-moordyn") => peers::moordyn::bench(),
         Some("statistics") => statistics::run(&rest),
         Some("calibration") => calibration::run(&rest),
         Some("fuzz") => fuzz::run(&rest),
         Some("attack") => attack::run(),
         Some("dist") => dist::run(&rest),
+        Some("evidence") => ended(evidence::run(&rest)),
         Some("web") => web::run(&rest),
-        Some("gallery") => gallery(),
+        Some("gallery") => ended(gallery::run()),
         Some("schemas") => schemas(),
         Some("help" | "--help" | "-h") => {
             eprintln!("{HELP}");
@@ -138,20 +141,13 @@ fn caroca_study(mut rest: Vec<String>) -> ExitCode {
     }
     let (out, settings) = without(&rest, "--out");
     let cables = || cable::run(Path::new(out), &settings);
-    match compared(Path::new(out)).and_then(|()| cables()).and_then(|()| led::run(Path::new(out), &settings))
-    {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("error: {error}");
-            ExitCode::FAILURE
-        }
-    }
+    ended(compared(Path::new(out)).and_then(|()| cables()).and_then(|()| led::run(Path::new(out), &settings)))
 }
 
 /// Prints the published figures next to those of the study, and writes them to `published.txt`.
 fn compared(out: &Path) -> Result<(), String> {
     let figures = root().join("data/reference/published.json").display().to_string();
-    let mut command = example_command("cdpr-study", "published", &[&figures, &out.display().to_string()]);
+    let mut command = example_command("published", &[&figures, &out.display().to_string()]);
     let output = command.output().map_err(|error| format!("cannot start cargo: {error}"))?;
     if !output.status.success() {
         return Err(String::from_utf8_lossy(&output.stderr).into_owned());
@@ -166,7 +162,7 @@ fn robustness(mut rest: Vec<String>) -> ExitCode {
     default(&mut rest, "--robot", "data/robots/cogiro.json");
     eprintln!("building the example (a few minutes the first time), then looking for poses");
     let rest: Vec<&str> = rest.iter().map(String::as_str).collect();
-    cargo(&[&["run", "--package", "cdpr-report", "--example", "robustness", "--"][..], &rest].concat())
+    cargo(&[&["run", "--example", "robustness", "--"][..], &rest].concat())
 }
 
 fn throughput(rest: &[String]) -> ExitCode {
@@ -180,8 +176,7 @@ fn throughput(rest: &[String]) -> ExitCode {
     let observations = Some(option("--observations")).filter(|number| !number.is_empty());
     let observations = observations.unwrap_or_else(|| "1000000".to_owned());
     let threads = option("--threads");
-    let mut command =
-        vec!["run", "--package", "cdpr-study", "--example", "throughput", "--", &study, "mechanical"];
+    let mut command = vec!["run", "--example", "throughput", "--", &study, "mechanical"];
     command.push(&observations);
     if !threads.is_empty() {
         command.push(&threads);
@@ -238,8 +233,9 @@ fn without<'a>(arguments: &'a [String], option: &str) -> (&'a str, Vec<&'a str>)
     (value, rest)
 }
 
-fn gallery() -> ExitCode {
-    match gallery::run() {
+/// The exit code of a task, and its message.
+fn ended(outcome: Result<(), String>) -> ExitCode {
+    match outcome {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("error: {error}");

@@ -120,7 +120,7 @@ fn throughput(observations: u64, threads: u64) -> Result<Run, String> {
     let study = root().join("data/studies/caroca.json").display().to_string();
     let [observations, threads] = [observations, threads].map(|count| count.to_string());
     let arguments = [study.as_str(), "mechanical", &observations, &threads];
-    let mut command = example_command("cdpr-study", "throughput", &arguments);
+    let mut command = example_command("throughput", &arguments);
     let output =
         command.stderr(Stdio::inherit()).output().map_err(|error| format!("cannot start cargo: {error}"))?;
     if !output.status.success() {

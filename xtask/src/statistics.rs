@@ -11,7 +11,7 @@ use crate::cargo::{cargo_command, done, root};
 use serde_json::Value;
 use std::error::Error;
 use std::path::PathBuf;
-use std::process::{Command, ExitCode};
+use std::process::{Command, ExitCode, Stdio};
 
 /// What pip installs, of these versions.
 const PACKAGES: [&str; 2] = ["SALib==1.6.0", "openturns==1.27"];
@@ -39,9 +39,26 @@ pub(crate) fn run(arguments: &[String]) -> ExitCode {
     }
 }
 
+/// Runs a table, and keeps it where it is whole: of all functions, with a number of studies.
 fn example(arguments: &[String]) -> Result<(), Box<dyn Error>> {
     let example = ["run", "--release", "-p", "cdpr-sensitivity", "--example", "statistics", "--"];
-    done(cargo_command(&example).args(arguments).current_dir(root()))
+    let mut command = cargo_command(&example);
+    command.args(arguments).current_dir(root()).stderr(Stdio::inherit());
+    let output = command.output()?;
+    let text = String::from_utf8_lossy(&output.stdout);
+    print!("{text}");
+    if !output.status.success() {
+        return Err(format!("the example has failed with {}", output.status).into());
+    }
+    match arguments {
+        [table, _] => keep(table, &text),
+        _ => Ok(()),
+    }
+}
+
+/// Keeps a table for the book.
+fn keep(table: &str, text: &str) -> Result<(), Box<dyn Error>> {
+    Ok(std::fs::write(root().join("data/evidence/statistics").join(format!("{table}.md")), text)?)
 }
 
 /// Runs our studies and those of the others, one after the other on one thread, and prints a table. The
@@ -66,7 +83,7 @@ fn peers(arguments: &[String]) -> Result<(), Box<dyn Error>> {
     for variable in ["OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"] {
         command.env(variable, "1");
     }
-    let output = command.stderr(std::process::Stdio::inherit()).output()?;
+    let output = command.stderr(Stdio::inherit()).output()?;
     if !output.status.success() {
         return Err("xtask/peers/statistics.py has failed".into());
     }
@@ -74,8 +91,9 @@ fn peers(arguments: &[String]) -> Result<(), Box<dyn Error>> {
         // SALib prints notices of its own.
         rows.extend(serde_json::from_str::<Value>(line));
     }
-    print(&rows);
-    Ok(())
+    let tables = tables(&rows);
+    print!("{tables}");
+    if part.is_empty() { keep("peers", &tables) } else { Ok(()) }
 }
 
 /// The Python of an environment in `target/peers` with these packages.
@@ -92,7 +110,8 @@ pub(crate) fn environment(name: &str, packages: &[&str]) -> Result<PathBuf, Box<
 }
 
 /// A table for each measure, with a row for each function and a column for each program.
-fn print(rows: &[Value]) {
+fn tables(rows: &[Value]) -> String {
+    let mut tables = String::new();
     for measure in MEASURES {
         let rows: Vec<&Value> = rows.iter().filter(|row| row["measure"] == measure).collect();
         if rows.is_empty() {
@@ -109,17 +128,19 @@ fn print(rows: &[Value]) {
             values
         };
         let (functions, programs) = (of("function"), of("program"));
-        println!("\n### {measure}\n\n| function | {} |", programs.join(" | "));
-        println!("|---|{}", "---|".repeat(programs.len()));
+        tables += &format!("\n### {measure}\n\n| function | {} |\n", programs.join(" | "));
+        tables += &format!("|---|{}\n", "---|".repeat(programs.len()));
         for function in functions {
             let of_program = |program: &&str| {
                 rows.iter()
                     .find(|row| text(row, "function") == function && text(row, "program") == *program)
                     .map_or_else(|| "-".to_owned(), |row| cell(row))
             };
-            println!("| {function} | {} |", programs.iter().map(of_program).collect::<Vec<_>>().join(" | "));
+            let cells: Vec<String> = programs.iter().map(of_program).collect();
+            tables += &format!("| {function} | {} |\n", cells.join(" | "));
         }
     }
+    tables
 }
 
 /// Error, mean and least share of the intervals that hold, CPU time and number of studies of a row.

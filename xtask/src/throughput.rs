@@ -14,6 +14,8 @@ use std::process::{ExitCode, Stdio};
 
 /// The list of robots and poses.
 const CASES: &str = "data/benchmarks/throughput.json";
+/// The table of all robots, for the book.
+const BOOK: &str = "data/benchmarks/throughput.md";
 
 /// Where the studies are written that the program runs.
 const FOLDER: &str = "target/throughput";
@@ -80,17 +82,20 @@ fn all(chosen: Option<&str>) -> Result<(), String> {
     }
     let folder = root().join(FOLDER);
     fs::create_dir_all(&folder).map_err(|error| format!("cannot make {}: {error}", folder.display()))?;
-    println!(
-        "| robot | poses | mean [us] | slowest pose [us] | scalar [%] | failed a row [%] | why scalar |"
-    );
-    println!("|---|---|---|---|---|---|---|");
+    let head = "| robot | poses | mean [us] | slowest pose [us] | scalar [%] | failed a row [%] | why scalar |\n\
+                |---|---|---|---|---|---|---|";
+    println!("{head}");
+    let mut table = format!("{head}\n");
     let mut means = Vec::new();
     let cases = list.cases.iter().enumerate();
     for (number, case) in
         cases.filter(|(_, case)| chosen.is_none_or(|part| case.name.to_lowercase().contains(part)))
     {
         let lines = case.measured(&folder, number)?;
-        means.push(print(&case.name, &lines));
+        let (row, mean) = row(&case.name, &lines);
+        println!("{row}");
+        table += &format!("{row}\n");
+        means.push(mean);
     }
     if means.is_empty() {
         return Err(format!("{CASES} has no such robot"));
@@ -99,11 +104,14 @@ fn all(chosen: Option<&str>) -> Result<(), String> {
     let geometric = (means.iter().map(|mean| mean.ln()).sum::<f64>() / count).exp();
     let arithmetic = means.iter().sum::<f64>() / count;
     println!("\nof {count} robots: geometric mean {geometric:.2} us, arithmetic mean {arithmetic:.2} us");
-    Ok(())
+    match chosen {
+        None => fs::write(root().join(BOOK), table).map_err(|error| format!("{BOOK}: {error}")),
+        Some(_) => Ok(()),
+    }
 }
 
-/// Prints the row of a robot; returns the mean time of an observation [us].
-fn print(name: &str, lines: &[Line]) -> f64 {
+/// The row of a robot, and the mean time of an observation [us].
+fn row(name: &str, lines: &[Line]) -> (String, f64) {
     let sum = |of: &dyn Fn(&Line) -> usize| lines.iter().map(of).sum::<usize>();
     let times = || lines.iter().map(|line| line.us_without_analysis);
     let mean = times().sum::<f64>() / lines.len() as f64;
@@ -114,7 +122,7 @@ fn print(name: &str, lines: &[Line]) -> f64 {
         *why.entry(reason).or_default() += count;
     }
     let why: Vec<String> = why.iter().map(|(reason, count)| format!("{reason} {count}")).collect();
-    println!(
+    let row = format!(
         "| {name} | {} | {mean:.2} | {:.2} | {:.2} | {:.2} | {} |",
         lines.len(),
         times().fold(0.0, f64::max),
@@ -122,7 +130,7 @@ fn print(name: &str, lines: &[Line]) -> f64 {
         100.0 * failed as f64 / all as f64,
         why.join(", "),
     );
-    mean
+    (row, mean)
 }
 
 impl Case {

@@ -5,6 +5,7 @@ use cdpr_assess::{
     compute_workspace, tilt_at, workspace_boundary,
 };
 use cdpr_dynamics::{Modes, Wanted};
+use cdpr_evidence::accept;
 use cdpr_robot::{Matrix3, Parameter, Pose, Robot, Rotation3, Vector3, Wrench};
 use cdpr_statics::{DirectProblem, Load, StaticsError, deflection, derivatives, inverse};
 use cdpr_study::{ErrorModel, Grid, GridAxis};
@@ -191,7 +192,7 @@ fn the_stadium_robot_is_held_wherever_an_independent_program_finds_tensions() {
             if let Some(least) = row[3].as_f64() {
                 independent += 1;
                 let norm = tensions.unwrap().tensions.iter().map(|t| t * t).sum::<f64>().sqrt();
-                assert!((norm / least - 1.0).abs() < 1e-9, "{position:?}: {norm} {least}");
+                accept("V-CAPACITY-006", (norm / least - 1.0).abs());
             }
         }
         println!(

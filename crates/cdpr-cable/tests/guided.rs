@@ -3,6 +3,7 @@
 use cdpr_cable::{
     Cable, Catenary, Entry, Guide, HeldCable, Vector2, Vector3, end_force, end_force_near, length_for_tension,
 };
+use cdpr_evidence::accept;
 use proptest::prelude::*;
 use serde_json::Value;
 
@@ -55,6 +56,7 @@ fn cables_on_pulleys_match_arithmetic_of_20_digits() {
             let rounding = 4.0 * f64::EPSILON * catenary.in_plane_stiffness().norm() * (end.norm() + length);
             let error = (catenary.force - force).norm();
             assert!(error <= 1e-9 * force.norm() + rounding, "{} {i}: {error:e}", case["kind"]);
+            accept("V-CABLE-009", error / force.norm());
             let free = number(&expected["free_unstrained_length"]);
             assert!((catenary.free_length() - free).abs() <= 1e-12 * length);
             let at_pulley = number(&expected["tension_at_pulley"]);

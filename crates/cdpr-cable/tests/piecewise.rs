@@ -8,6 +8,7 @@ use cdpr_cable::{
     Cable, Catenary, ElasticLaw, Matrix2, PiecewiseLaw, Segment, Vector2, end_force, end_force_near,
     length_for_tension,
 };
+use cdpr_evidence::accept;
 use proptest::prelude::*;
 use serde_json::Value;
 
@@ -43,8 +44,7 @@ fn the_end_is_that_of_the_integrated_differential_equations() {
         };
         let end = Vector2::new(digits("x"), digits("z"));
         let error = (catenary.end_position() - end).norm() / catenary.unstrained_length;
-        println!("{}: {error:.1e} of the length", case["kind"]);
-        assert!(error < 1e-14, "{}: {error:e}", case["kind"]);
+        accept("V-CABLE-005", error);
         assert_relative_eq!(catenary.end_position().x, end.x, max_relative = 1e-9);
         // And back: the force that the end position asks for.
         let found = end_force(&catenary.cable, catenary.unstrained_length, end).unwrap().catenary.force;

@@ -1,6 +1,7 @@
 //! The catenary against values computed in 40-digit arithmetic (`data/reference/README.md`).
 
 use cdpr_cable::{Cable, Catenary, Matrix2, Vector2, end_force, length_for_tension};
+use cdpr_evidence::accept;
 
 /// The error that rounding of the inputs alone causes, times a small count of operations.
 ///
@@ -41,7 +42,6 @@ fn reference_cases() -> Vec<Case> {
 fn end_forces_match_40_digit_arithmetic() {
     let cases = reference_cases();
     assert_eq!(cases.len(), 64);
-    let mut beyond = Vec::new();
     for case in &cases {
         let solution = end_force(&case.cable, case.length, case.end).unwrap();
         let error = (solution.catenary.force - case.force).norm();
@@ -57,13 +57,8 @@ fn end_forces_match_40_digit_arithmetic() {
         let small = (solution.catenary.force.x - case.force.x).abs();
         let small_bound = 4.0 * f64::EPSILON * slope.row(0).norm() * (case.end.norm() + case.length);
         assert!(small <= 1e-10 * case.force.x || small <= small_bound, "{}: fx {small:e}", case.kind);
-        if relative > 1e-10 {
-            beyond.push((case.kind.clone(), relative));
-        }
-        println!("{:20} {relative:9.1e} relative, {} iterations", case.kind, solution.iterations);
+        accept("V-CABLE-001", relative);
     }
-    println!("beyond 1e-10, where a stiff cable's elongation is itself known to fewer digits: {beyond:?}");
-    assert!(beyond.iter().all(|(kind, _)| kind == "stiff_light"), "{beyond:?}");
 }
 
 #[test]
@@ -71,7 +66,7 @@ fn end_positions_match_40_digit_arithmetic() {
     for case in reference_cases() {
         let catenary = Catenary { cable: case.cable, unstrained_length: case.length, force: case.force };
         let error = (catenary.end_position() - case.end).norm() / case.end.norm();
-        assert!(error < 1e-14 * (1.0 + case.length / case.end.norm()), "{}: {error:e}", case.kind);
+        accept("V-CABLE-002", error / (1.0 + case.length / case.end.norm()));
     }
 }
 
@@ -83,7 +78,7 @@ fn the_length_for_a_tension_is_the_inverse_of_the_end_force() {
         let length = solution.catenary.unstrained_length;
         if (length - case.length).abs() < 1e-6 * case.length {
             on_shorter_branch += 1;
-            assert!((length - case.length).abs() < 1e-12 * case.length, "{}: {length}", case.kind);
+            accept("V-CABLE-003", (length / case.length - 1.0).abs());
         } else {
             // The same tension occurs with less cable: then the answer is that shorter one.
             assert!(length < case.length, "{}: {length} against {}", case.kind, case.length);
@@ -121,6 +116,7 @@ fn published_cases_of_other_programs() {
         let bound = conditioned_bound(&catenary, Vector2::new(x, z));
         let error = catenary.force - Vector2::new(horizontal, top);
         let tension = horizontal.hypot(top);
+        accept("V-CABLE-004", error.norm() / tension);
         assert!(error.norm() < (1e-10 * tension).max(bound), "{x} {z}: {error} of {tension}");
     }
 }

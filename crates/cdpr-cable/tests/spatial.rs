@@ -5,6 +5,7 @@ use cdpr_cable::{
     Cable, Entry, Guide, HeldCable, HeldSpatialCable, Matrix3, SpatialCable, Vector2, Vector3, end_force,
     spatial_end_force,
 };
+use cdpr_evidence::accept;
 use proptest::prelude::*;
 use serde_json::Value;
 
@@ -68,7 +69,7 @@ fn cables_over_any_axis_match_arithmetic_of_20_digits() {
             compared += 1;
         }
     }
-    println!("{compared} cables, {worst:?}");
+    accept("V-CABLE-008", worst[0]);
     assert_eq!(compared, 91);
 }
 

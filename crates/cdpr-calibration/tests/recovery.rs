@@ -4,6 +4,7 @@ use crate::common::{Case, EXTERNAL, cases};
 use cdpr_calibration::{
     Fit, FitSettings, Noise, Quantity, RobustLoss, Row, SensorError, Unknowns, fit, simulate,
 };
+use cdpr_evidence::accept;
 use cdpr_robot::{Axis, CableEnd, Parameter};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -71,7 +72,7 @@ fn the_truth_lies_in_the_stated_regions_as_often_as_stated() {
             100.0 * share,
             seconds / campaigns as f64
         );
-        assert!((share - 0.95).abs() < tolerance(campaigns), "{}: {share}", case.name);
+        accept("V-CALIBRATION-003", (share - 0.95).abs() / tolerance(campaigns));
         let spread = (2.0 / degrees as f64).sqrt();
         assert!((ratio - 1.0).abs() < 4.0 * spread, "{}: {ratio}", case.name);
         assert!(stuck as f64 <= 0.05 * campaigns as f64, "{}: {stuck}", case.name);

@@ -1,11 +1,11 @@
 //! The fit against SciPy's.
 
 use cdpr_calibration::{FitSettings, Unknowns, fit, read_measurements};
+use cdpr_evidence::accept;
 use cdpr_robot::Robot;
 use cdpr_study::open_errors;
 use serde_json::Value;
 use std::path::Path;
-use std::time::Instant;
 
 #[test]
 fn scipy_finds_the_same_robot() {
@@ -19,9 +19,7 @@ fn scipy_finds_the_same_robot() {
     let noise = ["position", "rotation"].map(|name| (name.to_owned(), std));
     let measured =
         read_measurements(reference["measurements"].as_str().unwrap().as_bytes(), &robot, &noise).unwrap();
-    let clock = Instant::now();
     let found = fit(&robot, &measured.rows, &Unknowns::of_model(&model), &FitSettings::default()).unwrap();
-    let seconds = clock.elapsed().as_secs_f64();
     let mut worst: (f64, f64) = (0.0, 0.0);
     for estimate in &found.estimates {
         let of = &reference["parameters"][&estimate.name];
@@ -29,12 +27,8 @@ fn scipy_finds_the_same_robot() {
         worst.0 = worst.0.max((estimate.value - value).abs() / std);
         worst.1 = worst.1.max((estimate.std.unwrap() / std - 1.0).abs());
     }
-    println!(
-        "farthest from SciPy: {:.1e} std; std by {:.1e}; {seconds:.4} s, SciPy around cdpr direct {} s",
-        worst.0, worst.1, reference["seconds"]
-    );
-    assert!(worst.0 < 1e-6, "{worst:?}");
-    assert!(worst.1 < 1e-6, "{worst:?}");
+    accept("V-CALIBRATION-001", worst.0);
+    accept("V-CALIBRATION-002", worst.1);
     let chi_square = reference["chi_square"].as_f64().unwrap();
     assert!((found.chi_square / chi_square - 1.0).abs() < 1e-9);
 }

@@ -3,6 +3,7 @@
 //! A parser says what is wrong with the text; clap adds the argument and the value.
 
 pub(crate) mod endings;
+mod figure;
 mod limit;
 pub(crate) mod poses;
 mod printing;
@@ -11,6 +12,7 @@ mod robot;
 mod uncertainty;
 mod with;
 
+pub(crate) use figure::{FigureArgument, figure, write_figures};
 pub(crate) use limit::{limit, upper};
 pub(crate) use printing::{Format, Overwrite, Printing, print_record};
 pub(crate) use region::{Region, region};

@@ -5,7 +5,7 @@ use crate::questions;
 use crate::said::{self, Said};
 use cdpr_report::ReportError;
 use cdpr_robot::{COLUMNS, broken, shown_lines};
-use cdpr_study::{IfExists, check_replaceable, write_text};
+use cdpr_study::{IfExists, check_replaceable, write_file};
 use comfy_table::{ContentArrangement, Table, presets};
 use indicatif::{ProgressBar, ProgressState, ProgressStyle, WeakProgressBar};
 use std::fmt;
@@ -69,7 +69,7 @@ fn write_answer() -> Result<(), ProgramError> {
     let answer = ANSWER.lock().unwrap_or_else(PoisonError::into_inner).take();
     let Some(AnswerFile { path, if_exists, text }) = answer else { return Ok(()) };
     check_replaceable(&path, &text, if_exists)?;
-    Ok(write_text(&path, &text, if_exists)?)
+    Ok(write_file(&path, &text, if_exists)?)
 }
 
 /// Why the standard output could not be written, the first time.

@@ -105,16 +105,6 @@ fn robots_and_studies_are_opened_where_questions_are_asked() {
 }
 
 #[test]
-fn a_figure_is_svg_or_refused_before_anything_is_computed() {
-    for name in ["x.pdf", "x.png", "x", "svg", ".svg"] {
-        let poses = data_path("poses/caroca.csv");
-        let output = cdpr(&["path", "caroca", "--poses", &poses, "--payload", "50", "--figure", name]);
-        assert_eq!(output.status.code(), Some(2), "{name}");
-        assert!(output.stdout.is_empty() && text(output.stderr).contains("ends in .svg"), "{name}");
-    }
-}
-
-#[test]
 fn tables_hold_no_number_that_is_not_finite() {
     let folder = tempfile::TempDir::new().unwrap();
     let out = folder.path().join("map");

@@ -1,4 +1,4 @@
-//! The book: its links lead somewhere, and its commands do what they say.
+//! The reference pages of the book: their commands run. Tutorials and guides are in `transcripts`.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -31,16 +31,6 @@ fn commands(text: &str) -> Vec<String> {
     let lines =
         blocks.flat_map(|block| block.replace("\\\n", " ").lines().map(str::to_owned).collect::<Vec<_>>());
     lines.filter(|line| line.starts_with("cdpr ")).collect()
-}
-
-#[test]
-fn every_link_of_the_book_leads_to_a_file() {
-    for (name, text) in chapters() {
-        for target in links(&text) {
-            let page = root().join("docs").join(&name);
-            assert!(page.parent().unwrap().join(&target).exists(), "docs/{name}: {target}");
-        }
-    }
 }
 
 #[test]

@@ -95,6 +95,14 @@ fn cables_of_other_moduli_follow_the_record_and_those_of_other_sections_its_stre
 }
 
 #[test]
+fn a_cable_that_loses_no_energy_has_no_loop() {
+    let arguments = ["hysteresis", "caroca-law", "--pose", "0,0,1.75", "--payload", "50"];
+    let output = cdpr(&arguments);
+    assert!(output.status.success() && output.stderr.is_empty(), "{}", text(output.stderr));
+    assert!(!text(output.stdout).contains("-0.0000"));
+}
+
+#[test]
 fn a_loop_that_gives_energy_is_said_to_do_so() {
     let output = hysteresis(&["--payload", "50", "--with", "same-tension"]);
     assert!(output.status.success());

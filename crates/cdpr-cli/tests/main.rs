@@ -18,6 +18,7 @@ mod equilibria;
 mod explore;
 #[cfg(debug_assertions)]
 mod faults;
+mod figures;
 mod first_answers;
 mod folder;
 mod forty_mistakes;

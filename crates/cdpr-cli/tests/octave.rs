@@ -1,4 +1,4 @@
-//! The example for MATLAB and Octave runs in Octave.
+//! The scripts for MATLAB and Octave print in Octave what docs/how-to/matlab.md shows.
 //!
 //! `.ci/run` runs this test by its name; a plain `cargo test` leaves it out, because it needs Octave.
 
@@ -7,15 +7,29 @@
 use std::path::Path;
 use std::process::Command;
 
-#[test]
-fn octave_gets_the_positions_of_a_list_of_cases() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    let run = format!("cdpr = '{}'; run('docs/examples/direct.m')", env!("CARGO_BIN_EXE_cdpr"));
-    let octave = Command::new("octave-cli").args(["--quiet", "--eval", &run]).current_dir(&root).output();
+/// Runs a script of the folder of the page, and returns what it prints.
+fn octave(script: &str) -> String {
+    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/how-to");
+    let run = format!("cdpr = '{}'; run('matlab/{script}')", env!("CARGO_BIN_EXE_cdpr"));
+    let octave = Command::new("octave-cli").args(["--quiet", "--eval", &run]).current_dir(&docs).output();
     let octave = octave.expect("Octave has to be installed for this test");
     assert!(octave.status.success(), "{}", String::from_utf8_lossy(&octave.stderr));
-    let answers: Vec<Vec<f64>> = String::from_utf8(octave.stdout)
-        .unwrap()
+    let printed = String::from_utf8(octave.stdout).unwrap();
+    let page = std::fs::read_to_string(docs.join("matlab.md")).unwrap();
+    assert!(page.contains(&format!("```\n\n```text\n{printed}```")), "docs/how-to/matlab.md: {printed}");
+    printed
+}
+
+#[test]
+fn octave_gets_the_lengths_of_a_table_of_poses() {
+    let printed = octave("lengths.m");
+    assert!(printed.lines().last().unwrap().ends_with("infeasible_tension"), "{printed}");
+}
+
+#[test]
+fn octave_gets_the_positions_of_a_list_of_cases() {
+    let printed = octave("direct.m");
+    let answers: Vec<Vec<f64>> = printed
         .lines()
         .map(|line| line.trim_end_matches(" m").split(' ').map(|number| number.parse().unwrap()).collect())
         .collect();
@@ -23,9 +37,8 @@ fn octave_gets_the_positions_of_a_list_of_cases() {
     assert_eq!(answers.len(), lengths.len());
     for (answer, lengths) in answers.iter().zip(lengths) {
         let direct = Command::new(env!("CARGO_BIN_EXE_cdpr"))
-            .args(["direct", "data/robots/caroca.json", "--force=0,0,-100", "--format", "json"])
+            .args(["direct", "caroca", "--force=0,0,-100", "--format", "json"])
             .arg(format!("--lengths={lengths}"))
-            .current_dir(&root)
             .output()
             .unwrap();
         let direct: serde_json::Value = serde_json::from_slice(&direct.stdout).unwrap();

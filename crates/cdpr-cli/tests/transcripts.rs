@@ -1,6 +1,7 @@
-//! Whole tasks as users carry them out: the commands of `docs/examples` print what the pages show.
+//! Tutorials and guides of the book: their commands print what the pages show, and draw the pictures.
 //!
-//! `INSTA_UPDATE=always` writes the pages again, as it does with snapshots.
+//! A page runs in a folder of its own with the files of the folder of its name. `INSTA_UPDATE=always` writes
+//! pages and pictures again, as it does with snapshots.
 
 use crate::common::{is_progress, text};
 use crate::verdict::ishigami_among_twelve;
@@ -9,8 +10,27 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use tempfile::TempDir;
 
-fn examples() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/examples")
+/// Pages with a test each, in the order of the table of contents.
+const PAGES: [&str; 15] = [
+    "tutorials/cogiro",
+    "tutorials/my-robot",
+    "tutorials/calibration",
+    "tutorials/tolerances",
+    "tutorials/caroca",
+    "how-to/import",
+    "how-to/matlab",
+    "how-to/planner",
+    "how-to/loads",
+    "how-to/broken-cable",
+    "how-to/cluster",
+    "how-to/figure",
+    "how-to/table",
+    "how-to/observations",
+    "how-to/errors",
+];
+
+fn docs() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs")
 }
 
 /// The flight of a camera as a planner saves it, 100 s at 50 Hz.
@@ -79,45 +99,148 @@ fn answered(page: &str, folder: &Path) -> String {
     answered
 }
 
-/// Asserts that the commands of a page print what it shows, and returns the page.
+/// The pictures of a page that its commands draw: links into the folder of its name.
+fn pictures<'a>(page: &'a str, folder: &str) -> Vec<&'a str> {
+    let inside = format!("]({folder}/");
+    let links = page.split(inside.as_str()).skip(1).filter_map(|rest| rest.split(')').next());
+    links.filter(|link| link.ends_with(".svg")).collect()
+}
+
+/// Asserts that the commands of a page print what it shows and draw its pictures, and returns the page.
 fn checked(name: &str, prepare: impl FnOnce(&Path)) -> String {
     let folder = TempDir::new().unwrap();
-    if let Ok(files) = std::fs::read_dir(examples().join(name)) {
-        for file in files.map(Result::unwrap) {
-            std::fs::copy(file.path(), folder.path().join(file.file_name())).unwrap();
+    let own = docs().join(name);
+    if let Ok(files) = std::fs::read_dir(&own) {
+        for file in files.map(|file| file.unwrap().path()) {
+            if file.is_file() && file.extension().is_none_or(|ending| ending != "svg") {
+                std::fs::copy(&file, folder.path().join(file.file_name().unwrap())).unwrap();
+            }
         }
     }
     prepare(folder.path());
-    let path = examples().join(format!("{name}.md"));
+    let path = docs().join(format!("{name}.md"));
     let page = std::fs::read_to_string(&path).unwrap();
     let now = answered(&page, folder.path());
-    if std::env::var("INSTA_UPDATE").is_ok_and(|update| update == "always") {
+    let update = std::env::var("INSTA_UPDATE").is_ok_and(|update| update == "always");
+    if update {
         std::fs::write(path, &now).unwrap();
-        return now;
+    } else {
+        for (number, (shown, now)) in page.lines().zip(now.lines()).enumerate() {
+            assert_eq!(shown, now, "docs/{name}.md, line {}; INSTA_UPDATE=always writes it", number + 1);
+        }
+        assert_eq!(page.lines().count(), now.lines().count(), "docs/{name}.md");
     }
-    for (number, (shown, now)) in page.lines().zip(now.lines()).enumerate() {
-        assert_eq!(shown, now, "docs/examples/{name}.md, line {}; INSTA_UPDATE=always writes it", number + 1);
+    for picture in pictures(&now, name.rsplit('/').next().unwrap()) {
+        let (drawn, shown) = (std::fs::read_to_string(folder.path().join(picture)), own.join(picture));
+        let drawn = drawn.unwrap_or_else(|error| panic!("docs/{name}.md: {picture} is not drawn: {error}"));
+        if update {
+            std::fs::create_dir_all(shown.parent().unwrap()).unwrap();
+            std::fs::write(&shown, &drawn).unwrap();
+        }
+        let shown = std::fs::read_to_string(&shown).unwrap_or_default();
+        assert!(shown == drawn, "docs/{name}/{picture} is out of date; INSTA_UPDATE=always writes it");
     }
-    assert_eq!(page.lines().count(), now.lines().count(), "docs/examples/{name}.md");
     now
 }
 
+/// A checkout's folder `data`, as the pages name its files.
+fn link_data(folder: &Path) {
+    let data = docs().join("../data").canonicalize().unwrap();
+    std::os::unix::fs::symlink(data, folder.join("data")).unwrap();
+}
+
 #[test]
-fn a_student_comes_from_a_drawing_to_a_calibrated_robot() {
-    let page = checked("student", |_| {});
+fn a_first_visitor_sees_cogiro_deflect() {
+    let page = checked("tutorials/cogiro", |_| {});
+    assert!(page.contains("CoGiRo at (0, 0, 2) m is displaced by 3.11215 mm"));
+}
+
+#[test]
+fn a_student_comes_from_a_drawing_to_a_study() {
+    let page = checked("tutorials/my-robot", |_| {});
     assert!(page.contains("remedy: coordinates in m, not in mm"));
+}
+
+#[test]
+fn a_student_calibrates_the_robot_from_a_table() {
+    let page = checked("tutorials/calibration", |_| {});
     assert!(page.contains("Lab robot: the position is known to 0.1"));
 }
 
 #[test]
-fn an_engineer_of_a_stadium_flies_a_camera_in_the_wind_and_on_three_cables() {
-    let page = checked("stadium", write_flight);
+fn a_designer_finds_the_tolerance_to_tighten() {
+    checked("tutorials/tolerances", |_| {});
+}
+
+#[test]
+fn the_study_of_the_paper_runs_with_its_figures() {
+    checked("tutorials/caroca", link_data);
+}
+
+#[test]
+fn robots_of_other_programs_become_robot_files() {
+    checked("how-to/import", link_data);
+}
+
+#[test]
+fn poses_become_lengths_for_matlab() {
+    checked("how-to/matlab", |_| {});
+}
+
+#[test]
+fn an_engineer_of_a_stadium_flies_a_camera_along_a_planned_flight() {
+    let page = checked("how-to/planner", write_flight);
     assert!(page.contains("5000 of 5000 poses held"));
+}
+
+#[test]
+fn loads_are_wind_payloads_and_sets_of_wrenches() {
+    checked("how-to/loads", |_| {});
+}
+
+#[test]
+fn a_camera_hangs_on_three_cables_when_the_fourth_parts() {
+    let page = checked("how-to/broken-cable", |_| {});
     assert!(page.contains("Stadium camera, cable 3 broken holds 134 of 315 positions"));
 }
 
 #[test]
+fn shards_make_a_study_together() {
+    checked("how-to/cluster", |_| {});
+}
+
+#[test]
+fn figures_for_a_paper_are_drawn() {
+    checked("how-to/figure", |_| {});
+}
+
+#[test]
 fn a_statistician_learns_that_three_of_twelve_inputs_matter() {
-    let page = checked("statistician", ishigami_among_twelve);
+    let page = checked("how-to/table", ishigami_among_twelve);
     assert!(page.contains("\ny: 3 of 12 inputs are certain to matter: x2 ("));
+}
+
+#[test]
+fn observations_are_added_until_the_verdict_is_settled() {
+    checked("how-to/observations", |_| {});
+}
+
+#[test]
+fn failures_are_shown_with_their_remedies() {
+    checked("how-to/errors", |_| {});
+}
+
+#[test]
+fn every_tutorial_and_guide_shows_what_its_commands_print() {
+    for kind in ["tutorials", "how-to"] {
+        for file in std::fs::read_dir(docs().join(kind)).unwrap().map(|file| file.unwrap().path()) {
+            if file.extension().is_some_and(|ending| ending == "md") {
+                let name = format!("{kind}/{}", file.file_stem().unwrap().to_str().unwrap());
+                assert!(PAGES.contains(&name.as_str()), "docs/{name}.md has no test");
+                let page = std::fs::read_to_string(&file).unwrap();
+                assert!(page.contains("```console\n"), "docs/{name}.md shows no command");
+                assert!(!page.contains("```sh\n"), "docs/{name}.md: ```console blocks show their outputs");
+            }
+        }
+    }
 }

@@ -2,6 +2,7 @@
 
 use crate::reference::{number, numbers, pose, robot};
 use cdpr_dynamics::{FrequencyDerivatives, Modes, Wanted};
+use cdpr_evidence::accept;
 use cdpr_robot::{Coordinate, Gravity, Parameter, Pose, Robot, Vector3};
 use cdpr_statics::{DirectProblem, DirectStart, Equilibrium, Load, WantedPose, inverse};
 use serde_json::Value;
@@ -50,15 +51,11 @@ fn derivatives_by_mass_density_stiffness_and_a_length_are_those_of_the_reference
             worst[4] = worst[4].max(sum / mass.abs().max(density.abs()).max(modulus.abs()));
             compared += 1;
         }
-        println!("{name}: {worst:?}");
+        worst[..4].iter().for_each(|worst| accept("V-MOTION-006", *worst));
+        accept("V-MOTION-007", worst[4]);
         for (worst, (error, largest)) in worst.iter().zip(errors.iter().zip(&largest)) {
             assert!(*worst < 1e-8_f64.max(error / largest), "{name}: {worst:e}");
         }
-        assert!(
-            worst[4] < 1e-11,
-            "{name}: derivatives by mass, density and modulus sum up to {:e}",
-            worst[4]
-        );
     }
     assert_eq!(compared, 380);
 }

@@ -2,6 +2,7 @@
 
 use crate::reference::{number, numbers, pose, robot};
 use cdpr_dynamics::{Damping, DynamicsError, FrequencyResponse, Modes, Wanted};
+use cdpr_evidence::accept;
 use cdpr_robot::{Pose, Robot, Vector3};
 use cdpr_statics::{DirectProblem, DirectStart, Load, Matrix6, inverse};
 use serde_json::Value;
@@ -28,8 +29,8 @@ fn receptances_without_damping_are_those_of_transfer_matrices() {
             let expected = Matrix6::from_fn(entry);
             let error = (found.map(|value| value.re) - expected).norm() / expected.norm();
             let imaginary = found.map(|value| value.im).norm();
-            println!("{} at {}: {error:e}", case["name"], reference["frequency_hz"]);
-            assert!(error < 1e-8 && imaginary == 0.0, "{}: {error:e} {imaginary:e}", case["name"]);
+            accept("V-MOTION-005", error);
+            assert_eq!(imaginary, 0.0, "{}", case["name"]);
             compared += 1;
         }
     }

@@ -2,6 +2,7 @@
 
 use crate::reference::{matrix, number, numbers, vector};
 use cdpr_dynamics::simulate::{Series, Settings, events_from_json, simulate};
+use cdpr_evidence::accept;
 use cdpr_robot::{
     CableProperties, Gravity, Platform, Pose, Robot, RobotCable, Rotation3, TensionLimits, Vector3,
 };
@@ -88,9 +89,10 @@ fn platforms_on_taut_cables_move_as_chains_of_many_elements_do() {
     for name in ["release", "displaced", "wind", "winch3"] {
         let series = solve(&file, name, &Settings { damping: 2e-4, ..Settings::until(2.0) });
         let [position, rotation, tension] = errors(&series, case(&file, name));
-        println!("{name}: {position:.1e} m, {rotation:.1e}, {tension:.2} N; {:?}", series.difference);
+        accept("V-MOTION-008", position);
+        accept("V-MOTION-009", tension);
         assert_eq!(series.samples.len(), 201);
-        assert!(position < 1e-6 && rotation < 3e-6 && tension < 1.5, "{name}");
+        assert!(rotation < 3e-6, "{name}: {rotation}");
         // The difference that is printed bounds what is left, but for the error of the reference.
         assert!(position < series.difference.position + 2e-6, "{name}");
         assert!(series.slack.iter().all(|slack| !slack), "{name}");
@@ -104,11 +106,12 @@ fn platforms_on_cables_that_go_slack_move_as_chains_do() {
     for name in ["cut", "winch"] {
         let series = solve(&file, name, &Settings { damping: 2e-4, ..Settings::until(0.6) });
         let [position, rotation, _] = errors(&series, case(&file, name));
-        println!("{name}: {position:.1e} m, {rotation:.1e}; {:?}", series.difference);
-        assert!(position < 3e-4 && rotation < 6e-4 && series.slack.contains(&true), "{name}");
+        accept("V-MOTION-010", position);
+        assert!(rotation < 6e-4 && series.slack.contains(&true), "{name}");
         if name == "cut" {
             let (peak, time) = series.peaks[2];
-            assert!((peak - 1087.9).abs() < 1.0 && (time - 0.1847).abs() < 1e-3, "{peak} {time}");
+            accept("V-MOTION-011", (peak - 1087.9).abs());
+            assert!((time - 0.1847).abs() < 1e-3, "{time}");
         }
     }
 }
@@ -119,7 +122,7 @@ fn without_damping_energy_stays() {
     for name in ["release", "displaced"] {
         let series = solve(&file, name, &Settings { tolerance: 3e-9, ..Settings::until(1.0) });
         let energy = series.energy;
-        println!("{name}: {energy:?}");
-        assert!(energy.lost == 0.0 && energy.drift.abs() < 1e-6 * energy.kinetic, "{name}: {energy:?}");
+        accept("V-MOTION-012", energy.drift.abs() / energy.kinetic);
+        assert_eq!(energy.lost, 0.0, "{name}: {energy:?}");
     }
 }

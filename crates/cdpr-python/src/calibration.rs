@@ -12,7 +12,7 @@ use cdpr_calibration::{
 use cdpr_report::calibration_report;
 use cdpr_robot::{CableEnd, Pose, Vector3};
 use cdpr_statics::Load;
-use cdpr_study::{ErrorModel, IfExists, uncertainties, write_text};
+use cdpr_study::{ErrorModel, IfExists, uncertainties, write_file};
 use pyo3::prelude::*;
 use serde_json::{Map, Value, json};
 use std::path::PathBuf;
@@ -265,7 +265,7 @@ pub(crate) fn simulate(
         let lines = lines.iter().map(|line| line.join(",") + "\n").collect::<String>();
         let text = header.join(",") + "\n" + &lines;
         if let Some(out) = out {
-            write_text(&out, &text, IfExists::overwriting(overwrite))?;
+            write_file(&out, &text, IfExists::overwriting(overwrite))?;
         }
         Ok((Robot { robot: robot.perturbed(&deviations)?.robot }, text))
     })?

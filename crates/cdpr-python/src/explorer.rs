@@ -3,7 +3,7 @@
 use crate::convert::{Answer, Raised};
 use crate::robot::Robot;
 use cdpr_report::{Explored, explorer};
-use cdpr_study::{IfExists, write_text};
+use cdpr_study::{IfExists, write_file};
 use cdpr_web::page;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
@@ -71,6 +71,6 @@ impl Robot {
         let explored = Explored { name: &robot.name, file: &file, robot: &robot.to_json(), study: None };
         let page = explorer(&explored, env!("CARGO_PKG_VERSION"))
             .map_err(|error| Raised::Input(error.to_string()))?;
-        Ok(write_text(&path, &page, IfExists::overwriting(overwrite))?)
+        Ok(write_file(&path, &page, IfExists::overwriting(overwrite))?)
     }
 }

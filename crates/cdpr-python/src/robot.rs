@@ -11,13 +11,11 @@ pub(crate) mod deflection;
 pub(crate) mod derivatives;
 pub(crate) mod direct;
 pub(crate) mod inverse;
-pub(crate) mod modes;
+pub(crate) mod motion;
 pub(crate) mod observe;
 pub(crate) mod path;
 pub(crate) mod pose;
 pub(crate) mod properties;
-pub(crate) mod response;
-pub(crate) mod simulate;
 pub(crate) mod stiffness;
 pub(crate) mod workspace;
 

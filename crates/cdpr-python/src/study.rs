@@ -10,7 +10,7 @@ use cdpr_sensitivity::SampleDesign;
 use cdpr_study::{
     Access, Existing, IfExists, Part, Plan, REPORT_NAME, ROBOT_NAME, Results, Run, Session, Shard,
     StoredStudy, StudyError, TableFormat, Watcher, check_complete, check_observed, observe_into,
-    observe_shard, take_results, write_text,
+    observe_shard, take_results, write_file,
 };
 use numpy::{IxDyn, PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
@@ -239,7 +239,7 @@ pub(crate) fn write_report(
         let page = report_with(&results, &figures(&results), region.as_ref());
         let page = page.map_err(|error| Raised::Input(error.to_string()))?;
         match out {
-            Some(path) => write_text(&path, &page, IfExists::overwriting(overwrite)).map(|()| path),
+            Some(path) => write_file(&path, &page, IfExists::overwriting(overwrite)).map(|()| path),
             None => results.write_report(&folder, &page),
         }
         .map_err(Raised::from)

@@ -5,6 +5,7 @@ import importlib
 import os
 import re
 import runpy
+import shutil
 import signal
 import subprocess
 import sys
@@ -71,10 +72,19 @@ def test_the_stubs_have_the_documentation_of_what_they_describe():
         assert getattr(cdpr.Robot, method).__doc__.splitlines()[0] in text
 
 
-def test_the_octave_code_of_the_book_is_the_file_that_octave_runs():
-    text = (ROOT / "docs" / "python.md").read_text()
-    code = re.search(r"```matlab\n(.*?)```", text, re.DOTALL).group(1)
-    assert code == (ROOT / "docs" / "examples" / "direct.m").read_text()
+def test_the_code_of_the_tutorial_prints_what_the_page_shows(tmp_path):
+    page = ROOT / "docs" / "tutorials" / "tolerances"
+    blocks = re.findall(r"```python\n(.*?)```\n\n```text\n(.*?)```", page.with_suffix(".md").read_text(), re.DOTALL)
+    assert len(blocks) >= 4
+    shutil.copy(page / "study.json", tmp_path)
+    printed = python("".join(f"{code}print('--')\n" for code, _ in blocks), tmp_path)
+    assert printed == "".join(f"{shown}--\n" for _, shown in blocks)
+
+
+def test_the_code_of_the_guides_runs(tmp_path):
+    pytest.importorskip("matplotlib", reason="matplotlib is not installed")
+    for page in sorted((ROOT / "docs" / "how-to").glob("*.md")):
+        python("".join(re.findall(r"```python\n(.*?)```", page.read_text(), re.DOTALL)), tmp_path)
 
 
 @pytest.mark.parametrize("name", ["cables", "deflection_map"])

@@ -22,6 +22,7 @@
 //! The paper is Baklouti, Caro, Courteille, *Sensitivity Analysis of the Elasto-Geometrical Model of
 //! Cable-Driven Parallel Robots*, 2017. All figures are 700 px wide on white. Their colours are those of
 //! Okabe and Ito and viridis, which are safe for the colour-blind. The same results give the same bytes.
+//! [`figure_file`] makes files of them: SVG, and with the feature `figures` PDF and PNG.
 //!
 //! ```no_run
 //! use cdpr_study::{Session, Study, analyse, observe};
@@ -41,6 +42,7 @@ mod drawing;
 mod error;
 mod explorer;
 mod figure;
+mod file;
 mod live;
 mod page;
 mod parameters;
@@ -63,5 +65,6 @@ pub use figure::robustness::{found_poses, success_share};
 pub use figure::shares::shares;
 pub use figure::signed_effects::signed_effects;
 pub use figure::surface::surface;
+pub use file::{FIGURE_WIDTHS_MM, FigureFile, FigureFormat, figure_file};
 pub use live::explored_study;
 pub use page::{analysis_report, calibration_report, report, report_with};

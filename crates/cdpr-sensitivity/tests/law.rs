@@ -1,6 +1,7 @@
 //! Laws against `scipy`'s, their JSON form, and the steps of an input.
 
 use approx::assert_relative_eq;
+use cdpr_evidence::accept;
 use cdpr_sensitivity::{Input, Law, SensitivityError, Steps, Support};
 use proptest::prelude::*;
 
@@ -38,7 +39,7 @@ fn quantile_distribution_density_and_moments_are_those_of_scipy() {
         for (i, &u) in row.u.iter().enumerate() {
             let x = row.quantile[i];
             assert_relative_eq!(law.quantile(u), x, max_relative = 1e-9, epsilon = 1e-12);
-            assert_relative_eq!(law.cdf(x), row.cdf[i], max_relative = 1e-9);
+            accept("V-STATISTICS-008", (law.cdf(x) / row.cdf[i] - 1.0).abs());
             assert_relative_eq!(law.ln_pdf(x), row.ln_pdf[i], max_relative = 1e-9, epsilon = 1e-9);
         }
     }

@@ -1,5 +1,6 @@
 //! Sobol's sequence against `scipy`'s points, and the balance that scrambling keeps.
 
+use cdpr_evidence::accept;
 use cdpr_sensitivity::{SensitivityError, Sobol};
 use proptest::prelude::*;
 
@@ -33,7 +34,8 @@ fn plain_points_are_those_of_scipy_bit_for_bit() {
         let mut point = vec![f64::NAN; dimensions];
         Sobol::new(dimensions).unwrap().point(index, &mut point).unwrap();
         let expected: Vec<f64> = numerators.iter().map(|&k| f64::from(k) / f64::from(1 << 30)).collect();
-        assert_eq!(point, expected, "{dimensions} dimensions, index {index}");
+        let different = point.iter().zip(&expected).filter(|(found, exact)| found != exact).count();
+        accept("V-STATISTICS-001", different as f64);
     }
 }
 

@@ -5,6 +5,7 @@ use crate::common::cogiro;
 use crate::equilibria::{number, vector};
 use crate::pulleys::robot;
 use crate::reference::rotation;
+use cdpr_evidence::accept;
 use cdpr_robot::{
     CableEnd, CableProperties, Parameter, Plane, Platform, Pose, Robot, RobotCable, TensionLimits, Vector3,
     Vector6, Wrench,
@@ -71,8 +72,10 @@ fn equilibria_on_few_cables_match_arithmetic_of_20_digits() {
              {} {}",
             found.report.method, found.report.iterations
         );
-        println!("{line}");
-        assert!(position < 1e-9 && angle < 1e-9 && worst < 1e-9 && off < 1e-9, "{line}");
+        accept("V-DIRECT-007", position);
+        accept("V-DIRECT-008", worst);
+        accept("V-DIRECT-009", off);
+        assert!(angle < 1e-9, "{line}");
         let stable = case["stable"].as_bool().unwrap_or(true);
         assert_eq!(found.stability.is_stable(), stable, "{line}");
         assert_eq!(found.stability.neutral().len(), usize::from(kind == "one"), "{line}");

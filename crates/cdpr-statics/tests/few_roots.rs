@@ -1,6 +1,7 @@
 //! Which root of the balance is taken where cables are fewer than free motions.
 
 use crate::equilibria::number;
+use cdpr_evidence::accept;
 use cdpr_robot::{Coordinate, Pose, Robot, Rotation3, Vector3};
 use cdpr_statics::error::RestFault;
 use cdpr_statics::free_coordinates::{FreeSolution, FreeSolutions, LONGEST, free_solutions};
@@ -212,9 +213,9 @@ fn taut_solutions_are_found_where_an_independent_search_has_them() {
     let Tally { poses, stable, found, same, roots, listed, refused } = all;
     println!("{poses} poses: {found} of {stable}, {same} the same; {listed} of {roots}; {refused} refused");
     assert!(poses == 2000 && stable > 800, "{poses} {stable}");
-    assert_eq!(found, stable);
-    // The other solutions are those that the search has met: all but one of 1988.
-    assert!(1000 * listed >= 999 * roots, "{listed} of {roots}");
+    accept("V-DIRECT-010", found as f64 / stable as f64);
+    // The other solutions are those that the search has met.
+    accept("V-DIRECT-011", listed as f64 / roots as f64);
 }
 
 fn tally(case: &Value) -> Tally {

@@ -2,6 +2,7 @@
 //! what motion capture recorded (`data/reference/grab.json`, docs/grab.md).
 
 use crate::equilibria::{number, vector};
+use cdpr_evidence::accept;
 use cdpr_robot::{Coordinate, Pose, Robot, Rotation3, Vector3};
 use cdpr_statics::error::RestFault;
 use cdpr_statics::free_coordinates::free_solutions;
@@ -86,10 +87,11 @@ fn the_frequencies_of_a_prototype_are_those_that_motion_capture_recorded() {
             median(size(errors)),
             median(errors.clone())
         );
-        assert!(median(size(errors)) < 1.0 && worst < 5.0);
+        let k = usize::from(name == "f2");
+        accept(["V-MOTION-013", "V-MOTION-014"][k], median(size(errors)));
+        accept("V-MOTION-015", worst);
     }
-    println!("at most {off:.1e} Hz from the independent program, which averages lengths instead of poses");
-    assert!(off < 1e-2);
+    accept("V-MOTION-016", off);
     // Without pulleys the error is larger by half and more.
     let mut plain = robot.clone();
     plain.cables.iter_mut().for_each(|cable| cable.pulley = None);

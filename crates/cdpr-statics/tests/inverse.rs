@@ -2,6 +2,7 @@
 
 use crate::common::ipanema;
 use crate::drawn::{Drawn, drawn};
+use cdpr_evidence::accept;
 use cdpr_robot::{Pose, Robot, TensionLimits, UnitQuaternion, Vector3, Wrench};
 use cdpr_statics::{
     Bound, DirectProblem, DirectStart, Load, StaticsError, Unstable, WantedPose, inverse,
@@ -42,13 +43,11 @@ fn the_inverse_model_is_that_of_an_independent_program_with_40_digits() {
         }
         let found = found.unwrap_or_else(|error| panic!("{kind}: {error}"));
         let largest = found.tensions.iter().copied().fold(0.0, f64::max);
-        for (name, ours, exact) in [
-            ("tension", &found.tensions, numbers(&case["tensions"])),
-            ("length", &found.lengths, numbers(&case["unstrained_lengths"])),
+        for (id, ours, exact) in [
+            ("V-INVERSE-001", &found.tensions, numbers(&case["tensions"])),
+            ("V-INVERSE-002", &found.lengths, numbers(&case["unstrained_lengths"])),
         ] {
-            for (ours, exact) in ours.iter().zip(exact) {
-                assert!((ours - exact).abs() <= 1e-9 * exact, "{kind}: {name} {ours} {exact}");
-            }
+            ours.iter().zip(exact).for_each(|(ours, exact)| accept(id, (ours / exact - 1.0).abs()));
         }
         for (ours, exact) in found.active.iter().zip(case["active"].as_array().unwrap()) {
             let exact = exact.as_str().map(|name| if name == "max" { Bound::Max } else { Bound::Min });
@@ -56,10 +55,6 @@ fn the_inverse_model_is_that_of_an_independent_program_with_40_digits() {
         }
         assert!(found.stationarity <= 1e-9 * largest, "{kind}: {:e}", found.stationarity);
         assert!(found.residual.force <= 1e-9 * largest, "{kind}: {:?}", found.residual);
-        println!(
-            "{kind}: {} iterations, stationarity {:.1e} N, force {:.1e} N",
-            found.iterations, found.stationarity, found.residual.force
-        );
     }
 }
 
@@ -128,7 +123,8 @@ fn a_pose_that_tensions_hold_is_never_refused() {
     let count = |outcome: &str| counts.get(outcome).copied().unwrap_or(0);
     let others = count("another minimum than the drawn tensions");
     let found = count("found") + count("found, and again from its lengths") + others;
-    assert!(found == CASES - count("not drawn") && found > 9_000 && others < 5, "{counts:?}");
+    accept("V-INVERSE-004", found as f64 / (CASES - count("not drawn")) as f64);
+    assert!(found > 9_000 && others < 5, "{counts:?}");
 }
 
 /// `data/reference/drawn.py` looks for the least norm of the first 200 of these robots from 24 starts each.
@@ -146,6 +142,7 @@ fn no_norm_is_above_the_best_that_an_independent_solver_finds() {
             Ok(found) => norm(&found.tensions) / least - 1.0,
             Err(error) => panic!("seed {seed}: {error}"),
         };
+        accept("V-INVERSE-003", ours);
         let outcome = match ours {
             _ if ours > 1e-9 => "above",
             _ if ours < -1e-9 => "below",
@@ -158,7 +155,6 @@ fn no_norm_is_above_the_best_that_an_independent_solver_finds() {
         }
     }
     println!("{counts:?}");
-    assert!(!counts.contains_key("above"), "{counts:?}");
     assert_eq!(counts.values().sum::<i32>(), 200);
 }
 

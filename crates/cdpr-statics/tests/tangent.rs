@@ -2,6 +2,7 @@
 
 use crate::common::robots;
 use cdpr_cable::end_force;
+use cdpr_evidence::accept;
 use cdpr_robot::{Pose, Robot, Vector2, Vector3, Vector6, Wrench};
 use cdpr_statics::stiffness::stiffness_at;
 use cdpr_statics::{DirectProblem, DirectStart, Load, Unstable, inverse};
@@ -59,7 +60,7 @@ fn the_stiffness_is_the_derivative_of_the_balance_under_a_moment() {
                 moment.norm(),
                 0.5 * skew.amax() / scaled(&expected).amax()
             );
-            assert!(difference < 1e-7, "{}: {difference:e}", robot.name);
+            accept("V-DIRECT-013", difference);
             // Twice the skew part is the cross-product matrix of the moment, with the opposite sign.
             let cross =
                 found.matrix.fixed_view::<3, 3>(3, 3) - found.matrix.fixed_view::<3, 3>(3, 3).transpose();

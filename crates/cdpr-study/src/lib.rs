@@ -86,7 +86,7 @@ pub use fs::input::{check_table, is_standard_input, other_kind, read_bytes, read
 pub use fs::lock::Access;
 pub use fs::manifest::{ResultsOf, read_result};
 pub use fs::owned::ResultsFolder;
-pub use fs::single::{IfExists, check_replaceable, write_text};
+pub use fs::single::{IfExists, check_replaceable, write_file};
 pub use given::{
     BadCell, GivenColumn, GivenTable, TableAnalysis, TableRequest, VectorAnalysis, analyse_table,
     begin_analysis, open_table, write_analysis,

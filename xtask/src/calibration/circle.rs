@@ -1,21 +1,12 @@
-//! The example of docs/calibration.md from its beginning: tolerances, study, plan, campaign, calibrated
-//! robot, study with what is left. Prints its figures, and writes its pictures and the robot that later
-//! studies take.
+//! A calibration of CAROCA from its beginning: tolerances, study, plan, campaign, calibrated robot, study with
+//! what is left. Prints its figures, and writes the robot that later studies take.
 
-use crate::answer::{answer, number, output, parsed, write};
-use crate::cargo::root;
+use crate::cargo::{answer, number, output, parsed, root, write};
 use serde_json::Value;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Noise of the tracker and of the winches.
 const NOISE: &str = "position=1e-4,rotation=1e-4,length=1e-4";
-
-/// Pictures of the report of the calibration, by their labels.
-const PICTURES: [(&str, &str); 3] = [
-    ("Residuals of the position from above", "residuals"),
-    ("Standard deviation of the position, before", "uncertainty-before"),
-    ("Standard deviation of the position, after", "uncertainty-after"),
-];
 
 /// Criteria of plans beside the one whose poses are measured.
 const CRITERIA: [&str; 2] = ["information", "mean-at-work"];
@@ -73,7 +64,6 @@ pub(crate) fn run() -> Result<(), String> {
         let (least, greatest) = (of().fold(f64::INFINITY, f64::min), of().fold(0.0, f64::max));
         println!("position over the workspace, {name}: {least:.4} mm to {greatest:.4} mm");
     }
-    pictures(&target.join("calibrated/report.html"))?;
     for name in ["calibrated", "posterior"] {
         copy(
             &target.join(format!("calibrated/{name}.json")),
@@ -82,10 +72,6 @@ pub(crate) fn run() -> Result<(), String> {
     }
     for output in ["position", "deflection"] {
         study(&target, &format!("{output}-after"))?;
-    }
-    for name in ["before", "after"] {
-        let from = target.join(format!("position-{name}/middle.svg"));
-        copy(&from, &images()?.join(format!("position-{name}.svg")))?;
     }
     Ok(())
 }
@@ -103,28 +89,6 @@ fn study(target: &Path, name: &str) -> Result<(), String> {
         println!("{name}, {sampling}: {:.4} ± {:.4} mm", number(&of["mean"]), number(&of["std"]));
     }
     Ok(())
-}
-
-/// Takes pictures out of the report.
-fn pictures(report: &Path) -> Result<(), String> {
-    let page = read(report)?;
-    for (label, name) in PICTURES {
-        let of_label = page.split(&format!("aria-label=\"{label}\"")).nth(1);
-        let svg = of_label.and_then(|rest| {
-            let begin = rest.find("<svg")?;
-            let end = rest.find("</svg>")? + "</svg>".len();
-            rest.get(begin..end)
-        });
-        let svg = svg.ok_or_else(|| format!("the report has no picture of: {label}"))?;
-        write(&images()?.join(format!("{name}.svg")), svg)?;
-    }
-    Ok(())
-}
-
-fn images() -> Result<PathBuf, String> {
-    let folder = root().join("docs/images/calibration");
-    std::fs::create_dir_all(&folder).map_err(|error| format!("cannot make {}: {error}", folder.display()))?;
-    Ok(folder)
 }
 
 fn read(path: &Path) -> Result<String, String> {

@@ -17,7 +17,8 @@ impl ToleranceBudget {
             format!("{value} % ({low} to {high})")
         };
         let tightened = self.tolerances.iter().filter(|of| of.factor < 1.0);
-        let tightened: Vec<String> = tightened.map(|of| format!("{} {:.3}", of.name, of.factor)).collect();
+        let tightened: Vec<String> =
+            tightened.map(|of| format!("{} to {} %", of.name, percent(of.factor))).collect();
         let mut sentences = if tightened.is_empty() {
             vec![
                 format!("The tolerances suffice: nothing has to be tightened for {wanted} % of the robots."),
@@ -25,7 +26,11 @@ impl ToleranceBudget {
             ]
         } else {
             vec![
-                listing(&format!("For {wanted} % below {limit} mm, tighten to the share "), &tightened, "."),
+                listing(
+                    &format!("For {wanted} % below {limit} mm, tighten "),
+                    &tightened,
+                    " of the present width.",
+                ),
                 format!(
                     "Then {} of the robots keep it, now {}.",
                     reached(&self.tightened),

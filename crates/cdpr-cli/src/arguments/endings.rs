@@ -66,15 +66,6 @@ fn fits(path: &Path, endings: &[&str]) -> bool {
     ending.is_none_or(|ending| endings.contains(&ending.as_str()) || !KNOWN.contains(&ending.as_str()))
 }
 
-/// A file for a figure, whose name says that it is SVG.
-pub(crate) fn svg(text: &str) -> Result<PathBuf, String> {
-    let path = PathBuf::from(text);
-    if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("svg")) {
-        return Ok(path);
-    }
-    Err("figures are SVG: expected a name that ends in .svg; other programs make PDF or PNG of it".to_owned())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -3,7 +3,7 @@
 use crate::error::ProgramError;
 use crate::output;
 use crate::questions;
-use cdpr_study::{IfExists, check_replaceable, is_not_finite, write_text};
+use cdpr_study::{IfExists, check_replaceable, is_not_finite, write_file};
 use serde::Serialize;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -129,15 +129,15 @@ impl Overwrite {
         IfExists::overwriting(self.overwrite)
     }
 
-    /// Writes a text to a file of the user's choice.
-    pub(crate) fn write(&self, path: &Path, text: &str) -> Result<(), ProgramError> {
-        self.write_all(&[(path, text)])
+    /// Writes a file of the user's choice.
+    pub(crate) fn write(&self, path: &Path, content: impl AsRef<[u8]>) -> Result<(), ProgramError> {
+        self.write_all(&[(path, content)])
     }
 
-    /// Writes texts to files of the user's choice: all of them, or none where one must not be replaced.
-    pub(crate) fn write_all(&self, files: &[(&Path, &str)]) -> Result<(), ProgramError> {
-        files.iter().try_for_each(|(path, text)| check_replaceable(path, text, self.if_exists()))?;
-        Ok(files.iter().try_for_each(|(path, text)| write_text(path, text, self.if_exists()))?)
+    /// Writes files of the user's choice: all of them, or none where one must not be replaced.
+    pub(crate) fn write_all<C: AsRef<[u8]>>(&self, files: &[(&Path, C)]) -> Result<(), ProgramError> {
+        files.iter().try_for_each(|(path, content)| check_replaceable(path, content, self.if_exists()))?;
+        Ok(files.iter().try_for_each(|(path, content)| write_file(path, content, self.if_exists()))?)
     }
 }
 

@@ -1,7 +1,7 @@
 //! `cdpr cable modulus`: the moduli of a cable from a load-elongation record.
 
 use crate::arguments::endings;
-use crate::arguments::{Named, Printing, named, number};
+use crate::arguments::{FigureArgument, Named, Printing, figure, named, number};
 use crate::error::ProgramError;
 use crate::output::{patiently, print_sentence, table};
 use crate::questions;
@@ -33,9 +33,9 @@ pub(crate) struct Settings {
     /// Greatest errors in SI units: of each force [N] and elongation [m], of length [m] and section [m²].
     #[arg(long, value_parser = named, default_value = "force=1,elongation=3e-5,length=0,section=0")]
     errors: Named,
-    /// File for a figure of the loop (SVG).
-    #[arg(long, value_parser = endings::svg)]
-    figure: Option<PathBuf>,
+    /// File for a figure of the loop (.svg, .pdf, .png); behind its name: width=MM, untitled.
+    #[arg(long, value_name = "FILE", value_parser = figure)]
+    figure: Option<FigureArgument>,
     /// File for the record's law (JSON, `cdpr-law/1`), which `cdpr hysteresis --law` and an operating point
     /// of a study take.
     #[arg(long, value_name = "FILE", value_parser = endings::json())]
@@ -115,8 +115,8 @@ pub(super) fn run(settings: &Settings) -> Result<(), ProgramError> {
     if let Some(path) = &settings.law {
         write_law(&record, &specimen, settings, path)?;
     }
-    let write = |path| settings.printing.overwrite.write(path, &draw(&record, &found)?);
-    settings.figure.as_deref().map_or(Ok(()), write)
+    let write = |file: &FigureArgument| file.write(&settings.printing.overwrite, &draw(&record, &found)?);
+    settings.figure.as_ref().map_or(Ok(()), write)
 }
 
 fn print(found: &Found) {

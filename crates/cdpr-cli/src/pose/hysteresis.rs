@@ -1,10 +1,10 @@
 //! `cdpr hysteresis`: where a payload that is put on and taken off again leaves the platform.
 
 use crate::answer::{OutOfLimits, vector};
-use crate::arguments::endings;
 use crate::arguments::poses::PoseArguments;
 use crate::arguments::{
-    self, FreeArguments, Preference, Printing, RobotArgument, With, number, payload, with,
+    self, FigureArgument, FreeArguments, Preference, Printing, RobotArgument, With, figure, number, payload,
+    with,
 };
 use crate::error::ProgramError;
 use crate::output::{Ending, patiently, print_sentence, table};
@@ -46,9 +46,9 @@ pub(crate) struct Settings {
     /// the part of the unloading curve with the same tensions and not the part from its start.
     #[arg(long, value_name = "NAMES", value_parser = with)]
     with: Option<With>,
-    /// File for a figure of payload over height (SVG).
-    #[arg(long, value_parser = endings::svg)]
-    figure: Option<PathBuf>,
+    /// File for a figure of payload over height (.svg, .pdf, .png); behind its name: width=MM, untitled.
+    #[arg(long, value_name = "FILE", value_parser = figure)]
+    figure: Option<FigureArgument>,
     #[command(flatten)]
     printing: Printing,
 }
@@ -97,15 +97,18 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     };
     let found = Found::new(&robot, &laws, &cycle);
     settings.printing.format().print(&found, |found| print(&robot, found))?;
-    if found.cables.iter().any(|cable| cable.dissipated_j < 0.0) {
+    // The work of gravity on the payload on its way down, of which 1e-9 is rounding.
+    let work =
+        settings.payload * robot.gravity.magnitude() * 1e-3 * Vector3::from(found.deflection_mm).norm();
+    if found.cables.iter().any(|cable| cable.dissipated_j < -1e-9 * work) {
         eprintln!(
             "warning: the loop of a cable runs the wrong way round and gives energy: in its range of tension \
              the record's unloading curve is softer than its loading curve, as it can be far below the \
              turning point from which it was measured"
         );
     }
-    if let Some(path) = &settings.figure {
-        settings.printing.overwrite.write(path, &draw(&robot, &cycle, &found)?)?;
+    if let Some(file) = &settings.figure {
+        file.write(&settings.printing.overwrite, &draw(&robot, &cycle, &found)?)?;
     }
     Ok(OutOfLimits::ending(&found.out_of_limits))
 }
@@ -193,19 +196,23 @@ fn print(robot: &Robot, found: &Found) {
     for (i, cable) in found.cables.iter().enumerate() {
         let [a, b, c] = [cable.tension_own_weight_n, cable.tension_payload_n, cable.tension_removed_n]
             .map(|tension| format!("{tension:.2}"));
-        let (modulus, energy) =
-            (format!("{:.2}", cable.modulus_gpa), format!("{:.4}", 1e3 * cable.dissipated_j));
+        let (modulus, energy) = (format!("{:.2}", cable.modulus_gpa), millijoules(cable.dissipated_j));
         rows.add_row([(i + 1).to_string(), a, b, c, modulus, energy]);
     }
     println!("{rows}");
     println!("displaced by the payload  {} mm", vector(&found.deflection_mm, 4));
     println!("left when it is gone      {} mm", vector(&found.residual_mm, 5));
     println!(
-        "energy: {:.4} mJ given by the payload, {:.4} mJ in the loops of the cables",
-        1e3 * found.payload_work_j,
-        1e3 * found.dissipated_j
+        "energy: {} mJ given by the payload, {} mJ in the loops of the cables",
+        millijoules(found.payload_work_j),
+        millijoules(found.dissipated_j)
     );
     OutOfLimits::print(&found.out_of_limits);
+}
+
+/// An energy [J] in mJ, without the sign of a zero.
+fn millijoules(energy: f64) -> String {
+    format!("{:.4}", (1e7 * energy).round() / 1e4 + 0.0)
 }
 
 fn draw(robot: &Robot, ran: &LoadCycle, found: &Found) -> Result<String, ProgramError> {

@@ -1,8 +1,7 @@
 //! `cdpr path`: what a robot does along a path of poses.
 
 use crate::answer::OutOfLimits;
-use crate::arguments::UncertaintyArgument;
-use crate::arguments::endings;
+use crate::arguments::{FigureArgument, UncertaintyArgument, figure};
 use crate::error::ProgramError;
 use crate::output::Ending;
 use crate::pose::at_pose::{RobotAtPose, Row, cells, numbered};
@@ -11,7 +10,6 @@ use cdpr_report::path_view;
 use cdpr_robot::{Robot, broken, counted, significant};
 use cdpr_statics::Deflection;
 use serde::Serialize;
-use std::path::PathBuf;
 
 /// The robot, its poses, and what is uncertain.
 #[derive(clap::Args)]
@@ -20,9 +18,10 @@ pub(crate) struct Settings {
     at: RobotAtPose,
     #[command(flatten)]
     errors: UncertaintyArgument,
-    /// File for a figure of the path (SVG), with bands of two standard deviations if an error model is given.
-    #[arg(long, value_name = "FILE", value_parser = endings::svg)]
-    figure: Option<PathBuf>,
+    /// File for a figure of the path (.svg, .pdf, .png); behind its name: width=MM, untitled. With an error
+    /// model it has bands of two standard deviations.
+    #[arg(long, value_name = "FILE", value_parser = figure)]
+    figure: Option<FigureArgument>,
 }
 
 pub(crate) fn run(Settings { at, errors, figure }: &Settings) -> Result<Ending, ProgramError> {
@@ -46,7 +45,7 @@ pub(crate) fn run(Settings { at, errors, figure }: &Settings) -> Result<Ending, 
     };
     along.tell();
     if let Some(file) = figure {
-        at.printing.overwrite.write(file, &path_view(&robot, &load, &passed)?)?;
+        file.write(&at.printing.overwrite, &path_view(&robot, &load, &passed)?)?;
     }
     Ok(ending)
 }

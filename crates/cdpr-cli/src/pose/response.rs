@@ -1,7 +1,7 @@
 //! `cdpr response`: how a platform that is shaken moves.
 
 use crate::answer::{OutOfLimits, decimal};
-use crate::arguments::{self, Format, FreeArguments, With, endings, print_record, with};
+use crate::arguments::{self, FigureArgument, Format, FreeArguments, With, figure, print_record, with};
 use crate::error::ProgramError;
 use crate::output::{Ending, print_sentence, table};
 use crate::pose::at_pose::{RobotAtPose, Row};
@@ -11,7 +11,6 @@ use cdpr_report::{Amplitudes, amplitudes};
 use cdpr_robot::{Pose, Robot, Vector3, shown, significant};
 use cdpr_statics::{DirectProblem, DirectStart, StaticsError, Unstable, WantedPose, inverse};
 use serde::Serialize;
-use std::path::PathBuf;
 
 /// Frequencies at equal distances where no other number is given.
 const NUMBER: usize = 200;
@@ -44,9 +43,9 @@ pub(crate) struct Settings {
     /// Point of the platform that is shaken and that moves: x,y,z in its frame [m]; P if left out.
     #[arg(long, value_parser = arguments::components::<3>, allow_hyphen_values = true)]
     marker: Option<[f64; 3]>,
-    /// File for a figure of the amplitudes (SVG).
-    #[arg(long, value_name = "FILE", value_parser = endings::svg, conflicts_with = "poses")]
-    figure: Option<PathBuf>,
+    /// File for a figure of the amplitudes (.svg, .pdf, .png); behind its name: width=MM, untitled.
+    #[arg(long, value_name = "FILE", value_parser = figure, conflicts_with = "poses")]
+    figure: Option<FigureArgument>,
 }
 
 pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
@@ -66,7 +65,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     };
     let answer = settings.solve(&robot, &pose, damping)?;
     if let Some(file) = figure {
-        at.printing.overwrite.write(file, &answer.figure(&robot)?)?;
+        file.write(&at.printing.overwrite, &answer.figure(&robot)?)?;
     }
     if is_table {
         answer.print_table();

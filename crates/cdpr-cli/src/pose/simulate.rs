@@ -2,7 +2,7 @@
 
 use crate::arguments::poses::{PoseArguments, pose_numbers};
 use crate::arguments::{
-    self, Format, FreeArguments, LoadArguments, Preference, Printing, RobotArgument, With, endings,
+    self, FigureArgument, Format, FreeArguments, LoadArguments, Preference, Printing, RobotArgument, With,
     print_record,
 };
 use crate::error::ProgramError;
@@ -58,9 +58,9 @@ pub(crate) struct Settings {
     /// tolerance=M, the error of a step [m].
     #[arg(long, value_name = "NAMES", value_parser = arguments::with)]
     with: Option<With>,
-    /// File for a figure of the motion and the tensions over time (SVG).
-    #[arg(long, value_name = "FILE", value_parser = endings::svg)]
-    figure: Option<PathBuf>,
+    /// File for a figure of motion and tensions over time (.svg, .pdf, .png); behind its name: width=MM, untitled.
+    #[arg(long, value_name = "FILE", value_parser = arguments::figure)]
+    figure: Option<FigureArgument>,
     #[command(flatten)]
     printing: Printing,
 }
@@ -87,7 +87,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     })?;
     let answer = Answer::new(&robot, &rest.pose, &lengths, &series);
     if let Some(file) = &settings.figure {
-        settings.printing.overwrite.write(file, &figure(&robot, &rest.pose, &series)?)?;
+        file.write(&settings.printing.overwrite, &figure(&robot, &rest.pose, &series)?)?;
     }
     let records = || series.samples.iter().map(|sample| record(&rest.pose, sample));
     if let Some(path) = settings.printing.table_file() {

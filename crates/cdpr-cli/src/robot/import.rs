@@ -3,7 +3,7 @@
 use crate::arguments::endings;
 use crate::arguments::{self, Overwrite, components};
 use crate::error::ProgramError;
-use crate::output::Ending;
+use crate::output::{Ending, print_sentence};
 use crate::questions;
 use cdpr_exchange::{ForeignFile, ImportOptions, Imported, NoteKind, import};
 use cdpr_robot::{TensionLimits, plausible, shown};
@@ -75,7 +75,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     match &settings.out {
         Some(out) => {
             settings.overwrite.write(out, &text)?;
-            lines.iter().for_each(|line| println!("{line}"));
+            lines.iter().for_each(|line| print_sentence(line));
             println!("{}: {}, {} cables", out.display(), shown(&robot.name), robot.cables.len());
         }
         None => {

@@ -2,8 +2,8 @@
 
 use crate::arguments::poses::Angles;
 use crate::arguments::{
-    self, Format, FreeArguments, LoadArguments, Overwrite, Preference, Region, RobotArgument, Threads,
-    UncertaintyArgument, With, count, region, with,
+    self, FigureArgument, Format, FreeArguments, LoadArguments, Overwrite, Preference, Region, RobotArgument,
+    Threads, UncertaintyArgument, With, count, figure, region, with, write_figures,
 };
 use crate::error::ProgramError;
 use crate::output::{Details, Ending, drawn, patiently, print_sentence, progress, table, wide_table};
@@ -57,6 +57,10 @@ pub(crate) struct Settings {
     /// Folder for the results, made if missing; NAME-workspace in the current folder if left out.
     #[arg(short, long)]
     out: Option<PathBuf>,
+    /// File for one of the maps, too, with the name that it has in the folder; behind its name: width=MM,
+    /// untitled. It can be given several times.
+    #[arg(long, value_name = "NAME.pdf", value_parser = figure)]
+    figure: Vec<FigureArgument>,
     #[command(flatten)]
     overwrite: Overwrite,
     #[command(flatten)]
@@ -145,6 +149,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     let maps = workspace_maps(&robot, &summary, wanted.layers).into_iter();
     let maps: Vec<_> = maps.filter_map(|map| drawn(&map.name, map.svg)).collect();
     write_workspace(&folder, &summary, &maps, boundary.as_ref())?;
+    write_figures(&settings.figure, &maps, &settings.overwrite)?;
     settings.format.print(&summary, |summary| {
         print(summary);
         if settings.details.details {

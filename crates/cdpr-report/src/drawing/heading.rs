@@ -3,6 +3,8 @@
 use crate::drawing::style::{Area, CHARACTER, DrawingError, LINE_HEIGHT, MARGIN, Pen, TEXT, WIDTH, px, text};
 
 const TITLE: f64 = 15.0;
+/// Height at which the title stands [px].
+pub(crate) const TITLE_AT: f64 = MARGIN + 0.5 * LINE_HEIGHT;
 /// Smallest readable text of a key [px].
 const SMALL: f64 = 9.0;
 /// Line of an entry of a key, its gap to the name, and the room of both with the gap to the next entry [px].
@@ -29,7 +31,7 @@ impl Heading<'_> {
     /// Draws the heading and returns the rest of the area.
     pub(crate) fn draw<'a>(&self, area: &Area<'a>) -> Result<Area<'a>, DrawingError> {
         let (head, rest) = area.split_vertically(px(self.height()));
-        let mut y = MARGIN + 0.5 * LINE_HEIGHT;
+        let mut y = TITLE_AT;
         text(&head, self.title, TITLE, (MARGIN, y))?;
         for line in self.lines {
             y += LINE_HEIGHT;

@@ -3,7 +3,7 @@
 use crate::drawing::axis::{Axis, Grid, chart, extent};
 use crate::drawing::heading::Heading;
 use crate::drawing::style::{
-    self, Area, BLUE, DrawingError, GREY, MARGIN, ORANGE, Pen, VERMILLION, X_AXIS, px,
+    self, Area, BLUE, DrawingError, GREY, MARGIN, ORANGE, Pen, VERMILLION, X_AXIS, font, px,
 };
 use crate::error::ReportError;
 use crate::text::digits;
@@ -11,12 +11,15 @@ use cdpr_assess::{Bands, PathPose};
 use cdpr_robot::{Robot, shown};
 use cdpr_statics::Load;
 use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
 use std::ops::Range;
 
 /// Half width of the bands, in standard deviations.
 const WIDTHS: f64 = 2.0;
 /// Height of the plot of each quantity [px].
 const PLOT: f64 = 180.0;
+/// Height of the numbers of the cables [px].
+const NUMBER: f64 = 9.0;
 const JUMP: Pen = Pen { color: VERMILLION, width: 1.2, dash: Some(6.0) };
 const LIMIT: Pen = Pen { color: BLACK, width: 1.0, dash: Some(3.0) };
 const CURVE: Pen = Pen::solid(BLUE, 1.4);
@@ -149,8 +152,29 @@ impl Quantity {
         all.start - room..all.end + room
     }
 
+    /// The numbers of the curves, from 1, and where they stand: at the last points, but not on each other.
+    fn numbers(&self, apart: f64) -> Vec<(usize, (f64, f64))> {
+        let last = |curve: &Curve| {
+            let (k, point) = curve.iter().enumerate().rev().find_map(|(k, point)| Some((k, (*point)?)))?;
+            Some(((k + 1) as f64, point.0))
+        };
+        let curves = self.curves.iter().enumerate();
+        let mut ends: Vec<_> = curves.filter_map(|(i, curve)| Some((i + 1, last(curve)?))).collect();
+        ends.sort_by(|one, other| one.1.1.total_cmp(&other.1.1));
+        let middle = |ends: &[(usize, (f64, f64))]| {
+            ends.iter().map(|end| end.1.1).sum::<f64>() / ends.len().max(1) as f64
+        };
+        let before = middle(&ends);
+        for k in 1..ends.len() {
+            ends[k].1.1 = ends[k].1.1.max(ends[k - 1].1.1 + apart);
+        }
+        let moved = middle(&ends) - before;
+        ends.iter_mut().for_each(|end| end.1.1 -= moved);
+        ends
+    }
+
     fn draw(&self, area: &Area, poses: &[Option<PathPose>]) -> Result<(), DrawingError> {
-        let x = Axis::numbers(0.5..poses.len() as f64 + 0.5, 10, "pose");
+        let x = Axis::numbers(0.5..poses.len() as f64 + 0.5, poses.len().min(10), "pose");
         let y = Axis::numbers(self.range(), 5, self.label);
         let (bottom, top) = (y.range.start, y.range.end);
         let chart = chart(area, &x, &y, Grid::Horizontal)?;
@@ -173,6 +197,13 @@ impl Quantity {
                 if let [(x, v, _)] = held[..] {
                     plot.draw(&Circle::new((x, v), px(2.0), BLUE.filled()))?;
                 }
+            }
+        }
+        if self.curves.len() > 1 {
+            let apart = NUMBER / PLOT * (top - bottom);
+            for (number, (x, y)) in self.numbers(apart) {
+                let style = font(NUMBER).pos(Pos::new(HPos::Left, VPos::Center));
+                plot.draw(&Text::new(format!("\u{a0}{number}"), (x, y), style))?;
             }
         }
         for limit in self.limits.iter().filter(|limit| y.range.contains(limit)) {

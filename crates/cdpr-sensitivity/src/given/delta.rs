@@ -28,7 +28,7 @@
 //!   an effect, what the two halves happen to have in common raises both differences. t is Student's factor.
 //! - There is no such upper bound: beside any law there are others with a larger δ, in waves of x too short
 //!   for the rows to tell. D. L. Donoho, *One-sided inference about functionals of a density*, Ann. Stat. 16
-//!   (1988). What else was tried, and how often it held, is in docs/STATISTICS.md.
+//!   (1988). What else was tried, and how often it held, is in docs/statistics.md.
 
 use rand::seq::SliceRandom;
 use serde::{Deserialize, Serialize};

@@ -3,6 +3,7 @@
 use super::functions::{self, Function, ishigami};
 use crate::common::{rows, uniform};
 use approx::assert_abs_diff_eq;
+use cdpr_evidence::accept;
 use cdpr_sensitivity::{
     Bootstrap, Estimate, Input, Law, Order, SaltelliDesign, SampleDesign, SensitivityError, SobolIndices,
     Steps, convergence, derived_seed, first_tight, observe, sobol_indices,
@@ -52,7 +53,7 @@ fn design_and_indices_are_those_of_salib() {
         assert_eq!(second.len(), case.second.len());
         for (found, expected) in [(first, case.first), (total, case.total), (second, case.second)] {
             // Sums of up to 512 terms of order one.
-            found.iter().zip(&expected).for_each(|(x, y)| assert_abs_diff_eq!(x, y, epsilon = 1e-13));
+            found.iter().zip(&expected).for_each(|(x, y)| accept("V-STATISTICS-002", (x - y).abs()));
         }
     }
 }
@@ -79,7 +80,8 @@ fn intervals_of_95_percent_hold_the_exact_indices_in_95_of_100_studies() {
         // A count of 100 has a deviation of 2.2 about 95: three of them below, and the mean of all counts at
         // 93.
         let mean = held.iter().sum::<usize>() as f64 / held.len() as f64;
-        assert!(mean >= 93.0 && held.iter().all(|&held| held >= 88), "{}: {held:?}", function.name);
+        accept("V-STATISTICS-003", mean / 100.0);
+        assert!(held.iter().all(|&held| held >= 88), "{}: {held:?}", function.name);
     }
 }
 

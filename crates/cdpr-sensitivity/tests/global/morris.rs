@@ -3,6 +3,7 @@
 use super::functions;
 use crate::common::{rows, uniform, unit};
 use approx::{assert_abs_diff_eq, assert_relative_eq};
+use cdpr_evidence::accept;
 use cdpr_sensitivity::{
     Input, Law, MorrisDesign, MorrisEffect, SampleDesign, SensitivityError, Steps, morris_effects, observe,
 };
@@ -36,9 +37,9 @@ fn effects_of_trajectories_are_those_of_salib() {
     let design = MorrisDesign::trajectories(function.inputs, 6, 4, 1).unwrap();
     for (i, effect) in effects(&design, function.model).iter().enumerate() {
         // Differences of outputs of the order 10.
-        assert_abs_diff_eq!(effect.mean, reference.mean[i], epsilon = 1e-13);
-        assert_abs_diff_eq!(effect.mean_absolute.value, reference.mean_absolute[i], epsilon = 1e-13);
-        assert_abs_diff_eq!(effect.std, reference.std[i], epsilon = 1e-13);
+        accept("V-STATISTICS-004", (effect.mean - reference.mean[i]).abs());
+        accept("V-STATISTICS-004", (effect.mean_absolute.value - reference.mean_absolute[i]).abs());
+        accept("V-STATISTICS-004", (effect.std - reference.std[i]).abs());
     }
 }
 

@@ -3,6 +3,7 @@
 use super::functions;
 use crate::common::uniform;
 use approx::{assert_abs_diff_eq, assert_relative_eq};
+use cdpr_evidence::accept;
 use cdpr_sensitivity::{
     Correlated, Input, JointSample, LatinHypercube, Law, Regression, SensitivityError, SobolDesign, Steps,
     observe, rank_correlation, rank_regression, regression,
@@ -44,8 +45,8 @@ fn coefficients_are_those_of_numpy() {
     ] {
         assert_abs_diff_eq!(found.r_squared, expected.r_squared, epsilon = 1e-13);
         for (i, coefficient) in found.inputs.iter().enumerate() {
-            assert_abs_diff_eq!(coefficient.standardized, expected.standardized[i], epsilon = 1e-13);
-            assert_abs_diff_eq!(coefficient.partial, expected.partial[i], epsilon = 1e-13);
+            accept("V-STATISTICS-005", (coefficient.standardized - expected.standardized[i]).abs());
+            accept("V-STATISTICS-005", (coefficient.partial - expected.partial[i]).abs());
         }
     }
 }

@@ -165,7 +165,7 @@ impl<'a> Observer<'a> {
     /// A result depends on its own row alone, to the last digit, and agrees with
     /// [`Observer::observe_one_by_one`] to rounding, but for one row in 10^4 of random robots: where a robot
     /// has several minima of its tensions, the scalar models take the one next to the nominal robot's, and
-    /// this may take another, mostly the least of all, as [`deflection`] does (docs/VALIDATION.md).
+    /// this may take another, mostly the least of all, as [`deflection`] does.
     /// [`Observation::scalar`] says which ones were left to the scalar models, and why.
     ///
     /// A slope of [`ObservationSlopes`] times the range of its parameter agrees to 1e-11 of the longest

@@ -10,7 +10,7 @@ use crate::fs::input::read_text;
 use crate::fs::lock::{Access, hold_still};
 use crate::fs::manifest::{Manifest, ResultsOf, check_tables, read};
 use crate::fs::owned::ResultsFolder;
-use crate::fs::single::{IfExists, write_text};
+use crate::fs::single::{IfExists, write_file};
 use crate::kind::InputKind;
 use crate::model::study::Study;
 use crate::names::{REPORT_NAME, STUDY_NAME, SUMMARY_NAME, TIMINGS_NAME};
@@ -101,7 +101,7 @@ impl Results {
         if Manifest::read(folder)?.is_none() {
             // Of an earlier version.
             let path = folder.join(REPORT_NAME);
-            write_text(&path, page, IfExists::Refuse)?;
+            write_file(&path, page, IfExists::Refuse)?;
             return Ok(path);
         }
         let owned = ResultsFolder::take(folder, ResultsOf::Study, Access::Alone, |name| name == REPORT_NAME)?;

@@ -1,0 +1,192 @@
+//! `cargo xtask evidence`: runs the cases of `data/evidence/cases.json`, keeps their figures in `data/evidence`
+//! and writes the tables of the book.
+//!
+//! In a page, `<!-- evidence CABLE -->` stands above the table of the cases `V-CABLE-...`, and
+//! `<!-- figure V-CABLE-001 -->` before a figure in a sentence; `<!-- end -->` follows either.
+
+use crate::cargo::{cargo_command, root};
+use cdpr_evidence::{Acceptance, Case, FOLDER, Level, cases, read, write};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Pages with tables or figures of cases.
+const PAGES: [&str; 2] = ["docs/trust.md", "README.md"];
+
+/// By what factor a figure may differ from the one that is kept: sums are in another order with another vector
+/// unit, and errors near rounding follow.
+const CHANGED: f64 = 5.0;
+/// Figures below this share of their bound may differ by more.
+const FAR_BELOW: f64 = 1e-3;
+
+/// Runs the cases whose identifiers begin with one of these, or all. With `--check` it runs nothing: it
+/// compares the figures of a folder, which a run of the tests has written, with those that are kept.
+pub(crate) fn run(rest: &[String]) -> Result<(), String> {
+    let all = cases()?;
+    match rest {
+        [check] if check == "--check" => {
+            let folder = std::env::var_os(FOLDER).ok_or_else(|| format!("expected {FOLDER}, the folder"))?;
+            check_all(&all, Path::new(&folder))
+        }
+        begins => {
+            let is_chosen =
+                |case: &Case| begins.is_empty() || begins.iter().any(|id| case.id.starts_with(id));
+            let chosen: Vec<&Case> = all.iter().filter(|case| is_chosen(case)).collect();
+            if chosen.is_empty() {
+                return Err(format!("no case begins with {}", begins.join(" or ")));
+            }
+            measure(&chosen)?;
+            write_pages(&all)
+        }
+    }
+}
+
+fn kept() -> PathBuf {
+    root().join("data/evidence")
+}
+
+/// Runs the tests of cases, and keeps their figures.
+fn measure(chosen: &[&Case]) -> Result<(), String> {
+    let folder = root().join("target/evidence");
+    if folder.exists() {
+        fs::remove_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    }
+    let mut tests: Vec<&str> = chosen.iter().map(|case| case.test[1].as_str()).collect();
+    tests.sort_unstable();
+    tests.dedup();
+    let mut command = cargo_command(&["test", "--no-fail-fast", "--test", "integration", "--", "--exact"]);
+    let status = command.args(tests).env(FOLDER, &folder).status();
+    let passed = status.map_err(|error| format!("cannot start cargo: {error}"))?.success();
+    for case in chosen {
+        write(&kept(), &case.id, read(&folder, &case.id)?)?;
+    }
+    if passed { Ok(()) } else { Err("a test fails".to_owned()) }
+}
+
+fn check_all(all: &[Case], folder: &Path) -> Result<(), String> {
+    let mut wrong: Vec<String> = Vec::new();
+    for case in all {
+        match (read(folder, &case.id), read(&kept(), &case.id)) {
+            (Ok(found), Ok(kept)) if is_changed(case.accepted, found, kept) => {
+                wrong.push(format!("{}: {found:e}, and {kept:e} is kept", case.id));
+            }
+            (Ok(_), Ok(_)) => {}
+            (Err(error), _) | (_, Err(error)) => wrong.push(error),
+        }
+    }
+    for page in PAGES {
+        let text = read_page(page)?;
+        if filled(&text, all)? != text {
+            wrong.push(format!("{page} has other figures than data/evidence"));
+        }
+    }
+    if wrong.is_empty() {
+        eprintln!("{} cases are as they are kept", all.len());
+        return Ok(());
+    }
+    Err(format!("{}\nexpected the figures of `cargo xtask evidence`", wrong.join("\n")))
+}
+
+fn is_changed(accepted: Acceptance, found: f64, kept: f64) -> bool {
+    match accepted {
+        Acceptance::AtMost(bound) => {
+            let [least, greatest] = [found.abs().min(kept.abs()), found.abs().max(kept.abs())];
+            greatest > CHANGED * least && greatest > FAR_BELOW * bound
+        }
+        // Shares.
+        Acceptance::AtLeast(_) => (found - kept).abs() > 0.01,
+    }
+}
+
+fn read_page(page: &str) -> Result<String, String> {
+    fs::read_to_string(root().join(page)).map_err(|error| format!("{page}: {error}"))
+}
+
+fn write_pages(all: &[Case]) -> Result<(), String> {
+    for page in PAGES {
+        let text = read_page(page)?;
+        let filled = filled(&text, all)?;
+        if filled != text {
+            fs::write(root().join(page), filled).map_err(|error| format!("{page}: {error}"))?;
+        }
+    }
+    Ok(())
+}
+
+/// A page with the figures that are kept.
+fn filled(page: &str, all: &[Case]) -> Result<String, String> {
+    let mut parts = page.split("<!-- ");
+    let mut filled = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        let (mark, rest) = part.split_once(" -->").ok_or("a comment without an end")?;
+        filled += &format!("<!-- {mark} -->");
+        match mark.split_once(' ') {
+            Some(("evidence", group)) => filled += &table(group, all)?,
+            Some(("figure", id)) => filled += &shown(read(&kept(), id)?),
+            _ => filled += rest,
+        }
+    }
+    Ok(filled)
+}
+
+/// The table of the cases of a group.
+fn table(group: &str, all: &[Case]) -> Result<String, String> {
+    let of_group = all.iter().filter(|case| case.id.split('-').nth(1) == Some(group));
+    let rows = of_group.map(row).collect::<Result<Vec<_>, _>>()?;
+    if rows.is_empty() {
+        return Err(format!("no case is called V-{group}-..."));
+    }
+    let head = "| case | what | compared with | figure | found | accepted |\n|---|---|---|---|---|---|\n";
+    Ok(format!("\n\n{head}{}\n", rows.concat()))
+}
+
+fn row(case: &Case) -> Result<String, String> {
+    let level = match case.level {
+        Level::Analytic => "exact",
+        Level::Independent => "independent",
+        Level::Experiment => "experiment",
+    };
+    let found = read(&kept(), &case.id)?;
+    let (relation, bound) = match case.accepted {
+        Acceptance::AtMost(bound) => ("≤", bound),
+        Acceptance::AtLeast(bound) => ("≥", bound),
+    };
+    let verdict = if case.accepted.accepts(found) { "" } else { " **not accepted**" };
+    let unit = if case.unit.is_empty() { String::new() } else { format!(" {}", case.unit) };
+    let Case { id, what, reference, metric, .. } = case;
+    Ok(format!(
+        "| `{id}` | {what} | {level}: {reference} | {metric} | {}{unit} | {relation} {}{unit}{verdict} |\n",
+        shown(found),
+        shown(bound)
+    ))
+}
+
+/// A figure as people write it.
+fn shown(figure: f64) -> String {
+    if figure == 0.0 || (1e-3..1e5).contains(&figure.abs()) {
+        figure.to_string()
+    } else {
+        format!("{figure:e}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_figure_changes_by_its_order_and_a_share_by_a_percent() {
+        let changes = |found, kept| is_changed(Acceptance::AtMost(1e-11), found, kept);
+        assert!(!changes(2e-13, 6e-13) && changes(2e-13, 2e-12) && changes(2e-12, 2e-13));
+        assert!(!changes(2e-16, 9e-15) && !changes(0.0, 0.0) && changes(1e-12, 0.0));
+        let changes = |found, kept| is_changed(Acceptance::AtLeast(0.9), found, kept);
+        assert!(!changes(0.999, 0.995) && changes(0.95, 0.999));
+    }
+
+    #[test]
+    fn what_stands_outside_of_marks_stays() {
+        let page = "A page <!-- of ours --> with a comment\n";
+        assert_eq!(filled(page, &[]).unwrap(), page);
+        assert!(filled("<!-- evidence NONE -->", &[]).is_err());
+        assert!(filled("<!-- figure V-NONE-001 -->1<!-- end -->", &[]).is_err());
+    }
+}
