@@ -54,6 +54,8 @@ tasks:
                  where a median has grown
   bench-peers    solves the direct model and an observation with cdpr, and with SciPy, Octave and Ceres
                  where these are installed, see docs/PEERS.md
+  bench-moordyn  follows the same motions by cdpr and by MoorDyn, which pip installs into target/peers/moordyn,
+                 prints agreement and times, and writes them to data/benchmarks/moordyn.json
   statistics TABLE [STUDIES [FUNCTION]]
                  measures how often estimators of cdpr-sensitivity are right, and keeps whole tables for docs/statistics.md; TABLE is
                  choice (of a fitted law), indices (of Sobol'), expansions,
@@ -97,6 +99,7 @@ fn main() -> ExitCode {
         Some("scaling") => scaling::run(&rest),
         Some("bench") => bench::run(rest),
         Some("bench-peers") => peers::bench(),
+        Some("bench-moordyn") => peers::moordyn::bench(),
         Some("statistics") => statistics::run(&rest),
         Some("calibration") => calibration::run(&rest),
         Some("fuzz") => fuzz::run(&rest),

@@ -8,6 +8,8 @@
 
 #![allow(clippy::print_stdout)]
 
+pub(crate) mod moordyn;
+
 use crate::cargo::{cargo, done, root};
 use serde_json::{Value, json};
 use std::path::Path;

@@ -66,7 +66,7 @@ fn keep(table: &str, text: &str) -> Result<(), Box<dyn Error>> {
 fn peers(arguments: &[String]) -> Result<(), Box<dyn Error>> {
     let studies = arguments.first().map_or("100", String::as_str);
     let part = arguments.get(1).map_or("", String::as_str);
-    let python = environment()?;
+    let python = environment("statistics", &PACKAGES)?;
     let example = ["run", "--release", "-p", "cdpr-sensitivity", "--example", "statistics", "--", "measures"];
     let mut ours = cargo_command(&example);
     ours.arg(studies).arg(format!("/{part}")).current_dir(root()).env("RAYON_NUM_THREADS", "1");
@@ -96,16 +96,16 @@ fn peers(arguments: &[String]) -> Result<(), Box<dyn Error>> {
     if part.is_empty() { keep("peers", &tables) } else { Ok(()) }
 }
 
-/// The Python of an environment with the packages.
-fn environment() -> Result<PathBuf, Box<dyn Error>> {
-    let folder = root().join("target/peers/statistics");
+/// The Python of an environment in `target/peers` with these packages.
+pub(crate) fn environment(name: &str, packages: &[&str]) -> Result<PathBuf, Box<dyn Error>> {
+    let folder = root().join("target/peers").join(name);
     let place = if cfg!(windows) { "Scripts" } else { "bin" };
     let python = folder.join(place).join(format!("python{}", std::env::consts::EXE_SUFFIX));
     if !python.exists() {
         let system = if cfg!(windows) { "python" } else { "python3" };
         done(Command::new(system).args(["-m", "venv"]).arg(&folder))?;
     }
-    done(Command::new(&python).args(["-m", "pip", "install", "--quiet"]).args(PACKAGES))?;
+    done(Command::new(&python).args(["-m", "pip", "install", "--quiet"]).args(packages))?;
     Ok(python)
 }
 

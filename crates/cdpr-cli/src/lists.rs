@@ -171,6 +171,8 @@ impl<'a> Quantities<'a> {
     fn of(table: &'a Table, wanted: &[&str], expected: &str) -> Result<Self, String> {
         let mut found: Vec<(String, &Column, f64)> = Vec::new();
         let mut further = Vec::new();
+        // A series of `simulate` has a rotation vector from its rest next to the orientation.
+        let has_quaternion = table.columns.iter().any(|column| column.quantity().0 == "qw");
         for column in &table.columns {
             let (quantity, unit) = column.quantity();
             let name = &column.name;
@@ -183,6 +185,8 @@ impl<'a> Quantities<'a> {
                     return Err(format!("column {name}: {quantity} is there twice"));
                 }
                 found.push((quantity, column, unit.map_or(1.0, |unit| unit.factor)));
+            } else if has_quaternion && VECTOR.contains(&quantity.as_str()) {
+                further.push(column);
             } else if is_rotation(&quantity) || wanted.iter().any(|wanted| is_near(wanted, &quantity)) {
                 return Err(format!(
                     "column {name}: expected {expected}; give it another name if it is not of these"
@@ -209,12 +213,18 @@ impl<'a> Quantities<'a> {
     }
 }
 
+/// Components of a rotation vector.
+const VECTOR: [&str; 3] = ["rx", "ry", "rz"];
+
 /// Whether a name is that of a part of a rotation.
 fn is_rotation(name: &str) -> bool {
-    const NAMES: [&str; 8] = ["rx", "ry", "rz", "phi", "theta", "psi", "heading", "azimuth"];
+    const NAMES: [&str; 5] = ["phi", "theta", "psi", "heading", "azimuth"];
     let component = name.strip_prefix('q').map(|rest| rest.trim_start_matches('_'));
     let is_component = |rest: &str| rest.len() == 1 && rest.ends_with(|c: char| "wxyzijk0123".contains(c));
-    NAMES.contains(&name) || name.contains("quat") || component.is_some_and(is_component)
+    VECTOR.contains(&name)
+        || NAMES.contains(&name)
+        || name.contains("quat")
+        || component.is_some_and(is_component)
 }
 
 /// Whether two names of three letters or more differ in one letter, or by one that is missing.

@@ -28,7 +28,7 @@ fn a_dropped_payload_makes_a_series_and_a_summary() {
     let mut lines = series.lines();
     let header = lines.next().unwrap();
     assert!(header.starts_with("t_s,x_m,y_m,z_m,rx_rad,ry_rad,rz_rad,t_exit_1_n,t_anchor_1_n,t_exit_2_n"));
-    assert!(header.ends_with("t_exit_8_n,t_anchor_8_n"), "{header}");
+    assert!(header.ends_with("t_exit_8_n,t_anchor_8_n,qw,qx,qy,qz"), "{header}");
     assert_eq!(lines.count(), 11);
     let again = cdpr(&[&call[..], &["--out", out]].concat());
     assert_eq!(again.status.code(), Some(1));
@@ -43,6 +43,35 @@ fn a_dropped_payload_makes_a_series_and_a_summary() {
     assert!(whole["difference"]["position_m"].as_f64().unwrap() < 1e-6);
     let table = cdpr(&[&call[..], &["--rate", "50", "--damping", "2e-4", "--format", "csv"]].concat());
     assert_eq!(text(table.stdout), series);
+}
+
+#[test]
+fn a_series_is_a_table_of_poses_and_a_figure_has_motion_and_tensions() {
+    let folder = TempDir::new().unwrap();
+    let [out, figure] =
+        ["series.csv", "motion.svg"].map(|name| folder.path().join(name).display().to_string());
+    let robot = data_path("robots/caroca.json");
+    let events = events(&folder, r#"[{"t": 0, "payload": 20}]"#);
+    let call =
+        ["simulate", &robot, "--pose", "0,0,1.75", "--rpy", "1,2,3", "--events", &events, "--until", "0.05"];
+    let found = cdpr(&[&call[..], &["--out", &out, "--figure", &figure]].concat());
+    assert_eq!(found.status.code(), Some(0), "{}", text(found.stderr));
+    let svg = std::fs::read_to_string(&figure).unwrap();
+    for words in ["Motion of ", "x, cable 1", "cable 8", "from the rest [mm]", "tension at the platform [N]"]
+    {
+        assert!(svg.contains(words), "{words}");
+    }
+    // The platform is turned as in the series, not as its rotation vector from the rest says.
+    let found = cdpr(&["deflection", &robot, "--payload", "20", "--poses", &out, "--format", "json"]);
+    assert_eq!(found.status.code(), Some(0), "{}", text(found.stderr));
+    let found = cdpr(&["inverse", &robot, "--poses", &out, "--format", "csv"]);
+    let rows = text(found.stdout);
+    let held = cdpr(&["inverse", &robot, "--pose", "0,0,1.75", "--rpy", "1,2,3", "--format", "json"]);
+    let held: Value = serde_json::from_str(&text(held.stdout)).unwrap();
+    let mut lines = rows.lines();
+    let place = lines.next().unwrap().split(',').position(|name| name.ends_with("length_1_m")).unwrap();
+    let first: f64 = lines.next().unwrap().split(',').nth(place).unwrap().parse().unwrap();
+    assert!((first - held["lengths"][0].as_f64().unwrap()).abs() < 1e-6, "{rows}");
 }
 
 #[test]

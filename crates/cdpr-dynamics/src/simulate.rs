@@ -2,6 +2,7 @@
 
 mod band;
 mod cable;
+mod change;
 mod event;
 mod lead;
 mod mesh;
@@ -13,13 +14,14 @@ mod winch;
 
 pub use event::{Change, CutAt, Event, events_from_json, events_schema};
 pub use radau::Work;
-pub use run::{Difference, Energy, Sample, Series};
+pub use run::{Command, Control, Difference, Energy, Sample, Series};
 pub use setting::{Discretization, Settings};
 pub use winch::Profile;
 
 use crate::error::DynamicsError;
+use cdpr_robot::Wrench;
 use cdpr_statics::{DirectProblem, Equilibrium};
-use run::run;
+use run::{Wanted, run};
 
 /// The motion of a robot from rest under events.
 ///
@@ -35,13 +37,28 @@ pub fn simulate(
     events: &[Event],
     settings: &Settings,
 ) -> Result<Series, DynamicsError> {
+    simulate_controlled(problem, rest, events, settings, &|_| Command::Wrench(Wrench::none()))
+}
+
+/// As [`simulate`], with a control that is called at each sample and decides what acts until the next one.
+///
+/// # Errors
+/// As [`simulate`].
+pub fn simulate_controlled(
+    problem: &DirectProblem,
+    rest: &Equilibrium,
+    events: &[Event],
+    settings: &Settings,
+    control: &Control,
+) -> Result<Series, DynamicsError> {
     settings.check()?;
     event::check(problem, events)?;
+    let wanted = Wanted { problem, rest, events, settings, control };
     let solve = |discretization: Discretization, ends_at_slack| {
         let coarse = Settings { tolerance: 4.0 * settings.tolerance, ..*settings };
         rayon::join(
-            || run(problem, rest, events, settings, (discretization, ends_at_slack)),
-            || run(problem, rest, events, &coarse, (discretization.coarser(), ends_at_slack)),
+            || run(wanted, (discretization, ends_at_slack)),
+            || run(Wanted { settings: &coarse, ..wanted }, (discretization.coarser(), ends_at_slack)),
         )
     };
     let (mut fine, mut coarse) = match settings.discretization {

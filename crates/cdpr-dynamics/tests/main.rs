@@ -2,7 +2,9 @@
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout)]
 
+mod controlled;
 mod derivatives;
+mod drawn;
 mod reference;
 mod response;
 mod robots;

@@ -8,7 +8,7 @@ use cdpr_statics::{DirectProblem, DirectStart, Equilibrium, Load, Vector6, inver
 use std::f64::consts::TAU;
 
 /// Its lengths at the pose, and the rest.
-fn rest(robot: &Robot, [x, y, z]: [f64; 3], free: &str) -> (Vec<f64>, Equilibrium) {
+pub(crate) fn rest(robot: &Robot, [x, y, z]: [f64; 3], free: &str) -> (Vec<f64>, Equilibrium) {
     let (pose, free) = (Pose::at(x, y, z), free_coordinates(free));
     let held = inverse(robot, wanted(&pose, &free), &Load::none()).unwrap();
     let problem = DirectProblem::new(robot, &held.lengths, &Load::none()).unwrap();
@@ -17,11 +17,11 @@ fn rest(robot: &Robot, [x, y, z]: [f64; 3], free: &str) -> (Vec<f64>, Equilibriu
 }
 
 /// Greatest motion from a pose [m, rad].
-fn moved(series: &Series, from: &Pose) -> f64 {
+pub(crate) fn moved(series: &Series, from: &Pose) -> f64 {
     series.samples.iter().map(|sample| from.motion_to(&sample.pose).norm()).fold(0.0, f64::max)
 }
 
-fn at(time: f64, change: Change) -> Event {
+pub(crate) fn at(time: f64, change: Change) -> Event {
     Event { time, change }
 }
 
@@ -106,7 +106,7 @@ fn cables_part_and_winches_turn_on_every_robot() {
             Change::Shorten { cable: 1, by, over: 0.1, profile: Profile::Polynomial },
         ] {
             let settings = Settings { damping: 2e-4, ..Settings::until(0.2) };
-            let series = simulate(&problem, &rest, &[at(0.05, change)], &settings).unwrap();
+            let series = simulate(&problem, &rest, &[at(0.05, change.clone())], &settings).unwrap();
             let way = moved(&series, &rest.pose);
             println!("{}: {change:?}: {way:.1e}; {:?}", robot.name, series.difference);
             let before = series.samples[0].pose.motion_to(&series.samples[4].pose).norm();
@@ -148,6 +148,23 @@ fn events_that_are_not_possible_are_refused_with_their_place() {
         (r#"[{"t": 1, "displace": [0, 0, 0.1, 0, 0, 0]}]"#, "event 1, t is 1.0: expected 0"),
         (r#"[{"t": 0, "shorten": {"cable": 1, "by": 30, "over": 1}}]"#, "event 1, shorten.by is 30.0"),
         (r#"[{"t": 0, "shorten": {"cable": 1, "by": 0.1, "over": 0}}]"#, "event 1, shorten.over is 0.0"),
+        (r#"[{"t": 0, "lengths": {"times": [0], "lengths": []}}]"#, "event 1, lengths.times is [0.0]"),
+        (
+            r#"[{"t": 0, "lengths": {"times": [0, 1, 1], "lengths": []}}]"#,
+            "event 1, lengths.times[2] is 1.0: expected a time [s] after 1.0",
+        ),
+        (
+            r#"[{"t": 0, "lengths": {"times": [0, 1], "lengths": []}}]"#,
+            "event 1, lengths.lengths is a list of 0",
+        ),
+        (
+            r#"[{"t": 0, "lengths": {"times": [0, 1], "lengths": [[1], [1]]}}]"#,
+            "event 1, lengths.lengths[0] is a list of 1: expected one length for each of the 8 cables",
+        ),
+        (
+            r#"[{"t": 0, "lengths": {"times": [0, 1], "lengths": [[1, 1, 1, 1, 1, 1, 1, 1], []]}}]"#,
+            "event 1, lengths.lengths[0][0] is 1.0: expected ",
+        ),
     ] {
         let error = solve(text).unwrap_err().to_string();
         assert!(error.starts_with(place), "{text}: {error}");

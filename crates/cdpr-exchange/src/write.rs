@@ -6,6 +6,7 @@ mod moorpy;
 pub(crate) mod scene;
 
 use crate::error::ExchangeError;
+use crate::write::moorpy::Reader;
 use crate::write::scene::Exported;
 use cdpr_robot::{Pose, Robot};
 
@@ -16,14 +17,16 @@ pub enum Target {
     Mjcf,
     /// CASPR: bodies and cables, pulleys included.
     Caspr,
-    /// MoorPy and MoorDyn: elastic catenaries.
+    /// MoorPy: elastic catenaries.
     Moorpy,
+    /// MoorDyn: lines of straight segments with mass, for motions over time.
+    Moordyn,
 }
 
 /// The robot in the format of another program, at rest at a pose.
 ///
 /// Lengths and stiffnesses are those with which the other program's model rests at the pose: straight cables
-/// without weight in MuJoCo, elastic catenaries in MoorPy. CASPR has the geometry and EA alone.
+/// without weight in MuJoCo, elastic catenaries in MoorPy and MoorDyn. CASPR has the geometry and EA alone.
 ///
 /// # Errors
 /// [`ExchangeError::NoPlace`] for pulleys, leads, laws and held motions in formats that have none;
@@ -32,6 +35,7 @@ pub fn export(robot: &Robot, pose: &Pose, target: Target) -> Result<Exported, Ex
     match target {
         Target::Mjcf => mjcf::write(robot, pose),
         Target::Caspr => caspr::write(robot, pose),
-        Target::Moorpy => moorpy::write(robot, pose),
+        Target::Moorpy => moorpy::write(robot, pose, Reader::Moorpy),
+        Target::Moordyn => moorpy::write(robot, pose, Reader::Moordyn),
     }
 }

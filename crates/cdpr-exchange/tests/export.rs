@@ -104,6 +104,40 @@ fn moorpy_has_the_lengths_of_the_inverse_model() {
     assert_eq!(written, lengths);
 }
 
+/// MoorDyn turns a body by Rx(roll) Ry(pitch) Rz(yaw), as its own points show (test_exchange.py).
+#[test]
+fn moordyn_has_the_angles_of_its_own_order_and_steps_that_axial_waves_allow() {
+    for (name, height) in [("caroca", 1.75), ("cogiro", 2.0), ("ipanema-1", 1.0)] {
+        let robot = robot(name);
+        let rotation = Rotation3::from_euler_angles(0.02, -0.03, 0.05);
+        let pose = Pose { position: Vector3::new(0.0, 0.0, height), rotation };
+        let text = &export(&robot, &pose, Target::Moordyn).unwrap().files[0].1;
+        let body = text.lines().find(|line| line.contains(" Free ")).unwrap();
+        let angle = |k: usize| body.split(' ').nth(k).unwrap().parse::<f64>().unwrap().to_radians();
+        let about = |axis, k| Rotation3::from_axis_angle(&axis, angle(k));
+        let again = about(Vector3::x_axis(), 5) * about(Vector3::y_axis(), 6) * about(Vector3::z_axis(), 7);
+        assert!((again.matrix() - rotation.matrix()).norm() < 1e-14, "{name}");
+        let option = |name: &str| {
+            let line = text.lines().find(|line| line.ends_with(name)).unwrap();
+            line.split(' ').next().unwrap().to_owned()
+        };
+        assert_eq!((option(" tScheme").as_str(), option(" TmaxIC").as_str()), ("rk4", "0"));
+        let step: f64 = option(" dtM").parse().unwrap();
+        let lengths = cdpr_statics::inverse(&robot, &pose, &cdpr_statics::Load::none()).unwrap().lengths;
+        for (cable, length) in robot.cables.iter().zip(lengths) {
+            let speed = (cable.properties.axial_stiffness() / cable.properties.linear_density).sqrt();
+            let passes = length / 20.0 / speed;
+            assert!(step < 1.41 * passes && step > 0.01 * passes, "{name}: {step} {passes}");
+        }
+    }
+    let mut light = robot("caroca");
+    light.cables[3].properties.linear_density = 0.0;
+    match export(&light, &Pose::at(0.0, 0.0, 1.75), Target::Moordyn) {
+        Err(ExchangeError::NoPlace { field, .. }) => assert_eq!(field, "cables[3].linear_density"),
+        other => panic!("{other:?}"),
+    }
+}
+
 #[test]
 fn what_a_format_has_no_place_for_is_refused_by_its_field() {
     let refused = |name: &str, target| match export(&robot(name), &Pose::at(0.0, 0.0, 1.0), target) {
@@ -112,5 +146,6 @@ fn what_a_format_has_no_place_for_is_refused_by_its_field() {
     };
     assert_eq!(refused("ipanema-3", Target::Mjcf), "cables[0].pulley");
     assert_eq!(refused("ipanema-3", Target::Moorpy), "cables[0].pulley");
+    assert_eq!(refused("ipanema-3", Target::Moordyn), "cables[0].pulley");
     assert_eq!(refused("caroca-law", Target::Mjcf), "cables[0].cable.law");
 }

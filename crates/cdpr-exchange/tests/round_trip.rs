@@ -116,7 +116,7 @@ fn a_robot_with_another_gravity_comes_back() {
     let mut robot = robot("cogiro");
     robot.gravity = cdpr_robot::Gravity::from(3.71);
     let pose = Pose::at(0.0, 0.0, 2.0);
-    for target in [Target::Mjcf, Target::Moorpy] {
+    for target in [Target::Mjcf, Target::Moorpy, Target::Moordyn] {
         let options =
             ImportOptions { tension_limits: Some(robot.tension_limits), ..ImportOptions::default() };
         let again = back(&robot, &pose, target, &options).unwrap();

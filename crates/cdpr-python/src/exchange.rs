@@ -74,7 +74,8 @@ pub(crate) fn export_robot(
         "mjcf" => Target::Mjcf,
         "caspr" => Target::Caspr,
         "moorpy" => Target::Moorpy,
-        _ => return Err(Raised::Input(format!("to is {to:?}: expected mjcf, caspr or moorpy"))),
+        "moordyn" => Target::Moordyn,
+        _ => return Err(Raised::Input(format!("to is {to:?}: expected mjcf, caspr, moorpy or moordyn"))),
     };
     let pose = single(&pose, &robot.robot)?;
     let Exported { files, notes } = run(py, |_| cdpr_exchange::export(&robot.robot, &pose, target))??;

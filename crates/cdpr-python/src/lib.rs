@@ -50,7 +50,11 @@ mod _core {
     #[pymodule_export]
     use crate::robot::inverse::{InverseSolution, OtherSolution};
     #[pymodule_export]
-    use crate::robot::modes::{MasslessModes, Modes};
+    use crate::robot::motion::modes::{MasslessModes, Modes};
+    #[pymodule_export]
+    use crate::robot::motion::response::Response;
+    #[pymodule_export]
+    use crate::robot::motion::simulate::{Motion, MotionState, MotionSummary};
     #[pymodule_export]
     use crate::robot::observe::Observations;
     #[pymodule_export]

@@ -11,7 +11,7 @@ pub(crate) mod deflection;
 pub(crate) mod derivatives;
 pub(crate) mod direct;
 pub(crate) mod inverse;
-pub(crate) mod modes;
+pub(crate) mod motion;
 pub(crate) mod observe;
 pub(crate) mod path;
 pub(crate) mod pose;

@@ -62,7 +62,55 @@ def test_moorpy_finds_the_tensions_of_the_exported_robot(tmp_path, cogiro):
     assert (np.abs(theirs - ours.tensions) < 1e-4 * stiffness).all()
 
 
+def in_moordyn(moordyn, path, steps, every):
+    """Poses of the body, and where the anchor points are at first."""
+    system = moordyn.Create(path)
+    assert moordyn.Init(system, [], []) == 0
+    lines = [moordyn.GetLine(system, k + 1) for k in range(moordyn.GetNumberLines(system))]
+    anchors = [moordyn.GetLineNodePos(line, moordyn.GetLineN(line)) for line in lines]
+    found = [moordyn.GetBodyState(moordyn.GetBody(system, 1))[0]]
+    for k in range(steps):
+        moordyn.Step(system, [], [], k * every, every)
+        found.append(moordyn.GetBodyState(moordyn.GetBody(system, 1))[0])
+    moordyn.Close(system)
+    return np.array(found), np.array(anchors)
+
+
+@pytest.mark.parametrize(("name", "pose"), [
+    ("cogiro", [0.3, -0.2, 2]), ("caroca", [0.4, 0.3, 1.75]), ("ipanema-1", [0, 0, 1]),
+])
+def test_an_exported_robot_moves_in_moordyn_as_it_is_simulated(name, pose, tmp_path):
+    moordyn = pytest.importorskip("moordyn", reason="MoorDyn is not installed")
+    robot = cdpr.Robot.from_file(name)
+    turned = cdpr.pose(pose, rpy_deg=[1, -2, 3])
+    text = cdpr.exchange.export(robot, turned, "moordyn").text
+    (tmp_path / "rest.txt").write_text(text)
+    still, anchors = in_moordyn(moordyn, str(tmp_path / "rest.txt"), 10, 0.01)
+    rest = robot.direct(robot.inverse(turned).lengths, start=turned)
+    np.testing.assert_allclose(anchors, rest.position + robot.anchor_points @ rest.rotation.T, atol=1e-9)
+    # A payload that comes: its mass is in the file, the lengths are those without it.
+    mass = robot.to_dict()["platform"]["mass"]
+    body = next(line for line in text.splitlines() if " Free " in line)
+    words = body.split(" ")
+    words[8] = str(1.2 * mass)
+    (tmp_path / "loaded.txt").write_text(text.replace(body, " ".join(words)))
+    theirs, _ = in_moordyn(moordyn, str(tmp_path / "loaded.txt"), 10, 0.01)
+    heavier = {**robot.to_dict()}
+    if not heavier["platform"].get("inertia"):
+        notes = cdpr.exchange.export(robot, turned, "moordyn").notes
+        assert any("inertia" in note for note in notes)
+        moments = [float(value) for value in words[10].split("|")]
+        heavier["platform"] = {**heavier["platform"], "inertia": np.diag(moments).tolist()}
+        robot = cdpr.Robot.from_dict(heavier)
+    ours = robot.simulate(turned, until=0.1, events=[{"t": 0, "payload": 0.2 * mass}])
+    way = np.linalg.norm(ours.poses[:, :3] - turned[:3], axis=1).max()
+    apart = np.linalg.norm(ours.poses[:, :3] - theirs[:, :3], axis=1).max()
+    settles = np.linalg.norm(still[:, :3] - turned[:3], axis=1).max()
+    assert settles < 0.05 * way and apart < 0.05 * way, (name, settles, apart, way)
+
+
 @pytest.mark.parametrize("target, name, pose", [
+    ("moordyn", "caroca", [0, 0, 1.75]),
     ("mjcf", "cogiro", [0, 0, 2]), ("moorpy", "caroca", [0, 0, 1.75]), ("caspr", "ipanema-3", [0, 0, 1.3]),
     ("mjcf", "nist-robocrane", [0, 0, 1.5]),
 ])

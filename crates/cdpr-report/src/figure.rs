@@ -3,6 +3,7 @@
 pub(crate) mod cycle;
 pub(crate) mod heat_map;
 pub(crate) mod histogram;
+pub(crate) mod motion;
 pub(crate) mod path;
 pub(crate) mod points;
 pub(crate) mod pose_map;

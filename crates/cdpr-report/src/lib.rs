@@ -55,6 +55,7 @@ pub use explorer::{Explored, explorer};
 pub use figure::cycle::{Cycle, CycleBranch, cycle};
 pub use figure::heat_map::{MapQuantity, heat_map, layers, tolerance_map, workspace_maps};
 pub use figure::histogram::histogram;
+pub use figure::motion::{Quantity, over_time};
 pub use figure::path::path_view;
 pub use figure::points::{NamedSampling, Points, point_effects};
 pub use figure::pose_map::{NamedMap, pose_maps};

@@ -2,7 +2,8 @@
 
 use crate::arguments::poses::{PoseArguments, pose_numbers};
 use crate::arguments::{
-    self, Format, FreeArguments, LoadArguments, Preference, Printing, RobotArgument, With, print_record,
+    self, FigureArgument, Format, FreeArguments, LoadArguments, Preference, Printing, RobotArgument, With,
+    print_record,
 };
 use crate::error::ProgramError;
 use crate::output::{Ending, patiently, print_sentence, table};
@@ -10,10 +11,12 @@ use crate::pose::modes::with_inertia;
 use crate::questions;
 use cdpr_dynamics::DynamicsError;
 use cdpr_dynamics::simulate::{Discretization, Sample, Series, events_from_json, simulate};
+use cdpr_report::{Quantity, over_time};
 use cdpr_robot::{Pose, Robot, Vector3, counted, rounded, shown, significant};
 use cdpr_statics::{DirectProblem, DirectStart, WantedPose, inverse, rough_pose};
 use cdpr_study::{InputKind, read_text};
 use serde::Serialize;
+use std::f64::consts::PI;
 use std::path::PathBuf;
 
 /// A robot at rest, what happens to it, and for how long it is followed.
@@ -38,7 +41,8 @@ pub(crate) struct Settings {
     /// {"t": 0, "payload": -50} [kg], {"t": 0, "cut": 1, "at": "anchor"} or "exit",
     /// {"t": 0, "force": [100, 0, 0], "moment": [0, 0, 0]} [N, N m],
     /// {"t": 0, "displace": [dx, dy, dz, rx, ry, rz]} [m, rad],
-    /// {"t": 0, "shorten": {"cable": 1, "by": 0.003, "over": 0.2, "profile": "cosine"}} [m, s].
+    /// {"t": 0, "shorten": {"cable": 1, "by": 0.003, "over": 0.2, "profile": "cosine"}} [m, s],
+    /// {"t": 0, "lengths": {"times": [0, 0.1, ..], "lengths": [[l1, .., ln], ..]}} [s, m].
     #[arg(long, value_name = "FILE")]
     events: PathBuf,
     /// How long the motion is followed [s].
@@ -54,6 +58,9 @@ pub(crate) struct Settings {
     /// tolerance=M, the error of a step [m].
     #[arg(long, value_name = "NAMES", value_parser = arguments::with)]
     with: Option<With>,
+    /// File for a figure of motion and tensions over time (.svg, .pdf, .png); behind its name: width=MM, untitled.
+    #[arg(long, value_name = "FILE", value_parser = arguments::figure)]
+    figure: Option<FigureArgument>,
     #[command(flatten)]
     printing: Printing,
 }
@@ -79,6 +86,9 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
         error => error.into(),
     })?;
     let answer = Answer::new(&robot, &rest.pose, &lengths, &series);
+    if let Some(file) = &settings.figure {
+        file.write(&settings.printing.overwrite, &figure(&robot, &rest.pose, &series)?)?;
+    }
     let records = || series.samples.iter().map(|sample| record(&rest.pose, sample));
     if let Some(path) = settings.printing.table_file() {
         let mut writer = csv::Writer::from_writer(Vec::new());
@@ -142,11 +152,38 @@ impl Settings {
     }
 }
 
-/// A sample as a row: time, motion from the rest, tensions.
+/// A sample as a row: time, motion from the rest, tensions, orientation.
 fn record(rest: &Pose, sample: &Sample) -> Vec<f64> {
     let turn = rest.motion_to(&sample.pose).fixed_rows::<3>(3).into_owned();
     let place = sample.pose.position.iter().chain(turn.iter()).copied();
-    [sample.time].into_iter().chain(place).chain(sample.tensions.iter().flatten().copied()).collect()
+    let tensions = sample.tensions.iter().flatten().copied();
+    [sample.time].into_iter().chain(place).chain(tensions).chain(sample.pose.quaternion()).collect()
+}
+
+/// Motion of P and turn from the rest, and tensions at the platform, over the time.
+fn figure(robot: &Robot, rest: &Pose, series: &Series) -> Result<String, ProgramError> {
+    let curve = |name: String, of: &dyn Fn(&Sample) -> f64| {
+        (name, series.samples.iter().map(|sample| (sample.time, of(sample))).collect())
+    };
+    let motion = |label: &str, first: usize, scale: f64| Quantity {
+        label: label.to_owned(),
+        curves: ["x", "y", "z"]
+            .iter()
+            .zip(first..)
+            .map(|(name, k)| curve((*name).to_owned(), &|sample| scale * rest.motion_to(&sample.pose)[k]))
+            .collect(),
+    };
+    let of_cable = |i: usize| curve(format!("cable {}", i + 1), &|sample| sample.tensions[i][1]);
+    let tensions = Quantity {
+        label: "tension at the platform [N]".to_owned(),
+        curves: (0..robot.cables.len()).map(of_cable).collect(),
+    };
+    let quantities =
+        [motion("from the rest [mm]", 0, 1e3), motion("rotation vector [deg]", 3, 180.0 / PI), tensions];
+    let title = format!("Motion of {}", shown(&robot.name));
+    let [x, y, z] = <[f64; 3]>::from(rest.position).map(|value| rounded(value, 4));
+    let lines = [format!("from rest at ({x}, {y}, {z}) m")];
+    Ok(over_time(&title, &lines, &quantities)?)
 }
 
 /// What a motion is as a whole.
@@ -260,7 +297,11 @@ impl Answer {
             elements: series.discretization.elements,
             degree: series.discretization.degree,
             steps: series.work.steps,
-            columns: pose.into_iter().chain(tensions).collect(),
+            columns: pose
+                .into_iter()
+                .chain(tensions)
+                .chain(["qw", "qx", "qy", "qz"].map(str::to_owned))
+                .collect(),
         }
     }
 

@@ -34,8 +34,10 @@ enum Format {
     Mjcf,
     /// CASPR: bodies and cables (XML), pulleys included.
     Caspr,
-    /// MoorPy and MoorDyn: elastic catenaries.
+    /// MoorPy: elastic catenaries.
     Moorpy,
+    /// MoorDyn: lines of straight segments with mass, for motions over time.
+    Moordyn,
 }
 
 impl Format {
@@ -44,6 +46,7 @@ impl Format {
         let checked = match self {
             Self::Mjcf => check_foreign(out, "a model of MuJoCo is XML", &["xml", "mjcf"]),
             Self::Moorpy => check_foreign(out, "a system of MoorPy is text", &["txt", "dat"]),
+            Self::Moordyn => check_foreign(out, "a system of MoorDyn is text", &["txt", "dat"]),
             Self::Caspr => check_foreign(out, "`_bodies.xml` and `_cables.xml` are put behind it", &[]),
         };
         checked.map_err(ProgramError::Usage)
@@ -54,6 +57,7 @@ impl Format {
             Self::Mjcf => Target::Mjcf,
             Self::Caspr => Target::Caspr,
             Self::Moorpy => Target::Moorpy,
+            Self::Moordyn => Target::Moordyn,
         }
     }
 }

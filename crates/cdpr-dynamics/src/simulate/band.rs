@@ -38,13 +38,13 @@ impl<T: ComplexField + Copy> Band<T> {
     {
         let mut product = vec![S::zero(); self.size];
         for i in 0..self.size {
-            for j in self.first(i)..=i {
-                let value = self.values[self.place(i, j)];
-                product[i] += scale(value, vector[j]);
-                if j < i {
-                    product[j] += scale(value, vector[i]);
-                }
+            let (first, row) = (self.first(i), &self.values[self.left(i)]);
+            let mut sum = scale(self.values[self.place(i, i)], vector[i]);
+            for (k, value) in row.iter().enumerate() {
+                sum += scale(*value, vector[first + k]);
+                product[first + k] += scale(*value, vector[i]);
             }
+            product[i] += sum;
         }
         product
     }
@@ -55,56 +55,66 @@ impl<T: ComplexField + Copy> Band<T> {
         Band { size: self.size, width: self.width, values }
     }
 
+    /// Where the elements of row i left of the diagonal are.
+    fn left(&self, i: usize) -> std::ops::Range<usize> {
+        self.place(i, self.first(i))..self.place(i, i)
+    }
+
     /// L and D of `L D Lᵀ`, without exchange of rows; `None` for a pivot that is zero.
     pub(super) fn factor(mut self) -> Option<Factored<T>> {
+        let mut inverse_pivots = Vec::with_capacity(self.size);
         for i in 0..self.size {
             // First L D, in the row of L.
             for j in self.first(i)..i {
                 let mut value = self.values[self.place(i, j)];
-                for k in self.first(i)..j {
-                    if k >= self.first(j) {
-                        value -= self.values[self.place(i, k)] * self.values[self.place(j, k)];
-                    }
+                for k in self.first(i).max(self.first(j))..j {
+                    value -= self.values[self.place(i, k)] * self.values[self.place(j, k)];
                 }
                 let place = self.place(i, j);
                 self.values[place] = value;
             }
-            let diagonal = self.place(i, i);
-            for j in self.first(i)..i {
-                let (place, pivot) = (self.place(i, j), self.values[self.place(j, j)]);
-                let value = self.values[place];
-                self.values[place] = value / pivot;
-                self.values[diagonal] -= value * (value / pivot);
+            let mut pivot = self.values[self.place(i, i)];
+            let (first, left) = (self.first(i), self.left(i));
+            for (value, inverse) in self.values[left].iter_mut().zip(&inverse_pivots[first..]) {
+                let scaled = *value * *inverse;
+                pivot -= *value * scaled;
+                *value = scaled;
             }
-            if self.values[diagonal] == T::zero() || !self.values[diagonal].is_finite() {
+            if pivot == T::zero() || !pivot.is_finite() {
                 return None;
             }
+            inverse_pivots.push(T::one() / pivot);
         }
-        Some(Factored(self))
+        Some(Factored { lower: self, inverse_pivots })
     }
 }
 
 /// The factors of a [`Band`].
 #[derive(Clone, Debug)]
-pub(super) struct Factored<T>(Band<T>);
+pub(super) struct Factored<T> {
+    lower: Band<T>,
+    inverse_pivots: Vec<T>,
+}
 
 impl<T: ComplexField + Copy> Factored<T> {
     /// Solves for a right side in place.
     pub(super) fn solve(&self, vector: &mut [T]) {
-        let band = &self.0;
+        let band = &self.lower;
         for i in 0..band.size {
-            for j in band.first(i)..i {
-                let product = band.values[band.place(i, j)] * vector[j];
-                vector[i] -= product;
+            let row = &band.values[band.left(i)];
+            let mut sum = vector[i];
+            for (value, known) in row.iter().zip(&vector[band.first(i)..i]) {
+                sum -= *value * *known;
             }
+            vector[i] = sum;
+        }
+        for (value, inverse) in vector.iter_mut().zip(&self.inverse_pivots) {
+            *value *= *inverse;
         }
         for i in (0..band.size).rev() {
-            vector[i] /= band.values[band.place(i, i)];
-        }
-        for i in (0..band.size).rev() {
-            for j in band.first(i)..i {
-                let product = band.values[band.place(i, j)] * vector[i];
-                vector[j] -= product;
+            let (row, known) = (&band.values[band.left(i)], vector[i]);
+            for (value, unknown) in row.iter().zip(&mut vector[band.first(i)..i]) {
+                *unknown -= *value * known;
             }
         }
     }

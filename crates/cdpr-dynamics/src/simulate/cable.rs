@@ -3,7 +3,7 @@
 use super::band::Band;
 use super::lead::{Lead, Way};
 use super::mesh::{Forces, Material, Mesh, Part, Points, Pull, Rule};
-use super::winch::Ramp;
+use super::winch::Winch;
 use cdpr_robot::{Matrix3, Vector3, Vector6};
 
 /// Where a cable begins.
@@ -31,7 +31,7 @@ pub(super) struct CableInMotion<'a> {
     pub(super) length: f64,
     /// Least tension at rest [N].
     pub(super) least_tension: f64,
-    pub(super) ramps: Vec<Ramp>,
+    pub(super) winch: Winch,
     /// Index of its first unknown.
     pub(super) first: usize,
 }
@@ -78,6 +78,8 @@ pub(super) struct CableMatrices {
     pub(super) stiffness: Band<f64>,
     pub(super) damping: Band<f64>,
     pub(super) coupling: Vec<[Vector6<f64>; 2]>,
+    /// The first unknown that is coupled: those of a long chain are so at its end alone.
+    pub(super) coupled: usize,
 }
 
 impl CableInMotion<'_> {
@@ -97,10 +99,8 @@ impl CableInMotion<'_> {
 
     /// Unstrained length [m] and its rate [m/s] at a time [s].
     pub(super) fn length_at(&self, time: f64) -> (f64, f64) {
-        self.ramps.iter().fold((self.length, 0.0), |(length, rate), ramp| {
-            let [by, speed] = ramp.at(time);
-            (length - by, rate - speed)
-        })
+        let [by, speed] = self.winch.at(time);
+        (self.length - by, -speed)
     }
 
     /// The cable at a time; `own` are its unknowns and their rates.
@@ -280,6 +280,7 @@ impl CableInMotion<'_> {
             stiffness: Band::zeros(size, width),
             damping: Band::zeros(size, width),
             coupling: vec![[Vector6::zeros(); 2]; size],
+            coupled: size,
         };
         let mut at_end = [Matrix3::zeros(); 2];
         let Some(mesh) = &self.mesh else {
@@ -321,6 +322,7 @@ impl CableInMotion<'_> {
                         (Columns::Own(rows), Columns::Platform) => {
                             let blocks = blocks();
                             for (i, along) in rows {
+                                matrices.coupled = matrices.coupled.min(*i);
                                 for (coupling, block) in matrices.coupling[*i].iter_mut().zip(&blocks) {
                                     let pull = block.tr_mul(along);
                                     let moment = -arm.tr_mul(&pull);

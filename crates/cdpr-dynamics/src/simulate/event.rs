@@ -1,6 +1,6 @@
 //! What happens to a robot in motion.
 
-use super::winch::Profile;
+use super::winch::{Profile, Ramp, Spline, Winch};
 use crate::error::DynamicsError;
 use cdpr_robot::{JsonError, Vector3, Vector6, from_json};
 use cdpr_statics::DirectProblem;
@@ -8,7 +8,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// A change at a time.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Event {
     /// When [s].
     pub time: f64,
@@ -17,7 +17,7 @@ pub struct Event {
 }
 
 /// A change of the load, of a cable, or of the place where a motion begins.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Change {
     /// This payload is added at the centre of mass, or removed if it is negative [kg].
     Payload(f64),
@@ -49,6 +49,13 @@ pub enum Change {
         over: f64,
         /// How.
         profile: Profile,
+    },
+    /// The winches follow a table of lengths: cubic splines through them, which begin and end without speed.
+    Lengths {
+        /// Times since the event, ascending from zero [s].
+        times: Vec<f64>,
+        /// Unstrained lengths of all cables at each of them [m]; the first are those at the event.
+        lengths: Vec<Vec<f64>>,
     },
 }
 
@@ -85,6 +92,8 @@ struct Entry {
     displace: Option<[f64; 6]>,
     /// A cable that its winch takes in.
     shorten: Option<Shorten>,
+    /// Lengths of all cables over time.
+    lengths: Option<Lengths>,
 }
 
 /// A cable that its winch takes in.
@@ -100,6 +109,17 @@ struct Shorten {
     /// How: linear, cosine or polynomial; cosine if left out.
     #[serde(default)]
     profile: Profile,
+}
+
+/// Lengths of all cables over time, which winches follow without jumps of speed and acceleration.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Lengths {
+    /// Times since the event, ascending from zero [s].
+    times: Vec<f64>,
+    /// Unstrained lengths at each of them, in the order of the robot's cables [m]; the first are those that the
+    /// cables have at the event.
+    lengths: Vec<Vec<f64>>,
 }
 
 /// The JSON Schema of an event file, as pretty-printed text.
@@ -143,11 +163,12 @@ impl Entry {
         if let Some(Shorten { cable: number, by, over, profile }) = self.shorten {
             changes.push(Change::Shorten { cable: cable("shorten.cable", number)?, by, over, profile });
         }
-        match changes[..] {
-            [change] => Ok(Event { time: self.t, change }),
-            _ => {
-                let found = format!("an event with {} changes", changes.len());
-                let expected = "one of payload, cut, force with moment, displace, shorten";
+        changes.extend(self.lengths.map(|Lengths { times, lengths }| Change::Lengths { times, lengths }));
+        let found = format!("an event with {} changes", changes.len());
+        match <[Change; 1]>::try_from(changes) {
+            Ok([change]) => Ok(Event { time: self.t, change }),
+            Err(_) => {
+                let expected = "one of payload, cut, force with moment, displace, shorten, lengths";
                 Err(wrong("", found, expected))
             }
         }
@@ -162,6 +183,7 @@ pub(super) fn check(problem: &DirectProblem, events: &[Event]) -> Result<(), Dyn
     let mut mass = robot.platform.mass + problem.load().payload;
     let mut order: Vec<usize> = (0..events.len()).collect();
     order.sort_by(|one, other| events[*one].time.total_cmp(&events[*other].time));
+    let mut winches = vec![Winch::default(); robot.cables.len()];
     for index in order {
         let event = &events[index];
         let wrong = |field: &str, value: String, expected: String| {
@@ -201,11 +223,8 @@ pub(super) fn check(problem: &DirectProblem, events: &[Event]) -> Result<(), Dyn
                 for k in 0..6 {
                     if !motion[k].is_finite() || (motion[k] != 0.0 && !free.contains(k)) {
                         let expected = "a number, 0 for a motion that the platform has not";
-                        return wrong(
-                            &format!("displace[{k}]"),
-                            format!("{:?}", motion[k]),
-                            expected.to_owned(),
-                        );
+                        let (field, value) = (format!("displace[{k}]"), format!("{:?}", motion[k]));
+                        return wrong(&field, value, expected.to_owned());
                     }
                 }
             }
@@ -219,14 +238,81 @@ pub(super) fn check(problem: &DirectProblem, events: &[Event]) -> Result<(), Dyn
                     return wrong("shorten.by", format!("{by:?}"), expected);
                 }
                 if !(over.is_finite() && *over > 0.0) {
-                    return wrong(
-                        "shorten.over",
-                        format!("{over:?}"),
-                        "a duration [s] above zero".to_owned(),
-                    );
+                    let expected = "a duration [s] above zero".to_owned();
+                    return wrong("shorten.over", format!("{over:?}"), expected);
                 }
+            }
+            Change::Lengths { times, lengths } => {
+                let wound = winches.iter().map(|winch| winch.at(event.time)[0]);
+                let at_event = problem.lengths().iter().zip(wound).map(|(length, by)| length - by).collect();
+                if let Err((field, value, expected)) = check_table(times, lengths, at_event) {
+                    return wrong(&field, value, expected);
+                }
+            }
+        }
+        winches.iter_mut().enumerate().for_each(|(cable, winch)| event.wind(cable, winch));
+    }
+    Ok(())
+}
+
+/// Checks a table of lengths against those at its event [m]: the field, its value and what is expected.
+fn check_table(
+    times: &[f64],
+    lengths: &[Vec<f64>],
+    at_event: Vec<f64>,
+) -> Result<(), (String, String, String)> {
+    /// Rounding of the lengths in a table [m].
+    const ROUNDING: f64 = 1e-6;
+    let wrong = |field: String, value: String, expected: String| Err((field, value, expected));
+    let ascending = times.windows(2).position(|pair| !(pair[0] < pair[1] && pair[1].is_finite()));
+    if times.len() < 2 || times[0] != 0.0 {
+        let expected = "two times or more, from 0 [s]".to_owned();
+        return wrong("lengths.times".to_owned(), format!("{:?}", &times[..times.len().min(3)]), expected);
+    }
+    if let Some(k) = ascending {
+        let expected = format!("a time [s] after {:?}", times[k]);
+        return wrong(format!("lengths.times[{}]", k + 1), format!("{:?}", times[k + 1]), expected);
+    }
+    if lengths.len() != times.len() {
+        let value = format!("a list of {}", lengths.len());
+        return wrong(
+            "lengths.lengths".to_owned(),
+            value,
+            format!("{} rows, one for each time", times.len()),
+        );
+    }
+    for (k, row) in lengths.iter().enumerate() {
+        if row.len() != at_event.len() {
+            let expected = format!("one length for each of the {} cables", at_event.len());
+            return wrong(format!("lengths.lengths[{k}]"), format!("a list of {}", row.len()), expected);
+        }
+        for (i, (length, first)) in row.iter().zip(&at_event).enumerate() {
+            let field = || format!("lengths.lengths[{k}][{i}]");
+            if k == 0 && (length - first).abs() > ROUNDING {
+                let expected = format!("{first:.7}, the length [m] at the event");
+                return wrong(field(), format!("{length:?}"), expected);
+            }
+            if !(*length > 0.1 * first && *length < 11.0 * first) {
+                let expected = format!("a length [m] of 0.1 to 11 times {first:.4}");
+                return wrong(field(), format!("{length:?}"), expected);
             }
         }
     }
     Ok(())
+}
+
+impl Event {
+    /// Adds what this event does with a cable to its winch.
+    pub(super) fn wind(&self, cable: usize, winch: &mut Winch) {
+        match &self.change {
+            Change::Shorten { cable: of, by, over, profile } if *of == cable => {
+                winch.ramp(Ramp { from: self.time, over: *over, by: *by, profile: *profile });
+            }
+            Change::Lengths { times, lengths } => {
+                let times = times.iter().map(|time| self.time + time).collect();
+                winch.follow(Spline::new(times, lengths.iter().map(|row| row[cable])));
+            }
+            _ => {}
+        }
+    }
 }

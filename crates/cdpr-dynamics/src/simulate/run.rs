@@ -1,13 +1,11 @@
 //! A motion from its events to its samples.
 
-use super::cable::Start;
-use super::event::{Change, CutAt, Event};
-use super::radau::{Equations, Linearization, Radau, WEIGHTS, Work};
+use super::event::{Change, Event};
+use super::radau::{Radau, WEIGHTS, Work};
 use super::setting::{Discretization, Settings};
 use super::system::System;
-use super::winch::Ramp;
 use crate::error::DynamicsError;
-use cdpr_robot::{Pose, Vector3, Vector6};
+use cdpr_robot::{Pose, Vector3, Vector6, Wrench};
 use cdpr_statics::{DirectProblem, Equilibrium};
 
 /// The platform and its cables at a time.
@@ -21,6 +19,29 @@ pub struct Sample {
     pub velocity: Vector6<f64>,
     /// Tension of each cable at its exit and at its anchor point [N]; zero where it has parted.
     pub tensions: Vec<[f64; 2]>,
+}
+
+/// What a control decides at a sample.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Command {
+    /// This wrench at P in the base frame acts until the next sample, besides that of the load and of events.
+    Wrench(Wrench),
+    /// The motion ends here.
+    Stop,
+}
+
+/// Decides at each sample what acts until the next one. Each computation of a motion calls it with its own
+/// samples, from the beginning: it must depend on its argument alone.
+pub type Control<'a> = dyn Fn(&Sample) -> Command + Sync + 'a;
+
+/// A motion that is wanted.
+#[derive(Clone, Copy)]
+pub(super) struct Wanted<'a> {
+    pub(super) problem: &'a DirectProblem<'a>,
+    pub(super) rest: &'a Equilibrium,
+    pub(super) events: &'a [Event],
+    pub(super) settings: &'a Settings,
+    pub(super) control: &'a Control<'a>,
 }
 
 /// Energy of platform and cables.
@@ -100,10 +121,7 @@ struct Run<'a> {
 
 /// The motion with one discretization, up to where a cable goes slack if it ends there.
 pub(super) fn run(
-    problem: &DirectProblem,
-    rest: &Equilibrium,
-    events: &[Event],
-    settings: &Settings,
+    Wanted { problem, rest, events, settings, control }: Wanted,
     (discretization, ends_at_slack): (Discretization, bool),
 ) -> Result<Series, DynamicsError> {
     let mut events = events.to_vec();
@@ -141,19 +159,21 @@ pub(super) fn run(
         ends_at_slack,
     };
     run.before = run.energy();
-    run.all(settings)?;
+    run.all(settings, control)?;
     Ok(run.series)
 }
 
 impl Run<'_> {
-    fn all(&mut self, settings: &Settings) -> Result<(), DynamicsError> {
+    fn all(&mut self, settings: &Settings, control: &Control) -> Result<(), DynamicsError> {
         let count = (settings.until * settings.rate * (1.0 + 1e-12)).floor() as usize;
         let samples = (0..=count).map(|k| (k as f64 / settings.rate).min(settings.until));
         let mut kinks: Vec<f64> = Vec::new();
         for event in &self.events {
             kinks.push(event.time);
-            if let Change::Shorten { over, .. } = event.change {
-                kinks.push(event.time + over);
+            match &event.change {
+                Change::Shorten { over, .. } => kinks.push(event.time + over),
+                Change::Lengths { times, .. } => kinks.extend(times.last().map(|last| event.time + last)),
+                _ => {}
             }
         }
         kinks.retain(|time| *time <= settings.until);
@@ -164,14 +184,15 @@ impl Run<'_> {
         for (sample, is_sample) in samples.map(|time| (time, true)).chain([(settings.until, false)]) {
             while let Some(kink) = kinks.next_if(|kink| *kink <= sample) {
                 self.until(kink)?;
-                let state = self.radau.state.clone();
-                self.restart(state, &mut applied);
+                self.restart(|system, events, state| {
+                    while let Some(event) = events.get(applied).filter(|event| event.time <= kink) {
+                        system.change(event, state);
+                        applied += 1;
+                    }
+                });
             }
             self.until(sample)?;
-            if is_sample {
-                self.sample();
-            }
-            if !self.may_go_on() {
+            if (is_sample && !self.sample(control)) || !self.may_go_on() {
                 break;
             }
         }
@@ -180,16 +201,12 @@ impl Run<'_> {
         Ok(())
     }
 
-    /// Applies the events up to now and begins with a short step.
-    fn restart(&mut self, mut state: Vec<f64>, applied: &mut usize) {
-        let time = self.radau.time;
-        let before = self.energy();
-        while let Some(event) = self.events.get(*applied).filter(|event| event.time <= time) {
-            self.system.change(event, &mut state);
-            *applied += 1;
-        }
+    /// Applies a change and begins with a short step.
+    fn restart(&mut self, change: impl FnOnce(&mut System, &[Event], &mut Vec<f64>)) {
+        let (before, mut state) = (self.energy(), self.radau.state.clone());
+        change(&mut self.system, &self.events, &mut state);
         let work = self.radau.work;
-        self.radau = Radau::new(&self.system, time, state, FIRST_STEP);
+        self.radau = Radau::new(&self.system, self.radau.time, state, FIRST_STEP);
         self.radau.work.add(work);
         self.watch();
         // What came and went is no error.
@@ -242,19 +259,27 @@ impl Run<'_> {
         }
     }
 
-    fn sample(&mut self) {
+    /// Keeps a sample and applies what the control decides there; false where it ends the motion.
+    fn sample(&mut self, control: &Control) -> bool {
         let state = &self.radau.state;
         let n = state.len() / 2;
         let mut tensions = vec![[0.0; 2]; self.series.peaks.len()];
         for (index, both, _) in self.system.tensions(self.radau.time, state) {
             tensions[index] = both;
         }
-        self.series.samples.push(Sample {
+        let sample = Sample {
             time: self.radau.time,
             pose: Pose { position: Vector3::from_column_slice(&state[..3]), rotation: self.system.rotation },
             velocity: Vector6::from_column_slice(&state[n..n + 6]),
             tensions,
-        });
+        };
+        let command = control(&sample);
+        self.series.samples.push(sample);
+        let Command::Wrench(wrench) = command else { return false };
+        if wrench != self.system.body.control {
+            self.restart(|system, _, _| system.body.control = wrench);
+        }
+        true
     }
 }
 
@@ -264,121 +289,5 @@ impl Work {
         self.rejected += other.rejected;
         self.evaluations += other.evaluations;
         self.factorizations += other.factorizations;
-    }
-}
-
-impl System<'_> {
-    /// Newton's method for the rest of the discrete cables, with the platform free or held; the greatest
-    /// acceleration that is left [m/s²].
-    fn relax(&mut self, state: &mut Vec<f64>, is_free: bool) -> f64 {
-        const LEAST_STEPS: usize = 5;
-        const MOST_STEPS: usize = 30;
-        /// Angular frequency that keeps the matrix regular [1/s].
-        const SHIFT: f64 = 1e-3;
-        let n = self.size();
-        let free = self.free;
-        if !is_free {
-            self.free = [false; 6];
-        }
-        let greatest =
-            |slopes: &[f64]| slopes[n..].iter().fold(0.0, |most: f64, value| most.max(value.abs()));
-        let mut best = greatest(&self.slopes(0.0, state));
-        let mut found = (state.clone(), self.rotation);
-        self.cables.iter_mut().for_each(|cable| cable.material.relaxing = Some(cable.least_tension));
-        for step in 0..MOST_STEPS {
-            let slopes = self.slopes(0.0, state);
-            let residual = greatest(&slopes);
-            if residual < best {
-                best = residual;
-                found = (state.clone(), self.rotation);
-            } else if step > LEAST_STEPS {
-                break;
-            }
-            let matrices = self.linearize(0.0, state);
-            let Some(factors) = matrices.factor(SHIFT) else { break };
-            let mut right = slopes;
-            right[..n].fill(0.0);
-            let step = matrices.solve(&factors, &right);
-            state.iter_mut().zip(&step[..n]).for_each(|(value, step)| *value += step);
-            self.turn(state);
-        }
-        (*state, self.rotation) = found;
-        self.free = free;
-        self.cables.iter_mut().for_each(|cable| cable.material.relaxing = None);
-        greatest(&self.slopes(0.0, state))
-    }
-
-    /// After the platform was displaced: the leads are those of the rest, and their ends are where they fit
-    /// the tension.
-    fn keep_leads(&mut self, rest: &Self, state: &mut [f64]) {
-        for (cable, before) in self.cables.iter_mut().zip(&rest.cables) {
-            if let (Start::Led(lead), Start::Led(now)) = (before.start, cable.start) {
-                cable.length = before.length;
-                cable.start = Start::Led(lead);
-                if cable.mesh.is_some() {
-                    state[cable.first] = lead.longer_for(&now);
-                }
-            }
-        }
-    }
-
-    /// Applies a change; the unknowns follow.
-    fn change(&mut self, event: &Event, state: &mut Vec<f64>) {
-        match event.change {
-            Change::Displace(_) => {}
-            Change::Payload(payload) => self.body.mass += payload,
-            Change::Wrench { force, moment } => {
-                let wrench = &mut self.body.wrench;
-                *wrench = [wrench[0], force, wrench[2], moment];
-            }
-            Change::Shorten { cable, by, over, profile } => {
-                let ramp = Ramp { from: event.time, over, by, profile };
-                self.cables.iter_mut().filter(|one| one.index == cable).for_each(|one| one.ramps.push(ramp));
-            }
-            Change::Cut { cable, at } => self.cut(cable, at, event.time, state),
-        }
-    }
-
-    fn cut(&mut self, index: usize, at: CutAt, time: f64, state: &mut Vec<f64>) {
-        let Some(place) = self.cables.iter().position(|cable| cable.index == index) else { return };
-        let is_gone = at == CutAt::Anchor || self.cables[place].mesh.is_none();
-        let before = self.cables.clone();
-        let n = self.size();
-        let begin = self.beginning(time, state, place);
-        if is_gone {
-            self.cables.remove(place);
-        } else {
-            let cable = &mut self.cables[place];
-            cable.length = cable.length_at(time).0;
-            cable.ramps.clear();
-            cable.start = Start::Loose;
-        }
-        let (old, scale) = (state.clone(), self.scale.clone());
-        let parts = [&old[..n], &old[n..]];
-        let mut halves = parts.map(|half| half[..6].to_vec());
-        let mut scales = [scale[..6].to_vec(), scale[n..n + 6].to_vec()];
-        for cable in &mut self.cables {
-            let Some(was) = before.iter().find(|was| was.index == cable.index) else { continue };
-            cable.first = halves[0].len();
-            let range = was.first..was.first + was.size(&self.rule);
-            for k in 0..2 {
-                let own = &parts[k][range.clone()];
-                let more = cable.size(&self.rule) + usize::from(matches!(was.start, Start::Led(_)));
-                if more > own.len()
-                    && matches!(cable.start, Start::Loose)
-                    && !matches!(was.start, Start::Loose)
-                {
-                    halves[k].extend(begin[k].iter());
-                    halves[k].extend(&own[usize::from(matches!(was.start, Start::Led(_)))..]);
-                } else {
-                    halves[k].extend(own);
-                }
-                let usual = if k == 0 { scale[n - 1] } else { scale[2 * n - 1] };
-                let size = halves[k].len();
-                scales[k].resize(size, usual);
-            }
-        }
-        *state = halves.concat();
-        self.scale = scales.concat();
     }
 }

@@ -4,9 +4,10 @@ use super::cable::{CableInMotion, Start};
 use super::lead::{Lead, Rest};
 use super::mesh::{Material, Mesh, Points, Rule};
 use super::system::{Body, System};
+use super::winch::Winch;
 use crate::error::{DynamicsError, positive};
 use cdpr_cable::{Cable, FromLeavePoint};
-use cdpr_robot::{Matrix3, Vector3};
+use cdpr_robot::{Matrix3, Vector3, Wrench};
 use cdpr_statics::vibration::CableAtRest;
 use cdpr_statics::{DirectProblem, Equilibrium, Load};
 
@@ -200,7 +201,7 @@ impl Settings {
             length: if mesh.is_some() { free.unstrained_length } else { whole.unstrained_length },
             mesh,
             least_tension: tension_at(free.lowest_arc_length().0 / free.unstrained_length),
-            ramps: Vec::new(),
+            winch: Winch::default(),
             first: 0,
         };
         (cable, own)
@@ -226,6 +227,8 @@ fn body(robot: &cdpr_robot::Robot, load: &Load) -> Body {
         mass: platform.mass + load.payload,
         center: platform.center_of_mass,
         inertia: platform.inertia.unwrap_or_else(Matrix3::zeros),
-        wrench: [load.wrench.force, Vector3::zeros(), load.wrench.moment, Vector3::zeros()],
+        load: load.wrench,
+        event: Wrench::none(),
+        control: Wrench::none(),
     }
 }

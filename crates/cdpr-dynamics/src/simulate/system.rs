@@ -14,7 +14,7 @@ use super::band::Factored;
 use super::cable::{CableInMotion, CableMatrices, End, Instant};
 use super::mesh::Rule;
 use super::radau::{Equations, Linearization};
-use cdpr_robot::{Matrix3, Rotation3, Vector3, Vector6, orthonormalized};
+use cdpr_robot::{Matrix3, Rotation3, Vector3, Vector6, Wrench, orthonormalized};
 use nalgebra::{ComplexField, Const, LU, Matrix6, SMatrix};
 
 /// Platform and cables. The state holds the unknowns and then their velocities; the first six unknowns are the
@@ -42,17 +42,19 @@ pub(super) struct Body {
     pub(super) center: Vector3<f64>,
     /// About it, in the platform frame [kg m²].
     pub(super) inertia: Matrix3<f64>,
-    /// Force at P [N] of the load and of events, then moment [N m] of both, in the base frame.
-    pub(super) wrench: [Vector3<f64>; 4],
+    /// Wrenches at P in the base frame, of the load, of events and of a control.
+    pub(super) load: Wrench,
+    pub(super) event: Wrench,
+    pub(super) control: Wrench,
 }
 
 impl Body {
     fn force(&self) -> Vector3<f64> {
-        self.wrench[0] + self.wrench[1]
+        self.load.force + self.event.force + self.control.force
     }
 
     fn moment(&self) -> Vector3<f64> {
-        self.wrench[2] + self.wrench[3]
+        self.load.moment + self.event.moment + self.control.moment
     }
 }
 
@@ -312,13 +314,15 @@ impl Linearization for Matrices {
             }
             let factored = band.factor()?;
             let coupling = cable.coupling(shift);
-            let mut answers = vec![[T::zero(); 6]; coupling.len()];
+            let mut answers = vec![[T::zero(); 6]; cable.mass.len()];
             for column in 0..6 {
-                let mut answer: Vec<T> = coupling.iter().map(|row| row[column]).collect();
+                let mut answer = vec![T::zero(); cable.mass.len()];
+                let coupled = answer[cable.coupled..].iter_mut().zip(&coupling);
+                coupled.for_each(|(value, row)| *value = row[column]);
                 factored.solve(&mut answer);
                 answer.iter().zip(&mut answers).for_each(|(value, row)| row[column] = *value);
             }
-            for (row, answer) in coupling.iter().zip(&answers) {
+            for (row, answer) in coupling.iter().zip(&answers[cable.coupled..]) {
                 for i in 0..6 {
                     for j in 0..6 {
                         platform[(i, j)] -= row[i] * answer[j];
@@ -345,6 +349,8 @@ impl Linearization for Matrices {
             let mut load = cable.damping.times(own, |c, x| real(c) * x);
             for i in 0..size {
                 load[i] += real(cable.mass[i]) * (accelerations[cable.first + i] + shift * own[i]);
+            }
+            for i in cable.coupled..size {
                 for k in 0..6 {
                     let damping = real(cable.coupling[i][1][k]);
                     load[i] += damping * rates[k];
@@ -352,7 +358,7 @@ impl Linearization for Matrices {
                 }
             }
             factored.solve(&mut load);
-            for (value, row) in load.iter().zip(cable.coupling(shift)) {
+            for (value, row) in load[cable.coupled..].iter().zip(cable.coupling(shift)) {
                 (0..6).for_each(|k| on_platform[k] -= row[k] * *value);
             }
             found[cable.first..cable.first + size].copy_from_slice(&load);
@@ -372,9 +378,10 @@ impl Linearization for Matrices {
 }
 
 impl CableMatrices {
+    /// The rows of the unknowns that are coupled.
     fn coupling<T: ComplexField<RealField = f64> + Copy>(&self, shift: T) -> Vec<[T; 6]> {
         let real = T::from_real;
         let at = |[k, c]: &[Vector6<f64>; 2]| std::array::from_fn(|i| real(k[i]) + shift * real(c[i]));
-        self.coupling.iter().map(at).collect()
+        self.coupling[self.coupled..].iter().map(at).collect()
     }
 }

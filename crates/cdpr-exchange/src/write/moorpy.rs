@@ -1,5 +1,8 @@
-//! MoorPy and MoorDyn: fixed points, a free body and elastic catenaries, in air. Stiff and light lines need small
-//! steps of a method of high order: MoorDyn's own, 1 ms and second order, end in NaN within six.
+//! MoorPy and MoorDyn: fixed points, a free body and elastic catenaries, in air.
+//!
+//! Both read the same tables, but not the same angles of a body and not the same options. MoorDyn's motion over
+//! time needs a method of high order and steps that axial waves allow: its own, 1 ms and second order, end in NaN
+//! within six.
 
 use crate::error::ExchangeError;
 use crate::write::scene::{Exported, check_plain, inertia, unplaced, words};
@@ -7,8 +10,23 @@ use cdpr_robot::{Matrix3, Pose, Robot, RobotCable, Vector3};
 use cdpr_statics::{Load, inverse};
 use std::f64::consts::PI;
 
-pub(crate) fn write(robot: &Robot, pose: &Pose) -> Result<Exported, ExchangeError> {
+/// Segments of a line.
+const SEGMENTS: usize = 20;
+
+/// Which of the two programs reads the file.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Reader {
+    Moorpy,
+    Moordyn,
+}
+
+pub(crate) fn write(robot: &Robot, pose: &Pose, reader: Reader) -> Result<Exported, ExchangeError> {
     check_plain(robot)?;
+    let weightless = robot.cables.iter().position(|cable| cable.properties.linear_density == 0.0);
+    if let (Reader::Moordyn, Some(i)) = (reader, weightless) {
+        let field = format!("cables[{i}].linear_density");
+        return Err(ExchangeError::NoPlace { field, value: "0".to_owned() });
+    }
     let down = robot.gravity.vector();
     if down.xy().norm() > 1e-9 * down.norm() {
         let value = format!("{:?}", down.as_slice());
@@ -19,11 +37,15 @@ pub(crate) fn write(robot: &Robot, pose: &Pose) -> Result<Exported, ExchangeErro
     if robot.ground_z.is_some() {
         notes.push("the height of the ground (ground_z) has no place".to_owned());
     }
-    notes.push(
-        "MoorPy's lines are elastic catenaries between points: limits of tension and products of inertia \
-         have no place"
+    notes.push(match reader {
+        Reader::Moorpy => "MoorPy's lines are elastic catenaries between points: limits of tension and products of \
+                           inertia have no place"
             .to_owned(),
-    );
+        Reader::Moordyn => format!(
+            "MoorDyn's lines are {SEGMENTS} straight segments without damping (BA): limits of tension and products \
+             of inertia have no place"
+        ),
+    });
     let inertia = inertia(robot, &mut notes);
     let lowest = robot.cables.iter().map(|cable| cable.exit_point.z).fold(pose.position.z, f64::min);
     let text = format!(
@@ -47,19 +69,39 @@ ID LineType AttachA AttachB UnstrLen NumSegs Outputs
 ---------------------- OPTIONS ------------------------------------------
 {gravity:?} g
 0 rho
-{depth:?} depth
-rk4 tScheme
-1e-4 dtM
+{options}\
 ---------------------- need this line -----------------------------------
 ",
         line_types = line_types(robot),
-        body = body(robot, pose, &inertia),
+        body = body(robot, pose, &inertia, reader),
         points = points(robot),
         lines = lines(&lengths),
         gravity = down.norm(),
-        depth = 1000.0 - lowest,
+        options = options(robot, &lengths, 1000.0 - lowest, reader),
     );
     Ok(Exported { files: vec![(".txt", text)], notes })
+}
+
+/// What only one of the programs knows. The ground is far below.
+fn options(robot: &Robot, lengths: &[f64], depth: f64, reader: Reader) -> String {
+    match reader {
+        Reader::Moorpy => format!("{depth:?} depth\n"),
+        // The rest of the lines is that of the file: nothing is searched for.
+        Reader::Moordyn => {
+            format!("{depth:?} WtrDpth\nrk4 tScheme\n{:.3e} dtM\n0 TmaxIC\n", step(robot, lengths))
+        }
+    }
+}
+
+/// Steps of time [s] with which RK4 follows the axial waves of the segments: they vibrate at up to 2 c/h, h being
+/// the length of a segment and c² = EA/μ, and RK4 is stable below a step of 1.41 h/c.
+fn step(robot: &Robot, lengths: &[f64]) -> f64 {
+    const SHARE: f64 = 0.5;
+    let of = |(cable, length): (&RobotCable, &f64)| {
+        let speed = (cable.properties.axial_stiffness() / cable.properties.linear_density).sqrt();
+        SHARE * length / (SEGMENTS as f64 * speed)
+    };
+    robot.cables.iter().zip(lengths).map(of).fold(f64::INFINITY, f64::min)
 }
 
 fn line_types(robot: &Robot) -> String {
@@ -72,9 +114,20 @@ fn line_types(robot: &Robot) -> String {
     robot.cables.iter().enumerate().map(row).collect()
 }
 
-fn body(robot: &Robot, pose: &Pose, inertia: &Matrix3<f64>) -> String {
-    // MoorPy rotates a body by Rz(yaw) Ry(pitch) Rx(roll).
-    let (roll, pitch, yaw) = pose.rotation.euler_angles();
+fn body(robot: &Robot, pose: &Pose, inertia: &Matrix3<f64>, reader: Reader) -> String {
+    let (roll, pitch, yaw) = match reader {
+        // Rz(yaw) Ry(pitch) Rx(roll).
+        Reader::Moorpy => pose.rotation.euler_angles(),
+        // Rx(roll) Ry(pitch) Rz(yaw): the inverse has the negative angles in the other order.
+        Reader::Moordyn => {
+            let matrix = pose.rotation.matrix();
+            (
+                (-matrix[(1, 2)]).atan2(matrix[(2, 2)]),
+                matrix[(0, 2)].clamp(-1.0, 1.0).asin(),
+                (-matrix[(0, 1)]).atan2(matrix[(0, 0)]),
+            )
+        }
+    };
     let [roll, pitch, yaw] = [roll, pitch, yaw].map(f64::to_degrees);
     let (position, mass, c) = (words(&pose.position), robot.platform.mass, robot.platform.center_of_mass);
     let [xx, yy, zz] = [0, 1, 2].map(|i| inertia[(i, i)]);
@@ -97,7 +150,7 @@ fn points(robot: &Robot) -> String {
 fn lines(lengths: &[f64]) -> String {
     let row = |(i, length): (usize, &f64)| {
         let (number, anchor) = (i + 1, lengths.len() + i + 1);
-        format!("{number} cable{number} {number} {anchor} {length:?} 20 -\n")
+        format!("{number} cable{number} {number} {anchor} {length:?} {SEGMENTS} -\n")
     };
     lengths.iter().enumerate().map(row).collect()
 }

@@ -23,8 +23,12 @@ __all__ = [
     "MasslessModes",
     "Modes",
     "Morris",
+    "Motion",
+    "MotionState",
+    "MotionSummary",
     "Observations",
     "PathStates",
+    "Response",
     "Robot",
     "export_robot",
     "import_robot",
@@ -72,6 +76,7 @@ __all__ = [
 VERSION: str
 
 _Floats: TypeAlias = NDArray[np.float64]
+_Complex: TypeAlias = NDArray[np.complex128]
 _Bools: TypeAlias = NDArray[np.bool_]
 _Ints: TypeAlias = NDArray[np.int64]
 _Words: TypeAlias = list[str | None]
@@ -833,6 +838,169 @@ class Robot:
         moment: ArrayLike | None = None,
         free: Sequence[str] | None = None,
     ) -> MasslessModes[_Words]: ...
+    @overload
+    def response(  # type: ignore[overload-overlap]
+        self,
+        pose: _Row,
+        frequencies: _Row,
+        *,
+        damping: float = 2e-4,
+        drag: float = 0.0,
+        marker: _Row | None = None,
+        payload: float | None = None,
+        force: _Row | None = None,
+        moment: _Row | None = None,
+        free: Sequence[str] | None = None,
+    ) -> Response[None]:
+        """Computes how the platform moves when a force or a winch shakes it.
+
+        Cables have mass. The winches hold their lengths but for what shakes. Arguments are of one case, or have
+        a first axis of m cases; frequencies, damping and marker are those of all cases.
+
+        Parameters
+        ----------
+        pose : array_like
+            x, y, z [m], or x, y, z, qw, qx, qy, qz, (3,) or (7,).
+        frequencies : array_like
+            Frequencies [Hz], (k,). Peaks are at the natural ones, `Robot.modes(...).frequencies_hz`.
+        damping : float, default 2e-4
+            Ratio of the viscous to the elastic modulus of the cables [s].
+        drag : float, default 0
+            Force of the air on a metre of cable over its mass, for each m/s [1/s]. Nothing else damps cables
+            across their stretch.
+        marker : array_like, optional
+            Point of the platform that is shaken and that moves, in its frame [m]; P if left out.
+        payload : array_like, optional
+            Mass that the platform carries there, at its centre of mass [kg].
+        force, moment : array_like, optional
+            On the platform in the base frame, about P [N, N m], (3,).
+        free : sequence of str, optional
+            Names of the coordinates of the pose that are found, for a robot with fewer cables than free
+            motions, as `Robot.inverse` takes them.
+
+        Returns
+        -------
+        Response
+            Amplitudes.
+
+        Raises
+        ------
+        InputError
+            For an invalid value; the message names it and what would be right; also where the robot has no
+            inertia, and at a natural frequency that nothing damps.
+        NoSolutionError
+            For one case without an answer; of several, its row has NaN and a reason.
+
+        Examples
+        --------
+        >>> import cdpr
+        >>> import numpy
+        >>> robot = cdpr.Robot.from_file("cogiro")
+        >>> natural = robot.modes([0, 0, 2], below=6).frequencies_hz
+        >>> frequencies = numpy.union1d(numpy.linspace(0, 6, 100), natural)
+        >>> found = robot.response([0, 0, 2], frequencies, drag=0.5)
+        >>> bool(found.amplitudes.max() > found.amplitudes[0])  # more than at rest
+        True
+        """
+    @overload
+    def response(
+        self,
+        pose: ArrayLike,
+        frequencies: _Row,
+        *,
+        damping: float = 2e-4,
+        drag: float = 0.0,
+        marker: _Row | None = None,
+        payload: ArrayLike | None = None,
+        force: ArrayLike | None = None,
+        moment: ArrayLike | None = None,
+        free: Sequence[str] | None = None,
+    ) -> Response[_Words]: ...
+    def simulate(
+        self,
+        pose: _Row | None = None,
+        *,
+        until: float,
+        events: Sequence[Mapping[str, Any]] | None = None,
+        control: Callable[[float, MotionState], ArrayLike | None] | None = None,
+        rate: float = 100.0,
+        lengths: _Row | None = None,
+        payload: float | None = None,
+        force: _Row | None = None,
+        moment: _Row | None = None,
+        free: Sequence[str] | None = None,
+        damping: float = 0.0,
+        elements: int | None = None,
+        degree: int | None = None,
+        tolerance: float = 5e-9,
+    ) -> Motion:
+        """Follows the motion of the robot from rest after events, with the mass and the sag of its cables.
+
+        It is computed twice, and the differences are in `summary`.
+
+        Parameters
+        ----------
+        pose : array_like, optional
+            Where the platform rests, (3,) or (7,); with `lengths`, where the search for the rest starts.
+        until : float
+            End [s].
+        events : sequence of dict, optional
+            What happens, in the words of the event files of `cdpr simulate`, each at a time `t` [s]:
+            {"t": 0, "payload": -50} [kg]; {"t": 0, "cut": 1, "at": "anchor"} or "exit"; {"t": 0, "force":
+            [100, 0, 0], "moment": [0, 0, 0]} [N, N m]; {"t": 0, "displace": [dx, dy, dz, rx, ry, rz]} [m, rad];
+            {"t": 0, "shorten": {"cable": 1, "by": 0.003, "over": 0.2, "profile": "cosine"}} [m, s]; {"t": 0,
+            "lengths": {"times": times, "lengths": lengths}} with arrays (k,) and (k, n) [s, m], which winches
+            follow.
+        control : callable, optional
+            Called at each sample with the time [s] and a `MotionState`. It returns what acts until the next
+            sample besides the load and the events: a force at P in the base frame [N], (3,), a force and a
+            moment [N, N m], (6,), or None; `raise StopIteration` ends the motion. It must depend on its
+            arguments alone: each of the computations calls it, from the beginning, with its own states, and
+            they run at the same time.
+        rate : float, default 100
+            Samples for each second [Hz].
+        lengths : array_like, optional
+            Unstrained lengths of the cables [m], (n,), instead of those that hold `pose`.
+        payload : float, optional
+            Mass that the platform carries at rest, at its centre of mass [kg].
+        force, moment : array_like, optional
+            On the platform in the base frame, about P, at rest and all the time [N, N m], (3,).
+        free : sequence of str, optional
+            Names of the coordinates of the pose that are found, for a robot with fewer cables than free
+            motions, as `Robot.inverse` takes them.
+        damping : float, default 0
+            Ratio of the viscous to the elastic modulus of the cables [s].
+        elements, degree : int, optional
+            Elements of each cable, and the degree of the polynomial on each; if left out, few elements of a high
+            degree, and many straight ones where a cable goes slack.
+        tolerance : float, default 5e-9
+            Error of a step that is accepted [m].
+
+        Returns
+        -------
+        Motion
+            Poses, velocities and tensions over time.
+
+        Raises
+        ------
+        InputError
+            For an invalid value; the message names it and what would be right; also where the robot has no
+            inertia.
+        NoSolutionError
+            Where the robot has no rest, or its motion cannot be followed.
+
+        Examples
+        --------
+        >>> import cdpr
+        >>> robot = cdpr.Robot.from_file("cogiro")
+        >>> motion = robot.simulate([0, 0, 2], until=0.1, events=[{"t": 0, "payload": 50}])
+        >>> motion.poses.shape, motion.tensions.shape  # [m], [N]
+        ((11, 7), (11, 8))
+        >>> brake = lambda t, state: -200 * state.velocity  # [N]
+        >>> slower = robot.simulate([0, 0, 2], until=0.1, events=[{"t": 0, "payload": 50}], control=brake)
+        >>> bool(slower.poses[-1, 2] > motion.poses[-1, 2])
+        True
+        """
     @overload
     def derivatives(  # type: ignore[overload-overlap]
         self,
@@ -1631,6 +1799,202 @@ class Deflection(Generic[_N, _B, _I, _W, _R]):
     @property
     def kinds(self) -> _R:
         """The kind of each failure, in the same form: `infeasible_tension`, ..."""
+
+@final
+class Response(Generic[_R]):
+    """How a platform on cables with mass moves when it is shaken, at k frequencies.
+
+    Complex amplitudes: the absolute value is the size, the angle the phase. The answer is of one pose, or of
+    m: then every field has a first axis of m, with NaN where there is no answer, and `reasons` says why.
+    """
+
+    def __new__(cls, *fields: Any) -> Response: ...
+    def __class_getitem__(cls, number: Any) -> GenericAlias: ...
+    def plot(self) -> Any:
+        """Draws the answer: of one case a bar for each element, of several a line over the cases.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            The figure.
+        """
+    def to_dataframe(self) -> Any:
+        """Makes a frame with a row for each case and columns of numbers and words.
+
+        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
+        name: `magnitude/a1.x`.
+
+        Returns
+        -------
+        pandas.DataFrame
+            The frame.
+        """
+    @property
+    def frequencies_hz(self) -> _Floats:
+        """Frequencies [Hz], (k,)."""
+    @property
+    def amplitudes(self) -> _Floats:
+        """Largest amplitude of the point for a force there of any direction [m/N], (k,)."""
+    @property
+    def per_force(self) -> _Complex:
+        """Motion of the point along x, y, z for forces there along x, y, z [m/N], (k, 3, 3), complex."""
+    @property
+    def per_shortening(self) -> _Complex:
+        """Motion of the point per length that each winch takes in [m/m], (k, n, 3), complex."""
+    @property
+    def per_wrench(self) -> _Complex:
+        """Translation of P and rotation vector per force at P and moment [m/N, rad/N, m/(N m), rad/(N m)],
+        (k, 6, 6), complex.
+        """
+    @property
+    def reasons(self) -> _R:
+        """Why there is no answer, None where there is one; None for one pose."""
+    @property
+    def kinds(self) -> _R:
+        """The kind of each failure, in the same form: `infeasible_tension`, ..."""
+
+@final
+class Motion:
+    """A motion of a robot at m times."""
+
+    def __new__(cls, *fields: Any) -> Motion: ...
+    def __class_getitem__(cls, number: Any) -> GenericAlias: ...
+    def plot(self) -> Any:
+        """Draws the answer: of one case a bar for each element, of several a line over the cases.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            The figure.
+        """
+    def to_dataframe(self) -> Any:
+        """Makes a frame with a row for each case and columns of numbers and words.
+
+        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
+        name: `magnitude/a1.x`.
+
+        Returns
+        -------
+        pandas.DataFrame
+            The frame.
+        """
+    @property
+    def times(self) -> _Floats:
+        """Times [s], (m,)."""
+    @property
+    def poses(self) -> _Floats:
+        """Poses, x, y, z, qw, qx, qy, qz, (m, 7)."""
+    @property
+    def velocities(self) -> _Floats:
+        """Velocity of P in the base frame [m/s], (m, 3)."""
+    @property
+    def angular_velocities(self) -> _Floats:
+        """Angular velocity in the base frame [rad/s], (m, 3)."""
+    @property
+    def tensions(self) -> _Floats:
+        """Tension of each cable at the platform [N], (m, n); zero where it has parted."""
+    @property
+    def exit_tensions(self) -> _Floats:
+        """Tension of each cable at its exit point [N], (m, n)."""
+    @property
+    def summary(self) -> MotionSummary:
+        """What the motion is as a whole, and how exact it is."""
+
+@final
+class MotionSummary:
+    """A motion as a whole."""
+
+    def __new__(cls, *fields: Any) -> MotionSummary: ...
+    def __class_getitem__(cls, number: Any) -> GenericAlias: ...
+    def to_dataframe(self) -> Any:
+        """Makes a frame with a row for each case and columns of numbers and words.
+
+        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
+        name: `magnitude/a1.x`.
+
+        Returns
+        -------
+        pandas.DataFrame
+            The frame.
+        """
+    @property
+    def pose(self) -> _Floats:
+        """Pose at rest before the first event, (7,)."""
+    @property
+    def lengths(self) -> _Floats:
+        """Unstrained lengths there [m], (n,)."""
+    @property
+    def greatest_tensions(self) -> _Floats:
+        """Greatest tension of each cable at either end at any step [N], (n,)."""
+    @property
+    def greatest_times(self) -> _Floats:
+        """When [s], (n,)."""
+    @property
+    def slack(self) -> _Bools:
+        """Whether each cable carries no tension at a point at some time, (n,)."""
+    @property
+    def position_difference(self) -> float:
+        """Greatest difference of the position of P to a coarser computation [m]."""
+    @property
+    def rotation_difference(self) -> float:
+        """Greatest difference of the rotation [rad]."""
+    @property
+    def tension_difference(self) -> float:
+        """Greatest difference of a tension [N]."""
+    @property
+    def kinetic_energy(self) -> float:
+        """Greatest kinetic energy of platform and cables [J]."""
+    @property
+    def given_energy(self) -> float:
+        """Work of winches and forces, with the energy of what came and went [J]."""
+    @property
+    def lost_energy(self) -> float:
+        """Energy that damping took [J]."""
+    @property
+    def energy_drift(self) -> float:
+        """Energy that is missing at the end, or too much [J]."""
+    @property
+    def elements(self) -> int:
+        """Elements of each cable."""
+    @property
+    def degree(self) -> int:
+        """Degree of the polynomial on each."""
+    @property
+    def steps(self) -> int:
+        """Steps of time."""
+
+@final
+class MotionState:
+    """A robot in motion at a time, as a control sees it."""
+
+    def __new__(cls, *fields: Any) -> MotionState: ...
+    def __class_getitem__(cls, number: Any) -> GenericAlias: ...
+    def to_dataframe(self) -> Any:
+        """Makes a frame with a row for each case and columns of numbers and words.
+
+        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
+        name: `magnitude/a1.x`.
+
+        Returns
+        -------
+        pandas.DataFrame
+            The frame.
+        """
+    @property
+    def pose(self) -> _Floats:
+        """Pose, x, y, z, qw, qx, qy, qz, (7,)."""
+    @property
+    def velocity(self) -> _Floats:
+        """Velocity of P in the base frame [m/s], (3,)."""
+    @property
+    def angular_velocity(self) -> _Floats:
+        """Angular velocity in the base frame [rad/s], (3,)."""
+    @property
+    def tensions(self) -> _Floats:
+        """Tension of each cable at the platform [N], (n,)."""
+    @property
+    def exit_tensions(self) -> _Floats:
+        """Tension of each cable at its exit point [N], (n,)."""
 
 @final
 class Modes(Generic[_N, _R]):

@@ -29,6 +29,9 @@ def figure_of(answer: Any) -> Any:
     if kind == "Boundary" and len(answer.triangles) > 0:
         _surface(answer, figure.add_subplot(projection="3d"))
         return figure
+    if kind == "Motion":
+        _motion(answer, figure)
+        return figure
     axis = figure.add_subplot()
     special = _SPECIAL.get(kind)
     if special is not None:
@@ -67,6 +70,34 @@ def _shape(answer: Any, axis: Any) -> None:
     axis.set_aspect("equal", adjustable="datalim")
     axis.set_xlabel("x [m]")
     axis.set_ylabel("z [m]")
+
+
+def _motion(answer: Any, figure: Any) -> None:
+    """Motion of P and turn from the rest, and the tensions at the platform, over the time."""
+    import numpy
+
+    rest, (place, turn, pull) = answer.summary.pose, figure.subplots(3, sharex=True)
+    for k, name in enumerate("xyz"):
+        place.plot(answer.times, 1e3 * (answer.poses[:, k] - rest[k]), label=name)
+    share = numpy.abs(answer.poses[:, 3:] @ rest[3:])
+    turn.plot(answer.times, numpy.rad2deg(2 * numpy.arccos(numpy.minimum(share, 1))))
+    for k, tensions in enumerate(answer.tensions.T):
+        pull.plot(answer.times, tensions, label=str(k + 1))
+    place.legend(ncols=3)
+    pull.legend(title="cable", ncols=4)
+    place.set_ylabel("from the rest [mm]")
+    turn.set_ylabel("turn [deg]")
+    pull.set(xlabel="time [s]", ylabel="tension [N]")
+
+
+def _amplitudes(answer: Any, axis: Any) -> None:
+    """Amplitudes over the frequency, of several poses a curve for each."""
+    import numpy
+
+    curves = zip(numpy.atleast_2d(answer.frequencies_hz), numpy.atleast_2d(answer.amplitudes))
+    for frequencies, amplitudes in curves:
+        axis.semilogy(frequencies, 1e3 * amplitudes)
+    axis.set(xlabel="frequency [Hz]", ylabel="largest amplitude [mm/N]")
 
 
 def _distribution(answer: Any, axis: Any) -> None:
@@ -129,5 +160,6 @@ _SPECIAL: dict[str, Callable[[Any, Any], None]] = {
     "Boundary": _boundary,
     "Catenary": _shape,
     "Observations": _distribution,
+    "Response": _amplitudes,
     "Workspace": _map,
 }

@@ -188,13 +188,14 @@ def by_output(
 
 
 def frame_of(answer: Any, names: list[str]) -> Any:
-    """A pandas.DataFrame of the fields of a native answer with these names, a row for each case."""
+    """A pandas.DataFrame of the fields of a native answer with these names, a row for each case or time."""
     import numpy
     import pandas
 
-    reasons = getattr(answer, "reasons", None)
-    single = not isinstance(reasons, list)
-    count = len(reasons) if isinstance(reasons, list) else 1
+    rows = getattr(answer, "reasons", None)
+    if rows is None:
+        rows = getattr(answer, "times", None)
+    single, count = rows is None, 1 if rows is None else len(rows)
     inputs = getattr(answer, "inputs", [])
     columns: dict[str, Any] = {}
     for name in names:

@@ -181,7 +181,7 @@ def export(robot: Robot, pose: ArrayLike, to: str) -> Exported:
     pose : array_like
         (3,) or (7,).
     to : str
-        "mjcf" (MuJoCo), "caspr" or "moorpy".
+        "mjcf" (MuJoCo), "caspr", "moorpy" or "moordyn".
 
     Returns
     -------

@@ -3,6 +3,7 @@
 use cdpr_assess::AssessError;
 use cdpr_cable::CableError;
 use cdpr_calibration::CalibrationError;
+use cdpr_dynamics::DynamicsError;
 use cdpr_exchange::ExchangeError;
 use cdpr_robot::RobotError;
 use cdpr_sensitivity::SensitivityError;
@@ -118,6 +119,20 @@ impl From<&StaticsError> for Raised {
             | StaticsError::Cable { source: CableError::InvalidInput { .. }, .. } => Self::Input(message),
             _ => Self::NoSolution { kind: error.kind(), message },
         }
+    }
+}
+
+impl From<DynamicsError> for Raised {
+    fn from(error: DynamicsError) -> Self {
+        let message = error.to_string();
+        let kind = match error {
+            DynamicsError::Statics(error) => return error.into(),
+            DynamicsError::Stalled { .. } => "stalled",
+            DynamicsError::Folded { .. } => "folded",
+            DynamicsError::NotStable { .. } => "not_stable",
+            _ => return Self::Input(message),
+        };
+        Self::NoSolution { kind, message }
     }
 }
 

@@ -3,7 +3,7 @@ import { test } from "node:test";
 import { tensionChart, trackWords } from "../charts/tensions.js";
 import { trackCsv } from "../export.js";
 import { LIGHT } from "../palette.js";
-import { angles, quaternion } from "../rotation.js";
+import { angles, quaternion, vectorBetween } from "../rotation.js";
 import { decode, encode, initial, restore } from "../state.js";
 import { readPoses } from "../trajectory/table.js";
 import { areRows, duration, poseAt, sampleTimes, timed } from "../trajectory/track.js";
@@ -37,6 +37,33 @@ test("poses are read as people write them: marks between cells, decimal commas, 
   ]);
 });
 
+test("a series of simulate is read with the orientation of the platform, not with the rotation from its rest", () => {
+  const head = "t_s,x_m,y_m,z_m,rx_rad,ry_rad,rz_rad,t_exit_1_n,t_anchor_1_n";
+  const half = Math.SQRT1_2;
+  const series = [
+    `${head},qw,qx,qy,qz`,
+    `0.0,0.1,0.0,2.0,0.0,0.0,0.0,900.5,880.2,${half},0.0,0.0,${half}`,
+    `0.01,0.1,0.0,1.5,0.0,0.0,1e-17,0.0,0.0,${half},0.0,0.0,${half}`,
+  ].join("\n");
+  const { rows, hasTime, further, problem } = readPoses(series);
+  assert.equal(problem, undefined);
+  assert.equal(hasTime, true);
+  assert.deepEqual(further, ["t_exit_1_n", "t_anchor_1_n"]);
+  close(rows, [
+    [0, 0.1, 0, 2, 0, 0, 90],
+    [0.01, 0.1, 0, 1.5, 0, 0, 90],
+  ]);
+});
+
+test("a rotation vector alone is the orientation", () => {
+  const [x, y, z] = [0.3, -0.2, 0.5];
+  const { rows } = readPoses(`x_m,y_m,z_m,rx_rad,ry_rad,rz_rad\n0,0,1,${x},${y},${z}\n`);
+  const found = vectorBetween([1, 0, 0, 0], quaternion(rows[0].slice(4)));
+  close([found], [[x, y, z]]);
+  const right = Math.PI / 2;
+  close(readPoses(`x,y,z,rx_rad,ry_rad,rz_rad\n0,0,1,0,0,${right}`).rows, [[0, 0, 0, 1, 0, 0, 90]]);
+});
+
 test("a table that cannot be read is refused with its line and what was expected", () => {
   for (const [text, words] of [
     ["", /is empty: expected x_m,y_m,z_m/],
@@ -50,6 +77,9 @@ test("a table that cannot be read is refused with its line and what was expected
     ["x;y;z\n1,5;0.5;1", /a decimal point, 1,5 a decimal comma/],
     ["x,y,z,qw,qx,qy,qz\n0,0,1,1,1,0,0", /the quaternion has the length 1.414/],
     ["x,y,z,qw,qx\n0,0,1,1,0", /expected x_m/],
+    ["x,y,z,rx_rad,ry_rad\n0,0,1,0,0", /expected x_m/],
+    ["x,y,z,rx,ry,rz\n0,0,1,0,0,0", /column rx has no unit: expected rx_deg or rx_rad/],
+    ["x,y,z,rx_rad,ry_rad,rz_rad,roll_deg\n0,0,1,0,0,0,0", /expected x_m/],
     ["1,2,3,4", /4 numbers without names/],
     ["x,x,y,z\n0,0,0,1", /two columns x/],
   ])

@@ -1,6 +1,6 @@
 // Poses of a table as people have it: the columns that `--poses` of the program takes, and a time.
 
-import { angles } from "../rotation.js";
+import { angles, fromVector } from "../rotation.js";
 
 /** Most poses of a trajectory. */
 export const MOST = 20000;
@@ -8,12 +8,17 @@ export const MOST = 20000;
 const POSITION = ["x", "y", "z"];
 const QUATERNION = ["qw", "qx", "qy", "qz"];
 const ANGLES = ["roll", "pitch", "yaw"];
+// A rotation vector. Where there is a quaternion, too, that one counts: in a series of `cdpr simulate` the vector
+// is that from the rest.
+const VECTOR = ["rx", "ry", "rz"];
 const EXPECTED =
-  "expected x_m,y_m,z_m, then none, qw,qx,qy,qz or roll_deg,pitch_deg,yaw_deg, and perhaps t_s";
+  "expected x_m,y_m,z_m, then none, qw,qx,qy,qz, roll_deg,pitch_deg,yaw_deg or rx_rad,ry_rad,rz_rad, " +
+  "and perhaps t_s";
 
 // What a unit is in those of the page: metres, degrees, seconds.
 const LENGTHS = { m: 1, cm: 1e-2, mm: 1e-3, um: 1e-6, µm: 1e-6, km: 1e3 };
 const TURNS = { deg: 1, "°": 1, rad: 180 / Math.PI, mrad: 0.18 / Math.PI };
+const RADIANS = { rad: 1, mrad: 1e-3, deg: Math.PI / 180, "°": Math.PI / 180 };
 const TIMES = { s: 1, ms: 1e-3, min: 60 };
 
 /**
@@ -105,7 +110,10 @@ function named(names, line) {
   });
   const has = (list) => list.filter((name) => columns.has(name)).length;
   const isWhole =
-    has(POSITION) === 3 && [0, 4].includes(has(QUATERNION)) && has(QUATERNION) * has(ANGLES) === 0;
+    has(POSITION) === 3 &&
+    [0, 4].includes(has(QUATERNION)) &&
+    [0, 3].includes(has(VECTOR)) &&
+    (has(QUATERNION) + has(VECTOR)) * has(ANGLES) === 0;
   if (!isWhole) throw new Refusal(`Line ${line}: the columns are ${names.join(", ")}: ${EXPECTED}.`);
   columns.set("further", further);
   return columns;
@@ -115,6 +123,7 @@ function unitsOf(quantity) {
   if (POSITION.includes(quantity)) return [LENGTHS, "m"];
   if (QUATERNION.includes(quantity)) return [{ "": 1 }, ""];
   if (ANGLES.includes(quantity)) return [TURNS, undefined];
+  if (VECTOR.includes(quantity)) return [RADIANS, undefined];
   return quantity === "t" ? [TIMES, "s"] : [];
 }
 
@@ -136,7 +145,7 @@ function row(cells, columns, line) {
       throw new Refusal(`Line ${line}: ${name} is “${cell}”, which is not a number.`);
     return number * column.factor;
   };
-  let turn = ANGLES.map(value);
+  let turn = columns.has("rx") ? angles(fromVector(VECTOR.map(value))) : ANGLES.map(value);
   if (columns.has("qw")) {
     const quaternion = QUATERNION.map(value);
     const size = Math.hypot(...quaternion);
