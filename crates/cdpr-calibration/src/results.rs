@@ -8,11 +8,10 @@ mod warnings;
 
 use crate::campaign::{Quantity, Row};
 use crate::fitted::{Difference, Fit};
-use crate::results::predicted::uncertainty_map;
+use crate::results::predicted::{uncertainty_map, variance_at};
 use crate::results::summary::{CalibrationSummary, Context, OutlierSummary, ParameterSummary, SensorSummary};
 use crate::sensor_error::SensorError;
 use cdpr_robot::{Axis, Parameter, Robot, UnitQuaternion};
-use cdpr_statics::{DirectProblem, Load};
 use cdpr_study::{ERRORS_FORMAT, ErrorModel, ErrorsFile};
 use indexmap::IndexMap;
 use nalgebra::DMatrix;
@@ -82,19 +81,10 @@ impl Fit {
 
     /// Mean variance of a coordinate of P at the poses of the rows, for a covariance of the parameters [m²].
     fn position_variance(&self, robot: &Robot, covariance: &DMatrix<f64>, lengths: &[&[f64]]) -> Option<f64> {
-        let count = covariance.nrows();
-        let mut sum = (0.0, 0);
-        for (pose, lengths) in self.poses.iter().zip(lengths) {
-            let problem = DirectProblem::new(robot, lengths, &Load::none()).ok()?;
-            let found = problem.direct(cdpr_statics::DirectStart::Pose(pose)).ok()?;
-            let slopes = problem.derivatives(&found.equilibrium).ok()?.pose;
-            for k in 0..3 {
-                let row = slopes.row(k).columns(0, count).into_owned();
-                sum.0 += (&row * covariance * row.transpose())[0];
-                sum.1 += 1;
-            }
-        }
-        (sum.1 > 0).then(|| sum.0 / f64::from(sum.1))
+        let rows = self.poses.iter().zip(lengths);
+        let variances = rows.map(|(pose, lengths)| variance_at(robot, lengths, pose, covariance));
+        let variances = variances.collect::<Option<Vec<f64>>>().filter(|all| !all.is_empty())?;
+        Some(variances.iter().sum::<f64>() / variances.len() as f64)
     }
 
     /// The summary. `rows` are the rows that were fitted.

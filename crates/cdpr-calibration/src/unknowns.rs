@@ -48,7 +48,8 @@ impl Unknowns {
         Self { all: model.inputs.iter().map(unknown).collect(), terms: model.terms.clone(), ..Self::none() }
     }
 
-    fn none() -> Self {
+    /// Nothing.
+    pub(crate) fn none() -> Self {
         Self {
             all: Vec::new(),
             terms: Vec::new(),

@@ -72,7 +72,6 @@ pub use optimum::AtBound;
 use rest::Rest;
 pub use set_points::OneSided;
 use set_points::{AtSetPoints, SetPoints};
-use softest::AtRest;
 
 /// A deflection with its derivatives. Each matrix has a column for every input ([`Inputs`]): the parameters
 /// of the robot, the payload, the wanted pose.
@@ -262,46 +261,5 @@ impl Derivatives {
             return Err(StaticsError::NoDerivative { quantity: "the norm of the deflection", reason });
         }
         Ok((dp.normalize().transpose() * self.displacement()).as_slice().to_vec())
-    }
-
-    /// The lowest natural frequency [Hz] of `robot` under `load`, those of these derivatives, and its
-    /// derivatives [Hz per unit], one for each input: see [`DirectProblem::lowest_frequency`].
-    ///
-    /// # Errors
-    /// Those of [`DirectProblem::modes`]; [`StaticsError::NoDerivative`] where two motions have the lowest
-    /// frequency or nothing resists any, and for a cable that hangs folded without width.
-    pub fn frequency(&self, robot: &Robot, load: &Load) -> Result<(f64, Vec<f64>), StaticsError> {
-        self.at_rest(robot, load).frequency()
-    }
-
-    /// The lowest stiffness [N/m] of `robot` under `load`, those of these derivatives, and its derivatives
-    /// [N/m per unit], one for each input: see [`crate::Stability::least_stiffness`]. The characteristic
-    /// length is that of `robot`, a constant.
-    ///
-    /// # Errors
-    /// [`StaticsError::NoDerivative`] where two motions have the lowest stiffness or nothing resists any, and
-    /// for a cable that hangs folded without width.
-    pub fn least_stiffness(&self, robot: &Robot, load: &Load) -> Result<(f64, Vec<f64>), StaticsError> {
-        self.least_stiffness_with(robot, load, self.deflection.loaded.stability.characteristic_length())
-    }
-
-    /// As [`Derivatives::least_stiffness`], with another characteristic length ℓ [m]: that of the nominal
-    /// robot for one that deviates from it.
-    ///
-    /// # Errors
-    /// As [`Derivatives::least_stiffness`].
-    pub fn least_stiffness_with(
-        &self,
-        robot: &Robot,
-        load: &Load,
-        characteristic_length: f64,
-    ) -> Result<(f64, Vec<f64>), StaticsError> {
-        self.at_rest(robot, load).least_stiffness(characteristic_length)
-    }
-
-    fn at_rest<'a>(&'a self, robot: &'a Robot, load: &'a Load) -> AtRest<'a> {
-        let Deflection { loaded: found, lengths, .. } = &self.deflection;
-        let (length_slopes, pose_slopes) = (&self.lengths, &self.loaded.pose);
-        AtRest { robot, load, inputs: &self.inputs, found, lengths, length_slopes, pose_slopes }
     }
 }

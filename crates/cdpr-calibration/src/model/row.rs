@@ -126,7 +126,7 @@ impl Model<'_> {
         let nowhere = Equilibrium { pose: Pose::at(0.0, 0.0, 0.0), cable_forces: Vec::new() };
         let is_displaced = row.readings.iter().any(|of| matches!(of.quantity, Quantity::Displacement(_)));
         let unloaded = is_displaced.then(|| nowhere.clone());
-        Ok(RowState { read, errors, loaded: nowhere, unloaded })
+        Ok(RowState { errors, ..RowState::new(read, nowhere, unloaded) })
     }
 
     /// The state at rest with these lengths.
@@ -162,10 +162,8 @@ impl Model<'_> {
         mut state: RowState,
         held: PoseLengths,
     ) -> Result<RowState, StaticsError> {
-        for (i, length) in held.lengths.iter().enumerate() {
-            let stretch = 1.0 + self.of(SensorError::DrumScale, i, x);
-            state.errors[i] = state.read[i] - self.of(SensorError::LengthOffset, i, x) - stretch * length;
-        }
+        let exact = self.readings(&held.lengths, x);
+        state.errors = state.read.iter().zip(exact).map(|(read, exact)| read - exact).collect();
         self.placed(row, robot, state, &held.lengths, DirectStart::Near(&held.equilibrium))
     }
 
