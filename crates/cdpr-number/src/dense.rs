@@ -16,58 +16,32 @@ pub type Lanes6<S> = [Lanes<S>; 6];
 /// Six rows of six.
 pub type Lanes6x6<S> = [[Lanes<S>; 6]; 6];
 
+/// Components of one formula by these numbers.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! components {
+    (|$k:ident| $component:expr; $($number:literal)+) => {
+        [$({
+            let $k: usize = $number;
+            $component
+        }),+]
+    };
+}
+
 /// Three components of one formula. Closures may be compiled apart from their caller, without the vector
 /// unit.
-#[macro_export]
+#[macro_export(local_inner_macros)]
 macro_rules! three {
     (|$k:ident| $component:expr) => {
-        [
-            {
-                let $k: usize = 0;
-                $component
-            },
-            {
-                let $k: usize = 1;
-                $component
-            },
-            {
-                let $k: usize = 2;
-                $component
-            },
-        ]
+        components!(|$k| $component; 0 1 2)
     };
 }
 
 /// Six components of one formula, as `three`.
-#[macro_export]
+#[macro_export(local_inner_macros)]
 macro_rules! six {
     (|$k:ident| $component:expr) => {
-        [
-            {
-                let $k: usize = 0;
-                $component
-            },
-            {
-                let $k: usize = 1;
-                $component
-            },
-            {
-                let $k: usize = 2;
-                $component
-            },
-            {
-                let $k: usize = 3;
-                $component
-            },
-            {
-                let $k: usize = 4;
-                $component
-            },
-            {
-                let $k: usize = 5;
-                $component
-            },
-        ]
+        components!(|$k| $component; 0 1 2 3 4 5)
     };
 }
 
