@@ -101,9 +101,8 @@ fn measured(of: &Simulated, truth: &Robot, k: usize, commanded: &FreeSolution) -
     row.lengths = Some(exact.iter().map(|length| length + std * draw()).collect());
     row.length_std = vec![std; if std > 0.0 { lengths.len() } else { 0 }];
     let quantities = quantities(of);
-    let reading = |(quantity, std): &(_, Option<f64>)| {
-        Some(Reading { quantity: *quantity, value: 0.0, std: (*std)? })
-    };
+    let reading =
+        |(quantity, std): &(_, Option<f64>)| Some(Reading { quantity: *quantity, value: 0.0, std: (*std)? });
     row.readings = quantities.iter().filter_map(reading).collect();
 
     let state = RowState::new(exact, loaded, of.noise.displacement.map(|_| unloaded));
@@ -128,8 +127,8 @@ fn measured(of: &Simulated, truth: &Robot, k: usize, commanded: &FreeSolution) -
     Ok(Row { readings, rotation: of.noise.rotation.map(|_| rotation), ..row })
 }
 
-/// Everything that is read besides lengths, with the standard deviation of its noise; `None` for a sensor that
-/// is not there. Swivel angles are those of pulleys with a vertical axis.
+/// Everything that is read besides lengths, with the standard deviation of its noise; `None` for a sensor
+/// that is not there. Swivel angles are those of pulleys with a vertical axis.
 fn quantities(of: &Simulated) -> Vec<(Quantity, Option<f64>)> {
     let Noise { position, rotation, displacement, marker, tension, swivel, .. } = of.noise;
     let vector = |quantity: &dyn Fn(Axis) -> Quantity, std| Axis::ALL.map(|axis| (quantity(axis), std));

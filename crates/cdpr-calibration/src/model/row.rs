@@ -45,9 +45,9 @@ impl RowState {
 }
 
 impl Model<'_> {
-    /// The state of a row where the search begins: at the lengths that were read or, where the robot does not
-    /// rest with them, with taut cables. With cables that are all a little too long nothing holds the platform
-    /// in a plane.
+    /// The state of a row where the search begins: at the lengths that were read or, where the robot does
+    /// not rest with them, with taut cables. With cables that are all a little too long nothing holds the
+    /// platform in a plane.
     pub(crate) fn begin(&self, row: &Row, x: &[f64]) -> Result<RowState, CalibrationError> {
         self.as_read(row, x).or_else(|error| {
             let taut = || {
@@ -177,8 +177,8 @@ impl Model<'_> {
         Some(Pose { position: Vector3::new(x?, y?, z?), rotation })
     }
 
-    /// The same, unless it is in the frame of an unknown tracker, where it is of no help. What the robot cannot
-    /// do is left out: a planar robot stays in its plane, and a point mass does not rotate.
+    /// The same, unless it is in the frame of an unknown tracker, where it is of no help. What the robot
+    /// cannot do is left out: a planar robot stays in its plane, and a point mass does not rotate.
     fn pose_in_base(&self, row: &Row) -> Option<Pose> {
         let pose = self.measured_pose(row).filter(|_| self.unknowns.sensor(SensorError::Frame).is_none())?;
         Some(self.in_plane(pose))
