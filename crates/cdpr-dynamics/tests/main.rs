@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout)]
 
 mod derivatives;
+mod moves;
 mod reference;
 mod response;
 mod robots;

@@ -106,7 +106,7 @@ fn cables_part_and_winches_turn_on_every_robot() {
             Change::Shorten { cable: 1, by, over: 0.1, profile: Profile::Polynomial },
         ] {
             let settings = Settings { damping: 2e-4, ..Settings::until(0.2) };
-            let series = simulate(&problem, &rest, &[at(0.05, change)], &settings).unwrap();
+            let series = simulate(&problem, &rest, &[at(0.05, change.clone())], &settings).unwrap();
             let way = moved(&series, &rest.pose);
             println!("{}: {change:?}: {way:.1e}; {:?}", robot.name, series.difference);
             let before = series.samples[0].pose.motion_to(&series.samples[4].pose).norm();

@@ -1,6 +1,6 @@
 //! What happens to a robot in motion.
 
-use super::winch::Profile;
+use super::winch::{Profile, WinchLengths};
 use crate::error::DynamicsError;
 use cdpr_robot::{JsonError, Vector3, Vector6, from_json};
 use cdpr_statics::DirectProblem;
@@ -8,7 +8,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// A change at a time.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Event {
     /// When [s].
     pub time: f64,
@@ -17,7 +17,7 @@ pub struct Event {
 }
 
 /// A change of the load, of a cable, or of the place where a motion begins.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Change {
     /// This payload is added at the centre of mass, or removed if it is negative [kg].
     Payload(f64),
@@ -50,6 +50,8 @@ pub enum Change {
         /// How.
         profile: Profile,
     },
+    /// The winches follow a table, whose first row has the lengths at that time.
+    Lengths(WinchLengths),
 }
 
 /// Where a cable parts.
@@ -97,7 +99,7 @@ struct Shorten {
     by: f64,
     /// Duration [s].
     over: f64,
-    /// How: linear, cosine or polynomial; cosine if left out.
+    /// How: linear, trapezoid, cosine or polynomial; cosine if left out.
     #[serde(default)]
     profile: Profile,
 }
@@ -143,10 +145,11 @@ impl Entry {
         if let Some(Shorten { cable: number, by, over, profile }) = self.shorten {
             changes.push(Change::Shorten { cable: cable("shorten.cable", number)?, by, over, profile });
         }
-        match changes[..] {
-            [change] => Ok(Event { time: self.t, change }),
+        let found = changes.len();
+        match (changes.pop(), found) {
+            (Some(change), 1) => Ok(Event { time: self.t, change }),
             _ => {
-                let found = format!("an event with {} changes", changes.len());
+                let found = format!("an event with {found} changes");
                 let expected = "one of payload, cut, force with moment, displace, shorten";
                 Err(wrong("", found, expected))
             }
@@ -226,7 +229,34 @@ pub(super) fn check(problem: &DirectProblem, events: &[Event]) -> Result<(), Dyn
                     );
                 }
             }
+            Change::Lengths(table) => {
+                if let Some((field, value, expected)) = fault_of_table(table, problem.lengths()) {
+                    return wrong(field, value, expected);
+                }
+            }
         }
     }
     Ok(())
+}
+
+/// What of a table of lengths does not fit the lengths at rest [m].
+fn fault_of_table(table: &WinchLengths, lengths: &[f64]) -> Option<(&'static str, String, String)> {
+    /// Share of a length by which the first row may differ from the rest.
+    const SAME: f64 = 1e-3;
+    if table.cables() != lengths.len() {
+        let expected = format!("one for each of the {} cables", lengths.len());
+        return Some(("lengths", format!("a table of {} lengths", table.cables()), expected));
+    }
+    lengths.iter().enumerate().find_map(|(i, length)| {
+        let first = table.at(i, 0.0)[0];
+        let [least, most] = table.extremes(i);
+        if (first / length - 1.0).abs() > SAME {
+            let expected = format!("the length at rest of cable {}, {length:.6} m", i + 1);
+            return Some(("lengths, first row", format!("{first:.6} m"), expected));
+        }
+        (least < 0.1 * length || most > 10.0 * length).then(|| {
+            let expected = format!("a tenth to ten times the {length:.4} m of cable {} at rest", i + 1);
+            ("lengths", format!("{least:.4} to {most:.4} m"), expected)
+        })
+    })
 }

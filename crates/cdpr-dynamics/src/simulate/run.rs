@@ -5,7 +5,7 @@ use super::event::{Change, CutAt, Event};
 use super::radau::{Equations, Linearization, Radau, WEIGHTS, Work};
 use super::setting::{Discretization, Settings};
 use super::system::System;
-use super::winch::Ramp;
+use super::winch::Reeling;
 use crate::error::DynamicsError;
 use cdpr_robot::{Pose, Vector3, Vector6};
 use cdpr_statics::{DirectProblem, Equilibrium};
@@ -152,8 +152,10 @@ impl Run<'_> {
         let mut kinks: Vec<f64> = Vec::new();
         for event in &self.events {
             kinks.push(event.time);
-            if let Change::Shorten { over, .. } = event.change {
-                kinks.push(event.time + over);
+            match &event.change {
+                Change::Shorten { over, .. } => kinks.push(event.time + over),
+                Change::Lengths(table) => kinks.push(event.time + table.duration()),
+                _ => {}
             }
         }
         kinks.retain(|time| *time <= settings.until);
@@ -324,18 +326,26 @@ impl System<'_> {
 
     /// Applies a change; the unknowns follow.
     fn change(&mut self, event: &Event, state: &mut Vec<f64>) {
-        match event.change {
+        let from = event.time;
+        match &event.change {
             Change::Displace(_) => {}
             Change::Payload(payload) => self.body.mass += payload,
             Change::Wrench { force, moment } => {
                 let wrench = &mut self.body.wrench;
-                *wrench = [wrench[0], force, wrench[2], moment];
+                *wrench = [wrench[0], *force, wrench[2], *moment];
             }
             Change::Shorten { cable, by, over, profile } => {
-                let ramp = Ramp { from: event.time, over, by, profile };
-                self.cables.iter_mut().filter(|one| one.index == cable).for_each(|one| one.ramps.push(ramp));
+                let ramp = Reeling::Ramp { from, over: *over, by: *by, profile: *profile };
+                let winch = self.cables.iter_mut().find(|one| one.index == *cable);
+                winch.into_iter().for_each(|one| one.reeling.push(ramp.clone()));
             }
-            Change::Cut { cable, at } => self.cut(cable, at, event.time, state),
+            Change::Lengths(lengths) => {
+                for one in &mut self.cables {
+                    let (cable, lengths) = (one.index, lengths.clone());
+                    one.reeling.push(Reeling::Table { from, cable, lengths });
+                }
+            }
+            Change::Cut { cable, at } => self.cut(*cable, *at, from, state),
         }
     }
 
@@ -350,7 +360,7 @@ impl System<'_> {
         } else {
             let cable = &mut self.cables[place];
             cable.length = cable.length_at(time).0;
-            cable.ramps.clear();
+            cable.reeling.clear();
             cable.start = Start::Loose;
         }
         let (old, scale) = (state.clone(), self.scale.clone());

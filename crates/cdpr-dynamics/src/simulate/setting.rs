@@ -200,7 +200,7 @@ impl Settings {
             length: if mesh.is_some() { free.unstrained_length } else { whole.unstrained_length },
             mesh,
             least_tension: tension_at(free.lowest_arc_length().0 / free.unstrained_length),
-            ramps: Vec::new(),
+            reeling: Vec::new(),
             first: 0,
         };
         (cable, own)
