@@ -8,6 +8,7 @@
 //! | How near do cables come to each other and to the platform? | [`clearance_at`] |
 //! | How far may it tilt there? | [`tilt_at`] |
 //! | What happens along a path of poses, and how uncertain is it? | [`Path`] |
+//! | How much do robots swing after a move, if they are not the nominal one? | [`DrawnRobots`] |
 //! | Which tolerances have to be tightened for a limit on deflection or position? | [`tolerance_budget`] |
 //! | How often does the direct model find the true pose from a wrong start? | [`run_robustness`] |
 //! | Which values of a robot file look wrong? | [`inspect`] |
@@ -21,6 +22,7 @@ mod path;
 mod robustness;
 mod tilt;
 mod tolerance;
+mod vibration;
 mod workspace;
 mod write;
 
@@ -37,6 +39,7 @@ pub use robustness::{
 };
 pub use tilt::{Tilt, TiltTowards, tilt_at};
 pub use tolerance::{Limit, Limited, Reached, Tolerance, ToleranceBudget, tolerance_budget};
+pub use vibration::{Compared, DrawnRobots, ratio_of_best};
 pub use workspace::question::{Further, TiltDirections, Way, Workspace};
 pub use workspace::results::{Dominant, HELD, Held, Recomputed, WorkspacePose};
 pub use workspace::row::WorkspaceRow;

@@ -9,4 +9,5 @@ mod maps;
 mod refused_workspaces;
 mod robustness;
 mod tolerance;
+mod vibration;
 mod workspace;

@@ -47,6 +47,34 @@ pub enum DynamicsError {
         /// When [s].
         time: f64,
     },
+    /// A move that no tensions within the limits can accelerate.
+    #[error(
+        "the move is too fast at {time:.4} s, at ({:.4}, {:.4}, {:.4}) m{}: {source}; give it more seconds",
+        position[0], position[1], position[2],
+        cable.map_or_else(String::new, |cable| format!(", for cable {}", cable + 1))
+    )]
+    TooFast {
+        /// When [s].
+        time: f64,
+        /// Where P is [m].
+        position: [f64; 3],
+        /// The cable, from 0, that rests on a limit first; `None` where none does.
+        cable: Option<usize>,
+        /// What the motion lacks there.
+        source: Box<StaticsError>,
+    },
+    /// Lengths that cannot change from one set point to the next without a jump.
+    #[error(
+        "the lengths of the move jump at {time:.4} s, at ({:.4}, {:.4}, {:.4}) m, as the best tensions do; \
+         take another way, other limits or another choice of tensions",
+        position[0], position[1], position[2]
+    )]
+    Jump {
+        /// When [s].
+        time: f64,
+        /// Where P is [m].
+        position: [f64; 3],
+    },
     /// A cable with mass that nothing stretches.
     #[error(
         "cable {} hangs without tension at a point, where a cable has no natural frequency; \
@@ -89,6 +117,8 @@ impl From<DynamicsError> for StaticsError {
             DynamicsError::Events(_) | DynamicsError::Event { .. } => {
                 invalid("events", text, "events of this robot".to_owned())
             }
+            DynamicsError::TooFast { source, .. } => *source,
+            DynamicsError::Jump { .. } => invalid("move", text, "lengths without jumps".to_owned()),
             DynamicsError::Stalled { .. } => invalid("motion", text, "one that can be followed".to_owned()),
             DynamicsError::Folded { .. } | DynamicsError::NotStable { .. } => {
                 invalid("equilibrium", text, "one with natural motions".to_owned())

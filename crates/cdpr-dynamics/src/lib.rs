@@ -32,15 +32,15 @@ mod error;
 mod free;
 mod modes;
 mod motion;
+pub mod moves;
 mod platform;
 mod polynomial;
 mod response;
 pub mod simulate;
-mod swing;
 
 pub use derivatives::FrequencyDerivatives;
 pub use error::DynamicsError;
+pub use modes::swing::Swing;
 pub use modes::{Mode, Modes, Wanted, modes_at};
 pub use platform::MovingPlatform;
 pub use response::{Damping, FrequencyResponse, Response};
-pub use swing::Swing;

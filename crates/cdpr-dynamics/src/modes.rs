@@ -11,6 +11,8 @@
 //! all motions of the cables bracket every frequency. One that they do not confirm is found by bisection of
 //! the counts.
 
+pub(crate) mod swing;
+
 use crate::cable::HeldMode;
 use crate::dense::{cholesky, eigenvectors};
 use crate::error::{DynamicsError, positive};

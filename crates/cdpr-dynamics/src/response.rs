@@ -94,6 +94,9 @@ struct Shaken {
 /// Stiffness of the end of a cable [N/m], and the force on its held end per length that its winch takes in [N/m].
 type StiffnessAndPull = (Matrix3<Complex<f64>>, nalgebra::Vector3<Complex<f64>>);
 
+/// Dynamic stiffness of all cables at the platform, and the pulls of their winches.
+type CablesAndPulls = (Matrix6<Complex<f64>>, Matrix6xX<Complex<f64>>);
+
 /// What a winch does to the unknowns of a cable, per length that it takes in.
 #[derive(Clone, Debug, Default)]
 struct Winch {
@@ -156,16 +159,8 @@ impl FrequencyResponse {
         }
         let resonance = || DynamicsError::Resonance { frequency };
         let omega = TAU * frequency;
-        let mut dynamic = (self.stiffness - self.mass * (omega * omega)).map(real);
-        let mut pulls = Matrix6xX::zeros(self.cables.len());
-        for (i, cable) in self.cables.iter().enumerate() {
-            let Some(cable) = cable else { continue };
-            let (stiffness, pull) = cable.at(omega, &self.damping).ok_or_else(resonance)?;
-            dynamic += on_platform(&cable.lever.map(real), &stiffness);
-            let moment = cable.lever.map(real).cross(&pull);
-            pulls.fixed_view_mut::<3, 1>(0, i).copy_from(&pull);
-            pulls.fixed_view_mut::<3, 1>(3, i).copy_from(&moment);
-        }
+        let (cables, pulls) = self.of_cables(frequency)?;
+        let dynamic = (self.stiffness - self.mass * (omega * omega)).map(real) + cables;
         let free = &self.free;
         let block = DMatrix::from_fn(free.len(), free.len(), |i, j| dynamic[(free[i], free[j])]);
         let inverse = block.try_inverse().ok_or_else(resonance)?;
@@ -178,6 +173,26 @@ impl FrequencyResponse {
         }
         let per_shortening = -(per_wrench * pulls);
         Ok(Response { frequency, per_wrench, per_shortening })
+    }
+}
+
+impl FrequencyResponse {
+    /// What the cables add to the dynamic stiffness of the platform, and the wrench on the held platform for each
+    /// length that a winch takes in, 6 x n [N/m, N].
+    pub(crate) fn of_cables(&self, frequency: f64) -> Result<CablesAndPulls, DynamicsError> {
+        let omega = TAU * frequency;
+        let mut dynamic = Matrix6::zeros();
+        let mut pulls = Matrix6xX::zeros(self.cables.len());
+        for (i, cable) in self.cables.iter().enumerate() {
+            let Some(cable) = cable else { continue };
+            let found = cable.at(omega, &self.damping);
+            let (stiffness, pull) = found.ok_or(DynamicsError::Resonance { frequency })?;
+            dynamic += on_platform(&cable.lever.map(real), &stiffness);
+            let moment = cable.lever.map(real).cross(&pull);
+            pulls.fixed_view_mut::<3, 1>(0, i).copy_from(&pull);
+            pulls.fixed_view_mut::<3, 1>(3, i).copy_from(&moment);
+        }
+        Ok((dynamic, pulls))
     }
 }
 

@@ -16,7 +16,7 @@ pub use event::{Change, CutAt, Event, events_from_json, events_schema};
 pub use radau::Work;
 pub use run::{Command, Control, Difference, Energy, Sample, Series};
 pub use setting::{Discretization, Settings};
-pub use winch::Profile;
+pub use winch::{Profile, WinchLengths};
 
 use crate::error::DynamicsError;
 use cdpr_robot::Wrench;

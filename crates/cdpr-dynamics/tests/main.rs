@@ -5,6 +5,7 @@
 mod controlled;
 mod derivatives;
 mod drawn;
+mod moves;
 mod reference;
 mod response;
 mod robots;

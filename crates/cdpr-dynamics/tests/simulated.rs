@@ -148,22 +148,25 @@ fn events_that_are_not_possible_are_refused_with_their_place() {
         (r#"[{"t": 1, "displace": [0, 0, 0.1, 0, 0, 0]}]"#, "event 1, t is 1.0: expected 0"),
         (r#"[{"t": 0, "shorten": {"cable": 1, "by": 30, "over": 1}}]"#, "event 1, shorten.by is 30.0"),
         (r#"[{"t": 0, "shorten": {"cable": 1, "by": 0.1, "over": 0}}]"#, "event 1, shorten.over is 0.0"),
-        (r#"[{"t": 0, "lengths": {"times": [0], "lengths": []}}]"#, "event 1, lengths.times is [0.0]"),
+        (
+            r#"[{"t": 0, "lengths": {"times": [0], "lengths": []}}]"#,
+            "event 1, lengths over time is 0 rows at 1 times",
+        ),
         (
             r#"[{"t": 0, "lengths": {"times": [0, 1, 1], "lengths": []}}]"#,
-            "event 1, lengths.times[2] is 1.0: expected a time [s] after 1.0",
+            "event 1, lengths over time is 0 rows at 3 times",
         ),
         (
             r#"[{"t": 0, "lengths": {"times": [0, 1], "lengths": []}}]"#,
-            "event 1, lengths.lengths is a list of 0",
+            "event 1, lengths over time is 0 rows at 2 times",
         ),
         (
             r#"[{"t": 0, "lengths": {"times": [0, 1], "lengths": [[1], [1]]}}]"#,
-            "event 1, lengths.lengths[0] is a list of 1: expected one length for each of the 8 cables",
+            "event 1, lengths is a table of 1 lengths: expected one for each of the 8 cables",
         ),
         (
-            r#"[{"t": 0, "lengths": {"times": [0, 1], "lengths": [[1, 1, 1, 1, 1, 1, 1, 1], []]}}]"#,
-            "event 1, lengths.lengths[0][0] is 1.0: expected ",
+            r#"[{"t": 0, "lengths": {"times": [0, 1], "lengths": [[1, 1, 1, 1, 1, 1, 1, 1], [2, 1, 1, 1, 1, 1, 1, 1]]}}]"#,
+            "event 1, lengths, first row is 1.000000 m: expected the length at rest of cable 1",
         ),
     ] {
         let error = solve(text).unwrap_err().to_string();

@@ -3,7 +3,7 @@
 use super::band::Band;
 use super::lead::{Lead, Way};
 use super::mesh::{Forces, Material, Mesh, Part, Points, Pull, Rule};
-use super::winch::Winch;
+use super::winch::Reeling;
 use cdpr_robot::{Matrix3, Vector3, Vector6};
 
 /// Where a cable begins.
@@ -31,7 +31,7 @@ pub(super) struct CableInMotion<'a> {
     pub(super) length: f64,
     /// Least tension at rest [N].
     pub(super) least_tension: f64,
-    pub(super) winch: Winch,
+    pub(super) reeling: Vec<Reeling>,
     /// Index of its first unknown.
     pub(super) first: usize,
 }
@@ -99,8 +99,10 @@ impl CableInMotion<'_> {
 
     /// Unstrained length [m] and its rate [m/s] at a time [s].
     pub(super) fn length_at(&self, time: f64) -> (f64, f64) {
-        let [by, speed] = self.winch.at(time);
-        (self.length - by, -speed)
+        self.reeling.iter().fold((self.length, 0.0), |(length, rate), winch| {
+            let [by, speed] = winch.at(time);
+            (length - by, rate - speed)
+        })
     }
 
     /// The cable at a time; `own` are its unknowns and their rates.

@@ -4,7 +4,7 @@ use super::cable::Start;
 use super::event::{Change, CutAt, Event};
 use super::radau::{Equations, Linearization};
 use super::system::System;
-use super::winch::Winch;
+use super::winch::Reeling;
 use cdpr_robot::Wrench;
 
 impl System<'_> {
@@ -64,14 +64,23 @@ impl System<'_> {
 
     /// Applies a change; the unknowns follow.
     pub(super) fn change(&mut self, event: &Event, state: &mut Vec<f64>) {
+        let from = event.time;
         match &event.change {
             Change::Displace(_) => {}
             Change::Payload(payload) => self.body.mass += payload,
             Change::Wrench { force, moment } => self.body.event = Wrench { force: *force, moment: *moment },
-            Change::Shorten { .. } | Change::Lengths { .. } => {
-                self.cables.iter_mut().for_each(|cable| event.wind(cable.index, &mut cable.winch));
+            Change::Shorten { cable, by, over, profile } => {
+                let ramp = Reeling::Ramp { from, over: *over, by: *by, profile: *profile };
+                let winch = self.cables.iter_mut().find(|one| one.index == *cable);
+                winch.into_iter().for_each(|one| one.reeling.push(ramp.clone()));
             }
-            Change::Cut { cable, at } => self.cut(*cable, *at, event.time, state),
+            Change::Lengths(lengths) => {
+                for one in &mut self.cables {
+                    let (cable, lengths) = (one.index, lengths.clone());
+                    one.reeling.push(Reeling::Table { from, cable, lengths });
+                }
+            }
+            Change::Cut { cable, at } => self.cut(*cable, *at, from, state),
         }
     }
 
@@ -86,7 +95,7 @@ impl System<'_> {
         } else {
             let cable = &mut self.cables[place];
             cable.length = cable.length_at(time).0;
-            cable.winch = Winch::default();
+            cable.reeling.clear();
             cable.start = Start::Loose;
         }
         let (old, scale) = (state.clone(), self.scale.clone());

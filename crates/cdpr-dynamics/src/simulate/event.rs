@@ -1,6 +1,6 @@
 //! What happens to a robot in motion.
 
-use super::winch::{Profile, Ramp, Spline, Winch};
+use super::winch::{Profile, WinchLengths};
 use crate::error::DynamicsError;
 use cdpr_robot::{JsonError, Vector3, Vector6, from_json};
 use cdpr_statics::DirectProblem;
@@ -50,13 +50,8 @@ pub enum Change {
         /// How.
         profile: Profile,
     },
-    /// The winches follow a table of lengths: cubic splines through them, which begin and end without speed.
-    Lengths {
-        /// Times since the event, ascending from zero [s].
-        times: Vec<f64>,
-        /// Unstrained lengths of all cables at each of them [m]; the first are those at the event.
-        lengths: Vec<Vec<f64>>,
-    },
+    /// The winches follow a table, whose first row has the lengths at that time.
+    Lengths(WinchLengths),
 }
 
 /// Where a cable parts.
@@ -106,7 +101,7 @@ struct Shorten {
     by: f64,
     /// Duration [s].
     over: f64,
-    /// How: linear, cosine or polynomial; cosine if left out.
+    /// How: linear, trapezoid, cosine or polynomial; cosine if left out.
     #[serde(default)]
     profile: Profile,
 }
@@ -163,7 +158,16 @@ impl Entry {
         if let Some(Shorten { cable: number, by, over, profile }) = self.shorten {
             changes.push(Change::Shorten { cable: cable("shorten.cable", number)?, by, over, profile });
         }
-        changes.extend(self.lengths.map(|Lengths { times, lengths }| Change::Lengths { times, lengths }));
+        if let Some(Lengths { times, lengths }) = self.lengths {
+            if times.first().is_some_and(|first| *first != 0.0) {
+                return Err(wrong("lengths.times[0]", format!("{:?}", times[0]), "0, the time of the event"));
+            }
+            let table = WinchLengths::new(&times, &lengths).map_err(|error| match error {
+                DynamicsError::Invalid { field, value, expected } => wrong(field, value, &expected),
+                error => error,
+            });
+            changes.push(Change::Lengths(table?));
+        }
         let found = format!("an event with {} changes", changes.len());
         match <[Change; 1]>::try_from(changes) {
             Ok([change]) => Ok(Event { time: self.t, change }),
@@ -183,7 +187,6 @@ pub(super) fn check(problem: &DirectProblem, events: &[Event]) -> Result<(), Dyn
     let mut mass = robot.platform.mass + problem.load().payload;
     let mut order: Vec<usize> = (0..events.len()).collect();
     order.sort_by(|one, other| events[*one].time.total_cmp(&events[*other].time));
-    let mut winches = vec![Winch::default(); robot.cables.len()];
     for index in order {
         let event = &events[index];
         let wrong = |field: &str, value: String, expected: String| {
@@ -242,77 +245,34 @@ pub(super) fn check(problem: &DirectProblem, events: &[Event]) -> Result<(), Dyn
                     return wrong("shorten.over", format!("{over:?}"), expected);
                 }
             }
-            Change::Lengths { times, lengths } => {
-                let wound = winches.iter().map(|winch| winch.at(event.time)[0]);
-                let at_event = problem.lengths().iter().zip(wound).map(|(length, by)| length - by).collect();
-                if let Err((field, value, expected)) = check_table(times, lengths, at_event) {
-                    return wrong(&field, value, expected);
+            Change::Lengths(table) => {
+                if let Some((field, value, expected)) = fault_of_table(table, problem.lengths()) {
+                    return wrong(field, value, expected);
                 }
             }
         }
-        winches.iter_mut().enumerate().for_each(|(cable, winch)| event.wind(cable, winch));
     }
     Ok(())
 }
 
-/// Checks a table of lengths against those at its event [m]: the field, its value and what is expected.
-fn check_table(
-    times: &[f64],
-    lengths: &[Vec<f64>],
-    at_event: Vec<f64>,
-) -> Result<(), (String, String, String)> {
-    /// Rounding of the lengths in a table [m].
-    const ROUNDING: f64 = 1e-6;
-    let wrong = |field: String, value: String, expected: String| Err((field, value, expected));
-    let ascending = times.windows(2).position(|pair| !(pair[0] < pair[1] && pair[1].is_finite()));
-    if times.len() < 2 || times[0] != 0.0 {
-        let expected = "two times or more, from 0 [s]".to_owned();
-        return wrong("lengths.times".to_owned(), format!("{:?}", &times[..times.len().min(3)]), expected);
+/// What of a table of lengths does not fit the lengths at rest [m].
+fn fault_of_table(table: &WinchLengths, lengths: &[f64]) -> Option<(&'static str, String, String)> {
+    /// Share of a length by which the first row may differ from the rest.
+    const SAME: f64 = 1e-3;
+    if table.cables() != lengths.len() {
+        let expected = format!("one for each of the {} cables", lengths.len());
+        return Some(("lengths", format!("a table of {} lengths", table.cables()), expected));
     }
-    if let Some(k) = ascending {
-        let expected = format!("a time [s] after {:?}", times[k]);
-        return wrong(format!("lengths.times[{}]", k + 1), format!("{:?}", times[k + 1]), expected);
-    }
-    if lengths.len() != times.len() {
-        let value = format!("a list of {}", lengths.len());
-        return wrong(
-            "lengths.lengths".to_owned(),
-            value,
-            format!("{} rows, one for each time", times.len()),
-        );
-    }
-    for (k, row) in lengths.iter().enumerate() {
-        if row.len() != at_event.len() {
-            let expected = format!("one length for each of the {} cables", at_event.len());
-            return wrong(format!("lengths.lengths[{k}]"), format!("a list of {}", row.len()), expected);
+    lengths.iter().enumerate().find_map(|(i, length)| {
+        let first = table.at(i, 0.0)[0];
+        let [least, most] = table.extremes(i);
+        if (first / length - 1.0).abs() > SAME {
+            let expected = format!("the length at rest of cable {}, {length:.6} m", i + 1);
+            return Some(("lengths, first row", format!("{first:.6} m"), expected));
         }
-        for (i, (length, first)) in row.iter().zip(&at_event).enumerate() {
-            let field = || format!("lengths.lengths[{k}][{i}]");
-            if k == 0 && (length - first).abs() > ROUNDING {
-                let expected = format!("{first:.7}, the length [m] at the event");
-                return wrong(field(), format!("{length:?}"), expected);
-            }
-            if !(*length > 0.1 * first && *length < 11.0 * first) {
-                let expected = format!("a length [m] of 0.1 to 11 times {first:.4}");
-                return wrong(field(), format!("{length:?}"), expected);
-            }
-        }
-    }
-    Ok(())
-}
-
-impl Event {
-    /// Adds what this event does with a cable to its winch.
-    pub(super) fn wind(&self, cable: usize, winch: &mut Winch) {
-        match &self.change {
-            Change::Shorten { cable: of, by, over, profile } if *of == cable => {
-                winch.ramp(Ramp { from: self.time, over: *over, by: *by, profile: *profile });
-            }
-            Change::Lengths { times, lengths } => {
-                let times = times.iter().map(|time| self.time + time).collect();
-                winch.follow(Spline::new(times, lengths.iter().map(|row| row[cable])));
-            }
-            _ => {}
-        }
-    }
+        (least < 0.1 * length || most > 10.0 * length).then(|| {
+            let expected = format!("a tenth to ten times the {length:.4} m of cable {} at rest", i + 1);
+            ("lengths", format!("{least:.4} to {most:.4} m"), expected)
+        })
+    })
 }

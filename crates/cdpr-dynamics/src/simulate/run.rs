@@ -172,7 +172,7 @@ impl Run<'_> {
             kinks.push(event.time);
             match &event.change {
                 Change::Shorten { over, .. } => kinks.push(event.time + over),
-                Change::Lengths { times, .. } => kinks.extend(times.last().map(|last| event.time + last)),
+                Change::Lengths(table) => kinks.push(event.time + table.duration()),
                 _ => {}
             }
         }

@@ -4,7 +4,6 @@ use super::cable::{CableInMotion, Start};
 use super::lead::{Lead, Rest};
 use super::mesh::{Material, Mesh, Points, Rule};
 use super::system::{Body, System};
-use super::winch::Winch;
 use crate::error::{DynamicsError, positive};
 use cdpr_cable::{Cable, FromLeavePoint};
 use cdpr_robot::{Matrix3, Vector3, Wrench};
@@ -201,7 +200,7 @@ impl Settings {
             length: if mesh.is_some() { free.unstrained_length } else { whole.unstrained_length },
             mesh,
             least_tension: tension_at(free.lowest_arc_length().0 / free.unstrained_length),
-            winch: Winch::default(),
+            reeling: Vec::new(),
             first: 0,
         };
         (cable, own)

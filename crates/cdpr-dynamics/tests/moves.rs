@@ -1,0 +1,132 @@
+//! Moves from rest to rest.
+
+use crate::robots::robot;
+use cdpr_dynamics::DynamicsError;
+use cdpr_dynamics::moves::{
+    FeedForward, Move, Residual, SetPoint, Shaper, ShaperKind, residual, winch_lengths,
+};
+use cdpr_dynamics::simulate::{Discretization, Profile, Settings};
+use cdpr_robot::{Pose, Robot};
+use cdpr_statics::{Load, StaticsError};
+
+const CAROCA: &str = include_str!("../../../data/robots/caroca.json");
+const COGIRO: &str = include_str!("../../../data/robots/cogiro.json");
+const IPANEMA_3: &str = include_str!("../../../data/robots/ipanema-3.json");
+
+/// One metre along x at a height, in one second.
+fn poses(height: f64) -> [Pose; 2] {
+    [-0.5, 0.5].map(|x| Pose::at(x, 0.0, height))
+}
+
+fn plain<'a>(robot: &'a Robot, poses: &'a [Pose], profile: Profile) -> Move<'a> {
+    Move {
+        robot,
+        load: Load::none(),
+        poses,
+        seconds: 1.0,
+        profile,
+        shaper: Shaper::default(),
+        feed_forward: FeedForward::None,
+        rate: 200.0,
+    }
+}
+
+fn after(robot: &Robot, points: &[SetPoint]) -> Residual {
+    let discretization = Some(Discretization { elements: 2, degree: 5 });
+    let settings = Settings { rate: 200.0, discretization, tolerance: 1e-6, ..Settings::until(0.5) };
+    residual(robot, &Load::none(), points, &[], &settings).unwrap()
+}
+
+#[test]
+fn a_shaper_leaves_less_than_a_third_of_the_vibration_after_a_metre_in_a_second() {
+    for (file, height, most) in [(CAROCA, 1.75, 0.03), (COGIRO, 2.0, 0.25), (IPANEMA_3, 1.5, 0.10)] {
+        let (robot, poses) = (robot(file), poses(height));
+        let plain = plain(&robot, &poses, Profile::Cosine);
+        let unshaped = after(&robot, &plain.plan().unwrap());
+        let (shaped, chosen) = plain.shaped(ShaperKind::Zvd, 2, 0.0).unwrap();
+        let left = after(&robot, &shaped.plan().unwrap());
+        let share = left.amplitude / unshaped.amplitude;
+        println!("{}: {:.1} % of {:.3} mm", robot.name, 100.0 * share, 1e3 * unshaped.amplitude);
+        assert!(share < most && chosen.len() == 2, "{}: {share} {chosen:?}", robot.name);
+        assert!(left.difference < 0.1 * unshaped.amplitude && left.slack.is_empty(), "{left:?}");
+        // The way still ends at the wanted pose, after the same time.
+        assert!((shaped.shaper.duration() < 1.0) && left.deviation < unshaped.deviation + 2e-3);
+    }
+}
+
+#[test]
+fn feed_forward_holds_the_platform_on_its_way() {
+    for (file, height, seconds) in [(CAROCA, 1.75, 1.0), (COGIRO, 2.0, 1.5)] {
+        let (robot, poses) = (robot(file), poses(height));
+        let of = |feed_forward| {
+            let plain = plain(&robot, &poses, Profile::Polynomial);
+            after(&robot, &Move { feed_forward, seconds, ..plain }.plan().unwrap())
+        };
+        let [none, platform, cables] =
+            [FeedForward::None, FeedForward::Platform, FeedForward::Cables].map(of);
+        let deviations = [&none, &platform, &cables].map(|of| 1e6 * of.deviation);
+        let amplitudes = [&none, &platform, &cables].map(|of| 1e6 * of.amplitude);
+        println!("{}: {deviations:.1?} {amplitudes:.1?} um", robot.name);
+        for of in [platform, cables] {
+            assert!(of.deviation < 0.05 * none.deviation, "{}: {of:?} {none:?}", robot.name);
+            assert!(of.amplitude < 0.5 * none.amplitude, "{}: {of:?} {none:?}", robot.name);
+        }
+    }
+}
+
+#[test]
+fn the_platform_is_carried_by_the_force_that_accelerates_it() {
+    let (robot, poses) = (robot(CAROCA), poses(1.75));
+    let plain = plain(&robot, &poses, Profile::Polynomial);
+    let points = Move { feed_forward: FeedForward::Platform, ..plain }.plan().unwrap();
+    assert_eq!(points.len(), 201);
+    for point in points.iter().step_by(20) {
+        let mut force = robot.weight(&point.pose, 0.0).force;
+        for (i, tension) in point.tensions.iter().enumerate() {
+            // The cables sag little, so that they pull nearly along their chords.
+            force -= robot.span(&point.pose, i).normalize() * *tension;
+        }
+        let wanted = robot.platform.mass * Profile::Polynomial.at(point.time)[2];
+        assert!((force.x - wanted).abs() < 40.0, "{}: {} {wanted}", point.time, force.x);
+    }
+    // It passes through its poses at the times of the profile.
+    let middle = &points[100];
+    assert!(middle.pose.position.x.abs() < 1e-12 && (middle.time - 0.5).abs() < 1e-12);
+    let table = winch_lengths(&points).unwrap();
+    assert!((table.at(0, 0.5)[0] - middle.lengths[0]).abs() < 1e-12);
+}
+
+#[test]
+fn moves_that_are_not_possible_are_refused_with_the_reason() {
+    let (robot, poses) = (robot(COGIRO), poses(2.0));
+    let plain = plain(&robot, &poses, Profile::Polynomial);
+    let refused = |of: Move| of.plan().unwrap_err();
+    let too_fast =
+        refused(Move { seconds: 0.35, feed_forward: FeedForward::Platform, rate: 500.0, ..plain.clone() });
+    let DynamicsError::TooFast { time, position, cable: Some(cable), source } = &too_fast else {
+        panic!("{too_fast:?}")
+    };
+    assert!(*time > 0.0 && *time < 0.35 && position[0] < 0.5 && *cable < 8, "{too_fast}");
+    assert!(matches!(**source, StaticsError::NoTensions { .. }), "{source}");
+    assert!(too_fast.to_string().contains("give it more seconds"), "{too_fast}");
+    let mut without = robot.clone();
+    without.platform.inertia = None;
+    let of_platform = Move { feed_forward: FeedForward::Platform, ..plain.clone() };
+    let error = refused(Move { robot: &without, ..of_platform.clone() });
+    assert!(error.to_string().starts_with("platform.inertia is missing"), "{error}");
+    let shaper = Shaper::new(ShaperKind::Zvd, 0.9, 0.0).unwrap();
+    for (of, expected) in [
+        (Move { shaper, ..plain.clone() }, "more than the 1.1111 s that the shaper takes"),
+        (Move { profile: Profile::Linear, ..plain.clone() }, "begins with a jump of the speed"),
+        (Move { profile: Profile::Cosine, ..of_platform }, "polynomial with feed-forward"),
+        (Move { seconds: f64::NAN, ..plain.clone() }, "a duration [s] above zero"),
+        (Move { rate: 1.0, ..plain.clone() }, "2 to 1e6 set points"),
+        (Move { poses: &poses[..1], ..plain.clone() }, "two poses or more"),
+    ] {
+        let error = refused(of).to_string();
+        assert!(error.contains(expected), "{error}");
+    }
+    // A pose that no cables hold at rest is no matter of the motion.
+    let far = [poses[0], Pose::at(60.0, 0.0, 2.0)];
+    assert!(matches!(refused(Move { poses: &far, ..plain }), DynamicsError::Statics(_)));
+}
