@@ -8,7 +8,7 @@ mod length_for_tension;
 mod spatial;
 
 pub use end_force::{Solution, end_force, end_force_near};
-pub use held::{HeldCable, TensionSlope};
+pub use held::HeldCable;
 pub use known::Known;
 pub use length_for_tension::{length_for_tension, length_for_tension_near};
 pub use spatial::{HeldSpatialCable, spatial_end_force};

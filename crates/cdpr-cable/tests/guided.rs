@@ -1,7 +1,9 @@
 //! A cable over a lead and a swivelling pulley: references, limits, derivatives.
 
+use crate::common::{by as in_plane, in_space};
 use cdpr_cable::{
-    Cable, Catenary, Entry, Guide, HeldCable, Vector2, Vector3, end_force, end_force_near, length_for_tension,
+    Cable, Catenary, Entry, Guide, HeldCable, Property, Vector2, Vector3, end_force, end_force_near,
+    length_for_tension,
 };
 use proptest::prelude::*;
 use serde_json::Value;
@@ -126,7 +128,7 @@ proptest! {
         let catenary = held.catenary;
         let scale = end.norm() + catenary.unstrained_length;
         prop_assert!(catenary.closure(end).norm() <= 64.0 * f64::EPSILON * scale);
-        let compliance = catenary.compliance();
+        let response = catenary.response();
         let h = 1e-3 * catenary.force.x.min(catenary.exit_tension());
         let with = |force: Vector2<f64>| Catenary { force, ..catenary }.end_position();
         let columns = [Vector2::x(), Vector2::y()]
@@ -138,27 +140,28 @@ proptest! {
         let w = cable.weight_per_length;
         let bound = 2.0 * led / cable.axial_stiffness * w
             * (guide.radius / catenary.exit_tension() + led / cable.axial_stiffness);
-        let size = compliance.flexibility.norm();
+        let c = response.flexibility_matrix();
+        let size = c.norm();
         prop_assert!(asymmetry <= bound + 1e-7 * size, "{asymmetry:e} {bound:e}");
-        let c = &compliance.flexibility;
         prop_assert!((c.m11 - columns[0].x).abs() < 1e-7 * size);
         prop_assert!((c.m22 - columns[1].y).abs() < 1e-7 * size);
         prop_assert!((c.m12 - shear).abs() < 1e-7 * size);
-        let determinant = compliance.determinant;
+        let determinant = response.determinant;
         prop_assert!((determinant / c.determinant() - 1.0).abs() < 1e-13 * size * size / determinant);
-        prop_assert!((compliance.lateral_stiffness * end.x / catenary.force.x - 1.0).abs() < 1e-12);
+        prop_assert!((end.x / response.lateral_flexibility / catenary.force.x - 1.0).abs() < 1e-12);
         let by = |of: &dyn Fn(f64) -> Catenary<'static>| difference(1e-4, &|s| of(s).end_position());
         let (ea, length) = (cable.axial_stiffness, catenary.unstrained_length);
         let made = |cable: Cable<'static>| Catenary { cable, ..catenary };
         let longer = |more: f64| Catenary { unstrained_length: length + more, ..catenary };
-        let [per_lead, per_radius] = catenary.end_per_guide().unwrap();
+        let slopes = in_space(&catenary).slopes();
+        let per = |property| in_plane(&slopes, property);
         let size = end.norm();
         let cases = [
-            ("L", compliance.end_per_length * length, by(&|s| longer(length * s))),
-            ("w", catenary.end_per_weight() * w, by(&|s| made(heavier(cable, s)))),
-            ("EA", catenary.end_per_stiffness() * ea, by(&|s| made(stiffer(cable, s)))),
-            ("lead", per_lead * size, by(&|s| made(led_by(cable, [size * s, 0.0])))),
-            ("radius", per_radius * size, by(&|s| made(led_by(cable, [0.0, size * s])))),
+            ("L", Vector2::from(response.end_per_length) * length, by(&|s| longer(length * s))),
+            ("w", per(Property::Weight) * w, by(&|s| made(heavier(cable, s)))),
+            ("EA", per(Property::Stiffness) * ea, by(&|s| made(stiffer(cable, s)))),
+            ("lead", per(Property::Lead) * size, by(&|s| made(led_by(cable, [size * s, 0.0])))),
+            ("radius", per(Property::Radius) * size, by(&|s| made(led_by(cable, [0.0, size * s])))),
         ];
         for (name, exact, difference) in cases {
             let error = (exact - difference).norm();
@@ -181,23 +184,26 @@ proptest! {
         prop_assert!((curvature - held.force_curvature()).norm() < 1e-5 * size);
         // Next to the least tension, differences say nothing.
         prop_assume!(held.tension_slope() > 0.3);
-        let (t, slopes, chord) = (held.tension(), held.tension_slopes(), end.norm());
+        let (t, slopes) = (held.tension(), in_space(&held.catenary).tension_slopes());
+        let chord = end.norm();
+        let per_end = |column: usize| slopes.per_end.fixed_columns::<1>(column).xz();
+        let per = |property| in_plane(&slopes.per_property, property);
         let v = |cable: Cable<'static>, end: Vector2<f64>, t: f64| {
             let held = HeldCable::at_chord_force(&cable, end, sigma).unwrap().with_tension(t).unwrap();
             held.force_slope / held.tension_slope()
         };
         let direction = v(cable, end, t);
-        prop_assert!((slopes.force_per_tension - direction).norm() < 1e-10);
+        prop_assert!((slopes.value.xz() - direction).norm() < 1e-10);
         let (w, ea) = (cable.weight_per_length, cable.axial_stiffness);
         let by = |at: &dyn Fn(f64) -> Vector2<f64>| difference(1e-4, at);
         let cases = [
-            ("t", slopes.per_tension * t, by(&|s| v(cable, end, t * (1.0 + s)))),
-            ("x", slopes.per_end[0] * chord, by(&|s| v(cable, end + Vector2::x() * (chord * s), t))),
-            ("z", slopes.per_end[1] * chord, by(&|s| v(cable, end + Vector2::y() * (chord * s), t))),
-            ("w", slopes.per_weight * w, by(&|s| v(heavier(cable, s), end, t))),
-            ("EA", slopes.per_stiffness * ea, by(&|s| v(stiffer(cable, s), end, t))),
-            ("lead", slopes.per_guide[0] * chord, by(&|s| v(led_by(cable, [chord * s, 0.0]), end, t))),
-            ("radius", slopes.per_guide[1] * chord, by(&|s| v(led_by(cable, [0.0, chord * s]), end, t))),
+            ("t", slopes.per_actuation.xz() * t, by(&|s| v(cable, end, t * (1.0 + s)))),
+            ("x", per_end(0) * chord, by(&|s| v(cable, end + Vector2::x() * (chord * s), t))),
+            ("z", per_end(2) * chord, by(&|s| v(cable, end + Vector2::y() * (chord * s), t))),
+            ("w", per(Property::Weight) * w, by(&|s| v(heavier(cable, s), end, t))),
+            ("EA", per(Property::Stiffness) * ea, by(&|s| v(stiffer(cable, s), end, t))),
+            ("lead", per(Property::Lead) * chord, by(&|s| v(led_by(cable, [chord * s, 0.0]), end, t))),
+            ("radius", per(Property::Radius) * chord, by(&|s| v(led_by(cable, [0.0, chord * s]), end, t))),
         ];
         for (name, exact, difference) in cases {
             let error = (exact - difference).norm();
@@ -213,8 +219,8 @@ proptest! {
         let held = HeldCable::at_chord_force(&plain, end, sigma).unwrap().catenary;
         let same = Catenary { cable: guided, ..held };
         prop_assert_eq!(same.end_position(), held.end_position());
-        prop_assert_eq!(same.compliance().flexibility, held.compliance().flexibility);
-        prop_assert_eq!(same.compliance().determinant, held.compliance().determinant);
+        prop_assert_eq!(same.response().flexibility, held.response().flexibility);
+        prop_assert_eq!(same.response().determinant, held.response().determinant);
         prop_assert_eq!(same.exit_tension(), held.exit_tension());
         let (length, tension) = (held.unstrained_length, held.anchor_tension());
         let with = end_force(&guided, length, end).unwrap().catenary.force;

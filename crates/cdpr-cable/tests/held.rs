@@ -1,6 +1,9 @@
 //! A cable between held ends as a function of its chord force: closure, derivatives, least tension.
 
-use cdpr_cable::{Cable, Catenary, ElasticLaw, HeldCable, PiecewiseLaw, Segment, Vector2, end_force};
+use crate::common::{by, in_space};
+use cdpr_cable::{
+    Cable, Catenary, ElasticLaw, HeldCable, PiecewiseLaw, Property, Segment, Vector2, end_force,
+};
 use proptest::prelude::*;
 
 /// Cables over spans of any direction, from taut to nearly their least tension.
@@ -64,7 +67,9 @@ proptest! {
     #[test]
     fn second_derivatives_at_given_tension_are_those_of_differences((cable, end, sigma) in any_held()) {
         let held = HeldCable::at_chord_force(&cable, end, sigma).unwrap();
-        let (t, slopes) = (held.tension(), held.tension_slopes());
+        let (t, slopes) = (held.tension(), in_space(&held.catenary).tension_slopes());
+        let per_end = |column: usize| slopes.per_end.fixed_columns::<1>(column).xz();
+        let per = |property| by(&slopes.per_property, property);
         // Next to the least tension, differences say nothing.
         prop_assume!(held.tension_slope() > 0.3);
         let v = |cable: Cable<'static>, end: Vector2<f64>, t: f64| {
@@ -73,16 +78,16 @@ proptest! {
             held.force_slope / held.tension_slope()
         };
         let direction = v(cable, end, t);
-        prop_assert!((slopes.force_per_tension - direction).norm() < 1e-12);
+        prop_assert!((slopes.value.xz() - direction).norm() < 1e-12);
         let difference = |step: f64, at: &dyn Fn(f64) -> Vector2<f64>| (at(step) - at(-step)) / (2.0 * step);
         let chord = end.norm();
         let h = 1e-5;
         let (w, ea) = (cable.weight_per_length, cable.axial_stiffness);
         let cases = [
-            ("t", slopes.per_tension * t, difference(h, &|s| v(cable, end, t * (1.0 + s)))),
-            ("z", slopes.per_end[1] * chord, difference(h, &|s| v(cable, end + Vector2::y() * (chord * s), t))),
-            ("w", slopes.per_weight * w, difference(h, &|s| v(Cable::linear(w * (1.0 + s), ea), end, t))),
-            ("EA", slopes.per_stiffness * ea, difference(h, &|s| v(Cable::linear(w, ea * (1.0 + s)), end, t))),
+            ("t", slopes.per_actuation.xz() * t, difference(h, &|s| v(cable, end, t * (1.0 + s)))),
+            ("z", per_end(2) * chord, difference(h, &|s| v(cable, end + Vector2::y() * (chord * s), t))),
+            ("w", per(Property::Weight) * w, difference(h, &|s| v(Cable::linear(w * (1.0 + s), ea), end, t))),
+            ("EA", per(Property::Stiffness) * ea, difference(h, &|s| v(Cable::linear(w, ea * (1.0 + s)), end, t))),
         ];
         for (name, exact, difference) in cases {
             let scale = 1.0 + exact.norm();
@@ -90,7 +95,7 @@ proptest! {
         }
         if end.x > 1e-3 * chord {
             let difference = difference(h, &|s| v(cable, end + Vector2::x() * (chord * s), t));
-            let exact = slopes.per_end[0] * chord;
+            let exact = per_end(0) * chord;
             prop_assert!((exact - difference).norm() < 1e-6 * (1.0 + exact.norm()), "x: {exact} {difference}");
         }
     }
@@ -126,12 +131,12 @@ fn a_vertical_cable_is_regular() {
                     < 1e-7
             );
             // v_x is odd in x.
-            let slopes = held.tension_slopes();
+            let per_end = in_space(&held.catenary).tension_slopes().per_end;
             let aside = HeldCable::at_chord_force(&cable, Vector2::new(1e-4, z), sigma).unwrap();
             let aside = aside.with_tension(held.tension()).unwrap();
             let slope = aside.force_slope.x / aside.tension_slope() / 1e-4;
-            assert!((slopes.per_end[0].x / slope - 1.0).abs() < 1e-6, "{z} {sigma}");
-            assert!(slopes.per_end[0].y == 0.0 && slopes.per_end[1].iter().all(|v| v.is_finite()));
+            assert!((per_end.m11 / slope - 1.0).abs() < 1e-6, "{z} {sigma}");
+            assert!(per_end.m31 == 0.0 && per_end.column(2).iter().all(|v| v.is_finite()));
         }
         // Hanging down from A the cable's whole weight is at A; hanging from B it may be all at B.
         let least = HeldCable::at_least_tension(&cable, end).unwrap().tension();

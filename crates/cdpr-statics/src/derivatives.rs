@@ -20,7 +20,8 @@
 //! [ sum_free c_i c_iᵀ/D_i ] dλ = ∂G - sum_free c_i ∂ρ_i/D_i + sum_active c_i dt_i
 //! ```
 //!
-//! The derivatives of v_i are second derivatives of the catenary (`cdpr_cable::TensionSlope`).
+//! The derivatives of v_i are second derivatives of the catenary
+//! (`cdpr_cable::SpatialCable::tension_slopes`).
 //!
 //! **Active bounds stay active** while their multipliers are not zero. On limits at the platform `dt_i = 0`.
 //! A cable whose weight demands more rests on a constant, a = 1.001, times the least tension over its
@@ -170,7 +171,7 @@ fn at_pose(
     cables: &SetPointLengths,
 ) -> Result<Derivatives, StaticsError> {
     require_smooth(robot)?;
-    let deflection = deflection_from(robot, cables.lengths.clone(), load, &cables.equilibrium)?;
+    let deflection = deflection_from(robot, cables.offset.lengths.clone(), load, &cables.offset.equilibrium)?;
     let WantedPose { pose, tension_reference, .. } = wanted;
     let at = AtSetPoints { robot, pose, reference: *tension_reference, inputs: Inputs::of(robot), cables };
     let set_points = at.set_points(tension_offsets)?;

@@ -15,9 +15,9 @@
 
 use crate::cable::Cable;
 use crate::catenary::Catenary;
-use crate::catenary::compliance::Compliance;
 use crate::error::{CableError, SMALLEST, check, check_length};
 use crate::guide::{Guide, Straight, in_plane};
+use crate::kernel::Response;
 use crate::law::ElasticLaw;
 use nalgebra::Vector2;
 
@@ -171,28 +171,28 @@ pub(crate) fn check_end(end: Vector2<f64>) -> Result<(), CableError> {
 
 fn newton<'a>(start: Catenary<'a>, end: Vector2<f64>, iterations: usize) -> Result<Solution<'a>, CableError> {
     let mut catenary = start;
-    let mut compliance = catenary.compliance();
-    let mut residual = end - compliance.end;
+    let mut response = catenary.response();
+    let mut residual = end - Vector2::from(response.end);
     for iteration in 1..=iterations {
         let force = catenary.force;
-        let rounding = rounding(&catenary, &compliance, end);
+        let rounding = rounding(&catenary, &response, end);
         // A residual below rounding is left alone: for a stiff cable it is worth a visible force.
         let above = residual.zip_map(&rounding, |open, noise| if open.abs() <= noise { 0.0 } else { open });
-        let step = compliance.in_plane_stiffness() * above;
+        let step = response.stiffness_matrix() * above;
         let mut fraction = 1.0;
         let next = loop {
             let tried = force + fraction * step;
             // The horizontal force stays positive: a step takes nine tenths of it away at most.
             catenary.force = Vector2::new(tried.x.max(0.1 * force.x), tried.y);
-            let next_compliance = catenary.compliance();
-            let next_residual = end - next_compliance.end;
+            let next_response = catenary.response();
+            let next_residual = end - Vector2::from(next_response.end);
             // Not past the maximum along the step, but for rounding: then the concave function has grown. Or
             // clearly closer.
             let moved = catenary.force - force;
             if next_residual.dot(&moved) >= -rounding.dot(&moved.abs())
                 || next_residual.norm() <= 0.5 * residual.norm()
             {
-                break Some((next_compliance, next_residual, moved));
+                break Some((next_response, next_residual, moved));
             }
             fraction *= 0.5;
             // A nearly vertical cable as long as its chord needs steps down to a ten billionth.
@@ -200,7 +200,7 @@ fn newton<'a>(start: Catenary<'a>, end: Vector2<f64>, iterations: usize) -> Resu
                 break None;
             }
         };
-        let Some((next_compliance, next_residual, moved)) = next else {
+        let Some((next_response, next_residual, moved)) = next else {
             // No step gains anything: the residual is rounding, or there is no solution.
             return accept(Catenary { force, ..catenary }, end, iteration);
         };
@@ -212,7 +212,7 @@ fn newton<'a>(start: Catenary<'a>, end: Vector2<f64>, iterations: usize) -> Resu
             && catenary.cable.guide.is_none()
             && moved.x.abs() <= LAST_STEP * catenary.force.x
             && moved.y.abs() <= LAST_STEP * catenary.anchor_tension().min(catenary.exit_tension());
-        (compliance, residual) = (next_compliance, next_residual);
+        (response, residual) = (next_response, next_residual);
         if last || at_rounding {
             return accept(catenary, end, iteration);
         }
@@ -222,10 +222,10 @@ fn newton<'a>(start: Catenary<'a>, end: Vector2<f64>, iterations: usize) -> Resu
 
 /// Rounding error of the computed end position [m]: of its own sums and of the force it is computed from.
 #[inline(always)]
-fn rounding(catenary: &Catenary, compliance: &Compliance, end: Vector2<f64>) -> Vector2<f64> {
+fn rounding(catenary: &Catenary, response: &Response<f64>, end: Vector2<f64>) -> Vector2<f64> {
     let forces = Vector2::new(catenary.force.x, catenary.force.y.abs() + catenary.weight());
     let sums = Vector2::new(8.0 * end.x, 2.0 * (catenary.unstrained_length + end.norm()));
-    f64::EPSILON * (sums + compliance.flexibility.abs() * forces)
+    f64::EPSILON * (sums + response.flexibility_matrix().abs() * forces)
 }
 
 fn accept<'a>(
@@ -236,7 +236,7 @@ fn accept<'a>(
     let solution = Solution::of(catenary, end, iterations);
     // However large the rounding may be, an end farther off than this is no solution.
     let largest = 1e-9 * (catenary.unstrained_length + end.norm());
-    if solution.residual <= (16.0 * rounding(&catenary, &catenary.compliance(), end).norm()).min(largest) {
+    if solution.residual <= (16.0 * rounding(&catenary, &catenary.response(), end).norm()).min(largest) {
         Ok(solution)
     } else {
         Err(CableError::NotConverged { iterations, residual: solution.residual })
@@ -292,10 +292,10 @@ fn vertical_newton<'a>(
     }
     let mut iterations = 0;
     while iterations < MAX_ITERATIONS {
-        let compliance = at(now).compliance();
-        let open = end.y - compliance.end.y;
+        let response = at(now).response();
+        let open = end.y - response.end[1];
         *(if open > 0.0 { &mut low } else { &mut high }) = now;
-        let next = now + open / compliance.flexibility.m22;
+        let next = now + open / response.flexibility[2];
         let next = if low < next && next < high { next } else { 0.5 * (low + high) };
         if next == now || open == 0.0 {
             break;

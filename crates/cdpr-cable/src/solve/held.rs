@@ -32,7 +32,7 @@ use crate::error::{CableError, SMALLEST, check};
 use crate::guide::Straight;
 use crate::solve::chord_force::{ByChordForce, at_least_tension};
 use crate::solve::end_force::{check_end, straightened};
-use cdpr_number::{Dual, Number, Real};
+use cdpr_number::{Dual, Real};
 use in_plane::{ClosureMatrix, InPlane, VERTICAL};
 use nalgebra::Vector2;
 
@@ -50,28 +50,6 @@ pub struct HeldCable<'a> {
     /// dL/dσ [m/N], always negative.
     pub length_slope: f64,
 }
-
-/// Second derivatives of a cable between held ends: how `v = df/dt`, the change of its force with its tension
-/// t at A, changes itself.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TensionSlope {
-    /// v = df/dt.
-    pub force_per_tension: Vector2<f64>,
-    /// dv/dt [1/N].
-    pub per_tension: Vector2<f64>,
-    /// dv/dx and dv/dz at constant t: motions of A in the plane [1/m].
-    pub per_end: [Vector2<f64>; 2],
-    /// dv/dw at constant t, per weight per length [m/N].
-    pub per_weight: Vector2<f64>,
-    /// dv/dEA at constant t, per axial stiffness [1/N].
-    pub per_stiffness: Vector2<f64>,
-    /// dv by lead and radius of the guide at constant t [1/m]; zero without a guide.
-    pub per_guide: [Vector2<f64>; 2],
-}
-
-/// A cable whose horizontal distance is a smaller share of its chord answers to a motion forwards as one that
-/// is vertical.
-const NEARLY_VERTICAL: f64 = 1e-8;
 
 impl<'a> HeldCable<'a> {
     /// The cable from the origin to `end = (x, z)` [m], `x >= 0`, with the chord force `chord_force` [N].
@@ -171,81 +149,6 @@ impl<'a> HeldCable<'a> {
     pub fn tension_curvature(&self, force_curvature: &Vector2<f64>) -> f64 {
         let (f, slope) = (self.catenary.force, self.tension_slope());
         (f.dot(force_curvature) + self.force_slope.norm_squared() - slope * slope) / self.tension()
-    }
-
-    /// Second derivatives with respect to the tension, the end, the material and the guide.
-    pub fn tension_slopes(&self) -> TensionSlope {
-        let numbers = self.catenary.cable.numbers(self.catenary.unstrained_length);
-        let Numbers { weight_per_length: w, axial_flexibility: flexibility, lead, radius, .. } = numbers;
-        let [x, z] = self.end.into();
-        // A motion out of the vertical turns the plane of the cable and is odd; nearby the quotients by fx
-        // lose digits.
-        let sideways = (x <= NEARLY_VERTICAL * self.end.norm())
-            .then(|| Vector2::x() / (self.end.norm() * self.tension_slope()));
-        let of = |[v, x, z, w, flexibility, t]: [Vector2<f64>; 6], per_guide| TensionSlope {
-            force_per_tension: v,
-            per_tension: t,
-            per_end: [sideways.unwrap_or(x), z],
-            per_weight: w,
-            per_stiffness: flexibility * (-numbers.axial_flexibility * numbers.axial_flexibility),
-            per_guide,
-        };
-        if self.catenary.cable.guide.is_none() {
-            let (v, slopes) = self.slopes_by([x, z, w, flexibility, self.chord_force]);
-            let [x, z, w, flexibility, t] = slopes;
-            of([v, x, z, w, flexibility, t], [Vector2::zeros(); 2])
-        } else {
-            let (v, slopes) = self.slopes_by([x, z, w, flexibility, lead, radius, self.chord_force]);
-            let [x, z, w, flexibility, lead, radius, t] = slopes;
-            of([v, x, z, w, flexibility, t], [lead, radius])
-        }
-    }
-
-    /// v = df/dt, and its derivatives with respect to the inputs at constant t; the last input is the chord
-    /// force, whose place t itself takes.
-    ///
-    /// The inputs are x, z, w, 1/EA and, with a guide, its lead and radius.
-    fn slopes_by<const N: usize>(&self, values: [f64; N]) -> (Vector2<f64>, [Vector2<f64>; N]) {
-        let mut inputs: [Dual<f64, N>; N] = std::array::from_fn(|k| Dual::input(values[k], k));
-        let plain = self.in_plane();
-        let mut numbers = plain.numbers.map(Dual::of);
-        (numbers.weight_per_length, numbers.axial_flexibility) = (inputs[2], inputs[3]);
-        if N == 7 {
-            (numbers.lead, numbers.radius) = (inputs[4], inputs[5]);
-        }
-        let (end, chord_force) = ([inputs[0], inputs[1]], inputs[N - 1]);
-        let mut cable = InPlane { end, numbers, chord_force, fz: Dual::of(plain.fz) };
-        // What closes the cable for every change of an input.
-        let matrix = ClosureMatrix::of(&plain, &plain.whole_response(&self.catenary));
-        let [across, height] = cable.misclosure(&cable.response(&self.catenary).0);
-        for k in 0..N {
-            let [fz, length] = matrix.solve([across.slopes[k], height.slopes[k]]);
-            (cable.fz.slopes[k], cable.numbers.length.slopes[k]) = (fz, length);
-        }
-        // The same with the tension held, by a change of the chord force.
-        let tension = |cable: &InPlane<Dual<f64, N>>| {
-            let fx = cable.fx();
-            (fx * fx + cable.fz * cable.fz).sqrt()
-        };
-        let slopes = tension(&cable).slopes;
-        let per_sigma = slopes[N - 1];
-        let along = |number: &mut Dual<f64, N>| {
-            let own = number.slopes[N - 1] / per_sigma;
-            for (slope, tension) in number.slopes[..N - 1].iter_mut().zip(slopes) {
-                *slope -= tension * own;
-            }
-            number.slopes[N - 1] = own;
-        };
-        inputs.iter_mut().for_each(along);
-        cable.chord_force = inputs[N - 1];
-        along(&mut cable.fz);
-        along(&mut cable.numbers.length);
-        let response = cable.response(&self.catenary);
-        let [fx, fz, _] = cable.slopes(&response);
-        let t_slope = (cable.fx() * fx + cable.fz * fz) / tension(&cable);
-        let v = [fx / t_slope, fz / t_slope];
-        let slope = |k: usize| Vector2::new(v[0].slopes[k], v[1].slopes[k]);
-        (Vector2::new(v[0].value, v[1].value), std::array::from_fn(slope))
     }
 
     fn in_plane(&self) -> InPlane<f64> {

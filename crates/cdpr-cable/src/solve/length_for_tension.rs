@@ -109,10 +109,11 @@ fn taut_start<'a>(cable: &Cable<'a>, end: Vector2<f64>, tension: f64) -> Catenar
 fn newton<'a>(start: Catenary<'a>, end: Vector2<f64>, tension: f64) -> Option<Solution<'a>> {
     let chord = end.norm();
     let mut now = start;
-    let mut compliance = now.compliance();
+    let mut response = now.response();
     for iteration in 1..=20 {
-        let per_angle = compliance.flexibility * Vector2::new(-now.force.y, now.force.x);
-        let (per_length, miss) = (compliance.end_per_length, end - compliance.end);
+        let per_angle = response.flexibility_matrix() * Vector2::new(-now.force.y, now.force.x);
+        let per_length = Vector2::from(response.end_per_length);
+        let miss = end - Vector2::from(response.end);
         // Cramer's rule. The step of a singular system is not finite.
         let step = Vector2::new(miss.perp(&per_length), per_angle.perp(&miss)) / per_angle.perp(&per_length);
         let (sin, cos) = step.x.sin_cos();
@@ -124,11 +125,11 @@ fn newton<'a>(start: Catenary<'a>, end: Vector2<f64>, tension: f64) -> Option<So
             return None;
         }
         now.force.x = now.force.x.max(0.0);
-        compliance = now.compliance();
+        response = now.response();
         if step.x.abs() <= 1e-8 && step.y.abs() <= 1e-8 * chord {
-            let residual = (end - compliance.end).norm();
+            let residual = (end - Vector2::from(response.end)).norm();
             let at_rounding = residual <= 64.0 * f64::EPSILON * (chord + now.unstrained_length);
-            let shorter = now.force.dot(&compliance.force_per_length()) < 0.0;
+            let shorter = now.force.dot(&response.force_per_length()) < 0.0;
             return (at_rounding && shorter).then_some(Solution {
                 catenary: now,
                 end,
@@ -142,7 +143,7 @@ fn newton<'a>(start: Catenary<'a>, end: Vector2<f64>, tension: f64) -> Option<So
 
 /// dT/dL [N/m] with both ends held; negative on the branch of the shorter cable.
 fn tension_slope(catenary: &Catenary) -> f64 {
-    catenary.force.dot(&catenary.compliance().force_per_length()) / catenary.anchor_tension()
+    catenary.force.dot(&catenary.response().force_per_length()) / catenary.anchor_tension()
 }
 
 fn bisect<'a>(cable: &Cable<'a>, end: Vector2<f64>, tension: f64) -> Result<Solution<'a>, CableError> {

@@ -13,15 +13,14 @@
 mod end_force;
 
 use crate::cable::{Cable, Numbers};
-use crate::catenary::spatial::{HeldSlopes, SpatialCable, horizontal, response};
+use crate::catenary::spatial::{SpatialCable, horizontal, response, solve};
 use crate::error::{CableError, SMALLEST, check, check_length};
 use crate::solve::chord_force::{ByChordForce, at_least_tension};
 use crate::solve::held::HeldCable;
-use cdpr_number::vector::{cross, dot};
-use cdpr_number::{Dual, Number, Real};
+use cdpr_number::{Dual, Real};
 pub use end_force::spatial_end_force;
 use end_force::{check_end, flat, lifted, straightened};
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 
 /// A cable over a pulley with a tilted axis between held ends, with the derivatives by its chord force.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,9 +36,6 @@ pub struct HeldSpatialCable<'a> {
     /// dL/dσ [m/N], always negative.
     pub length_slope: f64,
 }
-
-/// Inputs of [`HeldSpatialCable::tension_slopes`]: the end, what `Numbers::with_inputs` has, and the tension.
-const INPUTS: usize = 11;
 
 impl<'a> HeldSpatialCable<'a> {
     /// The cable to A at `end` [m] from D with the chord force `chord_force` [N].
@@ -190,43 +186,6 @@ impl<'a> HeldSpatialCable<'a> {
         (f.dot(force_curvature) + self.force_slope.norm_squared() - slope * slope) / self.tension()
     }
 
-    /// The force at A per tension there, dF/dt, with its derivatives, the tension given.
-    pub fn tension_slopes(&self) -> HeldSlopes {
-        let (plain, now) = (self.cable.numbers(), self.cable.response());
-        let direction = self.cable.force / self.tension();
-        let inverse = now.flexibility.try_inverse().unwrap_or_else(Matrix3::zeros);
-        let per_length = -inverse * now.end_per_length;
-        let mut numbers = plain.with_inputs::<INPUTS, 3>();
-        let mut force = <[f64; 3]>::from(self.cable.force).map(Dual::<f64, INPUTS>::of);
-        // What the inputs open at constant force and length, closed by force and length at constant tension.
-        let end = response(&self.cable.cable, &numbers, &force).end;
-        for k in 0..INPUTS {
-            let open = Vector3::from_fn(|i, _| f64::from(i == k) - end[i].slopes[k]);
-            let closing = inverse * open;
-            let missing = f64::from(k == INPUTS - 1) - direction.dot(&closing);
-            let length = missing / direction.dot(&per_length);
-            numbers.length.slopes[k] = length;
-            let change = closing + per_length * length;
-            (0..3).for_each(|i| force[i].slopes[k] = change[i]);
-        }
-        let slope = self.force_per_length(&numbers, &force);
-        let tension = (force[0] * force[0] + force[1] * force[1] + force[2] * force[2]).sqrt();
-        let along = (force[0] * slope[0] + force[1] * slope[1] + force[2] * slope[2]) / tension;
-        let v = slope.map(|slope| slope / along);
-        let column = |k: usize| Vector3::from(v.map(|v| v.slopes[k]));
-        let matrix = |first: usize| Matrix3::from_columns(&[0, 1, 2].map(|k| column(first + k)));
-        HeldSlopes {
-            value: v.map(|v| v.value).into(),
-            per_actuation: column(INPUTS - 1),
-            per_end: matrix(0),
-            per_weight: column(3),
-            per_stiffness: column(4) * (-plain.axial_flexibility * plain.axial_flexibility),
-            per_lead: column(5),
-            per_radius: column(6),
-            per_axis: matrix(7),
-        }
-    }
-
     /// F_L between held ends.
     fn force_per_length<T: Real>(&self, numbers: &Numbers<T>, force: &[T; 3]) -> [T; 3] {
         let found = response(&self.cable.cable, numbers, force);
@@ -298,11 +257,4 @@ impl ByChordForce for HeldSpatialCable<'_> {
 /// c/h of a span.
 fn per_horizontal(end: Vector3<f64>) -> f64 {
     end.norm() / end.x.hypot(end.y).max(1e-20 * end.norm())
-}
-
-/// `matrix⁻¹ right` by Cramer's rule, for a matrix of rows.
-fn solve<T: Real>([a, b, c]: &[[T; 3]; 3], right: &[T; 3]) -> [T; 3] {
-    let columns = [cross(b, c), cross(c, a), cross(a, b)];
-    let determinant = dot(a, &columns[0]);
-    [0, 1, 2].map(|i| dot(&columns.map(|column| column[i]), right) / determinant)
 }

@@ -37,7 +37,7 @@
 //! w_ex = [ F_w; R c x F_w ] + load,   F_w = (m + payload) γ
 //! ```
 
-use crate::equations::cable_derivatives::{CableDerivatives, Surroundings, moment, wrench};
+use crate::equations::cable_derivatives::{CableDerivatives, CableInput, moment, wrench};
 use crate::error::StaticsError;
 use crate::state::Load;
 use cdpr_robot::{Matrix6xX, Parameter, Pose, Robot, Vector3};
@@ -180,16 +180,18 @@ fn each_effect(
     mut add: impl FnMut(usize, usize, Vector3<f64>, Vector3<f64>),
 ) {
     let o = Vector3::zeros();
-    let around = |i: usize| cables[i].surroundings.as_deref();
+    let slope = |i: usize, first: CableInput, k: usize| -> Vector3<f64> {
+        cables[i].per_input.column(first as usize + k).into()
+    };
     for (column, parameter) in inputs.parameters.iter().enumerate() {
         match *parameter {
             // dF_i = k_ρ dρ
             Parameter::LinearDensity => {
-                cables.iter().enumerate().for_each(|(i, cable)| add(column, i, cable.per_density, o));
+                (0..cables.len()).for_each(|i| add(column, i, slope(i, CableInput::Density, 0), o));
             }
             // dF_i = k_E dE
             Parameter::YoungsModulus => {
-                cables.iter().enumerate().for_each(|(i, cable)| add(column, i, cable.per_modulus, o));
+                (0..cables.len()).for_each(|i| add(column, i, slope(i, CableInput::Modulus, 0), o));
             }
             // dr_i = ds_i = R da_i
             Parameter::AnchorPoint(i, axis) => {
@@ -200,16 +202,12 @@ fn each_effect(
             Parameter::ExitPoint(i, axis) => {
                 add(column, i, cables[i].stiffness.column(axis as usize).into(), o);
             }
-            Parameter::Lead(i) => add(column, i, around(i).map_or(o, |by| by.per_guide[0]), o),
-            Parameter::PulleyRadius(i) => add(column, i, around(i).map_or(o, |by| by.per_guide[1]), o),
-            Parameter::Tilt(i, axis) => {
-                add(column, i, around(i).map_or(o, |by| by.per_tilt[axis as usize]), o);
-            }
+            Parameter::Lead(i) => add(column, i, slope(i, CableInput::Lead, 0), o),
+            Parameter::PulleyRadius(i) => add(column, i, slope(i, CableInput::Radius, 0), o),
+            Parameter::Tilt(i, axis) => add(column, i, slope(i, CableInput::Tilt, axis as usize), o),
             Parameter::Gravity(axis) => {
-                for i in 0..cables.len() {
-                    let column_of = |by: &Surroundings| by.per_gravity.column(axis as usize).into();
-                    add(column, i, around(i).map_or(o, column_of), o);
-                }
+                (0..cables.len())
+                    .for_each(|i| add(column, i, slope(i, CableInput::Gravity, axis as usize), o));
             }
             // These act on the weight or on the set-points.
             Parameter::Mass | Parameter::CenterOfMass(_) | Parameter::TensionOffset(_) => {}
