@@ -131,8 +131,11 @@ impl Optimum {
             false if i == j => 1.0,
             _ => matrix[(i, j)],
         });
+        // Where rounding alone makes it regular, the diagonal of the inverse may be small by chance.
+        let scale = matrix.diagonal().map(|element| element.abs().sqrt());
         let is_regular = |inverse: &Matrix6<f64>| {
-            (0..6).all(|k| (matrix[(k, k)] * inverse[(k, k)]).abs() <= 1.0 / NEARLY_SINGULAR)
+            let scaled = inverse.component_mul(&(scale * scale.transpose()));
+            scaled.iter().all(|element| element.abs() <= 1.0 / NEARLY_SINGULAR)
         };
         let Some(inverse) = matrix.try_inverse().filter(is_regular) else {
             let reason = "the cables between their bounds do not act on all motions of the platform there";
