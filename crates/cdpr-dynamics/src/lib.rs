@@ -40,7 +40,7 @@ pub mod simulate;
 
 pub use derivatives::FrequencyDerivatives;
 pub use error::DynamicsError;
+pub use modes::swing::Swing;
 pub use modes::{Mode, Modes, Wanted, modes_at};
 pub use platform::MovingPlatform;
 pub use response::{Damping, FrequencyResponse, Response};
-pub use modes::swing::Swing;

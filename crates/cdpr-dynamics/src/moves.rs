@@ -26,8 +26,8 @@ use crate::simulate::{Profile, WinchLengths};
 use cdpr_robot::{Pose, Robot};
 use cdpr_statics::{InversePath, Load, StaticsError};
 pub use excited::Excited;
-pub use residual::{Residual, residual};
 use inertia::{CableInertia, resistance};
+pub use residual::{Residual, residual};
 pub use shaper::{Shaper, ShaperKind};
 use way::{Motion, Way};
 
@@ -73,6 +73,8 @@ pub struct SetPoint {
     pub pose: Pose,
     /// Unstrained lengths [m].
     pub lengths: Vec<f64>,
+    /// Their part for the motion: the differences to those at rest there [m].
+    pub feed_forward: Vec<f64>,
     /// Tensions at the platform [N].
     pub tensions: Vec<f64>,
     /// Tensions at the exit points [N].
@@ -92,27 +94,35 @@ impl Move<'_> {
     /// [`crate::FrequencyResponse::new`] with [`FeedForward::Cables`].
     pub fn plan(&self) -> Result<Vec<SetPoint>, DynamicsError> {
         let way = self.check()?;
-        let at_rest = |_: f64, _: &Motion| self.load;
-        let resisted = |motion: &Motion| resistance(self.robot, &self.load, motion);
-        match self.feed_forward {
-            FeedForward::None => self.set_points(&way, &at_rest),
-            FeedForward::Platform => {
-                resisted(&way.at([0.0; 3]))?;
-                self.set_points(&way, &|_, motion| self.with(resisted(motion).unwrap_or_default()))
-            }
-            FeedForward::Cables => {
-                resisted(&way.at([0.0; 3]))?;
-                let of_platform = |motion: &Motion| resisted(motion).unwrap_or_default();
-                let first = self.set_points(&way, &|_, motion| self.with(of_platform(motion)))?;
-                let table = winch_lengths(&first)?;
-                let inertia = CableInertia::along(self.robot, &self.load, &way)?;
-                self.set_points(&way, &|time, motion| {
-                    let growth = (0..table.cables()).map(|i| table.at(i, time)[2]).collect::<Vec<_>>();
-                    let more = inertia.resistance(self.share_at(time)[0], motion, &growth);
-                    self.with(of_platform(motion) + more)
-                })
-            }
+        let at_rest = self.set_points(&way, &|_, _| self.load)?;
+        if self.feed_forward == FeedForward::None {
+            return Ok(at_rest);
         }
+        let mut found = self.in_motion(&way)?;
+        for (point, still) in found.iter_mut().zip(&at_rest) {
+            let both = point.lengths.iter().zip(&still.lengths);
+            point.feed_forward = both.map(|(length, still)| length - still).collect();
+        }
+        Ok(found)
+    }
+
+    /// The set points with feed-forward.
+    fn in_motion(&self, way: &Way) -> Result<Vec<SetPoint>, DynamicsError> {
+        let resisted = |motion: &Motion| resistance(self.robot, &self.load, motion);
+        // What it may lack, the inertia, it lacks at all poses.
+        resisted(&way.at([0.0; 3]))?;
+        let of_platform = |motion: &Motion| resisted(motion).unwrap_or_default();
+        let first = self.set_points(way, &|_, motion| self.with(of_platform(motion)))?;
+        if self.feed_forward == FeedForward::Platform {
+            return Ok(first);
+        }
+        let table = winch_lengths(&first)?;
+        let inertia = CableInertia::along(self.robot, &self.load, way)?;
+        self.set_points(way, &|time, motion| {
+            let growth = (0..table.cables()).map(|i| table.at(i, time)[2]).collect::<Vec<_>>();
+            let more = inertia.resistance(self.share_at(time)[0], motion, &growth);
+            self.with(of_platform(motion) + more)
+        })
     }
 
     fn with(&self, wrench: nalgebra::Vector6<f64>) -> Load {
@@ -125,9 +135,8 @@ impl Move<'_> {
         const MOST_SET_POINTS: f64 = 1e6;
         positive("seconds", self.seconds, "a duration [s] above zero")?;
         positive("rate", self.rate, "set points for each second [Hz], above zero")?;
-        let wrong = |field, value: String, expected: String| {
-            Err(DynamicsError::Invalid { field, value, expected })
-        };
+        let wrong =
+            |field, value: String, expected: String| Err(DynamicsError::Invalid { field, value, expected });
         if self.profile == Profile::Linear {
             let expected = "trapezoid, cosine or polynomial: a linear one begins with a jump of the speed";
             return wrong("profile", "linear".to_owned(), expected.to_owned());
@@ -172,14 +181,21 @@ impl Move<'_> {
             let motion = way.at(self.share_at(time));
             let is_end = k == 0 || k == count;
             let load = if is_end { self.load } else { load(time, &motion) };
-            let found = path.solve(&motion.pose, &load).map_err(|error| self.refused(time, &motion, error))?;
+            let found =
+                path.solve(&motion.pose, &load).map_err(|error| self.refused(time, &motion, error))?;
             if found.jump && !is_smooth(&set_points, &found.solution.lengths) {
                 return Err(DynamicsError::Jump { time, position: motion.pose.position.into() });
             }
             let solution = found.solution;
             let exit_tensions = solution.equilibrium.exit_tensions(self.robot, &solution.lengths);
-            let (lengths, tensions) = (solution.lengths, solution.tensions);
-            set_points.push(SetPoint { time, pose: motion.pose, lengths, tensions, exit_tensions });
+            set_points.push(SetPoint {
+                time,
+                pose: motion.pose,
+                feed_forward: vec![0.0; solution.lengths.len()],
+                lengths: solution.lengths,
+                tensions: solution.tensions,
+                exit_tensions,
+            });
         }
         Ok(set_points)
     }

@@ -2,7 +2,9 @@
 
 use crate::robots::robot;
 use cdpr_dynamics::DynamicsError;
-use cdpr_dynamics::moves::{FeedForward, Move, Residual, SetPoint, Shaper, ShaperKind, residual, winch_lengths};
+use cdpr_dynamics::moves::{
+    FeedForward, Move, Residual, SetPoint, Shaper, ShaperKind, residual, winch_lengths,
+};
 use cdpr_dynamics::simulate::{Discretization, Profile, Settings};
 use cdpr_robot::{Pose, Robot};
 use cdpr_statics::{Load, StaticsError};
@@ -60,7 +62,8 @@ fn feed_forward_holds_the_platform_on_its_way() {
             let plain = plain(&robot, &poses, Profile::Polynomial);
             after(&robot, &Move { feed_forward, seconds, ..plain }.plan().unwrap())
         };
-        let [none, platform, cables] = [FeedForward::None, FeedForward::Platform, FeedForward::Cables].map(of);
+        let [none, platform, cables] =
+            [FeedForward::None, FeedForward::Platform, FeedForward::Cables].map(of);
         let deviations = [&none, &platform, &cables].map(|of| 1e6 * of.deviation);
         let amplitudes = [&none, &platform, &cables].map(|of| 1e6 * of.amplitude);
         println!("{}: {deviations:.1?} {amplitudes:.1?} um", robot.name);

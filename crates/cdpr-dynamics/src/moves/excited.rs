@@ -136,7 +136,8 @@ fn excited(
         if damping > 0.0 {
             // To first order 2 ζ ω² is the imaginary part of the dynamic stiffness.
             let lost = damped.of_cables(mode.frequency)?.0.map(|value| value.im);
-            damping_ratio = (0.5 * (motion.transpose() * lost * motion)[0] / (omega * omega)).clamp(0.0, 0.99);
+            damping_ratio =
+                (0.5 * (motion.transpose() * lost * motion)[0] / (omega * omega)).clamp(0.0, 0.99);
         }
         let push = (motion.transpose() * mass * end.velocity)[0];
         let reach = (mode.translation.norm() * push / omega).abs();

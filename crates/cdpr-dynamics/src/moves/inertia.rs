@@ -13,7 +13,9 @@ pub(super) fn resistance(robot: &Robot, load: &Load, motion: &Motion) -> Result<
     let platform = &robot.platform;
     let mass = platform.mass + load.payload;
     let rotation = motion.pose.rotation.matrix();
-    let part = |vector: &Vector6<f64>, first: usize| Vector3::new(vector[first], vector[first + 1], vector[first + 2]);
+    let part = |vector: &Vector6<f64>, first: usize| {
+        Vector3::new(vector[first], vector[first + 1], vector[first + 2])
+    };
     let (spin, turn) = (part(&motion.velocity, 3), part(&motion.acceleration, 3));
     let lever = rotation * platform.center_of_mass;
     let acceleration = part(&motion.acceleration, 0) + turn.cross(&lever) + spin.cross(&spin.cross(&lever));
@@ -25,7 +27,8 @@ pub(super) fn resistance(robot: &Robot, load: &Load, motion: &Motion) -> Result<
             return Err(StaticsError::Invalid {
                 field: "platform.inertia".to_owned(),
                 value: "missing".to_owned(),
-                expected: "the inertia about the centre of mass, 3 x 3 in the platform frame [kg m²]".to_owned(),
+                expected: "the inertia about the centre of mass, 3 x 3 in the platform frame [kg m²]"
+                    .to_owned(),
             });
         };
         let inertia = rotation * inertia * rotation.transpose();

@@ -183,7 +183,8 @@ mod tests {
                 let damped = omega * (1.0f64 - damping * damping).sqrt();
                 let free = |time: f64| (-damping * omega * time).exp() * (damped * time).sin();
                 let slope = |time: f64| {
-                    (-damping * omega * time).exp() * (damped * time).cos() * damped - damping * omega * free(time)
+                    (-damping * omega * time).exp() * (damped * time).cos() * damped
+                        - damping * omega * free(time)
                 };
                 let x: f64 = impulses.iter().map(|[time, a]| a * free(end - time)).sum();
                 let v: f64 = impulses.iter().map(|[time, a]| a * slope(end - time)).sum();

@@ -46,7 +46,10 @@ impl Way {
             let turn = motion.fixed_rows::<3>(3).norm() * size;
             let way = motion.fixed_rows::<3>(0).norm().hypot(turn);
             if way < LEAST {
-                return Err(invalid(format!("pose {} twice", k + 1), "poses that differ from the one before"));
+                return Err(invalid(
+                    format!("pose {} twice", k + 1),
+                    "poses that differ from the one before",
+                ));
             }
             knots.push(knots[k] + way);
         }

@@ -134,7 +134,8 @@ impl WinchLengths {
 /// Second derivatives of the cubic spline through points whose slope is zero at both ends.
 fn bends(times: &[f64], values: &[f64]) -> Vec<f64> {
     let last = times.len() - 1;
-    let (mut diagonal, mut right, mut above) = (vec![0.0; last + 1], vec![0.0; last + 1], vec![0.0; last + 1]);
+    let (mut diagonal, mut right, mut above) =
+        (vec![0.0; last + 1], vec![0.0; last + 1], vec![0.0; last + 1]);
     for k in 0..last {
         let h = times[k + 1] - times[k];
         let slope = (values[k + 1] - values[k]) / h;
@@ -227,7 +228,8 @@ mod tests {
             assert!((table.at(0, x)[0] - 7.0).abs() < 1e-12);
         }
         assert_eq!((table.at(1, -1.0), table.at(1, 2.0)), ([5.0, 0.0, 0.0], [3.0, 0.0, 0.0]));
-        let refused = |times: &[f64], rows: &[Vec<f64>]| WinchLengths::new(times, rows).unwrap_err().to_string();
+        let refused =
+            |times: &[f64], rows: &[Vec<f64>]| WinchLengths::new(times, rows).unwrap_err().to_string();
         assert!(refused(&[0.0], &[vec![1.0]]).contains("two times or more"));
         assert!(refused(&[0.0, 0.0], &[vec![1.0], vec![1.0]]).contains("ascend"));
         assert!(refused(&[0.0, 1.0], &[vec![1.0], vec![1.0, 2.0]]).contains("as many in each row"));
