@@ -32,7 +32,7 @@ pub(crate) struct Settings {
     /// The shaper is for the N motions that swing most (2), `damping=S` their damping as in `simulate`; its
     /// duration is part of the seconds. `feed-forward` accounts for the inertia of platform and cables,
     /// `feed-forward=platform` without the cables; its profile is the polynomial. `residual=S` simulates the move
-    /// and what swings for S seconds after it (0.5), with and without shaper and feed-forward; with
+    /// and what swings for S seconds after it (two periods), with and without shaper and feed-forward; with
     /// --uncertainty also of robots that are drawn, `robots=N` (100) from `seed=N`.
     #[arg(long, value_name = "NAMES", value_parser = arguments::with)]
     with: Option<With>,

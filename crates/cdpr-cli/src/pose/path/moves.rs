@@ -41,8 +41,8 @@ struct Wanted {
     feed_forward: FeedForward,
     rate: f64,
     damping: f64,
-    /// How long the motion after the move is watched [s].
-    residual: Option<f64>,
+    /// Whether the motion after the move is watched, and how long [s].
+    residual: Option<Option<f64>>,
     robots: usize,
     seed: Option<u64>,
 }
@@ -69,7 +69,7 @@ impl Wanted {
             feed_forward: feed_forward.unwrap_or_default(),
             rate: number("rate", 200.0)?,
             damping: number("damping", 0.0)?,
-            residual: with.value("residual", Some(0.5), arguments::number)?,
+            residual: with.value("residual", Some(None), |text| arguments::number(text).map(Some))?,
             robots: with.value("robots", None, arguments::count::<1, 100_000>)?.unwrap_or(100),
             seed,
         })
@@ -93,6 +93,13 @@ fn one_of<T: Copy>(text: &str, named: &[(&str, T)]) -> Result<T, String> {
     let names: Vec<&str> = named.iter().map(|(name, _)| *name).collect();
     let found = named.iter().find(|(name, _)| name.eq_ignore_ascii_case(text));
     found.map(|(_, value)| *value).ok_or_else(|| format!("expected {}", names.join(", ")))
+}
+
+/// Two periods of the slowest motion that swings, and no less than half a second.
+fn two_periods(of: &Move, damping: f64) -> Result<f64, ProgramError> {
+    const LEAST: f64 = 0.5;
+    let excited = of.excited(damping)?;
+    Ok(excited.iter().map(|one| 2.0 / one.frequency).fold(LEAST, f64::max))
 }
 
 /// Plans the move, and simulates it where that is wanted.
@@ -131,6 +138,10 @@ pub(super) fn run(
     let set_points = planned.plan()?;
     let mut answer = Answer::new(&planned, &modes, &set_points);
     if let Some(seconds) = wanted.residual {
+        let seconds = match seconds {
+            Some(seconds) => seconds,
+            None => two_periods(&plain, wanted.damping)?,
+        };
         let simulated = wanted.simulated(seconds);
         let unshaped = plain.plan()?;
         let after = |points: &[SetPoint]| residual(&robot, &plain.load, points, &[], &simulated);
