@@ -1,8 +1,7 @@
 //! How much robots swing after a move, where each differs from the one that the move was planned for.
 //!
-//! Robots are drawn from an error model. Each rests at the first pose with lengths of its own, as after a
-//! homing; from there its winches change the lengths by as much as the set points of the nominal robot say. The
-//! load is the nominal one.
+//! Robots are drawn from an error model. As in studies each has the lengths with which it holds a pose itself, with
+//! the offsets of its tensions; shaper and feed-forward are those of the nominal robot. The load is the nominal one.
 
 use crate::error::AssessError;
 use cdpr_dynamics::DynamicsError;
@@ -54,7 +53,8 @@ impl DrawnRobots<'_> {
             debug_assert_eq!(drawn, Ok(()));
             let deviations = self.model.deviations(&row);
             let found = self.nominal.perturbed(deviations.values())?;
-            let after = |points: &[SetPoint]| residual(&found.robot, load, points, &found.tension_offsets, settings);
+            let after =
+                |points: &[SetPoint]| residual(&found.robot, load, points, &found.tension_offsets, settings);
             let compared = Ok([after(moves[0])?, after(moves[1])?]);
             tick();
             compared

@@ -3,6 +3,7 @@
 use crate::arguments::poses::pose_of;
 use crate::error::ProgramError;
 use crate::questions;
+use cdpr_dynamics::simulate::WinchLengths;
 use cdpr_robot::{Pose, Vector3, counted, plausible, rotation_by_angles, rotation_of, short};
 use cdpr_study::{Column, Dimension, InputKind, StudyError, Table, TableError, read_table};
 use std::path::Path;
@@ -110,6 +111,29 @@ pub(crate) fn wrench_file(path: &Path) -> Result<Vec<[f64; 6]>, ProgramError> {
                 Box::new(format!("{}: expected {WRENCHES}", counted(row.len(), "number"))) as Reason
             })
         })
+    })
+}
+
+/// Lengths over time from a table: the time `t_s`, and `length_1_m` and so on for each cable; other columns are
+/// further ones.
+pub(crate) fn winch_file(path: &Path, cables: usize) -> Result<WinchLengths, ProgramError> {
+    let option = "--lengths";
+    let rows = listed(option, path, "a time and lengths", |table| {
+        let names = ["t_s".to_owned()].into_iter().chain((1..=cables).map(|i| format!("length_{i}_m")));
+        let column = |name: String| {
+            let found = table.column(&name).map(|column| (column, 1.0));
+            found.ok_or_else(|| {
+                format!("expected the columns t_s and length_1_m to length_{cables}_m, no {name}")
+            })
+        };
+        let columns = names.map(column).collect::<Result<Vec<_>, _>>()?;
+        rows(table, &columns, |row| Ok(row.to_vec()))
+    })?;
+    let times: Vec<f64> = rows.iter().map(|row| row[0]).collect();
+    let rows: Vec<Vec<f64>> = rows.iter().map(|row| row[1..].to_vec()).collect();
+    WinchLengths::new(&times, &rows).map_err(|error| {
+        let reason = error.to_string();
+        ProgramError::List { option, path: path.to_owned(), reason }
     })
 }
 

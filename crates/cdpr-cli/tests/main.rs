@@ -28,6 +28,7 @@ mod library;
 mod models;
 mod modes;
 mod modulus;
+mod moves;
 mod natural_mistakes;
 mod odd_numbers;
 mod other_kinds;

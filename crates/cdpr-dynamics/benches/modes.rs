@@ -1,7 +1,8 @@
 //! Natural motions with the mass of the cables: at one pose, with and without the counts; and a fifth of a second
 //! of motion.
 
-use cdpr_dynamics::simulate::{Change, CutAt, Event, Settings, simulate};
+use cdpr_dynamics::moves::{FeedForward, Move, Shaper, ShaperKind};
+use cdpr_dynamics::simulate::{Change, CutAt, Event, Profile, Settings, simulate};
 use cdpr_dynamics::{Modes, MovingPlatform, Wanted};
 use cdpr_robot::{Pose, Robot};
 use cdpr_statics::{DirectProblem, DirectStart, Load, inverse};
@@ -61,5 +62,32 @@ fn motions(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, modes, motions);
+/// The set points of a metre in a second, with a shaper and with feed-forward.
+#[allow(clippy::unwrap_used)]
+fn moves(criterion: &mut Criterion) {
+    let robot = Robot::from_json(CASES[0].1).unwrap();
+    let poses = [Pose::at(-0.5, 0.0, 2.0), Pose::at(0.5, 0.0, 2.0)];
+    let plain = Move {
+        robot: &robot,
+        load: Load::none(),
+        poses: &poses,
+        seconds: 1.0,
+        profile: Profile::Polynomial,
+        shaper: Shaper::default(),
+        feed_forward: FeedForward::None,
+        rate: 200.0,
+    };
+    let mut group = criterion.benchmark_group("moves");
+    group.sample_size(10);
+    group.bench_function("cogiro/shaper", |bencher| {
+        bencher.iter(|| black_box(&plain).shaped(ShaperKind::Zvd, 2, 0.0).unwrap().0.plan().unwrap());
+    });
+    let ahead = Move { feed_forward: FeedForward::Cables, ..plain.clone() };
+    group.bench_function("cogiro/feed-forward", |bencher| {
+        bencher.iter(|| black_box(&ahead).plan().unwrap());
+    });
+    group.finish();
+}
+
+criterion_group!(benches, modes, motions, moves);
 criterion_main!(benches);

@@ -73,6 +73,8 @@ pub struct SetPoint {
     pub pose: Pose,
     /// Unstrained lengths [m].
     pub lengths: Vec<f64>,
+    /// Their part for the motion: the differences to those at rest there [m].
+    pub feed_forward: Vec<f64>,
     /// Tensions at the platform [N].
     pub tensions: Vec<f64>,
     /// Tensions at the exit points [N].
@@ -92,27 +94,35 @@ impl Move<'_> {
     /// [`crate::FrequencyResponse::new`] with [`FeedForward::Cables`].
     pub fn plan(&self) -> Result<Vec<SetPoint>, DynamicsError> {
         let way = self.check()?;
-        let at_rest = |_: f64, _: &Motion| self.load;
-        let resisted = |motion: &Motion| resistance(self.robot, &self.load, motion);
-        match self.feed_forward {
-            FeedForward::None => self.set_points(&way, &at_rest),
-            FeedForward::Platform => {
-                resisted(&way.at([0.0; 3]))?;
-                self.set_points(&way, &|_, motion| self.with(resisted(motion).unwrap_or_default()))
-            }
-            FeedForward::Cables => {
-                resisted(&way.at([0.0; 3]))?;
-                let of_platform = |motion: &Motion| resisted(motion).unwrap_or_default();
-                let first = self.set_points(&way, &|_, motion| self.with(of_platform(motion)))?;
-                let table = winch_lengths(&first)?;
-                let inertia = CableInertia::along(self.robot, &self.load, &way)?;
-                self.set_points(&way, &|time, motion| {
-                    let growth = (0..table.cables()).map(|i| table.at(i, time)[2]).collect::<Vec<_>>();
-                    let more = inertia.resistance(self.share_at(time)[0], motion, &growth);
-                    self.with(of_platform(motion) + more)
-                })
-            }
+        let at_rest = self.set_points(&way, &|_, _| self.load)?;
+        if self.feed_forward == FeedForward::None {
+            return Ok(at_rest);
         }
+        let mut found = self.in_motion(&way)?;
+        for (point, still) in found.iter_mut().zip(&at_rest) {
+            let both = point.lengths.iter().zip(&still.lengths);
+            point.feed_forward = both.map(|(length, still)| length - still).collect();
+        }
+        Ok(found)
+    }
+
+    /// The set points with feed-forward.
+    fn in_motion(&self, way: &Way) -> Result<Vec<SetPoint>, DynamicsError> {
+        let resisted = |motion: &Motion| resistance(self.robot, &self.load, motion);
+        // What it may lack, the inertia, it lacks at all poses.
+        resisted(&way.at([0.0; 3]))?;
+        let of_platform = |motion: &Motion| resisted(motion).unwrap_or_default();
+        let first = self.set_points(way, &|_, motion| self.with(of_platform(motion)))?;
+        if self.feed_forward == FeedForward::Platform {
+            return Ok(first);
+        }
+        let table = winch_lengths(&first)?;
+        let inertia = CableInertia::along(self.robot, &self.load, way)?;
+        self.set_points(way, &|time, motion| {
+            let growth = (0..table.cables()).map(|i| table.at(i, time)[2]).collect::<Vec<_>>();
+            let more = inertia.resistance(self.share_at(time)[0], motion, &growth);
+            self.with(of_platform(motion) + more)
+        })
     }
 
     fn with(&self, wrench: nalgebra::Vector6<f64>) -> Load {
@@ -178,8 +188,14 @@ impl Move<'_> {
             }
             let solution = found.solution;
             let exit_tensions = solution.equilibrium.exit_tensions(self.robot, &solution.lengths);
-            let (lengths, tensions) = (solution.lengths, solution.tensions);
-            set_points.push(SetPoint { time, pose: motion.pose, lengths, tensions, exit_tensions });
+            set_points.push(SetPoint {
+                time,
+                pose: motion.pose,
+                feed_forward: vec![0.0; solution.lengths.len()],
+                lengths: solution.lengths,
+                tensions: solution.tensions,
+                exit_tensions,
+            });
         }
         Ok(set_points)
     }

@@ -8,7 +8,7 @@ use std::path::Path;
 use std::process::Command;
 
 /// A good call of each command in the folder of all cases.
-const CALLS: [&str; 27] = [
+const CALLS: [&str; 28] = [
     "cable catenary weight=1,stiffness=1e6 --length 4.3 --end 4,-1",
     "inverse robot.json --pose 0,0,1.75",
     "direct robot.json --lengths 4.44,4.54,4.36,4.26,4.26,4.36,4.54,4.44",
@@ -34,6 +34,7 @@ const CALLS: [&str; 27] = [
     "cable density --mass 0.203 --length 2",
     "modes robot.json --pose 0,0,1.75",
     "response robot.json --pose 0,0,1.75 --below 10 --number 5",
+    "path robot.json --poses poses.txt --with seconds=2,shaper=zvd,modes=2,feed-forward,rate=20",
     "simulate robot.json --pose 0,0,1.75 --events events.json --until 0.02",
     "cable modulus record.csv --breaking-force 10290 --section 1.2566e-5 --length 1 --range 5-10",
     "study tolerances study.json --sampling mechanical --observations 100 --limit deflection_mm<1",

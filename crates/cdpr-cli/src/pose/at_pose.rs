@@ -206,6 +206,14 @@ impl RobotAtPose {
         Ok(robot)
     }
 
+    /// The poses of the file.
+    pub(crate) fn poses(&self, robot: &Robot) -> Result<Vec<Pose>, ProgramError> {
+        let path = self.poses.as_ref().ok_or_else(|| ProgramError::Usage("expected --poses".to_owned()))?;
+        let PoseTable { poses, .. } = pose_file(path)?;
+        questions::about_poses(robot, "--poses", &poses);
+        Ok(poses)
+    }
+
     /// Answers what `solve` answers at the poses of the file, one after the other.
     pub(crate) fn answer_in_order<T: Row>(
         &self,

@@ -1,7 +1,9 @@
 //! `cdpr path`: what a robot does along a path of poses.
 
+mod moves;
+
 use crate::answer::OutOfLimits;
-use crate::arguments::{FigureArgument, UncertaintyArgument, figure};
+use crate::arguments::{self, FigureArgument, UncertaintyArgument, With, figure};
 use crate::error::ProgramError;
 use crate::output::Ending;
 use crate::pose::at_pose::{RobotAtPose, Row, cells, numbered};
@@ -22,9 +24,27 @@ pub(crate) struct Settings {
     /// model it has bands of two standard deviations.
     #[arg(long, value_name = "FILE", value_parser = figure)]
     figure: Option<FigureArgument>,
+    /// A move along the poses instead, as set points of the winches over time: seconds=S, its duration [s], and
+    /// profile=trapezoid, cosine or polynomial, shaper=zv, zvd or ei, modes=N, feed-forward, rate=HZ.
+    ///
+    /// The shaper is for the N motions that swing most (2), `damping=S` their damping as in `simulate`; its
+    /// duration is part of the seconds. `feed-forward` accounts for the inertia of platform and cables,
+    /// `feed-forward=platform` without the cables; its profile is the polynomial. `residual=S` simulates the move
+    /// and what swings for S seconds after it (two periods), with and without shaper and feed-forward; with
+    /// --uncertainty also of robots that are drawn, `robots=N` (100) from `seed=N`.
+    #[arg(long, value_name = "NAMES", value_parser = arguments::with)]
+    with: Option<With>,
 }
 
-pub(crate) fn run(Settings { at, errors, figure }: &Settings) -> Result<Ending, ProgramError> {
+pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
+    let Settings { at, errors, figure, with } = settings;
+    if let Some(with) = with {
+        if figure.is_some() {
+            let reason = "--figure: expected a path without seconds; the set points of a move are a table";
+            return Err(ProgramError::Usage(reason.to_owned()));
+        }
+        return moves::run(at, errors, with);
+    }
     let (robot, load) = (at.robot()?, at.load.load());
     let model = errors.model(&robot)?;
     let mut path = Path::new(&robot, load, model.as_ref())?;

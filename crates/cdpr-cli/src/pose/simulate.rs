@@ -6,18 +6,21 @@ use crate::arguments::{
     print_record,
 };
 use crate::error::ProgramError;
+use crate::lists::winch_file;
 use crate::output::{Ending, patiently, print_sentence, table};
 use crate::pose::modes::with_inertia;
 use crate::questions;
 use cdpr_dynamics::DynamicsError;
-use cdpr_dynamics::simulate::{Discretization, Sample, Series, events_from_json, simulate};
+use cdpr_dynamics::simulate::{
+    Change, Discretization, Event, Sample, Series, WinchLengths, events_from_json, simulate,
+};
 use cdpr_report::{Quantity, over_time};
 use cdpr_robot::{Pose, Robot, Vector3, counted, rounded, shown, significant};
 use cdpr_statics::{DirectProblem, DirectStart, WantedPose, inverse, rough_pose};
 use cdpr_study::{InputKind, read_text};
 use serde::Serialize;
 use std::f64::consts::PI;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// A robot at rest, what happens to it, and for how long it is followed.
 #[derive(clap::Args)]
@@ -28,10 +31,11 @@ pub(crate) struct Settings {
     pose: PoseArguments,
     #[command(flatten)]
     free: FreeArguments,
-    /// Unstrained lengths of the cables, in the order of the file: l1,..,ln [m]. The search for their pose
-    /// starts from --pose, or where straight cables would hold a point.
-    #[arg(long, value_parser = arguments::list, allow_hyphen_values = true)]
-    lengths: Option<arguments::List>,
+    /// Unstrained lengths of the cables, in the order of the file: l1,..,ln [m], or a table of them over time,
+    /// as `path --with seconds=1` writes it: t_s,length_1_m,..,length_n_m. The search for their pose starts
+    /// from --pose, or where straight cables would hold a point.
+    #[arg(long, value_name = "LENGTHS", value_parser = lengths, allow_hyphen_values = true)]
+    lengths: Option<Lengths>,
     #[command(flatten)]
     load: LoadArguments,
     #[command(flatten)]
@@ -44,7 +48,7 @@ pub(crate) struct Settings {
     /// {"t": 0, "shorten": {"cable": 1, "by": 0.003, "over": 0.2, "profile": "cosine"}} [m, s],
     /// {"t": 0, "lengths": {"times": [0, 0.1, ..], "lengths": [[l1, .., ln], ..]}} [s, m].
     #[arg(long, value_name = "FILE")]
-    events: PathBuf,
+    events: Option<PathBuf>,
     /// How long the motion is followed [s].
     #[arg(long, value_name = "SECONDS", value_parser = arguments::number)]
     until: f64,
@@ -67,13 +71,21 @@ pub(crate) struct Settings {
 
 pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     let how = settings.how()?;
-    let text = read_text(&settings.events, InputKind::Events)?;
-    let events = events_from_json(&text).map_err(ProgramError::in_file(&settings.events))?;
+    let mut events = Vec::new();
+    if let Some(file) = &settings.events {
+        let text = read_text(file, InputKind::Events)?;
+        events = events_from_json(&text).map_err(ProgramError::in_file(file))?;
+    } else if !matches!(settings.lengths, Some(Lengths::Table(_))) {
+        let missing = "expected --events, a file, or --lengths, a table of them over time";
+        return Err(ProgramError::Usage(missing.to_owned()));
+    }
     let robot = settings.preference.open_robot(settings.robot.path())?;
     let load = settings.load.load();
     questions::about_load(&robot, &load);
     let robot = with_inertia(&robot);
-    let (lengths, start) = settings.lengths(&robot)?;
+    let (lengths, start, over_time) = settings.lengths(&robot)?;
+    // In the order of the file, so that errors have its numbers.
+    events.extend(over_time.map(|lengths| Event { time: 0.0, change: Change::Lengths(lengths) }));
     let problem = DirectProblem::new(&robot, &lengths, &load)?;
     let rest = problem.direct(DirectStart::Pose(&start))?;
     if settings.lengths.is_some() {
@@ -82,7 +94,13 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     let rest = rest.equilibrium;
     let found = patiently("simulating", || simulate(&problem, &rest, &events, &how));
     let series = found.map_err(|error| match error {
-        DynamicsError::Event { .. } => ProgramError::in_file(&settings.events)(error),
+        DynamicsError::Event { index, .. } => match (&settings.events, &settings.lengths) {
+            (_, Some(Lengths::Table(file))) if index + 1 == events.len() => {
+                ProgramError::in_file(file)(error)
+            }
+            (Some(file), _) => ProgramError::in_file(file)(error),
+            _ => error.into(),
+        },
         error => error.into(),
     })?;
     let answer = Answer::new(&robot, &rest.pose, &lengths, &series);
@@ -138,17 +156,52 @@ impl Settings {
         })
     }
 
-    /// The unstrained lengths [m], and where their pose is searched for.
-    fn lengths(&self, robot: &Robot) -> Result<(Vec<f64>, Pose), ProgramError> {
-        let Some(arguments::List(lengths)) = &self.lengths else {
+    /// The unstrained lengths [m], where their pose is searched for, and the lengths over time.
+    fn lengths(&self, robot: &Robot) -> Result<AtBegin, ProgramError> {
+        let mut over_time = None;
+        let table = |file: &PathBuf| winch_file(file, robot.cables.len());
+        let Some(given) = &self.lengths else {
             let pose = self.pose.needed()?;
             questions::about_pose(robot, "--pose", &pose);
             let held = inverse(robot, WantedPose::at(&pose).free(&self.free.free), &self.load.load())?;
-            return Ok((held.lengths, held.equilibrium.pose));
+            return Ok((held.lengths, held.equilibrium.pose, None));
         };
-        questions::about_lengths(robot, lengths);
-        cdpr_statics::check_lengths(robot, lengths)?;
-        Ok((lengths.clone(), self.pose.given()?.unwrap_or_else(|| rough_pose(robot, lengths))))
+        let lengths = match given {
+            Lengths::Listed(lengths) => lengths.clone(),
+            Lengths::Table(file) => {
+                let found = table(file)?;
+                let first = (0..found.cables()).map(|cable| found.at(cable, 0.0)[0]).collect();
+                over_time = Some(found);
+                first
+            }
+        };
+        questions::about_lengths(robot, &lengths);
+        cdpr_statics::check_lengths(robot, &lengths)?;
+        let start = self.pose.given()?.unwrap_or_else(|| rough_pose(robot, &lengths));
+        Ok((lengths, start, over_time))
+    }
+}
+
+/// Lengths at the begin [m], a pose near theirs, and the lengths over time.
+type AtBegin = (Vec<f64>, Pose, Option<WinchLengths>);
+
+/// The values of `--lengths`.
+#[derive(Clone)]
+enum Lengths {
+    /// One for each cable [m].
+    Listed(Vec<f64>),
+    /// A table of them over time.
+    Table(PathBuf),
+}
+
+/// `1.2,1.3`, or the name of a file.
+fn lengths(text: &str) -> Result<Lengths, String> {
+    match arguments::list(text) {
+        Ok(arguments::List(lengths)) => Ok(Lengths::Listed(lengths)),
+        Err(_) if Path::new(text).exists() || text.ends_with(".csv") => {
+            Ok(Lengths::Table(PathBuf::from(text)))
+        }
+        Err(reason) => Err(reason),
     }
 }
 

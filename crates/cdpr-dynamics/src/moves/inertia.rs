@@ -74,11 +74,12 @@ impl Inertia {
         let held = inverse(robot, &motion.pose, load)?;
         let problem = DirectProblem::new(robot, &held.lengths, load)?;
         let rest = problem.direct(DirectStart::Near(&held.equilibrium))?.equilibrium;
-        let Some(slowest) = problem.lowest_cable_frequency(&rest)? else {
+        let frequencies = problem.cable_frequencies(&rest)?.into_iter().flatten();
+        let Some(slowest) = frequencies.min_by(f64::total_cmp) else {
             let winches = Matrix6xX::zeros(robot.cables.len());
             return Ok(Self { mass: Matrix6::zeros(), winches });
         };
-        let low = LOW * slowest.frequency;
+        let low = LOW * slowest;
         let response = FrequencyResponse::new(&problem, &rest, low, Damping::default())?;
         let square = (TAU * low).powi(2);
         let [still, slow] = [0.0, low].map(|frequency| response.of_cables(frequency));

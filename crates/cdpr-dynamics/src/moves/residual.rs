@@ -1,10 +1,10 @@
 //! What swings after a move.
 
-use super::{SetPoint, winch_lengths};
+use super::SetPoint;
 use crate::error::DynamicsError;
 use crate::simulate::{Change, Event, Settings, WinchLengths, simulate};
 use cdpr_robot::Robot;
-use cdpr_statics::{DirectProblem, DirectStart, Load, WantedPose, inverse, set_point_lengths};
+use cdpr_statics::{DirectProblem, DirectStart, InversePath, Load, WantedPose, set_point_lengths};
 
 /// The motion of a platform after the end of a move.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,14 +21,14 @@ pub struct Residual {
     pub slack: Vec<usize>,
 }
 
-/// Simulates a robot whose winches take in and pay out what set points say, from its own rest at their first pose.
+/// Simulates a robot that makes a move, and goes on until `settings.until` after its end [s].
 ///
-/// The robot may differ from the one that the set points are for: its lengths at the first pose are its own, with
-/// offsets of its tensions there [N], one for each cable or none; the changes of the lengths are those of the set
-/// points. `settings.until` counts from the end of the move.
+/// The robot may differ from the one that the set points are for. Its lengths are its own ones at rest at each pose,
+/// as in studies, and the feed-forward of the set points; `offsets` of its tensions at the first pose [N], one for
+/// each cable or none, shift the lengths by as much as they do there.
 ///
 /// # Errors
-/// Those of the inverse model at the first and of the direct model at the last pose, and those of [`simulate`].
+/// Those of the inverse model at the poses and of the direct model at the last one, and those of [`simulate`].
 pub fn residual(
     robot: &Robot,
     load: &Load,
@@ -36,22 +36,11 @@ pub fn residual(
     offsets: &[f64],
     settings: &Settings,
 ) -> Result<Residual, DynamicsError> {
-    let table = winch_lengths(set_points)?;
+    let table = own_lengths(robot, load, set_points, offsets)?;
     let (first, last) = (&set_points[0], &set_points[set_points.len() - 1]);
-    let held = inverse(robot, &first.pose, load)?;
-    let mut lengths = held.lengths;
-    if offsets.iter().any(|offset| *offset != 0.0) {
-        let wanted = WantedPose::at(&first.pose);
-        let without = set_point_lengths(robot, wanted)?;
-        let with = set_point_lengths(robot, wanted.tension_offsets(offsets))?;
-        lengths
-            .iter_mut()
-            .zip(with.iter().zip(&without))
-            .for_each(|(own, (with, without))| *own += with - without);
-    }
-    let table = shifted(&table, set_points, &lengths)?;
+    let lengths: Vec<f64> = (0..table.cables()).map(|i| table.at(i, 0.0)[0]).collect();
     let problem = DirectProblem::new(robot, &lengths, load)?;
-    let rest = problem.direct(DirectStart::Near(&held.equilibrium))?.equilibrium;
+    let rest = problem.direct(DirectStart::Pose(&first.pose))?.equilibrium;
     let events = [Event { time: 0.0, change: Change::Lengths(table.clone()) }];
     let end = table.duration();
     let settings = Settings { until: end + settings.until, ..*settings };
@@ -85,16 +74,26 @@ pub fn residual(
     Ok(found)
 }
 
-/// The same changes of lengths from other ones [m].
-fn shifted(
-    table: &WinchLengths,
+/// The lengths of a robot at the poses of set points, with their feed-forward.
+fn own_lengths(
+    robot: &Robot,
+    load: &Load,
     set_points: &[SetPoint],
-    lengths: &[f64],
+    offsets: &[f64],
 ) -> Result<WinchLengths, DynamicsError> {
     let times: Vec<f64> = set_points.iter().map(|point| point.time).collect();
-    let row = |point: &SetPoint| {
-        let changed = point.lengths.iter().zip(lengths).enumerate();
-        changed.map(|(i, (length, own))| own + (length - table.at(i, 0.0)[0])).collect()
+    let mut shift = vec![0.0; robot.cables.len()];
+    if let Some(first) = set_points.first().filter(|_| offsets.iter().any(|offset| *offset != 0.0)) {
+        let wanted = WantedPose::at(&first.pose);
+        let without = set_point_lengths(robot, wanted)?;
+        let with = set_point_lengths(robot, wanted.tension_offsets(offsets))?;
+        shift = with.iter().zip(&without).map(|(with, without)| with - without).collect();
+    }
+    let mut path = InversePath::new(robot);
+    let mut row = |point: &SetPoint| -> Result<Vec<f64>, DynamicsError> {
+        let still = path.solve(&point.pose, load)?.solution.lengths;
+        let more = point.feed_forward.iter().zip(&shift);
+        Ok(still.iter().zip(more).map(|(still, (more, shift))| still + more + shift).collect())
     };
-    WinchLengths::new(&times, &set_points.iter().map(row).collect::<Vec<_>>())
+    WinchLengths::new(&times, &set_points.iter().map(&mut row).collect::<Result<Vec<_>, _>>()?)
 }
