@@ -78,7 +78,7 @@ pub(super) struct CableMatrices {
     pub(super) stiffness: Band<f64>,
     pub(super) damping: Band<f64>,
     pub(super) coupling: Vec<[Vector6<f64>; 2]>,
-    /// The first unknown that is coupled: those of a long chain are so at its end alone.
+    /// The first unknown that is coupled.
     pub(super) coupled: usize,
 }
 
@@ -347,11 +347,10 @@ impl CableInMotion<'_> {
 
     /// The unknowns that move a point.
     fn columns(&self, at: &Instant, point: usize, points: usize) -> Columns {
-        let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
         if point + 1 == points {
             return Columns::Platform;
         }
-        let at_start = self.of_start();
+        let (at_start, axes) = (self.of_start(), [Vector3::x(), Vector3::y(), Vector3::z()]);
         match (&self.start, &at.way) {
             (Start::Fixed(_), _) if point == 0 => Columns::Fixed,
             (Start::Led(_), Some(way)) if point == 0 => Columns::Own(vec![(0, way.direction)]),
