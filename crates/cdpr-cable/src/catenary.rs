@@ -2,7 +2,6 @@
 //!
 //! What follows from the force at its end is in the modules of this folder.
 
-pub(crate) mod compliance;
 pub(crate) mod guided;
 mod mechanics;
 pub(crate) mod shape;

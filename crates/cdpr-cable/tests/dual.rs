@@ -1,5 +1,6 @@
 //! Every derivative of the catenary against dual numbers: the same equations over a number with derivative.
 
+use crate::guided::in_space;
 use approx::assert_relative_eq;
 use cdpr_cable::kernel::{Material, response};
 use cdpr_cable::{Cable, Catenary, HeldCable, Vector2, length_for_tension};
@@ -60,10 +61,10 @@ proptest! {
 
     #[test]
     fn derivatives_are_those_of_dual_numbers(c in any_catenary()) {
-        let compliance = c.compliance();
-        let flexibility = compliance.flexibility;
+        let response = c.response();
+        let flexibility = response.flexibility_matrix();
         let derivatives = [
-            (c.end_per_weight(), "w"), (c.end_per_stiffness(), "EA"), (compliance.end_per_length, "L"),
+            (c.end_per_weight(), "w"), (c.end_per_stiffness(), "EA"), (response.end_per_length.into(), "L"),
             (flexibility.column(0).into(), "fx"), (flexibility.column(1).into(), "fz"),
         ];
         for (which, (derivative, name)) in derivatives.into_iter().enumerate() {
@@ -81,10 +82,10 @@ proptest! {
     ) {
         let end = Vector2::new(x, z);
         let cable = Cable::linear(w, w * end.norm() * 10f64.powf(stiffness));
-        let least = HeldCable::at_least_tension(&cable, end).unwrap().catenary;
+        let least = HeldCable::at_least_tension(&cable, in_space(end)).unwrap().catenary;
         prop_assert!((least.end_position() - end).norm() < 1e-12 * end.norm());
-        let slope = least.force.dot(&least.compliance().force_per_length());
-        let scale = least.force.norm() * least.compliance().force_per_length().norm();
+        let slope = least.force.dot(&least.response().force_per_length());
+        let scale = least.force.norm() * least.response().force_per_length().norm();
         prop_assert!(slope.abs() < 1e-6 * scale, "{slope} of {scale}");
         let tension = least.anchor_tension();
         prop_assert!(length_for_tension(&cable, end, tension * (1.0 - 1e-3 * share)).is_err());

@@ -14,6 +14,17 @@ pub(crate) fn vector(value: &Value) -> Vector3<f64> {
     Vector3::from_iterator(value.as_array().unwrap().iter().map(number))
 }
 
+/// A vector of the plane over the x axis in space.
+pub(crate) fn in_space(v: Vector2<f64>) -> Vector3<f64> {
+    Vector3::new(v.x, 0.0, v.y)
+}
+
+/// The components in the plane over the x axis of a vector that has no others.
+pub(crate) fn flat(v: Vector3<f64>) -> Vector2<f64> {
+    assert!(v.y.abs() <= 1e-12 * v.norm(), "{v}");
+    Vector2::new(v.x, v.z)
+}
+
 /// Each cable with a vertical swivel axis of `data/reference/pulleys.json`, over the span that its platform
 /// gives it.
 #[test]
@@ -65,7 +76,7 @@ fn cables_on_pulleys_match_arithmetic_of_20_digits() {
             let arc = number(&expected["arc"]);
             assert!((guide.radius * catenary.wrap() - arc).abs() <= 1e-9 * guide.radius);
             let found = length_for_tension(&cable, end, force.norm()).unwrap().catenary.unstrained_length;
-            let per_tension = -1.0 / HeldCable::of(catenary, end).catenary.cable.axial_stiffness;
+            let per_tension = -1.0 / cable.axial_stiffness;
             assert!((found - length).abs() <= 1e-9 * length + per_tension.abs() * rounding);
             compared += 1;
         }
@@ -122,11 +133,12 @@ proptest! {
         let guide = cable.guide.unwrap();
         // Beside the wheel and less than its diameter away from the axis no cable leaves it forwards.
         prop_assume!(end.x > 3.0 * guide.radius);
-        let held = HeldCable::at_chord_force(&cable, end, sigma).unwrap();
+        let held = HeldCable::at_chord_force(&cable, in_space(end), sigma).unwrap();
         let catenary = held.catenary;
         let scale = end.norm() + catenary.unstrained_length;
         prop_assert!(catenary.closure(end).norm() <= 64.0 * f64::EPSILON * scale);
-        let compliance = catenary.compliance();
+        let response = catenary.response();
+        let c = response.flexibility_matrix();
         let h = 1e-3 * catenary.force.x.min(catenary.exit_tension());
         let with = |force: Vector2<f64>| Catenary { force, ..catenary }.end_position();
         let columns = [Vector2::x(), Vector2::y()]
@@ -138,15 +150,14 @@ proptest! {
         let w = cable.weight_per_length;
         let bound = 2.0 * led / cable.axial_stiffness * w
             * (guide.radius / catenary.exit_tension() + led / cable.axial_stiffness);
-        let size = compliance.flexibility.norm();
+        let size = c.norm();
         prop_assert!(asymmetry <= bound + 1e-7 * size, "{asymmetry:e} {bound:e}");
-        let c = &compliance.flexibility;
         prop_assert!((c.m11 - columns[0].x).abs() < 1e-7 * size);
         prop_assert!((c.m22 - columns[1].y).abs() < 1e-7 * size);
         prop_assert!((c.m12 - shear).abs() < 1e-7 * size);
-        let determinant = compliance.determinant;
+        let determinant = response.determinant;
         prop_assert!((determinant / c.determinant() - 1.0).abs() < 1e-13 * size * size / determinant);
-        prop_assert!((compliance.lateral_stiffness * end.x / catenary.force.x - 1.0).abs() < 1e-12);
+        prop_assert!((response.lateral_flexibility * catenary.force.x / end.x - 1.0).abs() < 1e-12);
         let by = |of: &dyn Fn(f64) -> Catenary<'static>| difference(1e-4, &|s| of(s).end_position());
         let (ea, length) = (cable.axial_stiffness, catenary.unstrained_length);
         let made = |cable: Cable<'static>| Catenary { cable, ..catenary };
@@ -154,7 +165,7 @@ proptest! {
         let [per_lead, per_radius] = catenary.end_per_guide().unwrap();
         let size = end.norm();
         let cases = [
-            ("L", compliance.end_per_length * length, by(&|s| longer(length * s))),
+            ("L", Vector2::from(response.end_per_length) * length, by(&|s| longer(length * s))),
             ("w", catenary.end_per_weight() * w, by(&|s| made(heavier(cable, s)))),
             ("EA", catenary.end_per_stiffness() * ea, by(&|s| made(stiffer(cable, s)))),
             ("lead", per_lead * size, by(&|s| made(led_by(cable, [size * s, 0.0])))),
@@ -170,11 +181,11 @@ proptest! {
     fn a_held_cable_on_a_guide_has_the_derivatives_it_says((cable, end, sigma) in any_guided()) {
         let guide = cable.guide.unwrap();
         prop_assume!(end.x > 4.0 * guide.radius);
-        let held = HeldCable::at_chord_force(&cable, end, sigma).unwrap();
+        let held = HeldCable::at_chord_force(&cable, in_space(end), sigma).unwrap();
         let step = 1e-4 * sigma;
         let at = |h: f64| held.with_chord_force(sigma + h).unwrap();
         let (less, more) = (at(-step), at(step));
-        let slope = (more.catenary.force - less.catenary.force) / (2.0 * step);
+        let slope = (more.force() - less.force()) / (2.0 * step);
         prop_assert!((slope - held.force_slope).norm() < 1e-6 * slope.norm());
         let curvature = (more.force_slope - less.force_slope) / (2.0 * step);
         let size = held.force_slope.norm() / sigma;
@@ -183,21 +194,21 @@ proptest! {
         prop_assume!(held.tension_slope() > 0.3);
         let (t, slopes, chord) = (held.tension(), held.tension_slopes(), end.norm());
         let v = |cable: Cable<'static>, end: Vector2<f64>, t: f64| {
-            let held = HeldCable::at_chord_force(&cable, end, sigma).unwrap().with_tension(t).unwrap();
-            held.force_slope / held.tension_slope()
+            let held = HeldCable::at_chord_force(&cable, in_space(end), sigma).unwrap().with_tension(t).unwrap();
+            flat(held.force_slope / held.tension_slope())
         };
         let direction = v(cable, end, t);
-        prop_assert!((slopes.force_per_tension - direction).norm() < 1e-10);
+        prop_assert!((flat(slopes.value) - direction).norm() < 1e-10);
         let (w, ea) = (cable.weight_per_length, cable.axial_stiffness);
         let by = |at: &dyn Fn(f64) -> Vector2<f64>| difference(1e-4, at);
         let cases = [
-            ("t", slopes.per_tension * t, by(&|s| v(cable, end, t * (1.0 + s)))),
-            ("x", slopes.per_end[0] * chord, by(&|s| v(cable, end + Vector2::x() * (chord * s), t))),
-            ("z", slopes.per_end[1] * chord, by(&|s| v(cable, end + Vector2::y() * (chord * s), t))),
-            ("w", slopes.per_weight * w, by(&|s| v(heavier(cable, s), end, t))),
-            ("EA", slopes.per_stiffness * ea, by(&|s| v(stiffer(cable, s), end, t))),
-            ("lead", slopes.per_guide[0] * chord, by(&|s| v(led_by(cable, [chord * s, 0.0]), end, t))),
-            ("radius", slopes.per_guide[1] * chord, by(&|s| v(led_by(cable, [0.0, chord * s]), end, t))),
+            ("t", flat(slopes.per_actuation) * t, by(&|s| v(cable, end, t * (1.0 + s)))),
+            ("x", flat(slopes.per_end.column(0).into()) * chord, by(&|s| v(cable, end + Vector2::x() * (chord * s), t))),
+            ("z", flat(slopes.per_end.column(2).into()) * chord, by(&|s| v(cable, end + Vector2::y() * (chord * s), t))),
+            ("w", flat(slopes.per_weight) * w, by(&|s| v(heavier(cable, s), end, t))),
+            ("EA", flat(slopes.per_stiffness) * ea, by(&|s| v(stiffer(cable, s), end, t))),
+            ("lead", flat(slopes.per_lead) * chord, by(&|s| v(led_by(cable, [chord * s, 0.0]), end, t))),
+            ("radius", flat(slopes.per_radius) * chord, by(&|s| v(led_by(cable, [0.0, chord * s]), end, t))),
         ];
         for (name, exact, difference) in cases {
             let error = (exact - difference).norm();
@@ -210,11 +221,11 @@ proptest! {
         let plain = Cable { guide: None, ..cable };
         let guide = Guide { lead: 0.0, radius: 0.0, entry: cable.guide.unwrap().entry };
         let guided = Cable { guide: Some(guide), ..cable };
-        let held = HeldCable::at_chord_force(&plain, end, sigma).unwrap().catenary;
+        let held = HeldCable::at_chord_force(&plain, in_space(end), sigma).unwrap().catenary;
         let same = Catenary { cable: guided, ..held };
         prop_assert_eq!(same.end_position(), held.end_position());
-        prop_assert_eq!(same.compliance().flexibility, held.compliance().flexibility);
-        prop_assert_eq!(same.compliance().determinant, held.compliance().determinant);
+        prop_assert_eq!(same.response().flexibility, held.response().flexibility);
+        prop_assert_eq!(same.response().determinant, held.response().determinant);
         prop_assert_eq!(same.exit_tension(), held.exit_tension());
         let (length, tension) = (held.unstrained_length, held.anchor_tension());
         let with = end_force(&guided, length, end).unwrap().catenary.force;
@@ -229,7 +240,7 @@ proptest! {
     ) {
         let guide = cable.guide.unwrap();
         prop_assume!(end.x > 4.0 * guide.radius);
-        let catenary = HeldCable::at_chord_force(&cable, end, sigma).unwrap().catenary;
+        let catenary = HeldCable::at_chord_force(&cable, in_space(end), sigma).unwrap().catenary;
         let h = 1e-3 * catenary.anchor_tension() / catenary.in_plane_stiffness().norm();
         let energy = |end| end_force_near(&catenary, end).unwrap().catenary.potential_energy();
         for (axis, force) in [(Vector2::x(), catenary.force.x), (Vector2::y(), catenary.force.y)] {
@@ -281,12 +292,12 @@ fn the_least_tension_over_a_pulley_is_that_of_all_chord_forces() {
         let cable = Cable { guide: Some(guide), ..Cable::linear(2.0, 1e5) };
         for beyond in [1e-4, 1e-2, 1.0, 30.0] {
             let end = Vector2::new(radius * (2.0 + beyond), -depth);
-            let least = HeldCable::at_least_tension(&cable, end).unwrap();
+            let least = HeldCable::at_least_tension(&cable, in_space(end)).unwrap();
             let weight = cable.weight_per_length * end.norm();
             let mut lowest = f64::INFINITY;
             for k in -60..=20 {
                 let sigma = weight * 10f64.powf(f64::from(k) / 10.0);
-                if let Ok(held) = HeldCable::at_chord_force(&cable, end, sigma) {
+                if let Ok(held) = HeldCable::at_chord_force(&cable, in_space(end), sigma) {
                     lowest = lowest.min(held.tension());
                 }
             }

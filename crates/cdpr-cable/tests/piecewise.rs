@@ -84,15 +84,16 @@ proptest! {
         let pieces = Catenary { cable: cable(&law, w, ea), ..linear };
         let scale = linear.end_position().norm() + unstrained_length;
         prop_assert!((pieces.end_position() - linear.end_position()).norm() < 1e-12 * scale);
-        let (p, l) = (pieces.compliance(), linear.compliance());
-        prop_assert!((p.flexibility - l.flexibility).norm() < 1e-12 * l.flexibility.norm());
+        let (p, l) = (pieces.response(), linear.response());
+        let flexibility = l.flexibility_matrix();
+        prop_assert!((p.flexibility_matrix() - flexibility).norm() < 1e-12 * flexibility.norm());
         // Rounding of the flexibility across the cable beside the one along it.
         let stiff = ea / linear.exit_tension().min(linear.anchor_tension()).max(force.x);
         prop_assert!((p.determinant / l.determinant - 1.0).abs() < 1e-12 + 1e-15 * stiff);
-        prop_assert!((p.lateral_stiffness / l.lateral_stiffness - 1.0).abs() < 1e-12);
-        prop_assert!((p.end_per_length - l.end_per_length).norm() < 1e-12 * l.end_per_length.norm());
+        prop_assert!((p.lateral_flexibility / l.lateral_flexibility - 1.0).abs() < 1e-12);
+        prop_assert!((Vector2::from(p.end_per_length) - Vector2::from(l.end_per_length)).norm() < 1e-12 * Vector2::from(l.end_per_length).norm());
         let weights = (pieces.end_per_weight() - linear.end_per_weight()).norm();
-        let rotated = l.flexibility.norm() * unstrained_length;
+        let rotated = flexibility.norm() * unstrained_length;
         prop_assert!(weights < 1e-12 * (linear.end_per_weight().norm() + rotated));
         let stiffness = linear.end_per_stiffness();
         let size = stiffness.norm() + force.norm() * unstrained_length / (ea * ea);
@@ -122,13 +123,14 @@ proptest! {
             [c.anchor_tension(), c.exit_tension(), force.x].iter().any(|t| (t - kink).abs() < 10.0 * step)
         });
         prop_assume!(!near);
-        let response = c.compliance();
+        let response = c.response();
+        let flexibility = response.flexibility_matrix();
         let scale = c.end_position().norm() + unstrained_length;
         let tolerance = |size: f64, step: f64| 1e-6 * size + 50.0 * f64::EPSILON * scale / step;
         for (j, direction) in [Vector2::x(), Vector2::y()].into_iter().enumerate() {
             let end = slope(step, |h| Catenary { force: c.force + direction * h, ..c }.end_position());
-            let error = (end - response.flexibility.column(j)).norm();
-            prop_assert!(error < tolerance(response.flexibility.norm(), step), "flexibility {error:e}");
+            let error = (end - flexibility.column(j)).norm();
+            prop_assert!(error < tolerance(flexibility.norm(), step), "flexibility {error:e}");
             let at = |h: f64| Catenary { force: c.force + direction * h, ..c };
             let energy = slope(step, |h| at(h).complementary_energy());
             prop_assert!((energy - response.end[j]).abs() < 1e-7 * scale, "energy");
@@ -136,17 +138,17 @@ proptest! {
         let at = |unstrained_length| Catenary { unstrained_length, ..c }.end_position();
         let h = 1e-5 * unstrained_length;
         let per_length = slope(h, |h| at(unstrained_length + h));
-        prop_assert!((per_length - response.end_per_length).norm() < 1e-6, "length {per_length}");
+        prop_assert!((per_length - Vector2::from(response.end_per_length)).norm() < 1e-6, "length {per_length}");
         let h = 1e-5 * w;
         let per_weight = slope(h, |h| Catenary { cable: cable(&law, w + h, ea), ..c }.end_position());
-        let size = c.end_per_weight().norm() + response.flexibility.norm() * unstrained_length;
+        let size = c.end_per_weight().norm() + flexibility.norm() * unstrained_length;
         prop_assert!((per_weight - c.end_per_weight()).norm() < tolerance(size, h), "weight {per_weight}");
         let h = 1e-3 * ea;
         let per_stiffness = slope(h, |h| Catenary { cable: cable(&law, w, ea + h), ..c }.end_position());
         let expected = c.end_per_stiffness();
         prop_assert!((per_stiffness - expected).norm() < tolerance(expected.norm(), h));
-        let products = response.flexibility.m11 * response.flexibility.m22;
-        prop_assert!((response.determinant - response.flexibility.determinant()).abs() < 1e-13 * products);
+        let products = flexibility.m11 * flexibility.m22;
+        prop_assert!((response.determinant - flexibility.determinant()).abs() < 1e-13 * products);
         prop_assert!(response.determinant > 0.0);
     }
 

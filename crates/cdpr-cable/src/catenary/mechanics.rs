@@ -5,9 +5,8 @@
 
 use crate::cable::{Cable, Numbers};
 use crate::catenary::Catenary;
-use crate::catenary::compliance::Compliance;
 use crate::catenary::guided::{self, OnGuide};
-use crate::kernel::{Material, Response, Terms};
+use crate::kernel::{Material, Response, Terms, stiffness_in_space};
 use crate::law::ElasticLaw;
 use cdpr_number::{Dual, Real};
 use nalgebra::{Matrix2, Matrix3, Vector2};
@@ -74,12 +73,6 @@ impl Catenary<'_> {
         self.cable.response(&self.cable.numbers(self.unstrained_length), self.force.into())
     }
 
-    /// End position, in-plane flexibility and lateral stiffness.
-    #[inline]
-    pub fn compliance(&self) -> Compliance {
-        self.response().into()
-    }
-
     /// Derivative of the end position with respect to the weight per length [m²/N], (C10).
     ///
     /// The force at A and the unstrained length are constant.
@@ -115,7 +108,7 @@ impl Catenary<'_> {
     /// In-plane stiffness `d(fx, fz)/d(x, z)` [N/m], `C⁻¹`; zero for a slack cable without weight.
     #[inline]
     pub fn in_plane_stiffness(&self) -> Matrix2<f64> {
-        if self.is_slack_and_weightless() { Matrix2::zeros() } else { self.compliance().in_plane_stiffness() }
+        if self.is_slack_and_weightless() { Matrix2::zeros() } else { self.response().stiffness_matrix() }
     }
 
     /// Stiffness `dF/dr` [N/m] of the end force in three dimensions, `z` up.
@@ -124,7 +117,12 @@ impl Catenary<'_> {
     /// B).
     #[inline]
     pub fn stiffness(&self, azimuth: Vector2<f64>) -> Matrix3<f64> {
-        if self.is_slack_and_weightless() { Matrix3::zeros() } else { self.compliance().stiffness(azimuth) }
+        if self.is_slack_and_weightless() {
+            return Matrix3::zeros();
+        }
+        let response = self.response();
+        let lateral = response.lateral_flexibility.recip();
+        stiffness_in_space(response.in_plane_stiffness(), lateral, azimuth.into()).into()
     }
 
     /// Complementary energy U*(f) [J], (C6): strictly convex, with the end position for its gradient.
@@ -232,10 +230,10 @@ mod tests {
     #[test]
     fn a_vertical_folded_cable_is_regular() {
         let folded = catenary(CABLE, 5.0, 0.0, 3.0);
-        let compliance = folded.compliance();
-        assert_eq!(compliance.end.x, 0.0);
-        assert!(compliance.flexibility.iter().all(|c| c.is_finite()));
-        assert!(compliance.lateral_stiffness >= 0.0);
+        let response = folded.response();
+        assert_eq!(response.end[0], 0.0);
+        assert!(response.flexibility.iter().all(|c| c.is_finite()));
+        assert!(response.lateral_flexibility > 0.0);
         assert!(folded.stiffness(Vector2::x()).iter().all(|k| k.is_finite()));
     }
 
@@ -277,7 +275,7 @@ mod tests {
         #[test]
         fn the_flexibility_is_the_derivative_of_the_end_position(c in any_catenary()) {
             let step = 1e-4 * c.force.x;
-            let flexibility = c.compliance().flexibility;
+            let flexibility = c.response().flexibility_matrix();
             for (j, direction) in [Vector2::x(), Vector2::y()].into_iter().enumerate() {
                 let at = |h: f64| Catenary { force: c.force + direction * h, ..c }.end_position();
                 let differences = 8.0 * (at(step) - at(-step)) - (at(2.0 * step) - at(-2.0 * step));
@@ -291,29 +289,29 @@ mod tests {
 
         #[test]
         fn the_flexibility_is_positive_definite(c in any_catenary()) {
-            let f = c.compliance().flexibility;
+            let f = c.response().flexibility_matrix();
             prop_assert!(f.m11 > 0.0 && f.m22 > 0.0 && f.determinant() > 0.0);
             let products = f.m11 * f.m22 + f.m12 * f.m21;
-            prop_assert!((c.compliance().determinant - f.determinant()).abs() < 1e-14 * products);
+            prop_assert!((c.response().determinant - f.determinant()).abs() < 1e-14 * products);
         }
 
         #[test]
         fn the_lateral_stiffness_is_the_horizontal_force_over_the_distance(c in any_catenary()) {
-            let compliance = c.compliance();
-            prop_assert!((compliance.lateral_stiffness * compliance.end.x / c.force.x - 1.0).abs() < 1e-13);
+            let response = c.response();
+            prop_assert!((response.end[0] / (response.lateral_flexibility * c.force.x) - 1.0).abs() < 1e-13);
         }
 
         #[test]
         fn paying_out_cable_between_held_ends_changes_the_force_as_its_derivative_says(c in any_catenary()) {
             let end = c.end_position();
             prop_assume!(end.x > 1e-3 * end.norm() && c.exit_tension() > 1e-2 * c.weight());
-            let step = 1e-5 * c.anchor_tension().min(c.weight()) / c.compliance().force_per_length().norm();
+            let step = 1e-5 * c.anchor_tension().min(c.weight()) / c.response().force_per_length().norm();
             let solve = |h: f64| crate::end_force(&c.cable, c.unstrained_length + h, end).unwrap();
             let at = |h: f64| solve(h).catenary.force;
             let slope = (8.0 * (at(step) - at(-step)) - (at(2.0 * step) - at(-2.0 * step))) / (12.0 * step);
             // The force itself is known to the rounding of the end position times the stiffness.
             let rounding = 1e-14 * c.in_plane_stiffness().norm() * (end.norm() + c.unstrained_length) / step;
-            prop_assert!((slope - c.compliance().force_per_length()).norm() < 1e-4 * slope.norm() + rounding);
+            prop_assert!((slope - c.response().force_per_length()).norm() < 1e-4 * slope.norm() + rounding);
         }
 
         #[test]
@@ -322,7 +320,7 @@ mod tests {
             let at = |h: f64| Catenary { unstrained_length: c.unstrained_length + h, ..c }.end_position();
             let slope = (8.0 * (at(step) - at(-step)) - (at(2.0 * step) - at(-2.0 * step))) / (12.0 * step);
             prop_assume!(c.exit_tension() > 1e-2 * c.weight());
-            prop_assert!((slope - c.compliance().end_per_length).norm() < 1e-6);
+            prop_assert!((slope - Vector2::from(c.response().end_per_length)).norm() < 1e-6);
         }
     }
 }

@@ -155,6 +155,22 @@ pub(crate) fn horizontal<T: Real>([x, y, z]: &[T; 3]) -> (T, [T; 2]) {
     (fx, [*x / fx, *y / fx])
 }
 
+/// A vector in its vertical plane, and the direction of the plane.
+pub(crate) fn flat(v: Vector3<f64>) -> (Vector2<f64>, [f64; 2]) {
+    let (x, azimuth) = horizontal(&v.into());
+    (Vector2::new(x, v.z), azimuth)
+}
+
+/// A vector of the vertical plane with a direction.
+pub(crate) fn lifted(v: Vector2<f64>, [c, s]: [f64; 2]) -> Vector3<f64> {
+    Vector3::new(c * v.x, s * v.x, v.y)
+}
+
+/// A derivative by EA from that by 1/EA.
+pub(crate) fn per_stiffness(numbers: &Numbers<f64>, per_flexibility: Vector3<f64>) -> Vector3<f64> {
+    per_flexibility * (-numbers.axial_flexibility * numbers.axial_flexibility)
+}
+
 impl<'a> SpatialCable<'a> {
     pub(crate) fn numbers(&self) -> Numbers<f64> {
         self.cable.numbers(self.unstrained_length)
@@ -246,7 +262,7 @@ impl<'a> SpatialCable<'a> {
                 per_actuation: slope(LENGTH),
                 per_end,
                 per_weight: slope(0),
-                per_stiffness: slope(1) * (-plain.axial_flexibility * plain.axial_flexibility),
+                per_stiffness: per_stiffness(&plain, slope(1)),
                 per_lead: slope(2),
                 per_radius: slope(3),
                 per_axis: Matrix3::from_columns(&[4, 5, 6].map(slope)),
@@ -273,7 +289,7 @@ impl<'a> SpatialCable<'a> {
         let column = |k: usize| Vector3::from(slopes.fixed_columns::<1>(k));
         SpatialSlopes {
             per_weight: column(0),
-            per_stiffness: column(1) * (-plain.axial_flexibility * plain.axial_flexibility),
+            per_stiffness: per_stiffness(&plain, column(1)),
             per_lead: column(2),
             per_radius: column(3),
             per_axis: slopes.fixed_columns::<3>(4).into(),

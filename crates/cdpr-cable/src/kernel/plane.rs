@@ -2,12 +2,35 @@
 
 use super::response::Response;
 use cdpr_number::{Number, Real};
+use nalgebra::{Matrix2, Vector2};
 
 impl<T: Number> Response<T> {
     /// In-plane stiffness `K = d(fx, fz)/d(x, z)`, its elements xx, xz = zx and zz [N/m].
     #[inline(always)]
     pub fn in_plane_stiffness(&self) -> [T; 3] {
         in_plane_stiffness(self.flexibility, self.determinant)
+    }
+}
+
+impl Response<f64> {
+    /// In-plane flexibility `d(x, z)/d(fx, fz)` [m/N], (C3)-(C5).
+    #[inline]
+    pub fn flexibility_matrix(&self) -> Matrix2<f64> {
+        let [xx, xz, zz] = self.flexibility;
+        Matrix2::new(xx, xz, xz, zz)
+    }
+
+    /// In-plane stiffness `d(fx, fz)/d(x, z)` [N/m].
+    #[inline]
+    pub fn stiffness_matrix(&self) -> Matrix2<f64> {
+        let [xx, xz, zz] = self.in_plane_stiffness();
+        Matrix2::new(xx, xz, xz, zz)
+    }
+
+    /// Derivative of the force at A with respect to the unstrained length with both ends fixed [N/m].
+    #[inline]
+    pub fn force_per_length(&self) -> Vector2<f64> {
+        -self.stiffness_matrix() * Vector2::from(self.end_per_length)
     }
 }
 

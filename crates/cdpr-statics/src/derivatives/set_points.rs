@@ -268,7 +268,7 @@ impl AtSetPoints<'_> {
         let mut cables = self.cables(&self.cables.lengths, &self.cables.equilibrium)?;
         for &i in which {
             let ends = Ends::of(self.robot, self.pose, i);
-            let catenary = ends.at_least_tension().map_err(StaticsError::cable(i))?.catenary();
+            let catenary = ends.at_least_tension().map_err(StaticsError::cable(i))?.catenary;
             cables[i] = CableDerivatives::new(self.robot, self.pose, i, &catenary);
         }
         let least = tensions(&self.inputs, self.pose, &cables);

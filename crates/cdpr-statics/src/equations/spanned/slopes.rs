@@ -1,7 +1,7 @@
 //! Derivatives of a cable between its two points by what it is, in the base frame.
 
 use crate::equations::spanned::{EndResponse, SpannedCable, to_base, to_level};
-use cdpr_cable::{Catenary, HeldCable, HeldSlopes, HeldSpatialCable, SpatialCable, SpatialSlopes};
+use cdpr_cable::{Catenary, HeldCable, HeldSlopes, SpatialCable, SpatialSlopes};
 use cdpr_robot::{Matrix3, Vector2, Vector3};
 
 impl<'a> SpannedCable<'a, f64> {
@@ -43,29 +43,7 @@ impl<'a> SpannedCable<'a, f64> {
     /// Second derivatives of the force on the cable, which must fit its points, between its fixed ends, in
     /// the base frame; `end` [m] leads from its exit to its anchor point in the level frame.
     pub(crate) fn tension_slopes(&self, catenary: &Catenary<'a>, end: Vector3<f64>) -> HeldSlopes {
-        if let Some(cable) = self.over_a_pulley(catenary) {
-            return self.based_slopes(&HeldSpatialCable::of(cable, end).tension_slopes());
-        }
-        let fixed = HeldCable::of(*catenary, self.span.end.into());
-        let slopes = fixed.tension_slopes();
-        let lift = |v: Vector2<f64>| self.based(self.span.plane.lift(v.into()).into());
-        let (forwards, up) = (lift(Vector2::x()), lift(Vector2::y()));
-        let across = up.cross(&forwards);
-        // v_x/h
-        let lateral = 1.0 / (self.span.chord() * fixed.tension_slope());
-        let [per_h, per_z] = slopes.per_end.map(lift);
-        HeldSlopes {
-            value: lift(slopes.force_per_tension),
-            per_actuation: lift(slopes.per_tension),
-            per_end: per_h * forwards.transpose()
-                + per_z * up.transpose()
-                + across * across.transpose() * lateral,
-            per_weight: lift(slopes.per_weight),
-            per_stiffness: lift(slopes.per_stiffness),
-            per_lead: lift(slopes.per_guide[0]),
-            per_radius: Vector3::zeros(),
-            per_axis: Matrix3::zeros(),
-        }
+        self.based_slopes(&HeldCable::of(self.in_space(catenary), end).tension_slopes())
     }
 
     /// The force K3 d on the cable by which it responds to the unit motion `d` of its anchor point, with its
