@@ -236,7 +236,7 @@ pub fn workspace_boundary(
 fn held_free(workspace: &Workspace, pose: &Pose) -> Result<(Held, Deflection), StaticsError> {
     let Workspace { robot, ref load, tolerances, free, .. } = *workspace;
     let alone = |deflection: Deflection, dominant| {
-        (Held::new(robot, LoadedPose::of(robot, load, &deflection), dominant), deflection)
+        (Held::new(robot, LoadedPose::of(robot, &deflection), dominant), deflection)
     };
     let deflected = || deflection(robot, WantedPose::at(pose).free(free), load);
     let Some(model) = tolerances else {

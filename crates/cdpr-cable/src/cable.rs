@@ -16,8 +16,8 @@
 //! f = 1/(2 L) sqrt(T/(ρ (1 + ε)))                                                                (C29)
 //! ```
 //!
-//! In its plane the first symmetric motion is as slow for a straight cable, and faster the more the cable sags;
-//! the first antisymmetric one is at 2 f (Irvine 1981, section 3.2).
+//! In its plane the first symmetric motion is as slow for a straight cable, and faster the more the cable
+//! sags; the first antisymmetric one is at 2 f (Irvine 1981, section 3.2).
 
 use crate::error::{CableError, MAX_STRAIN, SMALLEST, check};
 use crate::guide::{Entry, Guide, Straight, in_plane};
@@ -119,11 +119,7 @@ impl Cable<'_> {
 
     /// Elastic energy per unstrained length at a tension [N], `T ε - ∫ ε dT` [J/m].
     pub(crate) fn elastic_energy(&self, tension: f64) -> f64 {
-        let complementary = match self.law {
-            ElasticLaw::Linear => 0.5 * tension * tension,
-            ElasticLaw::Piecewise(law) => law.scaled_energy(tension),
-        };
-        tension * self.strain(tension) - complementary / self.axial_stiffness
+        tension * self.strain(tension) - self.energy_per_length(tension)
     }
 
     /// Length of a straight cable to `end = (x, z)` [m], lead and arc included [m]; that of the chord where

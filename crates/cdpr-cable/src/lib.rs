@@ -42,7 +42,7 @@ mod weighing;
 
 pub use cable::Cable;
 pub use catenary::shape::FromLeavePoint;
-pub use catenary::spatial::{HeldSlopes, SpatialCable, SpatialResponse, SpatialSlopes};
+pub use catenary::spatial::{HeldSlopes, Property, PropertySlopes, SpatialCable, SpatialResponse};
 pub use catenary::{Catenary, LONGEST_TAUT, SLACK_BELOW_OWN_WEIGHTS, is_slack};
 pub use error::{CableError, MAX_STRAIN};
 pub use guide::{Entry, Guide, Straight};

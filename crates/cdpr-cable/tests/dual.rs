@@ -1,19 +1,20 @@
 //! Every derivative of the catenary against dual numbers: the same equations over a number with derivative.
 
-use crate::guided::in_space;
+use crate::common::lifted;
 use approx::assert_relative_eq;
 use cdpr_cable::kernel::{Material, response};
 use cdpr_cable::{Cable, Catenary, HeldCable, Vector2, length_for_tension};
-use cdpr_number::{Dual, Number};
+use cdpr_number::Dual;
 use proptest::prelude::*;
 
-/// Derivative of the end position with respect to one of (w, EA, L, fx, fz).
+/// Derivative of the end position with respect to one of (L, fx, fz).
 fn dual(catenary: &Catenary, which: usize) -> Vector2<f64> {
     let Catenary { cable, unstrained_length, force } = *catenary;
-    let inputs = [cable.weight_per_length, cable.axial_stiffness, unstrained_length, force.x, force.y];
+    let inputs = [unstrained_length, force.x, force.y];
     let input = |k| Dual { value: inputs[k], slopes: [f64::from(k == which)] };
-    let [w, ea, length, fx, fz] = [0, 1, 2, 3, 4].map(input);
-    let [x, z] = response(w, ea.recip(), length, [fx, fz]).end;
+    let [length, fx, fz] = [0, 1, 2].map(input);
+    let [w, flexibility] = [cable.weight_per_length, cable.axial_stiffness.recip()].map(Dual::constant);
+    let [x, z] = response(w, flexibility, length, [fx, fz]).end;
     Vector2::new(x.slopes[0], z.slopes[0])
 }
 
@@ -63,9 +64,9 @@ proptest! {
     fn derivatives_are_those_of_dual_numbers(c in any_catenary()) {
         let response = c.response();
         let flexibility = response.flexibility_matrix();
-        let derivatives = [
-            (c.end_per_weight(), "w"), (c.end_per_stiffness(), "EA"), (response.end_per_length.into(), "L"),
-            (flexibility.column(0).into(), "fx"), (flexibility.column(1).into(), "fz"),
+        let derivatives: [(Vector2<f64>, &str); 3] = [
+            (response.end_per_length.into(), "L"), (flexibility.column(0).into(), "fx"),
+            (flexibility.column(1).into(), "fz"),
         ];
         for (which, (derivative, name)) in derivatives.into_iter().enumerate() {
             let expected = dual(&c, which);
@@ -82,7 +83,7 @@ proptest! {
     ) {
         let end = Vector2::new(x, z);
         let cable = Cable::linear(w, w * end.norm() * 10f64.powf(stiffness));
-        let least = HeldCable::at_least_tension(&cable, in_space(end)).unwrap().catenary;
+        let least = HeldCable::at_least_tension(&cable, lifted(end)).unwrap().catenary;
         prop_assert!((least.end_position() - end).norm() < 1e-12 * end.norm());
         let slope = least.force.dot(&least.response().force_per_length());
         let scale = least.force.norm() * least.response().force_per_length().norm();

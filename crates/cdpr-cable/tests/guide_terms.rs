@@ -1,10 +1,9 @@
 //! What the equations of a guide say in closed form against dual numbers and differences.
 
+use crate::common::{by, in_space};
 use approx::assert_relative_eq;
 use cdpr_cable::kernel::{GuideTerms, LawSegment, Material, SwivelAxis, Way};
-use cdpr_cable::{
-    Cable, Catenary, ElasticLaw, Entry, Guide, PiecewiseLaw, Segment, SpatialCable, Vector2, Vector3,
-};
+use cdpr_cable::{Cable, Catenary, ElasticLaw, Entry, Guide, PiecewiseLaw, Property, Segment, Vector2};
 use cdpr_number::Dual;
 use proptest::prelude::*;
 
@@ -76,17 +75,15 @@ fn compare_slopes(catenary: &Catenary, guide: &GuideTerms<f64>, way: &Way<f64>, 
     let close = |found: [f64; 2], expected: Vector2<f64>, scale: f64| {
         assert_relative_eq!(Vector2::from(found), expected, epsilon = 1e-10 * scale);
     };
-    let weight = catenary.end_per_weight();
+    let slopes = in_space(catenary).slopes();
+    let weight = by(&slopes, Property::Weight);
     close(found.per_weight, weight, weight.norm());
-    let softer = catenary.end_per_stiffness() * -cable.axial_stiffness.powi(2);
+    let softer = by(&slopes, Property::Stiffness) * -cable.axial_stiffness.powi(2);
     close(found.per_flexibility, softer, softer.norm());
-    let [lead, radius] = catenary.end_per_guide().unwrap();
-    close(found.per_lead, lead, 1.0);
+    close(found.per_lead, by(&slopes, Property::Lead), 1.0);
     if guide.radius > 0.0 {
-        close(found.per_radius, radius, 3.0);
-        let force = Vector3::new(catenary.force.x, 0.0, catenary.force.y);
-        let unstrained_length = catenary.unstrained_length;
-        let axis = SpatialCable { cable, unstrained_length, force }.slopes().per_axis;
+        close(found.per_radius, by(&slopes, Property::Radius), 3.0);
+        let axis = slopes.fixed_columns::<3>(Property::Axis as usize);
         close(found.per_axis, Vector2::new(axis[(0, 0)], axis[(2, 0)]), guide.radius);
         assert_relative_eq!(axis[(1, 0)], 0.0, epsilon = 1e-10);
         close([found.across_per_axis, 0.0], Vector2::new(axis[(1, 1)], axis[(2, 1)]), axis.norm());

@@ -1,7 +1,9 @@
 //! A cable over a lead and a swivelling pulley: references, limits, derivatives.
 
+use crate::common::{by as in_plane, in_space, lifted};
 use cdpr_cable::{
-    Cable, Catenary, Entry, Guide, HeldCable, Vector2, Vector3, end_force, end_force_near, length_for_tension,
+    Cable, Catenary, Entry, Guide, HeldCable, Property, Vector2, Vector3, end_force, end_force_near,
+    length_for_tension,
 };
 use proptest::prelude::*;
 use serde_json::Value;
@@ -12,17 +14,6 @@ pub(crate) fn number(value: &Value) -> f64 {
 
 pub(crate) fn vector(value: &Value) -> Vector3<f64> {
     Vector3::from_iterator(value.as_array().unwrap().iter().map(number))
-}
-
-/// A vector of the plane over the x axis in space.
-pub(crate) fn in_space(v: Vector2<f64>) -> Vector3<f64> {
-    Vector3::new(v.x, 0.0, v.y)
-}
-
-/// The components in the plane over the x axis of a vector that has no others.
-pub(crate) fn flat(v: Vector3<f64>) -> Vector2<f64> {
-    assert!(v.y.abs() <= 1e-12 * v.norm(), "{v}");
-    Vector2::new(v.x, v.z)
 }
 
 /// Each cable with a vertical swivel axis of `data/reference/pulleys.json`, over the span that its platform
@@ -133,12 +124,11 @@ proptest! {
         let guide = cable.guide.unwrap();
         // Beside the wheel and less than its diameter away from the axis no cable leaves it forwards.
         prop_assume!(end.x > 3.0 * guide.radius);
-        let held = HeldCable::at_chord_force(&cable, in_space(end), sigma).unwrap();
+        let held = HeldCable::at_chord_force(&cable, lifted(end), sigma).unwrap();
         let catenary = held.catenary;
         let scale = end.norm() + catenary.unstrained_length;
         prop_assert!(catenary.closure(end).norm() <= 64.0 * f64::EPSILON * scale);
         let response = catenary.response();
-        let c = response.flexibility_matrix();
         let h = 1e-3 * catenary.force.x.min(catenary.exit_tension());
         let with = |force: Vector2<f64>| Catenary { force, ..catenary }.end_position();
         let columns = [Vector2::x(), Vector2::y()]
@@ -150,6 +140,7 @@ proptest! {
         let w = cable.weight_per_length;
         let bound = 2.0 * led / cable.axial_stiffness * w
             * (guide.radius / catenary.exit_tension() + led / cable.axial_stiffness);
+        let c = response.flexibility_matrix();
         let size = c.norm();
         prop_assert!(asymmetry <= bound + 1e-7 * size, "{asymmetry:e} {bound:e}");
         prop_assert!((c.m11 - columns[0].x).abs() < 1e-7 * size);
@@ -157,19 +148,20 @@ proptest! {
         prop_assert!((c.m12 - shear).abs() < 1e-7 * size);
         let determinant = response.determinant;
         prop_assert!((determinant / c.determinant() - 1.0).abs() < 1e-13 * size * size / determinant);
-        prop_assert!((response.lateral_flexibility * catenary.force.x / end.x - 1.0).abs() < 1e-12);
+        prop_assert!((end.x / response.lateral_flexibility / catenary.force.x - 1.0).abs() < 1e-12);
         let by = |of: &dyn Fn(f64) -> Catenary<'static>| difference(1e-4, &|s| of(s).end_position());
         let (ea, length) = (cable.axial_stiffness, catenary.unstrained_length);
         let made = |cable: Cable<'static>| Catenary { cable, ..catenary };
         let longer = |more: f64| Catenary { unstrained_length: length + more, ..catenary };
-        let [per_lead, per_radius] = catenary.end_per_guide().unwrap();
+        let slopes = in_space(&catenary).slopes();
+        let per = |property| in_plane(&slopes, property);
         let size = end.norm();
         let cases = [
             ("L", Vector2::from(response.end_per_length) * length, by(&|s| longer(length * s))),
-            ("w", catenary.end_per_weight() * w, by(&|s| made(heavier(cable, s)))),
-            ("EA", catenary.end_per_stiffness() * ea, by(&|s| made(stiffer(cable, s)))),
-            ("lead", per_lead * size, by(&|s| made(led_by(cable, [size * s, 0.0])))),
-            ("radius", per_radius * size, by(&|s| made(led_by(cable, [0.0, size * s])))),
+            ("w", per(Property::Weight) * w, by(&|s| made(heavier(cable, s)))),
+            ("EA", per(Property::Stiffness) * ea, by(&|s| made(stiffer(cable, s)))),
+            ("lead", per(Property::Lead) * size, by(&|s| made(led_by(cable, [size * s, 0.0])))),
+            ("radius", per(Property::Radius) * size, by(&|s| made(led_by(cable, [0.0, size * s])))),
         ];
         for (name, exact, difference) in cases {
             let error = (exact - difference).norm();
@@ -181,7 +173,7 @@ proptest! {
     fn a_held_cable_on_a_guide_has_the_derivatives_it_says((cable, end, sigma) in any_guided()) {
         let guide = cable.guide.unwrap();
         prop_assume!(end.x > 4.0 * guide.radius);
-        let held = HeldCable::at_chord_force(&cable, in_space(end), sigma).unwrap();
+        let held = HeldCable::at_chord_force(&cable, lifted(end), sigma).unwrap();
         let step = 1e-4 * sigma;
         let at = |h: f64| held.with_chord_force(sigma + h).unwrap();
         let (less, more) = (at(-step), at(step));
@@ -192,23 +184,26 @@ proptest! {
         prop_assert!((curvature - held.force_curvature()).norm() < 1e-5 * size);
         // Next to the least tension, differences say nothing.
         prop_assume!(held.tension_slope() > 0.3);
-        let (t, slopes, chord) = (held.tension(), held.tension_slopes(), end.norm());
+        let (t, slopes) = (held.tension(), in_space(&held.catenary).tension_slopes());
+        let chord = end.norm();
+        let per_end = |column: usize| slopes.per_end.fixed_columns::<1>(column).xz();
+        let per = |property| in_plane(&slopes.per_property, property);
         let v = |cable: Cable<'static>, end: Vector2<f64>, t: f64| {
-            let held = HeldCable::at_chord_force(&cable, in_space(end), sigma).unwrap().with_tension(t).unwrap();
-            flat(held.force_slope / held.tension_slope())
+            let held = HeldCable::at_chord_force(&cable, lifted(end), sigma).unwrap().with_tension(t).unwrap();
+            (held.force_slope / held.tension_slope()).xz()
         };
         let direction = v(cable, end, t);
-        prop_assert!((flat(slopes.value) - direction).norm() < 1e-10);
+        prop_assert!((slopes.value.xz() - direction).norm() < 1e-10);
         let (w, ea) = (cable.weight_per_length, cable.axial_stiffness);
         let by = |at: &dyn Fn(f64) -> Vector2<f64>| difference(1e-4, at);
         let cases = [
-            ("t", flat(slopes.per_actuation) * t, by(&|s| v(cable, end, t * (1.0 + s)))),
-            ("x", flat(slopes.per_end.column(0).into()) * chord, by(&|s| v(cable, end + Vector2::x() * (chord * s), t))),
-            ("z", flat(slopes.per_end.column(2).into()) * chord, by(&|s| v(cable, end + Vector2::y() * (chord * s), t))),
-            ("w", flat(slopes.per_weight) * w, by(&|s| v(heavier(cable, s), end, t))),
-            ("EA", flat(slopes.per_stiffness) * ea, by(&|s| v(stiffer(cable, s), end, t))),
-            ("lead", flat(slopes.per_lead) * chord, by(&|s| v(led_by(cable, [chord * s, 0.0]), end, t))),
-            ("radius", flat(slopes.per_radius) * chord, by(&|s| v(led_by(cable, [0.0, chord * s]), end, t))),
+            ("t", slopes.per_actuation.xz() * t, by(&|s| v(cable, end, t * (1.0 + s)))),
+            ("x", per_end(0) * chord, by(&|s| v(cable, end + Vector2::x() * (chord * s), t))),
+            ("z", per_end(2) * chord, by(&|s| v(cable, end + Vector2::y() * (chord * s), t))),
+            ("w", per(Property::Weight) * w, by(&|s| v(heavier(cable, s), end, t))),
+            ("EA", per(Property::Stiffness) * ea, by(&|s| v(stiffer(cable, s), end, t))),
+            ("lead", per(Property::Lead) * chord, by(&|s| v(led_by(cable, [chord * s, 0.0]), end, t))),
+            ("radius", per(Property::Radius) * chord, by(&|s| v(led_by(cable, [0.0, chord * s]), end, t))),
         ];
         for (name, exact, difference) in cases {
             let error = (exact - difference).norm();
@@ -221,7 +216,7 @@ proptest! {
         let plain = Cable { guide: None, ..cable };
         let guide = Guide { lead: 0.0, radius: 0.0, entry: cable.guide.unwrap().entry };
         let guided = Cable { guide: Some(guide), ..cable };
-        let held = HeldCable::at_chord_force(&plain, in_space(end), sigma).unwrap().catenary;
+        let held = HeldCable::at_chord_force(&plain, lifted(end), sigma).unwrap().catenary;
         let same = Catenary { cable: guided, ..held };
         prop_assert_eq!(same.end_position(), held.end_position());
         prop_assert_eq!(same.response().flexibility, held.response().flexibility);
@@ -240,7 +235,7 @@ proptest! {
     ) {
         let guide = cable.guide.unwrap();
         prop_assume!(end.x > 4.0 * guide.radius);
-        let catenary = HeldCable::at_chord_force(&cable, in_space(end), sigma).unwrap().catenary;
+        let catenary = HeldCable::at_chord_force(&cable, lifted(end), sigma).unwrap().catenary;
         let h = 1e-3 * catenary.anchor_tension() / catenary.in_plane_stiffness().norm();
         let energy = |end| end_force_near(&catenary, end).unwrap().catenary.potential_energy();
         for (axis, force) in [(Vector2::x(), catenary.force.x), (Vector2::y(), catenary.force.y)] {
@@ -292,12 +287,12 @@ fn the_least_tension_over_a_pulley_is_that_of_all_chord_forces() {
         let cable = Cable { guide: Some(guide), ..Cable::linear(2.0, 1e5) };
         for beyond in [1e-4, 1e-2, 1.0, 30.0] {
             let end = Vector2::new(radius * (2.0 + beyond), -depth);
-            let least = HeldCable::at_least_tension(&cable, in_space(end)).unwrap();
+            let least = HeldCable::at_least_tension(&cable, lifted(end)).unwrap();
             let weight = cable.weight_per_length * end.norm();
             let mut lowest = f64::INFINITY;
             for k in -60..=20 {
                 let sigma = weight * 10f64.powf(f64::from(k) / 10.0);
-                if let Ok(held) = HeldCable::at_chord_force(&cable, in_space(end), sigma) {
+                if let Ok(held) = HeldCable::at_chord_force(&cable, lifted(end), sigma) {
                     lowest = lowest.min(held.tension());
                 }
             }

@@ -1,7 +1,9 @@
 //! A cable between held ends as a function of its chord force: closure, derivatives, least tension.
 
-use crate::guided::{flat, in_space};
-use cdpr_cable::{Cable, Catenary, ElasticLaw, HeldCable, PiecewiseLaw, Segment, Vector2, end_force};
+use crate::common::{by, in_space, lifted};
+use cdpr_cable::{
+    Cable, Catenary, ElasticLaw, HeldCable, PiecewiseLaw, Property, Segment, Vector2, end_force,
+};
 use proptest::prelude::*;
 
 /// Cables over spans of any direction, from taut to nearly their least tension.
@@ -33,7 +35,7 @@ proptest! {
 
     #[test]
     fn a_chord_force_closes_the_cable_and_has_the_derivatives_it_says((cable, end, sigma) in any_held()) {
-        let held = HeldCable::at_chord_force(&cable, in_space(end), sigma).unwrap();
+        let held = HeldCable::at_chord_force(&cable, lifted(end), sigma).unwrap();
         let scale = end.norm() + held.catenary.unstrained_length;
         prop_assert!(held.catenary.closure(end).norm() <= 64.0 * f64::EPSILON * scale);
         let step = 1e-4 * sigma;
@@ -54,7 +56,7 @@ proptest! {
 
     #[test]
     fn the_least_tension_is_that_of_all_lengths((cable, end, _) in any_held()) {
-        let held = HeldCable::at_least_tension(&cable, in_space(end)).unwrap();
+        let held = HeldCable::at_least_tension(&cable, lifted(end)).unwrap();
         let searched = least_of_all_lengths(&cable, end);
         let scale = searched + cable.weight_per_length * end.norm();
         prop_assert!((held.tension() - searched).abs() <= 1e-12 * scale);
@@ -64,26 +66,28 @@ proptest! {
 
     #[test]
     fn second_derivatives_at_given_tension_are_those_of_differences((cable, end, sigma) in any_held()) {
-        let held = HeldCable::at_chord_force(&cable, in_space(end), sigma).unwrap();
-        let (t, slopes) = (held.tension(), held.tension_slopes());
+        let held = HeldCable::at_chord_force(&cable, lifted(end), sigma).unwrap();
+        let (t, slopes) = (held.tension(), in_space(&held.catenary).tension_slopes());
+        let per_end = |column: usize| slopes.per_end.fixed_columns::<1>(column).xz();
+        let per = |property| by(&slopes.per_property, property);
         // Next to the least tension, differences say nothing.
         prop_assume!(held.tension_slope() > 0.3);
         let v = |cable: Cable<'static>, end: Vector2<f64>, t: f64| {
-            let start = HeldCable::at_chord_force(&cable, in_space(end), sigma).unwrap();
+            let start = HeldCable::at_chord_force(&cable, lifted(end), sigma).unwrap();
             let held = start.with_tension(t).unwrap();
-            flat(held.force_slope / held.tension_slope())
+            (held.force_slope / held.tension_slope()).xz()
         };
         let direction = v(cable, end, t);
-        prop_assert!((flat(slopes.value) - direction).norm() < 1e-12);
+        prop_assert!((slopes.value.xz() - direction).norm() < 1e-12);
         let difference = |step: f64, at: &dyn Fn(f64) -> Vector2<f64>| (at(step) - at(-step)) / (2.0 * step);
         let chord = end.norm();
         let h = 1e-5;
         let (w, ea) = (cable.weight_per_length, cable.axial_stiffness);
         let cases = [
-            ("t", flat(slopes.per_actuation) * t, difference(h, &|s| v(cable, end, t * (1.0 + s)))),
-            ("z", flat(slopes.per_end.column(2).into()) * chord, difference(h, &|s| v(cable, end + Vector2::y() * (chord * s), t))),
-            ("w", flat(slopes.per_weight) * w, difference(h, &|s| v(Cable::linear(w * (1.0 + s), ea), end, t))),
-            ("EA", flat(slopes.per_stiffness) * ea, difference(h, &|s| v(Cable::linear(w, ea * (1.0 + s)), end, t))),
+            ("t", slopes.per_actuation.xz() * t, difference(h, &|s| v(cable, end, t * (1.0 + s)))),
+            ("z", per_end(2) * chord, difference(h, &|s| v(cable, end + Vector2::y() * (chord * s), t))),
+            ("w", per(Property::Weight) * w, difference(h, &|s| v(Cable::linear(w * (1.0 + s), ea), end, t))),
+            ("EA", per(Property::Stiffness) * ea, difference(h, &|s| v(Cable::linear(w, ea * (1.0 + s)), end, t))),
         ];
         for (name, exact, difference) in cases {
             let scale = 1.0 + exact.norm();
@@ -91,7 +95,7 @@ proptest! {
         }
         if end.x > 1e-3 * chord {
             let difference = difference(h, &|s| v(cable, end + Vector2::x() * (chord * s), t));
-            let exact = flat(slopes.per_end.column(0).into()) * chord;
+            let exact = per_end(0) * chord;
             prop_assert!((exact - difference).norm() < 1e-6 * (1.0 + exact.norm()), "x: {exact} {difference}");
         }
     }
@@ -101,7 +105,7 @@ proptest! {
 fn a_weightless_cable_is_straight_at_its_chord_force() {
     let cable = Cable::linear(0.0, 1e4);
     for end in [Vector2::new(3.0, 4.0), Vector2::new(0.0, -5.0)] {
-        let held = HeldCable::at_chord_force(&cable, in_space(end), 50.0).unwrap();
+        let held = HeldCable::at_chord_force(&cable, lifted(end), 50.0).unwrap();
         assert!((held.tension() - 50.0).abs() < 1e-12);
         assert!((held.catenary.unstrained_length - 5.0 / (1.0 + 50.0 / 1e4)).abs() < 1e-14);
         assert!(
@@ -117,8 +121,8 @@ fn a_vertical_cable_is_regular() {
     for z in [3.0, -3.0] {
         let (end, beside) = (Vector2::new(0.0, z), Vector2::new(1e-9, z));
         for sigma in [3.0, 100.0] {
-            let held = HeldCable::at_chord_force(&cable, in_space(end), sigma).unwrap();
-            let near = HeldCable::at_chord_force(&cable, in_space(beside), sigma).unwrap();
+            let held = HeldCable::at_chord_force(&cable, lifted(end), sigma).unwrap();
+            let near = HeldCable::at_chord_force(&cable, lifted(beside), sigma).unwrap();
             assert!((held.tension() / near.tension() - 1.0).abs() < 1e-8);
             assert!(
                 (held.tension_curvature(&held.force_curvature())
@@ -127,15 +131,15 @@ fn a_vertical_cable_is_regular() {
                     < 1e-7
             );
             // v_x is odd in x.
-            let slopes = held.tension_slopes();
-            let aside = HeldCable::at_chord_force(&cable, in_space(Vector2::new(1e-4, z)), sigma).unwrap();
+            let per_end = in_space(&held.catenary).tension_slopes().per_end;
+            let aside = HeldCable::at_chord_force(&cable, lifted(Vector2::new(1e-4, z)), sigma).unwrap();
             let aside = aside.with_tension(held.tension()).unwrap();
             let slope = aside.force_slope.x / aside.tension_slope() / 1e-4;
-            assert!((slopes.per_end[(0, 0)] / slope - 1.0).abs() < 1e-6, "{z} {sigma}");
-            assert!(slopes.per_end[(2, 0)] == 0.0 && slopes.per_end.iter().all(|v| v.is_finite()));
+            assert!((per_end.m11 / slope - 1.0).abs() < 1e-6, "{z} {sigma}");
+            assert!(per_end.m31 == 0.0 && per_end.column(2).iter().all(|v| v.is_finite()));
         }
         // Hanging down from A the cable's whole weight is at A; hanging from B it may be all at B.
-        let least = HeldCable::at_least_tension(&cable, in_space(end)).unwrap().tension();
+        let least = HeldCable::at_least_tension(&cable, lifted(end)).unwrap().tension();
         assert!((least - z.max(0.0) * 2.0).abs() < 1e-3, "{least}");
     }
 }
@@ -145,7 +149,7 @@ fn a_cable_that_hangs_from_its_anchor_point_carries_at_least_its_weight_there() 
     for (w, z) in [(1.5e-3, 123.0), (2.0, 3.0), (0.3, 40.0), (7.0, 15.0)] {
         let weight = w * z;
         let cable = Cable::linear(w, 1e4 * weight);
-        let least = HeldCable::at_least_tension(&cable, in_space(Vector2::new(0.0, z))).unwrap();
+        let least = HeldCable::at_least_tension(&cable, lifted(Vector2::new(0.0, z))).unwrap();
         // It is strained by half of its weight on average.
         assert!((least.tension() / weight - (1.0 - 0.5e-4)).abs() < 1e-7, "{w} {z}: {}", least.tension());
     }
@@ -159,7 +163,7 @@ fn a_cable_with_a_law_has_the_derivatives_of_its_segments() {
     let end = Vector2::new(6.0, 5.0);
     // Its tension lies in one segment or in two.
     for sigma in [20.0, 38.0, 50.0, 70.0] {
-        let held = HeldCable::at_chord_force(&cable, in_space(end), sigma).unwrap();
+        let held = HeldCable::at_chord_force(&cable, lifted(end), sigma).unwrap();
         let at = |h: f64| held.with_chord_force(sigma + h).unwrap();
         let (less, more) = (at(-1e-3), at(1e-3));
         let slope = (more.force() - less.force()) / 2e-3;

@@ -3,10 +3,11 @@
 //! They are held against the linear cable, numerical integration (`data/reference/piecewise.py`) and
 //! differences.
 
+use crate::common::{by, in_space};
 use approx::assert_relative_eq;
 use cdpr_cable::{
-    Cable, Catenary, ElasticLaw, Matrix2, PiecewiseLaw, Segment, Vector2, end_force, end_force_near,
-    length_for_tension,
+    Cable, Catenary, ElasticLaw, Matrix2, PiecewiseLaw, Property, Segment, Vector2, end_force,
+    end_force_near, length_for_tension,
 };
 use proptest::prelude::*;
 use serde_json::Value;
@@ -85,19 +86,22 @@ proptest! {
         let scale = linear.end_position().norm() + unstrained_length;
         prop_assert!((pieces.end_position() - linear.end_position()).norm() < 1e-12 * scale);
         let (p, l) = (pieces.response(), linear.response());
-        let flexibility = l.flexibility_matrix();
-        prop_assert!((p.flexibility_matrix() - flexibility).norm() < 1e-12 * flexibility.norm());
+        let [p_flexibility, l_flexibility] = [p, l].map(|of| of.flexibility_matrix());
+        prop_assert!((p_flexibility - l_flexibility).norm() < 1e-12 * l_flexibility.norm());
         // Rounding of the flexibility across the cable beside the one along it.
         let stiff = ea / linear.exit_tension().min(linear.anchor_tension()).max(force.x);
         prop_assert!((p.determinant / l.determinant - 1.0).abs() < 1e-12 + 1e-15 * stiff);
         prop_assert!((p.lateral_flexibility / l.lateral_flexibility - 1.0).abs() < 1e-12);
-        prop_assert!((Vector2::from(p.end_per_length) - Vector2::from(l.end_per_length)).norm() < 1e-12 * Vector2::from(l.end_per_length).norm());
-        let weights = (pieces.end_per_weight() - linear.end_per_weight()).norm();
-        let rotated = flexibility.norm() * unstrained_length;
-        prop_assert!(weights < 1e-12 * (linear.end_per_weight().norm() + rotated));
-        let stiffness = linear.end_per_stiffness();
+        prop_assert!((Vector2::from(p.end_per_length) - Vector2::from(l.end_per_length)).norm()
+            < 1e-12 * Vector2::from(l.end_per_length).norm());
+        let [of_pieces, of_linear] = [&pieces, &linear].map(|of| in_space(of).slopes());
+        let [pieces_weight, weight] = [&of_pieces, &of_linear].map(|of| by(of, Property::Weight));
+        let weights = (pieces_weight - weight).norm();
+        let rotated = l_flexibility.norm() * unstrained_length;
+        prop_assert!(weights < 1e-12 * (weight.norm() + rotated));
+        let stiffness = by(&of_linear, Property::Stiffness);
         let size = stiffness.norm() + force.norm() * unstrained_length / (ea * ea);
-        let error = (pieces.end_per_stiffness() - stiffness).norm();
+        let error = (by(&of_pieces, Property::Stiffness) - stiffness).norm();
         prop_assert!(error < 1e-12 * size + 1e-15 * scale / ea);
         let energy = force.norm() * scale;
         prop_assert!((pieces.complementary_energy() - linear.complementary_energy()).abs() < 1e-12 * energy);
@@ -141,11 +145,13 @@ proptest! {
         prop_assert!((per_length - Vector2::from(response.end_per_length)).norm() < 1e-6, "length {per_length}");
         let h = 1e-5 * w;
         let per_weight = slope(h, |h| Catenary { cable: cable(&law, w + h, ea), ..c }.end_position());
-        let size = c.end_per_weight().norm() + flexibility.norm() * unstrained_length;
-        prop_assert!((per_weight - c.end_per_weight()).norm() < tolerance(size, h), "weight {per_weight}");
+        let slopes = in_space(&c).slopes();
+        let exact = by(&slopes, Property::Weight);
+        let size = exact.norm() + flexibility.norm() * unstrained_length;
+        prop_assert!((per_weight - exact).norm() < tolerance(size, h), "weight {per_weight}");
         let h = 1e-3 * ea;
         let per_stiffness = slope(h, |h| Catenary { cable: cable(&law, w, ea + h), ..c }.end_position());
-        let expected = c.end_per_stiffness();
+        let expected = by(&slopes, Property::Stiffness);
         prop_assert!((per_stiffness - expected).norm() < tolerance(expected.norm(), h));
         let products = flexibility.m11 * flexibility.m22;
         prop_assert!((response.determinant - flexibility.determinant()).abs() < 1e-13 * products);

@@ -1,8 +1,10 @@
 //! Cables over pulleys with tilted axes: references, limits, derivatives.
 
-use crate::guided::{in_space, number, vector};
+use crate::common::lifted;
+use crate::guided::{number, vector};
 use cdpr_cable::{
-    Cable, Entry, Guide, HeldCable, Matrix3, SpatialCable, Vector2, Vector3, end_force, spatial_end_force,
+    Cable, Entry, Guide, HeldCable, Matrix3, Property, SpatialCable, Vector2, Vector3, end_force,
+    spatial_end_force,
 };
 use proptest::prelude::*;
 use serde_json::Value;
@@ -125,6 +127,8 @@ proptest! {
     fn the_end_moves_with_material_and_guide_as_its_slopes_say((cable, end, sigma) in any_tilted()) {
         let held = HeldCable::at_chord_force(&cable, end, sigma).unwrap();
         let slopes = held.in_space().slopes();
+        let per = |property: Property| Vector3::from(slopes.fixed_columns::<1>(property as usize));
+        let per_axis = slopes.fixed_columns::<3>(Property::Axis as usize);
         let at = |cable| SpatialCable { cable, ..held.in_space() }.response().end;
         let Guide { lead, radius, entry } = cable.guide.unwrap();
         let near = |one: Vector3<f64>, other: Vector3<f64>, unit: f64| {
@@ -138,16 +142,18 @@ proptest! {
         let axis = Vector3::from(entry.axis());
         let (w, ea) = (cable.weight_per_length, cable.axial_stiffness);
         let by_weight = slope(|h| at(Cable { weight_per_length: w + h, ..cable }), 2e-4 * w);
-        prop_assert!(near(by_weight, slopes.per_weight, w));
+        prop_assert!(near(by_weight, per(Property::Weight), w));
         let by_stiffness = slope(|h| at(Cable { axial_stiffness: ea + h, ..cable }), 1e-3 * ea);
-        prop_assert!(near(by_stiffness, slopes.per_stiffness, ea));
-        prop_assert!(near(slope(|h| led(lead + h, radius, axis), 1e-3), slopes.per_lead, 1.0));
-        prop_assert!(near(slope(|h| led(lead, radius + h, axis), 1e-3 * radius), slopes.per_radius, radius));
+        prop_assert!(near(by_stiffness, per(Property::Stiffness), ea));
+        let by_lead = slope(|h| led(lead + h, radius, axis), 1e-3);
+        prop_assert!(near(by_lead, per(Property::Lead), 1.0));
+        let by_radius = slope(|h| led(lead, radius + h, axis), 1e-3 * radius);
+        prop_assert!(near(by_radius, per(Property::Radius), radius));
         for turn in [Vector3::x(), Vector3::y(), Vector3::z()] {
             let across = turn.cross(&axis);
             // Along the unit sphere to second order; the rest of a step is symmetric.
             let by_axis = slope(|h| led(lead, radius, (axis + h * across).normalize()), 1e-4);
-            prop_assert!(near(by_axis, slopes.per_axis * across, 1.0), "{by_axis} {}", slopes.per_axis * across);
+            prop_assert!(near(by_axis, per_axis * across, 1.0), "{by_axis} {}", per_axis * across);
         }
     }
 
@@ -166,7 +172,7 @@ proptest! {
         let second = slope(|h| at(h).force_slope, h);
         let error = (second - held.force_curvature()).norm();
         prop_assert!(error < 1e-6 * (second.norm() + held.force_slope.norm() / sigma), "{error:e}");
-        let slopes = held.tension_slopes();
+        let slopes = held.in_space().tension_slopes();
         let v = |held: &HeldCable| held.force_slope / held.tension_slope();
         prop_assert!((v(&held) - slopes.value).norm() < 1e-9 * slopes.value.norm());
         let t = held.tension();
@@ -185,8 +191,9 @@ proptest! {
         let radius = cable.guide.unwrap().radius;
         let led = |radius| Cable { guide: Some(Guide { radius, ..cable.guide.unwrap() }), ..cable };
         let by_radius = slope(|h| at(led(radius + h), end), 1e-3 * radius);
-        let size = slopes.per_radius.norm() + v(&held).norm() / radius;
-        prop_assert!((by_radius - slopes.per_radius).norm() < 1e-5 * size);
+        let exact = Vector3::from(slopes.per_property.column(Property::Radius as usize));
+        let size = exact.norm() + v(&held).norm() / radius;
+        prop_assert!((by_radius - exact).norm() < 1e-5 * size);
     }
 
     #[test]
@@ -199,7 +206,7 @@ proptest! {
         let along = Cable { guide: Some(Guide { entry: Entry::Along(entry.axis()), ..guide }), ..cable };
         let flat = Vector2::new(horizontal(end), end.z);
         prop_assume!(flat.x > 4.0 * guide.radius);
-        let expected = HeldCable::at_chord_force(&plane, in_space(flat), sigma).unwrap();
+        let expected = HeldCable::at_chord_force(&plane, lifted(flat), sigma).unwrap();
         let found = HeldCable::at_chord_force(&along, end, sigma).unwrap();
         let length = expected.catenary.unstrained_length;
         prop_assert!((found.catenary.unstrained_length - length).abs() < 1e-12 * length);

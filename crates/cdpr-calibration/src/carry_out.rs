@@ -2,39 +2,13 @@
 
 use crate::error::CalibrationError;
 use crate::fit::{cross_validated, fit};
-use crate::fitted::{Difference, Fit, FitSettings};
+use crate::fitted::{Difference, Fit};
 use crate::results::folder::{Calibrated, begin_calibration, write_calibration};
-use crate::results::summary::{CalibrationSummary, Context};
-use crate::table::Measurements;
-use crate::unknowns::Unknowns;
+use crate::results::summary::{CalibrationSummary, Campaign};
 use cdpr_robot::Robot;
-use cdpr_study::{ErrorModel, IfExists};
+use cdpr_study::IfExists;
 use std::path::Path;
 use std::time::Instant;
-
-/// What a calibration takes.
-#[derive(Clone, Copy, Debug)]
-pub struct Campaign<'a> {
-    /// The robot before.
-    pub robot: &'a Robot,
-    /// The tolerances, if they are known.
-    pub prior: Option<&'a ErrorModel>,
-    /// What is sought.
-    pub unknowns: &'a Unknowns,
-    /// What was measured.
-    pub measured: &'a Measurements,
-    /// Name of the file of measurements, for the provenance of the robot.
-    pub name: &'a str,
-    /// How the fit is made.
-    pub settings: FitSettings,
-    /// Parts that are predicted by robots calibrated without them; below 2 none, at most one a row.
-    pub folds: usize,
-}
-
-impl Campaign<'_> {
-    /// Parts at most.
-    pub const MOST_FOLDS: usize = 10_000;
-}
 
 /// Fits and predicts, and writes all results to a folder if one is given; `report` makes its page.
 ///
@@ -58,15 +32,8 @@ pub fn carry_out(
     let folds = campaign.folds.min(rows.len());
     let predicted: Option<Vec<Difference>> =
         if folds < 2 { None } else { cross_validated(robot, rows, unknowns, settings, folds).ok() };
-    let context = Context {
-        nominal: robot,
-        prior: campaign.prior,
-        noise_is_stated: campaign.measured.noise_is_stated,
-        predicted: predicted.as_deref(),
-        rows: rows.len(),
-    };
-    let summary = found.summary(&context, rows);
-    let (calibrated, posterior) = (found.calibrated(&context, campaign.name), found.posterior(&context));
+    let summary = found.summary(campaign, predicted.as_deref());
+    let (calibrated, posterior) = (found.calibrated(campaign), found.posterior(campaign));
     let made = Calibrated { fit: found, robot: calibrated, posterior, summary, seconds };
     if let Some(folder) = folder {
         let page = report(robot, &made.summary, &made.fit);

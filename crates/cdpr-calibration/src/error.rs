@@ -77,8 +77,8 @@ pub enum CalibrationError {
     },
     /// No row measures more than it has unknowns of its own.
     #[error(
-        "each row measures {measured} numbers at most, exact lengths left out, for {unknown} unknown lengths of \
-         its own: more poses of this kind cannot help; expected tensions or the pose in each row, too"
+        "each row measures {measured} numbers at most, exact lengths left out, for {unknown} unknown lengths \
+         of its own: more poses of this kind cannot help; expected tensions or the pose in each row, too"
     )]
     NoSurplus {
         /// Numbers measured in a row.

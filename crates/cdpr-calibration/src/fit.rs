@@ -28,9 +28,9 @@ use cdpr_robot::{Robot, Vector3};
 ///
 /// # Errors
 /// [`CalibrationError::NoSurplus`] and [`CalibrationError::TooFew`] for fewer measurements than unknowns;
-/// [`CalibrationError::Row`] and [`CalibrationError::Incomplete`] for a row that the nominal robot cannot answer
-/// to; [`CalibrationError::Invalid`] for numbers that are not finite, standard deviations and counts out of
-/// bounds; [`CalibrationError::Column`] for columns that belong elsewhere.
+/// [`CalibrationError::Row`] and [`CalibrationError::Incomplete`] for a row that the nominal robot cannot
+/// answer to; [`CalibrationError::Invalid`] for numbers that are not finite, standard deviations and counts
+/// out of bounds; [`CalibrationError::Column`] for columns that belong elsewhere.
 pub fn fit(
     robot: &Robot,
     rows: &[Row],
@@ -73,9 +73,9 @@ pub fn fit(
 }
 
 impl Problem<'_> {
-    /// The least minimum that the starts lead to, with how many were made and how many of them led there. Where
-    /// its chi-square is unlikely, lengths with greater errors may lead to a lower one: starts that agree may all
-    /// have the wrong cables slack.
+    /// The least minimum that the starts lead to, with how many were made and how many of them led there.
+    /// Where its chi-square is unlikely, lengths with greater errors may lead to a lower one: starts that
+    /// agree may all have the wrong cables slack.
     fn best_of_starts(&self, start: State) -> Result<(Found, [usize; 2]), CalibrationError> {
         let (best, starts) = self.agreed(start)?;
         if self.settings.starts == 1 || !self.is_unlikely(best.leads_to()) {
@@ -89,8 +89,8 @@ impl Problem<'_> {
     }
 
     /// The least minimum that starts lead to, with how many were made and how many of them led there. Those
-    /// after the first are followed as far as it takes to see where they lead, and their rows begun again only where they
-    /// fit badly there; more are made while none agrees.
+    /// after the first are followed as far as it takes to see where they lead, and their rows begun again
+    /// only where they fit badly there; more are made while none agrees.
     fn agreed(&self, start: State) -> Result<(Found, [usize; 2]), CalibrationError> {
         let wanted = self.settings.starts;
         let most = self.settings.max_steps;

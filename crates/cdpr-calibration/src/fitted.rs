@@ -1,7 +1,7 @@
 //! What is asked of a fit, and what it answers.
 
 use crate::campaign::Quantity;
-use crate::unknowns::Unknowns;
+use crate::unknowns::{Unknowns, map_of};
 use cdpr_robot::{Pose, Robot, Rotation3, Vector3};
 use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
@@ -109,8 +109,8 @@ pub struct Estimate {
     pub name: String,
     /// The deviation found.
     pub value: f64,
-    /// Standard deviation of the posterior, by data and priors; `None` for what they tell less exactly than one
-    /// scale. Of the rotation of a frame, that of its rotation vector.
+    /// Standard deviation of the posterior, by data and priors; `None` for what they tell less exactly than
+    /// one scale. Of the rotation of a frame, that of its rotation vector.
     pub std: Option<f64>,
     /// Standard deviation by the data alone, without any prior; `None` for what they do not tell.
     pub std_of_data: Option<f64>,
@@ -263,11 +263,8 @@ impl Fit {
 
     /// Covariance of the parameters of the robot, in the order of [`Parameter::of`].
     pub fn parameter_covariance(&self) -> DMatrix<f64> {
-        let count = self.deviations.len();
-        let mut map = DMatrix::zeros(count, self.unknowns.all.len());
-        for term in &self.unknowns.terms {
-            map[(term.parameter, term.input)] += term.factor;
-        }
+        let Unknowns { terms, all, .. } = &self.unknowns;
+        let map = map_of(terms, [self.deviations.len(), all.len()], |_| 1.0);
         &map * &self.covariance * map.transpose()
     }
 }

@@ -195,22 +195,17 @@ impl Calibration {
             AtWork::Position => {
                 let lengths = &found.deflection.lengths;
                 let problem = DirectProblem::new(&self.robot, lengths, load)?;
-                problem
-                    .derivatives(&found.deflection.loaded.equilibrium)?
-                    .pose
-                    .fixed_rows::<3>(0)
-                    .into_owned()
+                let pose = problem.derivatives(&found.deflection.loaded.equilibrium)?.pose;
+                pose.fixed_rows::<3>(0).into_owned()
             }
         };
         let first = self.work.nrows();
-        let mut work =
-            std::mem::replace(&mut self.work, DMatrix::zeros(0, 0)).resize_vertically(first + 3, 0.0);
+        self.work.resize_vertically_mut(first + 3, 0.0);
         for k in 0..3 {
             for (column, index) in self.indices.iter().enumerate() {
-                work[(first + k, column)] = rows[(k, *index)] * self.uncertainties[*index];
+                self.work[(first + k, column)] = rows[(k, *index)] * self.uncertainties[*index];
             }
         }
-        self.work = work;
         Ok(())
     }
 

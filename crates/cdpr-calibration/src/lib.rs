@@ -27,7 +27,7 @@ mod table;
 mod unknowns;
 
 pub use campaign::{Noise, Quantity, Reading, Row};
-pub use carry_out::{Campaign, carry_out};
+pub use carry_out::carry_out;
 pub use error::CalibrationError;
 pub use fit::{cross_validated, fit};
 pub use fitted::{Difference, Estimate, Fit, FitSettings, FitStatus, RobustLoss, UnidentifiableCombination};
@@ -39,7 +39,7 @@ pub use results::arrows;
 pub use results::folder::{CALIBRATED_NAME, Calibrated, POSTERIOR_NAME};
 pub use results::patterns::{Split, Trend};
 pub use results::predicted::UncertaintyMap;
-pub use results::summary::{CalibrationSummary, Context, OutlierSummary, ParameterSummary, SensorSummary};
+pub use results::summary::{CalibrationSummary, Campaign, OutlierSummary, ParameterSummary, SensorSummary};
 pub use sensor_error::SensorError;
 pub use simulate::{Simulated, drawn, drawn_errors, simulate};
 pub use table::{MEASUREMENTS_FORMAT, Measurements, read_measurements, write_measurements};

@@ -54,6 +54,11 @@ pub(crate) struct RowState {
 }
 
 impl RowState {
+    /// A row of a robot at rest with the lengths that the winches read.
+    pub(crate) fn new(read: Vec<f64>, loaded: Equilibrium, unloaded: Option<Equilibrium>) -> Self {
+        Self { read, errors: Vec::new(), loaded, unloaded }
+    }
+
     /// Unknowns of the row.
     pub(crate) fn own(&self) -> &[f64] {
         &self.errors
@@ -112,6 +117,14 @@ impl<'a> Model<'a> {
                 / (1.0 + self.of(SensorError::DrumScale, i, x))
         };
         row.read.iter().enumerate().map(length).collect()
+    }
+
+    /// What the winches read of these lengths [m], (R1) without noise.
+    pub(crate) fn readings(&self, lengths: &[f64], x: &[f64]) -> Vec<f64> {
+        let read = |(i, length): (usize, &f64)| {
+            self.of(SensorError::LengthOffset, i, x) + (1.0 + self.of(SensorError::DrumScale, i, x)) * length
+        };
+        lengths.iter().enumerate().map(read).collect()
     }
 
     pub(super) fn load(&self, row: &Row, robot: &Robot) -> Load {

@@ -13,7 +13,7 @@
 //! the candidate that gains most, until no exchange gains (Fedorov 1972): a local optimum.
 
 use crate::identify::Calibration;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 use rand::SeedableRng;
 use rand::seq::index::sample;
 use rand_chacha::ChaCha8Rng;
@@ -126,9 +126,7 @@ impl Calibration {
     pub fn quality(&self, poses: &[usize]) -> Quality {
         let covariance = self.covariance(poses);
         let n = covariance.nrows().max(1) as f64;
-        let work = self.work();
-        let variances: Vec<f64> =
-            (work * &covariance).component_mul(work).row_iter().map(|row| row.sum()).collect();
+        let variances = self.at_work(&covariance);
         let determinant = covariance.clone().cholesky().map(|factor| {
             factor.l_dirty().diagonal().iter().map(|pivot| 2.0 * pivot.abs().log2()).sum::<f64>()
         });
@@ -148,23 +146,18 @@ impl Calibration {
         let n = self.parameters().len();
         let mut covariance = DMatrix::identity(n, n);
         for pose in poses {
-            self.add_to(&mut covariance, *pose);
+            if let Some((_, half)) = added(&covariance, &self.matrices()[*pose]) {
+                covariance -= half.transpose() * half;
+                covariance.fill_lower_triangle_with_upper_triangle();
+            }
         }
         covariance
     }
 
-    /// Equation (K4).
-    fn add_to(&self, covariance: &mut DMatrix<f64>, pose: usize) {
-        let matrix = &self.matrices()[pose];
-        let seen = matrix * &*covariance;
-        let inner = DMatrix::identity(matrix.nrows(), matrix.nrows()) + &seen * matrix.transpose();
-        if let Some(factor) = inner.cholesky() {
-            let half = factor.l_dirty().solve_lower_triangular(&seen);
-            if let Some(half) = half {
-                *covariance -= half.transpose() * half;
-                covariance.fill_lower_triangle_with_upper_triangle();
-            }
-        }
+    /// Variances of the coordinates where the robot works [m²].
+    fn at_work(&self, covariance: &DMatrix<f64>) -> Vec<f64> {
+        let work = self.work();
+        (work * covariance).component_mul(work).row_iter().map(|row| row.sum()).collect()
     }
 
     /// The candidate that gains most, with what is then left by the criterion.
@@ -181,28 +174,27 @@ impl Calibration {
 
     /// What the criterion minimizes, with a further pose.
     fn loss(&self, covariance: &DMatrix<f64>, matrix: &DMatrix<f64>, criterion: Criterion) -> f64 {
-        let seen = matrix * covariance;
-        let inner = DMatrix::identity(matrix.nrows(), matrix.nrows()) + &seen * matrix.transpose();
-        let Some(factor) = inner.cholesky() else { return f64::INFINITY };
-        let pivots = factor.l_dirty().diagonal();
-        if criterion == Criterion::Information {
-            return -pivots.iter().map(|pivot| pivot.abs().log2()).sum::<f64>();
-        }
-        let Some(half) = factor.l_dirty().solve_lower_triangular(&seen) else { return f64::INFINITY };
-        if criterion == Criterion::Parameters {
-            return covariance.trace() - half.norm_squared();
-        }
-        let work = self.work();
-        let before: DVector<f64> = DVector::from_iterator(
-            work.nrows(),
-            (work * covariance).component_mul(work).row_iter().map(|r| r.sum()),
-        );
-        let gained = half * work.transpose();
-        let variances =
-            before.iter().zip(gained.column_iter()).map(|(before, gain)| before - gain.norm_squared());
+        let Some((factor, half)) = added(covariance, matrix) else { return f64::INFINITY };
+        let at_work = || {
+            let gained = &half * self.work().transpose();
+            let before =
+                self.at_work(covariance).into_iter().zip(gained.column_iter().map(|g| g.norm_squared()));
+            before.map(|(before, gain)| before - gain).collect::<Vec<_>>()
+        };
         match criterion {
-            Criterion::WorstAtWork => variances.fold(0.0, f64::max),
-            _ => variances.sum(),
+            Criterion::Information => -factor.diagonal().iter().map(|pivot| pivot.log2()).sum::<f64>(),
+            Criterion::Parameters => covariance.trace() - half.norm_squared(),
+            Criterion::MeanAtWork => at_work().iter().sum(),
+            Criterion::WorstAtWork => at_work().into_iter().fold(0.0, f64::max),
         }
     }
+}
+
+/// The lower factor of `1 + B C Bᵀ` of (K4), and its inverse times `B C`, for a further pose B.
+fn added(covariance: &DMatrix<f64>, matrix: &DMatrix<f64>) -> Option<(DMatrix<f64>, DMatrix<f64>)> {
+    let seen = matrix * covariance;
+    let inner = DMatrix::identity(matrix.nrows(), matrix.nrows()) + &seen * matrix.transpose();
+    let factor = inner.cholesky()?.unpack();
+    let half = factor.solve_lower_triangular(&seen)?;
+    Some((factor, half))
 }

@@ -6,14 +6,17 @@ pub(crate) mod predicted;
 pub(crate) mod summary;
 mod warnings;
 
-use crate::campaign::{Quantity, Row};
+use crate::campaign::Quantity;
 use crate::fitted::{Difference, Fit};
-use crate::results::predicted::uncertainty_map;
-use crate::results::summary::{CalibrationSummary, Context, OutlierSummary, ParameterSummary, SensorSummary};
+use crate::results::predicted::{uncertainty_map, variance_at};
+use crate::results::summary::{
+    CalibrationSummary, Campaign, OutlierSummary, ParameterSummary, SensorSummary,
+};
 use crate::sensor_error::SensorError;
+use crate::table::Measurements;
+use crate::unknowns::map_of;
 use cdpr_robot::{Axis, Parameter, Robot, UnitQuaternion};
-use cdpr_statics::{DirectProblem, Load};
-use cdpr_study::{ERRORS_FORMAT, ErrorModel, ErrorsFile};
+use cdpr_study::{ERRORS_FORMAT, ErrorModel, ErrorsFile, Term};
 use indexmap::IndexMap;
 use nalgebra::DMatrix;
 use std::collections::BTreeMap;
@@ -29,28 +32,22 @@ impl Fit {
 
     /// What is known of the errors of the calibrated robot: parameters that were sought, and those of the
     /// prior that were not.
-    pub fn posterior(&self, context: &Context) -> ErrorsFile {
-        let parameters = Parameter::of(context.nominal);
+    pub fn posterior(&self, campaign: &Campaign) -> ErrorsFile {
+        let parameters = Parameter::of(campaign.robot);
         let mut covariance = self.parameter_covariance();
-        covariance *= self.noise_scale(context.noise_is_stated).powi(2);
+        covariance *= self.noise_scale(campaign.measured.noise_is_stated).powi(2);
         let sought: Vec<usize> = self.unknowns.terms.iter().map(|term| term.parameter).collect();
         let mut is_there: Vec<bool> = (0..parameters.len()).map(|p| sought.contains(&p)).collect();
-        if let Some(prior) = context.prior {
+        if let Some(prior) = campaign.prior {
             let gone = |name: &String| {
                 let is_sought = self.unknowns.all.iter().any(|unknown| unknown.name == *name);
                 !is_sought && !self.unknowns.shared.contains(name)
             };
-            for (input, of) in prior.inputs.iter().enumerate().filter(|(_, of)| gone(&of.name)) {
-                // Inputs that were not sought keep their laws.
-                let terms: Vec<_> = prior.terms.iter().filter(|term| term.input == input).collect();
-                let variance = of.law.std().powi(2);
-                for one in &terms {
-                    for other in &terms {
-                        covariance[(one.parameter, other.parameter)] += variance * one.factor * other.factor;
-                    }
-                    is_there[one.parameter] = true;
-                }
-            }
+            // Inputs that were not sought keep their laws.
+            let is_gone = |term: &Term| gone(&prior.inputs[term.input].name);
+            let kept: Vec<Term> = prior.terms.iter().filter(|term| is_gone(term)).cloned().collect();
+            covariance += prior_covariance(prior, &kept, parameters.len());
+            kept.iter().for_each(|term| is_there[term.parameter] = true);
         }
         let kept: Vec<usize> = (0..parameters.len()).filter(|p| is_there[*p]).collect();
         ErrorsFile {
@@ -65,14 +62,15 @@ impl Fit {
     }
 
     /// The calibrated robot with where its values come from.
-    pub fn calibrated(&self, context: &Context, measurements: &str) -> Robot {
+    pub fn calibrated(&self, campaign: &Campaign) -> Robot {
         let mut robot = self.robot.clone();
-        let before = context.nominal.provenance.source.as_deref().unwrap_or("a robot file");
+        let before = campaign.robot.provenance.source.as_deref().unwrap_or("a robot file");
         robot.provenance.source = Some(format!(
-            "calibrated by cdpr {} with {} rows of {measurements}, {} parameters sought, chi-square {:.1} \
+            "calibrated by cdpr {} with {} rows of {}, {} parameters sought, chi-square {:.1} \
              with {} degrees of freedom; before: {before}",
             env!("CARGO_PKG_VERSION"),
-            context.rows,
+            campaign.measured.rows.len(),
+            campaign.name,
             self.unknowns.of_parameters(),
             self.chi_square,
             self.degrees_of_freedom
@@ -82,39 +80,31 @@ impl Fit {
 
     /// Mean variance of a coordinate of P at the poses of the rows, for a covariance of the parameters [m²].
     fn position_variance(&self, robot: &Robot, covariance: &DMatrix<f64>, lengths: &[&[f64]]) -> Option<f64> {
-        let count = covariance.nrows();
-        let mut sum = (0.0, 0);
-        for (pose, lengths) in self.poses.iter().zip(lengths) {
-            let problem = DirectProblem::new(robot, lengths, &Load::none()).ok()?;
-            let found = problem.direct(cdpr_statics::DirectStart::Pose(pose)).ok()?;
-            let slopes = problem.derivatives(&found.equilibrium).ok()?.pose;
-            for k in 0..3 {
-                let row = slopes.row(k).columns(0, count).into_owned();
-                sum.0 += (&row * covariance * row.transpose())[0];
-                sum.1 += 1;
-            }
-        }
-        (sum.1 > 0).then(|| sum.0 / f64::from(sum.1))
+        let rows = self.poses.iter().zip(lengths);
+        let variances = rows.map(|(pose, lengths)| variance_at(robot, lengths, pose, covariance));
+        let variances = variances.collect::<Option<Vec<f64>>>().filter(|all| !all.is_empty())?;
+        Some(variances.iter().sum::<f64>() / variances.len() as f64)
     }
 
-    /// The summary. `rows` are the rows that were fitted.
-    pub fn summary(&self, context: &Context, rows: &[Row]) -> CalibrationSummary {
-        let scale = self.noise_scale(context.noise_is_stated);
-        let stated = |value: Option<f64>| value.filter(|_| context.noise_is_stated);
+    /// The summary, with errors of prediction if they were computed.
+    pub fn summary(&self, campaign: &Campaign, predicted: Option<&[Difference]>) -> CalibrationSummary {
+        let Measurements { rows, noise_is_stated, .. } = campaign.measured;
+        let scale = self.noise_scale(*noise_is_stated);
+        let stated = |value: Option<f64>| value.filter(|_| *noise_is_stated);
         let covariance = self.parameter_covariance() * (scale * scale);
-        let prior = context.prior.map(|prior| prior_covariance(prior, covariance.nrows()));
+        let prior = campaign.prior.map(|prior| prior_covariance(prior, &prior.terms, covariance.nrows()));
         let lengths: Option<Vec<&[f64]>> = rows.iter().map(|row| row.lengths.as_deref()).collect();
         let relative = self.unknowns.sensor(SensorError::LengthOffset).is_some();
         let std_of = |robot: &Robot, covariance: &DMatrix<f64>| {
             let lengths = lengths.as_ref().filter(|_| !relative)?;
             self.position_variance(robot, covariance, lengths).map(f64::sqrt)
         };
-        let map = || uncertainty_map(self, context.nominal, prior.as_ref(), &covariance);
+        let map = || uncertainty_map(self, campaign.robot, prior.as_ref(), &covariance);
         let mut summary = CalibrationSummary {
-            robot: context.nominal.name.clone(),
+            robot: campaign.robot.name.clone(),
             version: env!("CARGO_PKG_VERSION"),
-            rows: context.rows,
-            parameters: self.parameters(context, prior.as_ref(), scale),
+            rows: rows.len(),
+            parameters: self.parameters(campaign, prior.as_ref(), scale),
             sensors: self.errors_of_sensors(scale),
             chi_square: self.chi_square,
             degrees_of_freedom: self.degrees_of_freedom,
@@ -122,26 +112,26 @@ impl Fit {
             p_value_of_less: stated(self.p_value_of_less()),
             noise_scale: scale,
             not_identifiable: self.unidentifiable.iter().map(|of| of.weights.clone()).collect(),
-            residuals: self.by_sensor(context.predicted),
-            outliers: if context.noise_is_stated { self.outlier_summaries() } else { Vec::new() },
-            trends: if context.noise_is_stated { self.trends() } else { Vec::new() },
+            residuals: self.by_sensor(predicted),
+            outliers: if *noise_is_stated { self.outlier_summaries() } else { Vec::new() },
+            trends: if *noise_is_stated { self.trends() } else { Vec::new() },
             splits: self.splits(),
             workspace: if relative { None } else { map() },
-            position_std_before: prior.as_ref().and_then(|prior| std_of(context.nominal, prior)),
+            position_std_before: prior.as_ref().and_then(|prior| std_of(campaign.robot, prior)),
             position_std_after: std_of(&self.robot, &covariance),
             steps: self.steps,
             status: self.status,
             starts: self.starts,
             warnings: Vec::new(),
         };
-        summary.warnings = self.warnings(&summary, context);
+        summary.warnings = self.warnings(&summary, campaign);
         summary
     }
 
     /// The parameters that were sought, standard deviations times `scale`.
     fn parameters(
         &self,
-        context: &Context,
+        campaign: &Campaign,
         prior: Option<&DMatrix<f64>>,
         scale: f64,
     ) -> IndexMap<String, ParameterSummary> {
@@ -153,12 +143,12 @@ impl Fit {
             }
             let [std, std_of_data] = self.stds(&weights).map(|std| std.map(|std| std * scale));
             let prior_std = prior.map(|prior| prior[(index, index)].sqrt()).filter(|std| *std > 0.0);
-            let (before, moved) = (parameter.nominal(context.nominal), self.deviations[index]);
+            let (before, moved) = (parameter.nominal(campaign.robot), self.deviations[index]);
             let summary =
                 ParameterSummary::new(before, moved, [std, std_of_data, prior_std], parameter.unit());
             Some((parameter.to_string(), summary))
         };
-        Parameter::of(context.nominal).iter().enumerate().filter_map(summary).collect()
+        Parameter::of(campaign.robot).iter().enumerate().filter_map(summary).collect()
     }
 
     /// The errors of sensors that were sought, standard deviations times `scale`.
@@ -220,12 +210,9 @@ impl Fit {
     }
 }
 
-/// Covariance of the parameters by an error model.
-fn prior_covariance(model: &ErrorModel, count: usize) -> DMatrix<f64> {
-    let mut map: DMatrix<f64> = DMatrix::zeros(count, model.inputs.len());
-    for term in &model.terms {
-        map[(term.parameter, term.input)] += term.factor * model.inputs[term.input].law.std();
-    }
+/// Covariance of the parameters by these terms of an error model.
+fn prior_covariance(model: &ErrorModel, terms: &[Term], count: usize) -> DMatrix<f64> {
+    let map = map_of(terms, [count, model.inputs.len()], |input| model.inputs[input].law.std());
     &map * map.transpose()
 }
 

@@ -2,8 +2,10 @@
 
 use crate::campaign::{Noise, Quantity, Reading, Row};
 use crate::error::CalibrationError;
+use crate::model::{Model, RowAt, RowState, Shared};
 use crate::sensor_error::{SensorError, check_each_once};
-use cdpr_robot::{Axis, CableEnd, Coordinate, Pose, Robot, Rotation3, TiltAxis, Vector3};
+use crate::unknowns::Unknowns;
+use cdpr_robot::{Axis, CableEnd, Coordinate, Pose, Pulley, Robot, Rotation3, Vector3};
 use cdpr_statics::continuation::follow_load;
 use cdpr_statics::free_coordinates::{FreeSolution, free_solutions};
 use cdpr_statics::{DirectProblem, DirectSolution, DirectStart, Load, StaticsError, WantedPose};
@@ -87,17 +89,75 @@ fn measured(of: &Simulated, truth: &Robot, k: usize, commanded: &FreeSolution) -
     let lengths = &commanded.lengths[..];
     let [unloaded, loaded] =
         rests(truth, lengths, &commanded.equilibrium.pose, &of.load)?.map(|found| found.equilibrium);
+    let (unknowns, shared) = sensors(of);
+    let model = Model::new(of.nominal, &unknowns, &[]);
     let mut random = ChaCha8Rng::seed_from_u64(of.seed);
     random.set_stream(k as u64);
-    let mut sensors = Sensors { of, random, row: Row::new(k + 1, of.load) };
-    sensors.read_lengths(lengths);
-    sensors.read_pose(&loaded.pose);
-    sensors.read_displacement(&(loaded.pose.position - unloaded.pose.position));
-    let problem = DirectProblem::new(truth, lengths, &of.load)?;
-    let forces_at = |end| problem.force_derivatives(&loaded, end).map(|found| found.forces);
-    sensors.read_tensions(&forces_at(of.tension_at)?);
-    sensors.read_swivels(&forces_at(CableEnd::Exit)?);
-    Ok(sensors.row)
+    let mut draw = || -> f64 { random.sample(StandardNormal) };
+
+    let exact = model.readings(lengths, &shared.x);
+    let std = of.noise.length.unwrap_or(0.0);
+    let mut row = Row::new(k + 1, of.load);
+    row.lengths = Some(exact.iter().map(|length| length + std * draw()).collect());
+    row.length_std = vec![std; if std > 0.0 { lengths.len() } else { 0 }];
+    let quantities = quantities(of);
+    let reading =
+        |(quantity, std): &(_, Option<f64>)| Some(Reading { quantity: *quantity, value: 0.0, std: (*std)? });
+    row.readings = quantities.iter().filter_map(reading).collect();
+
+    let state = RowState::new(exact, loaded, of.noise.displacement.map(|_| unloaded));
+    let at = RowAt { row: &row, shared: &shared, robot: truth };
+    let observed = model.observed(&at, &state)?;
+    let mut turn = Vector3::zeros();
+    let mut readings = Vec::with_capacity(row.readings.len());
+    for (quantity, std) in quantities {
+        // The noise of a sensor that is not there is drawn, too.
+        let noise = draw();
+        let Some(std) = std else { continue };
+        let value = match quantity {
+            Quantity::Rotation(axis) => {
+                turn[axis.index()] = std * noise;
+                0.0
+            }
+            _ => observed.read(quantity).value + std * noise,
+        };
+        readings.push(Reading { quantity, value, std });
+    }
+    let rotation = Rotation3::new(turn) * shared.frame * state.pose().rotation;
+    Ok(Row { readings, rotation: of.noise.rotation.map(|_| rotation), ..row })
+}
+
+/// Everything that is read besides lengths, with the standard deviation of its noise; `None` for a sensor
+/// that is not there. Swivel angles are those of pulleys with a vertical axis.
+fn quantities(of: &Simulated) -> Vec<(Quantity, Option<f64>)> {
+    let Noise { position, rotation, displacement, marker, tension, swivel, .. } = of.noise;
+    let vector = |quantity: &dyn Fn(Axis) -> Quantity, std| Axis::ALL.map(|axis| (quantity(axis), std));
+    let mut all = vector(&Quantity::Position, position).to_vec();
+    all.extend(rotation.iter().flat_map(|std| vector(&Quantity::Rotation, Some(*std))));
+    let marker = marker.or(position);
+    all.extend((0..of.markers.len()).flat_map(|m| vector(&|axis| Quantity::Marker(m, axis), marker)));
+    all.extend(displacement.iter().flat_map(|std| vector(&Quantity::Displacement, Some(*std))));
+    let cables = of.nominal.cables.iter().enumerate();
+    all.extend(cables.clone().map(|(i, _)| (Quantity::Tension(i, of.tension_at), tension)));
+    let is_upright = |pulley: &Pulley| pulley.axis.xy().norm() == 0.0;
+    let upright = cables.filter(|(_, cable)| cable.pulley.as_ref().is_some_and(is_upright));
+    all.extend(upright.map(|(i, _)| (Quantity::Swivel(i), swivel)));
+    all
+}
+
+/// The errors of the sensors as unknowns, with their numbers.
+fn sensors(of: &Simulated) -> (Unknowns, Shared) {
+    let mut unknowns = Unknowns::none();
+    unknowns.set_markers(of.markers.to_vec());
+    let mut x = Vec::new();
+    for (error, numbers) in of.errors {
+        unknowns.add(of.nominal, *error, None, of.markers.len());
+        x.extend(numbers);
+        x.resize(unknowns.all.len(), 0.0);
+    }
+    let turn = |first: usize| Rotation3::new(Vector3::new(x[first + 3], x[first + 4], x[first + 5]));
+    let frame = unknowns.sensor(SensorError::Frame).map_or_else(Rotation3::identity, turn);
+    (unknowns, Shared { x, frame, origin: Vector3::zeros() })
 }
 
 /// The equilibrium without the load, near a pose, and what it becomes while the load is raised.
@@ -110,107 +170,4 @@ fn rests(
     let unloaded = DirectProblem::new(robot, lengths, &Load::none())?.direct(DirectStart::Pose(near))?;
     let loaded = follow_load(robot, lengths, (&Load::none(), &unloaded), load)?;
     Ok([unloaded, loaded])
-}
-
-/// The sensors at one pose, with their errors and noise, and what they have read so far.
-struct Sensors<'a> {
-    of: &'a Simulated<'a>,
-    random: ChaCha8Rng,
-    row: Row,
-}
-
-impl Sensors<'_> {
-    /// The number `k` of an error of the sensors.
-    fn error(&self, error: SensorError, k: usize) -> f64 {
-        let found = self.of.errors.iter().find(|(own, _)| *own == error);
-        found.and_then(|(_, numbers)| numbers.get(k)).copied().unwrap_or(0.0)
-    }
-
-    fn triple(&self, error: SensorError, first: usize) -> Vector3<f64> {
-        Vector3::from([0, 1, 2].map(|k| self.error(error, first + k)))
-    }
-
-    fn draw(&mut self) -> f64 {
-        self.random.sample(StandardNormal)
-    }
-
-    /// Reads a value with noise; the noise of a sensor that is not there is drawn, too.
-    fn read(&mut self, quantity: Quantity, value: f64, std: Option<f64>) {
-        let noise = self.draw();
-        self.row.readings.extend(std.map(|std| Reading { quantity, value: value + std * noise, std }));
-    }
-
-    fn read_vector(&mut self, of: impl Fn(Axis) -> Quantity, values: Vector3<f64>, std: Option<f64>) {
-        Axis::ALL.iter().for_each(|axis| self.read(of(*axis), values[axis.index()], std));
-    }
-
-    fn read_lengths(&mut self, lengths: &[f64]) {
-        let std = self.of.noise.length.unwrap_or(0.0);
-        let mut read = |(i, length): (usize, &f64)| {
-            let scaled = (1.0 + self.error(SensorError::DrumScale, i)) * length;
-            scaled + self.error(SensorError::LengthOffset, i) + std * self.draw()
-        };
-        let lengths = lengths.iter().enumerate().map(&mut read).collect::<Vec<_>>();
-        self.row.length_std = vec![std; if std > 0.0 { lengths.len() } else { 0 }];
-        self.row.lengths = Some(lengths);
-    }
-
-    /// Rotation and scale of a displacement by the tracker.
-    fn turned(&self, displacement: Vector3<f64>) -> Vector3<f64> {
-        let frame = Rotation3::new(self.triple(SensorError::Frame, 3));
-        frame * displacement * (1.0 + self.error(SensorError::FrameScale, 0))
-    }
-
-    /// A place as the tracker sees it.
-    fn seen(&self, place: Vector3<f64>) -> Vector3<f64> {
-        self.turned(place) + self.triple(SensorError::Frame, 0)
-    }
-
-    /// Position, orientation and markers.
-    fn read_pose(&mut self, pose: &Pose) {
-        let of = self.of;
-        let position = self.seen(pose.position);
-        self.read_vector(Quantity::Position, position, of.noise.position);
-        if let Some(std) = of.noise.rotation {
-            let turn = Vector3::new(self.draw(), self.draw(), self.draw()) * std;
-            let frame = Rotation3::new(self.triple(SensorError::Frame, 3));
-            self.row.rotation = Some(Rotation3::new(turn) * frame * pose.rotation);
-            let zero = |axis| Reading { quantity: Quantity::Rotation(axis), value: 0.0, std };
-            self.row.readings.extend(Axis::ALL.map(zero));
-        }
-        for (m, marker) in of.markers.iter().enumerate() {
-            let place = marker + self.triple(SensorError::Markers, 3 * m);
-            let place = self.seen(pose.position + pose.rotation * place);
-            let std = of.noise.marker.or(of.noise.position);
-            self.read_vector(|axis| Quantity::Marker(m, axis), place, std);
-        }
-    }
-
-    fn read_displacement(&mut self, moved: &Vector3<f64>) {
-        let std = self.of.noise.displacement;
-        if std.is_some() {
-            self.read_vector(Quantity::Displacement, self.turned(*moved), std);
-        }
-    }
-
-    /// Tensions by the forces where the load cells sit.
-    fn read_tensions(&mut self, forces: &[Vector3<f64>]) {
-        for (i, force) in forces.iter().enumerate() {
-            let gain = 1.0 + self.error(SensorError::TensionGain, i);
-            let value = gain * force.norm() + self.error(SensorError::TensionBias, i);
-            self.read(Quantity::Tension(i, self.of.tension_at), value, self.of.noise.tension);
-        }
-    }
-
-    /// Swivel angles of pulleys with a vertical axis by the forces at their leave points.
-    fn read_swivels(&mut self, forces: &[Vector3<f64>]) {
-        for (i, force) in forces.iter().enumerate() {
-            let pulley = self.of.nominal.cables[i].pulley;
-            if let Some(pulley) = pulley.filter(|pulley| pulley.axis.xy().norm() == 0.0) {
-                let [u, v] = TiltAxis::ALL.map(|axis| axis.of(&pulley).dot(force));
-                let value = v.atan2(u) + self.error(SensorError::SwivelOffset, i);
-                self.read(Quantity::Swivel(i), value, self.of.noise.swivel);
-            }
-        }
-    }
 }

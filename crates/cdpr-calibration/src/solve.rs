@@ -157,7 +157,8 @@ impl Decomposed {
         step
     }
 
-    /// The part of a change that the data tell, each combination by `most` of its standard deviations at most.
+    /// The part of a change that the data tell, each combination by `most` of its standard deviations at
+    /// most.
     pub(crate) fn told_part(&self, change: &DVector<f64>, most: f64) -> DVector<f64> {
         let mut part = DVector::zeros(change.len());
         for k in (0..self.values.len()).filter(|k| self.tells(*k)) {

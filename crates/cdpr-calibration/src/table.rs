@@ -9,13 +9,13 @@
 //! | `marker1_x_m` ... | markers on the platform |
 //! | `dx_m`, `dy_m`, `dz_m` | displacement of P by the load |
 //! | `swivel1_deg` ... | swivel angles of pulleys |
-//! | `payload_kg`, `mass_kg`, `fx_n` ... `mz_nm` | the known load: added mass, mass of the platform, force, moment |
+//! | `payload_kg`, `mass_kg`, `fx_n` ... `mz_nm` | known load: added mass, mass of the platform, wrench |
 //! | `std_` before one of these | its standard deviation in this row; of an orientation `std_rx_rad` ... |
 //! | `cov_x_m_y_m` | covariance of two of these in this row |
 //!
 //! The JSON form has the same names, and null for what was not measured. Units are those of tables
-//! ([`cdpr_study::Unit`]), `x [mm]` is `x_mm`, and capitals do not matter. A column of texts or a time may stand
-//! beside them.
+//! ([`cdpr_study::Unit`]), `x [mm]` is `x_mm`, and capitals do not matter. A column of texts or a time may
+//! stand beside them.
 
 mod columns;
 mod row;

@@ -4,6 +4,7 @@ use crate::error::CalibrationError;
 use crate::sensor_error::{SensorError, size};
 use cdpr_robot::{Parameter, Robot, Vector3};
 use cdpr_study::{ErrorModel, Term};
+use nalgebra::DMatrix;
 
 /// One number that is sought: a deviation from where the search begins.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,7 +49,8 @@ impl Unknowns {
         Self { all: model.inputs.iter().map(unknown).collect(), terms: model.terms.clone(), ..Self::none() }
     }
 
-    fn none() -> Self {
+    /// Nothing.
+    pub(crate) fn none() -> Self {
         Self {
             all: Vec::new(),
             terms: Vec::new(),
@@ -59,11 +61,13 @@ impl Unknowns {
         }
     }
 
-    /// The named parameters or groups of parameters, without prior; of a planar robot, coordinates in its plane.
+    /// The named parameters or groups of parameters, without prior; of a planar robot, coordinates in its
+    /// plane.
     ///
     /// # Errors
-    /// [`CalibrationError::Invalid`] for a name that the robot does not have, for a coordinate at right angles to
-    /// its plane, and for offsets of tension set-points, which no measurement with given lengths depends on.
+    /// [`CalibrationError::Invalid`] for a name that the robot does not have, for a coordinate at right
+    /// angles to its plane, and for offsets of tension set-points, which no measurement with given lengths
+    /// depends on.
     pub fn free(robot: &Robot, names: &[&str]) -> Result<Self, CalibrationError> {
         let parameters = Parameter::of(robot);
         let is = |p: &Parameter, name: &str| p.group() == name || p.to_string() == name;
@@ -253,6 +257,19 @@ impl Unknowns {
         }
         deviations
     }
+}
+
+/// Derivatives of `parameters` parameters by `inputs` inputs, each in its unit.
+pub(crate) fn map_of(
+    terms: &[Term],
+    [parameters, inputs]: [usize; 2],
+    unit: impl Fn(usize) -> f64,
+) -> DMatrix<f64> {
+    let mut map = DMatrix::zeros(parameters, inputs);
+    for term in terms {
+        map[(term.parameter, term.input)] += term.factor * unit(term.input);
+    }
+    map
 }
 
 /// Whether a parameter moves a point out of the plane of a planar robot.

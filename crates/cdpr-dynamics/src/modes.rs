@@ -193,8 +193,8 @@ fn reach(
 ) -> Result<(MovingPlatform, f64), DynamicsError> {
     /// Motions beyond the wanted ones that are accepted.
     const SPARE: usize = 8;
-    let cable = problem.lowest_cable_frequency(equilibrium)?.map(|cable| cable.frequency);
-    let first = [slowest, cable].into_iter().flatten().fold(f64::INFINITY, f64::min);
+    let cables = problem.cable_frequencies(equilibrium)?;
+    let first = cables.into_iter().chain([slowest]).flatten().fold(f64::INFINITY, f64::min);
     let mut bound = if first.is_finite() { 2.0 * first } else { 1.0 };
     let mut below = 0.0;
     let mut platform = MovingPlatform::new(problem, equilibrium, bound)?;

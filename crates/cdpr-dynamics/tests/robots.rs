@@ -2,7 +2,7 @@
 
 use cdpr_dynamics::{DynamicsError, Modes, Swing, Wanted, modes_at};
 use cdpr_robot::{Gravity, Pose, Robot, Rotation3};
-use cdpr_statics::{DirectProblem, DirectStart, Load, StaticsError, WantedPose, inverse};
+use cdpr_statics::{DirectProblem, DirectStart, Equilibrium, Load, StaticsError, WantedPose, inverse};
 
 /// Robots with a pose that they hold and the coordinates that are found there.
 pub(crate) const ROBOTS: [(&str, [f64; 3], &str); 6] = [
@@ -50,6 +50,12 @@ pub(crate) fn free_coordinates(names: &str) -> Vec<cdpr_robot::Coordinate> {
     names.split(',').filter(|name| !name.is_empty()).map(|name| name.parse().unwrap()).collect()
 }
 
+/// Lowest frequency of the platform that is not zero [Hz], on cables without mass.
+fn lowest_massless(problem: &DirectProblem, rest: &Equilibrium) -> f64 {
+    let modes = problem.modes(rest).unwrap();
+    modes.iter().map(|mode| mode.frequency).find(|frequency| *frequency > 0.0).unwrap()
+}
+
 #[test]
 fn a_platform_swings_as_the_first_of_its_natural_motions_say() {
     for (file, [x, y, z], free) in ROBOTS {
@@ -60,7 +66,7 @@ fn a_platform_swings_as_the_first_of_its_natural_motions_say() {
         let rest = problem.direct(DirectStart::Near(&held.equilibrium)).unwrap().equilibrium;
         let clock = std::time::Instant::now();
         let swing = Swing::new(&problem, &rest).unwrap();
-        let massless = problem.lowest_frequency(&rest).unwrap();
+        let massless = lowest_massless(&problem, &rest);
         println!("{} {:?}: {swing:?}, without mass of cables {massless}", robot.name, clock.elapsed());
         let first = Modes::new(&problem, &rest, Wanted::Number(1)).unwrap();
         assert!((swing.lowest / first.modes[0].frequency - 1.0).abs() < 2e-6, "{}", robot.name);
@@ -75,7 +81,7 @@ fn a_platform_swings_as_the_first_of_its_natural_motions_say() {
         let problem = DirectProblem::new(&light, &held.lengths, &Load::none()).unwrap();
         let Ok(rest) = problem.direct(DirectStart::Pose(&rest.pose)) else { continue };
         let swing = Swing::new(&problem, &rest.equilibrium).unwrap();
-        let massless = problem.lowest_frequency(&rest.equilibrium).unwrap();
+        let massless = lowest_massless(&problem, &rest.equilibrium);
         assert!((swing.lowest / massless - 1.0).abs() < 1e-9 && swing.lowest_share > 1.0 - 1e-9);
         assert!((swing.platform / massless - 1.0).abs() < 1e-3, "{}: {swing:?}", robot.name);
     }

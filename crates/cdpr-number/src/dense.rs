@@ -16,58 +16,32 @@ pub type Lanes6<S> = [Lanes<S>; 6];
 /// Six rows of six.
 pub type Lanes6x6<S> = [[Lanes<S>; 6]; 6];
 
+/// Components of one formula by these numbers.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! components {
+    (|$k:ident| $component:expr; $($number:literal)+) => {
+        [$({
+            let $k: usize = $number;
+            $component
+        }),+]
+    };
+}
+
 /// Three components of one formula. Closures may be compiled apart from their caller, without the vector
 /// unit.
-#[macro_export]
+#[macro_export(local_inner_macros)]
 macro_rules! three {
     (|$k:ident| $component:expr) => {
-        [
-            {
-                let $k: usize = 0;
-                $component
-            },
-            {
-                let $k: usize = 1;
-                $component
-            },
-            {
-                let $k: usize = 2;
-                $component
-            },
-        ]
+        components!(|$k| $component; 0 1 2)
     };
 }
 
 /// Six components of one formula, as `three`.
-#[macro_export]
+#[macro_export(local_inner_macros)]
 macro_rules! six {
     (|$k:ident| $component:expr) => {
-        [
-            {
-                let $k: usize = 0;
-                $component
-            },
-            {
-                let $k: usize = 1;
-                $component
-            },
-            {
-                let $k: usize = 2;
-                $component
-            },
-            {
-                let $k: usize = 3;
-                $component
-            },
-            {
-                let $k: usize = 4;
-                $component
-            },
-            {
-                let $k: usize = 5;
-                $component
-            },
-        ]
+        components!(|$k| $component; 0 1 2 3 4 5)
     };
 }
 
@@ -157,7 +131,12 @@ impl<S: Simd> SymmetricFactors<S> {
     /// The solution for a right side.
     #[inline(always)]
     pub fn solve(&self, right: &Lanes6<S>) -> Lanes6<S> {
-        let mut x = self.forwards(right);
+        let mut x = *right;
+        for row in 1..6 {
+            for column in 0..row {
+                x[row] -= self.upper[column][row] * x[column];
+            }
+        }
         for row in (0..6).rev() {
             x[row] = x[row] * self.pivots_inv[row];
             for column in row + 1..6 {
@@ -165,44 +144,6 @@ impl<S: Simd> SymmetricFactors<S> {
             }
         }
         x
-    }
-
-    /// U⁻ᵀ times a vector.
-    #[inline(always)]
-    fn forwards(&self, right: &Lanes6<S>) -> Lanes6<S> {
-        let mut x = *right;
-        for row in 1..6 {
-            for column in 0..row {
-                x[row] -= self.upper[column][row] * x[column];
-            }
-        }
-        x
-    }
-
-    /// D^-½ U⁻ᵀ K U⁻¹ D^-½ for a symmetric matrix K, of which the upper triangle is read: with this one as
-    /// M, its eigenvalues are those of `K v = λ M v`.
-    // Indices as in the formula.
-    #[allow(clippy::needless_range_loop)]
-    #[inline(always)]
-    pub fn reduced(&self, matrix: &Lanes6x6<S>) -> Lanes6x6<S> {
-        let roots = six!(|k| self.pivots_inv[k].sqrt());
-        let mut rows = *matrix;
-        for row in 1..6 {
-            for column in 0..row {
-                rows[row][column] = matrix[column][row];
-            }
-        }
-        for _ in 0..2 {
-            let mut columns = rows;
-            for i in 0..6 {
-                let solved = self.forwards(&rows[i]);
-                for j in 0..6 {
-                    columns[j][i] = solved[j] * roots[j];
-                }
-            }
-            rows = columns;
-        }
-        rows
     }
 }
 

@@ -77,8 +77,8 @@ pub fn dispatch<T: WithSimd>(task: T) -> T::Output {
     }
 }
 
-/// Defines functions each of which is compiled once for every vector unit, apart from its callers: that of the
-/// number that `on` names.
+/// Defines functions each of which is compiled once for every vector unit, apart from its callers: that of
+/// the number that `on` names.
 ///
 /// ```
 /// use cdpr_number::apart;

@@ -20,7 +20,8 @@
 //! [ sum_free c_i c_iᵀ/D_i ] dλ = ∂G - sum_free c_i ∂ρ_i/D_i + sum_active c_i dt_i
 //! ```
 //!
-//! The derivatives of v_i are second derivatives of the catenary (`cdpr_cable::TensionSlope`).
+//! The derivatives of v_i are second derivatives of the catenary
+//! (`cdpr_cable::SpatialCable::tension_slopes`).
 //!
 //! **Active bounds stay active** while their multipliers are not zero. On limits at the platform `dt_i = 0`.
 //! A cable whose weight demands more rests on a constant, a = 1.001, times the least tension over its
@@ -72,7 +73,6 @@ pub use optimum::AtBound;
 use rest::Rest;
 pub use set_points::OneSided;
 use set_points::{AtSetPoints, SetPoints};
-use softest::AtRest;
 
 /// A deflection with its derivatives. Each matrix has a column for every input ([`Inputs`]): the parameters
 /// of the robot, the payload, the wanted pose.
@@ -171,7 +171,7 @@ fn at_pose(
     cables: &SetPointLengths,
 ) -> Result<Derivatives, StaticsError> {
     require_smooth(robot)?;
-    let deflection = deflection_from(robot, cables.lengths.clone(), load, &cables.equilibrium)?;
+    let deflection = deflection_from(robot, cables.offset.lengths.clone(), load, &cables.offset.equilibrium)?;
     let WantedPose { pose, tension_reference, .. } = wanted;
     let at = AtSetPoints { robot, pose, reference: *tension_reference, inputs: Inputs::of(robot), cables };
     let set_points = at.set_points(tension_offsets)?;
@@ -262,46 +262,5 @@ impl Derivatives {
             return Err(StaticsError::NoDerivative { quantity: "the norm of the deflection", reason });
         }
         Ok((dp.normalize().transpose() * self.displacement()).as_slice().to_vec())
-    }
-
-    /// The lowest natural frequency [Hz] of `robot` under `load`, those of these derivatives, and its
-    /// derivatives [Hz per unit], one for each input: see [`DirectProblem::lowest_frequency`].
-    ///
-    /// # Errors
-    /// Those of [`DirectProblem::modes`]; [`StaticsError::NoDerivative`] where two motions have the lowest
-    /// frequency or nothing resists any, and for a cable that hangs folded without width.
-    pub fn frequency(&self, robot: &Robot, load: &Load) -> Result<(f64, Vec<f64>), StaticsError> {
-        self.at_rest(robot, load).frequency()
-    }
-
-    /// The lowest stiffness [N/m] of `robot` under `load`, those of these derivatives, and its derivatives
-    /// [N/m per unit], one for each input: see [`crate::Stability::least_stiffness`]. The characteristic
-    /// length is that of `robot`, a constant.
-    ///
-    /// # Errors
-    /// [`StaticsError::NoDerivative`] where two motions have the lowest stiffness or nothing resists any, and
-    /// for a cable that hangs folded without width.
-    pub fn least_stiffness(&self, robot: &Robot, load: &Load) -> Result<(f64, Vec<f64>), StaticsError> {
-        self.least_stiffness_with(robot, load, self.deflection.loaded.stability.characteristic_length())
-    }
-
-    /// As [`Derivatives::least_stiffness`], with another characteristic length ℓ [m]: that of the nominal
-    /// robot for one that deviates from it.
-    ///
-    /// # Errors
-    /// As [`Derivatives::least_stiffness`].
-    pub fn least_stiffness_with(
-        &self,
-        robot: &Robot,
-        load: &Load,
-        characteristic_length: f64,
-    ) -> Result<(f64, Vec<f64>), StaticsError> {
-        self.at_rest(robot, load).least_stiffness(characteristic_length)
-    }
-
-    fn at_rest<'a>(&'a self, robot: &'a Robot, load: &'a Load) -> AtRest<'a> {
-        let Deflection { loaded: found, lengths, .. } = &self.deflection;
-        let (length_slopes, pose_slopes) = (&self.lengths, &self.loaded.pose);
-        AtRest { robot, load, inputs: &self.inputs, found, lengths, length_slopes, pose_slopes }
     }
 }

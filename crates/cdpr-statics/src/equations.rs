@@ -20,7 +20,7 @@ pub(crate) use fixed_ends::{ABOVE_LEAST, Bounds, Ends};
 pub use linearization::Linearization;
 pub(crate) use motions::{Motions, Pins, cables_at, is_definite, per_length};
 pub use partials::Inputs;
-pub(crate) use partials::{Partials, Reading, Weighed, each_effect_on_weight, read, solve, tensions};
+pub(crate) use partials::{Partials, Reading, each_effect_on_weight, read, solve, tensions};
 pub(crate) use rounding::{FORCES, forces};
 pub use shape::CableShape;
 pub(crate) use spanned::{LinearizedInSpace, SpannedCable, end, guided_place, in_its_plane, to_base};

@@ -1,23 +1,14 @@
-//! Derivatives of the lowest natural frequency and of the lowest stiffness against central differences.
+//! Derivatives of the lowest stiffness against central differences.
 
 use crate::common::{caroca, cogiro, robots};
 use crate::free_derivatives::with_few_cables;
 use crate::pulleys::{led, tilted};
 use cdpr_robot::{
-    CableProperties, Coordinate, Matrix3, Parameter, Platform, Pose, Robot, RobotCable, Vector3, Vector6,
+    CableProperties, Coordinate, Parameter, Platform, Pose, Robot, RobotCable, Vector3, Vector6,
 };
 use cdpr_statics::{
     Derivatives, DirectProblem, Load, StaticsError, WantedPose, deflection, derivatives, inverse,
 };
-
-/// A robot with the inertia of a ball of the size of its platform, unless it has one.
-fn weighed(robot: Robot) -> Robot {
-    let size = robot.platform_size();
-    let ball = 0.4 * robot.platform.mass * size * size;
-    let inertia = Matrix3::new(1.0, 0.1, 0.0, 0.1, 0.8, -0.05, 0.0, -0.05, 0.9) * ball;
-    let platform = Platform { inertia: robot.platform.inertia.or(Some(inertia)), ..robot.platform };
-    Robot { platform, ..robot }
-}
 
 struct Case {
     robot: Robot,
@@ -30,15 +21,15 @@ impl Case {
     fn of(robot: Robot, pose: Pose, payload: f64) -> Self {
         // No two motions are alike at an oblique pose.
         let turn = if robot.plane.is_some() { Vector3::zeros() } else { Vector3::new(4e-3, -6e-3, 3e-3) };
-        Self { robot: weighed(robot), pose: pose.moved(Vector3::zeros(), turn), payload, free: Vec::new() }
+        Self { robot, pose: pose.moved(Vector3::zeros(), turn), payload, free: Vec::new() }
     }
 
     fn derivatives(&self) -> Result<Derivatives, StaticsError> {
         derivatives(&self.robot, WantedPose::at(&self.pose).free(&self.free), &Load::payload(self.payload))
     }
 
-    /// Frequency [Hz] and stiffness [N/m] in (dp, `length` dφ), if one input is moved.
-    fn softest(&self, length: f64, column: usize, step: f64) -> [f64; 2] {
+    /// Least stiffness [N/m] in (dp, `length` dφ), if one input is moved.
+    fn softest(&self, length: f64, column: usize, step: f64) -> f64 {
         let parameters = Parameter::of(&self.robot).len();
         let mut deviations = vec![0.0; parameters];
         let (mut payload, mut motion) = (self.payload, Vector6::zeros());
@@ -57,9 +48,8 @@ impl Case {
         )
         .unwrap();
         let problem = DirectProblem::new(&moved.robot, &found.lengths, &load).unwrap();
-        let frequency = problem.lowest_frequency(&found.loaded.equilibrium).unwrap();
         let problem = problem.with_characteristic_length(length);
-        [frequency, problem.stability(&found.loaded.equilibrium).unwrap().least_stiffness()]
+        problem.stability(&found.loaded.equilibrium).unwrap().least_stiffness()
     }
 
     fn step(&self, column: usize) -> f64 {
@@ -77,17 +67,12 @@ impl Case {
     }
 }
 
-/// Six differences, twice extrapolated, of both outputs, and what they leave open.
-fn difference(case: &Case, length: f64, column: usize, h: f64) -> [(f64, f64); 2] {
-    let slope = |h: f64| {
-        let (up, down) = (case.softest(length, column, h), case.softest(length, column, -h));
-        [0, 1].map(|k| (up[k] - down[k]) / (2.0 * h))
-    };
+/// Six differences, twice extrapolated, and what they leave open.
+fn difference(case: &Case, length: f64, column: usize, h: f64) -> (f64, f64) {
+    let slope = |h: f64| (case.softest(length, column, h) - case.softest(length, column, -h)) / (2.0 * h);
     let [wide, middle, narrow] = [h, 0.5 * h, 0.25 * h].map(slope);
-    [0, 1].map(|k| {
-        let (once, again) = ((4.0 * middle[k] - wide[k]) / 3.0, (4.0 * narrow[k] - middle[k]) / 3.0);
-        ((16.0 * again - once) / 15.0, (again - once).abs())
-    })
+    let (once, again) = ((4.0 * middle - wide) / 3.0, (4.0 * narrow - middle) / 3.0);
+    ((16.0 * again - once) / 15.0, (again - once).abs())
 }
 
 /// How many derivatives of a case the differences tell to 1e-4, and the largest relative error of these.
@@ -95,15 +80,12 @@ fn check(case: &Case) -> (usize, f64) {
     let name = &case.robot.name;
     let load = Load::payload(case.payload);
     let found = case.derivatives().unwrap();
-    let softest =
-        [found.frequency(&case.robot, &load).unwrap(), found.least_stiffness(&case.robot, &load).unwrap()];
+    let (value, slopes) = found.least_stiffness(&case.robot, &load).unwrap();
     let length = found.deflection.loaded.stability.characteristic_length();
-    let values = case.softest(length, 0, 0.0);
+    let alone = case.softest(length, 0, 0.0);
     let (mut compared, mut worst) = (0, 0.0_f64);
-    for (k, (value, slopes)) in softest.iter().enumerate() {
-        assert!((value - values[k]).abs() <= 1e-12 * value.abs(), "{name} {k}: {value} {}", values[k]);
-        assert_eq!(slopes.len(), found.inputs.count());
-    }
+    assert!((value - alone).abs() <= 1e-12 * value.abs(), "{name}: {value} {alone}");
+    assert_eq!(slopes.len(), found.inputs.count());
     let parameters = &found.inputs.parameters;
     for column in 0..found.inputs.count() {
         let held =
@@ -112,55 +94,52 @@ fn check(case: &Case) -> (usize, f64) {
             continue;
         }
         let h = case.step(column);
-        let differences = difference(case, length, column, h);
-        for (k, (difference, open)) in differences.into_iter().enumerate() {
-            let (value, slopes) = &softest[k];
-            let exact = slopes[column];
-            // Eigenvalues are known to the rounding of the greatest stiffness.
-            let rounding = 1e-10 * value.abs() / h;
-            let input = parameters.get(column).map_or_else(|| format!("{column}"), ToString::to_string);
-            let error = (difference - exact).abs();
-            assert!(
-                error <= open + rounding + 1e-7 * exact.abs(),
-                "{name} {input}, {k}: {exact} and not {difference}, error {error:e}, open {open:e}"
-            );
-            if open + rounding <= 1e-4 * exact.abs() {
-                compared += 1;
-                worst = worst.max(error / exact.abs());
-            }
+        let (difference, open) = difference(case, length, column, h);
+        let exact = slopes[column];
+        // Eigenvalues are known to the rounding of the greatest stiffness.
+        let rounding = 1e-10 * value.abs() / h;
+        let input = parameters.get(column).map_or_else(|| format!("{column}"), ToString::to_string);
+        let error = (difference - exact).abs();
+        assert!(
+            error <= open + rounding + 1e-7 * exact.abs(),
+            "{name} {input}: {exact} and not {difference}, error {error:e}, open {open:e}"
+        );
+        if open + rounding <= 1e-4 * exact.abs() {
+            compared += 1;
+            worst = worst.max(error / exact.abs());
         }
     }
-    println!("{name}: {compared} of {} compared, worst {worst:.1e}", 2 * found.inputs.count());
+    println!("{name}: {compared} of {} compared, worst {worst:.1e}", found.inputs.count());
     (compared, worst)
 }
 
 #[test]
-fn frequency_and_stiffness_of_five_robots_change_as_differences_say() {
+fn the_stiffness_of_five_robots_changes_as_differences_say() {
     for (robot, pose) in robots() {
         let payload = 0.2 * robot.platform.mass;
         let (compared, _) = check(&Case::of(robot, pose, payload));
-        assert!(compared >= 75, "{compared}");
+        assert!(compared >= 38, "{compared}");
     }
 }
 
 #[test]
-fn they_change_over_pulleys_and_on_a_base_that_is_not_level_as_differences_say() {
+fn it_changes_over_pulleys_and_on_a_base_that_is_not_level_as_differences_say() {
     for robot in [led(caroca(), 0.1, 3.0), led(cogiro(), 0.1, 3.0)] {
         for robot in [robot.clone(), tilted(robot)] {
             let (compared, _) = check(&Case::of(robot, Pose::at(0.8, -0.5, 1.9), 20.0));
-            assert!(compared >= 75, "{compared}");
+            assert!(compared >= 38, "{compared}");
         }
     }
 }
 
 #[test]
-fn they_change_with_few_cables_as_differences_say() {
+fn it_changes_with_few_cables_as_differences_say() {
     for (robot, pose, free, payload) in with_few_cables() {
         // Beside a rest of the platform the search is short.
         let rest =
             inverse(&robot, WantedPose::at(&pose).free(&free), &Load::none()).unwrap().equilibrium.pose;
         let (compared, _) = check(&Case { free, ..Case::of(robot, rest, payload) });
-        assert!(compared >= 30, "{compared}");
+        assert!(compared >= 15, "{compared}");
     }
 }
 
@@ -175,11 +154,11 @@ fn a_cable_that_hangs_vertically_has_derivatives() {
     let robot = Robot { platform, cables: cables.to_vec(), ..cogiro() };
     let case = Case { robot, pose: Pose::at(0.0, 0.0, 2.0), payload: 5.0, free: Vec::new() };
     let (compared, _) = check(&case);
-    assert!(compared >= 20, "{compared}");
+    assert!(compared >= 10, "{compared}");
 }
 
 #[test]
-fn two_motions_of_one_frequency_have_no_derivative() {
+fn two_motions_of_one_stiffness_have_no_derivative() {
     // A point mass on one cable swings in all directions alike.
     let rope = CableProperties::linear(1.0, 0.5, 4e4);
     let cable = RobotCable::between(Vector3::new(0.0, 0.0, 5.0), Vector3::zeros(), rope);
@@ -187,6 +166,6 @@ fn two_motions_of_one_frequency_have_no_derivative() {
     let robot = Robot { platform, cables: vec![cable], ..cogiro() };
     let free = vec![Coordinate::X, Coordinate::Y];
     let case = Case { robot, pose: Pose::at(0.0, 0.0, 2.0), payload: 5.0, free };
-    let error = case.derivatives().unwrap().frequency(&case.robot, &Load::payload(5.0)).unwrap_err();
+    let error = case.derivatives().unwrap().least_stiffness(&case.robot, &Load::payload(5.0)).unwrap_err();
     assert!(error.to_string().contains("two motions"), "{error}");
 }

@@ -118,7 +118,7 @@ fn maps_over_tilted_axes_are_found_in_lanes() {
         for (loaded, found) in loaded.into_iter().zip(&found) {
             let loaded = loaded.unwrap();
             let alone = deflection_from(&robot, found.lengths.clone(), &load, &found.equilibrium).unwrap();
-            let alone = LoadedPose::of(&robot, &load, &alone);
+            let alone = LoadedPose::of(&robot, &alone);
             assert_eq!(loaded.scalar, None);
             assert!((loaded.displacement - alone.displacement).norm() < 1e-12 * longest(&robot, &pose));
             assert!((loaded.least_stiffness / alone.least_stiffness - 1.0).abs() < 1e-8);

@@ -10,13 +10,13 @@
 //! d_i(λ) = -(c_i + J_i·λ)/h_i, but l_i or u_i beyond them,      g(λ) = J d(λ) + F = 0              (T5)
 //! ```
 //!
-//! and g is the gradient of a concave function, quadratic between the points at which a bound becomes active.
-//! Newton's method with an exact search along its direction ends after finitely many steps (J. S. Pang, L. Qi,
-//! *A globally convergent Newton method for convex SC1 minimization problems*, 1995). Its matrix is
-//! `sum J_i J_iᵀ/h_i` over the unknowns within their bounds, plus a small elasticity (R. T. Rockafellar,
-//! *Monotone operators and the proximal point algorithm*, 1976). Where bounds leave too few unknowns for the
-//! equations, multipliers grow until one of them is free, or, where no d solves the equations, until the
-//! residual is nearly the least.
+//! and g is the gradient of a concave function, quadratic between the points at which a bound becomes
+//! active. Newton's method with an exact search along its direction ends after finitely many steps (J. S.
+//! Pang, L. Qi, *A globally convergent Newton method for convex SC1 minimization problems*, 1995). Its
+//! matrix is `sum J_i J_iᵀ/h_i` over the unknowns within their bounds, plus a small elasticity (R. T.
+//! Rockafellar, *Monotone operators and the proximal point algorithm*, 1976). Where bounds leave too few
+//! unknowns for the equations, multipliers grow until one of them is free, or, where no d solves the
+//! equations, until the residual is nearly the least.
 //!
 //! [`BoxProblem`] is one program in doubles. Programs in lanes are [`BoundedUnknown`]s, each lane with a
 //! problem of its own: no other lane changes its digits.
@@ -51,7 +51,8 @@ pub struct BoxProblem<'a> {
     pub multipliers: Vector6<f64>,
 }
 
-/// The solution of a [`BoxProblem`]; of an infeasible one the point within the bounds that comes nearest to one.
+/// The solution of a [`BoxProblem`]; of an infeasible one the point within the bounds that comes nearest to
+/// one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BoxSolution {
     /// d.
@@ -204,8 +205,8 @@ fn elastic_step<S: Simd>(mut matrix: Lanes6x6<S>, gradient: &Lanes6<S>, elastici
     SymmetricFactors::new(matrix).solve(gradient)
 }
 
-/// Solves the program in the lanes that are `open`, in at most this many iterations. Returns the change of the
-/// multipliers and the lanes in which the solution was found.
+/// Solves the program in the lanes that are `open`, in at most this many iterations. Returns the change of
+/// the multipliers and the lanes in which the solution was found.
 #[inline(always)]
 // Loops over arrays by value take the compiler minutes.
 #[allow(clippy::needless_range_loop)]

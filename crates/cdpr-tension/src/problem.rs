@@ -114,8 +114,8 @@ impl Problem<'_> {
         }
     }
 
-    /// The tensions nearest to a reference [N] without regard to limits, the closed form (T2) [N]; `None` if W
-    /// does not have full rank.
+    /// The tensions nearest to a reference [N] without regard to limits, the closed form (T2) [N]; `None`
+    /// if W does not have full rank.
     pub fn closed_form(&self, reference: &[f64]) -> Option<DVector<f64>> {
         let w = self.wrench_matrix;
         let gram = w * w.transpose();

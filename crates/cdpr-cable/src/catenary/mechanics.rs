@@ -8,7 +8,7 @@ use crate::catenary::Catenary;
 use crate::catenary::guided::{self, OnGuide};
 use crate::kernel::{Material, Response, Terms, stiffness_in_space};
 use crate::law::ElasticLaw;
-use cdpr_number::{Dual, Real};
+use cdpr_number::Real;
 use nalgebra::{Matrix2, Matrix3, Vector2};
 
 impl Cable<'_> {
@@ -73,38 +73,6 @@ impl Catenary<'_> {
         self.cable.response(&self.cable.numbers(self.unstrained_length), self.force.into())
     }
 
-    /// Derivative of the end position with respect to the weight per length [m²/N], (C10).
-    ///
-    /// The force at A and the unstrained length are constant.
-    pub fn end_per_weight(&self) -> Vector2<f64> {
-        match (&self.cable.guide, self.cable.law) {
-            (None, ElasticLaw::Linear) => self.terms().end_per_weight(),
-            _ => self.end_by(|numbers, along| numbers.weight_per_length.slopes = along),
-        }
-    }
-
-    /// Derivative of the end position with respect to the axial stiffness EA [m/N], (C11).
-    ///
-    /// The force at A and the unstrained length are constant.
-    pub fn end_per_stiffness(&self) -> Vector2<f64> {
-        match (&self.cable.guide, self.cable.law) {
-            (None, ElasticLaw::Linear) => self.terms().end_per_stiffness(),
-            _ => {
-                let per_flexibility = self.end_by(|numbers, along| numbers.axial_flexibility.slopes = along);
-                -per_flexibility / (self.cable.axial_stiffness * self.cable.axial_stiffness)
-            }
-        }
-    }
-
-    /// Derivatives of the end position with respect to the lead and the radius of the guide [m/m], (C24).
-    ///
-    /// The force at A and the unstrained length are constant. `None` without a guide.
-    pub fn end_per_guide(&self) -> Option<[Vector2<f64>; 2]> {
-        self.cable.guide?;
-        let per_lead = self.end_by(|numbers, along| numbers.lead.slopes = along);
-        Some([per_lead, self.end_by(|numbers, along| numbers.radius.slopes = along)])
-    }
-
     /// In-plane stiffness `d(fx, fz)/d(x, z)` [N/m], `C⁻¹`; zero for a slack cable without weight.
     #[inline]
     pub fn in_plane_stiffness(&self) -> Matrix2<f64> {
@@ -121,7 +89,7 @@ impl Catenary<'_> {
             return Matrix3::zeros();
         }
         let response = self.response();
-        let lateral = response.lateral_flexibility.recip();
+        let lateral = 1.0 / response.lateral_flexibility;
         stiffness_in_space(response.in_plane_stiffness(), lateral, azimuth.into()).into()
     }
 
@@ -153,15 +121,6 @@ impl Catenary<'_> {
     /// The quantities that the equations of a cable share.
     fn terms(&self) -> Terms<f64> {
         self.material().any_terms(self.unstrained_length, self.force.into())
-    }
-
-    /// The derivative of the end position with respect to the number that is given a slope.
-    #[cold]
-    fn end_by(&self, input: impl Fn(&mut Numbers<Dual<f64, 1>>, [f64; 1])) -> Vector2<f64> {
-        let mut numbers = self.cable.numbers(self.unstrained_length).map(Dual::of);
-        input(&mut numbers, [1.0]);
-        let end = self.cable.response(&numbers, <[f64; 2]>::from(self.force).map(Dual::of)).end;
-        end.map(|component| component.slopes[0]).into()
     }
 }
 
@@ -298,7 +257,7 @@ mod tests {
         #[test]
         fn the_lateral_stiffness_is_the_horizontal_force_over_the_distance(c in any_catenary()) {
             let response = c.response();
-            prop_assert!((response.end[0] / (response.lateral_flexibility * c.force.x) - 1.0).abs() < 1e-13);
+            prop_assert!((response.end[0] / response.lateral_flexibility / c.force.x - 1.0).abs() < 1e-13);
         }
 
         #[test]

@@ -13,21 +13,21 @@ impl<T: Number> Response<T> {
 }
 
 impl Response<f64> {
-    /// In-plane flexibility `d(x, z)/d(fx, fz)` [m/N], (C3)-(C5).
+    /// In-plane flexibility C [m/N] as a matrix.
     #[inline]
     pub fn flexibility_matrix(&self) -> Matrix2<f64> {
         let [xx, xz, zz] = self.flexibility;
         Matrix2::new(xx, xz, xz, zz)
     }
 
-    /// In-plane stiffness `d(fx, fz)/d(x, z)` [N/m].
+    /// In-plane stiffness [N/m] as a matrix.
     #[inline]
     pub fn stiffness_matrix(&self) -> Matrix2<f64> {
         let [xx, xz, zz] = self.in_plane_stiffness();
         Matrix2::new(xx, xz, xz, zz)
     }
 
-    /// Derivative of the force at A with respect to the unstrained length with both ends fixed [N/m].
+    /// Derivative of the force at A with respect to the unstrained length between fixed ends [N/m].
     #[inline]
     pub fn force_per_length(&self) -> Vector2<f64> {
         -self.stiffness_matrix() * Vector2::from(self.end_per_length)

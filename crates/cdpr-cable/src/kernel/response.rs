@@ -61,15 +61,6 @@
 //! d(x, z)/dL = (fx, V0) (1/T0 + 1/EA)                                                   (C9)
 //! ```
 //!
-//! At constant force and length the end moves with the weight and the axial stiffness of the cable. From
-//! `dT0/dw = -L V0/T0` follows `d atanh(q)/dw = L/2T0`, and with it, freed of `1/w`,
-//!
-//! ```text
-//! dx/dw = (fx L²/s²) [ (fz + V0)/T0 - 2 q ψ ]
-//! dz/dw = -(L²/s²) (fx² + T T0 - fz V0)/T0 - L²/2EA                                     (C10)
-//! d(x, z)/dEA = -(L/EA²) (fx, fz - wL/2)                                                (C11)
-//! ```
-//!
 //! Where `fz V0 < 0` (the cable dips below both ends) `T T0 + fz V0` is computed as
 //! `fx² (fx² + fz² + V0²)/(T T0 - fz V0)`, so that nothing cancels for a cable that hangs folded
 //! (`fx -> 0`). A taut cable, `q² <= 0.02`, does not need the choice: there
@@ -77,7 +68,6 @@
 
 use super::series::{TAUT, psi_by_halves, psi_of_taut};
 use cdpr_number::{Lanewise, Number, Real};
-use nalgebra::Vector2;
 
 /// End position of a cable for a force at its end, with its derivatives, over any kind of number.
 #[derive(Clone, Copy, Debug)]
@@ -131,7 +121,7 @@ fn stretched<T: Number>(part: T, alpha: Option<T>) -> T {
     }
 }
 
-/// The quantities that equations (C1)-(C11) share.
+/// The quantities that equations (C1)-(C9) share.
 pub(crate) struct Terms<T> {
     pub(super) fx: T,
     pub(super) fz: T,
@@ -168,25 +158,6 @@ impl Terms<f64> {
         let gravity = length * (fx * fx * q2 * psi + 2.0 * m * d - 0.5 * (d * d + rest)) * s_inv;
         let elastic = 0.5 * length * axial_flexibility * (fx * fx + m * m + 2.0 * m * d - d * d / 3.0);
         gravity + elastic
-    }
-
-    /// d(x, z)/dw, (C10).
-    pub(crate) fn end_per_weight(&self) -> Vector2<f64> {
-        let Self { fx, fz, v0, length, weight, axial_flexibility, fx2, t, t0, s_inv } = *self;
-        let psi = self.sag().psi;
-        let (tt0, p) = (t * t0, fz * v0);
-        let difference = if p <= 0.0 { tt0 - p } else { fx2 * (fx2 + fz * fz + v0 * v0) / (tt0 + p) };
-        let share = (length * s_inv) * (length * s_inv);
-        Vector2::new(
-            share * fx * ((fz + v0) / t0 - 2.0 * psi * weight * s_inv),
-            -share * (fx2 + difference) / t0 - 0.5 * length * length * axial_flexibility,
-        )
-    }
-
-    /// d(x, z)/dEA, (C11).
-    pub(crate) fn end_per_stiffness(&self) -> Vector2<f64> {
-        let Self { fx, fz, length, weight, axial_flexibility, .. } = *self;
-        Vector2::new(fx, fz - 0.5 * weight) * (-length * axial_flexibility * axial_flexibility)
     }
 }
 

@@ -17,7 +17,7 @@ mod in_space;
 
 use crate::cable::Cable;
 use crate::catenary::Catenary;
-use crate::catenary::spatial::{HeldSlopes, SpatialCable, flat, lifted};
+use crate::catenary::spatial::{SpatialCable, flat, lifted};
 use crate::error::{CableError, SMALLEST, check, check_length};
 use crate::solve::spatial::check_end;
 use nalgebra::Vector3;
@@ -286,14 +286,5 @@ impl<'a> HeldCable<'a> {
     /// w c/2σ: half the angle, as a hyperbolic one, that the cable's direction turns through.
     pub fn slackness(&self) -> f64 {
         0.5 * self.catenary.cable.weight_per_length * self.end.norm() / self.chord_force
-    }
-
-    /// The force at A per tension there, dF/dt, with its derivatives, the tension given.
-    pub fn tension_slopes(&self) -> HeldSlopes {
-        // Only over a pulley derivatives leave the plane.
-        match self.catenary.cable.guide {
-            Some(guide) if guide.radius > 0.0 => self.tension_slopes_in_space(),
-            _ => self.tension_slopes_in_plane(),
-        }
     }
 }

@@ -62,8 +62,8 @@ impl Problem<'_> {
         self.rows.iter().zip(poses).filter_map(seen).collect()
     }
 
-    /// Refuses positions that are not those of the lengths, but are after a rigid motion: they are in the frame
-    /// of a tracker.
+    /// Refuses positions that are not those of the lengths, but are after a rigid motion: they are in the
+    /// frame of a tracker.
     ///
     /// # Errors
     /// [`CalibrationError::Column`] that says how far and by how much the frame is turned.
@@ -91,8 +91,8 @@ impl Problem<'_> {
         let [x, y, z] = [translation.x, translation.y, translation.z];
         let expected = format!(
             "positions in the base frame of the robot: with the lengths they fit to {after:.3} m after a \
-             rotation by {:.1} degrees and a translation by ({x:.3}, {y:.3}, {z:.3}) m, to {before:.3} m without; \
-             seek the place of the tracker, `frame`",
+             rotation by {:.1} degrees and a translation by ({x:.3}, {y:.3}, {z:.3}) m, to {before:.3} m \
+             without; seek the place of the tracker, `frame`",
             rotation.angle().to_degrees()
         );
         Err(CalibrationError::Column { column: "x_m, y_m, z_m".to_owned(), expected })

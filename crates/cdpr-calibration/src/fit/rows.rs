@@ -163,9 +163,9 @@ impl Problem<'_> {
     }
 }
 
-/// A row without its own unknowns, where cables between taut and slack that would have less tension keep what
-/// they have. The tensions depend by `motion` on the unknowns of `row` (its columns without the last), then on
-/// those of `own`.
+/// A row without its own unknowns, where cables between taut and slack that would have less tension keep
+/// what they have. The tensions depend by `motion` on the unknowns of `row` (its columns without the last),
+/// then on those of `own`.
 pub(super) fn eliminated(
     row: DMatrix<f64>,
     own: &DMatrix<f64>,

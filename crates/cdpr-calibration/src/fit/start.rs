@@ -77,8 +77,8 @@ impl Problem<'_> {
         x
     }
 
-    /// Puts an unknown tracker where it fits the positions of the nominal robot best, unless a prior says where
-    /// it is, and markers whose places are unknown where it sees them in the mean.
+    /// Puts an unknown tracker where it fits the positions of the nominal robot best, unless a prior says
+    /// where it is, and markers whose places are unknown where it sees them in the mean.
     fn align(&self, state: &mut State) {
         let poses: Vec<Pose> = state.rows.iter().map(|row| *row.pose()).collect();
         let frame = self.model.unknowns.sensor(SensorError::Frame);
@@ -109,8 +109,9 @@ impl Problem<'_> {
         }
     }
 
-    /// A further start: where lengths are exact, from a fit in which they are not, then at random. Combinations
-    /// that the data do not tell have the values that they have at `found`, because searches keep them.
+    /// A further start: where lengths are exact, from a fit in which they are not, then at random.
+    /// Combinations that the data do not tell have the values that they have at `found`, because searches
+    /// keep them.
     pub(super) fn start(&self, number: usize, found: &[f64], told: &Decomposed) -> Option<State> {
         let is_exact = |row: &Row| row.lengths.is_some() && row.length_std.iter().all(|std| *std == 0.0);
         if number == 1 && self.rows.iter().any(is_exact) {
@@ -146,8 +147,8 @@ impl Problem<'_> {
         Some(state)
     }
 
-    /// A start at the unknowns that suit lengths with greater errors, then smaller ones: they show which cables
-    /// are taut in truth, where with the lengths of a wrong robot others are.
+    /// A start at the unknowns that suit lengths with greater errors, then smaller ones: they show which
+    /// cables are taut in truth, where with the lengths of a wrong robot others are.
     pub(super) fn softened(&self, shares: &[f64]) -> Option<State> {
         let mut start = None;
         for share in shares {

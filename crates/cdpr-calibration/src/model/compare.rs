@@ -87,8 +87,8 @@ impl Model<'_> {
         }
     }
 
-    /// Derivatives by the unknowns of all rows and by those of the row, from those by the inputs of the models
-    /// and the lengths.
+    /// Derivatives by the unknowns of all rows and by those of the row, from those by the inputs of the
+    /// models and the lengths.
     fn chained(&self, at: &RowAt, lengths: &[f64], models: &RowDVector<f64>) -> RowDVector<f64> {
         let unknowns = self.unknowns.all.len();
         let mut chained = RowDVector::zeros(unknowns + lengths.len());

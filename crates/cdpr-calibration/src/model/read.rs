@@ -11,7 +11,7 @@ use cdpr_statics::{DirectProblem, Equilibrium, StaticsError};
 use nalgebra::{Matrix3, RowDVector};
 
 /// A row at a state, with the derivatives of the models there.
-pub(super) struct Observed<'a> {
+pub(crate) struct Observed<'a> {
     model: &'a Model<'a>,
     at: &'a RowAt<'a>,
     state: &'a RowState,
@@ -25,8 +25,8 @@ pub(super) struct Observed<'a> {
 }
 
 /// A number that a sensor reads, with its derivatives by everything it may depend on.
-pub(super) struct Read {
-    pub(super) value: f64,
+pub(crate) struct Read {
+    pub(crate) value: f64,
     /// By the inputs of the models and the lengths.
     pub(super) models: RowDVector<f64>,
     /// By errors of sensors.
@@ -35,7 +35,7 @@ pub(super) struct Read {
 
 impl Model<'_> {
     /// The models at the state of a row.
-    pub(super) fn observed<'a>(
+    pub(crate) fn observed<'a>(
         &'a self,
         at: &'a RowAt,
         state: &'a RowState,
@@ -65,7 +65,7 @@ impl Model<'_> {
 impl Observed<'_> {
     /// A quantity as the sensor would read it; of a rotation the vector from the measured one, with the
     /// opposite sign.
-    pub(super) fn read(&self, quantity: Quantity) -> Read {
+    pub(crate) fn read(&self, quantity: Quantity) -> Read {
         match quantity {
             Quantity::Position(axis) => self.place(Vector3::zeros(), None, axis),
             Quantity::Marker(marker, axis) => self.marker(marker, axis),

@@ -45,9 +45,9 @@ impl RowState {
 }
 
 impl Model<'_> {
-    /// The state of a row where the search begins: at the lengths that were read or, where the robot does not
-    /// rest with them, with taut cables. With cables that are all a little too long nothing holds the platform
-    /// in a plane.
+    /// The state of a row where the search begins: at the lengths that were read or, where the robot does
+    /// not rest with them, with taut cables. With cables that are all a little too long nothing holds the
+    /// platform in a plane.
     pub(crate) fn begin(&self, row: &Row, x: &[f64]) -> Result<RowState, CalibrationError> {
         self.as_read(row, x).or_else(|error| {
             let taut = || {
@@ -126,7 +126,7 @@ impl Model<'_> {
         let nowhere = Equilibrium { pose: Pose::at(0.0, 0.0, 0.0), cable_forces: Vec::new() };
         let is_displaced = row.readings.iter().any(|of| matches!(of.quantity, Quantity::Displacement(_)));
         let unloaded = is_displaced.then(|| nowhere.clone());
-        Ok(RowState { read, errors, loaded: nowhere, unloaded })
+        Ok(RowState { errors, ..RowState::new(read, nowhere, unloaded) })
     }
 
     /// The state at rest with these lengths.
@@ -162,10 +162,8 @@ impl Model<'_> {
         mut state: RowState,
         held: PoseLengths,
     ) -> Result<RowState, StaticsError> {
-        for (i, length) in held.lengths.iter().enumerate() {
-            let stretch = 1.0 + self.of(SensorError::DrumScale, i, x);
-            state.errors[i] = state.read[i] - self.of(SensorError::LengthOffset, i, x) - stretch * length;
-        }
+        let exact = self.readings(&held.lengths, x);
+        state.errors = state.read.iter().zip(exact).map(|(read, exact)| read - exact).collect();
         self.placed(row, robot, state, &held.lengths, DirectStart::Near(&held.equilibrium))
     }
 
@@ -179,8 +177,8 @@ impl Model<'_> {
         Some(Pose { position: Vector3::new(x?, y?, z?), rotation })
     }
 
-    /// The same, unless it is in the frame of an unknown tracker, where it is of no help. What the robot cannot
-    /// do is left out: a planar robot stays in its plane, and a point mass does not rotate.
+    /// The same, unless it is in the frame of an unknown tracker, where it is of no help. What the robot
+    /// cannot do is left out: a planar robot stays in its plane, and a point mass does not rotate.
     fn pose_in_base(&self, row: &Row) -> Option<Pose> {
         let pose = self.measured_pose(row).filter(|_| self.unknowns.sensor(SensorError::Frame).is_none())?;
         Some(self.in_plane(pose))

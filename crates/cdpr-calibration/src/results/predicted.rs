@@ -27,14 +27,18 @@ pub struct UncertaintyMap {
 /// Points of the map along each axis.
 const POINTS: usize = 9;
 
-/// Root mean square of the standard deviations of the coordinates of P at a pose [m], with given lengths.
-fn std_at(robot: &Robot, pose: &Pose, covariance: &DMatrix<f64>) -> Option<f64> {
-    let lengths = held_lengths(robot, pose).ok()?;
-    let problem = DirectProblem::new(robot, &lengths, &Load::none()).ok()?;
+/// Mean variance of the coordinates of P near a pose [m²], with these lengths.
+pub(super) fn variance_at(
+    robot: &Robot,
+    lengths: &[f64],
+    pose: &Pose,
+    covariance: &DMatrix<f64>,
+) -> Option<f64> {
+    let problem = DirectProblem::new(robot, lengths, &Load::none()).ok()?;
     let found = problem.direct(DirectStart::Pose(pose)).ok()?;
     let slopes = problem.derivatives(&found.equilibrium).ok()?.pose;
     let position = slopes.view((0, 0), (3, covariance.nrows()));
-    Some(((position * covariance * position.transpose()).trace() / 3.0).max(0.0).sqrt())
+    Some(((position * covariance * position.transpose()).trace() / 3.0).max(0.0))
 }
 
 /// The map over the box of the measured poses of a fit, for covariances of the parameters before and after.
@@ -54,7 +58,8 @@ pub(crate) fn uncertainty_map(
     let z = fit.poses.iter().map(|pose| pose.position.z).sum::<f64>() / count;
     let places: Vec<Pose> = y.iter().flat_map(|y| x.iter().map(move |x| Pose::at(*x, *y, z))).collect();
     let map = |robot: &Robot, covariance: &DMatrix<f64>| -> Vec<Option<f64>> {
-        places.par_iter().map(|pose| std_at(robot, pose, covariance)).collect()
+        let variance = |pose| variance_at(robot, &held_lengths(robot, pose).ok()?, pose, covariance);
+        places.par_iter().map(|pose| variance(pose).map(f64::sqrt)).collect()
     };
     let after = map(&fit.robot, after);
     let before = before.map_or_else(|| vec![None; after.len()], |before| map(nominal, before));

@@ -1,8 +1,10 @@
-//! The summary of a calibration, and what it takes besides the fit.
+//! What a calibration takes, and its summary.
 
-use crate::fitted::{Difference, FitStatus};
+use crate::fitted::{FitSettings, FitStatus};
 use crate::results::patterns::{Split, Trend};
 use crate::results::predicted::UncertaintyMap;
+use crate::table::Measurements;
+use crate::unknowns::Unknowns;
 use cdpr_robot::Robot;
 use cdpr_study::ErrorModel;
 use indexmap::IndexMap;
@@ -136,17 +138,26 @@ pub struct CalibrationSummary {
     pub warnings: Vec<String>,
 }
 
-/// What a summary takes besides the fit.
+/// What a calibration takes.
 #[derive(Clone, Copy, Debug)]
-pub struct Context<'a> {
+pub struct Campaign<'a> {
     /// The robot before.
-    pub nominal: &'a Robot,
-    /// The error model before, if there is one.
+    pub robot: &'a Robot,
+    /// The tolerances, if they are known.
     pub prior: Option<&'a ErrorModel>,
-    /// Whether the noise of any sensor is stated; if not, it is that of the residuals.
-    pub noise_is_stated: bool,
-    /// Errors of prediction, if they were computed.
-    pub predicted: Option<&'a [Difference]>,
-    /// Number of rows.
-    pub rows: usize,
+    /// What is sought.
+    pub unknowns: &'a Unknowns,
+    /// What was measured.
+    pub measured: &'a Measurements,
+    /// Name of the file of measurements, for the provenance of the robot.
+    pub name: &'a str,
+    /// How the fit is made.
+    pub settings: FitSettings,
+    /// Parts that are predicted by robots calibrated without them; below 2 none, at most one a row.
+    pub folds: usize,
+}
+
+impl Campaign<'_> {
+    /// Parts at most.
+    pub const MOST_FOLDS: usize = 10_000;
 }

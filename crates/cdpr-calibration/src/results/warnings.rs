@@ -2,7 +2,7 @@
 
 use crate::fitted::{Fit, FitStatus};
 use crate::results::patterns::Trend;
-use crate::results::summary::{CalibrationSummary, Context};
+use crate::results::summary::{CalibrationSummary, Campaign};
 use std::collections::BTreeMap;
 
 /// Chances below this are named: the model or the noise is wrong.
@@ -10,7 +10,7 @@ const UNLIKELY: f64 = 1e-4;
 
 impl Fit {
     /// Sentences about what is odd.
-    pub(super) fn warnings(&self, summary: &CalibrationSummary, context: &Context) -> Vec<String> {
+    pub(super) fn warnings(&self, summary: &CalibrationSummary, campaign: &Campaign) -> Vec<String> {
         let mut warnings = Vec::new();
         let [starts, _] = self.starts;
         match self.status {
@@ -20,12 +20,11 @@ impl Fit {
                 self.distance, self.steps
             )),
             FitStatus::StartsDisagree => warnings.push(format!(
-                "of {starts} starts no other ended at this chi-square: another minimum may be lower; make more \
-                 starts, or seek fewer parameters"
+                "of {starts} starts no other ended at this chi-square: another minimum may be lower; make \
+                 more starts, or seek fewer parameters"
             )),
-            FitStatus::OneStart => warnings.push(
-                "a single start was made: nothing shows that no other minimum is lower".to_owned(),
-            ),
+            FitStatus::OneStart => warnings
+                .push("a single start was made: nothing shows that no other minimum is lower".to_owned()),
         }
         for (unknown, estimate) in self.unknowns.all.iter().zip(&self.estimates) {
             if unknown.bounds.contains(&estimate.value) {
@@ -35,7 +34,7 @@ impl Fit {
                 ));
             }
         }
-        if !context.noise_is_stated {
+        if !campaign.measured.noise_is_stated {
             warnings.push(
                 "no noise is stated: standard deviations follow from the residuals, the model is not tested"
                     .to_owned(),
@@ -50,14 +49,14 @@ impl Fit {
         if summary.p_value_of_less.is_some_and(|p| p < UNLIKELY) {
             let (chi_square, degrees) = self.of_data;
             warnings.push(format!(
-                "chi-square of the measurements is {chi_square:.3} with {degrees} degrees of freedom, far too \
-                 small: is the noise stated in mm where it is m, or too large?"
+                "chi-square of the measurements is {chi_square:.3} with {degrees} degrees of freedom, far \
+                 too small: is the noise stated in mm where it is m, or too large?"
             ));
         }
         if let Some(Trend { column, against, correlation, .. }) = summary.trends.first() {
             warnings.push(format!(
-                "the residuals of {column} follow {against} (correlation {correlation:+.2}): the model leaves \
-                 something out"
+                "the residuals of {column} follow {against} (correlation {correlation:+.2}): the model \
+                 leaves something out"
             ));
         }
         if let Some((line, share)) = self.worst_row() {

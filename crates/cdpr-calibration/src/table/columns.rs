@@ -150,8 +150,9 @@ fn covariance(name: &str) -> Option<(Column, f64)> {
     Some((Column::Covariance(one, other), factor))
 }
 
-/// The two quantities of the name of a covariance, `cov_x_m_y_m`, and its factor to SI units. Of `cov_y_m_x_m`
-/// they are in the same order: it is the same number. A quantity has no covariance with itself.
+/// The two quantities of the name of a covariance, `cov_x_m_y_m`, and its factor to SI units. Of
+/// `cov_y_m_x_m` they are in the same order: it is the same number. A quantity has no covariance with
+/// itself.
 pub(super) fn covariance_of(name: &str) -> Option<(Quantity, Quantity, f64)> {
     let pair = name.strip_prefix("cov_")?;
     pair.match_indices('_').find_map(|(at, _)| match (column(&pair[..at])?, column(&pair[at + 1..])?) {

@@ -66,8 +66,8 @@ impl DirectProblem<'_> {
         })
     }
 
-    /// The same of `-K3_i d_i`, the change of the force of cable i on the platform by a motion d_i of its anchor
-    /// point [m] that is constant in the base frame, in the place of the forces.
+    /// The same of `-K3_i d_i`, the change of the force of cable i on the platform by a motion d_i of its
+    /// anchor point [m] that is constant in the base frame, in the place of the forces.
     ///
     /// # Errors
     /// As [`DirectProblem::derivatives`].

@@ -57,30 +57,20 @@ impl Rest<'_> {
         for i in 0..before.len() {
             set_points[(i, layout.tension_offset(i))] += 1.0;
         }
-        let cables = self.cables(with_offsets)?;
+        let cables = cables_with(robot, with_offsets)?;
         let mut lengths = tensions(inputs, &with_offsets.equilibrium.pose, &cables);
         let per_motion = lengths.columns(inputs.pose().start, 6).into_owned();
         lengths.columns_mut(inputs.pose().start, 6).fill(0.0);
         lengths.gemm(1.0, &per_motion, &motion, 1.0);
-        for (i, cable) in cables.iter().enumerate() {
-            let per_length = cable.direction.dot(&cable.per_actuation);
-            let slopes = (set_points.row(i) - lengths.row(i)) / per_length;
-            lengths.set_row(i, &slopes);
-        }
+        let lengths = lengths_of(&set_points, lengths, &cables);
         Ok((set_points, lengths))
-    }
-
-    fn cables(&self, at: &PoseLengths) -> Result<Vec<CableDerivatives>, StaticsError> {
-        let problem = DirectProblem::new(self.robot, &at.lengths, &Load::none())?;
-        let equilibrium = &at.equilibrium;
-        Ok(CableDerivatives::all(&problem, &equilibrium.pose, &equilibrium.cable_forces))
     }
 
     /// Derivatives of the pose of rest, 6 x count, and of its tensions, n x count: equation (D11).
     fn motion(&self) -> Result<(Matrix6xX<f64>, DMatrix<f64>), StaticsError> {
         let Self { robot, inputs, unmoved, .. } = *self;
         let (pose, none) = (&unmoved.equilibrium.pose, Load::none());
-        let cables = self.cables(unmoved)?;
+        let cables = cables_with(robot, unmoved)?;
         let mut partials = Partials::new(robot, inputs, pose, &none, &cables, Reading::tension);
         let (hessian, tensions_per_motion) = partials.take_pose(inputs);
         let Partials { mut balance, readings: mut tensions } = partials;
@@ -132,4 +122,25 @@ impl Rest<'_> {
         };
         Ok((rest * inverse.ok_or_else(upright)?, Matrix6xX::from_columns(&free)))
     }
+}
+
+/// The cables with these lengths, without a load.
+pub(super) fn cables_with(robot: &Robot, at: &PoseLengths) -> Result<Vec<CableDerivatives>, StaticsError> {
+    let PoseLengths { lengths, equilibrium } = at;
+    let problem = DirectProblem::new(robot, lengths, &Load::none())?;
+    Ok(CableDerivatives::all(&problem, &equilibrium.pose, &equilibrium.cable_forces))
+}
+
+/// Derivatives of the lengths from those of the set-points and of the tensions with constant lengths, equation
+/// (D7).
+pub(super) fn lengths_of(
+    set_points: &DMatrix<f64>,
+    tensions: DMatrix<f64>,
+    cables: &[CableDerivatives],
+) -> DMatrix<f64> {
+    let mut lengths = set_points - tensions;
+    for (mut row, cable) in lengths.row_iter_mut().zip(cables) {
+        row /= cable.direction.dot(&cable.per_actuation);
+    }
+    lengths
 }

@@ -5,12 +5,13 @@
 //! bound it is the other way round.
 
 use super::optimum::{AtBound, Optimum, ROUNDING, Sides};
+use super::rest::{cables_with, lengths_of};
 use crate::equations::{ABOVE_LEAST, CableDerivatives, Ends, Inputs, Partials, Reading, read, tensions};
 use crate::error::StaticsError;
 use crate::inverse::InverseSolution;
 use crate::loading::SetPointLengths;
 use crate::problem::DirectProblem;
-use crate::state::{Equilibrium, Load};
+use crate::state::Load;
 use cdpr_robot::{CableEnd, ParameterLayout, Pose, Robot, TensionLimits, Vector3};
 use cdpr_tension::Bound;
 use nalgebra::{DMatrix, Matrix6xX, RowDVector};
@@ -107,15 +108,6 @@ fn same(one: f64, other: f64) -> bool {
 }
 
 impl AtSetPoints<'_> {
-    fn cables(
-        &self,
-        lengths: &[f64],
-        equilibrium: &Equilibrium,
-    ) -> Result<Vec<CableDerivatives>, StaticsError> {
-        let problem = DirectProblem::new(self.robot, lengths, &Load::none())?;
-        Ok(CableDerivatives::all(&problem, self.pose, &equilibrium.cable_forces))
-    }
-
     /// Bounds of all tensions [N]: the limits, or what the weight of the cable demands.
     fn bound_values(&self) -> Result<Vec<[f64; 2]>, StaticsError> {
         let of = |(i, limits): (usize, &TensionLimits)| {
@@ -261,35 +253,42 @@ impl AtSetPoints<'_> {
     /// Derivatives of the tensions that the weights of the cables in `which` demand; zero rows for all
     /// others.
     fn least_tensions(&self, which: &[usize]) -> Result<DMatrix<f64>, StaticsError> {
-        let mut rows = self.inputs.zeros(self.cables.set_points.len());
-        if which.is_empty() {
-            return Ok(rows);
-        }
-        let mut cables = self.cables(&self.cables.lengths, &self.cables.equilibrium)?;
-        for &i in which {
+        let rows = self.rows_of(which, |i| {
             let ends = Ends::of(self.robot, self.pose, i);
             let catenary = ends.at_least_tension().map_err(StaticsError::cable(i))?.catenary;
-            cables[i] = CableDerivatives::new(self.robot, self.pose, i, &catenary);
-        }
-        let least = tensions(&self.inputs, self.pose, &cables);
-        which.iter().for_each(|i| rows.set_row(*i, &(ABOVE_LEAST * least.row(*i))));
-        Ok(rows)
+            Ok(CableDerivatives::new(self.robot, self.pose, i, &catenary))
+        })?;
+        Ok(ABOVE_LEAST * rows)
     }
 
     /// Derivatives of the tensions that the limits at the exit points leave to the cables in `which`; zero
     /// rows for all others.
     fn exit_limits(&self, which: &[usize]) -> Result<DMatrix<f64>, StaticsError> {
-        let mut rows = self.inputs.zeros(self.cables.set_points.len());
+        self.rows_of(which, |i| {
+            if self.robot.cables[i].pulley.is_some() {
+                let reason = "the limit is that of a cable on a pulley, at its leave point";
+                return Err(StaticsError::NoDerivative {
+                    quantity: "a tension on its greatest value",
+                    reason,
+                });
+            }
+            Ok(CableDerivatives::of_exit_limit(self.robot, self.pose, i, self.cables.limits[i].max))
+        })
+    }
+
+    /// Derivatives of the tensions of `cable` in the rows of these cables; zero rows for all others.
+    fn rows_of(
+        &self,
+        which: &[usize],
+        cable: impl Fn(usize) -> Result<CableDerivatives, StaticsError>,
+    ) -> Result<DMatrix<f64>, StaticsError> {
+        let mut rows = self.inputs.zeros(self.robot.cables.len());
         if which.is_empty() {
             return Ok(rows);
         }
-        if which.iter().any(|i| self.robot.cables[*i].pulley.is_some()) {
-            let reason = "the limit is that of a cable on a pulley, at its leave point";
-            return Err(StaticsError::NoDerivative { quantity: "a tension on its greatest value", reason });
-        }
-        let mut cables = self.cables(&self.cables.lengths, &self.cables.equilibrium)?;
-        for &i in which {
-            cables[i] = CableDerivatives::of_exit_limit(self.robot, self.pose, i, self.cables.limits[i].max);
+        let mut cables = cables_with(self.robot, &self.cables.offset)?;
+        for i in which {
+            cables[*i] = cable(*i)?;
         }
         let each = tensions(&self.inputs, self.pose, &cables);
         which.iter().for_each(|i| rows.set_row(*i, &each.row(*i)));
@@ -298,15 +297,9 @@ impl AtSetPoints<'_> {
 
     /// Derivatives of the lengths, equation (D7), a column for each of `set_points`.
     pub(super) fn lengths(&self, set_points: &DMatrix<f64>) -> Result<DMatrix<f64>, StaticsError> {
-        let cables = self.cables(&self.cables.lengths, &self.cables.equilibrium)?;
+        let cables = cables_with(self.robot, &self.cables.offset)?;
         let mut rows = tensions(&self.inputs, self.pose, &cables);
         rows.resize_horizontally_mut(set_points.ncols(), 0.0);
-        for (i, cable) in cables.iter().enumerate() {
-            let per_length = cable.direction.dot(&cable.per_actuation);
-            for (slope, set_point) in rows.row_mut(i).iter_mut().zip(set_points.row(i).iter()) {
-                *slope = (set_point - *slope) / per_length;
-            }
-        }
-        Ok(rows)
+        Ok(lengths_of(set_points, rows, &cables))
     }
 }

@@ -37,7 +37,7 @@
 //! w_ex = [ F_w; R c x F_w ] + load,   F_w = (m + payload) γ
 //! ```
 
-use crate::equations::cable_derivatives::{CableDerivatives, Surroundings, moment, wrench};
+use crate::equations::cable_derivatives::{CableDerivatives, CableInput, moment, wrench};
 use crate::error::StaticsError;
 use crate::state::Load;
 use cdpr_robot::{Matrix6xX, Parameter, Pose, Robot, Vector3};
@@ -135,9 +135,9 @@ impl Partials {
     fn add_weight(&mut self, robot: &Robot, inputs: &Inputs, pose: &Pose, load: &Load) {
         let weight = robot.weight(pose, load.payload).force;
         let center = pose.rotation * robot.platform.center_of_mass;
-        each_effect_on_weight(robot, inputs, pose, load, |column, Weighed { force, turn, .. }| {
+        each_effect_on_weight(robot, inputs, pose, load, |column, force, lever| {
             let mut column = self.balance.column_mut(column);
-            column += wrench(&center, &force) + moment(&turn, &weight);
+            column += wrench(&center, &force) + moment(&lever, &weight);
         });
     }
 
@@ -180,16 +180,18 @@ fn each_effect(
     mut add: impl FnMut(usize, usize, Vector3<f64>, Vector3<f64>),
 ) {
     let o = Vector3::zeros();
-    let around = |i: usize| cables[i].surroundings.as_deref();
+    let slope = |i: usize, first: CableInput, k: usize| -> Vector3<f64> {
+        cables[i].per_input.column(first as usize + k).into()
+    };
     for (column, parameter) in inputs.parameters.iter().enumerate() {
         match *parameter {
             // dF_i = k_ρ dρ
             Parameter::LinearDensity => {
-                cables.iter().enumerate().for_each(|(i, cable)| add(column, i, cable.per_density, o));
+                (0..cables.len()).for_each(|i| add(column, i, slope(i, CableInput::Density, 0), o));
             }
             // dF_i = k_E dE
             Parameter::YoungsModulus => {
-                cables.iter().enumerate().for_each(|(i, cable)| add(column, i, cable.per_modulus, o));
+                (0..cables.len()).for_each(|i| add(column, i, slope(i, CableInput::Modulus, 0), o));
             }
             // dr_i = ds_i = R da_i
             Parameter::AnchorPoint(i, axis) => {
@@ -200,16 +202,12 @@ fn each_effect(
             Parameter::ExitPoint(i, axis) => {
                 add(column, i, cables[i].stiffness.column(axis as usize).into(), o);
             }
-            Parameter::Lead(i) => add(column, i, around(i).map_or(o, |by| by.per_guide[0]), o),
-            Parameter::PulleyRadius(i) => add(column, i, around(i).map_or(o, |by| by.per_guide[1]), o),
-            Parameter::Tilt(i, axis) => {
-                add(column, i, around(i).map_or(o, |by| by.per_tilt[axis as usize]), o);
-            }
+            Parameter::Lead(i) => add(column, i, slope(i, CableInput::Lead, 0), o),
+            Parameter::PulleyRadius(i) => add(column, i, slope(i, CableInput::Radius, 0), o),
+            Parameter::Tilt(i, axis) => add(column, i, slope(i, CableInput::Tilt, axis as usize), o),
             Parameter::Gravity(axis) => {
-                for i in 0..cables.len() {
-                    let column_of = |by: &Surroundings| by.per_gravity.column(axis as usize).into();
-                    add(column, i, around(i).map_or(o, column_of), o);
-                }
+                (0..cables.len())
+                    .for_each(|i| add(column, i, slope(i, CableInput::Gravity, axis as usize), o));
             }
             // These act on the weight or on the set-points.
             Parameter::Mass | Parameter::CenterOfMass(_) | Parameter::TensionOffset(_) => {}
@@ -227,48 +225,35 @@ fn each_effect(
     }
 }
 
-/// What an input changes of the weight.
-#[derive(Clone, Copy)]
-pub(crate) struct Weighed {
-    /// Of mass and payload together, per unit.
-    pub(crate) mass: f64,
-    /// dF_w [N per unit].
-    pub(crate) force: Vector3<f64>,
-    /// Of the lever R c [m per unit].
-    pub(crate) turn: Vector3<f64>,
-}
-
-/// Gives `add(column, what)` for every input that changes the weight F_w at its lever R c.
+/// Gives `add(column, dF_w, d(R c))` for every input that changes the weight F_w or its lever R c.
 pub(crate) fn each_effect_on_weight(
     robot: &Robot,
     inputs: &Inputs,
     pose: &Pose,
     load: &Load,
-    mut add: impl FnMut(usize, Weighed),
+    mut add: impl FnMut(usize, Vector3<f64>, Vector3<f64>),
 ) {
-    let none = Weighed { mass: 0.0, force: Vector3::zeros(), turn: Vector3::zeros() };
-    // dF_w = γ dm
-    let heavier = Weighed { mass: 1.0, force: robot.gravity.vector(), ..none };
+    let o = Vector3::zeros();
     for (column, parameter) in inputs.parameters.iter().enumerate() {
         match *parameter {
-            Parameter::Mass => add(column, heavier),
+            // dF_w = γ dm
+            Parameter::Mass => add(column, robot.gravity.vector(), o),
             // R dc
             Parameter::CenterOfMass(axis) => {
-                add(column, Weighed { turn: pose.rotation.matrix().column(axis as usize).into(), ..none });
+                add(column, o, pose.rotation.matrix().column(axis as usize).into());
             }
             // dF_w = (m + payload) dγ
             Parameter::Gravity(axis) => {
-                let force = Vector3::ith(axis as usize, robot.platform.mass + load.payload);
-                add(column, Weighed { force, ..none });
+                add(column, Vector3::ith(axis as usize, robot.platform.mass + load.payload), o);
             }
             _ => {}
         }
     }
-    add(inputs.payload(), heavier);
+    add(inputs.payload(), robot.gravity.vector(), o);
     let center = pose.rotation * robot.platform.center_of_mass;
     for (axis, unit) in [Vector3::x(), Vector3::y(), Vector3::z()].iter().enumerate() {
         // dφ x R c
-        add(inputs.pose().start + 3 + axis, Weighed { turn: unit.cross(&center), ..none });
+        add(inputs.pose().start + 3 + axis, o, unit.cross(&center));
     }
 }
 

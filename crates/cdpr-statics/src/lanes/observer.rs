@@ -227,7 +227,7 @@ impl<'a> Observer<'a> {
             }
             None => SetPointLengths::new(robot, &WantedPose::at(&self.pose), tension_offsets),
         };
-        Ok(found?.into())
+        Ok(found?.offset)
     }
 }
 

@@ -74,12 +74,9 @@ pub(crate) struct SetPointLengths {
     pub(crate) wanted: InverseSolution,
     /// Limits of the tensions at the platform.
     pub(crate) limits: Vec<TensionLimits>,
-    /// The tensions after the offsets [N], within the limits.
-    pub(crate) set_points: Vec<f64>,
-    /// The lengths that give these tensions at the pose [m].
-    pub(crate) lengths: Vec<f64>,
-    /// The pose with the cables' forces; not in balance unless all offsets are zero.
-    pub(crate) equilibrium: Equilibrium,
+    /// The lengths that give the tensions after the offsets, within the limits, and the pose with the cables'
+    /// forces; not in balance unless all offsets are zero.
+    pub(crate) offset: PoseLengths,
 }
 
 /// Deflection under `load` at a wanted pose or at each of many.
@@ -147,7 +144,7 @@ fn set_lengths(robot: &Robot, wanted: &WantedPose) -> Result<PoseLengths, Static
     if !wanted.free.is_empty() {
         return Ok(lengths_with_free(robot, wanted, &offsets)?.1);
     }
-    Ok(SetPointLengths::new(robot, wanted, &offsets)?.into())
+    Ok(SetPointLengths::new(robot, wanted, &offsets)?.offset)
 }
 
 impl SetPointLengths {
@@ -173,14 +170,8 @@ impl SetPointLengths {
         check_offsets(robot, tension_offsets)?;
         let limits = limits_at(robot, pose)?;
         let set_points = offset(&wanted.tensions, tension_offsets, &limits);
-        let PoseLengths { lengths, equilibrium } = lengths_for_tensions(robot, pose, &set_points)?;
-        Ok(Self { wanted, limits, set_points, lengths, equilibrium })
-    }
-}
-
-impl From<SetPointLengths> for PoseLengths {
-    fn from(SetPointLengths { lengths, equilibrium, .. }: SetPointLengths) -> Self {
-        Self { lengths, equilibrium }
+        let offset = lengths_for_tensions(robot, pose, &set_points)?;
+        Ok(Self { wanted, limits, offset })
     }
 }
 

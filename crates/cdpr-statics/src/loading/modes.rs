@@ -73,12 +73,6 @@ pub struct CableFrequency {
 const MUCH_FASTER: f64 = 2.0;
 
 impl CableFrequency {
-    /// The slowest of these, of every cable in their order: unstrained length beyond the exit point [m] and
-    /// tensions at both ends [N].
-    pub(crate) fn lowest(robot: &Robot, cables: impl Iterator<Item = (f64, [f64; 2])>) -> Option<Self> {
-        Self::slowest(cables.enumerate().map(|(i, (length, ends))| cable_frequency(robot, i, length, ends)))
-    }
-
     /// The slowest of all cables, in their order.
     pub fn slowest(frequencies: impl Iterator<Item = Option<f64>>) -> Option<Self> {
         let each = frequencies.enumerate();
@@ -103,13 +97,6 @@ impl CableFrequency {
             )
         })
     }
-}
-
-/// Lowest frequency of cable `i` between ends at rest [Hz], with this unstrained length beyond its exit point
-/// [m] and these tensions at its ends [N].
-fn cable_frequency(robot: &Robot, i: usize, free_length: f64, [one, other]: [f64; 2]) -> Option<f64> {
-    let density = robot.cables[i].properties.linear_density;
-    robot.cable(i).lowest_frequency(density, free_length, 0.5 * (one + other))
 }
 
 impl PoseModes {
@@ -185,17 +172,6 @@ impl DirectProblem<'_> {
         Ok(order.iter().enumerate().map(mode).collect())
     }
 
-    /// The lowest natural frequency about a stable equilibrium [Hz], without motions that nothing resists;
-    /// zero where nothing resists any.
-    ///
-    /// # Errors
-    /// As [`DirectProblem::modes`].
-    pub fn lowest_frequency(&self, equilibrium: &Equilibrium) -> Result<f64, StaticsError> {
-        let modes = self.modes(equilibrium)?;
-        let resisted = modes.iter().map(|mode| mode.frequency).find(|frequency| *frequency > 0.0);
-        Ok(resisted.unwrap_or(0.0))
-    }
-
     /// Lowest natural frequency of each cable between ends at rest [Hz]; `None` for one without mass.
     ///
     /// # Errors
@@ -205,21 +181,11 @@ impl DirectProblem<'_> {
         let forces = equilibrium.cable_forces.iter().enumerate();
         let frequency = |(i, force): (usize, &_)| {
             let catenary = self.catenary_at(&equilibrium.pose, i, *force);
-            let ends = [catenary.anchor_tension(), catenary.exit_tension()];
-            cable_frequency(self.robot, i, catenary.free_length(), ends)
+            let mean = 0.5 * (catenary.anchor_tension() + catenary.exit_tension());
+            let density = self.robot.cables[i].properties.linear_density;
+            catenary.cable.lowest_frequency(density, catenary.free_length(), mean)
         };
         Ok(forces.map(frequency).collect())
-    }
-
-    /// The slowest cable at an equilibrium; `None` where none has mass.
-    ///
-    /// # Errors
-    /// As [`DirectProblem::cable_frequencies`].
-    pub fn lowest_cable_frequency(
-        &self,
-        equilibrium: &Equilibrium,
-    ) -> Result<Option<CableFrequency>, StaticsError> {
-        Ok(CableFrequency::slowest(self.cable_frequencies(equilibrium)?.into_iter()))
     }
 }
 

@@ -1,7 +1,7 @@
 //! What small motions of the platform about an equilibrium depend on: masses, and the stiffness and the shape
 //! of every cable.
 
-use crate::equations::{Balance, CablePlane, SpannedCable, cables_at};
+use crate::equations::{Balance, SpannedCable, cables_at};
 use crate::error::StaticsError;
 use crate::problem::DirectProblem;
 use crate::state::Equilibrium;
@@ -76,8 +76,6 @@ impl<'a> DirectProblem<'a> {
 
     fn at_rest(&self, pose: &Pose, i: usize, catenary: Catenary<'a>) -> CableAtRest<'a> {
         let cable = SpannedCable::of(self.robot, pose, i, &self.catenary(i, catenary.force));
-        let CablePlane { azimuth: [x, y] } = cable.span.plane;
-        let axes = Matrix3::new(x, -y, 0.0, y, x, 0.0, 0.0, 0.0, 1.0);
         let mut own = Balance::nothing();
         let mut end_stiffness = Matrix3::zeros();
         if let Some(linearized) = cable.linearized() {
@@ -86,7 +84,7 @@ impl<'a> DirectProblem<'a> {
         }
         CableAtRest {
             lever: cable.anchor_arm.into(),
-            axes: self.robot.gravity.level().map_or(axes, |level| level.tr_mul(&axes)),
+            axes: cable.axes(),
             catenary,
             linear_density: self.robot.cables[i].properties.linear_density,
             end_stiffness,

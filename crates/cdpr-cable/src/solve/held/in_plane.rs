@@ -17,11 +17,11 @@ use super::{HeldCable, VERTICAL};
 use crate::cable::{Cable, Numbers};
 use crate::catenary::Catenary;
 use crate::catenary::guided::OnGuide;
-use crate::catenary::spatial::{HeldSlopes, flat, lifted, per_stiffness};
+use crate::catenary::spatial::{flat, lifted};
 use crate::error::CableError;
 use crate::kernel::Response;
-use cdpr_number::{Dual, Number, Real};
-use nalgebra::{Matrix3, Vector2, Vector3};
+use cdpr_number::{Dual, Real};
+use nalgebra::{Vector2, Vector3};
 
 /// The quantities of (C17) and (C18) over any kind of number.
 #[derive(Clone, Copy)]
@@ -118,13 +118,6 @@ impl ClosureMatrix {
     }
 }
 
-/// A cable whose horizontal distance is a smaller share of its chord answers to a motion forwards as one that
-/// is vertical.
-const NEARLY_VERTICAL: f64 = 1e-8;
-
-/// Inputs of derivatives between held ends: x, z, w, 1/EA, the lead, and the chord force or the tension.
-const INPUTS: usize = 6;
-
 impl<'a> HeldCable<'a> {
     /// Force [N] and length [m] of the inextensible catenary of a plain cable with this horizontal force.
     pub(super) fn inextensible(cable: &Cable, end: Vector3<f64>, chord_force: f64) -> (Vector3<f64>, f64) {
@@ -159,76 +152,6 @@ impl<'a> HeldCable<'a> {
         };
         let [_, fz_slope, _] = cable.slopes(&cable.response(&self.catenary));
         Vector3::new(0.0, 0.0, fz_slope.slopes[0])
-    }
-
-    /// dF/dt with its derivatives, of a cable without a wheel.
-    pub(super) fn tension_slopes_in_plane(&self) -> HeldSlopes {
-        let (plain, azimuth) = InPlane::of(&self.catenary, self.end, self.chord_force);
-        let (value, [x, z, w, flexibility, lead, t]) = self.slopes_in_plane(&plain);
-        let lift = |v| lifted(v, azimuth);
-        // Across the plane, v_x/h. A motion of a vertical cable turns its plane and is odd; nearby the
-        // quotients by fx lose digits.
-        let lateral = 1.0 / (self.end.norm() * self.tension_slope());
-        let vertical = plain.end[0] <= NEARLY_VERTICAL * self.end.norm();
-        let x = if vertical { Vector2::x() * lateral } else { x };
-        let (forwards, up) = (lift(Vector2::x()), Vector3::z());
-        let across = up.cross(&forwards);
-        HeldSlopes {
-            value: lift(value),
-            per_actuation: lift(t),
-            per_end: lift(x) * forwards.transpose()
-                + lift(z) * up.transpose()
-                + across * across.transpose() * lateral,
-            per_weight: lift(w),
-            per_stiffness: per_stiffness(&plain.numbers, lift(flexibility)),
-            per_lead: lift(lead),
-            per_radius: Vector3::zeros(),
-            per_axis: Matrix3::zeros(),
-        }
-    }
-
-    /// v = df/dt, and its derivatives with respect to the inputs at constant t; the last input is the chord
-    /// force, whose place t itself takes.
-    fn slopes_in_plane(&self, plain: &InPlane<f64>) -> (Vector2<f64>, [Vector2<f64>; INPUTS]) {
-        let Numbers { weight_per_length, axial_flexibility, lead, .. } = plain.numbers;
-        let [x, z] = plain.end;
-        let values = [x, z, weight_per_length, axial_flexibility, lead, self.chord_force];
-        let mut inputs: [Dual<f64, INPUTS>; INPUTS] = std::array::from_fn(|k| Dual::input(values[k], k));
-        let [x, z, weight_per_length, axial_flexibility, lead, chord_force] = inputs;
-        let numbers = plain.numbers.map(Dual::of);
-        let numbers = Numbers { weight_per_length, axial_flexibility, lead, ..numbers };
-        let mut cable = InPlane { end: [x, z], numbers, chord_force, fz: Dual::of(plain.fz) };
-        // What closes the cable for every change of an input.
-        let matrix = ClosureMatrix::of(plain, &plain.whole_response(&self.catenary));
-        let [across, height] = cable.misclosure(&cable.response(&self.catenary).0);
-        for k in 0..INPUTS {
-            let [fz, length] = matrix.solve([across.slopes[k], height.slopes[k]]);
-            (cable.fz.slopes[k], cable.numbers.length.slopes[k]) = (fz, length);
-        }
-        // The same with the tension held, by a change of the chord force.
-        let tension = |cable: &InPlane<Dual<f64, INPUTS>>| {
-            let fx = cable.fx();
-            (fx * fx + cable.fz * cable.fz).sqrt()
-        };
-        let slopes = tension(&cable).slopes;
-        let per_sigma = slopes[INPUTS - 1];
-        let along = |number: &mut Dual<f64, INPUTS>| {
-            let own = number.slopes[INPUTS - 1] / per_sigma;
-            for (slope, tension) in number.slopes[..INPUTS - 1].iter_mut().zip(slopes) {
-                *slope -= tension * own;
-            }
-            number.slopes[INPUTS - 1] = own;
-        };
-        inputs.iter_mut().for_each(along);
-        cable.chord_force = inputs[INPUTS - 1];
-        along(&mut cable.fz);
-        along(&mut cable.numbers.length);
-        let response = cable.response(&self.catenary);
-        let [fx, fz, _] = cable.slopes(&response);
-        let t_slope = (cable.fx() * fx + cable.fz * fz) / tension(&cable);
-        let v = [fx / t_slope, fz / t_slope];
-        let slope = |k: usize| Vector2::new(v[0].slopes[k], v[1].slopes[k]);
-        (Vector2::new(v[0].value, v[1].value), std::array::from_fn(slope))
     }
 
     /// Newton's method on (C17) for fz and L.

@@ -13,14 +13,10 @@
 use super::{HeldCable, per_horizontal};
 use crate::cable::{Cable, Numbers};
 use crate::catenary::Catenary;
-use crate::catenary::spatial::{HeldSlopes, SpatialCable, flat, horizontal, per_stiffness, response};
+use crate::catenary::spatial::{SpatialCable, flat, horizontal, response, solve};
 use crate::error::CableError;
-use cdpr_number::vector::{cross, dot};
-use cdpr_number::{Dual, Number, Real};
-use nalgebra::{Matrix3, Vector3};
-
-/// Inputs of derivatives between held ends: the end, what `Numbers::with_inputs` has, and the tension.
-const INPUTS: usize = 11;
+use cdpr_number::{Dual, Real};
+use nalgebra::Vector3;
 
 impl<'a> HeldCable<'a> {
     /// d²F/dσ² [1/N].
@@ -36,43 +32,6 @@ impl<'a> HeldCable<'a> {
         let fx = c * per_length[0] + s * per_length[1];
         let share = 1.0 / per_horizontal(self.end);
         Vector3::from(per_length.map(|slope| (slope * share / fx).slopes[0]))
-    }
-
-    /// dF/dt with its derivatives.
-    pub(super) fn tension_slopes_in_space(&self) -> HeldSlopes {
-        let cable = self.in_space();
-        let (plain, now) = (cable.numbers(), cable.response());
-        let direction = cable.force / self.tension();
-        let inverse = now.flexibility.try_inverse().unwrap_or_else(Matrix3::zeros);
-        let per_length = -inverse * now.end_per_length;
-        let mut numbers = plain.with_inputs::<INPUTS, 3>();
-        let mut force = <[f64; 3]>::from(cable.force).map(Dual::<f64, INPUTS>::of);
-        // What the inputs open at constant force and length, closed by force and length at constant tension.
-        let end = response(&cable.cable, &numbers, &force).end;
-        for k in 0..INPUTS {
-            let open = Vector3::from_fn(|i, _| f64::from(i == k) - end[i].slopes[k]);
-            let closing = inverse * open;
-            let missing = f64::from(k == INPUTS - 1) - direction.dot(&closing);
-            let length = missing / direction.dot(&per_length);
-            numbers.length.slopes[k] = length;
-            let change = closing + per_length * length;
-            (0..3).for_each(|i| force[i].slopes[k] = change[i]);
-        }
-        let slope = force_per_length(&cable.cable, &numbers, &force);
-        let along = dot(&force, &slope) / dot(&force, &force).sqrt();
-        let v = slope.map(|slope| slope / along);
-        let column = |k: usize| Vector3::from(v.map(|v| v.slopes[k]));
-        let matrix = |first: usize| Matrix3::from_columns(&[0, 1, 2].map(|k| column(first + k)));
-        HeldSlopes {
-            value: v.map(|v| v.value).into(),
-            per_actuation: column(INPUTS - 1),
-            per_end: matrix(0),
-            per_weight: column(3),
-            per_stiffness: per_stiffness(&plain, column(4)),
-            per_lead: column(5),
-            per_radius: column(6),
-            per_axis: matrix(7),
-        }
     }
 
     /// The derivatives of a cable in space.
@@ -142,11 +101,4 @@ impl<'a> HeldCable<'a> {
 fn force_per_length<T: Real>(cable: &Cable, numbers: &Numbers<T>, force: &[T; 3]) -> [T; 3] {
     let found = response(cable, numbers, force);
     solve(&found.flexibility, &found.end_per_length).map(|slope| -slope)
-}
-
-/// `matrix⁻¹ right` by Cramer's rule, for a matrix of rows.
-fn solve<T: Real>([a, b, c]: &[[T; 3]; 3], right: &[T; 3]) -> [T; 3] {
-    let columns = [cross(b, c), cross(c, a), cross(a, b)];
-    let determinant = dot(a, &columns[0]);
-    [0, 1, 2].map(|i| dot(&columns.map(|column| column[i]), right) / determinant)
 }

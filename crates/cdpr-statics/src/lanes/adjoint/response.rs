@@ -151,8 +151,8 @@ apart! {
         given.response()
     }
 
-    /// The response of a cable over a guide, whose length is that beyond its leave point; `lanes` are those of
-    /// the vector unit.
+    /// The response of a cable over a guide, whose length is that beyond its leave point; `lanes` are those
+    /// of the vector unit.
     #[cold]
     #[inline(never)]
     on(lanes) fn over_guide<'a, S: Simd, T: Lanewise>(

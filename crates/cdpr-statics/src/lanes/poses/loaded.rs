@@ -2,9 +2,8 @@
 //!
 //! From the lengths of the inverse model both equilibria follow by Newton's method of
 //! `local/newton.rs`. The stiffness K of the loaded platform is linearized at the second one. Its least
-//! eigenvalue in (dp, ℓ dφ) is the stiffness of the softest motion, as [`crate::Stability`] has it, and
-//! that of `K v = (2π f)² M v` with the mass matrix of (V1) gives the lowest natural frequency. What a lane
-//! does not decide is left to the scalar models.
+//! eigenvalue in (dp, ℓ dφ) is the stiffness of the softest motion, as [`crate::Stability`] has it. What a
+//! lane does not decide is left to the scalar models.
 
 use crate::equations::guided_place;
 use crate::error::StaticsError;
@@ -14,7 +13,6 @@ use crate::lanes::poses::loaded_pose::{Loaded, LoadedPose, PoseSlopes};
 use crate::lanes::poses::placed::{PlacedRobot, each};
 use crate::lanes::poses::slopes::{Nominal, SlopesOfLanes};
 use crate::lanes::reason::ScalarReason;
-use crate::loading::CableFrequency;
 #[cfg(doc)]
 use crate::loading::deflection_from;
 use crate::local::freedoms::{constrain, constrain_matrix};
@@ -28,9 +26,8 @@ use cdpr_number::dense::{Lanes3, Lanes6x6, SymmetricFactors};
 use cdpr_number::eigen::least_eigenvalue;
 use cdpr_number::lanes::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
 use cdpr_number::{six, three};
-use cdpr_robot::{Freedoms, Matrix3, Pose, Robot, Vector3};
+use cdpr_robot::{Freedoms, Pose, Robot, Vector3};
 use smallvec::SmallVec;
-use std::f64::consts::TAU;
 
 /// What `load` does at every pose that the inverse model solved without it, the lengths kept: the figures
 /// of [`deflection_from`], and those of [`crate::derivatives`] where they exist.
@@ -118,9 +115,6 @@ struct Figures<S: Simd> {
     stable: Mask<S>,
     /// Its least eigenvalue in (dp, ℓ dφ) [N/m].
     least_stiffness: Lanes<S>,
-    /// (2π f)² of the lowest natural frequency [1/s²], with the lanes whose mass matrix is positive
-    /// definite; `None` without an inertia.
-    square: Option<(Lanes<S>, Mask<S>)>,
 }
 
 impl<S: Simd> InLanes<'_, S> {
@@ -236,57 +230,21 @@ impl<S: Simd> InLanes<'_, S> {
         platform: &mut LinearizedPlatform<S>,
         carried: &PlatformLoad<S>,
     ) -> Figures<S> {
-        let robot = self.placed.robot;
         let mut longest = self.all(0.0);
         for cable in &robots.cables {
             longest = longest.max(cable.guided.as_ref().map_or(cable.length, |guided| guided.whole_length));
         }
-        let arm = (longest * 1e-3).max(self.all(robot.platform_size()));
-        let stiffness = robots.stiffness(carried, platform);
+        let arm = (longest * 1e-3).max(self.all(self.placed.robot.platform_size()));
+        let mut scaled = robots.stiffness(carried, platform);
         let (one, inverse) = (self.all(1.0), arm.recip());
         let scale = [one, one, one, inverse, inverse, inverse];
-        let mut scaled = stiffness;
         for (row, per_row) in scaled.iter_mut().zip(&scale) {
             for (element, per_column) in row.iter_mut().zip(&scale) {
                 *element = *element * *per_row * *per_column;
             }
         }
         let stable = SymmetricFactors::new(scaled).positive;
-        let turns = (3..6).any(|k| robots.freedoms.contains(k));
-        let inertia = robot.platform.inertia.or((!turns).then(Matrix3::zeros));
-        let square = inertia.map(|inertia| {
-            let mass = SymmetricFactors::new(self.mass_matrix(robots, &inertia));
-            (least(robots.freedoms, mass.reduced(&stiffness)), mass.positive)
-        });
-        Figures { stable, least_stiffness: least(robots.freedoms, scaled), square }
-    }
-
-    /// M of (V1) with the payload at the centre of mass [kg, kg m, kg m²], its upper triangle.
-    #[inline(always)]
-    fn mass_matrix(&self, robots: &Robots<'_, S>, inertia: &Matrix3<f64>) -> Lanes6x6<S> {
-        let (zero, mass) = (self.all(0.0), self.placed.robot.platform.mass + self.load.payload);
-        let [x, y, z] = robots.center;
-        let [mx, my, mz] = three!(|k| robots.center[k] * mass);
-        let m = self.all(mass);
-        let mut matrix = [[zero; 6]; 6];
-        (matrix[0][0], matrix[1][1], matrix[2][2]) = (m, m, m);
-        (matrix[0][4], matrix[0][5]) = (mz, -my);
-        (matrix[1][3], matrix[1][5]) = (-mz, mx);
-        (matrix[2][3], matrix[2][4]) = (my, -mx);
-        (matrix[3][3], matrix[4][4], matrix[5][5]) = (my * y + mz * z, mx * x + mz * z, mx * x + my * y);
-        (matrix[3][4], matrix[3][5], matrix[4][5]) = (-(mx * y), -(mx * z), -(my * z));
-        // R J_c Rᵀ
-        for (j, first) in robots.frame.iter().enumerate() {
-            for (k, second) in robots.frame.iter().enumerate() {
-                for row in 0..3 {
-                    for column in row..3 {
-                        matrix[3 + row][3 + column] += first[row] * second[column] * inertia[(j, k)];
-                    }
-                }
-            }
-        }
-        constrain_matrix(robots.freedoms, &mut matrix, m);
-        matrix
+        Figures { stable, least_stiffness: least(robots.freedoms, scaled) }
     }
 
     /// The result of each lane, or the first stage that failed; without a load the second equilibrium is the
@@ -305,7 +263,6 @@ impl<S: Simd> InLanes<'_, S> {
         let carries = (loaded.found & figures.stable).to_array();
         let displacement = three!(|k| displacement[k].to_array());
         let least_stiffness = figures.least_stiffness.to_array();
-        let square = figures.square.map(|(square, positive)| (square.to_array(), positive.to_array()));
         let residuals = [unloaded.residual.norms(), loaded.residual.norms()];
         let tensions = [&unloaded.tensions, &loaded.tensions].map(|settled| {
             let arrays = settled.iter().map(|[one, other]| [one.to_array(), other.to_array()]);
@@ -328,18 +285,11 @@ impl<S: Simd> InLanes<'_, S> {
             let of_lane = |ends: &[[f64; MAX_LANES]; 2]| ends.map(|of| of[lane]);
             let ends = |i: usize| of_lane(&tensions[1][i]);
             let is_slack = |i: &usize| is_slack(robot.cable(*i).weight_per_length * free[*i][lane], ends(*i));
-            let lowest_frequency = square
-                .filter(|(_, positive)| positive[lane])
-                .map(|(square, _)| square[lane].max(0.0).sqrt() / TAU);
-            let of_cables =
-                || CableFrequency::lowest(robot, (0..free.len()).map(|i| (free[i][lane], ends(i))));
             let loaded = LoadedPose {
                 displacement: self.placed.to_base(Vector3::from_fn(|k, _| displacement[k][lane])),
                 tensions: [0, 1].map(|k: usize| tensions[k].iter().map(of_lane).collect()),
                 residuals: residuals.map(|residuals| residuals[lane]),
                 least_stiffness: least_stiffness[lane],
-                lowest_frequency,
-                lowest_cable_frequency: lowest_frequency.and_then(|_| of_cables()),
                 slack: (0..robot.cables.len()).filter(is_slack).collect(),
                 scalar: None,
             };

@@ -4,8 +4,7 @@ use crate::derivatives::derivatives_from;
 use crate::error::StaticsError;
 use crate::inverse::InverseSolution;
 use crate::lanes::reason::ScalarReason;
-use crate::loading::{CableFrequency, Deflection, deflection_from};
-use crate::problem::DirectProblem;
+use crate::loading::{Deflection, deflection_from};
 use crate::state::{Load, Residual};
 use cdpr_robot::{ParameterLayout, Robot, Vector3};
 
@@ -21,11 +20,6 @@ pub struct LoadedPose {
     pub residuals: [Residual; 2],
     /// Stiffness of the softest motion with the load [N/m], see [`crate::Stability::least_stiffness`].
     pub least_stiffness: f64,
-    /// Lowest natural frequency with the load [Hz], see [`DirectProblem::lowest_frequency`]; `None` for a
-    /// robot that lacks `platform.inertia`.
-    pub lowest_frequency: Option<f64>,
-    /// The slowest cable, between ends at rest, where there is a lowest frequency.
-    pub lowest_cable_frequency: Option<CableFrequency>,
     /// Cables (from 0) that are slack with the load.
     pub slack: Vec<usize>,
     /// Why the scalar models found it; `None` for one found in lanes.
@@ -34,18 +28,13 @@ pub struct LoadedPose {
 
 impl LoadedPose {
     /// That of a deflection, by the scalar models.
-    pub fn of(robot: &Robot, load: &Load, deflection: &Deflection) -> Self {
+    pub fn of(robot: &Robot, deflection: &Deflection) -> Self {
         let Deflection { lengths, unloaded, loaded } = deflection;
-        let problem = DirectProblem::new(robot, lengths, load).ok();
-        let lowest_frequency = problem.and_then(|problem| problem.lowest_frequency(&loaded.equilibrium).ok());
-        let of_cables = || problem?.lowest_cable_frequency(&loaded.equilibrium).ok()?;
         Self {
             displacement: deflection.displacement(),
             tensions: [unloaded, loaded].map(|solution| solution.equilibrium.end_tensions(robot, lengths)),
             residuals: [unloaded, loaded].map(|solution| solution.report.residual),
             least_stiffness: loaded.stability.least_stiffness(),
-            lowest_frequency,
-            lowest_cable_frequency: lowest_frequency.and_then(|_| of_cables()),
             slack: loaded.report.slack.clone(),
             scalar: Some(ScalarReason::OneByOne),
         }
@@ -96,7 +85,7 @@ impl Loaded for LoadedPose {
         why: ScalarReason,
     ) -> Result<Self, StaticsError> {
         let deflection = deflection_from(robot, wanted.lengths.clone(), load, &wanted.equilibrium)?;
-        Ok(Self { scalar: Some(why), ..Self::of(robot, load, &deflection) })
+        Ok(Self { scalar: Some(why), ..Self::of(robot, &deflection) })
     }
 }
 
@@ -127,7 +116,7 @@ impl Loaded for PoseSlopes {
             }
             Err(error) => return Err(error),
         };
-        let loaded = LoadedPose { scalar: Some(why), ..LoadedPose::of(robot, load, &deflection) };
+        let loaded = LoadedPose { scalar: Some(why), ..LoadedPose::of(robot, &deflection) };
         Ok(Self { loaded, magnitude })
     }
 }
