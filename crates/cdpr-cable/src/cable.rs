@@ -20,7 +20,7 @@
 //! sags; the first antisymmetric one is at 2 f (Irvine 1981, section 3.2).
 
 use crate::error::{CableError, MAX_STRAIN, SMALLEST, check};
-use crate::guide::{Guide, in_plane};
+use crate::guide::{Entry, Guide, Straight, in_plane};
 use crate::kernel::{Material, closure_of_slack};
 use crate::law::ElasticLaw;
 use nalgebra::{Vector2, Vector3};
@@ -132,6 +132,30 @@ impl Cable<'_> {
     pub fn straight_length_in_space(&self, end: Vector3<f64>) -> f64 {
         let straight = self.guide.and_then(|guide| guide.straight(end));
         straight.map_or_else(|| end.norm(), |straight| straight.free + straight.guided)
+    }
+
+    /// The straight cable to `end` [m], the cable without its guide, and the end from where it leaves that.
+    ///
+    /// # Errors
+    /// [`CableError::InvalidInput`] for an end within the wheel or behind it.
+    pub(crate) fn straightened(
+        &self,
+        end: Vector3<f64>,
+    ) -> Result<(Straight, Self, Vector3<f64>), CableError> {
+        let guide = self.guide.unwrap_or(Guide { lead: 0.0, radius: 0.0, entry: Entry::Upwards });
+        let straight = guide.straight(end).ok_or_else(|| self.below_the_pulley(end))?;
+        let beyond = end - straight.leave;
+        Ok((straight, Self { guide: None, ..*self }, beyond))
+    }
+
+    pub(crate) fn below_the_pulley(&self, end: Vector3<f64>) -> CableError {
+        let axis = self.guide.map_or_else(Vector3::z, |guide| guide.entry.axis().into());
+        CableError::InvalidInput {
+            field: if self.leaves_its_plane() { "end" } else { "end.x" },
+            value: (end - axis * end.dot(&axis)).norm(),
+            expected: "a distance [m] from the swivel axis at which the cable can leave the pulley away from the \
+                       axis: more than its diameter beyond the wheel",
+        }
     }
 
     /// Whether it runs over a pulley with a tilted axis: then it is a [`crate::SpatialCable`], whose plane

@@ -11,3 +11,8 @@ pub(crate) fn in_space<'a>(catenary: &Catenary<'a>) -> SpatialCable<'a> {
 pub(crate) fn by(slopes: &PropertySlopes, property: Property) -> Vector2<f64> {
     slopes.fixed_columns::<1>(property as usize).xz()
 }
+
+/// A vector of the plane over the x axis in space.
+pub(crate) fn lifted(v: Vector2<f64>) -> Vector3<f64> {
+    Vector3::new(v.x, 0.0, v.y)
+}

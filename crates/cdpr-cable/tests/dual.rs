@@ -1,5 +1,6 @@
 //! Every derivative of the catenary against dual numbers: the same equations over a number with derivative.
 
+use crate::common::lifted;
 use approx::assert_relative_eq;
 use cdpr_cable::kernel::{Material, response};
 use cdpr_cable::{Cable, Catenary, HeldCable, Vector2, length_for_tension};
@@ -82,7 +83,7 @@ proptest! {
     ) {
         let end = Vector2::new(x, z);
         let cable = Cable::linear(w, w * end.norm() * 10f64.powf(stiffness));
-        let least = HeldCable::at_least_tension(&cable, end).unwrap().catenary;
+        let least = HeldCable::at_least_tension(&cable, lifted(end)).unwrap().catenary;
         prop_assert!((least.end_position() - end).norm() < 1e-12 * end.norm());
         let slope = least.force.dot(&least.response().force_per_length());
         let scale = least.force.norm() * least.response().force_per_length().norm();

@@ -1,6 +1,6 @@
 //! A cable between held ends as a function of its chord force: closure, derivatives, least tension.
 
-use crate::common::{by, in_space};
+use crate::common::{by, in_space, lifted};
 use cdpr_cable::{
     Cable, Catenary, ElasticLaw, HeldCable, PiecewiseLaw, Property, Segment, Vector2, end_force,
 };
@@ -35,13 +35,13 @@ proptest! {
 
     #[test]
     fn a_chord_force_closes_the_cable_and_has_the_derivatives_it_says((cable, end, sigma) in any_held()) {
-        let held = HeldCable::at_chord_force(&cable, end, sigma).unwrap();
+        let held = HeldCable::at_chord_force(&cable, lifted(end), sigma).unwrap();
         let scale = end.norm() + held.catenary.unstrained_length;
         prop_assert!(held.catenary.closure(end).norm() <= 64.0 * f64::EPSILON * scale);
         let step = 1e-4 * sigma;
         let at = |h: f64| held.with_chord_force(sigma + h).unwrap();
         let (less, more) = (at(-step), at(step));
-        let slope = (more.catenary.force - less.catenary.force) / (2.0 * step);
+        let slope = (more.force() - less.force()) / (2.0 * step);
         prop_assert!((slope - held.force_slope).norm() < 1e-6 * slope.norm());
         let curvature = (more.force_slope - less.force_slope) / (2.0 * step);
         let size = held.force_slope.norm() / sigma;
@@ -56,7 +56,7 @@ proptest! {
 
     #[test]
     fn the_least_tension_is_that_of_all_lengths((cable, end, _) in any_held()) {
-        let held = HeldCable::at_least_tension(&cable, end).unwrap();
+        let held = HeldCable::at_least_tension(&cable, lifted(end)).unwrap();
         let searched = least_of_all_lengths(&cable, end);
         let scale = searched + cable.weight_per_length * end.norm();
         prop_assert!((held.tension() - searched).abs() <= 1e-12 * scale);
@@ -66,16 +66,16 @@ proptest! {
 
     #[test]
     fn second_derivatives_at_given_tension_are_those_of_differences((cable, end, sigma) in any_held()) {
-        let held = HeldCable::at_chord_force(&cable, end, sigma).unwrap();
+        let held = HeldCable::at_chord_force(&cable, lifted(end), sigma).unwrap();
         let (t, slopes) = (held.tension(), in_space(&held.catenary).tension_slopes());
         let per_end = |column: usize| slopes.per_end.fixed_columns::<1>(column).xz();
         let per = |property| by(&slopes.per_property, property);
         // Next to the least tension, differences say nothing.
         prop_assume!(held.tension_slope() > 0.3);
         let v = |cable: Cable<'static>, end: Vector2<f64>, t: f64| {
-            let start = HeldCable::at_chord_force(&cable, end, sigma).unwrap();
+            let start = HeldCable::at_chord_force(&cable, lifted(end), sigma).unwrap();
             let held = start.with_tension(t).unwrap();
-            held.force_slope / held.tension_slope()
+            (held.force_slope / held.tension_slope()).xz()
         };
         let direction = v(cable, end, t);
         prop_assert!((slopes.value.xz() - direction).norm() < 1e-12);
@@ -105,7 +105,7 @@ proptest! {
 fn a_weightless_cable_is_straight_at_its_chord_force() {
     let cable = Cable::linear(0.0, 1e4);
     for end in [Vector2::new(3.0, 4.0), Vector2::new(0.0, -5.0)] {
-        let held = HeldCable::at_chord_force(&cable, end, 50.0).unwrap();
+        let held = HeldCable::at_chord_force(&cable, lifted(end), 50.0).unwrap();
         assert!((held.tension() - 50.0).abs() < 1e-12);
         assert!((held.catenary.unstrained_length - 5.0 / (1.0 + 50.0 / 1e4)).abs() < 1e-14);
         assert!(
@@ -121,8 +121,8 @@ fn a_vertical_cable_is_regular() {
     for z in [3.0, -3.0] {
         let (end, beside) = (Vector2::new(0.0, z), Vector2::new(1e-9, z));
         for sigma in [3.0, 100.0] {
-            let held = HeldCable::at_chord_force(&cable, end, sigma).unwrap();
-            let near = HeldCable::at_chord_force(&cable, beside, sigma).unwrap();
+            let held = HeldCable::at_chord_force(&cable, lifted(end), sigma).unwrap();
+            let near = HeldCable::at_chord_force(&cable, lifted(beside), sigma).unwrap();
             assert!((held.tension() / near.tension() - 1.0).abs() < 1e-8);
             assert!(
                 (held.tension_curvature(&held.force_curvature())
@@ -132,15 +132,26 @@ fn a_vertical_cable_is_regular() {
             );
             // v_x is odd in x.
             let per_end = in_space(&held.catenary).tension_slopes().per_end;
-            let aside = HeldCable::at_chord_force(&cable, Vector2::new(1e-4, z), sigma).unwrap();
+            let aside = HeldCable::at_chord_force(&cable, lifted(Vector2::new(1e-4, z)), sigma).unwrap();
             let aside = aside.with_tension(held.tension()).unwrap();
             let slope = aside.force_slope.x / aside.tension_slope() / 1e-4;
             assert!((per_end.m11 / slope - 1.0).abs() < 1e-6, "{z} {sigma}");
             assert!(per_end.m31 == 0.0 && per_end.column(2).iter().all(|v| v.is_finite()));
         }
         // Hanging down from A the cable's whole weight is at A; hanging from B it may be all at B.
-        let least = HeldCable::at_least_tension(&cable, end).unwrap().tension();
+        let least = HeldCable::at_least_tension(&cable, lifted(end)).unwrap().tension();
         assert!((least - z.max(0.0) * 2.0).abs() < 1e-3, "{least}");
+    }
+}
+
+#[test]
+fn a_cable_that_hangs_from_its_anchor_point_carries_at_least_its_weight_there() {
+    for (w, z) in [(1.5e-3, 123.0), (2.0, 3.0), (0.3, 40.0), (7.0, 15.0)] {
+        let weight = w * z;
+        let cable = Cable::linear(w, 1e4 * weight);
+        let least = HeldCable::at_least_tension(&cable, lifted(Vector2::new(0.0, z))).unwrap();
+        // It is strained by half of its weight on average.
+        assert!((least.tension() / weight - (1.0 - 0.5e-4)).abs() < 1e-7, "{w} {z}: {}", least.tension());
     }
 }
 
@@ -152,10 +163,10 @@ fn a_cable_with_a_law_has_the_derivatives_of_its_segments() {
     let end = Vector2::new(6.0, 5.0);
     // Its tension lies in one segment or in two.
     for sigma in [20.0, 38.0, 50.0, 70.0] {
-        let held = HeldCable::at_chord_force(&cable, end, sigma).unwrap();
+        let held = HeldCable::at_chord_force(&cable, lifted(end), sigma).unwrap();
         let at = |h: f64| held.with_chord_force(sigma + h).unwrap();
         let (less, more) = (at(-1e-3), at(1e-3));
-        let slope = (more.catenary.force - less.catenary.force) / 2e-3;
+        let slope = (more.force() - less.force()) / 2e-3;
         assert!((slope - held.force_slope).norm() < 1e-8, "{sigma}");
         let curvature = (more.force_slope - less.force_slope) / 2e-3;
         assert!((curvature - held.force_curvature()).norm() < 1e-8, "{sigma}");

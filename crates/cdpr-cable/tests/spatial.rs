@@ -1,9 +1,10 @@
 //! Cables over pulleys with tilted axes: references, limits, derivatives.
 
+use crate::common::lifted;
 use crate::guided::{number, vector};
 use cdpr_cable::{
-    Cable, Entry, Guide, HeldCable, HeldSpatialCable, Matrix3, Property, SpatialCable, Vector2, Vector3,
-    end_force, spatial_end_force,
+    Cable, Entry, Guide, HeldCable, Matrix3, Property, SpatialCable, Vector2, Vector3, end_force,
+    spatial_end_force,
 };
 use cdpr_evidence::accept;
 use proptest::prelude::*;
@@ -58,11 +59,11 @@ fn cables_over_any_axis_match_arithmetic_of_20_digits() {
             assert!((own - Vector2::new(forwards, leave.z)).norm() <= 1e-9 * guide.radius);
             assert!((guide.radius * in_plane.wrap() - number(&expected["arc"])).abs() <= 1e-9 * guide.radius);
             // The same cable by its tension and by its chord force.
-            let held = HeldSpatialCable::of(found, end);
+            let held = HeldCable::of(found, end);
             let far = held.with_chord_force(1.7 * held.chord_force).unwrap();
             let again = far.with_tension(found.anchor_tension()).unwrap();
             if held.tension_slope() > 1e-3 {
-                let off = (again.cable.unstrained_length - length).abs() / length;
+                let off = (again.catenary.unstrained_length - length).abs() / length;
                 worst[1] = worst[1].max(off);
                 assert!(off <= 1e-9, "{} {i}: {off:e}", case["kind"]);
             }
@@ -107,9 +108,9 @@ proptest! {
     fn the_flexibility_in_space_is_the_derivative_of_the_end(
         (cable, end, sigma) in any_tilted(), stretch in 1.0..1.5f64,
     ) {
-        let held = HeldSpatialCable::at_chord_force(&cable, end, stretch * sigma).unwrap();
-        let SpatialCable { force, unstrained_length, .. } = held.cable;
-        let response = held.cable.response();
+        let held = HeldCable::at_chord_force(&cable, end, stretch * sigma).unwrap();
+        let SpatialCable { force, unstrained_length, .. } = held.in_space();
+        let response = held.in_space().response();
         let at = |force, unstrained_length| SpatialCable { cable, unstrained_length, force }.response().end;
         let h = 1e-4 * horizontal(force);
         for axis in 0..3 {
@@ -125,14 +126,14 @@ proptest! {
 
     #[test]
     fn the_end_moves_with_material_and_guide_as_its_slopes_say((cable, end, sigma) in any_tilted()) {
-        let held = HeldSpatialCable::at_chord_force(&cable, end, sigma).unwrap();
-        let slopes = held.cable.slopes();
+        let held = HeldCable::at_chord_force(&cable, end, sigma).unwrap();
+        let slopes = held.in_space().slopes();
         let per = |property: Property| Vector3::from(slopes.fixed_columns::<1>(property as usize));
         let per_axis = slopes.fixed_columns::<3>(Property::Axis as usize);
-        let at = |cable| SpatialCable { cable, ..held.cable }.response().end;
+        let at = |cable| SpatialCable { cable, ..held.in_space() }.response().end;
         let Guide { lead, radius, entry } = cable.guide.unwrap();
         let near = |one: Vector3<f64>, other: Vector3<f64>, unit: f64| {
-            let size = end.norm() + held.cable.unstrained_length;
+            let size = end.norm() + held.catenary.unstrained_length;
             (one - other).norm() * unit < 1e-7 * size
         };
         let led = |lead, radius, axis: Vector3<f64>| {
@@ -161,26 +162,26 @@ proptest! {
     fn derivatives_by_the_chord_force_and_the_tension_are_those_of_differences(
         (cable, end, sigma) in any_tilted(),
     ) {
-        let held = HeldSpatialCable::at_chord_force(&cable, end, sigma).unwrap();
+        let held = HeldCable::at_chord_force(&cable, end, sigma).unwrap();
         prop_assume!(held.tension_slope() > 0.3);
         let h = 1e-3 * sigma;
         let at = |h: f64| held.with_chord_force(sigma + h).unwrap();
-        let first = slope(|h| at(h).cable.force, h);
+        let first = slope(|h| at(h).force(), h);
         prop_assert!((first - held.force_slope).norm() < 1e-6 * held.force_slope.norm());
-        let length = slope(|h| Vector3::x() * at(h).cable.unstrained_length, h).x;
+        let length = slope(|h| Vector3::x() * at(h).catenary.unstrained_length, h).x;
         prop_assert!((length - held.length_slope).abs() < 1e-6 * length.abs() + 1e-12 * end.norm() / h);
         let second = slope(|h| at(h).force_slope, h);
         let error = (second - held.force_curvature()).norm();
         prop_assert!(error < 1e-6 * (second.norm() + held.force_slope.norm() / sigma), "{error:e}");
-        let slopes = held.cable.tension_slopes();
-        let v = |held: &HeldSpatialCable| held.force_slope / held.tension_slope();
+        let slopes = held.in_space().tension_slopes();
+        let v = |held: &HeldCable| held.force_slope / held.tension_slope();
         prop_assert!((v(&held) - slopes.value).norm() < 1e-9 * slopes.value.norm());
         let t = held.tension();
         let by_tension = slope(|h| v(&held.with_tension(t + h).unwrap()), 1e-4 * t);
         let size = slopes.per_actuation.norm() + v(&held).norm() / t;
         prop_assert!((by_tension - slopes.per_actuation).norm() < 1e-5 * size);
         let at = |cable: Cable<'static>, end: Vector3<f64>| {
-            v(&HeldSpatialCable::at_chord_force(&cable, end, sigma).unwrap().with_tension(t).unwrap())
+            v(&HeldCable::at_chord_force(&cable, end, sigma).unwrap().with_tension(t).unwrap())
         };
         for axis in 0..3 {
             let by_end = slope(|h| at(cable, end + h * Vector3::ith(axis, 1.0)), 1e-4 * end.norm());
@@ -206,11 +207,11 @@ proptest! {
         let along = Cable { guide: Some(Guide { entry: Entry::Along(entry.axis()), ..guide }), ..cable };
         let flat = Vector2::new(horizontal(end), end.z);
         prop_assume!(flat.x > 4.0 * guide.radius);
-        let expected = HeldCable::at_chord_force(&plane, flat, sigma).unwrap();
-        let found = HeldSpatialCable::at_chord_force(&along, end, sigma).unwrap();
+        let expected = HeldCable::at_chord_force(&plane, lifted(flat), sigma).unwrap();
+        let found = HeldCable::at_chord_force(&along, end, sigma).unwrap();
         let length = expected.catenary.unstrained_length;
-        prop_assert!((found.cable.unstrained_length - length).abs() < 1e-12 * length);
-        let force = Vector2::new(horizontal(found.cable.force), found.cable.force.z);
+        prop_assert!((found.catenary.unstrained_length - length).abs() < 1e-12 * length);
+        let force = found.catenary.force;
         prop_assert!((force - expected.catenary.force).norm() < 1e-9 * force.norm());
         let slope = expected.force_slope;
         prop_assert!((found.force_slope.norm() - slope.norm()).abs() < 1e-8 * slope.norm());
@@ -235,9 +236,9 @@ fn the_least_tension_over_a_tilted_axis_is_near_that_over_a_vertical_one() {
         let of = |entry| Cable { guide: Some(Guide { lead: 0.0, radius, entry }), ..Cable::linear(2.0, 1e5) };
         for beyond in [1e-2, 1.0, 30.0] {
             let (x, z) = (radius * (2.0 + beyond), -depth);
-            let upright = HeldCable::at_least_tension(&of(Entry::Upwards), Vector2::new(x, z)).unwrap();
+            let upright = HeldCable::at_least_tension(&of(Entry::Upwards), Vector3::new(x, 0.0, z)).unwrap();
             let tilted = of(Entry::Along(axis));
-            let tilted = HeldSpatialCable::at_least_tension(&tilted, Vector3::new(x, 0.0, z)).unwrap();
+            let tilted = HeldCable::at_least_tension(&tilted, Vector3::new(x, 0.0, z)).unwrap();
             let weight = 2.0 * depth;
             let [upright, tilted] = [upright.tension(), tilted.tension()];
             assert!((upright - tilted).abs() < 1e-3 * weight, "{radius} {beyond}: {upright} {tilted}");

@@ -251,7 +251,7 @@ fn with_tensions(robot: &Robot, pose: &Pose, tensions: &[f64]) -> Result<PoseLen
     StaticsError::one_per_cable("tensions", tensions, robot.cables.len())?;
     let catenaries = tensions.iter().enumerate().map(|(i, tension)| {
         let ends = Ends::of(robot, pose, i);
-        let at_tension = || ends.at_tension(ends.least_allowed(*tension)?);
+        let at_tension = || Ok(ends.at_tension(ends.least_allowed(*tension)?)?.catenary);
         at_tension().map_err(StaticsError::cable(i))
     });
     Ok(PoseLengths::new(pose, &catenaries.collect::<Result<Vec<_>, _>>()?))

@@ -167,8 +167,7 @@ fn caroca() -> Robot {
 fn set_points_around_the_least_tension_change_lengths_steadily() {
     let (robot, pose) = (caroca(), Pose::at(2.0, 1.0, 1.0));
     let length = |tension: f64| lengths_for_tensions(&robot, &pose, &[tension; 8]).unwrap().lengths[0];
-    let r = robot.span(&pose, 0);
-    let end = cdpr_robot::Vector2::new(r.xy().norm(), r.z);
+    let end = robot.span(&pose, 0);
     let least = cdpr_cable::HeldCable::at_least_tension(&robot.cable(0), end).unwrap().tension();
     for share in [1.0, 1.001] {
         let [below, above] = [-1e-6, 1e-6].map(|e| length(least * share * (1.0 + e)));

@@ -120,11 +120,11 @@ pub fn catenary([weight_per_length, axial_stiffness, unstrained_length, fx, fz, 
         return;
     }
     finite("end_position", catenary.end_position().as_slice());
-    let compliance = catenary.compliance();
-    finite("compliance.end", compliance.end.as_slice());
-    finite("compliance.flexibility", compliance.flexibility.as_slice());
-    finite("compliance.lateral_stiffness", &[compliance.lateral_stiffness]);
-    finite("compliance.end_per_length", compliance.end_per_length.as_slice());
+    let response = catenary.response();
+    finite("response.end", &response.end);
+    finite("response.flexibility", &response.flexibility);
+    finite("response.lateral_flexibility", &[response.lateral_flexibility]);
+    finite("response.end_per_length", &response.end_per_length);
     finite("complementary_energy", &[catenary.complementary_energy()]);
     finite("potential_energy", &[catenary.potential_energy()]);
     finite("sag", &[catenary.sag()]);

@@ -201,6 +201,17 @@ pub(crate) fn horizontal<T: Real>([x, y, z]: &[T; 3]) -> (T, [T; 2]) {
     (fx, [*x / fx, *y / fx])
 }
 
+/// A vector in its vertical plane, and the direction of the plane.
+pub(crate) fn flat(v: Vector3<f64>) -> (Vector2<f64>, [f64; 2]) {
+    let (x, azimuth) = horizontal(&v.into());
+    (Vector2::new(x, v.z), azimuth)
+}
+
+/// A vector of the vertical plane with a direction.
+pub(crate) fn lifted(v: Vector2<f64>, [c, s]: [f64; 2]) -> Vector3<f64> {
+    Vector3::new(c * v.x, s * v.x, v.y)
+}
+
 impl<'a> SpatialCable<'a> {
     pub(crate) fn numbers(&self) -> Numbers<f64> {
         self.cable.numbers(self.unstrained_length)

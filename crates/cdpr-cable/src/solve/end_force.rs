@@ -10,16 +10,16 @@
 //! * slack: the inextensible catenary, `sinh λ/λ = sqrt(L² - z²)/x`, `fx = w x/(2λ)`,
 //!   `fz = (w/2)(z coth λ + L)`.
 //!
-//! A vertical cable (`x = 0`) is linear in each of three regimes: it hangs taut, hangs folded, or is pulled
-//! up from below.
+//! A vertical cable (`x = 0`) is the limit of a nearly vertical one.
 
 use crate::cable::Cable;
 use crate::catenary::Catenary;
+use crate::catenary::spatial::{flat, lifted};
 use crate::error::{CableError, SMALLEST, check, check_length};
-use crate::guide::{Guide, Straight, in_plane};
+use crate::guide::{Straight, in_plane};
 use crate::kernel::Response;
 use crate::law::ElasticLaw;
-use nalgebra::Vector2;
+use nalgebra::{Vector2, Vector3};
 
 /// A cable in equilibrium between two given points, with its closure residual.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,6 +39,10 @@ impl<'a> Solution<'a> {
         Self { catenary, end, iterations, residual: catenary.closure(end).norm() }
     }
 }
+
+/// Share of the length that stands for the horizontal distance of a vertical cable: its horizontal force is
+/// below rounding of the weight.
+const VERTICAL: f64 = 1e-18;
 
 const MAX_ITERATIONS: usize = 200;
 
@@ -64,30 +68,22 @@ pub fn end_force<'a>(
     cable.validate()?;
     check_length(unstrained_length)?;
     check_end(end)?;
-    if let Some(guide) = &cable.guide {
-        let start = guided_start(cable, guide, unstrained_length, end)?;
+    let at = |force| Catenary { cable: *cable, unstrained_length, force };
+    if cable.guide.is_some() {
+        check_plane(cable)?;
+        let start = at(flat(guided_start(cable, unstrained_length, in_plane(end.into()))?).0);
         return if cable.is_weightless(unstrained_length) {
             Ok(Solution::of(start, end, 0))
         } else {
             newton(start, end, MAX_ITERATIONS)
         };
     }
-    let at = |force| Catenary { cable: *cable, unstrained_length, force };
     if cable.is_weightless(unstrained_length) {
         let cable = &Cable { weight_per_length: 0.0, ..*cable };
         let at = |force| Catenary { cable: *cable, unstrained_length, force };
         return Ok(Solution::of(at(spring_force(cable, unstrained_length, end)), end, 0));
     }
-    // Closer to the vertical than this, the horizontal force is below rounding of the weight.
-    if end.x < 1e-30 * unstrained_length {
-        return match cable.law {
-            ElasticLaw::Linear => {
-                let force = Vector2::new(0.0, vertical_force(cable, unstrained_length, end.y));
-                Ok(Solution::of(at(force), end, 0))
-            }
-            ElasticLaw::Piecewise(_) => vertical_newton(cable, unstrained_length, end),
-        };
-    }
+    let (given, end) = (end, Vector2::new(end.x.max(VERTICAL * unstrained_length), end.y));
     let dual = |force: Vector2<f64>| force.dot(&end) - at(force).complementary_energy();
     let taut = taut_start(cable, unstrained_length, end);
     let slack = slack_start(cable, unstrained_length, end);
@@ -97,7 +93,11 @@ pub fn end_force<'a>(
         (None, Some(slack)) => slack,
         (None, None) => Vector2::new(cable.weight_per_length * unstrained_length, 0.0),
     };
-    newton(at(start), end, MAX_ITERATIONS)
+    let mut solution = newton(at(start), end, MAX_ITERATIONS)?;
+    if given != end {
+        (solution.end, solution.catenary.force.x) = (given, 0.0);
+    }
+    Ok(solution)
 }
 
 /// The answer of [`end_force`], started from a catenary with nearly this end position.
@@ -108,7 +108,7 @@ pub fn end_force<'a>(
 /// As [`end_force`].
 pub fn end_force_near<'a>(near: &Catenary<'a>, end: Vector2<f64>) -> Result<Solution<'a>, CableError> {
     let regular = near.force.x > 0.0 && !near.cable.is_weightless(near.unstrained_length);
-    if regular && end.x > 1e-30 * near.unstrained_length && end.x.is_finite() && end.y.is_finite() {
+    if regular && end.x > VERTICAL * near.unstrained_length && end.x.is_finite() && end.y.is_finite() {
         let solution = newton(*near, end, MAX_ITERATIONS_NEAR);
         // From a distant start the iteration may end at a nearly folded cable, whose rounding explains any
         // residual.
@@ -120,14 +120,14 @@ pub fn end_force_near<'a>(near: &Catenary<'a>, end: Vector2<f64>) -> Result<Solu
     end_force(&near.cable, near.unstrained_length, end)
 }
 
-/// The cable with the force of one that leaves its pulley where a straight cable does; exact without weight.
-fn guided_start<'a>(
-    cable: &Cable<'a>,
-    guide: &Guide,
+/// The force [N] of a cable to A at `end` [m] that leaves its pulley where a straight one does; exact without
+/// weight.
+pub(super) fn guided_start(
+    cable: &Cable,
     unstrained_length: f64,
-    end: Vector2<f64>,
-) -> Result<Catenary<'a>, CableError> {
-    let (Straight { free, guided, .. }, plain, beyond) = straightened(cable, guide, end)?;
+    end: Vector3<f64>,
+) -> Result<Vector3<f64>, CableError> {
+    let (Straight { free, guided, .. }, plain, beyond) = cable.straightened(end)?;
     let strain = ((free + guided) / unstrained_length - 1.0).max(cable.strain(0.0));
     // At least what the strain leaves to it, however long the lead.
     let least = unstrained_length * (free / (free + guided));
@@ -138,30 +138,15 @@ fn guided_start<'a>(
         rest >= SMALLEST,
         "a length of which 1e-30 m or more remain beyond lead and pulley [m]",
     )?;
-    let force = end_force(&plain, rest, beyond)?.catenary.force;
-    Ok(Catenary { cable: *cable, unstrained_length, force })
+    let (beyond, azimuth) = flat(beyond);
+    Ok(lifted(end_force(&plain, rest, beyond)?.catenary.force, azimuth))
 }
 
-/// The straight cable over a guide to `end` [m], the cable without its guide, and the end from where that
-/// leaves it [m].
-pub(crate) fn straightened<'a>(
-    cable: &Cable<'a>,
-    guide: &Guide,
-    end: Vector2<f64>,
-) -> Result<(Straight, Cable<'a>, Vector2<f64>), CableError> {
-    check("pulley.axis", 0.0, !(guide.radius > 0.0 && guide.entry.is_tilted()), UPRIGHT)?;
-    let straight = guide.straight(in_plane(end.into())).ok_or(CableError::InvalidInput {
-        field: "end.x",
-        value: end.x,
-        expected: "a horizontal distance [m] from the swivel axis at which the cable can leave the pulley \
-                   away from the axis: more than its diameter beyond the wheel",
-    })?;
-    let leave = straight.leave;
-    let beyond = Vector2::new((end.x - leave.x).max(0.0), end.y - leave.z);
-    Ok((straight, Cable { guide: None, ..*cable }, beyond))
+/// Refuses a cable over a tilted axis.
+pub(crate) fn check_plane(cable: &Cable) -> Result<(), CableError> {
+    const UPRIGHT: &str = "a vertical axis: cables over pulleys with other axes do not stay in a known plane";
+    check("pulley.axis", 0.0, !cable.leaves_its_plane(), UPRIGHT)
 }
-
-const UPRIGHT: &str = "a vertical axis: cables over pulleys with other axes do not stay in a known plane";
 
 /// Checks that an end position is finite and not on the wrong side of the exit point.
 pub(crate) fn check_end(end: Vector2<f64>) -> Result<(), CableError> {
@@ -254,56 +239,6 @@ fn spring_force(cable: &Cable, unstrained_length: f64, end: Vector2<f64>) -> Vec
         return Vector2::zeros();
     }
     end * (cable.axial_stiffness * (chord - unstrained_length) / (unstrained_length * chord))
-}
-
-/// Vertical end force of a linear cable with A right above or below B at height `z`.
-fn vertical_force(cable: &Cable, unstrained_length: f64, z: f64) -> f64 {
-    let weight = cable.weight_per_length * unstrained_length;
-    let stiffness = cable.axial_stiffness / unstrained_length;
-    let hanging = stiffness * (z + unstrained_length) + 0.5 * weight;
-    let pulled_up = stiffness * (z - unstrained_length) + 0.5 * weight;
-    if hanging <= 0.0 {
-        hanging
-    } else if pulled_up >= weight {
-        pulled_up
-    } else {
-        0.5 * weight + z / (1.0 / stiffness + 2.0 / cable.weight_per_length)
-    }
-}
-
-/// The vertical cable with kinks in its law.
-///
-/// The height grows with the force, so that Newton's method between two bounds converges to the only root.
-fn vertical_newton<'a>(
-    cable: &Cable<'a>,
-    unstrained_length: f64,
-    end: Vector2<f64>,
-) -> Result<Solution<'a>, CableError> {
-    let at = |fz| Catenary { cable: *cable, unstrained_length, force: Vector2::new(0.0, fz) };
-    let residual = |fz| end.y - at(fz).end_position().y;
-    let mut now = vertical_force(cable, unstrained_length, end.y);
-    let size = now.abs() + cable.weight_per_length * unstrained_length;
-    let (mut low, mut high) = (now - size, now + size);
-    for _ in 0..100 {
-        if residual(low) >= 0.0 && residual(high) <= 0.0 {
-            break;
-        }
-        (low, high) = (low - (high - low), high + (high - low));
-    }
-    let mut iterations = 0;
-    while iterations < MAX_ITERATIONS {
-        let response = at(now).response();
-        let open = end.y - response.end[1];
-        *(if open > 0.0 { &mut low } else { &mut high }) = now;
-        let next = now + open / response.flexibility[2];
-        let next = if low < next && next < high { next } else { 0.5 * (low + high) };
-        if next == now || open == 0.0 {
-            break;
-        }
-        now = next;
-        iterations += 1;
-    }
-    accept(at(now), end, iterations)
 }
 
 fn taut_start(cable: &Cable, unstrained_length: f64, end: Vector2<f64>) -> Option<Vector2<f64>> {

@@ -54,8 +54,8 @@ const DISTRIBUTION: &str = "the tension distribution";
 /// More cables than these without a multiplier have too many combinations.
 const MOST_UNDECIDED: usize = 12;
 
-/// A matrix of (D6) whose other rows explain all but this share of a row is singular to rounding: too few
-/// cables are between their bounds, and the multipliers are not unique.
+/// A matrix of (D6) with a diagonal of one and an eigenvalue below this is singular to rounding: too few cables
+/// are between their bounds, and the multipliers are not unique.
 const NEARLY_SINGULAR: f64 = 1e-12;
 
 /// A change below this, relative to the largest in its column, is rounding.
@@ -131,13 +131,12 @@ impl Optimum {
             false if i == j => 1.0,
             _ => matrix[(i, j)],
         });
-        // Where rounding alone makes it regular, the diagonal of the inverse may be small by chance.
-        let scale = matrix.diagonal().map(|element| element.abs().sqrt());
-        let is_regular = |inverse: &Matrix6<f64>| {
-            let scaled = inverse.component_mul(&(scale * scale.transpose()));
-            scaled.iter().all(|element| element.abs() <= 1.0 / NEARLY_SINGULAR)
-        };
-        let Some(inverse) = matrix.try_inverse().filter(is_regular) else {
+        // With a diagonal of one; the inverse of a matrix that is singular to rounding shows nothing.
+        let scale = matrix.diagonal().map(|entry| entry.abs().sqrt().recip());
+        let scaled = matrix.component_mul(&(scale * scale.transpose()));
+        let is_regular = scaled.iter().all(|entry| entry.is_finite())
+            && scaled.symmetric_eigenvalues().abs().min() > NEARLY_SINGULAR;
+        let Some(inverse) = matrix.try_inverse().filter(|_| is_regular) else {
             let reason = "the cables between their bounds do not act on all motions of the platform there";
             return Err(StaticsError::NoDerivative { quantity: DISTRIBUTION, reason });
         };

@@ -255,7 +255,7 @@ impl AtSetPoints<'_> {
     fn least_tensions(&self, which: &[usize]) -> Result<DMatrix<f64>, StaticsError> {
         let rows = self.rows_of(which, |i| {
             let ends = Ends::of(self.robot, self.pose, i);
-            let catenary = ends.at_least_tension().map_err(StaticsError::cable(i))?.catenary();
+            let catenary = ends.at_least_tension().map_err(StaticsError::cable(i))?.catenary;
             Ok(CableDerivatives::new(self.robot, self.pose, i, &catenary))
         })?;
         Ok(ABOVE_LEAST * rows)

@@ -11,7 +11,7 @@ mod stiffness;
 
 use crate::equations::cable::{CablePlane, LinearizedCable, Span, between};
 use crate::problem::DirectProblem;
-pub(crate) use alone::in_its_plane;
+pub(crate) use alone::{guided_place, in_its_plane};
 use cdpr_cable::kernel::{Response, closure_of_slack, response};
 use cdpr_cable::{Catenary, Guide, SpatialCable, SpatialResponse};
 use cdpr_number::Real;

@@ -136,8 +136,7 @@ impl KnownOptimum {
             error_before = error;
             *iterations += 1;
             let (step, multipliers) = point.newton()?;
-            let relative =
-                point.cables.iter().zip(&step).map(|(cable, d)| d.abs() / cable.fixed.chord_force());
+            let relative = point.cables.iter().zip(&step).map(|(cable, d)| d.abs() / cable.fixed.chord_force);
             let change = relative.fold(0.0, f64::max);
             if change > greatest {
                 return (nearly && !point.compute_violated_limits()?).then_some(point);

@@ -1,16 +1,16 @@
 //! The cables of a robot whose platform is at a given pose, each with its chord force as its only unknown.
 
 use super::problem::InverseProblem;
-use crate::equations::{ABOVE_LEAST, Bounds, Ends, FixedEnds, wrench};
+use crate::equations::{ABOVE_LEAST, Bounds, Ends, wrench};
 use crate::error::StaticsError;
-use cdpr_cable::CableError;
+use cdpr_cable::{CableError, HeldCable};
 use cdpr_robot::{Freedoms, TensionLimits, Vector3, Vector6};
 use cdpr_tension::Bound;
 
 /// One cable between its two points, at one chord force.
 #[derive(Clone)]
 pub(super) struct CableAtPose<'a> {
-    pub(super) fixed: FixedEnds<'a>,
+    pub(super) fixed: HeldCable<'a>,
     ends: Ends<'a>,
     lever_arm: Vector3<f64>,
     /// Limits of the tension [N]; the least includes what the span demands, once it has been computed.
@@ -85,7 +85,7 @@ impl<'a> CableAtPose<'a> {
     }
 
     /// Tension and wrench with their derivatives at a chord force.
-    pub(super) fn row(&self, fixed: &FixedEnds, characteristic_length: f64) -> Row {
+    pub(super) fn row(&self, fixed: &HeldCable, characteristic_length: f64) -> Row {
         Row {
             tension: fixed.tension(),
             tension_slope: fixed.tension_slope(),
@@ -123,7 +123,7 @@ impl<'a> CableAtPose<'a> {
     pub(super) fn step_bounds(&self) -> [f64; 2] {
         let t = self.fixed.tension();
         let change = |bound: Bound, estimate: f64| {
-            self.chord_forces[bound as usize].map_or(estimate, |at| at - self.fixed.chord_force())
+            self.chord_forces[bound as usize].map_or(estimate, |at| at - self.fixed.chord_force)
         };
         let low = change(Bound::Min, (self.floor - t) / self.fixed.tension_slope());
         [low, change(Bound::Max, self.limits.max - t).max(low)]
@@ -140,10 +140,10 @@ impl<'a> CableAtPose<'a> {
     /// [`CableError::TensionTooSmall`] where the span demands more than the greatest tension.
     pub(super) fn compute_limit(&mut self, bound: Bound) -> Result<(), CableError> {
         if bound == Bound::Max {
-            self.chord_forces[1] = Some(self.fixed.with_tension(self.limits.max)?.chord_force());
+            self.chord_forces[1] = Some(self.fixed.with_tension(self.limits.max)?.chord_force);
             return Ok(());
         }
-        let mut nearby = self.fixed.clone();
+        let mut nearby = self.fixed;
         if self.limits.min < self.floor {
             nearby = self.ends.at_least_tension()?;
             let least = nearby.tension();
@@ -154,11 +154,11 @@ impl<'a> CableAtPose<'a> {
             // Next to the least tension, where it has no slope: t = t_0 + t'' (σ - σ_0)²/2.
             let (_, curvature) = self.ends.curvatures(&nearby);
             let beyond = (2.0 * (self.limits.min - least) / curvature).sqrt();
-            if let Ok(above) = nearby.with_chord_force(nearby.chord_force() + beyond) {
+            if let Ok(above) = nearby.with_chord_force(nearby.chord_force + beyond) {
                 nearby = above;
             }
         }
-        self.chord_forces[0] = Some(nearby.with_tension(self.limits.min)?.chord_force());
+        self.chord_forces[0] = Some(nearby.with_tension(self.limits.min)?.chord_force);
         Ok(())
     }
 
@@ -172,7 +172,7 @@ impl<'a> CableAtPose<'a> {
 
     /// The limit that the chord force is at.
     pub(super) fn at_limit(&self) -> Option<Bound> {
-        let here = Some(self.fixed.chord_force());
+        let here = Some(self.fixed.chord_force);
         Bound::BOTH.into_iter().find(|bound| self.chord_forces[*bound as usize] == here)
     }
 
@@ -210,7 +210,7 @@ impl<'a> CableAtPose<'a> {
         let mut least = f64::INFINITY;
         for fixed in self.grid()? {
             let value = along(self, self.ends.force(&fixed));
-            let here = [fixed.chord_force(), value, along(self, self.ends.force_slope(&fixed))];
+            let here = [fixed.chord_force, value, along(self, self.ends.force_slope(&fixed))];
             least = least.min(value);
             if let Some(before) = before.replace(here) {
                 least = least.min(below_tangents(before, here));
@@ -229,7 +229,7 @@ impl<'a> CableAtPose<'a> {
         y: &Vector6<f64>,
         characteristic_length: f64,
     ) -> Result<(f64, (f64, f64)), CableError> {
-        let part = |cable: &Self, fixed: &FixedEnds| {
+        let part = |cable: &Self, fixed: &HeldCable| {
             let beyond = fixed.tension() - cable.reference;
             0.5 * beyond * beyond + y.dot(&cable.wrench(cable.ends.force(fixed), characteristic_length))
         };
@@ -238,7 +238,7 @@ impl<'a> CableAtPose<'a> {
     }
 
     /// The tension within the limits, on a grid of chord forces, at which a function is least, and its value.
-    fn least_of(&mut self, function: impl Fn(&Self, &FixedEnds) -> f64) -> Result<(f64, f64), CableError> {
+    fn least_of(&mut self, function: impl Fn(&Self, &HeldCable) -> f64) -> Result<(f64, f64), CableError> {
         let mut least = (f64::NAN, f64::INFINITY);
         for fixed in self.grid()? {
             let value = function(self, &fixed);
@@ -250,7 +250,7 @@ impl<'a> CableAtPose<'a> {
     }
 
     /// The cable at chord forces from limit to limit.
-    fn grid(&mut self) -> Result<Vec<FixedEnds<'a>>, CableError> {
+    fn grid(&mut self) -> Result<Vec<HeldCable<'a>>, CableError> {
         const INTERVALS: u32 = 12;
         for bound in Bound::BOTH {
             if !self.limit_known(bound) {
@@ -261,18 +261,18 @@ impl<'a> CableAtPose<'a> {
         let mut fixed = self.at(low)?;
         let next = |k: u32| {
             fixed = fixed.with_chord_force(low * (high / low).powf(f64::from(k) / f64::from(INTERVALS)))?;
-            Ok(fixed.clone())
+            Ok(fixed)
         };
         (0..=INTERVALS).map(next).collect()
     }
 
     /// The cable at another chord force [N].
-    pub(super) fn at(&self, chord_force: f64) -> Result<FixedEnds<'a>, CableError> {
+    pub(super) fn at(&self, chord_force: f64) -> Result<HeldCable<'a>, CableError> {
         // A step to a limit ends exactly there.
         let reached = self.chord_forces.iter().flatten().find(|at| (*at - chord_force).abs() <= 1e-14 * *at);
         let chord_force = reached.copied().unwrap_or(chord_force);
-        if chord_force == self.fixed.chord_force() {
-            Ok(self.fixed.clone())
+        if chord_force == self.fixed.chord_force {
+            Ok(self.fixed)
         } else {
             self.fixed.with_chord_force(chord_force)
         }

@@ -189,7 +189,7 @@ impl<'a> Point<'a> {
                 .cables
                 .iter()
                 .map(|cable| {
-                    damping * (1.0 + largest / cable.fixed.chord_force()).powi(2)
+                    damping * (1.0 + largest / cable.fixed.chord_force).powi(2)
                         + cable.bend(&open, self.characteristic_length).max(0.0)
                 })
                 .collect();

@@ -200,7 +200,7 @@ impl<'a> Bounded<'a> {
         let Maximum { ref point, iterations, .. } = found;
         let PoseLengths { lengths, equilibrium } = PoseLengths::new(
             self.problem.pose,
-            &point.cables.iter().map(|s| s.fixed.catenary()).collect::<Vec<_>>(),
+            &point.cables.iter().map(|s| s.fixed.catenary).collect::<Vec<_>>(),
         );
         let direct = DirectProblem::new(self.problem.robot, &lengths, load)?;
         direct.check_strains(&equilibrium)?;

@@ -84,7 +84,8 @@ fn below_exit(
     if ends.cable.guide.is_some_and(|guide| guide.radius > 0.0) {
         for _ in 0..MAX_ITERATIONS {
             // A limit below the least tension is no tension that the cable has.
-            height = ends.end.z - ends.leave_height(max.max(min)).map_err(StaticsError::cable(index))?;
+            let held = ends.at_tension(max.max(min)).map_err(StaticsError::cable(index))?;
+            height = ends.end.z - held.in_space().in_plane().0.leave_point().y;
             let before = std::mem::replace(&mut max, allowed(height));
             if (max - before).abs() <= 1e-14 * max {
                 break;

@@ -257,7 +257,7 @@ impl Maximization {
     /// The least relative change of the chord forces that leads back to the balance, to first order.
     fn balanced<'a>(&self, at: &Iterate<'a>) -> Option<Iterate<'a>> {
         let point = &at.point;
-        let largest = point.cables.iter().map(|cable| cable.fixed.chord_force()).fold(0.0, f64::max);
+        let largest = point.cables.iter().map(|cable| cable.fixed.chord_force).fold(0.0, f64::max);
         let unknown = |(i, cable): (usize, &CableAtPose)| {
             let row = &point.rows[i];
             let [mut low, mut high] = cable.step_bounds();
@@ -265,7 +265,7 @@ impl Maximization {
                 low = low.max((limits.min + at.z - row.tension) / row.tension_slope);
                 high = high.min((limits.max - at.z - row.tension) / row.tension_slope);
             }
-            let curvature = (largest / cable.fixed.chord_force()).powi(2);
+            let curvature = (largest / cable.fixed.chord_force).powi(2);
             BoxUnknown { gradient: 0.0, curvature, column: row.slope, bounds: [low.min(high), high.max(low)] }
         };
         let unknowns: Vec<BoxUnknown> = point.cables.iter().enumerate().map(unknown).collect();
@@ -322,7 +322,7 @@ impl Maximization {
         let n = point.cables.len();
         let slacks = self.drawn().map_or(0, |limits| 2 * limits.len());
         let within = |cable: &CableAtPose| {
-            let at = cable.fixed.chord_force();
+            let at = cable.fixed.chord_force;
             let [low, high] = cable.step_bounds();
             let least = low.max((1.0 / (1.0 + trust.region)).max(LEAST_SHARE) * at - at);
             [least, high.min(trust.region * at).max(least)].map(|d| d / size)
@@ -375,7 +375,7 @@ impl Step {
     fn new(solution: &LinearSolution, point: &Point, size: f64) -> Self {
         let n = point.cables.len();
         let changes: Vec<f64> = solution.values[..n].iter().map(|x| x * size).collect();
-        let relative = point.cables.iter().zip(&changes).map(|(s, d)| d.abs() / s.fixed.chord_force());
+        let relative = point.cables.iter().zip(&changes).map(|(s, d)| d.abs() / s.fixed.chord_force);
         let change = relative.fold(0.0, f64::max);
         Self { changes, z: solution.values[n] * size, change }
     }

@@ -17,9 +17,8 @@ mod free_cables;
 
 use super::cable::{CableAtPose, Row};
 use super::problem::InverseProblem;
-use crate::equations::FixedEnds;
 use crate::error::StaticsError;
-use cdpr_cable::Catenary;
+use cdpr_cable::{Catenary, HeldCable};
 use cdpr_robot::Vector6;
 use cdpr_tension::{Bound, BoxProblem, BoxUnknown};
 
@@ -117,17 +116,17 @@ impl<'a> Point<'a> {
 
     /// Moves every cable by a change of its chord force, within its limits. `None` where a cable cannot be
     /// closed.
-    pub(super) fn moved(&self, step: &[f64]) -> Option<Vec<FixedEnds<'a>>> {
+    pub(super) fn moved(&self, step: &[f64]) -> Option<Vec<HeldCable<'a>>> {
         let moved = self.cables.iter().zip(step).map(|(cable, d)| {
-            let to = cable.fixed.chord_force() + d;
+            let to = cable.fixed.chord_force + d;
             // A step to first order towards a limit does not leave the taut branch.
-            cable.at(to.max(0.1 * cable.fixed.chord_force())).ok()
+            cable.at(to.max(0.1 * cable.fixed.chord_force)).ok()
         });
         moved.collect()
     }
 
     /// The rows of the cables as they would be.
-    pub(super) fn rows_of(&self, moved: &[FixedEnds<'a>]) -> Vec<Row> {
+    pub(super) fn rows_of(&self, moved: &[HeldCable<'a>]) -> Vec<Row> {
         self.cables
             .iter()
             .zip(moved)
@@ -136,7 +135,7 @@ impl<'a> Point<'a> {
     }
 
     /// Moves the cables, whose rows are those of [`Point::rows_of`].
-    pub(super) fn set(&mut self, moved: Vec<FixedEnds<'a>>, rows: Vec<Row>) {
+    pub(super) fn set(&mut self, moved: Vec<HeldCable<'a>>, rows: Vec<Row>) {
         for (cable, fixed) in self.cables.iter_mut().zip(moved) {
             cable.fixed = fixed;
         }
@@ -343,8 +342,8 @@ impl<'a> Point<'a> {
             cable.at_limit().map_or_else(|| cable.fixed.tension(), |bound| cable.limit(bound))
         };
         Optimum {
-            catenaries: self.cables.iter().map(|cable| cable.fixed.catenary()).collect(),
-            chord_forces: self.cables.iter().map(|cable| cable.fixed.chord_force()).collect(),
+            catenaries: self.cables.iter().map(|cable| cable.fixed.catenary).collect(),
+            chord_forces: self.cables.iter().map(|cable| cable.fixed.chord_force).collect(),
             tensions: self.cables.iter().map(tension).collect(),
             active: self.cables.iter().map(CableAtPose::at_limit).collect(),
             multipliers,

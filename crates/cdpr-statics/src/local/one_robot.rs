@@ -1,6 +1,6 @@
 //! One robot whose cables fill the lanes: Newton's method for one direct problem.
 
-use crate::equations::{SpannedCable, in_its_plane};
+use crate::equations::guided_place;
 use crate::local::cable::{LaneCable, law};
 use crate::local::guided::Guided;
 use crate::local::load::PlatformLoad;
@@ -192,8 +192,7 @@ impl<'a> DirectProblem<'a> {
         for lane in 0..count {
             let i = (first + lane).min(n - 1);
             let catenary = self.catenary(i, at.cable_forces[i]);
-            let [c, s] = SpannedCable::of(self.robot, &at.pose, i, &catenary).span.plane.azimuth;
-            let free = in_its_plane(self.robot, &at.pose, i, catenary).free_length();
+            let ([c, s], free) = guided_place(self.robot, &at.pose, i, catenary);
             let (lead, radius, [x, y, z]) = match catenary.cable.guide {
                 None => (0.0, 0.0, [0.0, 0.0, 1.0]),
                 Some(guide) => (guide.lead, guide.radius, guide.entry.axis()),

@@ -3,7 +3,7 @@
 use crate::equations::spanned::{SpannedCable, end};
 use crate::problem::DirectProblem;
 use crate::state::Equilibrium;
-use cdpr_cable::{CableError, Catenary, end_force, end_force_near, spatial_end_force};
+use cdpr_cable::{CableError, Catenary, spatial_end_force};
 use cdpr_robot::{Pose, Robot, Vector2};
 
 impl<'a> DirectProblem<'a> {
@@ -15,34 +15,15 @@ impl<'a> DirectProblem<'a> {
         i: usize,
         near: Option<(&Pose, &Vector2<f64>)>,
     ) -> Result<Vector2<f64>, CableError> {
-        let mut catenary = self.catenary(i, near.map_or_else(Vector2::zeros, |(_, force)| *force));
-        if catenary.cable.leaves_its_plane() {
-            return self.spatial_force_at(pose, i, near);
-        }
-        let span = self.span(pose, i);
-        let Some((before, force)) = near else {
-            return Ok(end_force(&catenary.cable, self.lengths[i], span.end.into())?.catenary.force);
-        };
-        let way = Vector2::from(span.end) - Vector2::from(self.span(before, i).end);
-        let predicted = force + catenary.in_plane_stiffness() * way;
-        if (0.3 * force.x..3.0 * force.x).contains(&predicted.x) {
-            catenary.force = predicted;
-        }
-        Ok(end_force_near(&catenary, span.end.into())?.catenary.force)
-    }
-
-    #[cold]
-    fn spatial_force_at(
-        &self,
-        pose: &Pose,
-        i: usize,
-        near: Option<(&Pose, &Vector2<f64>)>,
-    ) -> Result<Vector2<f64>, CableError> {
-        let near = near.map(|(pose, force)| {
-            let near = SpannedCable::of(self.robot, pose, i, &self.catenary(i, *force));
-            near.span.plane.lift(near.force).into()
+        let now = end(self.robot, pose, i);
+        let near = near.and_then(|(before, force)| {
+            let cable = SpannedCable::of(self.robot, before, i, &self.catenary(i, *force));
+            let way = self.robot.span(pose, i) - self.robot.span(before, i);
+            let predicted = cable.linearized()?.force_after(way.into());
+            let is_near = (0.3 * force.x..3.0 * force.x).contains(&predicted[0]);
+            Some(cable.span.plane.lift(if is_near { predicted } else { cable.force }).into())
         });
-        let force = spatial_end_force(&self.cable(i), self.lengths[i], end(self.robot, pose, i), near)?.force;
+        let force = spatial_end_force(&self.cable(i), self.lengths[i], now, near)?.force;
         Ok(Vector2::new(force.xy().norm(), force.z))
     }
 
@@ -51,6 +32,13 @@ impl<'a> DirectProblem<'a> {
     pub(crate) fn catenary_at(&self, pose: &Pose, i: usize, force: Vector2<f64>) -> Catenary<'a> {
         in_its_plane(self.robot, pose, i, self.catenary(i, force))
     }
+}
+
+/// Azimuth of the plane that a cable hangs in, and its unstrained length beyond the leave point [m].
+pub(crate) fn guided_place(robot: &Robot, pose: &Pose, i: usize, catenary: Catenary) -> ([f64; 2], f64) {
+    let azimuth = SpannedCable::of(robot, pose, i, &catenary).span.plane.azimuth;
+    let cable = catenary.cable.turned(azimuth);
+    (azimuth, Catenary { cable, ..catenary }.free_length())
 }
 
 /// Cable i of a robot at a pose, its pulley seen in the plane that it hangs in.

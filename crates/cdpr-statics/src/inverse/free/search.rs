@@ -154,7 +154,7 @@ impl<'a> Search<'a> {
         let external = self.problem.robot.freedoms().of_vector(&external);
         let residual = rows.iter().fold(external, |sum, row| sum + row.wrench);
         let forces = external.norm() + rows.iter().map(|row| row.wrench.norm()).sum::<f64>();
-        let catenaries: Vec<_> = cables.iter().map(|cable| cable.fixed.catenary()).collect();
+        let catenaries: Vec<_> = cables.iter().map(|cable| cable.fixed.catenary).collect();
         let found = PoseLengths::new(&pose, &catenaries);
         residual.iter().all(|entry| entry.is_finite()).then_some(Point { found, rows, residual, forces })
     }

@@ -67,7 +67,7 @@ impl Maximization {
             let (step, factors, next) = self.newton_step(&at, &active, &multipliers)?;
             let n = at.point.cables.len();
             let relative =
-                at.point.cables.iter().zip(&step).map(|(cable, d)| d.abs() / cable.fixed.chord_force());
+                at.point.cables.iter().zip(&step).map(|(cable, d)| d.abs() / cable.fixed.chord_force);
             let change = relative.fold(0.0, f64::max);
             if change > GREATEST_CHANGE || !self.stays_within(&mut at, &active, &step)? {
                 return None;

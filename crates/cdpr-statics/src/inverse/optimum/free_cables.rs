@@ -17,8 +17,7 @@ impl Point<'_> {
         let free = self.cables.iter().filter(|cable| cable.at_limit().is_none()).count();
         let balanced = (0..6).filter(|row| !self.is_constrained(*row)).count();
         let (step, multipliers) = self.step_on_free_cables(hessian, 0.0).filter(|_| free >= balanced)?;
-        let small =
-            step.iter().zip(&self.cables).all(|(d, cable)| d.abs() <= 1e-3 * cable.fixed.chord_force());
+        let small = step.iter().zip(&self.cables).all(|(d, cable)| d.abs() <= 1e-3 * cable.fixed.chord_force);
         small.then_some((step, multipliers))
     }
 

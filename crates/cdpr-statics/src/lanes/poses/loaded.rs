@@ -5,7 +5,7 @@
 //! eigenvalue in (dp, ℓ dφ) is the stiffness of the softest motion, as [`crate::Stability`] has it. What a
 //! lane does not decide is left to the scalar models.
 
-use crate::equations::{SpannedCable, in_its_plane};
+use crate::equations::guided_place;
 use crate::error::StaticsError;
 use crate::inverse::InverseSolution;
 use crate::lanes::adjoint::adjoint;
@@ -19,7 +19,7 @@ use crate::local::freedoms::{constrain, constrain_matrix};
 use crate::local::load::PlatformLoad;
 use crate::local::newton::solve;
 use crate::local::platform::{LaneResidual, LinearizedPlatform, Robots};
-use crate::state::{Equilibrium, Load};
+use crate::state::Load;
 use cdpr_cable::{Catenary, is_slack};
 use cdpr_number::Number;
 use cdpr_number::dense::{Lanes3, Lanes6x6, SymmetricFactors};
@@ -187,12 +187,17 @@ impl<S: Simd> InLanes<'_, S> {
             ];
             cable.length = length;
             if let Some(guided) = &mut cable.guided {
-                let places: SmallVec<[GuidedPlace; MAX_LANES]> =
-                    wanted.iter().map(|wanted| GuidedPlace::of(placed.robot, i, wanted)).collect();
+                let place = |wanted: &&InverseSolution| {
+                    let (cable, at) = (placed.robot.cable(i), &wanted.equilibrium);
+                    let unstrained_length = wanted.lengths[i];
+                    let catenary = Catenary { cable, unstrained_length, force: at.cable_forces[i] };
+                    guided_place(placed.robot, &at.pose, i, catenary)
+                };
+                let places: SmallVec<[([f64; 2], f64); MAX_LANES]> = wanted.iter().map(place).collect();
                 guided.whole_length = length;
-                let azimuth = [0, 1].map(|k: usize| each(simd, &places, &|place| place.azimuth[k]));
+                let azimuth = [0, 1].map(|k: usize| each(simd, &places, &|(azimuth, _)| azimuth[k]));
                 guided.return_to(&azimuth, length.less_or_equal(length));
-                cable.length = each(simd, &places, &|place| place.free_length);
+                cable.length = each(simd, &places, &|(_, free_length)| *free_length);
             }
         }
         robots
@@ -303,22 +308,4 @@ fn least<S: Simd>(freedoms: Freedoms, mut matrix: Lanes6x6<S>) -> Lanes<S> {
     // No less than any eigenvalue of a stable stiffness.
     constrain_matrix(freedoms, &mut matrix, trace);
     least_eigenvalue(matrix)
-}
-
-/// Where a cable over a guide is at a pose.
-struct GuidedPlace {
-    /// Azimuth of the plane that it hangs in.
-    azimuth: [f64; 2],
-    /// Unstrained length beyond the leave point [m].
-    free_length: f64,
-}
-
-impl GuidedPlace {
-    fn of(robot: &Robot, i: usize, wanted: &InverseSolution) -> Self {
-        let (unstrained_length, Equilibrium { pose, cable_forces }) =
-            (wanted.lengths[i], &wanted.equilibrium);
-        let catenary = Catenary { cable: robot.cable(i), unstrained_length, force: cable_forces[i] };
-        let azimuth = SpannedCable::of(robot, pose, i, &catenary).span.plane.azimuth;
-        Self { azimuth, free_length: in_its_plane(robot, pose, i, catenary).free_length() }
-    }
 }
