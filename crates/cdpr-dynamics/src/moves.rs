@@ -181,8 +181,7 @@ impl Move<'_> {
             let motion = way.at(self.share_at(time));
             let is_end = k == 0 || k == count;
             let load = if is_end { self.load } else { load(time, &motion) };
-            let found =
-                path.solve(&motion.pose, &load).map_err(|error| self.refused(time, &motion, error))?;
+            let found = path.solve(motion.pose, &load).map_err(|error| self.refused(time, &motion, error))?;
             if found.jump && !is_smooth(&set_points, &found.solution.lengths) {
                 return Err(DynamicsError::Jump { time, position: motion.pose.position.into() });
             }

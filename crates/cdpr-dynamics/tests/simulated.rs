@@ -166,7 +166,7 @@ fn events_that_are_not_possible_are_refused_with_their_place() {
         ),
         (
             r#"[{"t": 0, "lengths": {"times": [0, 1], "lengths": [[1, 1, 1, 1, 1, 1, 1, 1], [2, 1, 1, 1, 1, 1, 1, 1]]}}]"#,
-            "event 1, lengths, first row is 1.000000 m: expected the length at rest of cable 1",
+            "event 1, lengths, first row is 1.000000 m: expected the length of cable 1 then",
         ),
     ] {
         let error = solve(text).unwrap_err().to_string();

@@ -91,7 +91,7 @@ fn own_lengths(
     }
     let mut path = InversePath::new(robot);
     let mut row = |point: &SetPoint| -> Result<Vec<f64>, DynamicsError> {
-        let still = path.solve(&point.pose, load)?.solution.lengths;
+        let still = path.solve(point.pose, load)?.solution.lengths;
         let more = point.feed_forward.iter().zip(&shift);
         Ok(still.iter().zip(more).map(|(still, (more, shift))| still + more + shift).collect())
     };

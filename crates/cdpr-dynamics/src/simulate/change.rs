@@ -4,7 +4,6 @@ use super::cable::Start;
 use super::event::{Change, CutAt, Event};
 use super::radau::{Equations, Linearization};
 use super::system::System;
-use super::winch::Reeling;
 use cdpr_robot::Wrench;
 
 impl System<'_> {
@@ -69,15 +68,9 @@ impl System<'_> {
             Change::Displace(_) => {}
             Change::Payload(payload) => self.body.mass += payload,
             Change::Wrench { force, moment } => self.body.event = Wrench { force: *force, moment: *moment },
-            Change::Shorten { cable, by, over, profile } => {
-                let ramp = Reeling::Ramp { from, over: *over, by: *by, profile: *profile };
-                let winch = self.cables.iter_mut().find(|one| one.index == *cable);
-                winch.into_iter().for_each(|one| one.reeling.push(ramp.clone()));
-            }
-            Change::Lengths(lengths) => {
+            Change::Shorten { .. } | Change::Lengths(_) => {
                 for one in &mut self.cables {
-                    let (cable, lengths) = (one.index, lengths.clone());
-                    one.reeling.push(Reeling::Table { from, cable, lengths });
+                    one.reeling.extend(event.reeling(one.index));
                 }
             }
             Change::Cut { cable, at } => self.cut(*cable, *at, from, state),

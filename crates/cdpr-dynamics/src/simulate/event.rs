@@ -1,6 +1,6 @@
 //! What happens to a robot in motion.
 
-use super::winch::{Profile, WinchLengths};
+use super::winch::{Profile, Reeling, WinchLengths};
 use crate::error::DynamicsError;
 use cdpr_robot::{JsonError, Vector3, Vector6, from_json};
 use cdpr_statics::DirectProblem;
@@ -14,6 +14,20 @@ pub struct Event {
     pub time: f64,
     /// What.
     pub change: Change,
+}
+
+impl Event {
+    /// What the winch of a cable does from then on.
+    pub(super) fn reeling(&self, cable: usize) -> Option<Reeling> {
+        let from = self.time;
+        match &self.change {
+            Change::Shorten { cable: own, by, over, profile } if *own == cable => {
+                Some(Reeling::Ramp { from, over: *over, by: *by, profile: *profile })
+            }
+            Change::Lengths(lengths) => Some(Reeling::Table { from, cable, lengths: lengths.clone() }),
+            _ => None,
+        }
+    }
 }
 
 /// A change of the load, of a cable, or of the place where a motion begins.
@@ -187,6 +201,7 @@ pub(super) fn check(problem: &DirectProblem, events: &[Event]) -> Result<(), Dyn
     let mut mass = robot.platform.mass + problem.load().payload;
     let mut order: Vec<usize> = (0..events.len()).collect();
     order.sort_by(|one, other| events[*one].time.total_cmp(&events[*other].time));
+    let mut before: Vec<&Event> = Vec::new();
     for index in order {
         let event = &events[index];
         let wrong = |field: &str, value: String, expected: String| {
@@ -246,19 +261,33 @@ pub(super) fn check(problem: &DirectProblem, events: &[Event]) -> Result<(), Dyn
                 }
             }
             Change::Lengths(table) => {
-                if let Some((field, value, expected)) = fault_of_table(table, problem.lengths()) {
+                let lengths = lengths_at(problem.lengths(), &before, event.time);
+                if let Some((field, value, expected)) = fault_of_table(table, &lengths) {
                     return wrong(field, value, expected);
                 }
             }
         }
+        before.push(event);
     }
     Ok(())
 }
 
-/// What of a table of lengths does not fit the lengths at rest [m].
+/// The lengths at a time [m] after what winches have done until then.
+fn lengths_at(rest: &[f64], before: &[&Event], time: f64) -> Vec<f64> {
+    let mut lengths = rest.to_vec();
+    for event in before {
+        for (i, length) in lengths.iter_mut().enumerate() {
+            *length -= event.reeling(i).map_or(0.0, |reeling| reeling.at(time)[0]);
+        }
+    }
+    lengths
+}
+
+/// What of a table of lengths does not fit the lengths at its begin [m].
 fn fault_of_table(table: &WinchLengths, lengths: &[f64]) -> Option<(&'static str, String, String)> {
-    /// Share of a length by which the first row may differ from the rest.
-    const SAME: f64 = 1e-3;
+    /// Share of a length by which the first row may differ, as rounding of a table does. The winch does what the
+    /// table changes.
+    const SAME: f64 = 1e-6;
     if table.cables() != lengths.len() {
         let expected = format!("one for each of the {} cables", lengths.len());
         return Some(("lengths", format!("a table of {} lengths", table.cables()), expected));
@@ -267,11 +296,11 @@ fn fault_of_table(table: &WinchLengths, lengths: &[f64]) -> Option<(&'static str
         let first = table.at(i, 0.0)[0];
         let [least, most] = table.extremes(i);
         if (first / length - 1.0).abs() > SAME {
-            let expected = format!("the length at rest of cable {}, {length:.6} m", i + 1);
+            let expected = format!("the length of cable {} then, {length:.6} m", i + 1);
             return Some(("lengths, first row", format!("{first:.6} m"), expected));
         }
         (least < 0.1 * length || most > 10.0 * length).then(|| {
-            let expected = format!("a tenth to ten times the {length:.4} m of cable {} at rest", i + 1);
+            let expected = format!("a tenth to ten times the {length:.4} m of cable {} then", i + 1);
             ("lengths", format!("{least:.4} to {most:.4} m"), expected)
         })
     })

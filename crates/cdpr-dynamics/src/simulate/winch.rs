@@ -22,7 +22,7 @@ pub enum Profile {
 impl Profile {
     /// Share of the change at `x = t/T`, and its first and second derivative with respect to x.
     pub fn at(self, x: f64) -> [f64; 3] {
-        if x < 0.0 || x > 1.0 {
+        if !(0.0..=1.0).contains(&x) {
             return [if x < 0.0 { 0.0 } else { 1.0 }, 0.0, 0.0];
         }
         match self {
@@ -73,7 +73,8 @@ impl WinchLengths {
             let value = format!("{} rows at {} times", rows.len(), times.len());
             return wrong("lengths over time", value, "a row at each of two times or more");
         }
-        if let Some(k) = (1..times.len()).find(|k| !(times[*k] - times[*k - 1] >= 1e-6)) {
+        let ascends = |k: &usize| times[*k] - times[*k - 1] >= 1e-6;
+        if let Some(k) = (1..times.len()).find(|k| !ascends(k)) {
             let value = format!("{:?} s after {:?} s", times[k], times[k - 1]);
             return wrong("time", value, "times that ascend by a microsecond or more");
         }
