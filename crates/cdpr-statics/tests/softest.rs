@@ -87,7 +87,7 @@ fn check(case: &Case) -> (usize, f64) {
     assert!((value - alone).abs() <= 1e-12 * value.abs(), "{name}: {value} {alone}");
     assert_eq!(slopes.len(), found.inputs.count());
     let parameters = &found.inputs.parameters;
-    for column in 0..found.inputs.count() {
+    for (column, exact) in slopes.iter().copied().enumerate() {
         let held =
             column > parameters.len() && !case.robot.freedoms().contains(column - parameters.len() - 1);
         if held || found.one_sided.iter().any(|one| one.column == column) {
@@ -95,7 +95,6 @@ fn check(case: &Case) -> (usize, f64) {
         }
         let h = case.step(column);
         let (difference, open) = difference(case, length, column, h);
-        let exact = slopes[column];
         // Eigenvalues are known to the rounding of the greatest stiffness.
         let rounding = 1e-10 * value.abs() / h;
         let input = parameters.get(column).map_or_else(|| format!("{column}"), ToString::to_string);

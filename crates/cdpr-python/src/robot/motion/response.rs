@@ -136,18 +136,14 @@ impl Robot {
         })?;
         let all = Columns::new(py, cases, &outcomes)?;
         let (k, n) = (frequencies.len(), self.robot.cables.len());
-        let complex =
-            |inner: &[usize], fill: &dyn Fn(&cdpr_dynamics::Response, &Vector3<f64>, &mut [Complex64])| {
-                let width = inner.iter().product();
-                all.array(
-                    Complex64::new(f64::NAN, f64::NAN),
-                    &[&[k], inner].concat(),
-                    |found: &Shaken, out| {
-                        let rows = out.chunks_exact_mut(width).zip(&found.responses);
-                        rows.for_each(|(out, response)| fill(response, &found.lever, out));
-                    },
-                )
-            };
+        type Fill<'a> = &'a dyn Fn(&cdpr_dynamics::Response, &Vector3<f64>, &mut [Complex64]);
+        let complex = |inner: &[usize], fill: Fill| {
+            let width = inner.iter().product();
+            all.array(Complex64::new(f64::NAN, f64::NAN), &[&[k], inner].concat(), |found: &Shaken, out| {
+                let rows = out.chunks_exact_mut(width).zip(&found.responses);
+                rows.for_each(|(out, response)| fill(response, &found.lever, out));
+            })
+        };
         Ok(Response {
             frequencies_hz: all.numbers(&[k], |_, out| out.copy_from_slice(&frequencies))?,
             amplitudes: all.numbers(&[k], |found: &Shaken, out| {
