@@ -125,13 +125,37 @@ pub(crate) fn numbers(text: &str) -> Result<Vec<f64>, String> {
     parts(text).iter().map(|part| number(part)).collect()
 }
 
-/// Finite numbers of one argument.
+/// Unstrained lengths of the cables.
 #[derive(Clone)]
-pub(crate) struct List(pub(crate) Vec<f64>);
+pub(crate) enum Lengths {
+    /// One for each cable [m].
+    Listed(Vec<f64>),
+    /// A table of them over time.
+    Table(PathBuf),
+}
 
-/// Finite numbers, as [`numbers`].
-pub(crate) fn list(text: &str) -> Result<List, String> {
-    numbers(text).map(List)
+impl Lengths {
+    /// The lengths, where they do not change over time.
+    pub(crate) fn listed(&self) -> Result<&[f64], ProgramError> {
+        match self {
+            Self::Listed(lengths) => Ok(lengths),
+            Self::Table(file) => Err(ProgramError::Usage(format!(
+                "--lengths {}: expected l1,..,ln [m]; `simulate` takes a table of them over time",
+                file.display()
+            ))),
+        }
+    }
+}
+
+/// `1.2,1.3`, or the name of a file.
+pub(crate) fn lengths(text: &str) -> Result<Lengths, String> {
+    match numbers(text) {
+        Ok(lengths) => Ok(Lengths::Listed(lengths)),
+        Err(_) if Path::new(text).exists() || text.ends_with(".csv") => {
+            Ok(Lengths::Table(PathBuf::from(text)))
+        }
+        Err(reason) => Err(reason),
+    }
 }
 
 /// N finite numbers separated by commas.

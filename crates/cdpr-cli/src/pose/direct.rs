@@ -23,8 +23,8 @@ pub(crate) struct Settings {
     #[command(flatten)]
     robot: RobotArgument,
     /// Unstrained lengths of the cables, in the order of the file: l1,..,ln [m].
-    #[arg(long, value_parser = arguments::list, allow_hyphen_values = true)]
-    lengths: Option<arguments::List>,
+    #[arg(long, value_parser = arguments::lengths, allow_hyphen_values = true)]
+    lengths: Option<arguments::Lengths>,
     /// Mass of the platform with all it carries, in place of the file's [kg].
     #[arg(long, value_parser = arguments::number, allow_hyphen_values = true)]
     mass: Option<f64>,
@@ -128,10 +128,10 @@ impl Settings {
         with.has("certificate")
     }
 
-    fn case(&self, lengths: Option<&arguments::List>) -> Result<Case, ProgramError> {
+    fn case(&self, lengths: Option<&arguments::Lengths>) -> Result<Case, ProgramError> {
         let pose = self.pose.given()?.map(|pose| poses::pose_numbers(&pose).to_vec());
         Ok(Case {
-            lengths: lengths.map(|arguments::List(lengths)| lengths.clone()).unwrap_or_default(),
+            lengths: lengths.map_or(Ok(Vec::new()), |lengths| lengths.listed().map(<[f64]>::to_vec))?,
             mass: self.mass,
             force: self.force,
             moment: self.moment,

@@ -33,8 +33,8 @@ pub(crate) struct Settings {
     free: FreeArguments,
     /// Unstrained lengths of the cables, in the order of the file: l1,..,ln [m]. The search for their pose
     /// starts from --pose, or where straight cables would hold a point.
-    #[arg(long, value_parser = arguments::list, conflicts_with = "poses", allow_hyphen_values = true)]
-    lengths: Option<arguments::List>,
+    #[arg(long, value_parser = arguments::lengths, conflicts_with = "poses", allow_hyphen_values = true)]
+    lengths: Option<arguments::Lengths>,
     /// All natural motions up to this frequency [Hz].
     #[arg(long, value_name = "HZ", conflicts_with_all = ["number", "massless"])]
     below: Option<f64>,
@@ -69,7 +69,8 @@ impl Settings {
         print: impl Fn(&T, &str),
     ) -> Result<Ending, ProgramError> {
         let load = self.at.load.load();
-        let Some(arguments::List(lengths)) = &self.lengths else {
+        let lengths = self.lengths.as_ref().map(arguments::Lengths::listed).transpose()?;
+        let Some(lengths) = lengths else {
             let at_pose = |robot: &Robot, pose: &Pose| {
                 let robot = with_inertia(robot);
                 let held = inverse(&robot, WantedPose::at(pose).free(&self.free.free), &load)?;

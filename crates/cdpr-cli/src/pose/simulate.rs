@@ -2,8 +2,8 @@
 
 use crate::arguments::poses::{PoseArguments, pose_numbers};
 use crate::arguments::{
-    self, FigureArgument, Format, FreeArguments, LoadArguments, Preference, Printing, RobotArgument, With,
-    print_record,
+    self, FigureArgument, Format, FreeArguments, Lengths, LoadArguments, Preference, Printing, RobotArgument,
+    With, print_record,
 };
 use crate::error::ProgramError;
 use crate::lists::winch_file;
@@ -20,7 +20,7 @@ use cdpr_statics::{DirectProblem, DirectStart, WantedPose, inverse, rough_pose};
 use cdpr_study::{InputKind, read_text};
 use serde::Serialize;
 use std::f64::consts::PI;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// A robot at rest, what happens to it, and for how long it is followed.
 #[derive(clap::Args)]
@@ -34,7 +34,7 @@ pub(crate) struct Settings {
     /// Unstrained lengths of the cables, in the order of the file: l1,..,ln [m], or a table of them over time,
     /// as `path --with seconds=1` writes it: t_s,length_1_m,..,length_n_m. The search for their pose starts
     /// from --pose, or where straight cables would hold a point.
-    #[arg(long, value_name = "LENGTHS", value_parser = lengths, allow_hyphen_values = true)]
+    #[arg(long, value_name = "LENGTHS", value_parser = arguments::lengths, allow_hyphen_values = true)]
     lengths: Option<Lengths>,
     #[command(flatten)]
     load: LoadArguments,
@@ -184,26 +184,6 @@ impl Settings {
 
 /// Lengths at the begin [m], a pose near theirs, and the lengths over time.
 type AtBegin = (Vec<f64>, Pose, Option<WinchLengths>);
-
-/// The values of `--lengths`.
-#[derive(Clone)]
-enum Lengths {
-    /// One for each cable [m].
-    Listed(Vec<f64>),
-    /// A table of them over time.
-    Table(PathBuf),
-}
-
-/// `1.2,1.3`, or the name of a file.
-fn lengths(text: &str) -> Result<Lengths, String> {
-    match arguments::list(text) {
-        Ok(arguments::List(lengths)) => Ok(Lengths::Listed(lengths)),
-        Err(_) if Path::new(text).exists() || text.ends_with(".csv") => {
-            Ok(Lengths::Table(PathBuf::from(text)))
-        }
-        Err(reason) => Err(reason),
-    }
-}
 
 /// A sample as a row: time, motion from the rest, tensions, orientation.
 fn record(rest: &Pose, sample: &Sample) -> Vec<f64> {
