@@ -119,7 +119,7 @@ impl After {
         print_lines(&format!(
             "In {} s after the move P swings by up to {} mm{ratio} of the {} mm without shaper and feed-forward. \
              On the way it is up to {} mm off, without both {} mm. A coarser computation differs by up to {} mm.",
-            self.watched_s,
+            significant(self.watched_s, 3),
             mm(self.amplitude_m),
             mm(self.unshaped_amplitude_m),
             mm(self.deviation_m),
