@@ -1,4 +1,4 @@
-"""Prints what SALib says of a table beside `cdpr analyse`.
+"""Prints what SALib and `cdpr analyse` say of a table.
 
 pip install SALib; cargo build --release -p cdpr-cli; python data/tables/salib.py target/release/cdpr [ROWS]
 """

@@ -30,8 +30,8 @@ usage: cargo xtask TASK
 tasks:
   caroca-study [--out DIR] [--observations N] [--threads N] [--resume]
                  runs the study of Baklouti, Caro, Courteille (CableCon 2017) and prints it with their
-                 figures (data/reference/published.json). All measures of its sensitivity go to DIR/sensitivity, the hysteresis of its cables
-                 to DIR/cable, the robot with pulleys and the cable behind them to DIR/led; DIR is
+                 figures (data/reference/published.json). All measures of its sensitivity go to
+                 DIR/sensitivity, the hysteresis of its cables to DIR/cable, the robot with pulleys and the cable behind them to DIR/led; DIR is
                  target/caroca-study. With --resume it goes on with an interrupted run;
                  otherwise it begins anew
   robustness [--poses N] [--modulus E] [--seed N] [--robot FILE] [--out DIR]
@@ -57,11 +57,11 @@ tasks:
   bench-moordyn  follows the same motions by cdpr and by MoorDyn, which pip installs into target/peers/moordyn,
                  prints agreement and times, and writes them to data/benchmarks/moordyn.json
   statistics TABLE [STUDIES [FUNCTION]]
-                 measures how often estimators of cdpr-sensitivity are right, and keeps whole tables for docs/statistics.md; TABLE is
-                 choice (of a fitted law), indices (of Sobol'), expansions,
+                 measures how often estimators of cdpr-sensitivity are right, and keeps whole tables for
+                 docs/statistics.md; TABLE is choice (of a fitted law), indices (of Sobol'), expansions,
                  given (first-order indices of tables), levels (of tests of tables), verdicts (of tables with
-                 known truth), brackets (bounds by derivatives), measures (all of them, of functions with FUNCTION in their names, or of
-                 FUNCTION/MEASURE) or peers (beside SALib and OpenTURNS, which pip
+                 known truth), brackets (bounds by derivatives), measures (all of them, of functions with
+                 FUNCTION in their names, or of FUNCTION/MEASURE) or peers (next to SALib and OpenTURNS, which pip
                  installs into target/peers/statistics; there FUNCTION is a part of the names of measures)
   calibration PART [CAMPAIGNS | FILES]
                  measures calibrations; PART is

@@ -1,7 +1,8 @@
 //! How much robots swing after a move, where each differs from the one that the move was planned for.
 //!
-//! Robots are drawn from an error model. As in studies each has the lengths with which it holds a pose itself, with
-//! the offsets of its tensions; shaper and feed-forward are those of the nominal robot. The load is the nominal one.
+//! Robots are drawn from an error model. As in studies each has the lengths with which it holds a pose
+//! itself, with the offsets of its tensions; shaper and feed-forward are those of the nominal robot. The load
+//! is the nominal one.
 
 use crate::error::AssessError;
 use cdpr_dynamics::DynamicsError;
@@ -63,8 +64,8 @@ impl DrawnRobots<'_> {
     }
 }
 
-/// The greatest of the ratios of the second to the first amplitude that the best `count` robots leave; infinite
-/// where fewer than that could be followed. `None` for no robots.
+/// The greatest of the ratios of the second to the first amplitude that the best `count` robots leave;
+/// infinite where fewer than that could be followed. `None` for no robots.
 pub fn ratio_of_best(compared: &[Compared], count: usize) -> Option<f64> {
     let ratio = |one: &Compared| match one {
         Ok([first, second]) if first.amplitude > 0.0 => second.amplitude / first.amplitude,

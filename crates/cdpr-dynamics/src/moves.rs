@@ -10,10 +10,10 @@
 //! ```
 //!
 //! with the lever c of the centre of mass. `M_c` and `W` are the inertia of the cables: the terms in ω² of
-//! their dynamic stiffness and of the force by which a winch moves the platform, (N12), at low frequencies. The
-//! second derivatives L'' are those of the lengths without `M_c` and `W`. Lengths and poses then belong to
-//! each other to second order in ω over the cables' own frequencies; what the cables swing themselves is left to
-//! the shaper.
+//! their dynamic stiffness and of the force by which a winch moves the platform, (N12), at low frequencies.
+//! The second derivatives L'' are those of the lengths without `M_c` and `W`. Lengths and poses then belong
+//! to each other to second order in ω over the cables' own frequencies; what the cables swing themselves is
+//! left to the shaper.
 
 mod excited;
 mod inertia;
@@ -88,9 +88,9 @@ impl Move<'_> {
     /// The set points, from the begin to the end of the move.
     ///
     /// # Errors
-    /// [`DynamicsError::Invalid`] for settings that are not possible, such as a shaper that takes longer than the
-    /// move; [`DynamicsError::TooFast`] where no tensions within the limits accelerate the platform as wanted;
-    /// [`DynamicsError::Jump`] where the lengths jump; those of the inverse model at rest, and of
+    /// [`DynamicsError::Invalid`] for settings that are not possible, such as a shaper that takes longer than
+    /// the move; [`DynamicsError::TooFast`] where no tensions within the limits accelerate the platform as
+    /// wanted; [`DynamicsError::Jump`] where the lengths jump; those of the inverse model at rest, and of
     /// [`crate::FrequencyResponse::new`] with [`FeedForward::Cables`].
     pub fn plan(&self) -> Result<Vec<SetPoint>, DynamicsError> {
         let way = self.check()?;

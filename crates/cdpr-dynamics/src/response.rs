@@ -91,7 +91,8 @@ struct Shaken {
     winch: Winch,
 }
 
-/// Stiffness of the end of a cable [N/m], and the force on its held end per length that its winch takes in [N/m].
+/// Stiffness of the end of a cable [N/m], and the force on its held end per length that its winch takes in
+/// [N/m].
 type StiffnessAndPull = (Matrix3<Complex<f64>>, nalgebra::Vector3<Complex<f64>>);
 
 /// Dynamic stiffness of all cables at the platform, and the pulls of their winches.
@@ -177,8 +178,8 @@ impl FrequencyResponse {
 }
 
 impl FrequencyResponse {
-    /// What the cables add to the dynamic stiffness of the platform, and the wrench on the held platform for each
-    /// length that a winch takes in, 6 x n [N/m, N].
+    /// What the cables add to the dynamic stiffness of the platform, and the wrench on the held platform for
+    /// each length that a winch takes in, 6 x n [N/m, N].
     pub(crate) fn of_cables(&self, frequency: f64) -> Result<CablesAndPulls, DynamicsError> {
         let omega = TAU * frequency;
         let mut dynamic = Matrix6::zeros();

@@ -1,14 +1,14 @@
 //! Which natural motions a move excites, and the shaper for them.
 //!
-//! While the platform accelerates along d by `d u''`, a natural motion x of unit mass and angular frequency ω is
-//! pushed by `-xᵀ M d u''`. At the end of the move P swings in it by
+//! While the platform accelerates along d by `d u''`, a natural motion x of unit mass and angular frequency ω
+//! is pushed by `-xᵀ M d u''`. At the end of the move P swings in it by
 //!
 //! ```text
 //! A = |x_P| |xᵀ M d| U(ω)/ω,      U(ω) = |∫ u''(t) exp(iωt) dt|                                      (N18)
 //! ```
 //!
-//! without damping, and a shaper multiplies it by V of (N14). M is the mass of the platform with the static shapes
-//! of its cables.
+//! without damping, and a shaper multiplies it by V of (N14). M is the mass of the platform with the static
+//! shapes of its cables.
 
 use super::shaper::{Shaper, ShaperKind};
 use super::{Motion, Move};
@@ -50,11 +50,12 @@ impl Excited {
 }
 
 impl Move<'_> {
-    /// The move with a shaper of a kind for the natural motions that swing most at its end, `most` at most, and
-    /// these. The cables have the damping `damping` [s], the ratio of their viscous to their elastic modulus.
+    /// The move with a shaper of a kind for the natural motions that swing most at its end, `most` at most,
+    /// and these. The cables have the damping `damping` [s], the ratio of their viscous to their elastic
+    /// modulus.
     ///
-    /// The duration remains: what the shaper takes is taken from the profile, which is then faster. A motion gets a
-    /// shaper only as long as this makes the sum of all amplitudes smaller.
+    /// The duration remains: what the shaper takes is taken from the profile, which is then faster. A motion
+    /// gets a shaper only as long as this makes the sum of all amplitudes smaller.
     ///
     /// # Errors
     /// As [`Move::plan`] and [`Modes::new`]; those of [`Shaper::new`].

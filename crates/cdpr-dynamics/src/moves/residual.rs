@@ -23,12 +23,13 @@ pub struct Residual {
 
 /// Simulates a robot that makes a move, and goes on until `settings.until` after its end [s].
 ///
-/// The robot may differ from the one that the set points are for. Its lengths are its own ones at rest at each pose,
-/// as in studies, and the feed-forward of the set points; `offsets` of its tensions at the first pose [N], one for
-/// each cable or none, shift the lengths by as much as they do there.
+/// The robot may differ from the one that the set points are for. Its lengths are its own ones at rest at
+/// each pose, as in studies, and the feed-forward of the set points; `offsets` of its tensions at the first
+/// pose [N], one for each cable or none, shift the lengths by as much as they do there.
 ///
 /// # Errors
-/// Those of the inverse model at the poses and of the direct model at the last one, and those of [`simulate`].
+/// Those of the inverse model at the poses and of the direct model at the last one, and those of
+/// [`simulate`].
 pub fn residual(
     robot: &Robot,
     load: &Load,

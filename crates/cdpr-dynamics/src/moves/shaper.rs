@@ -1,7 +1,7 @@
 //! Input shapers: a command that is split over a few times, after which a vibration is gone.
 //!
-//! A shaper has amplitudes A_i at times t_i whose sum is one. A command u becomes `sum A_i u(t - t_i)`. It leaves
-//! of the vibration of a motion with the angular frequency ω and the damping ratio ζ the share
+//! A shaper has amplitudes A_i at times t_i whose sum is one. A command u becomes `sum A_i u(t - t_i)`. It
+//! leaves of the vibration of a motion with the angular frequency ω and the damping ratio ζ the share
 //!
 //! ```text
 //! V(ω, ζ) = exp(-ζ ω t_n) |sum A_i exp(ζ ω t_i) exp(i ω √(1 - ζ²) t_i)|                            (N14)
@@ -17,7 +17,8 @@
 //! ```
 //!
 //! (the last one W. Singhose, W. Seering, N. Singer, *Residual vibration reduction using vector diagrams to
-//! generate shaped inputs*, J. Mech. Des. 116, 1994, there without damping; `v = V_e` where nothing is damped).
+//! generate shaped inputs*, J. Mech. Des. 116, 1994, there without damping; `v = V_e` where nothing is
+//! damped).
 
 use crate::error::{DynamicsError, positive};
 use std::f64::consts::{PI, TAU};
@@ -129,8 +130,8 @@ impl Shaper {
         cosine.hypot(sine)
     }
 
-    /// Insensitivity of Singer and Seering: the range of frequencies about one [Hz], relative to it, in which at
-    /// most the share `level` of a vibration is left; `None` where more is left at the frequency itself.
+    /// Insensitivity of Singer and Seering: the range of frequencies about one [Hz], relative to it, in which
+    /// at most the share `level` of a vibration is left; `None` where more is left at the frequency itself.
     pub fn insensitivity(&self, frequency: f64, damping_ratio: f64, level: f64) -> Option<f64> {
         const STEP: f64 = 1e-4;
         const FARTHEST: usize = 20_000;

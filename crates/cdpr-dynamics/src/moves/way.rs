@@ -3,8 +3,8 @@
 use crate::error::DynamicsError;
 use cdpr_robot::{Matrix3, Pose, Rotation3, Vector3, Vector6};
 
-/// A natural cubic spline through poses, in the position of P and in the rotation vector φ from the first one,
-/// over the share of the way. Between two poses it is straight.
+/// A natural cubic spline through poses, in the position of P and in the rotation vector φ from the first
+/// one, over the share of the way. Between two poses it is straight.
 #[derive(Clone, Debug)]
 pub(crate) struct Way {
     first: Pose,
@@ -14,7 +14,8 @@ pub(crate) struct Way {
     bends: Vec<Vector6<f64>>,
 }
 
-/// A pose on the way with velocity and acceleration of P, and angular velocity and acceleration, in the base frame.
+/// A pose on the way with velocity and acceleration of P, and angular velocity and acceleration, in the base
+/// frame.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Motion {
     pub(crate) pose: Pose,

@@ -1,8 +1,8 @@
 //! How a cable comes to the point where its free part begins.
 //!
 //! Lead and arc are a spring of the unstrained length l that is longer by e than at rest. Its end moves along
-//! the direction u of a straight cable to the anchor point, from its leave point B, both corrected by what sag
-//! changes at rest:
+//! the direction u of a straight cable to the anchor point, from its leave point B, both corrected by what
+//! sag changes at rest:
 //!
 //! ```text
 //! r_0 = B + (e - arc + arc at rest) u

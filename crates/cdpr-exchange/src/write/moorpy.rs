@@ -1,8 +1,8 @@
 //! MoorPy and MoorDyn: fixed points, a free body and elastic catenaries, in air.
 //!
-//! Both read the same tables, but not the same angles of a body and not the same options. MoorDyn's motion over
-//! time needs a method of high order and steps that axial waves allow: its own, 1 ms and second order, end in NaN
-//! within six.
+//! Both read the same tables, but not the same angles of a body and not the same options. MoorDyn's motion
+//! over time needs a method of high order and steps that axial waves allow: its own, 1 ms and second order,
+//! end in NaN within six.
 
 use crate::error::ExchangeError;
 use crate::write::scene::{Exported, check_plain, inertia, unplaced, words};
@@ -93,8 +93,8 @@ fn options(robot: &Robot, lengths: &[f64], depth: f64, reader: Reader) -> String
     }
 }
 
-/// Steps of time [s] with which RK4 follows the axial waves of the segments: they vibrate at up to 2 c/h, h being
-/// the length of a segment and c² = EA/μ, and RK4 is stable below a step of 1.41 h/c.
+/// Steps of time [s] with which RK4 follows the axial waves of the segments: they vibrate at up to 2 c/h, h
+/// being the length of a segment and c² = EA/μ, and RK4 is stable below a step of 1.41 h/c.
 fn step(robot: &Robot, lengths: &[f64]) -> f64 {
     const SHARE: f64 = 0.5;
     let of = |(cable, length): (&RobotCable, &f64)| {

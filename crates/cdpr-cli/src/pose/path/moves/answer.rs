@@ -260,11 +260,15 @@ impl Answer {
                 significant(*duration, 3)
             ));
         }
+        let of = if self.feed_forward_m == 0.0 {
+            "those at rest: the motion is not in them without feed-forward".to_owned()
+        } else {
+            format!("with the motion; feed-forward up to {} mm", mm(self.feed_forward_m))
+        };
         print_lines(&format!(
-            "Tensions {} N at the platform to {} N at the exits; feed-forward up to {} mm.",
+            "Tensions {} N at the platform to {} N at the exits, {of}.",
             significant(self.least_tension_n, 3),
-            significant(self.greatest_exit_tension_n, 4),
-            mm(self.feed_forward_m)
+            significant(self.greatest_exit_tension_n, 4)
         ));
         self.residual.iter().for_each(After::print);
         self.robots.iter().for_each(Robots::print);
