@@ -48,8 +48,8 @@ pub(crate) fn run(rest: &[String]) -> ExitCode {
 /// The program, on Linux with everything linked in, so that it runs on any.
 fn program(folder: &Path) -> Outcome {
     let host = host()?;
-    let features = "cdpr-cli/figures,cdpr-cli/parquet";
-    let package = ["--package", "cdpr-cli", "--features", features];
+    let features = "cdpr/figures,cdpr/parquet";
+    let package = ["--package", "cdpr", "--features", features];
     let mut build =
         cargo_command(&[&["build", "--release", "--locked", "--target", &host], &package[..]].concat());
     // For a smaller program: what nobody calls across crates is left out.

@@ -43,7 +43,7 @@ def program():
         return os.environ["CDPR"]
     built = [ROOT / "target" / profile / "cdpr" for profile in ("release", "debug")]
     built = [path for path in built if path.exists()]
-    assert built, "no program cdpr: run `cargo build -p cdpr-cli`, or name it in the variable CDPR"
+    assert built, "no program cdpr: run `cargo build -p cdpr`, or name it in the variable CDPR"
     return str(max(built, key=lambda path: path.stat().st_mtime))
 
 
