@@ -36,9 +36,11 @@ mod _core {
     #[pymodule_export]
     use crate::robot::Robot;
     #[pymodule_export]
-    use crate::robot::boundary::Boundary;
+    use crate::robot::bearing::capacity::Capacity;
     #[pymodule_export]
-    use crate::robot::capacity::Capacity;
+    use crate::robot::bearing::safety::Safety;
+    #[pymodule_export]
+    use crate::robot::boundary::Boundary;
     #[pymodule_export]
     use crate::robot::certify::Certificate;
     #[pymodule_export]

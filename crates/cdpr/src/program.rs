@@ -105,6 +105,16 @@ enum Command {
   cdpr capacity data/robots/caroca.json --pose 0,0,1.75 --payload 50 \
                       --wrench=-50:50,-50:50,-50:50,-10:10,-10:10,-10:10")]
     Capacity(pose::capacity::Settings),
+    /// Find what becomes of the platform when a cable breaks.
+    ///
+    /// Each cable alone, while the winches stand still: where the platform comes to rest, how far it moves and
+    /// turns, and whether the other cables bear that. The exit code is 3 where one does not, where the platform
+    /// comes below the ground, and where no rest is found.
+    #[command(after_help = "Examples:
+  cdpr safety cogiro --pose 0,0,2 --payload 100
+  cdpr safety cogiro --pose 0,0,2 --with pairs
+  cdpr safety data/robots/caroca.json --poses data/poses/caroca.csv > safety.csv")]
+    Safety(pose::safety::Settings),
     /// Compute exact derivatives by every parameter.
     ///
     /// Derivatives of lengths, deflection, lowest stiffness and frequency of the platform.
@@ -236,6 +246,7 @@ fn carry_out(command: Command) -> Result<Ending, ProgramError> {
         Command::Simulate(settings) => return pose::simulate::run(&settings),
         Command::Response(settings) => return pose::response::run(&settings),
         Command::Capacity(settings) => return pose::capacity::run(&settings),
+        Command::Safety(settings) => return pose::safety::run(&settings),
         Command::Derivatives(settings) => return pose::derivatives::run(&settings),
         Command::Hysteresis(settings) => return pose::hysteresis::run(&settings),
         Command::Path(settings) => return pose::path::run(&settings),

@@ -47,6 +47,7 @@ fn answers_at_a_pose_are_a_sentence_and_80_columns_wide() {
             ("stiffness", &[]),
             ("modes", &[]),
             ("capacity", if free.is_empty() { &["--with", "tilt=2"] } else { &[] }),
+            ("safety", &[]),
             ("derivatives", &["--payload", "1", "--uncertainty", "a=0.001"]),
             ("hysteresis", &["--payload", "1", "--law", &law]),
         ] {

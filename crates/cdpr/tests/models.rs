@@ -331,3 +331,37 @@ fn a_catenary_beyond_ten_percent_of_strain_is_refused() {
     let said = text(refused.stderr);
     assert!(said.contains("strains the cable by") && said.contains("beyond the 10 %"), "{said}");
 }
+
+#[test]
+fn breaks_that_the_others_do_not_bear_end_with_three() {
+    let stadium = format!("{}/../../docs/how-to/broken-cable/stadium.json", env!("CARGO_MANIFEST_DIR"));
+    let mut robot: Value = serde_json::from_str(&std::fs::read_to_string(stadium).unwrap()).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("robot.json");
+    let mut asked = |ground: f64, more: &[&str]| {
+        robot["ground_z"] = ground.into();
+        std::fs::write(&path, robot.to_string()).unwrap();
+        let file = path.to_str().unwrap();
+        cdpr(&[&["safety", file, "--pose", "20,10,12", "--format", "json"], more].concat())
+    };
+    let whole = asked(-100.0, &[]);
+    assert_eq!(whole.status.code(), Some(0), "{}", text(whole.stderr));
+    let whole: Value = serde_json::from_str(&text(whole.stdout)).unwrap();
+    let broken = whole["broken"].as_array().unwrap();
+    assert_eq!(broken.len(), 4);
+    assert_eq!(broken[2]["cables"], serde_json::json!([3]));
+    assert_eq!(number(&broken[2]["tensions"][2]), 0.0);
+    // The rest that the direct model of the robot without this cable finds.
+    let [x, y, z] = [0, 1, 2].map(|k| number(&broken[2]["position"][k]));
+    assert!((x - 8.143733).abs() < 1e-5 && (y + 6.970618).abs() < 1e-5 && (z - 3.274191).abs() < 1e-5);
+    let low = asked(5.0, &[]);
+    assert_eq!(low.status.code(), Some(3));
+    let low: Value = serde_json::from_str(&text(low.stdout)).unwrap();
+    assert_eq!(low["broken"][2]["below_ground"], true);
+    let pairs = asked(-100.0, &["--with", "pairs"]);
+    let pairs: Value = serde_json::from_str(&text(pairs.stdout)).unwrap();
+    assert_eq!(pairs["broken"].as_array().unwrap().len(), 10);
+    let refused = asked(0.0, &["--with", "triples"]);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(text(refused.stderr).contains("--with triples: expected pairs"));
+}

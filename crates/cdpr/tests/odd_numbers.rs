@@ -50,6 +50,7 @@ const COMMANDS: [&str; 31] = [
     "derivatives caroca --pose 0,0,1.75 --payload {10}",
     "capacity cogiro --pose 0,0,2 --payload {10}",
     "capacity cogiro --pose 0,0,2 --force=0,{10},0",
+    "safety cogiro --pose 0,0,2 --payload {10}",
     "capacity ipanema-3 --pose 0.2,0.1,{1.3}",
     "hysteresis caroca-law --pose 0,0,1.75 --payload {50} --with steps=3",
     "hysteresis caroca-law --pose 0,0,{1.75} --payload 50 --with steps=3",

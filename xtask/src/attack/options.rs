@@ -15,6 +15,7 @@ const CALLS: [&str; 28] = [
     "deflection robot.json --pose 0,0,1.75 --payload 50",
     "stiffness robot.json --pose 0,0,1.75",
     "capacity robot.json --pose 0,0,1.75",
+    "safety robot.json --pose 0,0,1.75",
     "path robot.json --poses poses.txt --payload 50",
     "workspace robot.json --region ::3,::3,1.75 --payload 50 --out out",
     "explore robot.json --out out/page.html",

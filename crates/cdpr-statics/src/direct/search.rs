@@ -16,6 +16,9 @@ pub enum DirectStart<'a> {
     Pose(&'a Pose),
     /// At a pose with cable forces that need not fit it: an equilibrium nearby.
     Near(&'a Equilibrium),
+    /// Released at rest at a pose: the stable equilibrium downhill of it, even where Newton's method would reach
+    /// another one.
+    Released(&'a Pose),
 }
 
 /// The stable equilibrium of a robot for unstrained lengths [m] and a load: [`DirectProblem::direct`] in one
@@ -51,9 +54,11 @@ impl DirectProblem<'_> {
     /// - [`StaticsError::Robot`] where the search fails because a value of the robot is invalid.
     /// - [`StaticsError::Unstable`] for an unstable equilibrium that is refused.
     pub fn direct(&self, start: DirectStart) -> Result<DirectSolution, StaticsError> {
+        let released = matches!(start, DirectStart::Released(_));
         let start = checked(self, start)?;
         let pose = start.pose;
-        let found = match newton(self, start) {
+        let newtons = if released { None } else { newton(self, start) };
+        let found = match newtons {
             // A strained equilibrium far from the start need not be the one downhill.
             Some(converged) if converged.stability.is_stable() || self.unstable != Unstable::Left => {
                 solution(self, converged, DirectMethod::Newton).or_else(|_| settle(self, &pose))?
@@ -102,8 +107,8 @@ pub fn rough_pose(robot: &Robot, lengths: &[f64]) -> Pose {
 /// The start as an equilibrium to be found, validated.
 fn checked(problem: &DirectProblem, start: DirectStart) -> Result<Equilibrium, StaticsError> {
     match start {
-        DirectStart::Pose(pose) if pose.is_finite() => cables_at(problem, pose),
-        DirectStart::Pose(pose) => {
+        DirectStart::Pose(pose) | DirectStart::Released(pose) if pose.is_finite() => cables_at(problem, pose),
+        DirectStart::Pose(pose) | DirectStart::Released(pose) => {
             let position = format!("{:?}", pose.position.as_slice());
             Err(StaticsError::invalid("start".to_owned(), position, "a finite pose"))
         }

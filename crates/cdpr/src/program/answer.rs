@@ -36,13 +36,13 @@ impl Residual {
 /// A tension outside of what a cable is to bear, or can bear.
 #[derive(Serialize)]
 pub(crate) struct OutOfLimits {
-    cable: usize,
+    pub(crate) cable: usize,
     /// The end that has it: `anchor` or `exit`.
     end: CableEnd,
     /// The tension [N].
     tension: f64,
     /// `min` or `max` of its limits, or `breaking_force`.
-    limit: &'static str,
+    pub(crate) limit: &'static str,
     /// The limit [N].
     value: f64,
     #[serde(skip)]
@@ -52,15 +52,19 @@ pub(crate) struct OutOfLimits {
 impl OutOfLimits {
     /// Those of an answer of these unstrained lengths [m], over all its equilibria.
     pub(crate) fn all(robot: &Robot, lengths: &[f64], equilibria: &[&Equilibrium]) -> Vec<Self> {
-        let one = |found: cdpr_statics::limits::OutOfLimits| Self {
+        let found = cdpr_statics::limits::out_of_limits(robot, lengths, equilibria);
+        found.into_iter().map(Self::new).collect()
+    }
+
+    pub(crate) fn new(found: cdpr_statics::limits::OutOfLimits) -> Self {
+        Self {
             cable: found.cable + 1,
             end: found.end,
             tension: found.tension,
             limit: found.limit.name(),
             value: found.value,
             found,
-        };
-        cdpr_statics::limits::out_of_limits(robot, lengths, equilibria).into_iter().map(one).collect()
+        }
     }
 
     pub(crate) fn print(list: &[Self]) {

@@ -26,6 +26,7 @@ const GROUPS: [Group; 8] = [
             "simulate",
             "response",
             "capacity",
+            "safety",
             "derivatives",
             "hysteresis",
         ],

@@ -10,5 +10,6 @@ pub(crate) mod inverse;
 pub(crate) mod modes;
 pub(crate) mod path;
 pub(crate) mod response;
+pub(crate) mod safety;
 pub(crate) mod simulate;
 pub(crate) mod stiffness;
