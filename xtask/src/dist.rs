@@ -7,17 +7,16 @@
 use crate::cargo::{cargo_command, cdpr_command, done, root};
 use std::fs;
 use std::path::Path;
-use std::process::{Command, ExitCode};
+use std::process::Command;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
 /// Makes one part in a folder.
 type Part = fn(&Path) -> Outcome;
 
-pub(crate) fn run(rest: &[String]) -> ExitCode {
+pub(crate) fn run(rest: &[String]) -> Result<(), String> {
     if !rest.is_empty() {
-        eprintln!("error: `cargo xtask dist` is followed by nothing");
-        return ExitCode::FAILURE;
+        return Err("`cargo xtask dist` is followed by nothing".to_owned());
     }
     let folder = root().join("target/dist");
     let parts: [(&str, Part); 5] =
@@ -26,10 +25,8 @@ pub(crate) fn run(rest: &[String]) -> ExitCode {
         std::io::ErrorKind::NotFound => Ok(()),
         _ => Err(error),
     });
-    if let Err(error) = made.and_then(|()| fs::create_dir_all(&folder)) {
-        eprintln!("error: {}: {error}", folder.display());
-        return ExitCode::FAILURE;
-    }
+    let made = made.and_then(|()| fs::create_dir_all(&folder));
+    made.map_err(|error| format!("{}: {error}", folder.display()))?;
     let mut left_out = Vec::new();
     for (name, make) in parts {
         eprintln!("{name}");
@@ -41,8 +38,7 @@ pub(crate) fn run(rest: &[String]) -> ExitCode {
         left_out.push(format!("checksums: {error}"));
     }
     eprintln!("\n{} holds what could be made", folder.display());
-    left_out.iter().for_each(|reason| eprintln!("left out: {reason}"));
-    if left_out.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+    if left_out.is_empty() { Ok(()) } else { Err(format!("left out:\n{}", left_out.join("\n"))) }
 }
 
 /// The program, on Linux with everything linked in, so that it runs on any.
