@@ -11,6 +11,7 @@ mod dist;
 mod evidence;
 mod gallery;
 mod led;
+mod release;
 mod web;
 
 use cargo::{cargo, cdpr, done, example_command, root, text_of, write};
@@ -51,6 +52,9 @@ tasks:
                  CDPR_EVIDENCE, which a run of the tests has written, with those that are kept
   dist           makes what a release consists of in target/dist: the program, on Linux one that runs on
                  any, the wheel, the packed crates, the book, notes and checksums
+  release [--repository URL] [--authors \"NAME <MAIL>, ..\"] [--version X.Y.Z]
+                 sets these wherever files name them: manifests, CITATION.cff, recipe, book, README, paper and,
+                 with a version, the heading of CHANGELOG.md
   web [--check]  makes the module and the page of `cdpr explore` in crates/cdpr-web/dist, or says whether these
                  are of the sources as they are
   gallery        writes docs/robots.md, a picture and a table for each robot of the library
@@ -76,6 +80,7 @@ fn main() -> ExitCode {
         }
         Some("attack") => cargo(&["test", "--test", "attack"]),
         Some("dist") => dist::run(&rest),
+        Some("release") => release::run(&rest).map_err(|error| error.to_string()),
         Some("evidence") => evidence::run(&rest),
         Some("web") => web::run(&rest).map_err(|error| error.to_string()),
         Some("gallery") => gallery::run(),
