@@ -1,10 +1,11 @@
 //! `cargo xtask dist`: what a release consists of, in `target/dist`.
 //!
-//! The program, a wheel for all Pythons from 3.10 on, the packed crates, the book, the notes of the version
-//! from CHANGELOG.md, and the checksums of all files. A part whose tool is not installed is left out, and the
+//! The program, a wheel for all Pythons from 3.10 on, the packed crates, the list of all crates that they consist
+//! of (SBOM), the book, the notes of the version from CHANGELOG.md, and the checksums of all files. A part whose tool is not installed is left out, and the
 //! last lines say so.
 
-use crate::cargo::{cargo_command, cdpr_command, done, root};
+use crate::cargo::{cargo_command, cdpr_command, done, parsed, root, text_of};
+use serde_json::{Value, json};
 use std::fs;
 use std::path::Path;
 use std::process::Command;
@@ -19,8 +20,14 @@ pub(crate) fn run(rest: &[String]) -> Result<(), String> {
         return Err("`cargo xtask dist` is followed by nothing".to_owned());
     }
     let folder = root().join("target/dist");
-    let parts: [(&str, Part); 5] =
-        [("program", program), ("notes", notes), ("crates", crates), ("wheel", wheel), ("book", book)];
+    let parts: [(&str, Part); 6] = [
+        ("program", program),
+        ("notes", notes),
+        ("crates", crates),
+        ("bill of materials", materials),
+        ("wheel", wheel),
+        ("book", book),
+    ];
     let made = fs::remove_dir_all(&folder).or_else(|error| match error.kind() {
         std::io::ErrorKind::NotFound => Ok(()),
         _ => Err(error),
@@ -81,7 +88,9 @@ fn crates(folder: &Path) -> Outcome {
     let into = folder.join("crates");
     let mut package = cargo_command(&["package", "--workspace", "--locked", "--no-verify", "--allow-dirty"]);
     // What is not published.
-    package.args(["xtask", "cdpr-tests", "cdpr-python"].map(|name| format!("--exclude={name}")));
+    package.args(
+        ["xtask", "cdpr-tests", "cdpr-python", "cdpr-evidence"].map(|name| format!("--exclude={name}")),
+    );
     // A folder without packages of other versions.
     done(package.arg("--target-dir").arg(&into))?;
     for file in fs::read_dir(into.join("package"))? {
@@ -91,6 +100,28 @@ fn crates(folder: &Path) -> Outcome {
         }
     }
     Ok(fs::remove_dir_all(into)?)
+}
+
+/// All crates of the lock file with their licenses, as a software bill of materials (CycloneDX 1.5).
+fn materials(folder: &Path) -> Outcome {
+    let metadata = text_of(&mut cargo_command(&["metadata", "--locked", "--format-version", "1"]), &[0])?;
+    let metadata = parsed(&metadata)?;
+    let component = |of: &Value| {
+        let (name, version) =
+            (of["name"].as_str().unwrap_or_default(), of["version"].as_str().unwrap_or_default());
+        json!({
+            "type": "library",
+            "name": name,
+            "version": version,
+            "purl": format!("pkg:cargo/{name}@{version}"),
+            "licenses": [{ "expression": of["license"] }],
+        })
+    };
+    let components: Vec<Value> =
+        metadata["packages"].as_array().into_iter().flatten().map(component).collect();
+    let bill =
+        json!({"bomFormat": "CycloneDX", "specVersion": "1.5", "version": 1, "components": components});
+    Ok(fs::write(folder.join("cdpr.cdx.json"), format!("{bill:#}\n"))?)
 }
 
 /// The wheel, by maturin in an environment of its own: it serves all Pythons from 3.10 on.
