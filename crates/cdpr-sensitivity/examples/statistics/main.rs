@@ -8,7 +8,6 @@
 mod brackets;
 mod choice;
 mod exact;
-mod expansions;
 mod functions;
 mod given;
 mod gradients;
@@ -31,7 +30,6 @@ type Table = fn(u64, &str) -> Result<(), SensitivityError>;
 fn main() -> Result<(), SensitivityError> {
     let tables: &[(&str, Table)] = &[
         ("choice", |studies, _| choice::table(studies)),
-        ("expansions", |studies, _| expansions::table(studies)),
         ("given", |studies, _| given::table(studies)),
         ("levels", |studies, _| given::table_of_levels(studies)),
         ("verdicts", verdicts::table),
