@@ -47,7 +47,7 @@ fn lacks(package: &Package) -> Vec<String> {
     let categories = &package.categories;
     demand(!categories.is_empty() && categories.iter().all(is_known), "categories of crates.io");
     demand(package.rust_version.is_some(), "rust-version.workspace");
-    // A dependency by path alone cannot be resolved by a registry; those of tests are left out of the package.
+    // A registry cannot resolve a path alone; packages are without the dependencies of tests.
     for used in &package.dependencies {
         let is_of_tests = used.kind == cargo_metadata::DependencyKind::Development;
         let version = used.req.to_string();

@@ -1,8 +1,8 @@
 //! `cargo xtask bench`: criterion's benchmarks and their instruction counts, next to a baseline.
 //!
-//! Times depend on the load of the machine: criterion compares them with those of its last run. Instruction counts
-//! do not: in criterion's test mode each benchmark calls its function `counted` once, and callgrind counts the
-//! instructions of that call. Valgrind does not support AVX-512, so that the lanes are counted on AVX2.
+//! Times depend on the load of the machine: criterion compares them with those of its last run. Instruction
+//! counts do not: in criterion's test mode each benchmark calls its function `counted` once, and callgrind
+//! counts the instructions of that call. Valgrind does not support AVX-512, so that lanes are counted on AVX2.
 
 use crate::cargo::{cargo_command, parsed, printed, read, root, write};
 use serde::{Deserialize, Serialize};
@@ -39,7 +39,7 @@ struct Benchmark {
     instructions: Option<u64>,
 }
 
-/// Runs the benchmarks and compares them; `rest` holds `--save` or arguments of criterion, such as a part of a name.
+/// Runs the benchmarks and compares them; `rest` has `--save` or arguments of criterion.
 pub(crate) fn run(rest: &[String]) -> Result<(), String> {
     let saves = rest == ["--save"];
     let run = measure(if saves { &[] } else { rest })?;

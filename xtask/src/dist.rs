@@ -1,8 +1,8 @@
 //! `cargo xtask dist`: what a release consists of, in `target/dist`.
 //!
-//! The program, a wheel for all Pythons from 3.10 on, the packed crates, the list of all crates that they consist
-//! of (SBOM), the book, the notes of the version from CHANGELOG.md, and the checksums of all files. A part whose tool is not installed is left out, and the
-//! last lines say so.
+//! The program, a wheel for all Pythons from 3.10 on, the packed crates, the list of all crates that they
+//! consist of (SBOM), the book, the notes of the version from CHANGELOG.md, and the checksums of all files. A
+//! part whose tool is not installed is left out, and the last lines say so.
 
 use crate::cargo::{cargo_command, cdpr_command, done, parsed, root, text_of};
 use serde_json::{Value, json};

@@ -42,8 +42,8 @@ tasks:
                  data/benchmarks/baseline.json. It fails where a count has grown by more than 1 %; with --save
                  it writes the baseline
   statistics TABLE [STUDIES [FUNCTION]]
-                 measures how often estimators of cdpr-sensitivity are right; without TABLE it lists the tables,
-                 which docs/statistics.md keeps
+                 measures how often estimators of cdpr-sensitivity are right; without TABLE it lists the
+                 tables, which docs/statistics.md keeps
   ci [STEP..]    what a change has to pass: .ci/run
   attack         runs the program on bad files and arguments: cargo test --test attack
   evidence [CASE..]
@@ -53,8 +53,8 @@ tasks:
   dist           makes what a release consists of in target/dist: the program, on Linux one that runs on
                  any, the wheel, the packed crates, the book, notes and checksums
   release [--repository URL] [--authors \"NAME <MAIL>, ..\"] [--version X.Y.Z]
-                 sets these wherever files name them: manifests, CITATION.cff, recipe, book, README, paper and,
-                 with a version, the heading of CHANGELOG.md
+                 sets these wherever files name them: manifests, CITATION.cff, recipe, book, README, paper
+                 and, with a version, the heading of CHANGELOG.md
   web [--check]  makes the module and the page of `cdpr explore` in crates/cdpr-web/dist, or says whether these
                  are of the sources as they are
   gallery        writes docs/robots.md, a picture and a table for each robot of the library

@@ -6,8 +6,8 @@
 //! ```
 //!
 //! The list is `data/benchmarks/throughput.json`; NAME is a part of the names of its robots. The intervals of
-//! replicates and the measures of sensitivity are observations of their own and are left out. All cores compute if
-//! THREADS is left out.
+//! replicates and the measures of sensitivity are observations of their own and are left out. All cores
+//! compute if THREADS is left out.
 
 #![allow(clippy::print_stderr, clippy::print_stdout)]
 

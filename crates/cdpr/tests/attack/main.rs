@@ -1,8 +1,8 @@
 //! The program on bad files and arguments, each with limits of time and memory.
 //!
 //! Whatever a stranger's file or a careless user asks for, the program ends by itself, soon, without a panic,
-//! and touches no file besides those of its own folder of results. It takes minutes, so that a plain `cargo test`
-//! leaves it out; `cargo xtask attack` and `.ci/run` run it.
+//! and touches no file besides those of its own folder of results. It takes minutes, so that a
+//! plain `cargo test` leaves it out; `cargo xtask attack` and `.ci/run` run it.
 
 #![cfg(unix)]
 

@@ -134,7 +134,7 @@ fn without(mut call: Vec<String>, option: &str) -> Vec<String> {
 
 #[test]
 fn commands_are_found_in_the_groups_of_the_help() {
-    let help = "A\n\nUsage: cdpr <COMMAND>\n\nRobots:\n  inverse            Find it\n  robot list         List\n  \
+    let help = "A\n\nUsage: cdpr <COMMAND>\n\nRobots:\n  inverse            Find it\n  robot list  List\n  \
                 Example: cdpr x\n\nOptions:\n  -h, --help  Print help\n";
     assert_eq!(names(help), [vec!["inverse"], vec!["robot", "list"]]);
 }
