@@ -13,6 +13,7 @@ mod catenary;
 mod convert;
 mod exchange;
 mod explorer;
+mod program;
 mod robot;
 mod sensitivity;
 mod source;
@@ -33,6 +34,8 @@ mod _core {
     use crate::exchange::{export_robot, import_robot, library};
     #[pymodule_export]
     use crate::explorer::explorer_parts;
+    #[pymodule_export]
+    use crate::program::run_program;
     #[pymodule_export]
     use crate::robot::Robot;
     #[pymodule_export]

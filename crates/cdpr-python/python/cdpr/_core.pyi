@@ -70,6 +70,7 @@ __all__ = [
     "make_shard",
     "observations",
     "open_results",
+    "run_program",
     "status",
     "wasserstein_bures",
 ]
@@ -3167,3 +3168,5 @@ def template(
     """The text of a study file for a robot, with usual tolerances."""
 def explorer_parts() -> dict[str, Any]:
     """The packed script, the worker, the style and the packed module of the explorer, for its widget."""
+def run_program(arguments: list[str]) -> int:
+    """Runs the program `cdpr` with these arguments, its own name the first, and returns its exit code."""

@@ -1,26 +1,31 @@
-//! `cargo xtask attack`: runs the program on bad files and arguments, each with limits of time and memory.
+//! The program on bad files and arguments, each with limits of time and memory.
 //!
 //! Whatever a stranger's file or a careless user asks for, the program ends by itself, soon, without a panic,
-//! and touches no file besides those of its own folder of results.
+//! and touches no file besides those of its own folder of results. It takes minutes, so that a
+//! plain `cargo test` leaves it out; `cargo xtask attack` and `.ci/run` run it.
+
+#![cfg(unix)]
 
 mod case;
 mod cases;
 mod folders;
 mod options;
 
-use crate::cargo::cargo;
 use case::{Case, MINE, OUT};
 use std::collections::BTreeMap;
+use std::error::Error;
 use std::ffi::OsString;
 use std::fmt;
 use std::fs;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
-use std::process::{Command, ExitCode, Stdio};
+use std::process::{Command, Stdio};
 use std::time::{Duration, Instant, SystemTime};
 
-/// Most time of a case.
-const TIME: Duration = Duration::from_secs(10);
+/// The program.
+const PROGRAM: &str = env!("CARGO_BIN_EXE_cdpr");
+/// Most time of a case; each takes less than a second on a machine that does nothing else.
+const TIME: Duration = Duration::from_secs(30);
 /// Most address space of a case [KiB].
 const MEMORY: usize = 1 << 20;
 /// What must not happen.
@@ -59,48 +64,45 @@ impl From<io::Error> for Failure {
     }
 }
 
-pub(crate) fn run() -> ExitCode {
-    let clock = Instant::now();
-    if cargo(&["build", "--quiet", "--bin", "cdpr"]) != ExitCode::SUCCESS {
-        return ExitCode::FAILURE;
-    }
-    let folder = std::env::temp_dir().join(format!("cdpr-attack-{}", std::process::id()));
-    let result = attack(&folder);
-    // A folder that stays behind hurts nobody.
-    let _ = fs::remove_dir_all(&folder);
-    let (cases, failures) = match result {
-        Ok(counts) => counts,
-        Err(error) => {
-            eprintln!("error: {}: {error}", folder.display());
-            return ExitCode::FAILURE;
+/// Runs the cases of one kind in a folder of their own.
+///
+/// `prepare` places their files there.
+fn attack(
+    prepare: impl Fn(&Path) -> io::Result<()>,
+    cases: impl FnOnce() -> io::Result<Vec<Case>>,
+) -> Result<(), Box<dyn Error>> {
+    let folder = tempfile::tempdir()?;
+    cases::prepare(folder.path())?;
+    prepare(folder.path())?;
+    let before = contents(folder.path())?;
+    let (mut count, mut failures) = (0, String::new());
+    for case in cases()? {
+        count += 1;
+        if let Err(failure) = case.run(folder.path(), &before) {
+            failures += &format!("{}\n    cdpr {}\n    {failure}\n", case.what, case.arguments.join(" "));
         }
-    };
-    eprintln!("{cases} cases, {failures} failures, {:.0} s", clock.elapsed().as_secs_f64());
-    if failures == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+    }
+    println!("{count} cases");
+    if failures.is_empty() { Ok(()) } else { Err(failures.into()) }
 }
 
-/// Runs all cases, and returns how many they are and how many failed.
-fn attack(folder: &Path) -> io::Result<(usize, usize)> {
-    // Beside this program.
-    let program = std::env::current_exe()?.with_file_name("cdpr");
-    fs::create_dir_all(folder)?;
-    cases::prepare(folder)?;
-    options::prepare(folder)?;
-    folders::prepare(folder, &program)?;
-    let before = contents(folder)?;
-    let (mut cases, mut failures) = (0, 0);
-    for case in cases::all()?.into_iter().chain(folders::all()).chain(options::all(&program)?) {
-        cases += 1;
-        if let Err(failure) = case.run(&program, folder, &before) {
-            failures += 1;
-            eprintln!("FAILED {}\n    cdpr {}\n    {failure}", case.what, case.arguments.join(" "));
-        }
-    }
-    Ok((cases, failures))
+#[test]
+fn bad_files_and_arguments_end_in_a_message() -> Result<(), Box<dyn Error>> {
+    attack(|_| Ok(()), cases::all)
+}
+
+#[test]
+fn files_of_other_people_are_left_alone() -> Result<(), Box<dyn Error>> {
+    attack(folders::prepare, || Ok(folders::all()))
+}
+
+#[test]
+fn bad_values_of_every_option_end_in_a_message() -> Result<(), Box<dyn Error>> {
+    attack(options::prepare, options::all)
 }
 
 impl Case {
-    fn run(&self, program: &Path, folder: &Path, before: &Contents) -> Result<(), Failure> {
+    fn run(&self, folder: &Path, before: &Contents) -> Result<(), Failure> {
         for (name, bytes) in &self.files {
             fs::write(folder.join(name), bytes)?;
         }
@@ -114,7 +116,7 @@ impl Case {
         let is_mine = |name: &PathBuf| fs::read(folder.join(name)).is_ok_and(|found| found == MINE);
         let mine = given.iter().filter(|(_, (length, _))| *length == MINE.len() as u64);
         let mine: Vec<_> = mine.map(|(name, _)| name).filter(|name| is_mine(name)).collect();
-        let result = self.end(program, folder);
+        let result = self.end(folder);
         let judged = result.and_then(|()| {
             let after = contents(folder)?;
             let is_out = |name: &&PathBuf| name.starts_with(OUT) && !mine.contains(name);
@@ -132,11 +134,11 @@ impl Case {
     }
 
     /// Runs the program to its end, and judges how it ended.
-    fn end(&self, program: &Path, folder: &Path) -> Result<(), Failure> {
+    fn end(&self, folder: &Path) -> Result<(), Failure> {
         let around = if self.around.is_empty() { "exec \"$0\" \"$@\"" } else { self.around };
         let mut child = Command::new("sh")
             .args(["-c", &format!("ulimit -v {MEMORY}; {around}")])
-            .arg(program)
+            .arg(PROGRAM)
             .args(self.arguments.iter().map(|argument| raw(argument)))
             .current_dir(folder)
             .stdin(Stdio::null())
@@ -175,15 +177,9 @@ impl Case {
 }
 
 /// An argument with the bytes that are not UTF-8.
-#[cfg(unix)]
 fn raw(argument: &str) -> OsString {
     let parts: Vec<_> = argument.split('\u{fffd}').map(str::as_bytes).collect();
     std::os::unix::ffi::OsStringExt::from_vec(parts.join(&b"\xff"[..]))
-}
-
-#[cfg(not(unix))]
-fn raw(argument: &str) -> OsString {
-    argument.into()
 }
 
 /// Reads an output of a child to its end.

@@ -1,6 +1,7 @@
 //! The cases of folders: a stranger's, one with the user's own files, one that was edited, one that several
 //! processes want.
 
+use super::PROGRAM;
 use super::case::{Case, MINE, split};
 use std::fs;
 use std::io;
@@ -11,8 +12,8 @@ use std::process::{Command, Stdio};
 const DONE: &str = "done";
 
 /// Makes a folder of results, and files of the user beside it.
-pub(super) fn prepare(folder: &Path, program: &Path) -> io::Result<()> {
-    let mut command = Command::new(program);
+pub(super) fn prepare(folder: &Path) -> io::Result<()> {
+    let mut command = Command::new(PROGRAM);
     command.args(split("study run study.json --table csv --out")).arg(DONE).current_dir(folder);
     if !command.stdout(Stdio::null()).status()?.success() {
         return Err(io::Error::other("the study of the attack cannot be run"));

@@ -2,7 +2,6 @@
 //! strangers have put into folders.
 
 use super::case::{Case, split};
-use crate::cargo::root;
 use serde_json::{Value, json};
 use std::fs;
 use std::io;
@@ -24,7 +23,10 @@ pub(super) fn prepare(folder: &Path) -> io::Result<()> {
 }
 
 fn kinds() -> io::Result<[Kind; 6]> {
-    let read = |file: &str| fs::read_to_string(root().join("data").join(file));
+    let read = |file: &str| {
+        let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data");
+        fs::read_to_string(data.join(file))
+    };
     let study = small(serde_json::from_str(&read("studies/caroca.json")?)?);
     Ok([
         Kind {

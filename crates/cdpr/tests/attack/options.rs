@@ -1,6 +1,7 @@
 //! Every option of every command, as the program's own `--help` lists them, with values that are too small, too
 //! large, negative, empty, or no numbers.
 
+use super::PROGRAM;
 use super::case::{Case, split};
 use std::fs;
 use std::io;
@@ -73,12 +74,12 @@ pub(super) fn prepare(folder: &Path) -> io::Result<()> {
 ///
 /// # Errors
 /// An error of the system, and a command that no call stands for.
-pub(super) fn all(program: &Path) -> io::Result<Vec<Case>> {
+pub(super) fn all() -> io::Result<Vec<Case>> {
     let mut cases = Vec::new();
-    for command in names(&help(program, &[])?) {
+    for command in names(&help(&[])?) {
         let call = CALLS.iter().chain(&OTHERS).find(|call| starts_with(&split(call), &command));
         let call = call.ok_or_else(|| io::Error::other(format!("no call of `{}`", command.join(" "))))?;
-        for option in options(&help(program, &command)?) {
+        for option in options(&help(&command)?) {
             if WRITTEN.contains(&option.as_str()) {
                 continue;
             }
@@ -99,8 +100,8 @@ fn starts_with(call: &[String], command: &[String]) -> bool {
     call.len() >= command.len() && call[..command.len()] == *command
 }
 
-fn help(program: &Path, command: &[String]) -> io::Result<String> {
-    let output = Command::new(program).args(command).arg("--help").output()?;
+fn help(command: &[String]) -> io::Result<String> {
+    let output = Command::new(PROGRAM).args(command).arg("--help").output()?;
     Ok(String::from_utf8_lossy(&output.stdout).into_owned())
 }
 
@@ -132,27 +133,22 @@ fn without(mut call: Vec<String>, option: &str) -> Vec<String> {
     call
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
+#[test]
+fn commands_are_found_in_the_groups_of_the_help() {
+    let help = "A\n\nUsage: cdpr <COMMAND>\n\nRobots:\n  inverse            Find it\n  robot list  List\n  \
+                Example: cdpr x\n\nOptions:\n  -h, --help  Print help\n";
+    assert_eq!(names(help), [vec!["inverse"], vec!["robot", "list"]]);
+}
 
-    #[test]
-    fn commands_are_found_in_the_groups_of_the_help() {
-        let help = "A\n\nUsage: cdpr <COMMAND>\n\nRobots:\n  inverse            Find it\n  robot list         List\n  \
-                    Example: cdpr x\n\nOptions:\n  -h, --help  Print help\n";
-        assert_eq!(names(help), [vec!["inverse"], vec!["robot", "list"]]);
-    }
+#[test]
+fn options_with_values_are_found_in_a_help() {
+    let help = "Options:\n      --pose <POSE>\n          Pose: --rpy <X>\n  -o, --out <FILE>\n      \
+                --overwrite\n      --with <NAMES>\n      --rpy <ROLL> <PITCH> <YAW>\n";
+    assert_eq!(options(help), ["--pose", "--out", "--with", "--rpy"]);
+}
 
-    #[test]
-    fn options_with_values_are_found_in_a_help() {
-        let help = "Options:\n      --pose <POSE>\n          Pose: --rpy <X>\n  -o, --out <FILE>\n      \
-                    --overwrite\n      --with <NAMES>\n      --rpy <ROLL> <PITCH> <YAW>\n";
-        assert_eq!(options(help), ["--pose", "--out", "--with", "--rpy"]);
-    }
-
-    #[test]
-    fn the_value_of_a_call_goes_with_its_option() {
-        assert_eq!(without(split("a --b 1 --c 2"), "--b"), ["a", "--c", "2"]);
-        assert_eq!(without(split("a --c 2"), "--b"), ["a", "--c", "2"]);
-    }
+#[test]
+fn the_value_of_a_call_goes_with_its_option() {
+    assert_eq!(without(split("a --b 1 --c 2"), "--b"), ["a", "--c", "2"]);
+    assert_eq!(without(split("a --c 2"), "--b"), ["a", "--c", "2"]);
 }

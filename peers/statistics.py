@@ -1,12 +1,13 @@
-"""SALib and OpenTURNS on the functions of `cargo xtask statistics measures`.
+"""SALib and OpenTURNS on the functions of the table `measures`, next to its rows: peers/run statistics.
 
-    statistics.py EXACT.json STUDIES [PART_OF_THE_NAMES_OF_MEASURES]
+    statistics.py FOLDER STUDIES [PART_OF_THE_NAMES_OF_MEASURES]
 
-`EXACT.json` is what `crates/cdpr-sensitivity/examples/statistics` has written: laws of the inputs, values
-that count as true, and one point with its output, which the functions below must have as well. Prints a row
-a line as JSON: program, function, measure, runs, studies, error (largest root mean square error of an
-input), held (share of the intervals of 95 % that hold the true value [%], mean and least over the inputs)
-and ms (CPU time of a study with its runs, on one thread); `why` where there is no number.
+`FOLDER/exact.json` is what `crates/cdpr-sensitivity/examples/statistics` has written: laws of the inputs, values
+that count as true, and one point with its output, which the functions below must have as well;
+`FOLDER/measures.json` has its rows. A row has program, function, measure, runs, studies, error (largest root mean
+square error of an input), held (share of the intervals of 95 % that hold the true value [%], mean and least over the
+inputs) and ms (CPU time of a study with its runs, on one thread); `why` where there is no number. Prints a table for
+each measure, with a row for each function and a column for each program.
 """
 
 import json
@@ -22,6 +23,9 @@ from SALib.sample import latin, morris as morris_sample, sobol as sobol_sample
 
 NEAR = 1e-4
 BLOCKS, ROWS, WALKS = 256, 256, 64
+
+#: Rows of all programs.
+FOUND = []
 
 
 # The functions, of rows of inputs.
@@ -285,8 +289,7 @@ def rows(name, f, exact, studies, part):
     def add(program, names, truths, runs, count, study):
         if not any(part in of for of in names):
             return
-        for found in row(program, name, names, truths, runs, count, study):
-            print(json.dumps(found), flush=True)
+        FOUND.extend(row(program, name, names, truths, runs, count, study))
 
     add("SALib", sobol, [first, total], BLOCKS * (k + 2), studies, salib_sobol(of, f))
     for label, algorithm in [
@@ -310,11 +313,32 @@ def rows(name, f, exact, studies, part):
     add("OpenTURNS", ["HSIC R2"], [tables["r_squared"]], ROWS, few, turns_hsic(law, f))
 
 
+def cell(row):
+    """Error, mean and least share of the intervals that hold, CPU time and number of studies."""
+    if row is None or "why" in row:
+        return row["why"] if row else "-"
+    held = " / ".join(f"{share:.0f}" for share in row["held"]) if row["held"] else "-"
+    return f"{row['error']:.4f}; {held}; {row['ms']:.2f}; {row['studies']}"
+
+
+def tables(rows):
+    """Prints a table for each measure that the others have as well."""
+    others = {row["measure"] for row in rows if row["program"] != "cdpr"}
+    for measure in dict.fromkeys(row["measure"] for row in rows if row["measure"] in others):
+        of = {(row["function"], row["program"]): row for row in rows if row["measure"] == measure}
+        functions, programs = (list(dict.fromkeys(key[k] for key in of)) for k in (0, 1))
+        print(f"\n### {measure}\n\n| function | {' | '.join(programs)} |\n|---|{'---|' * len(programs)}")
+        for function in functions:
+            print(f"| {function} | {' | '.join(cell(of.get((function, program))) for program in programs)} |")
+
+
 def main():
     warnings.simplefilter("ignore")
     ot.Log.Show(ot.Log.NONE)
-    path, studies, part = sys.argv[1], int(sys.argv[2]), (sys.argv + [""])[3]
-    with open(path) as file:
+    folder, studies, part = sys.argv[1], int(sys.argv[2]), (sys.argv + [""])[3]
+    with open(f"{folder}/measures.json") as file:
+        FOUND.extend(json.load(file))
+    with open(f"{folder}/exact.json") as file:
         exact = json.load(file)
     for name, of in exact.items():
         f = failing if "fail" in name else FUNCTIONS[name]
@@ -327,6 +351,7 @@ def main():
     zero = {"inputs": exact["Ishigami"]["inputs"], **{key: [0.0] * 3 for key in ("first", "total", "morris")}}
     zero["tables"] = {key: [0.0] * 3 for key in ("delta", "pawn", "r_squared")}
     rows("constant", lambda x: np.ones(len(x)), zero, 2, part)
+    tables(FOUND)
 
 
 main()
