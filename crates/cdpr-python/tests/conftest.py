@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import subprocess
 from pathlib import Path
 
@@ -59,7 +60,7 @@ def answer(*arguments):
 
 
 def refusal(*arguments):
-    """What a command says as it fails."""
+    """What a command says as it fails, with the lines that are wrapped at 80 columns joined."""
     done = command(*arguments)
     assert done.returncode == 1, (done.returncode, done.stdout)
-    return done.stderr.removeprefix("error: ").strip()
+    return re.sub(r"\n {2}(?! )", " ", done.stderr.removeprefix("error: ").strip())

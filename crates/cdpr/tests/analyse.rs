@@ -1,6 +1,6 @@
 //! `cdpr analyse`: tables of users and of studies.
 
-use crate::common::{Bench, answered, cdpr, cdpr_in, data_path, text};
+use crate::common::{Bench, answered, cdpr, cdpr_in, data_path, text, unwrapped};
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
@@ -111,7 +111,7 @@ fn counts_without_end_are_refused_before_anything_is_computed() {
     ] {
         let output = cdpr(&[&["analyse"], &arguments[..]].concat());
         assert_eq!(output.status.code(), Some(code), "{arguments:?}");
-        let message = text(output.stderr);
+        let message = unwrapped(output.stderr);
         assert!(message.contains(words), "{message}");
     }
     // Compared one by one, 60 000 names take half a minute.
@@ -171,7 +171,7 @@ fn a_folder_of_results_has_the_deviations_as_inputs_and_the_last_column_as_outpu
     answered(cdpr_in(&bench.path("."), &run));
     let several = cdpr_in(&bench.path("."), &["analyse", "results"]);
     assert_eq!(several.status.code(), Some(1));
-    assert!(text(several.stderr).contains("mechanical"));
+    assert!(unwrapped(several.stderr).contains("mechanical"));
     let printed =
         answered(cdpr_in(&bench.path("."), &["analyse", "results/mechanical.csv", "--format", "json"]));
     let found: Value = serde_json::from_str(&printed).unwrap();
@@ -251,7 +251,7 @@ fn wrong_columns_limits_and_tables_are_refused_with_what_would_be_right() {
     ] {
         let output = cdpr(&[&["analyse", table.as_str()], &arguments[..]].concat());
         assert_eq!(output.status.code(), Some(code), "{arguments:?}");
-        let message = text(output.stderr);
+        let message = unwrapped(output.stderr);
         assert!(message.contains(words), "{message}");
     }
 }

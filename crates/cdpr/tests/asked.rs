@@ -1,12 +1,12 @@
 //! Questions about answers, endings of refused runs, and messages that are the same in print and in JSON.
 
-use crate::common::{Bench, cdpr, cdpr_in, data_path, json_file, text};
+use crate::common::{Bench, cdpr, cdpr_in, data_path, json_file, text, unwrapped};
 use serde_json::{Value, json};
 use std::process::Output;
 
 /// The words of the questions of a command, and its exit code.
 fn questions(output: &Output) -> (String, Option<i32>) {
-    let said = text(output.stderr.clone());
+    let said = unwrapped(output.stderr.clone());
     (said, output.status.code())
 }
 
@@ -111,6 +111,46 @@ fn angles_of_more_than_a_turn_are_questioned() {
 }
 
 #[test]
+fn what_cannot_be_right_is_refused_before_it_is_computed() {
+    let folder = tempfile::TempDir::new().unwrap();
+    let move_along = ["path", "cogiro", "--poses", "poses.csv", "--with"];
+    let plan = ["calibrate", "plan", "cogiro", "--region=-1:1:9,-1:1:9,1:2:9"];
+    let known = ["--uncertainty", "a=0.002", "--noise", "position=1e-4", "--with", "criterion=mean-position"];
+    for (arguments, words) in [
+        (vec!["inverse", "cogiro", "--pose", "0,0,2", "--out", "none/a.csv"], "there is no folder none"),
+        (vec!["inverse", "cogiro", "--pose", "0,0,2", "--out", "."], "expected the name of a file"),
+        (
+            vec!["workspace", "cogiro", "--region", "::99,::99,2", "--figure", "map.svg"],
+            "name of a map: deflection",
+        ),
+        (vec!["workspace", "cogiro", "--region", "::99,0,2", "--with", "boundary"], "a plane or a box"),
+        ([&move_along[..], &["seconds=2,robots=9"]].concat(), "expected --uncertainty, too"),
+        ([&plan[..], &known].concat(), "expected --work, too"),
+    ] {
+        let (said, code) = questions(&cdpr_in(folder.path(), &arguments));
+        assert!(said.contains(words) && code == Some(2), "{arguments:?}: {said}");
+    }
+}
+
+#[test]
+fn the_question_that_was_asked_is_answered_first() {
+    let first = |arguments: &[&str]| {
+        let output = cdpr(arguments);
+        let printed = text(output.stdout).replace('\n', " ");
+        assert!(output.status.code().is_some_and(|code| code != 1), "{printed}");
+        printed.split(". ").next().unwrap().to_owned()
+    };
+    let at = ["cogiro", "--pose", "0,0,2"];
+    let first_of = |command: &str, more: &[&str]| first(&[&[command], &at[..], more].concat());
+    assert!(first_of("capacity", &["--with", "tilt=2"]).contains("may tilt by"));
+    let uncertain = first_of("derivatives", &["--payload", "5", "--uncertainty", "a=0.002"]);
+    assert!(uncertain.contains("with a standard deviation of"), "{uncertain}");
+    let table = data_path("tables/ishigami.csv");
+    let limited = first(&["analyse", &table, "--limit", "y<5"]);
+    assert!(limited.contains("y: limit < 5: "), "{limited}");
+}
+
+#[test]
 fn a_pose_of_a_study_in_millimetres_says_what_was_meant() {
     let bench = Bench::new("caroca.json", |study| {
         for (_, sampling) in study["samplings"].as_object_mut().unwrap() {
@@ -127,12 +167,12 @@ fn the_first_study_of_a_robot_with_few_cables_is_held_in_every_observation() {
     for robot in ["four-cables", "irma4u", "grab"] {
         let file = format!("{robot}.json");
         let new = cdpr_in(folder.path(), &["study", "new", robot, "--out", &file]);
-        assert!(new.status.success(), "{}", text(new.stderr));
+        assert!(new.status.success(), "{}", unwrapped(new.stderr));
         let study = json_file(folder.path().join(&file));
         let is_said = study["source"].as_str().unwrap().contains("times smaller than usual");
         assert_eq!(is_said, robot != "grab", "{study}");
         let run = cdpr_in(folder.path(), &["study", "run", &file, "--out", robot]);
-        assert_eq!(run.status.code(), Some(0), "{}", text(run.stderr));
+        assert_eq!(run.status.code(), Some(0), "{}", unwrapped(run.stderr));
         let summary = json_file(folder.path().join(robot).join("summary.json"));
         assert_eq!(summary["samplings"]["all"]["failed"].as_u64().unwrap_or(0), 0, "{robot}: {summary}");
         assert!(!text(run.stdout).contains("failed:"), "{robot}");

@@ -3,7 +3,7 @@
 //! After a change, `INSTA_UPDATE=always cargo test -p cdpr bad_input` writes the snapshot again; read the
 //! difference as a user would.
 
-use crate::common::{cdpr_in, data_text as data, text};
+use crate::common::{cdpr_in, data_text as data, unwrapped};
 use std::fmt::Write;
 use std::path::Path;
 use tempfile::TempDir;
@@ -209,7 +209,7 @@ fn every_kind_of_bad_input_is_refused_with_place_value_and_remedy() {
             arguments.push(LENGTHS);
         }
         let output = cdpr_in(folder.path(), &arguments);
-        let error = text(output.stderr);
+        let error = unwrapped(output.stderr);
         let code = output.status.code().unwrap();
         assert!(code == 1 || code == 2, "{what}: {code}: {error}");
         assert!(output.stdout.is_empty(), "{what}");

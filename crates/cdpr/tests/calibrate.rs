@@ -1,6 +1,6 @@
 //! `cdpr calibrate fit` as a user meets it.
 
-use crate::common::{answered, cdpr, data_path, text};
+use crate::common::{answered, cdpr, data_path, unwrapped};
 use serde_json::Value;
 use std::path::Path;
 use tempfile::TempDir;
@@ -35,7 +35,7 @@ fn campaign() -> (TempDir, String) {
         "--out",
         &path,
     ]);
-    assert!(output.status.success(), "{}", text(output.stderr));
+    assert!(output.status.success(), "{}", unwrapped(output.stderr));
     (folder, path)
 }
 
@@ -61,7 +61,7 @@ fn noise_stated_in_millimetres_makes_chi_square_too_small_and_is_questioned() {
     let model = data_path("calibration/caroca-tolerances.json");
     let noise = "position=0.05,rotation=0.05,length=0.05";
     let output = calibrate(&path, &folder.path().join("out"), &["--uncertainty", &model, "--noise", noise]);
-    assert_eq!(output.status.code(), Some(3), "{}", text(output.stderr));
+    assert_eq!(output.status.code(), Some(3), "{}", unwrapped(output.stderr));
     let summary: Value = serde_json::from_slice(&output.stdout).unwrap();
     let warnings = summary["warnings"].as_array().unwrap();
     let is_of_noise = |warning: &Value| {
@@ -78,7 +78,7 @@ fn a_campaign_gives_a_robot_and_what_is_left_and_a_study_takes_both() {
     let model = data_path("calibration/caroca-tolerances.json");
     let out = folder.path().join("out");
     let output = calibrate(&path, &out, &["--uncertainty", &model, "--noise", NOISE]);
-    assert_eq!(output.status.code(), Some(0), "{}", text(output.stderr));
+    assert_eq!(output.status.code(), Some(0), "{}", unwrapped(output.stderr));
     let printed: Value = serde_json::from_slice(&output.stdout).unwrap();
     let read = |name: &str| std::fs::read_to_string(out.join(name)).unwrap();
     let summary: Value = serde_json::from_str(&read("summary.json")).unwrap();
@@ -111,7 +111,7 @@ fn a_campaign_gives_a_robot_and_what_is_left_and_a_study_takes_both() {
     std::fs::write(&file, study.to_string()).unwrap();
     let results = folder.path().join("results").display().to_string();
     let output = cdpr(&["study", "run", file.to_str().unwrap(), "--out", &results, "--observations", "256"]);
-    let error = text(output.stderr);
+    let error = unwrapped(output.stderr);
     assert!(output.status.success(), "{error}");
 
     // Derivatives with the posterior: g' C g, correlations included.
@@ -175,13 +175,13 @@ fn bad_measurements_are_named_by_line_and_column() {
         let (folder, path) = campaign();
         changed(&path, change);
         let output = calibrate(&path, &folder.path().join("out"), &["--noise", NOISE]);
-        let error = text(output.stderr);
+        let error = unwrapped(output.stderr);
         assert_eq!(output.status.code(), Some(1), "{error}");
         assert!(error.contains(words), "`{words}` is not in: {error}");
     }
     let (folder, path) = campaign();
     changed(&path, |cells| cells.truncate(5));
-    let error = text(calibrate(&path, &folder.path().join("out"), &["--noise", NOISE]).stderr);
+    let error = unwrapped(calibrate(&path, &folder.path().join("out"), &["--noise", NOISE]).stderr);
     assert!(error.contains("56 measurements for 82 unknowns, 32 of them lengths"), "{error}");
 }
 
@@ -203,13 +203,13 @@ fn what_cannot_be_written_and_settings_that_cannot_be_meant_are_refused() {
         (&["--noise", NOISE, "--unknown", "drum"], "error of sensors is drum: expected one of"),
     ] {
         let output = calibrate(&path, &out, more);
-        let error = text(output.stderr);
+        let error = unwrapped(output.stderr);
         assert!(!output.status.success() && error.contains(words), "`{words}` is not in: {error}");
     }
     // A file stands where the folder should be made: it stays as it is.
     let before = std::fs::read_to_string(&path).unwrap();
     let output = calibrate(&path, Path::new(&path), &["--noise", NOISE]);
-    let error = text(output.stderr);
+    let error = unwrapped(output.stderr);
     assert!(output.status.code() == Some(1) && error.contains("cannot write"), "{error}");
     assert_eq!(std::fs::read_to_string(&path).unwrap(), before);
     assert!(!out.join("summary.json").exists());
@@ -221,7 +221,7 @@ fn swapped_columns_and_rows_of_other_poses_are_warned_of() {
     let (folder, path) = campaign();
     changed(&path, |cells| cells[7][8] = (cells[7][8].parse::<f64>().unwrap() + 0.3).to_string());
     let output = calibrate(&path, &folder.path().join("out"), &["--uncertainty", &model, "--noise", NOISE]);
-    assert_eq!(output.status.code(), Some(3), "{}", text(output.stderr));
+    assert_eq!(output.status.code(), Some(3), "{}", unwrapped(output.stderr));
     let summary: Value = serde_json::from_slice(&output.stdout).unwrap();
     let warnings = summary["warnings"].to_string();
     assert!(warnings.contains("line 8 alone makes"), "{warnings}");
@@ -234,7 +234,7 @@ fn swapped_columns_and_rows_of_other_poses_are_warned_of() {
         changed(&path, |cells| cells[1..].iter_mut().for_each(|line| line.swap(columns.0, columns.1)));
         let output =
             calibrate(&path, &folder.path().join("out"), &["--uncertainty", &model, "--noise", NOISE]);
-        let error = text(output.stderr);
+        let error = unwrapped(output.stderr);
         assert!(output.status.code() == Some(1) && error.contains(words), "{error}");
     }
 }

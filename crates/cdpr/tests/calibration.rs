@@ -1,6 +1,6 @@
 //! `cdpr calibrate` as a user meets it.
 
-use crate::common::{answered, cdpr, data_path, text};
+use crate::common::{answered, cdpr, data_path, text, unwrapped};
 use serde_json::Value;
 use std::process::Output;
 use tempfile::TempDir;
@@ -49,7 +49,7 @@ fn a_file_of_poses_is_read_line_by_line() {
     let json: Value = serde_json::from_slice(&run(&arguments).stdout).unwrap();
     assert_eq!(json["poses"], 2);
     std::fs::write(&path, "0,0,1.75\n1,0.5\n").unwrap();
-    let error = text(run(&arguments).stderr);
+    let error = unwrapped(run(&arguments).stderr);
     assert!(
         error.starts_with("error: --poses ")
             && error.contains("line 2: 2 cells: expected 3, as many as in line 1"),
@@ -93,7 +93,7 @@ fn bad_input_is_named_with_what_would_be_right() {
         ),
     ] {
         let output = run(&arguments);
-        let text = text(output.stderr);
+        let text = unwrapped(output.stderr);
         assert_ne!(output.status.code(), Some(0), "{text}");
         assert!(text.contains(words) && !text.contains("panicked"), "`{words}` is not in: {text}");
     }

@@ -1,6 +1,6 @@
 //! Every command has an example in docs/COMMANDS.md; `book.rs` runs them.
 
-use crate::common::{answered, cdpr};
+use crate::common::{answered, cdpr, unwrapped};
 use std::path::{Path, PathBuf};
 
 const DOCUMENT: &str = include_str!("../../../docs/COMMANDS.md");
@@ -47,7 +47,7 @@ fn old_and_similar_names_are_answered_by_the_command_that_is_meant() {
         (&["robot", "deflection"], "cdpr deflection"),
     ] {
         let output = cdpr(typed);
-        let said = String::from_utf8(output.stderr).unwrap();
+        let said = unwrapped(output.stderr);
         assert_eq!(output.status.code(), Some(2), "{typed:?}: {said}");
         assert!(said.contains(&format!("the command is `{meant}`")), "{typed:?}: {said}");
     }

@@ -41,10 +41,28 @@ pub(crate) fn text(bytes: Vec<u8>) -> String {
     String::from_utf8(bytes).unwrap()
 }
 
+/// What a command says on the standard error, with the lines that are wrapped at 80 columns joined.
+pub(crate) fn unwrapped(bytes: Vec<u8>) -> String {
+    let said = text(bytes);
+    let mut joined: Vec<String> = Vec::new();
+    for line in said.lines() {
+        let indent = line.len() - line.trim_start().len();
+        match joined.last_mut() {
+            Some(before) if [2, 6].contains(&indent) && !before.is_empty() => {
+                before.push(' ');
+                before.push_str(line.trim_start());
+            }
+            _ => joined.push(line.to_owned()),
+        }
+    }
+    let end = if said.ends_with('\n') { "\n" } else { "" };
+    joined.join("\n") + end
+}
+
 /// Standard output of a command that must succeed and say nothing on the standard error but how long it
 /// takes.
 pub(crate) fn answered(output: Output) -> String {
-    let said = text(output.stderr);
+    let said = unwrapped(output.stderr);
     assert!(output.status.success() && said.lines().all(is_progress), "{said}");
     text(output.stdout)
 }
@@ -120,7 +138,7 @@ impl Bench {
     /// Both outputs of a command that must succeed.
     pub(crate) fn done(&self, arguments: &[&str]) -> String {
         let output = self.study(arguments);
-        let text = text([output.stdout, output.stderr].concat());
+        let text = text(output.stdout) + &unwrapped(output.stderr);
         assert!(output.status.success(), "{arguments:?}: {text}");
         text
     }
@@ -142,7 +160,7 @@ impl Bench {
 
     fn failed(&self, code: i32, arguments: &[&str]) -> String {
         let output = self.study(arguments);
-        let text = text(output.stderr);
+        let text = unwrapped(output.stderr);
         assert_eq!(output.status.code(), Some(code), "{arguments:?}: {text}");
         assert!(!text.contains("panicked"), "{text}");
         text

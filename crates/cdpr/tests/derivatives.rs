@@ -1,6 +1,6 @@
 //! `cdpr derivatives` as a user meets it: the numbers of the library, and every kind of bad input.
 
-use crate::common::{cdpr, data, data_path, data_text, text};
+use crate::common::{cdpr, data, data_path, data_text, text, unwrapped};
 use cdpr_dynamics::FrequencyDerivatives;
 use cdpr_robot::{Coordinate, Pose, Robot, Vector3};
 use cdpr_statics::{Load, WantedPose, derivatives};
@@ -24,7 +24,7 @@ fn json_holds_the_numbers_of_the_library() {
         [("0,0,1.75", Pose::at(0.0, 0.0, 1.75)), ("-0.4,0.3,1.5,0.99,0.05,0,-0.1", turned)]
     {
         let output = run(&caroca(), &["--pose", argument, "--payload", "50", "--format", "json"]);
-        assert!(output.status.success() && output.stderr.is_empty(), "{}", text(output.stderr));
+        assert!(output.status.success() && output.stderr.is_empty(), "{}", unwrapped(output.stderr));
         let json: Value = serde_json::from_slice(&output.stdout).unwrap();
         let keys: Vec<_> = json.as_object().unwrap().keys().map(String::as_str).collect();
         let lists = ["parameters", "magnitude_mm", "deflection_mm", "unstrained_lengths", "least_stiffness"];
@@ -168,7 +168,7 @@ fn bad_input_is_named_with_what_would_be_right() {
         ("nowhere.json".into(), with(["--payload", "50"]), "error: cannot read nowhere.json: No such file"),
     ] {
         let output = run(&robot, &arguments);
-        let text = text(output.stderr);
+        let text = unwrapped(output.stderr);
         assert_ne!(output.status.code(), Some(0), "{text}");
         assert!(text.contains(words) && !text.contains("panicked"), "`{words}` is not in: {text}");
     }
@@ -191,6 +191,6 @@ fn derivatives_of_a_robot_with_four_cables_need_and_take_free_coordinates() {
     for (j, magnitude) in exact.magnitude().unwrap().iter().take(exact.inputs.parameters.len()).enumerate() {
         assert_eq!(found["magnitude_mm"][j].as_f64(), Some(1e3 * magnitude));
     }
-    let refused = text(cdpr(&arguments).stderr);
+    let refused = unwrapped(cdpr(&arguments).stderr);
     assert!(refused.contains("expected as many names in `free`"), "{refused}");
 }

@@ -2,7 +2,7 @@
 //! nothing of the user is lost, nothing is mixed, and the command that goes on ends with the bytes of one
 //! without a fault. The seam is `crates/cdpr-study/src/fs/disk.rs`.
 
-use crate::common::{Bench, Files, data_path, text};
+use crate::common::{Bench, Files, data_path, unwrapped};
 use serde_json::{Value, json};
 use std::path::Path;
 use std::process::Output;
@@ -60,7 +60,7 @@ impl<'a> Trial<'a> {
 
     fn done(&self, arguments: &[&str], what: &str) {
         let output = self.run(arguments, "");
-        assert!(output.status.success(), "{what}: {arguments:?}: {}", text(output.stderr));
+        assert!(output.status.success(), "{what}: {arguments:?}: {}", unwrapped(output.stderr));
     }
 
     /// Lets each operation of the command fail in turn; returns how many there are.
@@ -85,7 +85,7 @@ impl<'a> Trial<'a> {
                 }
                 put(&given, &out);
                 let ended = self.run(self.command, &format!("{number} {fault}"));
-                let message = text(ended.stderr);
+                let message = unwrapped(ended.stderr);
                 let Some(what) = message.lines().find(|line| line.starts_with("fault: ")) else {
                     assert!(ended.status.success() && fault == error, "{number} {fault}: {message}");
                     assert!(unlike(&after, &without_times(files(&out))).is_none());
@@ -106,7 +106,7 @@ impl<'a> Trial<'a> {
                     assert!(unlike.contains(&None), "{what}: {unlike:?} beside {name}");
                 }
                 let resumed = self.run(self.again, "");
-                let message = text(resumed.stderr);
+                let message = unwrapped(resumed.stderr);
                 if message.contains("--overwrite what is there") {
                     self.done(self.command, what);
                 } else if message.contains("File exists") {

@@ -1,6 +1,6 @@
 //! Files of figures: formats by their names, width, title; figures of a folder by their names.
 
-use crate::common::{answered, cdpr, cdpr_in, data_path, text};
+use crate::common::{answered, cdpr, cdpr_in, data_path, unwrapped};
 use crate::study_run::bench;
 use std::fs::read_to_string;
 use std::path::Path;
@@ -31,7 +31,7 @@ fn a_name_that_says_no_format_or_a_setting_that_is_none_is_refused_before_anythi
     ] {
         let output = cdpr(&["path", "caroca", "--poses", &poses, "--figure", name]);
         assert_eq!(output.status.code(), Some(2), "{name}");
-        let message = text(output.stderr);
+        let message = unwrapped(output.stderr);
         assert!(output.stdout.is_empty() && message.contains(remedy), "{name}: {message}");
     }
 }
@@ -41,7 +41,7 @@ fn a_width_in_millimetres_and_a_caption_in_place_of_the_title() {
     let folder = TempDir::new().unwrap();
     let written = |name: &str| {
         let output = path(folder.path(), "caroca", "x_m,y_m,z_m\n0,0,1.75\n0,0,2\n", name);
-        assert!(output.status.success(), "{}", text(output.stderr));
+        assert!(output.status.success(), "{}", unwrapped(output.stderr));
         read_to_string(folder.path().join("path.svg")).unwrap()
     };
     let usual = written("path.svg");
@@ -66,7 +66,7 @@ fn a_figure_of_results_is_drawn_by_its_name() {
     assert_eq!(same[0], same[1]);
     let output = asked(&["robot.svg", "chemical.svg"]);
     assert_eq!(output.status.code(), Some(2));
-    let message = text(output.stderr);
+    let message = unwrapped(output.stderr);
     assert!(message.contains("--figure chemical.svg") && message.contains("mechanical, "), "{message}");
 }
 
@@ -83,7 +83,7 @@ fn a_map_is_drawn_by_its_name() {
     assert!(cut.contains("viewBox=\"0 200 ") && own.contains("viewBox=\"0 0 "));
     let output = map("torque.svg");
     assert_eq!(output.status.code(), Some(2));
-    assert!(text(output.stderr).contains("deflection, "));
+    assert!(unwrapped(output.stderr).contains("deflection, "));
     assert!(folder.path().join("map/workspace.csv").exists());
 }
 

@@ -18,7 +18,9 @@ const ROBOTS: [(&str, &str, &[&str]); 6] = [
 /// What a command prints, which must be narrow.
 fn narrow(folder: &Path, arguments: &[&str]) -> String {
     let output = cdpr_in(folder, arguments);
+    let wide = |line: &&str| line.chars().count() > 80;
     let (printed, said) = (text(output.stdout), text(output.stderr));
+    assert_eq!(said.lines().find(wide), None, "{arguments:?}");
     assert!(matches!(output.status.code(), Some(0 | 3)), "{arguments:?}: {said}");
     assert!(!printed.is_empty(), "{arguments:?} prints nothing");
     for line in printed.lines() {

@@ -1,7 +1,7 @@
 //! A folder of results has one owner: nothing that a run has not written is removed or replaced, no link is
 //! followed, and two processes never write at once.
 
-use crate::common::{Bench, Files, assert_same_files, cdpr_in, data_path, text};
+use crate::common::{Bench, Files, assert_same_files, cdpr_in, data_path, text, unwrapped};
 use cdpr_study::{Existing, Study, begin};
 use serde_json::json;
 use std::path::Path;
@@ -28,7 +28,7 @@ pub(crate) fn bench() -> Bench {
 /// `cdpr study report ...`: the exit code and the standard error.
 pub(crate) fn report(bench: &Bench, arguments: &[&str]) -> (Option<i32>, String) {
     let output = cdpr_in(&bench.path("."), &[&["study", "report"], arguments].concat());
-    (output.status.code(), text(output.stderr))
+    (output.status.code(), unwrapped(output.stderr))
 }
 
 pub(crate) fn write(path: impl AsRef<Path>, content: &str) {
@@ -85,7 +85,7 @@ fn links_in_a_folder_of_results_are_not_followed() {
             let output = bench.study(&[&OVERWRITE[..4], options, &["--table", "csv"]].concat());
             assert_eq!(everything(&outside), before, "{link} {options:?}");
             assert!(std::fs::symlink_metadata(&inside).unwrap().is_symlink(), "{link} {options:?}");
-            let message = text(output.stderr);
+            let message = unwrapped(output.stderr);
             // Only what needs nothing behind the link ends well.
             let named = message.contains(&format!("out/{link} is a link"));
             assert!(output.status.success() || named, "{link} {options:?}: {message}");
@@ -147,7 +147,7 @@ fn a_users_own_files_are_not_written_over_by_a_first_run_and_named() {
         write(&own, "mine");
         let out = own.parent().unwrap().to_str().unwrap().to_owned();
         let output = cdpr_in(&bench.path("."), &[&workspace[..], &["--out", &out]].concat());
-        let message = text(output.stderr);
+        let message = unwrapped(output.stderr);
         assert!(output.status.code() == Some(1) && message.contains("was not written by a run"), "{message}");
         assert_eq!(everything(Path::new(&out)), [(format!("{name}/"), b"mine".to_vec())]);
     }
@@ -183,7 +183,7 @@ fn a_report_shows_the_region_of_a_workspace_of_its_robot() {
             &[&["workspace", robot, place, "--out", "map", "--overwrite"], more].concat(),
         );
         // CoGiRo holds less than half of these positions.
-        assert!(matches!(output.status.code(), Some(0 | 3)), "{}", text(output.stderr));
+        assert!(matches!(output.status.code(), Some(0 | 3)), "{}", unwrapped(output.stderr));
     };
     let region = || {
         let asked = report(&bench, &["out", "map", "--out", "report.html", "--overwrite"]);
@@ -302,7 +302,7 @@ fn of_processes_that_race_for_a_folder_the_results_are_of_one() {
         });
         children.map(|child| {
             let output = child.wait_with_output().unwrap();
-            let message = text(output.stderr);
+            let message = unwrapped(output.stderr);
             assert!(output.status.success() || output.status.code() == Some(1), "{message}");
             assert!(
                 output.status.success() || message.contains("is in use") || message.contains("out holds"),
@@ -375,7 +375,7 @@ fn results_of_another_kind_are_not_written_into_a_folder() {
     let robot = data_path("robots/caroca.json");
     let workspace =
         cdpr_in(&bench.path("."), &["workspace", &robot, "--region=0:0:1,0:0:1,1.75:1.75:1", "--out", "out"]);
-    let message = text(workspace.stderr);
+    let message = unwrapped(workspace.stderr);
     assert!(message.contains("out holds the results of a study: expected those of a workspace"), "{message}");
     assert_eq!(bench.files("out"), before);
 }

@@ -1,7 +1,7 @@
 //! Forty natural mistakes, each as it is typed: it is understood, questioned or refused, with its cause, its
 //! place and what to do.
 
-use crate::common::{cdpr_in, data, data_text, text};
+use crate::common::{cdpr_in, data, data_text, text, unwrapped};
 use std::path::Path;
 use tempfile::TempDir;
 
@@ -178,7 +178,7 @@ fn prepare(folder: &Path) {
     let row = |k: i32| format!("{},{},{k},text\n", f64::from(k * k % 17), f64::from(k * k % 23));
     write("table.csv", &format!("a,b,y,note\n{}", (0..60).map(row).collect::<String>()));
     let study = cdpr_in(folder, &["study", "new", "caroca", "--out", "template.json"]);
-    assert!(study.status.success(), "{}", text(study.stderr));
+    assert!(study.status.success(), "{}", unwrapped(study.stderr));
     let mut study: serde_json::Value = crate::common::json_file(folder.join("template.json"));
     study.as_object_mut().unwrap().remove("sensitivity");
     (study["replicates"], study["surfaces"]) = (0.into(), serde_json::json!({}));
@@ -204,7 +204,7 @@ fn forty_natural_mistakes_have_cause_place_and_remedy() {
     prepare(folder.path());
     for (what, command, words) in COMMANDS {
         let output = cdpr_in(folder.path(), &command.split(' ').collect::<Vec<_>>());
-        let said = text([output.stderr, output.stdout].concat()).replace('\n', " ");
+        let said = (unwrapped(output.stderr) + &text(output.stdout)).replace('\n', " ");
         assert!(output.status.code().is_some() && !said.contains("panicked"), "{what}: {said}");
         for words in words {
             assert!(said.contains(words), "{what}: `{words}` is not in: {said}");
@@ -217,7 +217,7 @@ fn forty_natural_mistakes_have_cause_place_and_remedy() {
         };
         std::fs::write(folder.path().join("poses.csv"), bytes).unwrap();
         let output = cdpr_in(folder.path(), &["inverse", "cogiro", "--poses", "poses.csv"]);
-        let said = text([output.stderr, output.stdout].concat());
+        let said = unwrapped(output.stderr) + &text(output.stdout);
         assert!(said.contains("\n0.5,-0.25,2.0,1.0,0.0,0.0,0.0,"), "{what}: {said}");
     }
 }

@@ -1,7 +1,7 @@
 //! What holds for all commands: the standard input and pipes, files for answers, formats, further columns,
 //! what is said.
 
-use crate::common::{answered, cdpr, cdpr_in, data_path, data_text, text};
+use crate::common::{answered, cdpr, cdpr_in, data_path, data_text, text, unwrapped};
 use serde_json::Value;
 use std::io::Write;
 use std::path::Path;
@@ -38,8 +38,8 @@ fn the_standard_input_is_a_file_like_any_other() {
         serde_json::from_str(&answered(fed(&table, &["analyse", "-", "--format", "json"]))).unwrap();
     assert_eq!(analysed["rows"], 500, "{}", analysed["rows"]);
     let refused = fed("", &["inverse", "-", "--pose", "0,0,1.75"]);
-    assert_eq!(refused.status.code(), Some(1), "{}", text(refused.stderr));
-    let refused = text(fed("mass: 1", &["robot", "check", "-"]).stderr);
+    assert_eq!(refused.status.code(), Some(1), "{}", unwrapped(refused.stderr));
+    let refused = unwrapped(fed("mass: 1", &["robot", "check", "-"]).stderr);
     assert!(refused.starts_with("error: -"), "{refused}");
 }
 
@@ -54,7 +54,7 @@ fn answers_of_the_inverse_model_are_cases_of_the_direct_model() {
          --format json"
     );
     let output = Command::new("sh").args(["-c", &line]).current_dir(folder.path()).output().unwrap();
-    assert_eq!(output.status.code(), Some(3), "{}", text(output.stderr));
+    assert_eq!(output.status.code(), Some(3), "{}", unwrapped(output.stderr));
     let found: Vec<Value> = serde_json::from_slice(&output.stdout).unwrap();
     let close = |k: usize, pose: [f64; 3]| {
         (0..3).all(|axis| (found[k]["position"][axis].as_f64().unwrap() - pose[axis]).abs() < 1e-9)
@@ -79,7 +79,7 @@ fn an_answer_goes_to_the_file_whose_ending_chooses_its_format() {
     let lines: Vec<&str> = csv.lines().collect();
     assert!(lines.len() == 2 && lines[0].starts_with("x_m,y_m,z_m,qw,qx,qy,qz,status,dx_mm"), "{csv}");
     std::fs::write(folder.path().join("mine.json"), "mine").unwrap();
-    let refused = text(run(&["-o", "mine.json"]).stderr);
+    let refused = unwrapped(run(&["-o", "mine.json"]).stderr);
     assert!(refused.contains("--overwrite replaces it"), "{refused}");
     answered(run(&["-o", "mine.json", "--overwrite"]));
     assert_eq!(read("mine.json"), read("a.json"));
@@ -121,7 +121,7 @@ fn further_columns_of_poses_are_passed_on_and_rotations_in_another_notation_are_
         ("x_kg,y,z,t", "column x_kg: x in a unit of mass: expected x_m"),
     ] {
         let output = run(format!("{header}\n0,0,1.75,0\n").as_bytes(), "csv");
-        let said = text(output.stderr);
+        let said = unwrapped(output.stderr);
         assert!(output.status.code() == Some(1) && said.contains(words), "{header}: {said}");
     }
 }
@@ -134,13 +134,13 @@ fn fewer_than_half_of_the_positions_held_are_an_exit_code_of_their_own() {
         cdpr(&["workspace", "caroca", "--region", region, "--out", out.to_str().unwrap()])
     };
     let some = map("0,0,1:9:5", "some");
-    let said = text(some.stderr);
+    let said = unwrapped(some.stderr);
     assert_eq!(some.status.code(), Some(3), "{said}");
     assert!(said.contains("warning: fewer than half of the positions are held, 2 of 5"), "{said}");
     assert_eq!(map("0,0,1:3:3", "most").status.code(), Some(0));
     let identify = ["calibrate", "identify", "caroca", "--region", "0,0,1:9:5", "--uncertainty", "a=0.002"];
     let output = cdpr(&[&identify[..], &["--noise", "length=1e-4"]].concat());
-    let said = text(output.stderr);
+    let said = unwrapped(output.stderr);
     assert!(output.status.code() == Some(3) && said.contains("candidate poses are held, 2 of 5"), "{said}");
 }
 
@@ -150,7 +150,7 @@ fn less_and_more_is_said_on_request() {
     let usual = cdpr(&pose);
     let more = cdpr(&[&pose[..], &["-v"]].concat());
     assert_eq!(usual.stdout, more.stdout);
-    let said = text(more.stderr);
+    let said = unwrapped(more.stderr);
     assert!(
         said.starts_with("robot caroca: CAROCA, 8 cables\n") && said.trim_end().ends_with(" s"),
         "{said}"
@@ -158,7 +158,7 @@ fn less_and_more_is_said_on_request() {
     let folder = TempDir::new().unwrap();
     let map = ["workspace", "caroca", "--region", "::3,::3,9", "--overwrite", "--out", "map"];
     let notes = |more: &[&str]| {
-        let said = text(cdpr_in(folder.path(), &[&map[..], more].concat()).stderr);
+        let said = unwrapped(cdpr_in(folder.path(), &[&map[..], more].concat()).stderr);
         (said.contains("note: "), said.contains("question: "))
     };
     assert_eq!((notes(&[]), notes(&["--quiet"])), ((true, true), (false, true)));
@@ -179,12 +179,12 @@ fn an_error_model_is_typed_or_that_of_a_file_or_a_study() {
     assert!(std(&format!("{study}:table_3")) > 0.0);
     assert!(std(&data_path("calibration/caroca-tolerances.json")) > std("a=1e-6"));
     let several = derivatives(&study);
-    let said = text(several.stderr);
+    let said = unwrapped(several.stderr);
     assert!(
         several.status.code() == Some(2) && said.contains("expected ") && said.contains("table_3"),
         "{said}"
     );
-    let missing = text(derivatives("nowhere.json").stderr);
+    let missing = unwrapped(derivatives("nowhere.json").stderr);
     assert!(missing.starts_with("error: cannot read nowhere.json"), "{missing}");
     assert!(Path::new(&study).exists());
 }

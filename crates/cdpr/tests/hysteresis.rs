@@ -1,6 +1,6 @@
 //! `cdpr hysteresis` as a user meets it.
 
-use crate::common::{answered, cdpr, data_path, data_text, text};
+use crate::common::{answered, cdpr, data_path, data_text, text, unwrapped};
 use serde_json::Value;
 use std::process::Output;
 
@@ -32,7 +32,7 @@ fn the_cycle_of_the_paper_s_payload_ends_below_where_it_began() {
 fn json(arguments: &[&str]) -> Value {
     let common = ["--pose", "0,0,1.75", "--payload", "50", "--format", "json"];
     let output = cdpr(&[&["hysteresis"], arguments, &common].concat());
-    assert!(output.status.success(), "{}", text(output.stderr));
+    assert!(output.status.success(), "{}", unwrapped(output.stderr));
     serde_json::from_slice(&output.stdout).unwrap()
 }
 
@@ -91,14 +91,14 @@ fn cables_of_other_moduli_follow_the_record_and_those_of_other_sections_its_stre
     assert!((down / by_law - 1.0).abs() < 1e-5 && down.abs() < 0.98 * even.abs(), "{down} {by_law} {even}");
     let arguments = [&["hysteresis", file], &record[..], &["--pose", "0,0,1.75", "--payload", "50"]].concat();
     let refused = cdpr(&arguments);
-    assert!(text(refused.stderr).contains("differ in their section: expected --section"));
+    assert!(unwrapped(refused.stderr).contains("differ in their section: expected --section"));
 }
 
 #[test]
 fn a_cable_that_loses_no_energy_has_no_loop() {
     let arguments = ["hysteresis", "caroca-law", "--pose", "0,0,1.75", "--payload", "50"];
     let output = cdpr(&arguments);
-    assert!(output.status.success() && output.stderr.is_empty(), "{}", text(output.stderr));
+    assert!(output.status.success() && output.stderr.is_empty(), "{}", unwrapped(output.stderr));
     assert!(!text(output.stdout).contains("-0.0000"));
 }
 
@@ -106,7 +106,7 @@ fn a_cable_that_loses_no_energy_has_no_loop() {
 fn a_loop_that_gives_energy_is_said_to_do_so() {
     let output = hysteresis(&["--payload", "50", "--with", "same-tension"]);
     assert!(output.status.success());
-    let warning = text(output.stderr);
+    let warning = unwrapped(output.stderr);
     assert!(warning.contains("runs the wrong way round"), "{warning}");
 }
 
@@ -115,9 +115,7 @@ fn an_invalid_payload_or_length_is_refused() {
     let refused = hysteresis(&["--payload", "-1"]);
     assert!(!refused.status.success() && refused.stdout.is_empty());
     assert!(
-        String::from_utf8(refused.stderr)
-            .unwrap()
-            .contains("'-1' for '--payload <PAYLOAD>': expected a mass above zero [kg]")
+        unwrapped(refused.stderr).contains("'-1' for '--payload <PAYLOAD>': expected a mass above zero [kg]")
     );
     let refused = hysteresis(&["--payload", "50", "--length", "0"]);
     assert!(!refused.status.success());
@@ -129,9 +127,9 @@ fn a_platform_on_four_cables_needs_its_free_coordinates() {
     let given = ["hysteresis", "four-cables", "--law", &law, "--pose", "0.5,0.3,2", "--payload", "5"];
     let output = cdpr(&given);
     assert_eq!(output.status.code(), Some(1));
-    assert!(text(output.stderr).contains("expected as many names in `free`"));
+    assert!(unwrapped(output.stderr).contains("expected as many names in `free`"));
     let output = cdpr(&[&given[..], &["--free", "roll,pitch", "--format", "json"]].concat());
-    assert_eq!(output.status.code(), Some(0), "{}", text(output.stderr));
+    assert_eq!(output.status.code(), Some(0), "{}", unwrapped(output.stderr));
     let found: Value = serde_json::from_slice(&output.stdout).unwrap();
     let [down, left] = down_and_left(&found);
     assert!(down < left && left < 0.0, "{down} {left}");
@@ -151,7 +149,7 @@ fn a_platform_that_falls_in_its_load_cycle_has_an_answer_and_the_exit_code_3() {
     let given = ["hysteresis", path.to_str().unwrap(), "--law", &law, "--pose", "0.5,0.3,2", "--free"];
     let given = [&given[..], &["roll,pitch", "--payload", "150", "--with", "steps=5"]].concat();
     let output = cdpr(&given);
-    assert_eq!(output.status.code(), Some(3), "{}", text(output.stderr));
+    assert_eq!(output.status.code(), Some(3), "{}", unwrapped(output.stderr));
     assert!(text(output.stdout).contains("the platform falls from"));
     let output = cdpr(&[&given[..], &["--format", "json"]].concat());
     assert_eq!(output.status.code(), Some(3));

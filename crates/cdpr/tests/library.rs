@@ -1,6 +1,6 @@
 //! The library of robots: every one is listed, checked, studied and mapped.
 
-use crate::common::{answered, cdpr, cdpr_in, json_file, text};
+use crate::common::{answered, cdpr, cdpr_in, json_file, unwrapped};
 use cdpr_robot::Robot;
 use cdpr_robot::library::{CABLES, ROBOTS};
 use serde_json::{Value, json};
@@ -46,7 +46,7 @@ fn a_name_takes_the_place_of_a_robot_file_and_a_wrong_one_finds_those_near_it() 
     let refused = cdpr(&["robot", "check", "cogira"]);
     assert_eq!(refused.status.code(), Some(1));
     assert_eq!(
-        text(refused.stderr),
+        unwrapped(refused.stderr),
         "error: no file and no robot of the library is called `cogira`: near are cogiro; `cdpr robot list` \
          lists them all\n"
     );
@@ -72,12 +72,12 @@ fn a_study_and_a_map_run_for_every_robot() {
         let output = cdpr_in(folder.path(), arguments);
         // Some robots hold less than half of a map.
         let is_map = arguments[0] == "workspace" && output.status.code() == Some(3);
-        assert!(output.status.success() || is_map, "{arguments:?}: {}", text(output.stderr));
+        assert!(output.status.success() || is_map, "{arguments:?}: {}", unwrapped(output.stderr));
     };
     for name in ROBOTS.iter().map(|file| file.name) {
         let file = format!("{name}.json");
         let template = cdpr_in(folder.path(), &["study", "new", name, "--out", &file]);
-        assert!(template.status.success(), "{name}: {}", text(template.stderr));
+        assert!(template.status.success(), "{name}: {}", unwrapped(template.stderr));
         let mut study = json_file(folder.path().join(&file));
         assert_eq!(study["robot"], name);
         study.as_object_mut().unwrap().remove("sensitivity");
@@ -128,7 +128,7 @@ fn a_study_and_a_map_of_robots_with_four_cables_find_roll_and_pitch() {
             &["workspace", name, &place, "--free", "roll,pitch", "--out", &map],
         ] {
             let output = cdpr_in(folder.path(), arguments);
-            assert!(output.status.success(), "{arguments:?}: {}", text(output.stderr));
+            assert!(output.status.success(), "{arguments:?}: {}", unwrapped(output.stderr));
         }
         let summary = json_file(folder.path().join(results).join("summary.json"));
         let spread = &summary["studies"]["all"]["magnitude_mm"]["std"];

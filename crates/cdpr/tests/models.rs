@@ -2,7 +2,7 @@
 //!
 //! Their numbers are those of the library and of the references in 40-digit arithmetic.
 
-use crate::common::{answered, cdpr, data_path, data_text, text};
+use crate::common::{answered, cdpr, data_path, data_text, text, unwrapped};
 use crate::equilibria::{self, number, vector};
 use cdpr_robot::{Pose, Robot, UnitQuaternion, Vector3, Wrench};
 use cdpr_statics::{DirectProblem, DirectStart, Load, deflection, direct, inverse};
@@ -46,7 +46,7 @@ fn a_cable_is_that_of_40_digit_arithmetic_whichever_two_of_its_values_are_known(
             let output = cdpr(&[arguments, &["--format", "json"]].concat());
             let found: Value = serde_json::from_slice(&output.stdout).unwrap();
             let code = if found["questions"].is_array() { 3 } else { 0 };
-            assert_eq!(output.status.code(), Some(code), "{case}: {}", text(output.stderr));
+            assert_eq!(output.status.code(), Some(code), "{case}: {}", unwrapped(output.stderr));
             found
         };
         let force = Vector3::new(of("force_x"), of("force_z"), 0.0);
@@ -155,7 +155,7 @@ fn values_in_another_unit_get_a_question_instead_of_an_answer() {
     let path = folder.path().join("robot.json");
     std::fs::write(&path, data_text("robots/cogiro.json").replace("1.0e11", "100")).unwrap();
     let soft = cdpr(&["inverse", path.to_str().unwrap(), "--pose", "0,0,2"]);
-    let question = text(soft.stderr);
+    let question = unwrapped(soft.stderr);
     assert!(question.contains("cable.youngs_modulus is 100: expected a modulus in Pa"), "{question}");
     assert!(
         question.contains("soft rubber has 1e6: 100 GPa is 1e11, 100 MPa is 1e8 (line 13, column 97)"),
@@ -165,12 +165,12 @@ fn values_in_another_unit_get_a_question_instead_of_an_answer() {
     let robot = data_path("robots/caroca.json");
     let held = inverse(&caroca(), &Pose::at(0.3, 0.2, 1.4), &Load::none()).unwrap();
     let in_mm: Vec<f64> = held.lengths.iter().map(|length| (1000.0 * length).round()).collect();
-    let question = text(cdpr(&["direct", &robot, "--lengths", &joined(&in_mm)]).stderr);
+    let question = unwrapped(cdpr(&["direct", &robot, "--lengths", &joined(&in_mm)]).stderr);
     assert!(question.contains("expected lengths in m for a robot that is 8.062 m wide: "), "{question}");
     // Slack cables are no mistake.
     let slack: Vec<f64> = held.lengths.iter().map(|length| 20.0 * length).collect();
     let hanging = cdpr(&["direct", &robot, "--lengths", &joined(&slack)]);
-    assert!(!text(hanging.stderr).contains("lengths in m"));
+    assert!(!unwrapped(hanging.stderr).contains("lengths in m"));
 }
 
 #[test]
@@ -328,7 +328,7 @@ fn paths_and_capacities_end_with_the_branch() {
 fn a_catenary_beyond_ten_percent_of_strain_is_refused() {
     let refused = cdpr(&["cable", "catenary", "weight=1,stiffness=1000", "--length", "3", "--end", "4,-1"]);
     assert_eq!(refused.status.code(), Some(1));
-    let said = text(refused.stderr);
+    let said = unwrapped(refused.stderr);
     assert!(said.contains("strains the cable by") && said.contains("beyond the 10 %"), "{said}");
 }
 

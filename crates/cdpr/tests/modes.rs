@@ -1,6 +1,6 @@
 //! `cdpr modes`: natural motions of platform and cables, and what says that cables have no mass.
 
-use crate::common::{cdpr, data_path, data_text, text};
+use crate::common::{cdpr, data_path, data_text, unwrapped};
 use crate::equilibria::number;
 use crate::models::{answer, close, joined, numbers, printed};
 use cdpr_robot::{Pose, Robot};
@@ -60,11 +60,11 @@ fn platform_and_cables_vibrate_together_and_none_of_their_motions_is_missing() {
     let assumed = cdpr(&["modes", "caroca", "--pose", "0,0,1.75", "--format", "json"]);
     let answer: Value = serde_json::from_slice(&assumed.stdout).unwrap();
     assert!(assumed.status.success() && answer["inertia_assumed"] == true);
-    assert!(text(assumed.stderr).contains("the robot has no inertia"));
+    assert!(unwrapped(assumed.stderr).contains("the robot has no inertia"));
     for (option, value) in [("--below", "0"), ("--below", "1e9"), ("--number", "0"), ("--below", "nan")] {
         let refused = cdpr(&["modes", &file, "--pose", "0,0,2", option, value]);
         assert!(matches!(refused.status.code(), Some(1 | 2)), "{option} {value}");
-        assert!(text(refused.stderr).contains("expected"), "{option} {value}");
+        assert!(unwrapped(refused.stderr).contains("expected"), "{option} {value}");
     }
 }
 
@@ -106,7 +106,7 @@ fn paths_maps_and_derivatives_have_the_frequencies_of_platform_and_cables() {
     let out = folder.path().join("map");
     let map = ["workspace", &file, "--region=0:1:2,0:1:2,2:2:1", "--out", out.to_str().unwrap()];
     let map = cdpr(&map);
-    assert!(map.status.success(), "{}", text(map.stderr));
+    assert!(map.status.success(), "{}", unwrapped(map.stderr));
     let rows: Value =
         serde_json::from_str(&std::fs::read_to_string(out.join("workspace.json")).unwrap()).unwrap();
     let of_first = ["platform_frequency_hz", "platform_share", "lowest_frequency_hz"]

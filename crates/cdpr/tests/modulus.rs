@@ -1,6 +1,6 @@
 //! `cdpr cable modulus` and `cdpr cable density` as a user meets them.
 
-use crate::common::{cdpr, data_path, text};
+use crate::common::{cdpr, data_path, unwrapped};
 use serde_json::Value;
 use std::process::Output;
 
@@ -20,7 +20,7 @@ fn moduli_of_several_ranges_come_as_json_and_the_loop_as_a_picture() {
     let more =
         ["--range", "5-10", "--range", "10-20", "--format", "json", "--figure", figure.to_str().unwrap()];
     let output = modulus(&record(), &more);
-    assert!(output.status.success(), "{}", text(output.stderr));
+    assert!(output.status.success(), "{}", unwrapped(output.stderr));
     let found: Value = serde_json::from_slice(&output.stdout).unwrap();
     let number = |path: &str| found.pointer(path).and_then(Value::as_f64).unwrap();
     assert!((number("/ranges/0/loading/modulus_gpa") - 83.2).abs() < 1e-6);
@@ -35,7 +35,7 @@ fn the_law_of_a_record_is_written() {
     let folder = tempfile::tempdir().unwrap();
     let law = folder.path().join("law.json");
     let output = modulus(&record(), &["--range", "5-10", "--law", law.to_str().unwrap()]);
-    assert!(output.status.success(), "{}", text(output.stderr));
+    assert!(output.status.success(), "{}", unwrapped(output.stderr));
     let law = cdpr_study::open_law(&law).unwrap();
     assert!(
         (law.loading[1].modulus / 8.32e10 - 1.0).abs() < 1e-9
@@ -59,7 +59,7 @@ fn what_cannot_be_answered_ends_with_an_error_that_says_why() {
         ("no-such-file.csv", "5-10", "cannot read no-such-file.csv"),
     ] {
         let output = modulus(record, &["--range", range]);
-        let message = text(output.stderr);
+        let message = unwrapped(output.stderr);
         assert!(!output.status.success() && output.stdout.is_empty() && message.contains(words), "{message}");
     }
 }
@@ -73,5 +73,5 @@ fn a_weighing_gives_the_linear_density_with_its_error() {
     assert!((found["error"].as_f64().unwrap() - 5.5075e-4).abs() < 1e-12);
     let refused = cdpr(&["cable", "density", "--mass", "1", "--length", "0"]);
     assert!(!refused.status.success());
-    assert!(text(refused.stderr).contains("length is 0: expected a length"));
+    assert!(unwrapped(refused.stderr).contains("length is 0: expected a length"));
 }

@@ -1,6 +1,6 @@
 //! `cdpr path --with seconds=1` and `cdpr simulate --lengths FILE` as a user types them.
 
-use crate::common::{cdpr, data_path, text};
+use crate::common::{cdpr, data_path, text, unwrapped};
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -15,7 +15,7 @@ fn a_move_is_planned_for_a_controller_and_simulated_from_its_table() {
     let with = "seconds=1,shaper=zvd,rate=100,residual=0.3";
     let printed = cdpr(&[&plan[..], &["--with", with, "--out", out]].concat());
     let summary = text(printed.stdout);
-    assert_eq!(printed.status.code(), Some(0), "{}", text(printed.stderr));
+    assert_eq!(printed.status.code(), Some(0), "{}", unwrapped(printed.stderr));
     assert!(summary.starts_with("CoGiRo: 1.000 m in 1 s, 101 set points\nShaper for "), "{summary}");
     assert!(summary.contains("In 0.300 s after the move P swings by up to 0."), "{summary}");
     assert!(summary.lines().all(|line| line.chars().count() <= 80), "{summary}");
@@ -38,7 +38,7 @@ fn a_move_is_planned_for_a_controller_and_simulated_from_its_table() {
         "--format",
         "json",
     ]);
-    assert_eq!(simulated.status.code(), Some(0), "{}", text(simulated.stderr));
+    assert_eq!(simulated.status.code(), Some(0), "{}", unwrapped(simulated.stderr));
     let whole: Value = serde_json::from_str(&text(simulated.stdout)).unwrap();
     let farthest = whole["greatest_distance_m"].as_f64().unwrap();
     assert!((farthest - 1.0).abs() < 2e-3, "{farthest}");
@@ -61,16 +61,16 @@ fn what_a_move_cannot_be_is_refused_with_what_would_be_right() {
     ] {
         let call = [&["path", &robot, "--poses", &poses, "--with", with], further].concat();
         let printed = cdpr(&call);
-        let error = text(printed.stderr);
+        let error = unwrapped(printed.stderr);
         assert!(printed.status.code() == Some(1) || printed.status.code() == Some(2), "{with}: {error}");
         assert!(error.replace('\n', " ").contains(expected), "{with}: {error}");
     }
     let none = cdpr(&["simulate", &robot, "--pose", "0,0,2", "--until", "1"]);
-    assert!(text(none.stderr).contains("expected --events"));
+    assert!(unwrapped(none.stderr).contains("expected --events"));
     let folder = TempDir::new().unwrap();
     let file = folder.path().join("lengths.csv");
     let file = file.to_str().unwrap();
     std::fs::write(file, "t_s,length_1_m\n0,9\n1,9\n").unwrap();
-    let error = text(cdpr(&["simulate", &robot, "--lengths", file, "--until", "1"]).stderr);
+    let error = unwrapped(cdpr(&["simulate", &robot, "--lengths", file, "--until", "1"]).stderr);
     assert!(error.contains("no length_2_m") && error.contains("lengths.csv"), "{error}");
 }

@@ -1,7 +1,7 @@
 //! What people type and save without thinking of this program: it is understood, or refused with its cause,
 //! its place and what to do.
 
-use crate::common::{answered, cdpr, cdpr_in, data_path, data_text, text};
+use crate::common::{answered, cdpr, cdpr_in, data_path, data_text, unwrapped};
 use serde_json::{Value, json};
 use std::path::Path;
 use tempfile::TempDir;
@@ -22,7 +22,7 @@ fn utf16(text: &str) -> Vec<u8> {
 /// The message of a command that must be refused, without a number that is too long to be read.
 fn refused(folder: &Path, arguments: &[&str]) -> String {
     let output = cdpr_in(folder, arguments);
-    let error = text(output.stderr);
+    let error = unwrapped(output.stderr);
     assert!(matches!(output.status.code(), Some(1 | 2)), "{arguments:?}: {error}");
     assert!(output.stdout.is_empty() && !error.contains("panicked"), "{arguments:?}: {error}");
     let digits = |part: &str| part.chars().filter(char::is_ascii_digit).count();
@@ -112,7 +112,7 @@ fn lists_that_are_in_doubt_are_refused_with_their_line_and_column() {
         plain,
         answered(wrenches("Fz [kN];Fx [N];Fy [N];Mx [N m];My [N m];Mz [kNm]\n-0,5;10;0;0;0;0,001\n"))
     );
-    assert!(text(wrenches("fx,fy\n1,2\n").stderr).contains("columns fx,fy: expected fx_N,fy_N,fz_N"));
+    assert!(unwrapped(wrenches("fx,fy\n1,2\n").stderr).contains("columns fx,fy: expected fx_N,fy_N,fz_N"));
 }
 
 #[test]
@@ -242,7 +242,7 @@ fn a_uniform_law_of_the_template_may_become_normal() {
     std::fs::write(&path, study.to_string()).unwrap();
     let checked =
         cdpr_in(folder.path(), &["study", "run", "study.json", "--observations", "200", "--out", "out"]);
-    let said = text(checked.stderr);
+    let said = unwrapped(checked.stderr);
     assert!(checked.status.success(), "{said}");
     contains(
         &refused(folder.path(), &["study", "run", "study.json", "--observations", "2"]),

@@ -1,7 +1,7 @@
 //! Tiny, huge and other odd numbers for every number of a command: an answer whose residuals are small, or an
 //! error that says which value is wrong; never a panic, never a wait.
 
-use crate::common::{cdpr, text};
+use crate::common::{cdpr, text, unwrapped};
 use serde_json::Value;
 use std::time::{Duration, Instant};
 
@@ -106,7 +106,7 @@ fn odd_numbers_have_an_answer_in_balance_or_an_error_that_names_them() {
             let clock = Instant::now();
             let output = cdpr(&arguments.iter().map(String::as_str).collect::<Vec<_>>());
             let took = clock.elapsed();
-            let (said, printed) = (text(output.stderr), text(output.stdout));
+            let (said, printed) = (unwrapped(output.stderr), text(output.stdout));
             let mut fault = |why: &str| {
                 faults.push(format!(
                     "{}: {why}\n    {}",

@@ -1,6 +1,6 @@
 //! A file of one kind where another is expected: the message names both, and the command that takes it.
 
-use crate::common::{cdpr_in, data_path, text};
+use crate::common::{cdpr_in, data_path, unwrapped};
 use serde_json::json;
 use std::path::Path;
 use tempfile::TempDir;
@@ -31,7 +31,7 @@ fn folder() -> TempDir {
 /// The message of a command, which must fail with code 1.
 fn refused(folder: &Path, command: &str) -> String {
     let output = cdpr_in(folder, &command.split(' ').collect::<Vec<_>>());
-    let message = text(output.stderr);
+    let message = unwrapped(output.stderr);
     assert!(output.status.code() == Some(1) && output.stdout.is_empty(), "{command}: {message}");
     message
 }

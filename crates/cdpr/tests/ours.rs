@@ -1,18 +1,18 @@
 //! What a run of this program has written is its own, everything else is the user's.
 
-use crate::common::{cdpr_in, data_path, text};
+use crate::common::{cdpr_in, data_path, unwrapped};
 use std::path::Path;
 use std::process::{Command, Output};
 
 const PLACE: &str = "--region=0:0:1,0:0:1,1.75:1.75:1";
 
 fn refused(output: Output, words: &str) {
-    let message = text(output.stderr);
+    let message = unwrapped(output.stderr);
     assert!(output.status.code() == Some(1) && message.contains(words), "{message}");
 }
 
 fn done(output: Output) {
-    assert!(output.status.success(), "{}", text(output.stderr));
+    assert!(output.status.success(), "{}", unwrapped(output.stderr));
 }
 
 /// Commands that write one file, `FILE`, the ending of its format, and a text by which such files were once
@@ -96,7 +96,7 @@ fn a_name_that_says_another_format_is_refused_before_anything_is_computed() {
             let arguments: Vec<&str> =
                 command.iter().map(|word| if word == "FILE" { &name } else { word.as_str() }).collect();
             let output = cdpr_in(folder.path(), &arguments);
-            let message = text(output.stderr);
+            let message = unwrapped(output.stderr);
             assert_eq!(output.status.code(), Some(2), "{arguments:?}: {message}");
             assert!(message.contains("expected a name "), "{arguments:?}: {message}");
         }
@@ -197,7 +197,7 @@ fn the_environment_bounds_threads_too() {
     };
     for value in ["1000000", "1e9", "-3", "4294967297"] {
         let output = run(value);
-        let message = text(output.stderr);
+        let message = unwrapped(output.stderr);
         assert!(
             output.status.code() == Some(2) && message.contains("expected 1 to 1024 threads"),
             "{message}"

@@ -1,6 +1,6 @@
 //! `cdpr path`: each row is what the other commands say of its pose.
 
-use crate::common::{answered, cdpr, data_path, text};
+use crate::common::{answered, cdpr, data_path, text, unwrapped};
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -29,7 +29,7 @@ fn poses([x, y, z]: [f64; 3], way: [f64; 3]) -> (Vec<String>, String) {
 /// Rows of a path, which says how many poses are held and may warn of cables that vibrate slowly.
 fn rows_of(arguments: &[&str]) -> String {
     let output = cdpr(arguments);
-    let said = text(output.stderr);
+    let said = unwrapped(output.stderr);
     assert!(output.status.success(), "{said}");
     let (first, rest) = said.split_once('\n').unwrap();
     assert!(first.contains(" poses held, tensions ") && first.len() <= 80, "{said}");

@@ -1,6 +1,6 @@
 //! Poses in files, rotations by angles, quaternions in doubt, and the payload of the direct model.
 
-use crate::common::{answered, cdpr, data_path, text};
+use crate::common::{answered, cdpr, data_path, text, unwrapped};
 use crate::equilibria::{number, vector};
 use serde_json::Value;
 use tempfile::TempDir;
@@ -36,7 +36,7 @@ impl File {
     /// Standard output of a command with these poses that must end with the code.
     fn run(&self, code: i32, arguments: &[&str]) -> String {
         let output = cdpr(&[arguments, &["--poses", &self.path()]].concat());
-        assert_eq!(output.status.code(), Some(code), "{arguments:?}: {}", text(output.stderr));
+        assert_eq!(output.status.code(), Some(code), "{arguments:?}: {}", unwrapped(output.stderr));
         assert!(output.stderr.is_empty());
         text(output.stdout)
     }
@@ -44,7 +44,7 @@ impl File {
     /// Message of a command with these poses that must end with the code.
     fn refused(&self, code: i32, arguments: &[&str]) -> String {
         let output = cdpr(&[arguments, &["--poses", &self.path()]].concat());
-        let error = text(output.stderr);
+        let error = unwrapped(output.stderr);
         assert_eq!(output.status.code(), Some(code), "{arguments:?}: {error}");
         assert!(output.stdout.is_empty());
         error
@@ -93,7 +93,7 @@ fn each_pose_of_a_file_is_answered_as_it_is_alone_and_one_that_fails_has_its_rea
             let refused = cdpr(&[&alone[..], &["--pose", "0,0,60"]].concat());
             assert_eq!(refused.status.code(), Some(1));
             let reason = found[1]["error"]["message"].as_str().unwrap();
-            assert_eq!(text(refused.stderr), format!("error: {reason}\n"));
+            assert_eq!(unwrapped(refused.stderr), format!("error: {reason}\n"));
             assert_eq!(found[1]["error"]["kind"], "infeasible_tension");
             assert_eq!(found[1].as_object().unwrap().len(), 2);
         }
@@ -300,7 +300,7 @@ fn rotations_in_doubt_are_questioned() {
         (vec!["direct", &robot, "--lengths", lengths, "--rpy", "0", "0", "9"], "expected --pose, too"),
     ] {
         let output = cdpr(&arguments);
-        let error = text(output.stderr);
+        let error = unwrapped(output.stderr);
         assert_eq!(output.status.code(), Some(2), "{arguments:?}: {error}");
         assert!(error.contains(words), "`{words}` not in: {error}");
     }
@@ -327,7 +327,7 @@ fn the_direct_model_under_a_payload_finds_the_loaded_platform_of_the_deflection(
 
         let output = cdpr(&[&direct[..], &["--payload", "-1"]].concat());
         assert_eq!(output.status.code(), Some(2));
-        assert!(text(output.stderr).contains("expected a mass, zero or more [kg]"));
+        assert!(unwrapped(output.stderr).contains("expected a mass, zero or more [kg]"));
     }
 }
 

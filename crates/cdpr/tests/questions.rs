@@ -1,13 +1,13 @@
 //! Numbers that are probably not what was meant: each is questioned, the right field first, and the answer is
 //! computed all the same.
 
-use crate::common::{Bench, cdpr, data, json_file, text};
+use crate::common::{Bench, cdpr, data, json_file, unwrapped};
 use serde_json::{Value, json};
 use std::process::Output;
 
 /// The questions of a command, and its exit code.
 fn questions(output: &Output) -> (Vec<String>, Option<i32>) {
-    let said = text(output.stderr.clone());
+    let said = unwrapped(output.stderr.clone());
     let mut lines = said.lines().peekable();
     let mut found = Vec::new();
     while let Some(line) = lines.next() {
@@ -26,7 +26,7 @@ fn asks(command: &str, expected: &[(&str, &str)]) {
     for (found, (begin, within)) in found.iter().zip(expected) {
         assert!(found.starts_with(begin) && found.contains(within), "{command}: {found}");
     }
-    assert_eq!(code, Some(3), "{command}: {}", text(output.stderr));
+    assert_eq!(code, Some(3), "{command}: {}", unwrapped(output.stderr));
     assert!(!output.stdout.is_empty(), "{command}");
 }
 
@@ -68,7 +68,7 @@ fn a_position_far_away_is_the_first_thing_that_is_said() {
         found[0].starts_with("--pose is (0, 0, 1200) m") && found[0].contains("(0, 0, 1.2) m, if"),
         "{found:?}"
     );
-    assert!(text(output.stderr).starts_with("question: "));
+    assert!(unwrapped(output.stderr).starts_with("question: "));
 }
 
 #[test]
@@ -183,11 +183,16 @@ fn a_robot_file_is_questioned_for_the_field_that_is_wrong_and_for_no_other() {
                 .for_each(|entry| *entry = json!(factor * entry.as_f64().unwrap()));
         }
     }
-    let cases: [(Change, &str, &str); 8] = [
+    let cases: [(Change, &str, &str); 9] = [
         (
             |robot| inertia(robot, 1e9),
             "\"platform.inertia\"",
             "36.6 kg m\u{b2}, if 3.660e10 is in g mm\u{b2}",
+        ),
+        (
+            |robot| inertia(robot, 1e6),
+            "\"platform.inertia\"",
+            "36.6 kg m\u{b2}, if 3.660e7 is in kg mm\u{b2}; 3.66 kg m\u{b2}, if it is in g cm\u{b2}",
         ),
         (|robot| inertia(robot, 1e100), "\"platform.inertia\"", "radius of gyration"),
         (
@@ -270,7 +275,7 @@ fn a_robot_that_is_in_doubt_is_questioned_by_every_command_and_in_its_json() {
         assert_eq!(asked[0]["meant"], "0.004 m, if 4 is in mm");
         let place = asked[0]["place"].as_str().unwrap();
         assert!(place.starts_with(robot) && place.contains("robot.json, line "), "{place}");
-        assert!(text(output.stderr).contains(&format!("    in {place}\n")));
+        assert!(unwrapped(output.stderr).contains(&format!("    in {place}\n")));
     }
 }
 
@@ -286,7 +291,7 @@ fn laws_of_a_study_are_questioned_and_the_study_runs() {
             change(&mut study["error_models"]["table_3"]);
         });
         let output = bench.study(&["run", "study.json", "--out", "out"]);
-        assert!(bench.path("out/summary.json").exists(), "{}", text(output.stderr));
+        assert!(bench.path("out/summary.json").exists(), "{}", unwrapped(output.stderr));
         questions(&output)
     };
     let normal = |mean: f64, std: f64| json!({"law": {"normal": {"mean": mean, "std": std}}});
@@ -314,7 +319,12 @@ fn laws_of_a_study_are_questioned_and_the_study_runs() {
 fn nothing_in_the_library_and_no_study_is_questioned() {
     let quiet = |command: &[&str]| {
         let output = cdpr(command);
-        assert_eq!(questions(&output), (vec![], Some(0)), "{command:?}: {}", text(output.stderr.clone()));
+        assert_eq!(
+            questions(&output),
+            (vec![], Some(0)),
+            "{command:?}: {}",
+            unwrapped(output.stderr.clone())
+        );
     };
     let library: Value =
         serde_json::from_slice(&cdpr(&["robot", "list", "--format", "json"]).stdout).unwrap();

@@ -1,6 +1,6 @@
 //! `cdpr simulate` as a user types it.
 
-use crate::common::{cdpr, data_path, text};
+use crate::common::{cdpr, data_path, text, unwrapped};
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -21,7 +21,7 @@ fn a_dropped_payload_makes_a_series_and_a_summary() {
         ["simulate", &robot, "--pose", "0,0,2", "--payload", "50", "--events", &events, "--until", "0.2"];
     let printed = cdpr(&[&call[..], &["--rate", "50", "--damping", "2e-4", "--out", out]].concat());
     let summary = text(printed.stdout);
-    assert_eq!(printed.status.code(), Some(0), "{}", text(printed.stderr));
+    assert_eq!(printed.status.code(), Some(0), "{}", unwrapped(printed.stderr));
     assert!(summary.contains("The platform moves up to 15.4 mm and 0.0783 deg"), "{summary}");
     assert!(summary.lines().all(|line| line.chars().count() <= 80), "{summary}");
     let series = std::fs::read_to_string(out).unwrap();
@@ -32,7 +32,7 @@ fn a_dropped_payload_makes_a_series_and_a_summary() {
     assert_eq!(lines.count(), 11);
     let again = cdpr(&[&call[..], &["--out", out]].concat());
     assert_eq!(again.status.code(), Some(1));
-    assert!(text(again.stderr).contains("--overwrite"));
+    assert!(unwrapped(again.stderr).contains("--overwrite"));
     assert_eq!(std::fs::read_to_string(out).unwrap(), series);
 
     let whole = cdpr(&[&call[..], &["--rate", "50", "--damping", "2e-4", "--format", "json"]].concat());
@@ -55,7 +55,7 @@ fn a_series_is_a_table_of_poses_and_a_figure_has_motion_and_tensions() {
     let call =
         ["simulate", &robot, "--pose", "0,0,1.75", "--rpy", "1,2,3", "--events", &events, "--until", "0.05"];
     let found = cdpr(&[&call[..], &["--out", &out, "--figure", &figure]].concat());
-    assert_eq!(found.status.code(), Some(0), "{}", text(found.stderr));
+    assert_eq!(found.status.code(), Some(0), "{}", unwrapped(found.stderr));
     let svg = std::fs::read_to_string(&figure).unwrap();
     for words in ["Motion of ", "x, cable 1", "cable 8", "from the rest [mm]", "tension at the platform [N]"]
     {
@@ -63,7 +63,7 @@ fn a_series_is_a_table_of_poses_and_a_figure_has_motion_and_tensions() {
     }
     // The platform is turned as in the series, not as its rotation vector from the rest says.
     let found = cdpr(&["deflection", &robot, "--payload", "20", "--poses", &out, "--format", "json"]);
-    assert_eq!(found.status.code(), Some(0), "{}", text(found.stderr));
+    assert_eq!(found.status.code(), Some(0), "{}", unwrapped(found.stderr));
     let found = cdpr(&["inverse", &robot, "--poses", &out, "--format", "csv"]);
     let rows = text(found.stdout);
     let held = cdpr(&["inverse", &robot, "--pose", "0,0,1.75", "--rpy", "1,2,3", "--format", "json"]);
@@ -81,7 +81,7 @@ fn lengths_are_searched_for_their_pose_and_a_tension_above_its_limit_ends_with_3
     let robot = data_path("robots/four-cables.json");
     let call = ["simulate", &robot, "--lengths", "5.2,5.2,5.3,5.3", "--events", &events, "--until", "0.1"];
     let found = cdpr(&call);
-    assert_eq!(found.status.code(), Some(3), "{}", text(found.stderr));
+    assert_eq!(found.status.code(), Some(3), "{}", unwrapped(found.stderr));
     let summary = text(found.stdout);
     assert!(summary.contains("tension_limits.max 5000"), "{summary}");
     assert!(summary.lines().all(|line| line.chars().count() <= 80), "{summary}");
@@ -97,7 +97,7 @@ fn what_is_wrong_is_named() {
         let found = cdpr(&[&call[..], more].concat());
         assert_ne!(found.status.code(), Some(0));
         assert!(found.stdout.is_empty());
-        text(found.stderr)
+        unwrapped(found.stderr)
     };
     let until = ["--until", "0.1"];
     assert!(

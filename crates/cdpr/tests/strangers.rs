@@ -1,6 +1,6 @@
 //! Careless users and strangers' files: what they hold is shown and not obeyed, and nothing hangs or panics.
 
-use crate::common::{Bench, answered, data_path, text};
+use crate::common::{Bench, answered, data_path, text, unwrapped};
 use serde_json::json;
 use std::fs::File;
 use std::process::Command;
@@ -71,7 +71,7 @@ fn a_pipe_that_nobody_writes_into_is_refused_at_once() {
         ],
     ] {
         let output = bench.command(env!("CARGO_BIN_EXE_cdpr")).args(arguments).output().unwrap();
-        let error = text(output.stderr);
+        let error = unwrapped(output.stderr);
         assert_eq!(output.status.code(), Some(1), "{error}");
         assert!(error.contains("pipe is a pipe without content: expected a"), "{error}");
     }
@@ -126,7 +126,7 @@ fn help_that_cannot_be_printed_is_a_failure() {
         let full = File::options().write(true).open("/dev/full").unwrap();
         let output = cdpr().args(arguments).stdout(full).output().unwrap();
         assert_eq!(output.status.code(), Some(1), "{arguments:?}");
-        assert!(text(output.stderr).contains("cannot write to the standard output"));
+        assert!(unwrapped(output.stderr).contains("cannot write to the standard output"));
     }
 }
 
@@ -217,7 +217,7 @@ fn a_study_without_a_result_or_with_a_nominal_robot_that_breaks_ends_with_code_3
     };
     let ended = |bench: &Bench, code: i32, words: &str| {
         let output = bench.study(&["run", "study.json", "--out", "out"]);
-        let message = text(output.stderr);
+        let message = unwrapped(output.stderr);
         assert_eq!(output.status.code(), Some(code), "{message}");
         assert!(message.contains(words), "{message}");
         assert!(bench.path("out/summary.json").exists() && bench.path("out/report.html").exists());
@@ -248,7 +248,7 @@ fn the_end_of_a_job_says_how_to_go_on() {
     }
     assert!(Command::new("kill").args(["-TERM", &child.id().to_string()]).status().unwrap().success());
     let output = child.wait_with_output().unwrap();
-    let message = text(output.stderr);
+    let message = unwrapped(output.stderr);
     assert_eq!(output.status.code(), Some(130), "{message}");
     assert!(message.contains("go on with: cdpr study run out/study.json --out out --resume"), "{message}");
 }
@@ -297,7 +297,7 @@ fn files_of_other_programs_are_imported_questioned_or_refused_at_once() {
             .args(arguments)
             .output()
             .unwrap();
-        (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
+        (output.status.code().unwrap(), text(output.stdout), unwrapped(output.stderr))
     };
     let cable = ["--cable", "steel-4mm"];
     let nested = data_path("reference/exchange/nested-model.yaml");

@@ -1,6 +1,6 @@
 //! Studies in blocks on disk: an interrupted, damaged or shared run ends with the results of one that is not.
 
-use crate::common::{Bench, assert_same_files, cdpr, data, text};
+use crate::common::{Bench, assert_same_files, cdpr, data, unwrapped};
 use serde_json::{Value, json};
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
@@ -94,7 +94,7 @@ fn a_study_killed_at_ten_random_moments_and_resumed_equals_one_that_was_not() {
         match output.status.code() {
             None => kills += 1,
             Some(code) => {
-                assert_eq!(code, 0, "{}", text(output.stderr));
+                assert_eq!(code, 0, "{}", unwrapped(output.stderr));
                 finished += 1;
             }
         }
@@ -161,7 +161,7 @@ fn three_shards_merged_equal_one_run_and_are_not_analysed_before_all_are_there()
     assert!(!bench.path("shards/summary.json").exists());
     let report = cdpr(&["study", "report", bench.path("shards").to_str().unwrap()]);
     assert_eq!(report.status.code(), Some(1));
-    let message = text(report.stderr);
+    let message = unwrapped(report.stderr);
     assert!(message.contains("has no summary.json: analyse it with cdpr study merge"), "{message}");
     bench.done(&merge);
     assert_same(&bench, "whole", "shards");
@@ -198,7 +198,7 @@ fn damaged_blocks_are_named_and_made_again() {
     assert!(message.contains("out lacks 3 of 6 blocks"), "{message}");
     let status = bench.done(&["status", "out"]);
     assert_eq!(status.matches("damaged, will be made again").count(), 3, "{status}");
-    let warnings = text(bench.study(&["run", "study.json", "--out", "out", "--resume"]).stderr);
+    let warnings = unwrapped(bench.study(&["run", "study.json", "--out", "out", "--resume"]).stderr);
     for block in &blocks[..3] {
         let name = block.strip_prefix(bench.path("")).unwrap().display().to_string();
         assert!(warnings.contains(&format!("warning: {name} is damaged: ")), "{warnings}");
@@ -371,7 +371,7 @@ mod unix {
         assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
         let output = child.wait_with_output().unwrap();
         assert_eq!(output.status.code(), Some(130));
-        let text = text(output.stderr);
+        let text = unwrapped(output.stderr);
         let (_, command) =
             text.split_once("interrupted: what is done is in my results; go on with: cdpr ").unwrap();
         let expected =
@@ -389,7 +389,7 @@ mod unix {
         let limited = "trap '' XFSZ; ulimit -f 2000; exec \"$0\" study run study.json --out out --threads 1";
         let mut command = bench.command("bash");
         let output = command.args(["-c", limited, env!("CARGO_BIN_EXE_cdpr")]).output().unwrap();
-        let text = text(output.stderr);
+        let text = unwrapped(output.stderr);
         assert_eq!(output.status.code(), Some(1), "{text}");
         assert!(text.starts_with("error: cannot write out/mechanical.csv: File too large"), "{text}");
         assert!(!bench.path("out/mechanical.csv").exists(), "half a table looks like a whole one");

@@ -1,7 +1,7 @@
 //! Samplings at several poses: each equals a sampling at that pose alone, and a pose that is not held is a
 //! row with its reason.
 
-use crate::common::{Bench, text};
+use crate::common::{Bench, unwrapped};
 use serde_json::{Value, json};
 
 /// CAROCA over a plane of 5 x 3 positions, of which the outer ones are not held.
@@ -344,14 +344,14 @@ fn where_one_pose_is_wanted_several_are_refused_with_their_names() {
             name,
         ])
     };
-    assert!(of("plane/0007").status.success(), "{}", text(of("plane/0007").stderr));
+    assert!(of("plane/0007").status.success(), "{}", unwrapped(of("plane/0007").stderr));
     for (name, expected) in [
         ("plane", "samplings.plane is plane: expected one pose: plane/0000 to plane/0014"),
         ("plane/15", "samplings.plane is plane/15: expected one pose"),
         ("plane/0015", "samplings.plane is plane/0015: expected one pose"),
         ("plan", "samplings.plan is missing: expected one of plane"),
     ] {
-        let message = text(of(name).stderr);
+        let message = unwrapped(of(name).stderr);
         assert!(message.contains(expected), "{message}");
     }
 }

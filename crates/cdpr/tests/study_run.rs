@@ -1,6 +1,6 @@
 //! `cdpr study run` as a user meets it: results, and every kind of bad input.
 
-use crate::common::{Bench, cdpr_in, text};
+use crate::common::{Bench, cdpr_in, text, unwrapped};
 use crate::study_refused::refused;
 use serde_json::{Value, json};
 use std::process::Output;
@@ -44,14 +44,14 @@ fn run(bench: &Bench, arguments: &[&str]) -> Output {
 /// Standard output of a run that must succeed.
 fn printed(bench: &Bench, arguments: &[&str]) -> String {
     let output = run(bench, arguments);
-    assert!(output.status.success(), "{}", text(output.stderr));
+    assert!(output.status.success(), "{}", unwrapped(output.stderr));
     text(output.stdout)
 }
 
 /// The message of a run that must fail, without panicking.
 pub(crate) fn refusal(bench: &Bench, arguments: &[&str]) -> String {
     let output = run(bench, arguments);
-    let text = text(output.stderr);
+    let text = unwrapped(output.stderr);
     assert_ne!(output.status.code(), Some(0), "{text}");
     assert!(!text.contains("panicked"), "{text}");
     text
@@ -65,7 +65,7 @@ fn read(bench: &Bench, file: &str) -> String {
 fn a_study_writes_tables_figures_and_a_summary() {
     let bench = bench();
     let output = run(&bench, &["--details"]);
-    let (text, errors) = (text(output.stdout), text(output.stderr));
+    let (text, errors) = (text(output.stdout), unwrapped(output.stderr));
     assert!(output.status.success(), "{errors}");
     assert!(errors.is_empty(), "progress is silent when not on a terminal");
     assert!(text.contains("Mean deflection ") && text.contains("surface_E_rho"));
@@ -164,7 +164,7 @@ fn a_study_of_frequencies_names_them_in_every_file_and_can_be_read_again() {
 
     // What was written is read back, and printed, under the same names.
     let drawn = cdpr_in(&bench.path("."), &["study", "report", "out"]);
-    assert!(drawn.status.success(), "{}", crate::common::text(drawn.stderr));
+    assert!(drawn.status.success(), "{}", crate::common::unwrapped(drawn.stderr));
     assert_eq!(read(&bench, "out/report.html"), report);
     let status: Value = serde_json::from_str(&bench.done(&["status", "out", "--format", "json"])).unwrap();
     assert_eq!(status["samplings"]["mechanical"]["provisional_frequency_hz"]["mean"].as_f64(), Some(mean));
@@ -297,13 +297,13 @@ fn a_run_writes_a_report_and_so_does_its_folder_alone() {
     }
     let report = |arguments: &[&str]| cdpr_in(&bench.path("."), &[&["study", "report"], arguments].concat());
     let output = report(&["moved", "--out", "again.html"]);
-    assert!(output.status.success(), "{}", text(output.stderr));
+    assert!(output.status.success(), "{}", unwrapped(output.stderr));
     assert_eq!(text(output.stdout), "report in again.html\n");
     assert!(read(&bench, "again.html") == written);
 
     let refusal = |expected: &str| {
         let output = report(&["moved"]);
-        let text = text(output.stderr);
+        let text = unwrapped(output.stderr);
         assert!(!output.status.success() && text.contains(expected) && !text.contains("panicked"), "{text}");
     };
     let table = std::fs::read_to_string(moved.join("surface_E_rho.csv")).unwrap();

@@ -2,7 +2,7 @@
 
 #![cfg(unix)]
 
-use crate::common::{Bench, data};
+use crate::common::{Bench, data, unwrapped};
 use serde_json::json;
 use std::os::unix::fs::PermissionsExt;
 use std::process::Command;
@@ -66,7 +66,7 @@ fn seven_tasks_of_a_slurm_array_of_which_one_is_repeated_make_what_one_run_makes
     assert!(task(3, [3, 3]).status.success());
     let beyond = task(8, [8, 8]);
     assert_eq!(beyond.status.code(), Some(2));
-    let text = String::from_utf8(beyond.stderr).unwrap();
+    let text = unwrapped(beyond.stderr);
     assert!(text.starts_with("error: SLURM_ARRAY_TASK_ID is `8`: expected a task from 1 to 7"), "{text}");
     bench.done(&["merge", "shared", "--table", "none"]);
     bench.assert_same("whole", "shared");
@@ -103,7 +103,7 @@ fn processes_of_a_launcher_without_shards_are_refused() {
     let output =
         command.env("OMPI_COMM_WORLD_SIZE", "4").args(["study", "run", "study.json"]).output().unwrap();
     assert_eq!(output.status.code(), Some(1));
-    let text = String::from_utf8(output.stderr).unwrap();
+    let text = unwrapped(output.stderr);
     assert!(
         text.starts_with("error: 4 processes run this study together, and each would make the whole of it"),
         "{text}"

@@ -1,6 +1,6 @@
 //! Tensions that are preferred, limited by cable or at the exit point, and named, as a user meets them.
 
-use crate::common::{Bench, answered, cdpr, cdpr_in, data, data_path, json_file, text};
+use crate::common::{Bench, answered, cdpr, cdpr_in, data, data_path, json_file, text, unwrapped};
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
@@ -29,7 +29,7 @@ fn robot(file: &str, change: impl FnOnce(&mut Value)) -> TempDir {
 /// Exit code and standard output of a command about the robot of a folder.
 fn ended(folder: &TempDir, arguments: &[&str]) -> (i32, String) {
     let output = cdpr_in(folder.path(), &[&arguments[..1], &["robot.json"], &arguments[1..]].concat());
-    let message = text(output.stderr);
+    let message = unwrapped(output.stderr);
     assert!(!message.contains("panicked"), "{message}");
     (output.status.code().unwrap(), text(output.stdout))
 }
@@ -106,7 +106,7 @@ fn every_other_command_with_the_inverse_model_takes_preferred_tensions_and_refus
     for command in commands {
         let answer = |option: &[&str]| {
             let output = cdpr_in(folder.path(), &[command, option].concat());
-            assert!(output.status.success(), "{command:?}: {}", text(output.stderr));
+            assert!(output.status.success(), "{command:?}: {}", unwrapped(output.stderr));
             words(&text(output.stdout))
         };
         let least_norm = answer(&[]);
@@ -124,7 +124,7 @@ fn every_other_command_with_the_inverse_model_takes_preferred_tensions_and_refus
             ("middle", "expected a tension [N], one for each cable with commas between, or mid"),
         ] {
             let output = cdpr_in(folder.path(), &[command, &["--tension-reference", reference][..]].concat());
-            let message = text(output.stderr);
+            let message = unwrapped(output.stderr);
             assert!(output.status.code() == Some(2) && message.contains(wrong), "{command:?}: {message}");
         }
     }
@@ -316,7 +316,7 @@ fn all_parts_of_a_study_name_a_nominal_robot_that_bears_too_much() {
     });
     bench.change("robot.json", |robot| robot["cable"]["breaking_force"] = json!(730.0));
     let output = bench.study(&["run", "study.json", "--out", "out"]);
-    let message = text(output.stderr);
+    let message = unwrapped(output.stderr);
     assert_eq!(output.status.code(), Some(3), "{message}");
     let warned = |words: &str| assert!(message.contains(words), "{words}: {message}");
     warned("warning: mechanical, nominal robot with the payload: cable 3: its tension of");
@@ -388,11 +388,11 @@ fn a_norm_that_jumps_is_refused_where_tensions_have_to_change_smoothly() {
         &[&["study", "tolerances", &study][..], &LIMIT, &["20"]].concat(),
     ] {
         let output = cdpr_in(folder.path(), &[command, &["--distribution", "least_1_norm"]].concat());
-        let message = text(output.stderr);
+        let message = unwrapped(output.stderr);
         assert!(!output.status.success() && message.contains(expected), "{command:?}: {message}");
     }
     let both = ["--distribution", "least_1_norm", "--tension-reference", "900"];
     let output = cdpr_in(folder.path(), &[&["inverse", &robot, "--pose", "0,0,1.75"], &both[..]].concat());
-    let message = text(output.stderr);
+    let message = unwrapped(output.stderr);
     assert!(message.contains("distribution is least_1_norm: expected nearest, as there is"), "{message}");
 }

@@ -1,6 +1,6 @@
 //! `cdpr study tolerances` as a user meets it.
 
-use crate::common::{cdpr, data_path, data_text, text};
+use crate::common::{cdpr, data_path, data_text, text, unwrapped};
 use serde_json::Value;
 use std::io::{BufRead, BufReader, Read};
 use std::process::{Command, Output, Stdio};
@@ -43,7 +43,7 @@ fn what_is_wrong_is_named_and_the_exit_code_is_not_zero() {
         (&["--limit", "magnitude_mm<1.4"], "expected deflection_mm or position_mm < a number"),
     ] {
         let output = tolerances(arguments);
-        let message = text(output.stderr);
+        let message = unwrapped(output.stderr);
         assert!(!output.status.success() && message.contains(words), "{message}");
     }
 }
@@ -77,7 +77,7 @@ fn the_error_model_of_another_robot_is_refused() {
     for robot in [&other, &robot] {
         let at = ["derivatives", robot, "--pose", "0,0,1", "--payload", "5"];
         let output = cdpr(&[&at[..], &["--uncertainty", &format!("{study}:table_4")]].concat());
-        let message = text(output.stderr);
+        let message = unwrapped(output.stderr);
         let refused = message.contains("whose parameters are not those of");
         // CoGiRo has eight cables as CAROCA has, and the same parameters.
         assert_eq!(refused, robot == &other, "{message}");
@@ -146,7 +146,7 @@ fn tolerances_under_which_many_robots_with_few_cables_have_no_rest_are_refused_a
         "--limit",
         "deflection_mm<5",
     ]);
-    let message = text(output.stderr);
+    let message = unwrapped(output.stderr);
     assert_eq!(output.status.code(), Some(1), "{message}");
     // Of the first 64 of 4096 robots, 40 % have no rest.
     assert!(message.contains("of 64 robots with these tolerances"), "{message}");

@@ -1,6 +1,6 @@
 //! The first answers: what is certain, in sentences of 80 columns, and one recommended measure.
 
-use crate::common::{answered, cdpr, cdpr_in, data_path, json_file, text};
+use crate::common::{answered, cdpr, cdpr_in, data_path, json_file, text, unwrapped};
 use serde_json::{Value, json};
 use std::path::Path;
 use tempfile::TempDir;
@@ -185,7 +185,7 @@ fn each_robot_says_first_what_it_carries_how_much_of_a_plane_it_holds_and_what_a
             std::fs::write(&poses, format!("x_m,y_m,z_m\n{pose}\n")).unwrap();
             let path = ["path", robot, "--poses", "poses.csv", "--payload", "1"];
             let output = cdpr_in(folder.path(), &path);
-            let said = text(output.stderr);
+            let said = unwrapped(output.stderr);
             assert!(said.starts_with("1 of 1 pose held, tensions "), "{robot}: {said}");
             assert_narrow(said.lines().next().unwrap());
         }

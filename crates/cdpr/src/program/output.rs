@@ -4,7 +4,7 @@ use crate::program::error::ProgramError;
 use crate::program::questions;
 use crate::program::said::{self, Said};
 use cdpr_report::ReportError;
-use cdpr_robot::{COLUMNS, broken, shown_lines};
+use cdpr_robot::{COLUMNS, broken, shown_lines, wrapped};
 use cdpr_study::{IfExists, check_replaceable, write_file};
 use comfy_table::{ContentArrangement, Table, presets};
 use indicatif::{ProgressBar, ProgressState, ProgressStyle, WeakProgressBar};
@@ -85,14 +85,15 @@ macro_rules! println {
     ($($text:tt)*) => { $crate::program::output::print_line(format_args!($($text)*)) };
 }
 
-/// Prints a line on the standard error. A failure is ignored: there is no other place to report it.
+/// Prints a message on the standard error, wrapped at 80 columns. A failure is ignored: there is no other
+/// place to report it.
 macro_rules! eprintln {
     ($($text:tt)*) => { $crate::program::output::tell_line(format_args!($($text)*)) };
 }
 
 /// What `eprintln!` expands to.
 pub(crate) fn tell_line(line: fmt::Arguments) {
-    let _ = writeln!(io::stderr().lock(), "{}", shown_lines(&line.to_string()));
+    let _ = writeln!(io::stderr().lock(), "{}", wrapped(&shown_lines(&line.to_string())));
 }
 
 /// What `println!` expands to.
@@ -145,6 +146,12 @@ pub(crate) fn exit_code(result: Result<Ending, ProgramError>) -> ExitCode {
 
 /// Prints why arguments are refused, or the help that they ask for, and returns the exit code.
 pub(crate) fn refused(error: &clap::Error) -> ExitCode {
+    let message = error.to_string();
+    let is_wide = message.lines().any(|line| line.chars().count() > COLUMNS);
+    if error.use_stderr() && is_wide {
+        eprintln!("{}", message.trim_end());
+        return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2));
+    }
     match error.print() {
         // There is no other place to report it.
         Err(unprinted) if unprinted.kind() != ErrorKind::BrokenPipe && !error.use_stderr() => {

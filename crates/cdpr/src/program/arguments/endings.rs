@@ -1,5 +1,5 @@
-//! Names of files that are written: an ending that says another format than the file has is refused before
-//! anything is computed.
+//! Names of files that are written: a folder that does not exist, and an ending that says another format than
+//! the file has, are refused before anything is computed.
 
 use clap::builder::{PathBufValueParser, TypedValueParser};
 use std::ffi::OsStr;
@@ -38,11 +38,29 @@ pub(crate) fn csv() -> impl TypedValueParser<Value = PathBuf> {
     of(CSV)
 }
 
+/// An answer in any format.
+pub(crate) fn any() -> impl TypedValueParser<Value = PathBuf> {
+    PathBufValueParser::new().try_map(|path| check_place(&path).map(|()| path))
+}
+
 fn of(written: Written) -> impl TypedValueParser<Value = PathBuf> {
     PathBufValueParser::new().try_map(move |path| {
         let fits = fits(&path, written.endings);
-        if fits { Ok(path) } else { Err(refusal(written.is, written.endings)) }
+        if fits { check_place(&path).map(|()| path) } else { Err(refusal(written.is, written.endings)) }
     })
+}
+
+/// Refuses a file in a folder that does not exist, and a folder.
+pub(crate) fn check_place(path: &Path) -> Result<(), String> {
+    if path.is_dir() {
+        return Err("a folder: expected the name of a file".to_owned());
+    }
+    match path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
+        Some(folder) if !folder.is_dir() => {
+            Err(format!("there is no folder {}: make it, or name another one", folder.display()))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// A file of another program, which has one of these endings; without any, several files whose names begin

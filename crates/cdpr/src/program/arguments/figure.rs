@@ -1,5 +1,6 @@
 //! The file of a figure and how it is drawn: `map.pdf,width=90,untitled`.
 
+use crate::program::arguments::endings::check_place;
 use crate::program::arguments::{Overwrite, number};
 use crate::program::error::ProgramError;
 use cdpr_report::{FIGURE_WIDTHS_MM, FigureFile, FigureFormat, figure_file};
@@ -59,6 +60,7 @@ pub(crate) fn figure(text: &str) -> Result<FigureArgument, String> {
                 .to_owned(),
         );
     }
+    check_place(&path)?;
     let mut file = FigureFile { format, width_mm: None, untitled: false };
     for part in parts {
         match part.split_once('=') {
@@ -86,11 +88,19 @@ mod tests {
 
     #[test]
     fn settings_stand_behind_the_name_and_others_are_refused() {
-        let found = figure("a/map.svg,width=90,untitled").unwrap();
+        let found = figure("./map.svg,width=90,untitled").unwrap();
         let file = FigureFile { format: FigureFormat::Svg, width_mm: Some(90.0), untitled: true };
-        assert_eq!(found, FigureArgument { path: "a/map.svg".into(), file });
+        assert_eq!(found, FigureArgument { path: "./map.svg".into(), file });
         assert_eq!(found.stem(), "map");
-        for text in ["map", "map.eps", "map.svg,width", "map.svg,width=9", "map.svg,90", "map.svg,"] {
+        for text in [
+            "map",
+            "map.eps",
+            "nowhere/map.svg",
+            "map.svg,width",
+            "map.svg,width=9",
+            "map.svg,90",
+            "map.svg,",
+        ] {
             assert!(figure(text).is_err(), "{text}");
         }
     }

@@ -1,5 +1,6 @@
 //! How an answer is printed, and where it goes.
 
+use crate::program::arguments::endings;
 use crate::program::error::ProgramError;
 use crate::program::output;
 use crate::program::questions;
@@ -87,7 +88,7 @@ pub(crate) struct Printing {
     #[arg(long, value_enum)]
     format: Option<Format>,
     /// File for the answer, which is printed if left out.
-    #[arg(short, long, value_name = "FILE")]
+    #[arg(short, long, value_name = "FILE", value_parser = endings::any())]
     out: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) overwrite: Overwrite,
@@ -98,6 +99,38 @@ impl Printing {
     pub(crate) fn table_file(&self) -> Option<&Path> {
         let is_csv = |path: &Path| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv"));
         self.out.as_deref().filter(|path| is_csv(path) && self.format.is_none())
+    }
+
+    /// Prints an answer that has a table of numbers: as CSV, or in a file for a table, the table alone; in JSON
+    /// `whole` has its rows.
+    pub(crate) fn with_table<T: Serialize>(
+        &self,
+        columns: &[String],
+        rows: Vec<Vec<f64>>,
+        whole: impl FnOnce(Vec<Vec<f64>>) -> T,
+        text: impl Fn(),
+    ) -> Result<(), ProgramError> {
+        let cells = |row: &Vec<f64>| row.iter().map(|cell| format!("{cell:?}")).collect::<Vec<_>>();
+        if let Some(path) = self.table_file() {
+            let mut writer = csv::Writer::from_writer(Vec::new());
+            // Writing to memory cannot fail.
+            let _ = writer.write_record(columns);
+            rows.iter().for_each(|row| drop(writer.write_record(cells(row))));
+            self.overwrite.write(path, writer.into_inner().unwrap_or_default())?;
+            text();
+            return Ok(());
+        }
+        match self.format() {
+            Format::Csv => {
+                print_record(columns);
+                rows.iter().for_each(|row| print_record(&cells(row)));
+            }
+            format => {
+                let listed = if format == Format::Json { rows } else { Vec::new() };
+                format.print(&whole(listed), |_| text())?;
+            }
+        }
+        Ok(())
     }
 
     /// The format, once the answer is directed to its file.

@@ -126,25 +126,25 @@ impl Settings {
 pub(super) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     let (criterion, of_work) = settings.criterion()?.meant();
     let (of, accuracy) = settings.at_work()?;
-    let robot = settings.preference.open_robot(settings.robot.path())?;
-    let candidates = settings.candidates.read(&robot)?;
-    let measurements = settings.known.measurements(&robot)?;
-    let uncertainties = settings.known.deviations(&robot)?;
     if of_work.is_some() && settings.work.is_none() {
         let usage = "--with criterion: expected --work, too, where the robot works";
         return Err(ProgramError::Usage(usage.to_owned()));
     }
+    let robot = settings.preference.open_robot(settings.robot.path())?;
+    let candidates = settings.candidates.read(&robot)?;
+    let measurements = settings.known.measurements(&robot)?;
+    let uncertainties = settings.known.deviations(&robot)?;
+    let work = match &settings.work {
+        Some(region) => region.grid(&robot)?.poses(),
+        None => Vec::new(),
+    };
+    questions::about_poses(&robot, "--work", &work);
     let mut calibration = Calibration::new(&robot, &uncertainties)?.with_free(&settings.free.free);
     let load = settings.load.load();
     questions::about_load(&robot, &load);
     questions::about_accuracy(&robot, accuracy);
     let all = candidates.len();
     let (poses, refused) = add(&mut calibration, candidates, &load, &measurements)?;
-    let work = match &settings.work {
-        Some(region) => region.grid(&robot)?.poses(),
-        None => Vec::new(),
-    };
-    questions::about_poses(&robot, "--work", &work);
     let worked = work.iter().filter(|pose| calibration.add_work(pose, &load, of).is_ok()).count();
     if of_work.is_some() && worked == 0 {
         return Err(ProgramError::NoPoseHeld { reasons: "none of --work is held".to_owned() });
@@ -222,6 +222,16 @@ impl Plan {
     }
 }
 
+/// How many poses reach the accuracy.
+fn reached(robot: &Robot, output: &Plan, needed: Option<usize>) -> String {
+    let name = shown(&robot.name);
+    match needed {
+        Some(1) => format!("{name} reaches the accuracy with 1 pose."),
+        Some(needed) => format!("{name} reaches the accuracy with {needed} poses."),
+        None => format!("{name} does not reach the accuracy with {}.", counted(output.poses.len(), "pose")),
+    }
+}
+
 /// What the planned poses leave, compared with other sets.
 fn answer(robot: &Robot, output: &Plan) -> String {
     let (count, name) = (output.poses.len(), shown(&robot.name));
@@ -242,13 +252,8 @@ fn answer(robot: &Robot, output: &Plan) -> String {
 }
 
 fn print_plan(robot: &Robot, output: &Plan, details: bool) {
-    let count = output.poses.len();
+    output.needed.iter().for_each(|needed| print_sentence(&reached(robot, output, *needed)));
     print_sentence(&answer(robot, output));
-    match output.needed {
-        Some(Some(needed)) => println!("{} reach the accuracy", counted(needed, "pose")),
-        Some(None) => println!("{} do not reach the accuracy", counted(count, "pose")),
-        None => {}
-    }
     println!("chosen of {}", counted(output.candidates, "pose"));
     for (reason, count) in &output.refused {
         println!("{} left out: {reason}", counted(*count, "pose"));

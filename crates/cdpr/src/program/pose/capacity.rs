@@ -287,6 +287,12 @@ impl Answer {
 
     /// What the robot carries, and how far its tensions are from their limits.
     fn sentences(&self, heading: &str) -> Vec<String> {
+        let least = self.tilt.iter().min_by(|a, b| a.angle_deg.total_cmp(&b.angle_deg));
+        let tilt = least.map(|towards| {
+            let [angle, azimuth] =
+                [(towards.angle_deg, 2), (towards.azimuth_deg, 1)].map(|(x, n)| decimal(x, n));
+            format!("{heading} may tilt by {angle} degrees in any direction, least towards {azimuth}.")
+        });
         let payload = &self.payload.recomputed;
         let limit = |of: &Blocking| of.words.split(',').next().unwrap_or_default().to_owned();
         let by =
@@ -303,7 +309,7 @@ impl Answer {
             ),
             _ => format!("Its tensions can stay {} N away from their limits.", significant(margin, 4)),
         });
-        [Some(carries), margin].into_iter().flatten().collect()
+        [tilt, Some(carries), margin].into_iter().flatten().collect()
     }
 
     fn print(&self, heading: &str) {

@@ -8,8 +8,8 @@ use crate::program::pose::at_pose::{RobotAtFreePose, Row, cells};
 use cdpr_dynamics::{DynamicsError, FrequencyDerivatives};
 use cdpr_robot::{Parameter, Robot};
 use cdpr_statics::derivatives::OneSided;
-use cdpr_statics::{Derivatives, Load, StaticsError, WantedPose, derivatives};
-use cdpr_study::ErrorModel;
+use cdpr_statics::{Derivatives, Load, Observer, StaticsError, WantedPose, derivatives};
+use cdpr_study::{ErrorModel, explained_deflection, little_explained};
 use indexmap::IndexMap;
 use serde::Serialize;
 
@@ -35,6 +35,11 @@ pub(crate) fn run(
         let found = derivatives(robot, WantedPose::at(pose).free(&free.free), &load)?;
         let mut slopes = Slopes::new(robot, &load, &found)?;
         slopes.uncertainty = model.as_ref().map(|model| Uncertainty::new(model, &found)).transpose()?;
+        // With free coordinates the scalar models search for each robot, which takes too long.
+        if let (Some(uncertainty), Some(model), []) = (&mut slopes.uncertainty, &model, &free.free[..]) {
+            let observer = Observer::new(robot, WantedPose::at(pose), &load)?;
+            uncertainty.explained = explained_deflection(&observer, model, &found);
+        }
         Ok(slopes)
     };
     at.answer(solve, |slopes, heading| slopes.print(heading, details.details))
@@ -47,6 +52,9 @@ struct Uncertainty {
     std_mm: f64,
     /// The share of each cause in its variance, the largest first.
     shares: IndexMap<String, f64>,
+    /// Share of the variance that derivatives explain, of robots of the error model.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    explained: Option<f64>,
 }
 
 /// Causes that are named.
@@ -66,14 +74,17 @@ impl Uncertainty {
         let mut shares: IndexMap<_, _> =
             causes.map(|(input, part)| (input.name.clone(), share(*part))).collect();
         shares.sort_by(|_, one, _, other| other.total_cmp(one));
-        Ok(Self { std_mm: 1e3 * variance.sqrt(), shares })
+        Ok(Self { std_mm: 1e3 * variance.sqrt(), shares, explained: None })
     }
 
-    fn print(&self) {
+    fn print(&self, heading: &str, dp: f64) {
         let named = self.shares.iter().take(NAMED);
         let named: Vec<_> = named.map(|(name, share)| format!("{name} {:.1} %", 100.0 * share)).collect();
         let (std, named) = (self.std_mm, named.join(", "));
-        print_sentence(&format!("Its standard deviation is {std:.5} mm; shares: {named}."));
+        print_sentence(&format!("{heading}: |dp| = {dp:.5} mm with a standard deviation of {std:.5} mm."));
+        print_sentence(&format!("Shares of the variance: {named}."));
+        let little = little_explained(self.explained);
+        little.iter().for_each(|little| print_sentence(&format!("{little}: these numbers are rough.")));
     }
 }
 
@@ -245,8 +256,11 @@ impl Slopes {
 
     /// The deflection, and the parameters that change it most, each by a unit of the size of its uncertainty.
     fn print(&self, heading: &str, details: bool) {
-        print_sentence(&format!("{heading}: |dp| = {:.5} mm under the load.", self.deflection_magnitude_mm));
-        self.uncertainty.iter().for_each(Uncertainty::print);
+        let dp = self.deflection_magnitude_mm;
+        match &self.uncertainty {
+            Some(uncertainty) => uncertainty.print(heading, dp),
+            None => print_sentence(&format!("{heading}: |dp| = {dp:.5} mm under the load.")),
+        }
         let mut rows = self.rows();
         let size = |(_, index, slope): &(String, usize, Slope)| {
             (slope.magnitude_mm * handy_unit(&self.inputs[*index]).1).abs()

@@ -2,8 +2,7 @@
 
 use crate::program::arguments::poses::{PoseArguments, pose_numbers};
 use crate::program::arguments::{
-    self, FigureArgument, Format, FreeArguments, Lengths, LoadArguments, Preference, Printing, RobotArgument,
-    With, print_record,
+    self, FigureArgument, FreeArguments, Lengths, LoadArguments, Preference, Printing, RobotArgument, With,
 };
 use crate::program::error::ProgramError;
 use crate::program::lists::winch_file;
@@ -107,30 +106,10 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     if let Some(file) = &settings.figure {
         file.write(&settings.printing.overwrite, &figure(&robot, &rest.pose, &series)?)?;
     }
-    let records = || series.samples.iter().map(|sample| record(&rest.pose, sample));
-    if let Some(path) = settings.printing.table_file() {
-        let mut writer = csv::Writer::from_writer(Vec::new());
-        // Writing to memory cannot fail.
-        let _ = writer.write_record(&answer.columns);
-        records().for_each(|record| drop(writer.write_record(record.iter().map(|cell| format!("{cell:?}")))));
-        let text = String::from_utf8_lossy(&writer.into_inner().unwrap_or_default()).into_owned();
-        settings.printing.overwrite.write(path, &text)?;
-        answer.print(&shown(&robot.name), &rest.pose, settings.until);
-        return Ok(answer.ending());
-    }
-    match settings.printing.format() {
-        Format::Csv => {
-            print_record(&answer.columns);
-            records().for_each(|record| {
-                print_record(&record.iter().map(|cell| format!("{cell:?}")).collect::<Vec<_>>());
-            });
-        }
-        format => {
-            let samples = if format == Format::Json { records().collect() } else { Vec::new() };
-            let whole = Whole { answer: &answer, samples };
-            format.print(&whole, |_| answer.print(&shown(&robot.name), &rest.pose, settings.until))?;
-        }
-    }
+    let records = series.samples.iter().map(|sample| record(&rest.pose, sample)).collect();
+    let text = || answer.print(&shown(&robot.name), &rest.pose, settings.until);
+    let whole = |samples| Whole { answer: &answer, samples };
+    settings.printing.with_table(&answer.columns, records, whole, text)?;
     Ok(answer.ending())
 }
 

@@ -15,9 +15,9 @@ use cdpr_assess::{
     BoundarySummary, Further, HELD, TiltDirections, Way, Workspace, WorkspaceSummary, begin_workspace,
     compute_workspace, workspace_boundary, write_workspace,
 };
-use cdpr_report::{layers, workspace_maps};
-use cdpr_robot::{Rotation3, counted, listing, shown, significant};
-use cdpr_study::Extremes;
+use cdpr_report::{MapQuantity, layers, workspace_maps};
+use cdpr_robot::{Axis, Rotation3, counted, listing, shown, significant};
+use cdpr_study::{Extremes, Grid};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::time::Instant;
@@ -102,6 +102,35 @@ impl Wanted {
     }
 }
 
+impl Wanted {
+    /// Refuses what the map cannot have, before it is computed.
+    fn check(&self, settings: &Settings, grid: &Grid) -> Result<(), ProgramError> {
+        let usage = |reason: String| Err(ProgramError::Usage(reason));
+        if settings.set.are_given() && !self.capacity {
+            return usage("--wrench: expected --with capacity, too, whose figures it changes".to_owned());
+        }
+        let axes = Axis::ALL.into_iter().filter(|axis| grid.axis(*axis).points > 1).count();
+        if self.boundary.is_some() && axes < 2 {
+            let expected = "expected a plane or a box, with two points or more along two axes or three";
+            return usage(format!("--with boundary: {expected}"));
+        }
+        let names = MapQuantity::ALL.iter().map(|of| of.name()).chain(["dominant_tolerance"]);
+        let names: Vec<&str> = names.collect();
+        // Those of layers end in `_z00`, ....
+        let is_of = |stem: &str, name: &str| {
+            stem.strip_prefix(name).is_some_and(|rest| rest.is_empty() || rest.starts_with("_z"))
+        };
+        let unknown = |file: &&FigureArgument| !names.iter().any(|name| is_of(file.stem(), name));
+        match settings.figure.iter().find(unknown) {
+            Some(file) => {
+                let (file, names) = (file.path.display(), names.join(", "));
+                usage(format!("--figure {file}: expected the name of a map: {names}"))
+            }
+            None => Ok(()),
+        }
+    }
+}
+
 /// Accuracy of the tilt in a map [degrees].
 const TILT_ACCURACY: f64 = 0.1;
 
@@ -113,10 +142,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     questions::about_poses(&robot, "the map", &grid.corners());
     questions::about_load(&robot, &settings.load.load());
     let tolerances = settings.errors.model(&robot)?;
-    if settings.set.are_given() && !wanted.capacity {
-        let usage = "--wrench: expected --with capacity, too, whose figures it changes";
-        return Err(ProgramError::Usage(usage.to_owned()));
-    }
+    wanted.check(settings, &grid)?;
     let out =
         settings.out.clone().unwrap_or_else(|| arguments::named_after(settings.robot.path(), "workspace"));
     let folder = begin_workspace(&out, settings.overwrite.if_exists())?;

@@ -4,7 +4,7 @@ use crate::program::arguments::{self, Named, Preference, Printing, Threads};
 use crate::program::error::ProgramError;
 use crate::program::output::{Details, patiently, print_sentence, table};
 use cdpr_assess::{Limit, Limited, Reached, ToleranceBudget, tolerance_budget};
-use cdpr_robot::shown;
+use cdpr_robot::{shown, significant};
 use cdpr_study::{Estimate, OutputLimit};
 use std::path::PathBuf;
 
@@ -43,8 +43,6 @@ pub(crate) struct Settings {
 
 pub(super) fn run(settings: &Settings) -> Result<(), ProgramError> {
     settings.threads.start()?;
-    let study = patiently("checking the study", || settings.preference.open_study(&settings.study))?;
-    let sampling = study.sampling(&settings.sampling)?;
     let (column, limit_mm) =
         arguments::upper(&settings.limit, &["deflection_mm", "position_mm"]).map_err(ProgramError::Usage)?;
     let limit = Limit {
@@ -54,6 +52,9 @@ pub(super) fn run(settings: &Settings) -> Result<(), ProgramError> {
         costs: settings.costs.clone().map(|Named(costs)| costs.into_iter().collect()).unwrap_or_default(),
         verified_with: settings.observations,
     };
+    limit.check()?;
+    let study = patiently("checking the study", || settings.preference.open_study(&settings.study))?;
+    let sampling = study.sampling(&settings.sampling)?;
     let budget = patiently("looking for the tolerances", || tolerance_budget(&sampling, &limit))?;
     let text = |budget: &ToleranceBudget| {
         print(budget);
@@ -85,6 +86,9 @@ fn print(budget: &ToleranceBudget) {
 /// What each tolerance does alone and costs, and what independent robots say.
 fn print_details(title: &str, budget: &ToleranceBudget) {
     println!("\n{}; without any deviation {:.4} mm", shown(title), budget.least_mm);
+    if let Some(share) = budget.explained {
+        println!("The linear law explains {} % of the variance.", significant(100.0 * share, 3));
+    }
     let mut rows = table(&["tolerance", "quantile if it alone is halved [mm]", "cost now", "cost then"]);
     for tolerance in &budget.tolerances {
         rows.add_row([

@@ -32,6 +32,9 @@ const PROFILES: [(&str, Profile); 3] =
 const FEED_FORWARD: [(&str, FeedForward); 2] =
     [("platform", FeedForward::Platform), ("cables", FeedForward::Cables)];
 
+/// Robots that are drawn where no number is given.
+const ROBOTS: usize = 100;
+
 /// What the names of `--with` say.
 struct Wanted {
     seconds: f64,
@@ -43,7 +46,7 @@ struct Wanted {
     damping: f64,
     /// Whether the motion after the move is watched, and how long [s].
     residual: Option<Option<f64>>,
-    robots: usize,
+    robots: Option<usize>,
     seed: Option<u64>,
 }
 
@@ -70,7 +73,7 @@ impl Wanted {
             rate: number("rate", 200.0)?,
             damping: number("damping", 0.0)?,
             residual: with.value("residual", Some(None), |text| arguments::number(text).map(Some))?,
-            robots: with.value("robots", None, arguments::count::<1, 100_000>)?.unwrap_or(100),
+            robots: with.value("robots", None, arguments::count::<1, 100_000>)?,
             seed,
         })
     }
@@ -118,6 +121,9 @@ pub(super) fn run(
     if model.is_some() && wanted.seed.is_none() {
         return Err(usage("--with: expected seed=N, from which the robots are drawn"));
     }
+    if model.is_none() && (wanted.robots.is_some() || wanted.seed.is_some()) {
+        return Err(usage("--with robots, seed: expected --uncertainty, too, from which robots are drawn"));
+    }
     let poses = at.poses(&robot)?;
     let robot = with_inertia(&robot);
     let plain = Move {
@@ -147,8 +153,9 @@ pub(super) fn run(
         let after = |points: &[SetPoint]| residual(&robot, &plain.load, points, &[], &simulated);
         answer.residual = Some(After::new(&after(&set_points)?, &after(&unshaped)?, seconds));
         if let (Some(model), Some(seed)) = (&model, wanted.seed) {
-            let drawn = DrawnRobots { nominal: &robot, model, count: wanted.robots, seed };
-            let bar = progress(wanted.robots, "robots");
+            let count = wanted.robots.unwrap_or(ROBOTS);
+            let drawn = DrawnRobots { nominal: &robot, model, count, seed };
+            let bar = progress(count, "robots");
             let compared =
                 drawn.compare(&plain.load, [&unshaped, &set_points], &simulated, &|| bar.inc(1))?;
             bar.finish_and_clear();

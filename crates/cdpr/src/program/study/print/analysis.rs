@@ -27,6 +27,9 @@ pub(in crate::program::study) fn print(found: &TableAnalysis) {
 fn print_answer(name: &str, analysis: &Analysis) {
     let verdict = &analysis.verdict;
     let mut before = format!("{name}: ");
+    if let Some(failures) = analysis.limit {
+        print_sentence(&(std::mem::take(&mut before) + &of_limit(&failures)));
+    }
     verdict.sentences.iter().for_each(|sentence| print_sentence(&(std::mem::take(&mut before) + sentence)));
     let of = &analysis.summary;
     let [mean, std, min, max] = [of.mean, of.std, of.min, of.max].map(number);
@@ -35,9 +38,6 @@ fn print_answer(name: &str, analysis: &Analysis) {
         "mean {mean}, deviation {std}, range {min} to {max}; {values}, {} failed",
         of.failed
     ));
-    if let Some(failures) = analysis.limit {
-        print_sentence(&of_limit(&failures));
-    }
     for condition in &verdict.conditions {
         print_sentence(&format!(
             "{}: {}",

@@ -1,6 +1,6 @@
 //! What is printed of a move.
 
-use crate::program::arguments::{Format, Printing, print_record};
+use crate::program::arguments::Printing;
 use crate::program::error::ProgramError;
 use crate::program::output::{Ending, print_sentence};
 use crate::program::pose::at_pose::numbered;
@@ -114,10 +114,11 @@ impl After {
         }
     }
 
-    fn print(&self) {
+    fn print(&self, name: &str) {
         let ratio = self.ratio.map_or_else(String::new, |ratio| format!(", {} %", percent(ratio)));
         print_lines(&format!(
-            "In {} s after the move P swings by up to {} mm{ratio} of the {} mm without shaper and feed-forward. \
+            "{name}: in {} s after the move P swings by up to {} mm{ratio} of the {} mm without shaper and \
+             feed-forward. \
              On the way it is up to {} mm off, without both {} mm. A coarser computation differs by up to {} mm.",
             significant(self.watched_s, 3),
             mm(self.amplitude_m),
@@ -221,34 +222,14 @@ impl Answer {
         robot: &Robot,
         set_points: &[SetPoint],
     ) -> Result<(), ProgramError> {
-        let records = || set_points.iter().map(record);
-        let cells = |row: Vec<f64>| row.iter().map(|cell| format!("{cell:?}")).collect::<Vec<_>>();
-        let name = shown(&robot.name);
-        if let Some(path) = printing.table_file() {
-            let mut writer = csv::Writer::from_writer(Vec::new());
-            // Writing to memory cannot fail.
-            let _ = writer.write_record(&self.columns);
-            records().for_each(|row| drop(writer.write_record(cells(row))));
-            let table = String::from_utf8_lossy(&writer.into_inner().unwrap_or_default()).into_owned();
-            printing.overwrite.write(path, &table)?;
-            self.print(&name, set_points.len());
-            return Ok(());
-        }
-        match printing.format() {
-            Format::Csv => {
-                print_record(&self.columns);
-                records().for_each(|row| print_record(&cells(row)));
-            }
-            format => {
-                let listed = if format == Format::Json { records().collect() } else { Vec::new() };
-                let whole = Whole { answer: self, set_points: listed };
-                format.print(&whole, |_| self.print(&name, set_points.len()))?;
-            }
-        }
-        Ok(())
+        let (name, records) = (shown(&robot.name), set_points.iter().map(record).collect());
+        let whole = |set_points| Whole { answer: self, set_points };
+        printing.with_table(&self.columns, records, whole, || self.print(&name, set_points.len()))
     }
 
     fn print(&self, name: &str, set_points: usize) {
+        self.residual.iter().for_each(|after| after.print(name));
+        self.robots.iter().for_each(Robots::print);
         let (way, seconds) = (significant(self.way_m, 4), self.seconds);
         print_sentence(&format!("{name}: {way} m in {seconds} s, {}", counted(set_points, "set point")));
         if let ([.., [duration, _]], false) = (&self.impulses[..], self.shaped.is_empty()) {
@@ -270,8 +251,6 @@ impl Answer {
             significant(self.least_tension_n, 3),
             significant(self.greatest_exit_tension_n, 4)
         ));
-        self.residual.iter().for_each(After::print);
-        self.robots.iter().for_each(Robots::print);
     }
 }
 
