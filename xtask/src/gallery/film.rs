@@ -2,7 +2,6 @@
 
 use crate::cargo::{number, output, read, read_json, root, write};
 use serde_json::Value;
-use std::path::Path;
 
 /// Where the platform rests at first, and what happens.
 const POSE: &str = "0,0,2";

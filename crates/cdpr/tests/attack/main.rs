@@ -5,6 +5,7 @@
 //! plain `cargo test` leaves it out; `cargo xtask attack` and `.ci/run` run it.
 
 #![cfg(unix)]
+#![allow(clippy::print_stdout)]
 
 mod case;
 mod cases;
