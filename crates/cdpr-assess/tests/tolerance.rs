@@ -35,6 +35,20 @@ fn the_modulus_is_what_to_tighten_for_the_deflection() {
     let halved =
         (found.tolerances[0].halved_mm - found.least_mm) / (found.now.quantile_mm.value - found.least_mm);
     assert!((halved - 0.5).abs() < 0.02, "{halved}");
+    assert!(found.explained.unwrap() > 0.95 && found.sentences().len() == 2, "{:?}", found.explained);
+}
+
+#[test]
+fn a_deflection_that_is_not_linear_in_its_tolerances_is_said_to_be_so() {
+    let mut study = study();
+    let offsets = serde_json::json!({"dt": {"law": {"uniform": {"min": -900.0, "max": 900.0}}}});
+    study.file.error_models.insert("wide".to_owned(), serde_json::from_value(offsets).unwrap());
+    study.file.samplings["mechanical"].error_model = "wide".to_owned();
+    let sampling = study.sampling("mechanical").unwrap();
+    let found = tolerance_budget(&sampling, &limit(Limited::Deflection, 5.0)).unwrap();
+    let share = found.explained.unwrap();
+    println!("{share}: {:?}", found.sentences());
+    assert!(share < 0.9 && found.sentences().last().unwrap().starts_with("The linear law explains only "));
 }
 
 #[test]
