@@ -39,19 +39,6 @@ fn the_modulus_is_what_to_tighten_for_the_deflection() {
 }
 
 #[test]
-fn a_deflection_that_is_not_linear_in_its_tolerances_is_said_to_be_so() {
-    let mut study = study();
-    let offsets = serde_json::json!({"dt": {"law": {"uniform": {"min": -900.0, "max": 900.0}}}});
-    study.file.error_models.insert("wide".to_owned(), serde_json::from_value(offsets).unwrap());
-    study.file.samplings["mechanical"].error_model = "wide".to_owned();
-    let sampling = study.sampling("mechanical").unwrap();
-    let found = tolerance_budget(&sampling, &limit(Limited::Deflection, 5.0)).unwrap();
-    let share = found.explained.unwrap();
-    println!("{share}: {:?}", found.sentences());
-    assert!(share < 0.9 && found.sentences().last().unwrap().starts_with("The linear law explains only "));
-}
-
-#[test]
 fn the_position_depends_on_the_points_and_a_dearer_tolerance_is_tightened_less() {
     let cheap = limit(Limited::Position, 30.0);
     let even = budget("geometrical", &cheap).unwrap();
