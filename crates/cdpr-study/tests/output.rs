@@ -10,7 +10,7 @@ use cdpr_statics::{
 };
 use cdpr_study::{
     InputMeasures, Measured, Output, Sampling, SensitivitySpec, SensitivitySummary, Session, Study,
-    StudyError, analyse, compute_surface, observe_into,
+    StudyError, analyse, compute_surface, observe, observe_into,
 };
 use serde_json::{Value, json};
 use std::path::Path;
@@ -251,6 +251,25 @@ fn what_an_output_cannot_be_of_is_refused_with_field_and_value() {
     }
     let error = refused(&study("caroca", [0.0, 0.0, 1.75], "frequency"));
     assert!(error.contains("output is frequency: expected a robot with `platform.inertia`"), "{error}");
+}
+
+#[test]
+fn a_study_of_the_position_needs_no_payload_and_its_values_depend_on_none() {
+    let values = |payload: Option<f64>| {
+        let mut study = study("cogiro", [1.0, 0.5, 2.0], "position");
+        match payload {
+            Some(payload) => study["payload"] = json!(payload),
+            None => drop(study.as_object_mut().unwrap().remove("payload")),
+        }
+        let study = opened(&study).unwrap();
+        observe(&study.sampling("point").unwrap(), &Session::in_memory()).unwrap().first_values
+    };
+    assert_eq!(values(None), values(Some(30.0)));
+    let mut none = study("cogiro", [1.0, 0.5, 2.0], "deflection");
+    none.as_object_mut().unwrap().remove("payload");
+    let error = opened(&none).unwrap_err().to_string();
+    assert!(error.contains("payload is 0: expected a finite mass above zero [kg]"), "{error}");
+    assert!(error.contains("output position needs none"), "{error}");
 }
 
 #[test]
