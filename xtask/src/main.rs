@@ -6,6 +6,7 @@
 
 mod attack;
 mod bench;
+mod c_library;
 mod cable;
 mod calibration;
 mod cargo;
@@ -78,6 +79,8 @@ tasks:
                  CDPR_EVIDENCE, which a run of the tests has written, with those that are kept
   dist           makes what a release consists of in target/dist: the program, on Linux one that runs on
                  any, the wheel, the packed crates, the book, notes and checksums
+  c --prefix FOLDER
+                 builds libcdpr and installs it into FOLDER: header, libraries, pkg-config, CMake, MATLAB, see docs/c.md
   web [--check]  makes the module and the page of `cdpr explore` in crates/cdpr-web/dist, or says whether these
                  are of the sources as they are
   gallery        writes docs/robots.md, a picture and a table for each robot of the library
@@ -107,6 +110,7 @@ fn main() -> ExitCode {
         Some("dist") => dist::run(&rest),
         Some("evidence") => ended(evidence::run(&rest)),
         Some("web") => web::run(&rest),
+        Some("c") => ended(c_library::run(&rest)),
         Some("gallery") => ended(gallery::run()),
         Some("schemas") => schemas(),
         Some("help" | "--help" | "-h") => {
