@@ -127,7 +127,7 @@ fn with_slopes(vector: &[Input; 3]) -> WithSlopes {
 const VERTICAL: f64 = 1e-20;
 
 /// The response of the cable to the force `force` [N] at A.
-pub(crate) fn response<T: Real>(cable: &Cable, numbers: &Numbers<T>, force: &[T; 3]) -> GuidedInSpace<T> {
+fn response<T: Real>(cable: &Cable, numbers: &Numbers<T>, force: &[T; 3]) -> GuidedInSpace<T> {
     free_length_and_response(cable, numbers, force).1
 }
 
@@ -137,18 +137,8 @@ fn free_length_and_response<T: Real>(
     numbers: &Numbers<T>,
     force: &[T; 3],
 ) -> (T, GuidedInSpace<T>) {
-    let z = force[2];
     let (fx, [c, s]) = horizontal(force);
-    let (free_length, in_plane) = match cable.guide {
-        None => (numbers.length, without_guide(&cable.free_response(numbers, [fx, z]))),
-        Some(_) => {
-            let [kx, ky, kz] = numbers.axis;
-            let turned = Numbers { axis: [c * kx + s * ky, c * ky - s * kx, kz], ..*numbers };
-            let guided = Guided::new(cable, &guide(cable), &turned, [fx, z]);
-            let free = cable.free_response(&Numbers { length: guided.free, ..*numbers }, [fx, z]);
-            (guided.free, guided.in_space(fx, &free))
-        }
-    };
+    let (free_length, in_plane) = in_axes(cable, numbers, [c, s], [fx, force[2]]);
     let GuidedInSpace { leave, end, flexibility, end_per_length, free_per_force } = in_plane;
     let turn = |[h, l, z]: [T; 3]| [c * h - s * l, s * h + c * l, z];
     let rows = flexibility.map(turn);
@@ -161,6 +151,24 @@ fn free_length_and_response<T: Real>(
         free_per_force: turn(free_per_force),
     };
     (free_length, response)
+}
+
+/// The same for the force (fx, fz) in the plane of direction `[c, s]`, in the axes of that plane.
+#[inline]
+pub(crate) fn in_axes<T: Real>(
+    cable: &Cable,
+    numbers: &Numbers<T>,
+    [c, s]: [T; 2],
+    force: [T; 2],
+) -> (T, GuidedInSpace<T>) {
+    if cable.guide.is_none() {
+        return (numbers.length, without_guide(&cable.free_response(numbers, force)));
+    }
+    let [kx, ky, kz] = numbers.axis;
+    let turned = Numbers { axis: [c * kx + s * ky, c * ky - s * kx, kz], ..*numbers };
+    let guided = Guided::new(cable, &guide(cable), &turned, force);
+    let free = cable.free_response(&Numbers { length: guided.free, ..*numbers }, force);
+    (guided.free, guided.in_space(force[0], &free))
 }
 
 /// The response in space of a cable without guide, in the axes of its plane.
@@ -177,7 +185,7 @@ fn without_guide<T: Real>(free: &Response<T>) -> GuidedInSpace<T> {
 }
 
 /// `matrix⁻¹ right` by Cramer's rule, for a matrix of rows.
-pub(crate) fn solve<T: Real>([a, b, c]: &[[T; 3]; 3], right: &[T; 3]) -> [T; 3] {
+fn solve<T: Real>([a, b, c]: &[[T; 3]; 3], right: &[T; 3]) -> [T; 3] {
     let columns = [cross(b, c), cross(c, a), cross(a, b)];
     let determinant = dot(a, &columns[0]);
     [0, 1, 2].map(|i| dot(&columns.map(|column| column[i]), right) / determinant)

@@ -1,0 +1,159 @@
+//! Cables at a chord force: Newton's method for their closure, and the derivatives by that force.
+//!
+//! With the horizontal force `fx = σ h/c` of (C16) the derivatives between fixed ends are those by fx, (C38),
+//! times h/c: a cable over a tilted axis swings its plane, others stay in that of their ends. A vertical
+//! cable has a share of the chord for its horizontal distance that is far below rounding.
+//!
+//! Second derivatives are (C38) differentiated by dual numbers.
+
+use super::{HeldCable, VERTICAL, per_horizontal};
+use crate::cable::{Cable, Numbers};
+use crate::catenary::Catenary;
+use crate::catenary::spatial::{flat, in_axes};
+use crate::error::CableError;
+use crate::kernel::{AtFixedEnds, GuidedInSpace};
+use cdpr_number::{Dual, Real};
+use nalgebra::{Vector2, Vector3};
+
+/// A cable with a force in a vertical plane, over any kind of number.
+struct AtForce<T> {
+    numbers: Numbers<T>,
+    /// Horizontal direction of the plane.
+    azimuth: [T; 2],
+    /// (fx, fz) [N].
+    force: [T; 2],
+}
+
+/// What closes a cable.
+struct Closing<T> {
+    terms: AtFixedEnds<T>,
+    /// Misclosure forwards, across and upwards [m].
+    open: [T; 3],
+    /// Unstrained length beyond the leave point [m].
+    free: T,
+}
+
+impl<T: Real> AtForce<T> {
+    /// What closes the cable to `end`, which lies forwards, across and upwards from its exit point [m].
+    #[inline]
+    fn closing(&self, cable: &Cable, end: [T; 3]) -> Closing<T> {
+        let (Self { numbers, azimuth, force }, zero) = (self, T::of(0.0));
+        if cable.leaves_its_plane() {
+            let (free, space) = in_axes(cable, numbers, *azimuth, *force);
+            let open = [end[0] - space.end[0], end[1] - space.end[1], end[2] - space.end[2]];
+            let whole = GuidedInSpace { free_per_force: [zero; 3], ..space };
+            return Closing { terms: AtFixedEnds::in_space(&whole, T::of(1.0), open), open, free };
+        }
+        let (response, on_guide) = cable.whole_response(numbers, *force);
+        let [x, z] = [end[0] - response.end[0], end[2] - response.end[1]];
+        let asymmetry = on_guide.as_ref().map(|on_guide| on_guide.asymmetry);
+        let terms = AtFixedEnds::in_plane(&response, asymmetry, [x, z], force[0] / end[0]);
+        Closing { terms, open: [x, zero, z], free: on_guide.map_or(numbers.length, |on_guide| on_guide.free) }
+    }
+
+    /// dF/dfx in space and dL/dfx.
+    #[inline]
+    fn slopes(&self, cable: &Cable) -> ([T; 3], T) {
+        let [across, rise, longer] = self.closing(cable, [T::of(1.0); 3]).terms.per_force;
+        let [c, s] = self.azimuth;
+        ([c - s * across, s + c * across, rise], longer)
+    }
+}
+
+/// A cable's end in the axes of a vertical plane: forwards, across and upwards [m].
+fn seen_in([c, s]: [f64; 2], end: Vector3<f64>, is_tilted: bool) -> [f64; 3] {
+    match is_tilted {
+        true => [c * end.x + s * end.y, c * end.y - s * end.x, end.z],
+        false => [flat(end).0.x.max(VERTICAL * end.norm()), 0.0, end.z],
+    }
+}
+
+impl<'a> HeldCable<'a> {
+    /// Force [N] and length [m] of the inextensible catenary of a plain cable with this horizontal force.
+    pub(super) fn inextensible(cable: &Cable, end: Vector3<f64>, chord_force: f64) -> (Vector3<f64>, f64) {
+        let (chord, (flat, _)) = (end.norm(), flat(end));
+        let u = 0.5 * cable.weight_per_length * chord / chord_force;
+        let (sinh_ratio, u_coth) = if u < 1e-4 { (1.0, 1.0) } else { (u.sinh() / u, u / u.tanh()) };
+        let length = flat.y.hypot(flat.x * sinh_ratio) / (1.0 + cable.strain(chord_force));
+        let fz = chord_force / chord * flat.y * u_coth + 0.5 * cable.weight_per_length * length;
+        (Vector3::new(0.0, 0.0, fz), length)
+    }
+
+    /// A cable that is closed, with its derivatives.
+    pub(super) fn at(catenary: Catenary<'a>, azimuth: [f64; 2], end: Vector3<f64>, chord_force: f64) -> Self {
+        let per_chord_force = 1.0 / per_horizontal(end);
+        let numbers = catenary.cable.numbers(catenary.unstrained_length);
+        let force = [chord_force * per_chord_force, catenary.force.y];
+        let (force_slope, longer) = AtForce { numbers, azimuth, force }.slopes(&catenary.cable);
+        let force_slope = Vector3::from(force_slope) * per_chord_force;
+        Self { catenary, azimuth, end, chord_force, force_slope, length_slope: longer * per_chord_force }
+    }
+
+    /// d²F/dσ² [1/N].
+    pub fn force_curvature(&self) -> Vector3<f64> {
+        let Catenary { cable, unstrained_length, force } = self.catenary;
+        let along = |value: f64, slope: f64| Dual { value, slopes: [slope] };
+        let (per_chord_force, [c, s]) = (1.0 / per_horizontal(self.end), self.azimuth);
+        let fx = self.chord_force * per_chord_force;
+        let swung = c * self.force_slope.y - s * self.force_slope.x;
+        let turn = if cable.leaves_its_plane() { swung / fx } else { 0.0 };
+        let length = along(unstrained_length, self.length_slope);
+        let state = AtForce::<Dual<f64, 1>> {
+            numbers: Numbers { length, ..cable.numbers(unstrained_length).map(Dual::of) },
+            azimuth: [along(c, -s * turn), along(s, c * turn)],
+            force: [along(fx, per_chord_force), along(force.y, self.force_slope.z)],
+        };
+        let (slopes, _) = state.slopes(&cable);
+        Vector3::from(slopes.map(|slope| slope.slopes[0])) * per_chord_force
+    }
+
+    /// Newton's method for force [N] and length [m] at a chord force; over a tilted axis for the azimuth of
+    /// the plane, too.
+    pub(super) fn close(
+        cable: &Cable<'a>,
+        end: Vector3<f64>,
+        chord_force: f64,
+        (force, mut length): (Vector3<f64>, f64),
+    ) -> Result<Self, CableError> {
+        const MAX_ITERATIONS: usize = 50;
+        let is_tilted = cable.leaves_its_plane();
+        let (chord, fx) = (end.norm(), chord_force / per_horizontal(end));
+        let (_, mut azimuth) = flat(if is_tilted { force } else { end });
+        let (mut fz, mut residual) = (force.z, f64::INFINITY);
+        for iteration in 1..=MAX_ITERATIONS {
+            let now = AtForce { numbers: cable.numbers(length), azimuth, force: [fx, fz] };
+            let Closing { terms, open, free } = now.closing(cable, seen_in(azimuth, end, is_tilted));
+            let before = residual;
+            residual = Vector3::from(open).norm();
+            let [swung, dfz, longer] = terms.closing;
+            if !terms.closing.iter().all(|change| change.is_finite()) {
+                return Err(CableError::NotConverged { iterations: iteration, residual });
+            }
+            let forces = fx.hypot(fz) + cable.weight_per_length * free;
+            let (v0, led) = (fz - cable.weight_per_length * free, length - free);
+            length = (length + longer).clamp(0.5 * length, 2.0 * length);
+            // Where the cable is nearly vertical at an end, the force there changes its sign only in small
+            // steps: x/fx depends on its logarithm.
+            let kept = |from: f64, to: f64| {
+                if fx < 0.1 * from.abs() && to / from < 0.1 { 0.1 * from } else { to }
+            };
+            let weight = cable.weight_per_length * (length - led);
+            fz = weight + kept(v0, kept(fz, fz + dfz) - weight);
+            if is_tilted {
+                let [c, s] = azimuth;
+                (_, azimuth) = flat(Vector3::new(c * fx - s * swung, s * fx + c * swung, 0.0));
+            }
+            // Of a folded cable x/fx shows whether the forces are right: steps do not.
+            let fits = open[0].abs() <= 1e-4 * chord / chord_force * fx;
+            let change = dfz.hypot(swung);
+            let small = |limit: f64| fits && change <= limit * forces && longer.abs() <= limit * chord;
+            // The next step squares this one, or nothing but rounding is left.
+            if small(1e-8) || (small(1e-6) && residual >= 0.5 * before) {
+                let catenary =
+                    Catenary { cable: *cable, unstrained_length: length, force: Vector2::new(fx, fz) };
+                return Ok(Self::at(catenary, azimuth, end, chord_force));
+            }
+        }
+        Err(CableError::NotConverged { iterations: MAX_ITERATIONS, residual })
+    }
+}
