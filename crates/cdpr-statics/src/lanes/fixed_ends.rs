@@ -6,7 +6,6 @@ use crate::local::guided::Guided;
 use cdpr_cable::kernel::{AtFixedEnds, LeavePoint, Response, TAUT};
 use cdpr_number::dense::{Lanes2, Lanes3, replace};
 use cdpr_number::lanes::{Lanes, Mask, Simd, WithSimd};
-use cdpr_number::vector::dot;
 use cdpr_number::{Lanewise, Number};
 
 /// Part of a tension by which it has to exceed the least one of the span, as its slope and curvature tell.
@@ -246,18 +245,6 @@ impl<S: Simd> FixedEnds<S> {
     }
 }
 
-/// How a cable at its fixed ends responds to a motion of its anchor point along its plane, across it and
-/// upwards, at constant fx.
-#[derive(Clone, Copy)]
-pub(crate) struct EndSlopes<S: Simd> {
-    /// The force across the plane by (d_h, d_l, d_z) [N/m].
-    pub(crate) across: Lanes3<S>,
-    /// dz by it [N/m].
-    pub(crate) rise: Lanes3<S>,
-    /// dL by it.
-    pub(crate) length: Lanes3<S>,
-}
-
 /// What closes a cable without guide, from its response, (L1).
 #[inline(always)]
 fn plain<S: Simd>(
@@ -268,30 +255,16 @@ fn plain<S: Simd>(
     AtFixedEnds::in_plane(response, None, span.misclosure(response.end), cable.force[0] / span.end[0])
 }
 
-impl<S: Simd> EndSlopes<S> {
-    #[inline(always)]
-    fn new([across, rise, length]: [Lanes3<S>; 3]) -> Self {
-        Self { across, rise, length }
-    }
-
-    /// The change of the force on the platform by a motion of the anchor point [N].
-    #[inline(always)]
-    pub(crate) fn pull(&self, [x, y]: Lanes2<S>, moved: &Lanes3<S>) -> Lanes3<S> {
-        let across = dot(&self.across, moved);
-        [across * y, -(across * x), -dot(&self.rise, moved)]
-    }
-}
-
 impl<S: Simd> FixedEnds<S> {
-    /// A cable between its ends, with its response to their motion.
+    /// A cable between its ends, with the rows of [`AtFixedEnds::per_end`].
     #[inline(always)]
-    pub(crate) fn with_end_slopes(cable: &LaneCable<'_, S>, span: &Span<Lanes<S>>) -> (Self, EndSlopes<S>) {
+    pub(crate) fn with_end_slopes(
+        cable: &LaneCable<'_, S>,
+        span: &Span<Lanes<S>>,
+    ) -> (Self, [Lanes3<S>; 3]) {
         let response = cable.response();
         match &cable.guided {
-            None => {
-                let ends = EndSlopes::new(plain(cable, span, &response).per_end);
-                (Self::plain(cable, span, &response), ends)
-            }
+            None => (Self::plain(cable, span, &response), plain(cable, span, &response).per_end),
             Some(guided) if guided.is_tilted() => Leaving { guided, cable, span }.in_space(&response),
             Some(guided) => Leaving { guided, cable, span }.leave(&response),
         }
@@ -330,10 +303,10 @@ impl<S: Simd> WithSimd for Leaving<'_, '_, S> {
 
 impl<S: Simd> Leaving<'_, '_, S> {
     #[inline(always)]
-    fn leave(&self, response: &Response<Lanes<S>>) -> (FixedEnds<S>, EndSlopes<S>) {
+    fn leave(&self, response: &Response<Lanes<S>>) -> (FixedEnds<S>, [Lanes3<S>; 3]) {
         let Self { guided, cable, span } = self;
         let LeavePoint { position, tangent: [tx, tz], tension_inv, .. } = guided.leave_point(&cable.free());
-        let mut ends = EndSlopes::new(plain(cable, span, response).per_end);
+        let [across, rise, mut length] = plain(cable, span, response).per_end;
         let span = Span { plane: span.plane, end: span.misclosure(position) };
         let mut fixed = FixedEnds::plain(cable, &span, response);
         let ([_, xz, zz], [ex, ez]) = (response.flexibility, response.end_per_length);
@@ -344,8 +317,8 @@ impl<S: Simd> Leaving<'_, '_, S> {
         let [dz, longer] = fixed.closing;
         fixed.closing[1] += per_turn * whole * (tx * tension_inv * dz - falling * longer);
         for k in [0, 2] {
-            let turn = tx * tension_inv * ends.rise[k] - falling * ends.length[k];
-            ends.length[k] += per_turn * whole * turn;
+            let turn = tx * tension_inv * rise[k] - falling * length[k];
+            length[k] += per_turn * whole * turn;
         }
         let turn = (tx * fixed.rise - tz) * tension_inv - falling * fixed.length_slope;
         fixed.length_slope += per_turn * whole * turn;
@@ -353,12 +326,12 @@ impl<S: Simd> Leaving<'_, '_, S> {
         let [_, uz] = response.direction;
         fixed.curvatures[0] -= uz * bend;
         fixed.curvatures[1] -= bend;
-        (fixed, ends)
+        (fixed, [across, rise, length])
     }
 
     /// The same over a tilted axis, (L19).
     #[inline(always)]
-    fn in_space(&self, response: &Response<Lanes<S>>) -> (FixedEnds<S>, EndSlopes<S>) {
+    fn in_space(&self, response: &Response<Lanes<S>>) -> (FixedEnds<S>, [Lanes3<S>; 3]) {
         let Self { guided, cable, span } = self;
         let way = guided.way(&cable.free());
         let space = way.in_space(cable.force[0], response);
@@ -378,6 +351,6 @@ impl<S: Simd> Leaving<'_, '_, S> {
             across: [closing[0], per_force[0]],
             ..fixed
         };
-        (fixed, EndSlopes::new(per_end))
+        (fixed, per_end)
     }
 }
