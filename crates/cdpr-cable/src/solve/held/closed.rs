@@ -9,11 +9,14 @@
 use super::{HeldCable, VERTICAL, per_horizontal};
 use crate::cable::{Cable, Numbers};
 use crate::catenary::Catenary;
-use crate::catenary::spatial::{flat, in_axes};
+use crate::catenary::spatial::{flat, in_axes, lifted};
 use crate::error::CableError;
 use crate::kernel::{AtFixedEnds, GuidedInSpace};
 use cdpr_number::{Dual, Real};
-use nalgebra::{Vector2, Vector3};
+use nalgebra::{Matrix3, RowVector3, Vector2, Vector3};
+
+/// A cable with a smaller share of its chord for its horizontal distance is vertical to rounding.
+const NEARLY_VERTICAL: f64 = 1e-8;
 
 /// A cable with a force in a vertical plane, over any kind of number.
 struct AtForce<T> {
@@ -105,6 +108,29 @@ impl<'a> HeldCable<'a> {
         };
         let (slopes, _) = state.slopes(&cable);
         Vector3::from(slopes.map(|slope| slope.slopes[0])) * per_chord_force
+    }
+
+    /// dF/dr by the position r of A at the same chord force [N/m].
+    pub fn force_per_end(&self) -> Matrix3<f64> {
+        let Self { catenary: Catenary { cable, unstrained_length, force }, azimuth, end, .. } = *self;
+        let ([c, s], chord, (flat_end, direction)) = (azimuth, end.norm(), flat(end));
+        let per_chord_force = 1.0 / per_horizontal(end);
+        let numbers = cable.numbers(unstrained_length);
+        let state = AtForce { numbers, azimuth, force: [self.chord_force * per_chord_force, force.y] };
+        let seen = seen_in(azimuth, end, cable.leaves_its_plane());
+        let [across, rise, _] = state.closing(&cable, seen).terms.per_end;
+        let axes = Matrix3::new(c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0);
+        let at_force =
+            Matrix3::from_rows(&[RowVector3::zeros(), RowVector3::from(across), RowVector3::from(rise)]);
+        // By the change of fx = σ h/c.
+        let forwards = lifted(Vector2::x(), direction) - end * (flat_end.x / (chord * chord));
+        let per_force = self.force_slope * (self.chord_force / (per_chord_force * chord));
+        let mut slopes = axes * at_force * axes.transpose() + per_force * forwards.transpose();
+        if flat_end.x <= NEARLY_VERTICAL * chord {
+            // By symmetry.
+            (slopes[(2, 0)], slopes[(2, 1)]) = (0.0, 0.0);
+        }
+        slopes
     }
 
     /// Newton's method for force [N] and length [m] at a chord force; over a tilted axis for the azimuth of
