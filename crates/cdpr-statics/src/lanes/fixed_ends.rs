@@ -258,10 +258,7 @@ fn plain<S: Simd>(
 impl<S: Simd> FixedEnds<S> {
     /// A cable between its ends, with the rows of [`AtFixedEnds::per_end`].
     #[inline(always)]
-    pub(crate) fn with_end_slopes(
-        cable: &LaneCable<'_, S>,
-        span: &Span<Lanes<S>>,
-    ) -> (Self, [Lanes3<S>; 3]) {
+    pub(crate) fn with_end_slopes(cable: &LaneCable<'_, S>, span: &Span<Lanes<S>>) -> (Self, [Lanes3<S>; 3]) {
         let response = cable.response();
         match &cable.guided {
             None => (Self::plain(cable, span, &response), plain(cable, span, &response).per_end),

@@ -25,9 +25,9 @@ use crate::local::free::FreeCable;
 use crate::local::swivel::{Swivel, in_space};
 use cdpr_cable::kernel::{GuideTerms, LaneEnd, LeavePoint, Response, SwivelAxis, Way};
 use cdpr_number::Number;
+use cdpr_number::apart;
 use cdpr_number::dense::{Lanes2, replace};
 use cdpr_number::lanes::{Lanes, Mask, Simd};
-use cdpr_number::apart;
 
 /// Horizontal distance of a cable's end from its leave point, in radii of its wheel, within which a slack
 /// cable may hang from either side of the wheel.
