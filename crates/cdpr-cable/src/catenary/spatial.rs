@@ -138,7 +138,17 @@ fn free_length_and_response<T: Real>(
     force: &[T; 3],
 ) -> (T, GuidedInSpace<T>) {
     let (fx, [c, s]) = horizontal(force);
-    let (free_length, in_plane) = in_axes(cable, numbers, [c, s], [fx, force[2]]);
+    let in_plane = [fx, force[2]];
+    let (free_length, in_plane) = match cable.guide {
+        None => (numbers.length, without_guide(&cable.free_response(numbers, in_plane))),
+        Some(_) => {
+            let [kx, ky, kz] = numbers.axis;
+            let turned = Numbers { axis: [c * kx + s * ky, c * ky - s * kx, kz], ..*numbers };
+            let guided = Guided::new(cable, &guide(cable), &turned, in_plane);
+            let free = cable.free_response(&Numbers { length: guided.free, ..*numbers }, in_plane);
+            (guided.free, guided.in_space(fx, &free))
+        }
+    };
     let GuidedInSpace { leave, end, flexibility, end_per_length, free_per_force } = in_plane;
     let turn = |[h, l, z]: [T; 3]| [c * h - s * l, s * h + c * l, z];
     let rows = flexibility.map(turn);
@@ -151,24 +161,6 @@ fn free_length_and_response<T: Real>(
         free_per_force: turn(free_per_force),
     };
     (free_length, response)
-}
-
-/// The same for the force (fx, fz) in the plane of direction `[c, s]`, in the axes of that plane.
-#[inline]
-pub(crate) fn in_axes<T: Real>(
-    cable: &Cable,
-    numbers: &Numbers<T>,
-    [c, s]: [T; 2],
-    force: [T; 2],
-) -> (T, GuidedInSpace<T>) {
-    if cable.guide.is_none() {
-        return (numbers.length, without_guide(&cable.free_response(numbers, force)));
-    }
-    let [kx, ky, kz] = numbers.axis;
-    let turned = Numbers { axis: [c * kx + s * ky, c * ky - s * kx, kz], ..*numbers };
-    let guided = Guided::new(cable, &guide(cable), &turned, force);
-    let free = cable.free_response(&Numbers { length: guided.free, ..*numbers }, force);
-    (guided.free, guided.in_space(force[0], &free))
 }
 
 /// The response in space of a cable without guide, in the axes of its plane.

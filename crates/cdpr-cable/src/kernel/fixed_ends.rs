@@ -30,24 +30,17 @@ pub struct AtFixedEnds<T> {
 }
 
 impl<T: Number> AtFixedEnds<T> {
-    /// A cable that stays in its plane, whose response misses its end by `miss` [m]. `asymmetry` is half the
-    /// difference `dx/dfz - dz/dfx` of its flexibility [m/N], and `lateral` its stiffness fx/h across the
-    /// plane [N/m].
+    /// A cable without guide, whose response misses its end by `miss` [m]; `lateral` is its stiffness fx/h
+    /// across the plane [N/m].
     #[inline(always)]
-    pub fn in_plane(response: &Response<T>, asymmetry: Option<T>, miss: [T; 2], lateral: T) -> Self {
-        let [xx, shear, zz] = response.flexibility;
-        let (mut xz, mut zx, mut determinant) = (shear, shear, response.determinant);
-        if let Some(asymmetry) = asymmetry {
-            (xz, zx) = (shear + asymmetry, shear - asymmetry);
-            determinant = determinant + asymmetry * asymmetry;
-        }
-        let [ex, ez] = response.end_per_length;
+    pub fn in_plane(response: &Response<T>, miss: [T; 2], lateral: T) -> Self {
+        let ([xx, xz, zz], [ex, ez]) = (response.flexibility, response.end_per_length);
         let inverse = (ex * zz - ez * xz).recip();
         let zero = inverse.constant(0.0);
         let [dz, longer] = [(ex * miss[1] - ez * miss[0]) * inverse, (zz * miss[0] - xz * miss[1]) * inverse];
         Self {
             closing: [zero, dz, longer],
-            per_force: [zero, (ez * xx - ex * zx) * inverse, -(determinant * inverse)],
+            per_force: [zero, (ez * xx - ex * xz) * inverse, -(response.determinant * inverse)],
             per_end: [
                 [zero, lateral, zero],
                 [-(ez * inverse), zero, ex * inverse],
@@ -56,8 +49,8 @@ impl<T: Number> AtFixedEnds<T> {
         }
     }
 
-    /// A cable over an axis of any direction, that is `open` [m] forwards, across and upwards. Its length
-    /// is that beyond the leave point, which changes by `free_per_length` for each change of the whole one.
+    /// A cable over a guide, that is `open` [m] forwards, across and upwards. Its length is that beyond the
+    /// leave point, which changes by `free_per_length` for each change of the whole one.
     #[inline(always)]
     pub fn in_space(space: &GuidedInSpace<T>, free_per_length: T, open: [T; 3]) -> Self {
         let GuidedInSpace { flexibility: c, end_per_length, free_per_force: q, .. } = space;

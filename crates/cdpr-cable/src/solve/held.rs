@@ -36,6 +36,10 @@ pub struct HeldCable<'a> {
     pub force_slope: Vector3<f64>,
     /// dL/dσ [m/N], always negative.
     pub length_slope: f64,
+    /// Unstrained length beyond its guide [m].
+    free_length: f64,
+    /// Its derivative by σ [m/N].
+    free_slope: f64,
 }
 
 /// A cable below this chord force, relative to its weight per length times the chord, is nearly vertical and
@@ -92,11 +96,10 @@ impl<'a> HeldCable<'a> {
         if cable.guide.is_none() {
             return Self::close(cable, end, chord_force, Self::inextensible(cable, end, chord_force));
         }
-        let (straight, plain, beyond) = cable.straightened(end)?;
+        let (_, plain, beyond) = cable.straightened(end)?;
         let plain_chord_force = chord_force / per_horizontal(end) * per_horizontal(beyond);
         let free = Self::near_straight(&plain, beyond, plain_chord_force)?;
-        let led = straight.guided / (1.0 + cable.strain(free.catenary.exit_tension()));
-        Self::close(cable, end, chord_force, (free.force(), free.catenary.unstrained_length + led))
+        Self::close(cable, end, chord_force, (free.force(), free.free_length))
     }
 
     /// The same cable with another chord force [N], started from this one.
@@ -115,7 +118,7 @@ impl<'a> HeldCable<'a> {
     /// The same cable with a chord force [N] nearby.
     fn stepped(&self, chord_force: f64) -> Result<Self, CableError> {
         let step = chord_force - self.chord_force;
-        let length = self.catenary.unstrained_length + step * self.length_slope;
+        let length = self.free_length + step * self.free_slope;
         check_length(length)?;
         let force = self.force() + step * self.force_slope;
         Self::close(&self.catenary.cable, self.end, chord_force, (force, length))
@@ -123,12 +126,14 @@ impl<'a> HeldCable<'a> {
 
     /// The derivatives of a cable whose end is at `end` [m] from its exit point.
     pub fn of(SpatialCable { cable, unstrained_length, force }: SpatialCable<'a>, end: Vector3<f64>) -> Self {
-        let (force, azimuth) = flat(force);
-        let catenary = Catenary { cable, unstrained_length, force };
-        if cable.leaves_its_plane() {
-            return Self::at(catenary, azimuth, end, force.x * per_horizontal(end));
+        let (flat_force, mut azimuth) = flat(force);
+        let mut chord_force = flat_force.x * per_horizontal(end);
+        let catenary = Catenary { cable: cable.turned(azimuth), unstrained_length, force: flat_force };
+        if !cable.leaves_its_plane() {
+            chord_force = end.norm() / catenary.response().lateral_flexibility;
+            azimuth = flat(end).1;
         }
-        Self::at(catenary, flat(end).1, end, end.norm() / catenary.response().lateral_flexibility)
+        Self::at(&cable, (end, chord_force), azimuth, [force.z, catenary.free_length()])
     }
 
     /// The cable with the tension `tension` [N] at A, on its taut branch.

@@ -252,7 +252,7 @@ fn plain<S: Simd>(
     span: &Span<Lanes<S>>,
     response: &Response<Lanes<S>>,
 ) -> AtFixedEnds<Lanes<S>> {
-    AtFixedEnds::in_plane(response, None, span.misclosure(response.end), cable.force[0] / span.end[0])
+    AtFixedEnds::in_plane(response, span.misclosure(response.end), cable.force[0] / span.end[0])
 }
 
 impl<S: Simd> FixedEnds<S> {
