@@ -37,7 +37,7 @@ use super::start::{Goal, StraightStart};
 use crate::error::{Blocked, StaticsError};
 use cdpr_cable::CableError;
 use cdpr_robot::{Matrix6xX, TensionLimits, Vector6};
-use cdpr_tension::{BoxUnknown, bounded_least_squares};
+use cdpr_tension::{BoxProblem, BoxUnknown};
 
 /// A residual below this, relative to wrench and tensions, balances.
 pub(super) const BALANCED: f64 = 1e-8;
@@ -225,15 +225,16 @@ impl<'a> Point<'a> {
         let residual = self.residual();
         loop {
             let each = self.rows.iter().zip(curvature).zip(&self.cables);
-            let unknowns: Vec<BoxUnknown> = each
-                .map(|((row, curvature), cable)| BoxUnknown {
-                    gradient: 0.0,
-                    curvature: *curvature,
-                    column: row.slope,
-                    bounds: cable.step_bounds(),
-                })
+            let of_cable = each.map(|((row, curvature), cable)| (row.slope, *curvature, cable.step_bounds()));
+            // What is left of the balance: J d + F - e = 0 with the least |e|².
+            let left = (0..6).map(|k| (-Vector6::ith(k, 1.0), 1.0, [f64::NEG_INFINITY, f64::INFINITY]));
+            let unknowns: Vec<BoxUnknown> = of_cable
+                .chain(left)
+                .map(|(column, curvature, bounds)| BoxUnknown { gradient: 0.0, curvature, column, bounds })
                 .collect();
-            let step = bounded_least_squares(&unknowns, &residual)?;
+            let program = BoxProblem { unknowns: &unknowns, residual, multipliers: Vector6::zeros() };
+            let mut step = program.solve().values;
+            step.truncate(self.cables.len());
             if !step.iter().all(|d| d.is_finite()) {
                 return None;
             }
