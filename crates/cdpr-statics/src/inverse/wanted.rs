@@ -9,16 +9,16 @@ use cdpr_robot::Pose;
 /// # Errors
 /// [`StaticsError::Invalid`] for offsets: they are of set-points, which this model does not set.
 pub(crate) fn refuse_offsets(wanted: WantedPose) -> Result<WantedPose, StaticsError> {
-    match wanted.tension_offsets {
-        [] => Ok(wanted),
-        given => {
-            let expected = "none here: deflections, their derivatives and `set_point_lengths` take them";
-            Err(StaticsError::invalid(
-                "tension_offsets".to_owned(),
-                format!("a list of {}", given.len()),
-                expected,
-            ))
-        }
+    let expected = "none here: deflections, their derivatives and `set_point_lengths` take them";
+    refuse("tension_offsets", wanted.tension_offsets, expected)?;
+    Ok(wanted)
+}
+
+/// Refuses a list that says something.
+fn refuse<T>(field: &str, given: &[T], expected: &str) -> Result<(), StaticsError> {
+    match given {
+        [] => Ok(()),
+        _ => Err(StaticsError::invalid(field.to_owned(), format!("a list of {}", given.len()), expected)),
     }
 }
 
@@ -29,14 +29,8 @@ pub(crate) fn refuse_offsets(wanted: WantedPose) -> Result<WantedPose, StaticsEr
 /// tensions.
 pub(super) fn whole(wanted: WantedPose) -> Result<WantedPose, StaticsError> {
     let wanted = refuse_offsets(wanted)?;
-    match wanted.free {
-        [] => Ok(wanted),
-        given => Err(StaticsError::invalid(
-            "free".to_owned(),
-            format!("a list of {}", given.len()),
-            "none here: it takes whole poses, at which tensions are chosen",
-        )),
-    }
+    refuse("free", wanted.free, "none here: it takes whole poses, at which tensions are chosen")?;
+    Ok(wanted)
 }
 
 /// A whole pose of which no more is wanted.
@@ -45,12 +39,6 @@ pub(super) fn whole(wanted: WantedPose) -> Result<WantedPose, StaticsError> {
 /// Those of [`whole`]; [`StaticsError::Invalid`] for a reference of the tensions, which would not act.
 pub(super) fn pose_alone(wanted: WantedPose) -> Result<Pose, StaticsError> {
     let WantedPose { pose, tension_reference, .. } = whole(wanted)?;
-    match tension_reference {
-        None => Ok(pose),
-        Some(given) => Err(StaticsError::invalid(
-            "tension_reference".to_owned(),
-            format!("a list of {}", given.len()),
-            "none here: no tensions are chosen",
-        )),
-    }
+    refuse("tension_reference", tension_reference.unwrap_or_default(), "none here: no tensions are chosen")?;
+    Ok(pose)
 }

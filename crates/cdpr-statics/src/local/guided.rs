@@ -160,7 +160,7 @@ impl<S: Simd> Guided<S> {
 
     /// Where the cable leaves its guide.
     #[inline(always)]
-    pub(crate) fn leave_point(&self, free: &FreeCable<'_, S>) -> LeavePoint<Lanes<S>> {
+    pub(crate) fn leave_point(&self, free: &FreeCable<'_, Lanes<S>>) -> LeavePoint<Lanes<S>> {
         match self.is_tilted() {
             true => tilted_way(self, *free).leave,
             false => self.guide.leave_point(free.material.weight_per_length, free.length, free.force),
@@ -174,7 +174,7 @@ impl<S: Simd> Guided<S> {
     }
 
     #[inline(always)]
-    pub(crate) fn way(&self, free: &FreeCable<'_, S>) -> Way<Lanes<S>> {
+    pub(crate) fn way(&self, free: &FreeCable<'_, Lanes<S>>) -> Way<Lanes<S>> {
         match self.is_tilted() {
             true => tilted_way(self, *free),
             false => way(&self.guide, free),
@@ -186,7 +186,7 @@ impl<S: Simd> Guided<S> {
     #[inline(never)]
     pub(crate) fn linearize(
         &self,
-        free: &FreeCable<'_, S>,
+        free: &FreeCable<'_, Lanes<S>>,
         span: &Span<Lanes<S>>,
         linearized: GuidedLinearization<'_, S>,
         active: Mask<S>,
@@ -198,14 +198,14 @@ impl<S: Simd> Guided<S> {
     /// slackness of 2.
     #[cold]
     #[inline(never)]
-    pub(crate) fn end(&self, free: &FreeCable<'_, S>, span: &Span<Lanes<S>>) -> GuidedEnd<S> {
+    pub(crate) fn end(&self, free: &FreeCable<'_, Lanes<S>>, span: &Span<Lanes<S>>) -> GuidedEnd<S> {
         whole_end(self, *free, *span)
     }
 }
 
 /// The way of a cable over a guide as it is in the plane of the cable.
 #[inline(always)]
-fn way<S: Simd>(guide: &GuideTerms<Lanes<S>>, free: &FreeCable<'_, S>) -> Way<Lanes<S>> {
+fn way<S: Simd>(guide: &GuideTerms<Lanes<S>>, free: &FreeCable<'_, Lanes<S>>) -> Way<Lanes<S>> {
     let weight_per_length = free.material.weight_per_length;
     let leave = guide.leave_point(weight_per_length, free.length, free.force);
     let stretch = free.material.stretch(leave.tension);
@@ -225,7 +225,7 @@ apart! {
     #[inline(always)]
     on(free.length) fn tilted_way<'a, 'b, S: Simd>(
         guided: &'a Guided<S>,
-        free: FreeCable<'b, S>,
+        free: FreeCable<'b, Lanes<S>>,
     ) -> Way<Lanes<S>> {
         way(&guided.in_plane(), &free)
     }
@@ -233,7 +233,7 @@ apart! {
     #[inline(always)]
     on(free.length) fn linearize<'a, 'b, S: Simd>(
         guided: &'a Guided<S>,
-        free: FreeCable<'b, S>,
+        free: FreeCable<'b, Lanes<S>>,
         span: Span<Lanes<S>>,
         linearized: GuidedLinearization<'a, S>,
         active: Mask<S>,
@@ -264,7 +264,7 @@ apart! {
     #[inline(never)]
     on(free.length) pub(crate) fn is_next_to_wheel<'a, 'b, S: Simd>(
         guided: &'a Guided<S>,
-        free: FreeCable<'b, S>,
+        free: FreeCable<'b, Lanes<S>>,
         span: Span<Lanes<S>>,
     ) -> Mask<S> {
         let [beyond, _] = guided.seen(&span).0.misclosure(guided.leave_point(&free).position);
@@ -274,7 +274,7 @@ apart! {
     #[inline(always)]
     on(free.length) fn whole_end<'a, 'b, S: Simd>(
         guided: &'a Guided<S>,
-        free: FreeCable<'b, S>,
+        free: FreeCable<'b, Lanes<S>>,
         span: Span<Lanes<S>>,
     ) -> GuidedEnd<S> {
         let zero = free.length.all(0.0);

@@ -107,27 +107,12 @@ impl<S: Simd> InLanes<'_, S> {
         let mut spans = Vec::with_capacity(robots.cables.len());
         for (i, cable) in robots.cables.iter_mut().enumerate() {
             let span = cable.span(&robots.position);
-            let mut tangent = [self.all(0.0); 2];
-            if cable.guided.is_some() {
-                tangent = [
-                    self.each(&|asked| asked.near.shapes[i].tangent[0]),
-                    self.each(&|asked| asked.near.shapes[i].tangent[1]),
-                ];
+            let mut numbers = [self.all(0.0); 7];
+            let count = if cable.guided.is_some() { 7 } else { 3 };
+            for (k, number) in numbers[..count].iter_mut().enumerate() {
+                *number = self.each(&|asked| asked.near.shapes[i].numbers()[k]);
             }
-            let mut turn = [self.all(1.0), self.all(0.0)];
-            if cable.is_tilted() {
-                turn = [
-                    self.each(&|asked| asked.near.shapes[i].turn[0]),
-                    self.each(&|asked| asked.near.shapes[i].turn[1]),
-                ];
-            }
-            let shape = Shape {
-                turn,
-                tangent,
-                chord_force: self.each(&|asked| asked.near.shapes[i].chord_force),
-                sag_force: self.each(&|asked| asked.near.shapes[i].sag_force),
-                longer: self.each(&|asked| asked.near.shapes[i].longer),
-            };
+            let shape = Shape::of_numbers(numbers);
             cable.take(&shape, &span);
             spans.push(span);
         }
@@ -199,9 +184,7 @@ impl<S: Simd> InLanes<'_, S> {
             let [slope, length, tension, x, z, least, greatest] =
                 [slope, length, set_points[i], cable.force[0], cable.force[1], limits[i][0], limits[i][1]]
                     .map(Lanes::to_array);
-            let ([c, s], [tx, tz]) = (shape.turn.map(Lanes::to_array), shape.tangent.map(Lanes::to_array));
-            let [chord_force, sag_force, longer] =
-                [shape.chord_force, shape.sag_force, shape.longer].map(Lanes::to_array);
+            let numbers = shape.numbers().map(Lanes::to_array);
             for (lane, result) in results.iter_mut().enumerate() {
                 let Some(result) = result else { continue };
                 let (active, stationarity) = match tension[lane] {
@@ -209,13 +192,7 @@ impl<S: Simd> InLanes<'_, S> {
                     t if t == greatest[lane] => (Some(Bound::Max), slope[lane].max(0.0)),
                     _ => (None, slope[lane].abs()),
                 };
-                result.near.shapes.push(Shape {
-                    turn: [c[lane], s[lane]],
-                    tangent: [tx[lane], tz[lane]],
-                    chord_force: chord_force[lane],
-                    sag_force: sag_force[lane],
-                    longer: longer[lane],
-                });
+                result.near.shapes.push(Shape::of_numbers(numbers.map(|number| number[lane])));
                 result.lengths.push(length[lane]);
                 result.forces.push(Vector2::new(x[lane], z[lane]));
                 result.tensions.push(tension[lane]);
