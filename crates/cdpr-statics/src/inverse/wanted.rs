@@ -10,16 +10,14 @@ use cdpr_robot::Pose;
 /// [`StaticsError::Invalid`] for offsets: they are of set-points, which this model does not set.
 pub(crate) fn refuse_offsets(wanted: WantedPose) -> Result<WantedPose, StaticsError> {
     let expected = "none here: deflections, their derivatives and `set_point_lengths` take them";
-    refuse("tension_offsets", wanted.tension_offsets, expected)?;
-    Ok(wanted)
+    match wanted.tension_offsets {
+        [] => Ok(wanted),
+        given => Err(refusal("tension_offsets", given.len(), expected)),
+    }
 }
 
-/// Refuses a list that says something.
-fn refuse<T>(field: &str, given: &[T], expected: &str) -> Result<(), StaticsError> {
-    match given {
-        [] => Ok(()),
-        _ => Err(StaticsError::invalid(field.to_owned(), format!("a list of {}", given.len()), expected)),
-    }
+fn refusal(field: &str, given: usize, expected: &str) -> StaticsError {
+    StaticsError::invalid(field.to_owned(), format!("a list of {given}"), expected)
 }
 
 /// A whole pose without offsets.
@@ -29,8 +27,13 @@ fn refuse<T>(field: &str, given: &[T], expected: &str) -> Result<(), StaticsErro
 /// tensions.
 pub(super) fn whole(wanted: WantedPose) -> Result<WantedPose, StaticsError> {
     let wanted = refuse_offsets(wanted)?;
-    refuse("free", wanted.free, "none here: it takes whole poses, at which tensions are chosen")?;
-    Ok(wanted)
+    match wanted.free {
+        [] => Ok(wanted),
+        given => {
+            let expected = "none here: it takes whole poses, at which tensions are chosen";
+            Err(refusal("free", given.len(), expected))
+        }
+    }
 }
 
 /// A whole pose of which no more is wanted.
@@ -39,6 +42,8 @@ pub(super) fn whole(wanted: WantedPose) -> Result<WantedPose, StaticsError> {
 /// Those of [`whole`]; [`StaticsError::Invalid`] for a reference of the tensions, which would not act.
 pub(super) fn pose_alone(wanted: WantedPose) -> Result<Pose, StaticsError> {
     let WantedPose { pose, tension_reference, .. } = whole(wanted)?;
-    refuse("tension_reference", tension_reference.unwrap_or_default(), "none here: no tensions are chosen")?;
-    Ok(pose)
+    match tension_reference {
+        None => Ok(pose),
+        Some(given) => Err(refusal("tension_reference", given.len(), "none here: no tensions are chosen")),
+    }
 }
