@@ -33,11 +33,11 @@
 
 use super::optimum::{Optimum, Point};
 use super::problem::InverseProblem;
-use super::start::{Goal, StraightStart};
+use super::start::StraightStart;
 use crate::error::{Blocked, StaticsError};
 use cdpr_cable::CableError;
 use cdpr_robot::{Matrix6xX, TensionLimits, Vector6};
-use cdpr_tension::{BoxProblem, BoxUnknown};
+use cdpr_tension::{BoxProblem, BoxUnknown, Objective};
 
 /// A residual below this, relative to wrench and tensions, balances.
 pub(super) const BALANCED: f64 = 1e-8;
@@ -67,7 +67,8 @@ pub(super) fn search<'a>(problem: &InverseProblem<'a>) -> Result<Optimum<'a>, St
     {
         return Ok(Optimum { iterations, ..best.optimum() });
     }
-    let StraightStart { tensions, residue, certificate, .. } = problem.straight(&Goal::Nearest);
+    let StraightStart { tensions, residue, certificate, .. } =
+        problem.straight(Objective::Nearest(&problem.reference));
     let first = Point::new(problem, &tensions)?;
     if best.is_none() {
         if residue > CLEAR_RESIDUE
@@ -129,7 +130,8 @@ pub(super) fn has_tensions(problem: &InverseProblem) -> Result<bool, StaticsErro
     {
         return Ok(true);
     }
-    Ok(Point::new(problem, &problem.straight(&Goal::Nearest).tensions)?.balance(CLEAR_GAIN))
+    Ok(Point::new(problem, &problem.straight(Objective::Nearest(&problem.reference)).tensions)?
+        .balance(CLEAR_GAIN))
 }
 
 /// Straight cables, a balance from there, and those of [`starts`].
