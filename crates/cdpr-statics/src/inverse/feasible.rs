@@ -37,7 +37,7 @@ use super::start::StraightStart;
 use crate::error::{Blocked, StaticsError};
 use cdpr_cable::CableError;
 use cdpr_robot::{Matrix6xX, TensionLimits, Vector6};
-use cdpr_tension::{BoxProblem, BoxUnknown, Objective};
+use cdpr_tension::{BoxUnknown, Objective};
 
 /// A residual below this, relative to wrench and tensions, balances.
 pub(super) const BALANCED: f64 = 1e-8;
@@ -222,28 +222,17 @@ impl<'a> Point<'a> {
         residual <= BALANCED * self.size()
     }
 
-    /// Solves (I4) for a step, and computes the chord forces of all limits that it meets.
+    /// The step of (I4).
     fn least_step(&mut self, curvature: &[f64]) -> Option<Vec<f64>> {
-        let residual = self.residual();
-        loop {
-            let each = self.rows.iter().zip(curvature).zip(&self.cables);
-            let of_cable = each.map(|((row, curvature), cable)| (row.slope, *curvature, cable.step_bounds()));
-            // What is left of the balance: J d + F - e = 0 with the least |e|².
-            let left = (0..6).map(|k| (-Vector6::ith(k, 1.0), 1.0, [f64::NEG_INFINITY, f64::INFINITY]));
-            let unknowns: Vec<BoxUnknown> = of_cable
-                .chain(left)
-                .map(|(column, curvature, bounds)| BoxUnknown { gradient: 0.0, curvature, column, bounds })
-                .collect();
-            let program = BoxProblem { unknowns: &unknowns, residual, multipliers: Vector6::zeros() };
-            let mut step = program.solve().values;
-            step.truncate(self.cables.len());
-            if !step.iter().all(|d| d.is_finite()) {
-                return None;
-            }
-            if !self.compute_reached_limits(&step, &unknowns)? {
-                return Some(step);
-            }
-        }
+        let of_cables = self.rows.iter().zip(curvature).map(|(row, curvature)| (row.slope, *curvature));
+        // What is left of the balance: J d + F - e = 0 with the least |e|².
+        let left = (0..6).map(|k| (-Vector6::ith(k, 1.0), 1.0));
+        let bounds = [f64::NEG_INFINITY, f64::INFINITY];
+        let unknown = |(column, curvature)| BoxUnknown { gradient: 0.0, curvature, column, bounds };
+        let unknowns = of_cables.chain(left).map(unknown).collect();
+        let mut step = self.within_limits(unknowns, Vector6::zeros())?.values;
+        step.truncate(self.cables.len());
+        Some(step)
     }
 
     /// |F|, relative to wrench and tensions.
