@@ -249,20 +249,14 @@ impl<'a> CableAtPose<'a> {
             let beyond = fixed.tension() - cable.reference;
             0.5 * beyond * beyond + y.dot(&cable.wrench(cable.ends.force(fixed), characteristic_length))
         };
-        let here = part(self, &self.fixed);
-        Ok((here, self.least_of(part)?))
-    }
-
-    /// The tension within the limits, on a grid of chord forces, at which a function is least, and its value.
-    fn least_of(&mut self, function: impl Fn(&Self, &HeldCable) -> f64) -> Result<(f64, f64), CableError> {
-        let mut least = (f64::NAN, f64::INFINITY);
+        let (here, mut least) = (part(self, &self.fixed), (f64::NAN, f64::INFINITY));
         for fixed in self.grid()? {
-            let value = function(self, &fixed);
+            let value = part(self, &fixed);
             if value < least.1 {
                 least = (fixed.tension(), value);
             }
         }
-        Ok(least)
+        Ok((here, least))
     }
 
     /// The cable at chord forces from limit to limit.

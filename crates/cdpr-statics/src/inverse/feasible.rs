@@ -222,7 +222,7 @@ impl<'a> Point<'a> {
         residual <= BALANCED * self.size()
     }
 
-    /// The step of (I4).
+    /// The step of (I4), followed by what it leaves of the balance.
     fn least_step(&mut self, curvature: &[f64]) -> Option<Vec<f64>> {
         let of_cables = self.rows.iter().zip(curvature).map(|(row, curvature)| (row.slope, *curvature));
         // What is left of the balance: J d + F - e = 0 with the least |e|².
@@ -230,9 +230,7 @@ impl<'a> Point<'a> {
         let bounds = [f64::NEG_INFINITY, f64::INFINITY];
         let unknown = |(column, curvature)| BoxUnknown { gradient: 0.0, curvature, column, bounds };
         let unknowns = of_cables.chain(left).map(unknown).collect();
-        let mut step = self.within_limits(unknowns, Vector6::zeros())?.values;
-        step.truncate(self.cables.len());
-        Some(step)
+        self.within_limits(unknowns, Vector6::zeros()).map(|solution| solution.values)
     }
 
     /// |F|, relative to wrench and tensions.
