@@ -6,7 +6,7 @@
 //! not keep it: `feasible` checks whether they do.
 
 use super::problem::InverseProblem;
-use cdpr_robot::{Matrix6xX, TensionLimits, Vector3, Vector6};
+use cdpr_robot::{Matrix6xX, Vector3, Vector6};
 use cdpr_tension::{Distribution, Objective, Problem, TensionError, distribute};
 use nalgebra::{DMatrix, DVector};
 

@@ -65,7 +65,7 @@ impl WithSimd for Solve<'_, '_> {
         let mut stiffness = Matrix6::from_fn(|i, j| upper[i.min(j)][i.max(j)].first());
         if let Some(level) = problem.robot.gravity.level() {
             let mut both = Matrix6::zeros();
-            [0, 3].map(|k| both.fixed_view_mut::<3, 3>(k, k).copy_from(level));
+            [0, 3].into_iter().for_each(|k| both.fixed_view_mut::<3, 3>(k, k).copy_from(level));
             (first_step, stiffness) = (both.tr_mul(&first_step), both.tr_mul(&stiffness) * both);
         }
         Some(Solved {
