@@ -53,9 +53,6 @@ pub struct Material<'a, T> {
     pub axial_flexibility: T,
 }
 
-/// A law has few kinks, between which one step of Newton's method is nearly enough.
-const MAX_ITERATIONS: usize = 30;
-
 /// The segment of the law at a tension, of each cable.
 #[derive(Clone, Copy)]
 struct Here<T> {
@@ -122,25 +119,20 @@ impl<T: Lanewise> Material<'_, T> {
         scaled * self.axial_flexibility
     }
 
-    /// The tension [N] at `height` [m] above a point of the cable where it is `tension` [N], equation (C26) of
-    /// `cable.rs`; zero or less where even without tension the cable between them weighs more.
-    ///
-    /// For a linear cable it is a closed form; for others Newton's method on a convex function comes from above
-    /// after a step.
+    /// Tension [N] at `height` [m] above a point where it is `tension` [N], (C26) of `cable.rs`; zero or less
+    /// where the cable weighs more. With a law Newton's method on a convex function finds it.
     #[inline(always)]
     pub fn tension_above(&self, tension: T, height: T) -> T {
         let work = tension + self.energy(tension) + self.weight_per_length * height;
         if self.law.is_empty() {
-            let half = self.axial_flexibility * 0.5;
-            return work * 2.0 * ((work * half * 4.0 + 1.0).sqrt() + 1.0).recip();
+            return work * 2.0 * ((work * self.axial_flexibility * 2.0 + 1.0).sqrt() + 1.0).recip();
         }
-        let (zero, mut above) = (tension * 0.0, tension);
-        let mut open = zero + 1.0;
-        for _ in 0..MAX_ITERATIONS {
+        let (zero, mut above, mut open) = (tension * 0.0, tension, tension * 0.0 + 1.0);
+        for _ in 0..30 {
             let step = (above + self.energy(above) - work) / (self.strain(above) + 1.0);
             above = T::select(open.at_most(0.0), above, above - step);
-            let least = above * (4.0 * f64::EPSILON);
-            open = T::select((step * step - least * least).at_most(0.0), zero, open);
+            let left = step * step - above * above * (4.0 * f64::EPSILON).powi(2);
+            open = T::select(left.at_most(0.0), zero, open);
             if T::all(open.at_most(0.0)) {
                 break;
             }
