@@ -1,8 +1,8 @@
 //! Direct elasto-geometrical model (DEGM): the pose for given unstrained lengths.
 
-use crate::direct::continuation::{Loss, LossKind, Path, Setting, follow_from};
+use crate::direct::continuation::{Loss, LossKind, Setting, follow_from};
 use crate::direct::newton::newton;
-use crate::direct::solution::{DirectMethod, DirectReport, DirectSolution, descend, solution};
+use crate::direct::solution::{DirectMethod, DirectSolution, descend, solution};
 use crate::equations::{cables_at, to_base};
 use crate::error::StaticsError;
 use crate::problem::{DirectProblem, Unstable};
@@ -138,22 +138,18 @@ fn settle(problem: &DirectProblem, pose: &Pose) -> Result<DirectSolution, Static
     let without = DirectProblem { load: resting, ..*problem };
     let Ok(first) = descend(&without, pose) else { return Err(error) };
     let [from, to] = [resting, problem.load].map(|load| Setting { lengths: problem.lengths.to_vec(), load });
-    let Path { mut steps, lost } = follow_from(problem.robot, &from, &to, first)?;
-    let iterations = steps.iter().map(|step| step.solution.report.iterations).sum();
-    match (steps.pop(), lost) {
-        (Some(last), None) => {
-            let mut solution = last.solution;
-            solution.report =
-                DirectReport { method: DirectMethod::Continuation, iterations, ..solution.report };
+    let iterations = first.report.iterations;
+    match follow_from(problem.robot, &from, &to, first.clone())?.end(&first) {
+        Ok(mut solution) => {
+            solution.report.iterations += iterations;
             Ok(solution)
         }
-        (_, Some(Loss { kind: LossKind::Overstrained, after: Err(error), .. })) => Err(error),
-        (_, Some(Loss { kind: LossKind::StepLimit, .. })) => Err(error),
-        (_, Some(loss)) => Err(StaticsError::EquilibriumLost {
+        Err((Loss { kind: LossKind::Overstrained, after: Err(error), .. }, _)) => Err(error),
+        Err((Loss { kind: LossKind::StepLimit, .. }, _)) => Err(error),
+        Err((loss, _)) => Err(StaticsError::EquilibriumLost {
             share: loss.share,
             least_stiffness: loss.before.stability.least_stiffness(),
             pose: Box::new(loss.before.equilibrium.pose),
         }),
-        (None, None) => Err(error),
     }
 }
