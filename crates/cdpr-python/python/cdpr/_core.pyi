@@ -974,7 +974,7 @@ class Robot:
             Ratio of the viscous to the elastic modulus of the cables [s].
         elements, degree : int, optional
             Elements of each cable, and the degree of the polynomial on each; if left out, few elements of a high
-            degree, and many straight ones where a cable goes slack.
+            degree, and many straight ones of a cable from when it goes slack.
         tolerance : float, default 5e-9
             Error of a step that is accepted [m].
 
@@ -2017,11 +2017,11 @@ class MotionSummary:
     def energy_drift(self) -> float:
         """Energy that is missing at the end, or too much [J]."""
     @property
-    def elements(self) -> int:
-        """Elements of each cable."""
+    def elements(self) -> _Ints:
+        """Elements of each cable at the end, (n,)."""
     @property
-    def degree(self) -> int:
-        """Degree of the polynomial on each."""
+    def degree(self) -> _Ints:
+        """Degree of the polynomial on them, (n,)."""
     @property
     def steps(self) -> int:
         """Steps of time."""
