@@ -128,15 +128,18 @@ pub(crate) fn follow_change(
     let of_load = begin.0 == end.0;
     let [begin, end] = [begin, end].map(|(lengths, load)| Setting { lengths: lengths.to_vec(), load: *load });
     let end = follow_from(robot, &begin, &end, from.clone())?.end(from);
-    end.map_err(|(lost, iterations)| lost.into_error(iterations, of_load))
+    end.map_err(|lost| {
+        let (lost, iterations) = *lost;
+        lost.into_error(iterations, of_load)
+    })
 }
 
 impl Path {
     /// The last solution with the iterations of all steps after `first`, or where they were lost.
-    pub(crate) fn end(mut self, first: &DirectSolution) -> Result<DirectSolution, (Loss, usize)> {
+    pub(crate) fn end(mut self, first: &DirectSolution) -> Result<DirectSolution, Box<(Loss, usize)>> {
         let iterations = self.steps[1..].iter().map(|step| step.solution.report.iterations).sum();
         if let Some(lost) = self.lost {
-            return Err((lost, iterations));
+            return Err(Box::new((lost, iterations)));
         }
         let mut last = self.steps.pop().map_or_else(|| first.clone(), |step| step.solution);
         last.report = DirectReport { method: DirectMethod::Continuation, iterations, ..last.report };

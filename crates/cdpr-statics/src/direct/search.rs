@@ -139,7 +139,7 @@ fn settle(problem: &DirectProblem, pose: &Pose) -> Result<DirectSolution, Static
     let Ok(first) = descend(&without, pose) else { return Err(error) };
     let [from, to] = [resting, problem.load].map(|load| Setting { lengths: problem.lengths.to_vec(), load });
     let iterations = first.report.iterations;
-    match follow_from(problem.robot, &from, &to, first.clone())?.end(&first) {
+    match follow_from(problem.robot, &from, &to, first.clone())?.end(&first).map_err(|lost| *lost) {
         Ok(mut solution) => {
             solution.report.iterations += iterations;
             Ok(solution)
