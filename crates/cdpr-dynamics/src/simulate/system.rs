@@ -88,7 +88,7 @@ pub(super) struct Power {
 impl System<'_> {
     /// Number of unknowns.
     pub(super) fn size(&self) -> usize {
-        self.cables.iter().map(|cable| cable.size()).sum::<usize>() + 6
+        self.cables.iter().map(CableInMotion::size).sum::<usize>() + 6
     }
 
     fn frame(&self, state: &[f64]) -> Frame {
