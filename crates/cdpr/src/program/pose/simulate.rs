@@ -235,8 +235,9 @@ struct Answer {
     /// Greatest differences to a coarser computation.
     difference: Difference,
     energy: Energy,
-    elements: usize,
-    degree: usize,
+    /// Elements of each cable at the end, and the degree of the polynomial on them.
+    elements: Vec<usize>,
+    degree: Vec<usize>,
     steps: usize,
     columns: Vec<String>,
 }
@@ -327,8 +328,8 @@ impl Answer {
             cables: cables.collect(),
             difference: Difference { position_m: position, rotation_rad: turn, tension_n: tension },
             energy: Energy { kinetic_j: kinetic, given_j: given, lost_j: lost, drift_j: drift },
-            elements: series.discretization.elements,
-            degree: series.discretization.degree,
+            elements: series.discretizations.iter().map(|of| of.elements).collect(),
+            degree: series.discretizations.iter().map(|of| of.degree).collect(),
             steps: series.work.steps,
             columns: pose
                 .into_iter()
@@ -379,12 +380,23 @@ impl Answer {
             significant(*tension_n, 2)
         );
         println!(
-            "{} of degree {} a cable, {}; energy off by {} J of {} J.",
-            counted(self.elements, "element"),
-            self.degree,
+            "{} a cable, {}; energy off by {} J of {} J.",
+            self.elements(),
             counted(self.steps, "step"),
             significant(self.energy.drift_j, 2),
             significant(self.energy.kinetic_j, 3)
         );
+    }
+
+    /// Elements of a cable in words, those of most cables first.
+    fn elements(&self) -> String {
+        let all = || self.elements.iter().zip(&self.degree);
+        let mut kinds: Vec<_> = all().collect();
+        kinds.sort_by_key(|kind| (std::cmp::Reverse(all().filter(|of| of == kind).count()), *kind));
+        kinds.dedup();
+        let words = |(elements, degree): &(&usize, &usize)| {
+            format!("{} of degree {degree}", counted(**elements, "element"))
+        };
+        kinds.iter().map(words).collect::<Vec<_>>().join(" or ")
     }
 }
