@@ -916,6 +916,22 @@ class Robot:
         moment: ArrayLike | None = None,
         free: Sequence[str] | None = None,
     ) -> Response[_Words]: ...
+    def move(
+        self,
+        poses: ArrayLike,
+        seconds: float,
+        *,
+        profile: str | None = None,
+        shaper: str | None = None,
+        modes: int = 2,
+        feed_forward: str | None = None,
+        rate: float = 200.0,
+        damping: float = 0.0,
+        residual: float | None = None,
+        payload: float | None = None,
+        force: _Row | None = None,
+        moment: _Row | None = None,
+    ) -> Move: ...
     def simulate(
         self,
         pose: _Row | None = None,
@@ -972,7 +988,7 @@ class Robot:
             Ratio of the viscous to the elastic modulus of the cables [s].
         elements, degree : int, optional
             Elements of each cable, and the degree of the polynomial on each; if left out, few elements of a high
-            degree, and many straight ones where a cable goes slack.
+            degree, and many straight ones of a cable from when it goes slack.
         tolerance : float, default 5e-9
             Error of a step that is accepted [m].
 
@@ -1901,6 +1917,53 @@ class Motion:
         """What the motion is as a whole, and how exact it is."""
 
 @final
+class Move:
+    def __new__(cls, *fields: Any) -> Move: ...
+    def __class_getitem__(cls, number: Any) -> GenericAlias: ...
+    def to_dataframe(self) -> Any: ...
+    def plot(self) -> Any: ...
+    @property
+    def times(self) -> _Floats: ...
+    @property
+    def poses(self) -> _Floats: ...
+    @property
+    def lengths(self) -> _Floats: ...
+    @property
+    def feed_forward(self) -> _Floats: ...
+    @property
+    def tensions(self) -> _Floats: ...
+    @property
+    def exit_tensions(self) -> _Floats: ...
+    @property
+    def summary(self) -> MoveSummary: ...
+
+@final
+class MoveSummary:
+    def __new__(cls, *fields: Any) -> MoveSummary: ...
+    def __class_getitem__(cls, number: Any) -> GenericAlias: ...
+    def to_dataframe(self) -> Any: ...
+    @property
+    def impulses(self) -> _Floats: ...
+    @property
+    def frequencies_hz(self) -> _Floats: ...
+    @property
+    def damping_ratios(self) -> _Floats: ...
+    @property
+    def platform_shares(self) -> _Floats: ...
+    @property
+    def amplitude(self) -> float: ...
+    @property
+    def unshaped_amplitude(self) -> float: ...
+    @property
+    def deviation(self) -> float: ...
+    @property
+    def unshaped_deviation(self) -> float: ...
+    @property
+    def position_difference(self) -> float: ...
+    @property
+    def slack(self) -> _Bools: ...
+
+@final
 class MotionSummary:
     """A motion as a whole."""
 
@@ -1954,11 +2017,11 @@ class MotionSummary:
     def energy_drift(self) -> float:
         """Energy that is missing at the end, or too much [J]."""
     @property
-    def elements(self) -> int:
-        """Elements of each cable."""
+    def elements(self) -> _Ints:
+        """Elements of each cable at the end, (n,)."""
     @property
-    def degree(self) -> int:
-        """Degree of the polynomial on each."""
+    def degree(self) -> _Ints:
+        """Degree of the polynomial on them, (n,)."""
     @property
     def steps(self) -> int:
         """Steps of time."""

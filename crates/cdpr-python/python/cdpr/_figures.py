@@ -12,6 +12,7 @@ _DRAWN = {
     "Deflection": ("magnitude", "displacement |dp| [m]", "case"),
     "DirectSolution": ("tensions", "tension [N]", "cable"),
     "InverseSolution": ("tensions", "tension [N]", "cable"),
+    "Move": ("tensions", "tension [N]", "cable"),
     "Modes": ("frequencies_hz", "natural frequency [Hz]", "motion"),
     "OtherSolution": ("tensions", "tension [N]", "cable"),
     "PathDeviations": ("tensions", "standard deviation of the tension [N]", "cable"),

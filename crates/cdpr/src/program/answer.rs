@@ -52,15 +52,25 @@ pub(crate) struct OutOfLimits {
 impl OutOfLimits {
     /// Those of an answer of these unstrained lengths [m], over all its equilibria.
     pub(crate) fn all(robot: &Robot, lengths: &[f64], equilibria: &[&Equilibrium]) -> Vec<Self> {
-        let one = |found: cdpr_statics::limits::OutOfLimits| Self {
+        let found = cdpr_statics::limits::out_of_limits(robot, lengths, equilibria);
+        found.into_iter().map(Self::new).collect()
+    }
+
+    /// Those of tensions of every cable at the platform and at its exit point [N].
+    pub(crate) fn of_tensions(robot: &Robot, tensions: &[Vec<[f64; 2]>]) -> Vec<Self> {
+        let found = cdpr_statics::limits::tensions_out_of_limits(robot, tensions);
+        found.into_iter().map(Self::new).collect()
+    }
+
+    fn new(found: cdpr_statics::limits::OutOfLimits) -> Self {
+        Self {
             cable: found.cable + 1,
             end: found.end,
             tension: found.tension,
             limit: found.limit.name(),
             value: found.value,
             found,
-        };
-        cdpr_statics::limits::out_of_limits(robot, lengths, equilibria).into_iter().map(one).collect()
+        }
     }
 
     pub(crate) fn print(list: &[Self]) {
