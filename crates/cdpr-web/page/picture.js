@@ -11,8 +11,7 @@ import { pointOf } from "./robot.js";
  */
 export function pictureOf(app) {
   const { mechanics, store, robot, handle, point, player } = app;
-  const { failure, jump } = mechanics;
-  const picture = player.inMotion(mechanics.picture);
+  const { picture, failure, jump } = mechanics;
   const { state } = store;
   const asked = state.free.length > 0 ? picture.unloaded?.pose : poseOf(state);
   return {

@@ -23,8 +23,7 @@ export function affordable(time, rate, most) {
 }
 
 export class Sampling {
-  /** {summary, sentences, nominal, failed, milliseconds, coarse, key, observations, study} of the last
-   * observations. */
+  /** {summary, nominal, failed, milliseconds, coarse, key, observations, study} of the last observations. */
   sample = null;
   /** {inputs, confidence, replicates, key, observations} of the last effects, with those of a replicate. */
   effects = null;
@@ -209,11 +208,11 @@ export class Sampling {
       return false;
     }
     this.failure = null;
-    const { values_mm, failed, nominal_mm, sentences } = observed.ok;
+    const { values_mm, failed, nominal_mm } = observed.ok;
     const observations = values_mm.length;
     this.#rate = Math.max(milliseconds / observations, 1e-3);
     const numbers = { summary: summary(values_mm), nominal: nominal_mm, failed, milliseconds, observations };
-    this.sample = { ...numbers, sentences, ...asked };
+    this.sample = { ...numbers, ...asked };
     return true;
   }
 }

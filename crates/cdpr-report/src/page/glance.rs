@@ -77,9 +77,7 @@ fn question(summary: &Summary, output: Output) -> String {
             )
         }
         Output::Frequency | Output::Stiffness => {
-            let loaded =
-                if summary.payload > 0.0 { format!(" with {payload} kg added to it") } else { String::new() };
-            format!("The {} of the platform of {robot}{loaded}", output.label())
+            format!("The {} of the platform of {robot} with {payload} kg added to it", output.label())
         }
     }
 }

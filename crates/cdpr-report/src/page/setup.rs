@@ -42,10 +42,8 @@ fn settings(results: &Results) -> Markup {
                 dt { "Tensions chosen" }
                 dd { "of least 2-norm" }
             }
-            @if file.payload > 0.0 {
-                dt { "Load" }
-                dd { (text::digits(file.payload, 5)) " kg added at the platform's centre of mass" }
-            }
+            dt { "Load" }
+            dd { (text::digits(file.payload, 5)) " kg added at the platform's centre of mass" }
             dt { "Design" }
             dd { "all uncertain parameters at once, at points of Sobol's sequence" }
             dt { "Intervals" }

@@ -21,8 +21,7 @@ export function numbersPanel(app) {
   return { element, update };
 
   function update() {
-    const { failure } = app.mechanics;
-    const picture = app.player.inMotion(app.mechanics.picture);
+    const { picture, failure } = app.mechanics;
     element.classList.toggle("stale", Boolean(failure) || app.mechanics.busy);
     if (!picture) return;
     const texts = words(picture);
