@@ -172,9 +172,10 @@ impl Answer {
             .iter()
             .filter_map(|case| case.wrong().map(|what| format!("without {} {what}", case.name())))
             .collect();
-        let all = if self.broken.iter().any(|case| case.cables.len() > 1) { "one or two" } else { "one" };
+        let pairs = self.broken.iter().any(|case| case.cables.len() > 1);
+        let all = if pairs { "one or two of them break" } else { "of them breaks" };
         let first = match wrong.as_slice() {
-            [] => format!("{heading} comes to rest on its other cables, whichever {all} of them break."),
+            [] => format!("{heading} comes to rest on its other cables, whichever {all}."),
             [first] => format!("{heading} does not bear every break: {first}."),
             [first, rest @ ..] => format!(
                 "{heading} does not bear every break: {} of {} end badly; {first}.",
