@@ -185,9 +185,12 @@ impl Answer {
         };
         let moved = self.greatest(|rest| rest.moved).zip(self.greatest(|rest| rest.turned_deg));
         let moved = moved.map(|((moved, far), (turned, most))| {
+            // The rotation of a point mass is held.
+            let is_held = turned == 0.0;
             let (moved, turned) = (significant(moved, 4), significant(turned, 4));
-            let turned = format!("turns up to {turned} degrees (without {})", most.name());
-            format!("It moves up to {moved} m (without {}) and {turned}.", far.name())
+            let turned = format!(" and turns up to {turned} degrees (without {})", most.name());
+            let turned = if is_held { String::new() } else { turned };
+            format!("It moves up to {moved} m (without {}){turned}.", far.name())
         });
         let tension = self.greatest(|rest| rest.greatest_tension.tension);
         let tension = tension.and_then(|(tension, case)| Some((tension, case, case.rest.as_ref()?)));
