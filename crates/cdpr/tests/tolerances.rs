@@ -105,9 +105,10 @@ fn a_long_search_writes_a_line_of_progress_to_a_log() {
 fn a_long_search_shows_its_time_on_a_terminal_after_a_second() {
     let study = data_path("studies/caroca.json");
     let program = env!("CARGO_BIN_EXE_cdpr");
+    let limited = format!("timeout --foreground 20 {program}");
     let command =
-        format!("exec {program} study tolerances {study} --sampling mechanical '{}'", LONG.join("' '"));
-    // A terminal that ends with its reader.
+        format!("exec {limited} study tolerances {study} --sampling mechanical '{}'", LONG.join("' '"));
+    // A terminal that ends with its reader; the program ends by itself.
     let mut command = {
         let mut script = Command::new("script");
         script.args(["--quiet", "--flush", "--return", "--command", &command, "/dev/null"]);
