@@ -3,8 +3,8 @@
 //! With v the output where the inputs are `x0`, a number or a vector, and G its exact derivatives there,
 //!
 //! ```text
-//! y(x) = |v + G (x - x0)|                                                              (Li1)
-//! explained = 1 - var(observed y - y(x)) / var(observed y)                             (Li2)
+//! y(x) = |v + G (x - x0)|                                                              (Ll1)
+//! explained = 1 - var(observed y - y(x)) / var(observed y)                             (Ll2)
 //! ```
 
 use crate::model::error_model::ErrorModel;
@@ -16,7 +16,7 @@ use cdpr_statics::{Derivatives, Observer};
 /// Share of the variance below which a linear law explains little.
 const LITTLE: f64 = 0.9;
 
-/// An output of robots to first order, Eq. (Li1).
+/// An output of robots to first order, Eq. (Ll1).
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinearLaw {
     /// The inputs about which it is: `x0`.
@@ -38,7 +38,7 @@ impl LinearLaw {
         (0..self.about.len()).map(|i| self.slopes.iter().map(|row| row[i] * row[i]).sum()).collect()
     }
 
-    /// The output for these inputs, Eq. (Li1).
+    /// The output for these inputs, Eq. (Ll1).
     pub fn at(&self, inputs: &[f64]) -> f64 {
         let moved = |row: &Vec<f64>| -> f64 {
             row.iter()
@@ -54,7 +54,7 @@ fn norm(components: impl Iterator<Item = f64>) -> f64 {
     components.map(|component| component * component).sum::<f64>().sqrt()
 }
 
-/// Share of the variance of outputs that their linear law explains, Eq. (Li2), at least 0. A pair has the value
+/// Share of the variance of outputs that their linear law explains, Eq. (Ll2), at least 0. A pair has the value
 /// of the law and the output; `None` for outputs that do not vary.
 pub fn explained(pairs: &[(f64, f64)]) -> Option<f64> {
     let variance = |of: &dyn Fn(&(f64, f64)) -> f64| {

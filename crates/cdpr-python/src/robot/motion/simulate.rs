@@ -372,14 +372,11 @@ impl MotionSummary {
         let outcome: [Result<&Series, StaticsError>; 1] = [Ok(series)];
         let all = Columns::new(py, SINGLE, &outcome)?;
         let of_cables = |of: &dyn Fn(usize) -> f64| {
-            all.numbers(&[lengths.len()], |_, out| {
-                out.iter_mut().enumerate().for_each(|(i, out)| *out = of(i));
-            })
+            all.numbers(&[lengths.len()], |_, out| (0..out.len()).for_each(|i| out[i] = of(i)))
         };
         let counts = |of: &dyn Fn(usize) -> usize| {
-            all.array(0_i64, &[lengths.len()], |_, out| {
-                out.iter_mut().enumerate().for_each(|(i, out)| *out = of(i) as i64);
-            })
+            let fill = |_: &Series, out: &mut [i64]| (0..out.len()).for_each(|i| out[i] = of(i) as i64);
+            all.array(0, &[lengths.len()], fill)
         };
         let (difference, energy) = (&series.difference, &series.energy);
         Ok(Self {
