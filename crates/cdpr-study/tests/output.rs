@@ -291,7 +291,7 @@ fn a_robot_that_fails_has_no_output_and_a_reason() {
     deviations.rows_mut().next().unwrap()[layout.mass()] = 1e6;
     let [heavy, nominal] = sampling.observer.observe(&deviations).try_into().unwrap();
     assert!(matches!(heavy, Err(StaticsError::NoTensions { .. })), "{heavy:?}");
-    assert_eq!(nominal.unwrap().value(), sampling.nominal_value);
+    assert!((nominal.unwrap().value() / sampling.nominal_value - 1.0).abs() < 1e-12);
     assert_eq!(study.file.output, Output::Frequency);
     assert_eq!(sampling.pose, Pose::at(1.0, 0.5, 2.0));
 }
