@@ -64,7 +64,7 @@ pub fn explained(pairs: &[(f64, f64)]) -> Option<f64> {
     let (left, all) =
         (variance(&|(linear, observed)| observed - linear), variance(&|(_, observed)| *observed));
     let share = (1.0 - left / all).max(0.0);
-    (pairs.len() > 2 && share.is_finite()).then_some(share)
+    (pairs.len() > 2 && all > 0.0 && share.is_finite()).then_some(share)
 }
 
 /// Robots that say how much a linear law explains, and the seed of their sequence.
