@@ -6,5 +6,4 @@ mod book;
 mod caroca_study;
 mod data_files;
 mod layers;
-mod manifests;
 mod names;

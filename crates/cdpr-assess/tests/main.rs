@@ -8,7 +8,6 @@ mod inspection;
 mod maps;
 mod refused_workspaces;
 mod robustness;
-mod safety;
 mod tolerance;
 mod vibration;
 mod workspace;

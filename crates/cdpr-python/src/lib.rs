@@ -13,7 +13,6 @@ mod catenary;
 mod convert;
 mod exchange;
 mod explorer;
-mod program;
 mod robot;
 mod sensitivity;
 mod source;
@@ -35,15 +34,11 @@ mod _core {
     #[pymodule_export]
     use crate::explorer::explorer_parts;
     #[pymodule_export]
-    use crate::program::run_program;
-    #[pymodule_export]
     use crate::robot::Robot;
     #[pymodule_export]
-    use crate::robot::bearing::capacity::Capacity;
-    #[pymodule_export]
-    use crate::robot::bearing::safety::Safety;
-    #[pymodule_export]
     use crate::robot::boundary::Boundary;
+    #[pymodule_export]
+    use crate::robot::capacity::Capacity;
     #[pymodule_export]
     use crate::robot::certify::Certificate;
     #[pymodule_export]

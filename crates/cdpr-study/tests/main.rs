@@ -4,7 +4,6 @@
 
 mod correlated_inputs;
 mod error_model;
-mod memory;
 mod operating_point;
 mod output;
 mod parquet;

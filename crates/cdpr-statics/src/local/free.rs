@@ -2,19 +2,20 @@
 
 use cdpr_cable::kernel::{LaneEnd, Material, Response};
 use cdpr_number::apart;
+use cdpr_number::dense::Lanes2;
 use cdpr_number::lanes::{Lanes, Simd};
 
 /// A cable without guide, or the part of one beyond its guide.
 #[derive(Clone, Copy)]
-pub(crate) struct FreeCable<'a, T> {
-    pub(crate) material: Material<'a, T>,
+pub(crate) struct FreeCable<'a, S: Simd> {
+    pub(crate) material: Material<'a, Lanes<S>>,
     /// Unstrained length [m].
-    pub(crate) length: T,
+    pub(crate) length: Lanes<S>,
     /// Force at A [N].
-    pub(crate) force: [T; 2],
+    pub(crate) force: Lanes2<S>,
 }
 
-impl<S: Simd> FreeCable<'_, Lanes<S>> {
+impl<S: Simd> FreeCable<'_, S> {
     /// The position of its end. Cables with a law are evaluated in functions of their own: most robots have
     /// linear cables, and their code is faster without it.
     #[inline(always)]
@@ -37,12 +38,12 @@ impl<S: Simd> FreeCable<'_, Lanes<S>> {
 
 apart! {
     #[inline(always)]
-    on(cable.length) fn law_end<'a, S: Simd>(cable: FreeCable<'a, Lanes<S>>) -> LaneEnd<Lanes<S>> {
+    on(cable.length) fn law_end<'a, S: Simd>(cable: FreeCable<'a, S>) -> LaneEnd<Lanes<S>> {
         cable.material.end(cable.length, cable.force)
     }
 
     #[inline(always)]
-    on(cable.length) fn law_response<'a, S: Simd>(cable: FreeCable<'a, Lanes<S>>) -> Response<Lanes<S>> {
+    on(cable.length) fn law_response<'a, S: Simd>(cable: FreeCable<'a, S>) -> Response<Lanes<S>> {
         cable.material.response(cable.length, cable.force)
     }
 }

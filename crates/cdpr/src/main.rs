@@ -1,5 +1,0 @@
-//! The program `cdpr`.
-
-fn main() -> std::process::ExitCode {
-    cdpr::program::run(std::env::args_os())
-}
