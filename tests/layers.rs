@@ -15,13 +15,16 @@ use std::path::{Path, PathBuf};
 
 const ARCHITECTURE: &str = include_str!("../docs/ARCHITECTURE.md");
 
+/// Whether a crate is one of this workspace.
+fn is_ours(name: &str) -> bool {
+    name == "cdpr" || name.starts_with("cdpr-")
+}
+
 /// Rows `| crate | may use | ...` of the table of layers.
 fn documented() -> BTreeMap<String, BTreeSet<String>> {
     let names = |cell: &str| -> BTreeSet<String> {
-        cell.split(',')
-            .map(|name| name.trim().trim_matches('`').to_owned())
-            .filter(|name| name.starts_with("cdpr-"))
-            .collect()
+        let names = cell.split(',').map(|name| name.trim().trim_matches('`').to_owned());
+        names.filter(|name| is_ours(name)).collect()
     };
     ARCHITECTURE
         .lines()
@@ -30,7 +33,7 @@ fn documented() -> BTreeMap<String, BTreeSet<String>> {
             let name = cells.next()?.trim().trim_matches('`').to_owned();
             Some((name, names(cells.next()?)))
         })
-        .filter(|(name, _)| name.starts_with("cdpr-") || name == "xtask")
+        .filter(|(name, _)| is_ours(name) || name == "xtask")
         .collect()
 }
 
@@ -44,7 +47,7 @@ fn packages() -> impl Iterator<Item = Package> {
 fn each_crate_uses_exactly_the_layers_that_are_documented() {
     let layers = |package: Package| {
         let used = package.dependencies.into_iter().filter(|used| used.kind == DependencyKind::Normal);
-        used.map(|used| used.name).filter(|name| name.starts_with("cdpr-")).collect()
+        used.map(|used| used.name).filter(|name| is_ours(name)).collect()
     };
     let built = packages().map(|package| (package.name.to_string(), layers(package))).collect();
     assert_eq!(documented(), built);

@@ -6,4 +6,5 @@ mod book;
 mod caroca_study;
 mod data_files;
 mod layers;
+mod manifests;
 mod names;

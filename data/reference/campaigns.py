@@ -1,7 +1,6 @@
 """Calibrations of ten robots by `cdpr calibrate fit` and by SciPy's least_squares (campaign_fit.py).
 
-python3 data/reference/campaigns.py [CAMPAIGNS] [WITH_SCIPY] [ROBOT...] (or `cargo xtask calibration
-campaigns`), with the program in target/debug or where CDPR says. For each robot it draws robots from
+python3 data/reference/campaigns.py [CAMPAIGNS] [WITH_SCIPY] [ROBOT...], with the program in target/debug or where CDPR says. For each robot it draws robots from
 tolerances and simulates campaigns (`cdpr calibrate simulate`). The program calibrates each; then SciPy
 does so for the first WITH_SCIPY of them, from the same start, robot by robot: it may be ended at any time.
 data/reference/campaigns.json gets the chi-squares and how often the truth lies within 1.96 of the standard

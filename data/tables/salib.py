@@ -1,6 +1,6 @@
 """Prints what SALib and `cdpr analyse` say of a table.
 
-pip install SALib; cargo build --release -p cdpr-cli; python data/tables/salib.py target/release/cdpr [ROWS]
+pip install SALib; cargo build --release -p cdpr; python data/tables/salib.py target/release/cdpr [ROWS]
 """
 
 import csv

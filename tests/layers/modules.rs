@@ -43,10 +43,10 @@ impl Crate {
     pub(crate) fn read(src: &Path) -> Self {
         let mut sources = BTreeMap::new();
         let name = |file: &PathBuf| module(file.strip_prefix(src).unwrap());
-        // A folder's own file comes before those in it.
-        for (module, file) in
-            rust_files(src).into_iter().map(|file| (name(&file), file)).collect::<BTreeMap<_, _>>()
-        {
+        // A folder's own file comes before those in it, and a program of a library holds no modules.
+        let is_library = src.join("lib.rs").exists();
+        let files = rust_files(src).into_iter().filter(|file| !is_library || *file != src.join("main.rs"));
+        for (module, file) in files.map(|file| (name(&file), file)).collect::<BTreeMap<_, _>>() {
             let declared = module.split_last().is_none_or(|(name, parent)| {
                 sources.get(parent).is_some_and(|parent: &Source| parent.children.contains(name))
             });

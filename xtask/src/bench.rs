@@ -1,182 +1,191 @@
-//! `cargo xtask bench`: medians and instruction counts of all criterion benchmarks, compared with a baseline.
+//! `cargo xtask bench`: criterion's benchmarks and their instruction counts, next to a baseline.
+//!
+//! Times depend on the load of the machine: criterion compares them with those of its last run. Instruction
+//! counts do not: in criterion's test mode each benchmark calls its function `counted` once, and callgrind
+//! counts the instructions of that call. Valgrind does not support AVX-512, so that lanes are counted on AVX2.
 
-#![allow(clippy::print_stdout)]
+use crate::cargo::{cargo_command, parsed, printed, read, root, write};
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+use std::time::SystemTime;
 
-mod measure;
-
-use crate::cargo::root;
-use measure::{BenchError, Benchmark, Run, measure, read};
-use std::process::ExitCode;
-
-/// A median is slower if the 95 % intervals do not overlap and it grew by more than this.
-const TIME_NOISE: f64 = 0.10;
-
+/// The bench targets whose benchmarks call `counted`.
+const COUNTED: [&str; 4] = ["catenary", "tension", "statics", "observation"];
 /// A count is worse if it grew by more than this.
-const COUNT_NOISE: f64 = 0.01;
+const NOISE: f64 = 0.01;
 
 const BASELINE: &str = "data/benchmarks/baseline.json";
 /// The same as a table of the book.
 const BOOK: &str = "data/benchmarks/baseline.md";
 
-/// A figure beside that of the baseline.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Change {
-    /// New over old.
-    ratio: f64,
-    beyond_noise: bool,
+/// The figures of one run.
+#[derive(Deserialize, Serialize)]
+struct Run {
+    machine: String,
+    benchmarks: Vec<Benchmark>,
 }
 
-impl Change {
-    fn of_time(now: &Benchmark, then: &Benchmark) -> Self {
-        let ratio = now.median_ns / then.median_ns;
-        let apart = now.interval_ns[0] > then.interval_ns[1] || now.interval_ns[1] < then.interval_ns[0];
-        Self { ratio, beyond_noise: apart && (ratio - 1.0).abs() > TIME_NOISE }
-    }
-
-    fn of_count(now: u64, then: u64) -> Self {
-        let ratio = now as f64 / then as f64;
-        Self { ratio, beyond_noise: (ratio - 1.0).abs() > COUNT_NOISE }
-    }
-
-    fn is_worse(self) -> bool {
-        self.beyond_noise && self.ratio > 1.0
-    }
-
-    /// Text in percent, in brackets if it is noise.
-    fn text(self) -> String {
-        let percent = format!("{:+.1} %", 100.0 * (self.ratio - 1.0));
-        if self.beyond_noise { percent } else { format!("({percent})") }
-    }
+#[derive(Deserialize, Serialize)]
+struct Benchmark {
+    /// `group/function/parameter`.
+    name: String,
+    /// Problems solved in one call.
+    elements: u64,
+    /// Median of one call [ns].
+    median_ns: f64,
+    instructions: Option<u64>,
 }
 
-/// A benchmark, its counterpart in the baseline and the changes.
-struct Row<'a> {
-    now: &'a Benchmark,
-    then: Option<&'a Benchmark>,
-    time: Option<Change>,
-    count: Option<Change>,
+/// Runs the benchmarks and compares them; `rest` has `--save` or arguments of criterion.
+pub(crate) fn run(rest: &[String]) -> Result<(), String> {
+    let saves = rest == ["--save"];
+    let run = measure(if saves { &[] } else { rest })?;
+    let worse = compare(&run, &serde_json::from_str(&read(&root().join(BASELINE))?).map_err(text)?);
+    if saves {
+        write(&root().join(BASELINE), &(serde_json::to_string_pretty(&run).map_err(text)? + "\n"))?;
+        return write(&root().join(BOOK), &table(&run));
+    }
+    if worse.is_empty() { Ok(()) } else { Err(format!("more instructions: {}", worse.join(", "))) }
 }
 
-impl<'a> Row<'a> {
-    fn new(now: &'a Benchmark, baseline: &'a [Benchmark]) -> Self {
-        let then = baseline.iter().find(|then| then.name == now.name);
-        let counts = now.instructions.zip(then.and_then(|then| then.instructions));
-        Self {
-            now,
-            then,
-            time: then.map(|then| Change::of_time(now, then)),
-            count: counts.map(|(now, then)| Change::of_count(now, then)),
+fn text(error: impl std::fmt::Display) -> String {
+    error.to_string()
+}
+
+fn measure(arguments: &[String]) -> Result<Run, String> {
+    let (begin, folder) = (SystemTime::now(), root().join("target/criterion"));
+    let mut command = cargo_command(&["bench", "--workspace", "--bench", "*", "--"]);
+    let status = command.args(arguments).env("CRITERION_HOME", &folder).status().map_err(text)?;
+    let mut found = Vec::new();
+    if !status.success() || !folder.exists() {
+        return Err("`cargo bench` has failed, or no benchmark has such a name".to_owned());
+    }
+    medians(&folder, begin, &mut found)?;
+    found.sort_by_key(|(written, _)| *written);
+    let mut benchmarks: Vec<Benchmark> = found.into_iter().map(|(_, benchmark)| benchmark).collect();
+    if printed("valgrind", &["--version"]).is_ok() {
+        for (name, count) in counts(arguments)? {
+            let counted = benchmarks.iter_mut().find(|benchmark| benchmark.name == name);
+            counted.into_iter().for_each(|benchmark| benchmark.instructions = Some(count));
+        }
+    } else {
+        eprintln!("no instruction counts: valgrind is not installed (apt install valgrind)");
+    }
+    Ok(Run { machine: machine(), benchmarks })
+}
+
+/// Adds what criterion has written below `folder` since `begin`, each with its time of writing.
+fn medians(folder: &Path, begin: SystemTime, found: &mut Vec<(SystemTime, Benchmark)>) -> Result<(), String> {
+    for entry in fs::read_dir(folder).map_err(text)? {
+        let path = entry.map_err(text)?.path();
+        if path.is_dir() && !path.ends_with("new") {
+            medians(&path, begin, found)?;
+        }
+        let estimates = path.join("estimates.json");
+        let Ok(written) = estimates.metadata().and_then(|data| data.modified()) else { continue };
+        if path.ends_with("new") && written >= begin {
+            let of = parsed(&read(&path.join("benchmark.json"))?)?;
+            let median_ns = parsed(&read(&estimates)?)?["median"]["point_estimate"].as_f64();
+            let benchmark = Benchmark {
+                name: of["full_id"].as_str().unwrap_or_default().to_owned(),
+                elements: of["throughput"]["Elements"].as_u64().unwrap_or(1),
+                median_ns: median_ns.ok_or_else(|| format!("{}: no median", estimates.display()))?,
+                instructions: None,
+            };
+            found.push((written, benchmark));
         }
     }
-
-    fn print(&self) {
-        let Self { now, then, time, count } = self;
-        let or_dash = |text: Option<String>| text.unwrap_or_else(|| "-".to_owned());
-        let change = |change: &Option<Change>| or_dash(change.map(Change::text));
-        println!(
-            "{:<40}{:>11}{:>23}{:>11}{:>11}{:>11}{:>14}{:>11}",
-            now.name,
-            duration(now.median_ns),
-            now.interval_ns.map(duration).join(" .. "),
-            or_dash((now.elements > 1).then(|| duration(now.median_ns / now.elements as f64))),
-            or_dash(then.map(|then| duration(then.median_ns))),
-            change(time),
-            or_dash(now.instructions.map(|count| count.to_string())),
-            change(count),
-        );
-    }
-}
-
-/// Whether a slower median is a failure, as a larger count always is.
-#[derive(Clone, Copy, PartialEq)]
-enum Times {
-    Reported,
-    Strict,
-}
-
-/// Runs the benchmarks; `rest` holds options of this task, then those of criterion.
-pub(crate) fn run(mut rest: Vec<String>) -> ExitCode {
-    let mut take = |option: &str| {
-        let before = rest.len();
-        rest.retain(|argument| argument != option);
-        rest.len() < before
-    };
-    let save = take("--save-baseline");
-    let times = if take("--strict") { Times::Strict } else { Times::Reported };
-    if save && !rest.is_empty() {
-        eprintln!(
-            "error: --save-baseline with `{}`: expected no further arguments, because a \
-             baseline holds all benchmarks",
-            rest.join(" ")
-        );
-        return ExitCode::FAILURE;
-    }
-    let outcome = measure(&rest).and_then(|now| {
-        let code = compare(&now, times)?;
-        if save { write_baseline(&now).map(|()| ExitCode::SUCCESS) } else { Ok(code) }
-    });
-    outcome.unwrap_or_else(|error| {
-        eprintln!("error: {error}");
-        ExitCode::FAILURE
-    })
-}
-
-/// Prints the table, and the changes that are larger than noise.
-fn compare(now: &Run, times: Times) -> Result<ExitCode, BenchError> {
-    let path = root().join(BASELINE);
-    let baseline: Option<Run> = if path.exists() { Some(read(&path)?) } else { None };
-    let then = baseline.as_ref().map_or(&[][..], |run| &run.benchmarks);
-    println!(
-        "\n{:<40}{:>11}{:>23}{:>11}{:>11}{:>11}{:>14}{:>11}",
-        "benchmark", "median", "95 % interval", "each", "baseline", "change", "instructions", "change"
-    );
-    let rows: Vec<Row> = now.benchmarks.iter().map(|benchmark| Row::new(benchmark, then)).collect();
-    rows.iter().for_each(Row::print);
-    println!("\n{}", now.machine.text());
-    match &baseline {
-        Some(run) => {
-            println!("baseline: {}", run.machine.text());
-            if run.machine.cpu != now.machine.cpu {
-                println!("its times are those of another processor");
-            }
-            if run.machine.rustc != now.machine.rustc || run.machine.valgrind != now.machine.valgrind {
-                println!("its instruction counts are those of other tools");
-            }
-        }
-        None => println!("baseline: none, write one with `cargo xtask bench --save-baseline`"),
-    }
-    let worse = |change: fn(&Row) -> Option<Change>| {
-        let worse = |row: &&Row| change(row).is_some_and(Change::is_worse);
-        rows.iter().filter(worse).map(|row| row.now.name.as_str()).collect::<Vec<_>>()
-    };
-    let (slower, more) = (worse(|row| row.time), worse(|row| row.count));
-    for (what, names) in [("slower", &slower), ("more instructions", &more)] {
-        if !names.is_empty() {
-            println!("{what}: {}", names.join(", "));
-        }
-    }
-    let fails = !more.is_empty() || times == Times::Strict && !slower.is_empty();
-    Ok(if fails { ExitCode::FAILURE } else { ExitCode::SUCCESS })
-}
-
-fn write_baseline(run: &Run) -> Result<(), BenchError> {
-    let path = root().join(BASELINE);
-    let text = serde_json::to_string_pretty(run)
-        .map_err(|source| BenchError::Json { path: path.clone(), source })?;
-    let folder = path.parent().map_or(Ok(()), std::fs::create_dir_all);
-    let written = folder.and_then(|()| std::fs::write(&path, text + "\n"));
-    written.map_err(|source| BenchError::File { path, source })?;
-    let path = root().join(BOOK);
-    std::fs::write(&path, table(run)).map_err(|source| BenchError::File { path, source })?;
-    println!("written: {BASELINE}, {BOOK}");
     Ok(())
 }
 
-/// The baseline as the book has it.
+/// The instructions of one call of each benchmark, by callgrind.
+fn counts(arguments: &[String]) -> Result<Vec<(String, u64)>, String> {
+    let build = ["bench", "--workspace", "--bench", "*", "--no-run", "--quiet", "--message-format", "json"];
+    let messages = cargo_command(&build).output().map_err(text)?.stdout;
+    let folder = root().join("target/callgrind");
+    // It may not be there.
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).map_err(text)?;
+    let mut counts = Vec::new();
+    for line in String::from_utf8_lossy(&messages).lines() {
+        let message: Value = serde_json::from_str(line).unwrap_or_default();
+        let target = COUNTED.iter().find(|target| message["target"]["name"] == **target);
+        let (Some(target), Some(executable)) = (target, message["executable"].as_str()) else { continue };
+        eprintln!("counting the instructions of {target}");
+        let mut command = Command::new("valgrind");
+        command.args(["--tool=callgrind", "--toggle-collect=*::counted", "--dump-after=*::counted"]);
+        command.arg(format!("--callgrind-out-file={}", folder.join(target).display()));
+        // The environment lies on the stack and shifts it.
+        command.env_clear().env("PATH", "/usr/local/bin:/usr/bin:/bin").env("CRITERION_HOME", &folder);
+        let printed = command.arg(executable).args(arguments).output().map_err(text)?.stdout;
+        let printed = String::from_utf8_lossy(&printed).into_owned();
+        let names: Vec<&str> = printed.lines().filter_map(|line| line.strip_prefix("Testing ")).collect();
+        // Each call has a numbered file.
+        let parts = (1..).map(|number| read(&folder.join(format!("{target}.{number}"))));
+        let parts: Vec<u64> = parts.map_while(Result::ok).filter_map(|part| total(&part)).collect();
+        if parts.len() != names.len() {
+            let (names, parts) = (names.len(), parts.len());
+            return Err(format!("{target}: {names} benchmarks, but {parts} calls of `counted`"));
+        }
+        counts.extend(names.into_iter().map(str::to_owned).zip(parts));
+    }
+    Ok(counts)
+}
+
+/// Number of instructions in a file of callgrind.
+fn total(file: &str) -> Option<u64> {
+    file.lines().find_map(|line| line.strip_prefix("totals: ")?.trim().parse().ok())
+}
+
+/// The circumstances that figures depend on besides the program.
+fn machine() -> String {
+    let known = |program, arguments: &[&str]| printed(program, arguments).unwrap_or_else(|error| error);
+    let cpu = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let cpu = cpu.lines().find_map(|line| line.strip_prefix("model name")?.split_once(": "));
+    [
+        known("date", &["-u", "+%F"]),
+        cpu.map_or(std::env::consts::ARCH, |(_, name)| name).to_owned(),
+        known("rustc", &["--version"]),
+        known("valgrind", &["--version"]),
+    ]
+    .join(", ")
+}
+
+/// Prints both runs, and returns the benchmarks whose counts have grown.
+fn compare(now: &Run, baseline: &Run) -> Vec<String> {
+    println!("{:<44}{:>11}{:>11}{:>14}{:>14}", "benchmark", "median", "baseline", "instructions", "baseline");
+    let mut worse = Vec::new();
+    for Benchmark { name, median_ns, instructions, .. } in &now.benchmarks {
+        let then = baseline.benchmarks.iter().find(|then| then.name == *name);
+        let (count, before) = (*instructions, then.and_then(|then| then.instructions));
+        let shown = |count: Option<u64>| count.map_or_else(|| "-".to_owned(), |count| count.to_string());
+        let median = then.map_or_else(|| "-".to_owned(), |then| duration(then.median_ns));
+        println!(
+            "{name:<44}{:>11}{median:>11}{:>14}{:>14}",
+            duration(*median_ns),
+            shown(count),
+            shown(before)
+        );
+        if count.zip(before).is_some_and(|(count, before)| is_worse(count, before)) {
+            worse.push(name.clone());
+        }
+    }
+    println!("\n{}\nbaseline: {}", now.machine, baseline.machine);
+    worse
+}
+
+fn is_worse(count: u64, before: u64) -> bool {
+    count as f64 > (1.0 + NOISE) * before as f64
+}
+
+/// The figures as the book has them.
 fn table(run: &Run) -> String {
-    let mut table = format!("{}\n\n", run.machine.text());
-    table += "| benchmark | median | each | instructions |\n|---|---|---|---|\n";
-    for Benchmark { name, elements, median_ns, instructions, .. } in &run.benchmarks {
+    let mut table =
+        format!("{}\n\n| benchmark | median | each | instructions |\n|---|---|---|---|\n", run.machine);
+    for Benchmark { name, elements, median_ns, instructions } in &run.benchmarks {
         let each = if *elements > 1 { duration(median_ns / *elements as f64) } else { String::new() };
         let count = instructions.map_or_else(String::new, |count| count.to_string());
         table += &format!("| `{name}` | {} | {each} | {count} |\n", duration(*median_ns));
@@ -198,49 +207,11 @@ fn duration(ns: f64) -> String {
 mod tests {
     use super::*;
 
-    fn benchmark(median_ns: f64, half_width: f64) -> Benchmark {
-        Benchmark {
-            name: "direct/near".to_owned(),
-            elements: 1,
-            median_ns,
-            interval_ns: [median_ns - half_width, median_ns + half_width],
-            instructions: None,
-        }
-    }
-
-    #[test]
-    fn a_median_is_slower_beyond_both_the_intervals_and_the_threshold() {
-        let then = benchmark(100.0, 2.0);
-        let worse = |now| Change::of_time(&now, &then).is_worse();
-        assert!(worse(benchmark(115.0, 2.0)));
-        assert!(!worse(benchmark(109.0, 2.0)), "below the threshold");
-        assert!(!worse(benchmark(115.0, 20.0)), "intervals that overlap");
-    }
-
-    #[test]
-    fn a_faster_median_is_beyond_the_noise_but_not_worse() {
-        let change = Change::of_time(&benchmark(80.0, 2.0), &benchmark(100.0, 2.0));
-        assert!(change.beyond_noise && !change.is_worse());
-        assert_eq!(change.text(), "-20.0 %");
-    }
-
     #[test]
     fn a_count_is_worse_beyond_a_percent() {
-        assert!(Change::of_count(10_150, 10_000).is_worse());
-        assert!(!Change::of_count(10_050, 10_000).is_worse());
-        assert!(!Change::of_count(9_000, 10_000).is_worse());
-        assert_eq!(Change::of_count(10_050, 10_000).text(), "(+0.5 %)");
-    }
-
-    #[test]
-    fn a_benchmark_is_compared_with_its_namesake_alone() {
-        let baseline = [benchmark(100.0, 1.0)];
-        let now = Benchmark { instructions: Some(7), ..benchmark(150.0, 1.0) };
-        let row = Row::new(&now, &baseline);
-        assert_eq!(row.time, Some(Change { ratio: 1.5, beyond_noise: true }));
-        assert_eq!(row.count, None, "the baseline has no count");
-        let other = Benchmark { name: "direct/far".to_owned(), ..now.clone() };
-        assert!(Row::new(&other, &baseline).then.is_none());
+        assert!(is_worse(10_150, 10_000));
+        assert!(!is_worse(10_050, 10_000) && !is_worse(9_000, 10_000));
+        assert_eq!(total("events: Ir\nsummary: 12\n\ntotals: 4321\n"), Some(4321));
     }
 
     #[test]

@@ -5,11 +5,10 @@
 
 #![allow(clippy::print_stdout)]
 
-use crate::cargo::{answer, cdpr, cdpr_command, number, root};
+use crate::cargo::{answer, cdpr, number, output, read_json, root};
 use serde_json::Value;
 use std::fmt::Write;
 use std::path::Path;
-use std::process::ExitCode;
 
 /// Summary that each row of the table of deflections is read from, and its label.
 const ROWS: [(&str, &str); 3] = [
@@ -27,7 +26,7 @@ pub(crate) fn run(out: &Path, settings: &[&str]) -> Result<(), String> {
     let figure = |name: &str| folder.join(name).display().to_string();
     let (record, table) = (data("cables/caroca-4mm-record.csv"), data("cables/caroca-4mm.json"));
     let (robot, law) = (data("robots/caroca.json"), data("cables/caroca-4mm-law.json"));
-    let moduli = moduli(&record, &read(Path::new(&table))?, &figure("loop.svg"))?;
+    let moduli = moduli(&record, &read_json(Path::new(&table))?, &figure("loop.svg"))?;
     let cycle = [
         "hysteresis",
         &robot,
@@ -40,7 +39,7 @@ pub(crate) fn run(out: &Path, settings: &[&str]) -> Result<(), String> {
         "--figure",
         &figure("cycle.svg"),
     ];
-    let mut text = format!("{moduli}\n{}\n", output(&cycle)?);
+    let mut text = format!("{moduli}\n{}\n", output(&cycle, &[0])?);
     for study in STUDIES {
         let (file, results) = (data(&format!("studies/caroca-{study}.json")), figure(study));
         let arguments = [
@@ -48,9 +47,7 @@ pub(crate) fn run(out: &Path, settings: &[&str]) -> Result<(), String> {
             &settings.iter().map(ToString::to_string).collect::<Vec<_>>(),
         ]
         .concat();
-        if cdpr(&["study", "run", &file], &arguments) != ExitCode::SUCCESS {
-            return Err(format!("{file} has failed"));
-        }
+        cdpr(&["study", "run", &file], &arguments)?;
     }
     write!(text, "{}", moved(out)?).map_err(|error| error.to_string())?;
     print!("{text}");
@@ -96,7 +93,7 @@ fn moved(out: &Path) -> Result<String, String> {
     let mut first: Vec<f64> = Vec::new();
     for (file, words) in ROWS {
         let path = out.join(file);
-        let summary = read(&path)?;
+        let summary = read_json(&path)?;
         let mut cells = Vec::new();
         for sampling in ["geometrical", "geometrical_asymmetric"] {
             cells.push(
@@ -116,27 +113,10 @@ fn moved(out: &Path) -> Result<String, String> {
     Ok(text + "mean ± standard deviation, and how far the mean moves\n")
 }
 
-/// A file as JSON.
-pub(crate) fn read(path: &Path) -> Result<Value, String> {
-    let text = std::fs::read_to_string(path).map_err(|error| error.to_string());
-    let value = text.and_then(|text| serde_json::from_str(&text).map_err(|error| error.to_string()));
-    value.map_err(|error| format!("cannot read {}: {error}", path.display()))
-}
-
 /// Mean and standard deviation of a sampling in a summary [mm]; `None` for too few observations.
 pub(crate) fn deflections(summary: &Value, sampling: &str) -> Option<(f64, f64)> {
     let number = |name: &str| {
         summary.pointer(&format!("/studies/{sampling}/magnitude_mm/{name}")).and_then(Value::as_f64)
     };
     number("mean").zip(number("std"))
-}
-
-/// Standard output of the program.
-fn output(command: &[&str]) -> Result<String, String> {
-    let output = cdpr_command(command).output().map_err(|error| error.to_string())?;
-    if output.status.success() {
-        Ok(String::from_utf8_lossy(&output.stdout).into_owned())
-    } else {
-        Err(String::from_utf8_lossy(&output.stderr).into_owned())
-    }
 }

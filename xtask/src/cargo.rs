@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 use std::path::Path;
-use std::process::{Command, ExitCode};
+use std::process::Command;
 
 /// The folder of the workspace.
 pub(crate) fn root() -> &'static Path {
@@ -12,7 +12,7 @@ pub(crate) fn root() -> &'static Path {
 /// Builds and runs the program.
 ///
 /// Cargo chooses it among all default members, so that its dependencies have the features that tests need.
-pub(crate) fn cdpr(command: &[&str], rest: &[String]) -> ExitCode {
+pub(crate) fn cdpr(command: &[&str], rest: &[String]) -> Result<(), String> {
     let rest: Vec<&str> = rest.iter().map(String::as_str).collect();
     cargo(&[&["run", "--bin", "cdpr", "--"], command, &rest].concat())
 }
@@ -30,15 +30,12 @@ pub(crate) fn example_command(example: &str, arguments: &[&str]) -> Command {
     cargo_command(&[&["run", "--quiet", "--example", example, "--"], arguments].concat())
 }
 
-/// Whether cargo succeeds with a subcommand and its arguments.
-pub(crate) fn cargo(arguments: &[&str]) -> ExitCode {
+/// Runs cargo with a subcommand and its arguments, and fails where it does.
+pub(crate) fn cargo(arguments: &[&str]) -> Result<(), String> {
     match cargo_command(arguments).status() {
-        Ok(status) if status.success() => ExitCode::SUCCESS,
-        Ok(_) => ExitCode::FAILURE,
-        Err(error) => {
-            eprintln!("error: cannot start cargo: {error}");
-            ExitCode::FAILURE
-        }
+        Ok(status) if status.success() => Ok(()),
+        Ok(_) => Err(format!("`cargo {}` has failed", arguments.join(" "))),
+        Err(error) => Err(format!("cannot start cargo: {error}")),
     }
 }
 
@@ -65,13 +62,34 @@ pub(crate) fn answer(arguments: &[&str], codes: &[i32]) -> Result<Value, String>
     parsed(&output(&[arguments, &["--format", "json"]].concat(), codes)?)
 }
 
-/// Standard output of a command that ends with one of these exit codes.
+/// Standard output of the program where it ends with one of these exit codes.
 pub(crate) fn output(arguments: &[&str], codes: &[i32]) -> Result<String, String> {
-    let output = cdpr_command(arguments).output().map_err(|error| format!("cannot start cargo: {error}"))?;
+    text_of(&mut cdpr_command(arguments), codes)
+}
+
+/// Standard output of a program that succeeds, without the white space around it.
+pub(crate) fn printed(program: &str, arguments: &[&str]) -> Result<String, String> {
+    text_of(Command::new(program).args(arguments), &[0]).map(|text| text.trim().to_owned())
+}
+
+/// Standard output of a command that ends with one of these exit codes.
+pub(crate) fn text_of(command: &mut Command, codes: &[i32]) -> Result<String, String> {
+    let program = command.get_program().display().to_string();
+    let output = command.output().map_err(|error| format!("cannot start {program}: {error}"))?;
     if !output.status.code().is_some_and(|code| codes.contains(&code)) {
-        return Err(format!("cdpr {}: {}", arguments.join(" "), String::from_utf8_lossy(&output.stderr)));
+        return Err(format!("{program}: {}", String::from_utf8_lossy(&output.stderr)));
     }
     Ok(String::from_utf8_lossy(&output.stdout).into_owned())
+}
+
+/// A file as text.
+pub(crate) fn read(path: &Path) -> Result<String, String> {
+    std::fs::read_to_string(path).map_err(|error| format!("cannot read {}: {error}", path.display()))
+}
+
+/// A file as JSON.
+pub(crate) fn read_json(path: &Path) -> Result<Value, String> {
+    parsed(&read(path)?).map_err(|error| format!("{}: {error}", path.display()))
 }
 
 /// A text as JSON.

@@ -1,35 +1,39 @@
 //! `cargo xtask dist`: what a release consists of, in `target/dist`.
 //!
-//! The program, a wheel for all Pythons from 3.10 on, the packed crates, the book, the notes of the version
-//! from CHANGELOG.md, and the checksums of all files. A part whose tool is not installed is left out, and the
-//! last lines say so.
+//! The program, a wheel for all Pythons from 3.10 on, the packed crates, the list of all crates that they
+//! consist of (SBOM), the book, the notes of the version from CHANGELOG.md, and the checksums of all files. A
+//! part whose tool is not installed is left out, and the last lines say so.
 
-use crate::cargo::{cargo_command, cdpr_command, done, root};
+use crate::cargo::{cargo_command, cdpr_command, done, parsed, root, text_of};
+use serde_json::{Value, json};
 use std::fs;
 use std::path::Path;
-use std::process::{Command, ExitCode};
+use std::process::Command;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
 /// Makes one part in a folder.
 type Part = fn(&Path) -> Outcome;
 
-pub(crate) fn run(rest: &[String]) -> ExitCode {
+pub(crate) fn run(rest: &[String]) -> Result<(), String> {
     if !rest.is_empty() {
-        eprintln!("error: `cargo xtask dist` is followed by nothing");
-        return ExitCode::FAILURE;
+        return Err("`cargo xtask dist` is followed by nothing".to_owned());
     }
     let folder = root().join("target/dist");
-    let parts: [(&str, Part); 5] =
-        [("program", program), ("notes", notes), ("crates", crates), ("wheel", wheel), ("book", book)];
+    let parts: [(&str, Part); 6] = [
+        ("program", program),
+        ("notes", notes),
+        ("crates", crates),
+        ("bill of materials", materials),
+        ("wheel", wheel),
+        ("book", book),
+    ];
     let made = fs::remove_dir_all(&folder).or_else(|error| match error.kind() {
         std::io::ErrorKind::NotFound => Ok(()),
         _ => Err(error),
     });
-    if let Err(error) = made.and_then(|()| fs::create_dir_all(&folder)) {
-        eprintln!("error: {}: {error}", folder.display());
-        return ExitCode::FAILURE;
-    }
+    let made = made.and_then(|()| fs::create_dir_all(&folder));
+    made.map_err(|error| format!("{}: {error}", folder.display()))?;
     let mut left_out = Vec::new();
     for (name, make) in parts {
         eprintln!("{name}");
@@ -41,15 +45,14 @@ pub(crate) fn run(rest: &[String]) -> ExitCode {
         left_out.push(format!("checksums: {error}"));
     }
     eprintln!("\n{} holds what could be made", folder.display());
-    left_out.iter().for_each(|reason| eprintln!("left out: {reason}"));
-    if left_out.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+    if left_out.is_empty() { Ok(()) } else { Err(format!("left out:\n{}", left_out.join("\n"))) }
 }
 
 /// The program, on Linux with everything linked in, so that it runs on any.
 fn program(folder: &Path) -> Outcome {
     let host = host()?;
-    let features = "cdpr-cli/figures,cdpr-cli/parquet";
-    let package = ["--package", "cdpr-cli", "--features", features];
+    let features = "cdpr/figures,cdpr/parquet";
+    let package = ["--package", "cdpr", "--features", features];
     let mut build =
         cargo_command(&[&["build", "--release", "--locked", "--target", &host], &package[..]].concat());
     // For a smaller program: what nobody calls across crates is left out.
@@ -85,7 +88,9 @@ fn crates(folder: &Path) -> Outcome {
     let into = folder.join("crates");
     let mut package = cargo_command(&["package", "--workspace", "--locked", "--no-verify", "--allow-dirty"]);
     // What is not published.
-    package.args(["xtask", "cdpr-tests", "cdpr-python"].map(|name| format!("--exclude={name}")));
+    package.args(
+        ["xtask", "cdpr-tests", "cdpr-python", "cdpr-evidence"].map(|name| format!("--exclude={name}")),
+    );
     // A folder without packages of other versions.
     done(package.arg("--target-dir").arg(&into))?;
     for file in fs::read_dir(into.join("package"))? {
@@ -95,6 +100,28 @@ fn crates(folder: &Path) -> Outcome {
         }
     }
     Ok(fs::remove_dir_all(into)?)
+}
+
+/// All crates of the lock file with their licenses, as a software bill of materials (CycloneDX 1.5).
+fn materials(folder: &Path) -> Outcome {
+    let metadata = text_of(&mut cargo_command(&["metadata", "--locked", "--format-version", "1"]), &[0])?;
+    let metadata = parsed(&metadata)?;
+    let component = |of: &Value| {
+        let (name, version) =
+            (of["name"].as_str().unwrap_or_default(), of["version"].as_str().unwrap_or_default());
+        json!({
+            "type": "library",
+            "name": name,
+            "version": version,
+            "purl": format!("pkg:cargo/{name}@{version}"),
+            "licenses": [{ "expression": of["license"] }],
+        })
+    };
+    let components: Vec<Value> =
+        metadata["packages"].as_array().into_iter().flatten().map(component).collect();
+    let bill =
+        json!({"bomFormat": "CycloneDX", "specVersion": "1.5", "version": 1, "components": components});
+    Ok(fs::write(folder.join("cdpr.cdx.json"), format!("{bill:#}\n"))?)
 }
 
 /// The wheel, by maturin in an environment of its own: it serves all Pythons from 3.10 on.

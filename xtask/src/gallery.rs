@@ -7,10 +7,10 @@
 
 mod film;
 
-use crate::cargo::{answer, number, output, parsed, root, write};
+use crate::cargo::{answer, number, output, parsed, read, read_json, root, write};
 use serde_json::{Value, json};
 use std::fmt::Write;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Poses of the robots with fewer cables than free motions [m].
 const FREE: [(&str, &str); 3] =
@@ -132,11 +132,8 @@ fn studied(name: &str, folder: &Path, pictures: &Path) -> Result<Vec<(&'static s
     write(&file, &study.to_string())?;
     let [file, out] = [&file, &results].map(|path| path.display().to_string());
     output(&["study", "run", &file, "--out", &out, "--overwrite"], &[0])?;
-    let read = |path: PathBuf| {
-        std::fs::read_to_string(&path).map_err(|error| format!("cannot read {}: {error}", path.display()))
-    };
-    write(&pictures.join(format!("{name}.svg")), &read(results.join("robot.svg"))?)?;
-    let summary = parsed(&read(results.join("summary.json"))?)?;
+    write(&pictures.join(format!("{name}.svg")), &read(&results.join("robot.svg"))?)?;
+    let summary = read_json(&results.join("summary.json"))?;
     let all = &summary["studies"]["all"];
     let pose = all["pose"].as_array().ok_or("no pose")?;
     let pose: Vec<_> = pose.iter().map(ToString::to_string).collect();
@@ -153,10 +150,8 @@ fn studied(name: &str, folder: &Path, pictures: &Path) -> Result<Vec<(&'static s
 /// Finds roll and pitch at a position, and draws the robot there.
 fn suspended(name: &str, pose: &str, pictures: &Path) -> Result<Vec<(&'static str, String)>, String> {
     let found = answer(&["inverse", name, "--pose", pose, "--free", "roll,pitch"], &[0, 3])?;
-    let path = root().join(format!("data/robots/{name}.json"));
-    let file =
-        std::fs::read_to_string(&path).map_err(|error| format!("cannot read {}: {error}", path.display()))?;
-    write(&pictures.join(format!("{name}.svg")), &drawn(&parsed(&file)?, &found)?)?;
+    let robot = read_json(&root().join(format!("data/robots/{name}.json")))?;
+    write(&pictures.join(format!("{name}.svg")), &drawn(&robot, &found)?)?;
     let angles = found["roll_pitch_yaw_deg"].as_array().ok_or("no angles")?;
     let [roll, pitch] = [0, 1].map(|i| format!("{:.2}", number(&angles[i])));
     Ok(vec![

@@ -5,12 +5,11 @@
 
 #![allow(clippy::print_stdout)]
 
-use crate::cable::{deflections, read};
-use crate::cargo::{cdpr, root};
+use crate::cable::deflections;
+use crate::cargo::{cdpr, read_json, root, write};
 use serde_json::{Value, json};
-use std::fmt::Write;
+use std::fmt::Write as _;
 use std::path::Path;
-use std::process::ExitCode;
 
 /// Radius of the pulleys of CAROCA [m], in its model of CASPR (BSD-3).
 const RADIUS: f64 = 0.045;
@@ -34,7 +33,7 @@ const LARGEST: usize = 5;
 pub(crate) fn run(out: &Path, settings: &[&str]) -> Result<(), String> {
     let folder = out.join("led");
     std::fs::create_dir_all(&folder).map_err(|error| format!("cannot make {}: {error}", folder.display()))?;
-    let data = |file: &str| read(&root().join("data").join(file));
+    let data = |file: &str| read_json(&root().join("data").join(file));
     let (robot, study) = (data("robots/caroca.json")?, data("studies/caroca.json")?);
     let mut summaries = vec![("as in the paper", out.join("summary.json"))];
     for (name, words, [pulleys, leads]) in ROBOTS {
@@ -57,22 +56,17 @@ pub(crate) fn run(out: &Path, settings: &[&str]) -> Result<(), String> {
         study.as_object_mut().map(|study| study.remove("surfaces"));
         let path = |suffix: &str| folder.join(format!("{name}-{suffix}.json"));
         for (suffix, value) in [("robot", &robot), ("study", &study)] {
-            let text = format!("{value:#}\n");
-            std::fs::write(path(suffix), text)
-                .map_err(|error| format!("cannot write {}: {error}", path(suffix).display()))?;
+            write(&path(suffix), &format!("{value:#}\n"))?;
         }
         let (file, results) = (path("study").display().to_string(), folder.join(name));
         let mut arguments = vec!["--out".to_owned(), results.display().to_string()];
         arguments.extend(settings.iter().map(ToString::to_string));
-        if cdpr(&["study", "run", &file], &arguments) != ExitCode::SUCCESS {
-            return Err(format!("{file} has failed"));
-        }
+        cdpr(&["study", "run", &file], &arguments)?;
         summaries.push((words, results.join("summary.json")));
     }
     let text = compared(&summaries)?;
     print!("{text}");
-    let path = folder.join("led.txt");
-    std::fs::write(&path, text).map_err(|error| format!("cannot write {}: {error}", path.display()))
+    write(&folder.join("led.txt"), &text)
 }
 
 /// Deflections and largest parameters of each summary.
@@ -84,7 +78,7 @@ fn compared(summaries: &[(&str, std::path::PathBuf)]) -> Result<String, String> 
         let mut first = None;
         writeln!(text, "\n{sampling}").map_err(|error| error.to_string())?;
         for (words, path) in summaries {
-            let summary = read(path)?;
+            let summary = read_json(path)?;
             let (mean, std) = deflections(&summary, sampling)
                 .ok_or_else(|| format!("{}: no deflection of {sampling}", path.display()))?;
             let moved = 100.0 * (mean / *first.get_or_insert(mean) - 1.0);

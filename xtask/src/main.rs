@@ -4,25 +4,19 @@
 
 #![allow(clippy::print_stderr, clippy::print_stdout)]
 
-mod attack;
 mod bench;
 mod cable;
-mod calibration;
 mod cargo;
 mod dist;
 mod evidence;
-mod fuzz;
 mod gallery;
 mod led;
-mod peers;
-mod scaling;
-mod statistics;
-mod throughput;
+mod release;
 mod web;
 
-use cargo::{cargo, cdpr, example_command, root};
+use cargo::{cargo, cdpr, done, example_command, root, text_of, write};
 use std::path::Path;
-use std::process::ExitCode;
+use std::process::{Command, ExitCode};
 
 const HELP: &str = "\
 usage: cargo xtask TASK
@@ -33,51 +27,34 @@ tasks:
                  figures (data/reference/published.json). All measures of its sensitivity go to
                  DIR/sensitivity, the hysteresis of its cables to DIR/cable, the robot with pulleys and the cable behind them to DIR/led; DIR is
                  target/caroca-study. With --resume it goes on with an interrupted run;
-                 otherwise it begins anew
+                 otherwise it begins again
   robustness [--poses N] [--modulus E] [--seed N] [--robot FILE] [--out DIR]
                  counts how often the direct model finds CoGiRo's true pose from a wrong start, by the
                  protocol of Mahnke and Caverly (N = 10000, E = 35e9 Pa) and on thirty poses; DIR is
                  target/robustness
-  throughput [--observations N] [--threads N]
-                 runs a sampling of the paper's size or larger, without tables, and prints time, memory and
-                 results in one line (N = 1000000)
-  throughput --all [NAME]
-                 prints the time of an observation on one thread, the share of the scalar models and of
-                 failures, for the robots and poses of data/benchmarks/throughput.json, or those whose names
-                 contain NAME
-  scaling [--observations N]
-                 runs the same over 10^3, 10^4 .. N observations (1000000) on 1 and 2 threads
-  bench [--strict] [--save-baseline] [ARGS]
+  throughput [--all [NAME] | OBSERVATIONS [THREADS]]
+                 runs a sampling of the paper's study, without tables, and prints time, memory and results in
+                 one line (1000000 observations, all threads); with --all a table of the robots and poses of
+                 data/benchmarks/throughput.json, on one thread
+  bench [--save | ARGS]
                  runs all criterion benchmarks, or those that ARGS choose (a part of a name and other options
-                 of criterion), counts their instructions where valgrind is installed, and prints both beside
-                 data/benchmarks/baseline.json. It fails where a count has grown, and with --strict also
-                 where a median has grown
-  bench-peers    solves the direct model and an observation with cdpr, and with SciPy, Octave and Ceres
-                 where these are installed, see docs/PEERS.md
-  bench-moordyn  follows the same motions by cdpr and by MoorDyn, which pip installs into target/peers/moordyn,
-                 prints agreement and times, and writes them to data/benchmarks/moordyn.json
+                 of criterion), counts their instructions where valgrind is installed, and prints both next to
+                 data/benchmarks/baseline.json. It fails where a count has grown by more than 1 %; with --save
+                 it writes the baseline
   statistics TABLE [STUDIES [FUNCTION]]
-                 measures how often estimators of cdpr-sensitivity are right, and keeps whole tables for
-                 docs/statistics.md; TABLE is choice (of a fitted law), indices (of Sobol'), expansions,
-                 given (first-order indices of tables), levels (of tests of tables), verdicts (of tables with
-                 known truth), brackets (bounds by derivatives), measures (all of them, of functions with
-                 FUNCTION in their names, or of FUNCTION/MEASURE) or peers (next to SALib and OpenTURNS, which pip
-                 installs into target/peers/statistics; there FUNCTION is a part of the names of measures)
-  calibration PART [CAMPAIGNS | FILES]
-                 measures calibrations; PART is
-                 recovery, troubles (outliers, biases, far starts), wrong (models), sensors, speed, scipy,
-                 campaigns (beside SciPy, with the coverage of the stds: campaigns of each robot, and how many
-                 of them SciPy calibrates), circle (a whole example, with copies of its
-                 results) or irma4u (a user's copy of its campaigns)
-  fuzz [SECONDS] runs every fuzz target of tests/fuzz for SECONDS (60), on nightly with cargo-fuzz
-  attack         runs the program on bad files and arguments, with 10 s and 1 GiB for each, and fails where it
-                 panics, hangs or touches a file outside of its folder of results
+                 measures how often estimators of cdpr-sensitivity are right; without TABLE it lists the
+                 tables, which docs/statistics.md keeps
+  ci [STEP..]    what a change has to pass: .ci/run
+  attack         runs the program on bad files and arguments: cargo test --test attack
   evidence [CASE..]
                  runs the comparisons of data/evidence/cases.json, all or those that begin so, keeps their figures
                  there and writes the tables of docs/trust.md; --check compares the figures in the folder
                  CDPR_EVIDENCE, which a run of the tests has written, with those that are kept
   dist           makes what a release consists of in target/dist: the program, on Linux one that runs on
                  any, the wheel, the packed crates, the book, notes and checksums
+  release [--repository URL] [--authors \"NAME <MAIL>, ..\"] [--version X.Y.Z]
+                 sets these wherever files name them: manifests, CITATION.cff, recipe, book, README, paper
+                 and, with a version, the heading of CHANGELOG.md
   web [--check]  makes the module and the page of `cdpr explore` in crates/cdpr-web/dist, or says whether these
                  are of the sources as they are
   gallery        writes docs/robots.md, a picture and a table for each robot of the library
@@ -92,72 +69,61 @@ fn main() -> ExitCode {
         eprintln!("{HELP}");
         return ExitCode::SUCCESS;
     }
-    match task.as_deref() {
+    let outcome = match task.as_deref() {
         Some("caroca-study") => caroca_study(rest),
         Some("robustness") => robustness(rest),
         Some("throughput") => throughput(&rest),
-        Some("scaling") => scaling::run(&rest),
-        Some("bench") => bench::run(rest),
-        Some("bench-peers") => peers::bench(),
-        Some("bench-moordyn") => peers::moordyn::bench(),
-        Some("statistics") => statistics::run(&rest),
-        Some("calibration") => calibration::run(&rest),
-        Some("fuzz") => fuzz::run(&rest),
-        Some("attack") => attack::run(),
+        Some("statistics") => statistics(&rest),
+        Some("bench") => bench::run(&rest),
+        Some("ci") => {
+            done(Command::new(root().join(".ci/run")).args(&rest)).map_err(|error| error.to_string())
+        }
+        Some("attack") => cargo(&["test", "--test", "attack"]),
         Some("dist") => dist::run(&rest),
-        Some("evidence") => ended(evidence::run(&rest)),
-        Some("web") => web::run(&rest),
-        Some("gallery") => ended(gallery::run()),
+        Some("release") => release::run(&rest).map_err(|error| error.to_string()),
+        Some("evidence") => evidence::run(&rest),
+        Some("web") => web::run(&rest).map_err(|error| error.to_string()),
+        Some("gallery") => gallery::run(),
         Some("schemas") => schemas(),
-        Some("help" | "--help" | "-h") => {
+        Some(other) if other != "help" => Err(format!("no task is called `{other}`\n\n{HELP}")),
+        _ => {
             eprintln!("{HELP}");
-            ExitCode::SUCCESS
+            return if task.is_some() { ExitCode::SUCCESS } else { ExitCode::FAILURE };
         }
-        Some(other) => {
-            eprintln!("error: no task is called `{other}`\n\n{HELP}");
-            ExitCode::FAILURE
-        }
-        None => {
-            eprintln!("{HELP}");
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
             ExitCode::FAILURE
         }
     }
 }
 
-fn caroca_study(mut rest: Vec<String>) -> ExitCode {
+fn caroca_study(mut rest: Vec<String>) -> Result<(), String> {
     replaceable(&mut rest, "target/caroca-study");
     let study = |file: &str| root().join("data/studies").join(file).display().to_string();
     let (paper, measures) = (study("caroca.json"), study("caroca-sensitivity.json"));
     eprintln!("building the program (a few minutes the first time), then running {paper} and {measures}");
-    let code = cdpr(&["study", "run", &paper], &rest);
-    if code != ExitCode::SUCCESS {
-        return code;
-    }
+    cdpr(&["study", "run", &paper], &rest)?;
     let mut within_out = rest.clone();
     within(&mut within_out, "--out", "sensitivity");
-    let code = cdpr(&["study", "run", &measures], &within_out);
-    if code != ExitCode::SUCCESS {
-        return code;
-    }
+    cdpr(&["study", "run", &measures], &within_out)?;
     let (out, settings) = without(&rest, "--out");
-    let cables = || cable::run(Path::new(out), &settings);
-    ended(compared(Path::new(out)).and_then(|()| cables()).and_then(|()| led::run(Path::new(out), &settings)))
+    compared(Path::new(out))?;
+    cable::run(Path::new(out), &settings)?;
+    led::run(Path::new(out), &settings)
 }
 
 /// Prints the published figures next to those of the study, and writes them to `published.txt`.
 fn compared(out: &Path) -> Result<(), String> {
     let figures = root().join("data/reference/published.json").display().to_string();
-    let mut command = example_command("published", &[&figures, &out.display().to_string()]);
-    let output = command.output().map_err(|error| format!("cannot start cargo: {error}"))?;
-    if !output.status.success() {
-        return Err(String::from_utf8_lossy(&output.stderr).into_owned());
-    }
-    println!("\n{}", String::from_utf8_lossy(&output.stdout));
-    let path = out.join("published.txt");
-    std::fs::write(&path, output.stdout).map_err(|error| format!("cannot write {}: {error}", path.display()))
+    let text = text_of(&mut example_command("published", &[&figures, &out.display().to_string()]), &[0])?;
+    println!("\n{text}");
+    write(&out.join("published.txt"), &text)
 }
 
-fn robustness(mut rest: Vec<String>) -> ExitCode {
+fn robustness(mut rest: Vec<String>) -> Result<(), String> {
     replaceable(&mut rest, "target/robustness");
     default(&mut rest, "--robot", "data/robots/cogiro.json");
     eprintln!("building the example (a few minutes the first time), then looking for poses");
@@ -165,23 +131,22 @@ fn robustness(mut rest: Vec<String>) -> ExitCode {
     cargo(&[&["run", "--example", "robustness", "--"][..], &rest].concat())
 }
 
-fn throughput(rest: &[String]) -> ExitCode {
-    match rest {
-        [all] if all == "--all" => return throughput::run(None),
-        [all, name] if all == "--all" => return throughput::run(Some(&name.to_lowercase())),
-        _ => {}
+fn throughput(rest: &[String]) -> Result<(), String> {
+    let data = |file: &str| root().join("data").join(file).display().to_string();
+    let rest: Vec<&str> = rest.iter().map(String::as_str).collect();
+    let (list, study) = (data("benchmarks/throughput.json"), data("studies/caroca.json"));
+    // With the profile of what is installed.
+    let example = ["run", "--release", "--quiet", "--package", "cdpr-study", "--example", "throughput", "--"];
+    match &rest[..] {
+        ["--all", name @ ..] => cargo(&[&example[..], &[&list], name].concat()),
+        numbers => cargo(&[&example[..], &[&study, "mechanical"], numbers].concat()),
     }
-    let study = root().join("data/studies/caroca.json").display().to_string();
-    let option = |name: &str| without(rest, name).0.to_owned();
-    let observations = Some(option("--observations")).filter(|number| !number.is_empty());
-    let observations = observations.unwrap_or_else(|| "1000000".to_owned());
-    let threads = option("--threads");
-    let mut command = vec!["run", "--example", "throughput", "--", &study, "mechanical"];
-    command.push(&observations);
-    if !threads.is_empty() {
-        command.push(&threads);
-    }
-    cargo(&command)
+}
+
+fn statistics(rest: &[String]) -> Result<(), String> {
+    let rest: Vec<&str> = rest.iter().map(String::as_str).collect();
+    let example = ["run", "--release", "--quiet", "-p", "cdpr-sensitivity", "--example", "statistics", "--"];
+    cargo(&[&example[..], &rest].concat())
 }
 
 /// Adds `option` with a path in the repository, unless the user gives one.
@@ -233,23 +198,7 @@ fn without<'a>(arguments: &'a [String], option: &str) -> (&'a str, Vec<&'a str>)
     (value, rest)
 }
 
-/// The exit code of a task, and its message.
-fn ended(outcome: Result<(), String>) -> ExitCode {
-    match outcome {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("error: {error}");
-            ExitCode::FAILURE
-        }
-    }
-}
-
-fn schemas() -> ExitCode {
-    for example in ["robot_schema", "study_schema", "events_schema"] {
-        let code = cargo(&["run", "--quiet", "--example", example]);
-        if code != ExitCode::SUCCESS {
-            return code;
-        }
-    }
-    ExitCode::SUCCESS
+fn schemas() -> Result<(), String> {
+    let examples = ["robot_schema", "study_schema", "events_schema"];
+    examples.iter().try_for_each(|example| cargo(&["run", "--quiet", "--example", example]))
 }

@@ -11,7 +11,7 @@ use sha2::{Digest, Sha256};
 use std::error::Error;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, ExitCode};
+use std::process::Command;
 
 type Outcome<T = ()> = Result<T, Box<dyn Error>>;
 
@@ -35,18 +35,11 @@ const SOURCES: [&str; 11] = [
 /// Folders of the page that tools make.
 const MADE: [&str; 2] = ["node_modules", "pkg"];
 
-pub(crate) fn run(rest: &[String]) -> ExitCode {
-    let done = match rest {
+pub(crate) fn run(rest: &[String]) -> Outcome {
+    match rest {
         [] => make(),
         [check] if check == "--check" => check_sources(),
         _ => Err("`cargo xtask web` is followed by nothing or by --check".into()),
-    };
-    match done {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("error: {error}");
-            ExitCode::FAILURE
-        }
     }
 }
 

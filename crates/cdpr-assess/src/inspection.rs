@@ -10,6 +10,7 @@ mod symmetry;
 
 use cdpr_robot::{Doubt, Robot, RobotCable, Vector3, plausible};
 pub use equilibrium::doubtful_rest;
+pub(crate) use equilibrium::is_below_floor;
 use serde::Serialize;
 use std::fmt;
 

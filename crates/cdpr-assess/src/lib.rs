@@ -5,6 +5,7 @@
 //! |---|---|
 //! | Where is the platform held, how far does a load deflect it, how stiff is it? | [`compute_workspace`] |
 //! | What can it carry at a pose, how far are the limits of tension? | [`capacity_at`] |
+//! | Where does it come to rest when a cable breaks, and do the others bear that? | [`safety_at`] |
 //! | How near do cables come to each other and to the platform? | [`clearance_at`] |
 //! | How far may it tilt there? | [`tilt_at`] |
 //! | What happens along a path of poses, and how uncertain is it? | [`Path`] |
@@ -20,6 +21,7 @@ mod error;
 mod inspection;
 mod path;
 mod robustness;
+mod safety;
 mod tilt;
 mod tolerance;
 mod vibration;
@@ -37,6 +39,7 @@ pub use robustness::{
     Refusal, RefusedPose, RobustnessResult, RobustnessRow, RobustnessSummary, Solve, Spread, StartOffset,
     anchor_distance, protocols, run_robustness,
 };
+pub use safety::{Broken, BrokenRest, Safety, safety_at};
 pub use tilt::{Tilt, TiltTowards, tilt_at};
 pub use tolerance::{Limit, Limited, Reached, Tolerance, ToleranceBudget, tolerance_budget};
 pub use vibration::{Compared, DrawnRobots, ratio_of_best};

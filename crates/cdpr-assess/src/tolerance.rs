@@ -22,7 +22,7 @@ use cdpr_sensitivity::{
     Estimate, RandomDesign, SampleDesign, SensitivityError, SobolDesign, allocate, derived_seed,
 };
 use cdpr_statics::StaticsError;
-use cdpr_study::{Sampling, StudyError, observe_rows};
+use cdpr_study::{LinearLaw, Sampling, StudyError, explained, observe_rows};
 pub use limit::{Limit, Limited};
 use rayon::prelude::*;
 use serde::Serialize;
@@ -38,6 +38,8 @@ pub struct ToleranceBudget {
     pub quantile: f64,
     /// The error without any deviation from the means [mm]: no tolerance goes below it.
     pub least_mm: f64,
+    /// Share of the variance of the error, as the tolerances are, that the linear law behind (B1) explains.
+    pub explained: Option<f64>,
     /// All tolerances, those to tighten most first.
     pub tolerances: Vec<Tolerance>,
     /// Result of the tolerances as they are.
@@ -82,6 +84,8 @@ pub struct Reached {
 
 /// Robots of a round of sampling.
 const ROUND: usize = 1 << 12;
+/// Robots of a round that say how much the linear law explains.
+const EXPLAINED: usize = 512;
 /// Rounds at most.
 const ROUNDS: usize = 40;
 /// The quantile meets the limit within this share of the difference between limit and least error.
@@ -140,6 +144,7 @@ pub fn tolerance_budget(sampling: &Sampling, limit: &Limit) -> Result<ToleranceB
         limit_mm: limit.limit_mm,
         quantile: limit.quantile,
         least_mm: model.least_mm,
+        explained: model.explained(&unmoved)?,
         tolerances,
         now: model.verify(&unmoved, 1)?,
         tightened: model.verify(&factors, 2)?,
@@ -162,6 +167,8 @@ struct Model<'a> {
     costs: Vec<f64>,
     /// Largest standard deviation of the inputs of a tolerance.
     stds: Vec<f64>,
+    /// The error to first order about the means of the inputs.
+    law: LinearLaw,
     /// Equation (B1) [mm²].
     variances: Vec<f64>,
     /// Tolerance of each input, and the mean of its law.
@@ -173,6 +180,11 @@ impl<'a> Model<'a> {
     fn new(sampling: &'a Sampling<'a>, limit: &'a Limit) -> Result<Self, AssessError> {
         limit.check()?;
         let of = Limited::of(limit.of, sampling.output())?;
+        let payload = sampling.study.file.payload;
+        if of == Limited::Deflection && payload == 0.0 {
+            let expected = "a mass above zero [kg], whose effect is the deflection";
+            return Err(StudyError::setting("the study's payload", payload, expected).into());
+        }
         if sampling.correlation.is_some() {
             let expected = "none: the variance of correlated tolerances is not the sum of their parts (B1)";
             let field = format!("samplings.{}.correlations", sampling.name);
@@ -200,6 +212,7 @@ impl<'a> Model<'a> {
             stds: vec![0.0; names.len()],
             variances: vec![0.0; names.len()],
             names,
+            law: LinearLaw { about: Vec::new(), value: Vec::new(), slopes: Vec::new() },
             inputs,
             least_mm: 0.0,
         };
@@ -207,8 +220,10 @@ impl<'a> Model<'a> {
             what: "the robot whose deviations are the means of their laws".to_owned(),
             source: Some(Box::new(source)),
         };
-        let (least, parts) = model.linear().map_err(unobservable)?;
+        model.law = model.linear().map_err(unobservable)?;
+        let least = model.law.nominal();
         model.least_mm = least;
+        let parts = model.law.squares();
         for ((tolerance, _), (input, part)) in model.inputs.iter().zip(errors.inputs.iter().zip(parts)) {
             let std = input.law.std();
             model.variances[*tolerance] += part * std * std;
@@ -220,29 +235,39 @@ impl<'a> Model<'a> {
         Ok(model)
     }
 
-    /// The error of the mean robot [mm], and |J|² of each input [mm² per squared unit].
-    fn linear(&self) -> Result<(f64, Vec<f64>), StaticsError> {
+    /// The error [mm] to first order about the means of the inputs.
+    fn linear(&self) -> Result<LinearLaw, StaticsError> {
         let Sampling { robot, errors, observer, .. } = self.sampling;
-        let means: Vec<f64> = self.inputs.iter().map(|(_, mean)| *mean).collect();
-        let perturbed = robot.perturbed(errors.deviations(&means).values())?;
-        let squares = |rows: &[Vec<f64>]| -> Vec<f64> {
-            let gradients = rows.iter().map(|row| errors.gradient(row));
-            let add = |sum: Vec<f64>, gradient: Vec<f64>| {
-                sum.iter().zip(gradient).map(|(sum, slope)| sum + 1e6 * slope * slope).collect()
-            };
-            gradients.fold(vec![0.0; errors.inputs.len()], add)
-        };
-        match self.of {
+        let about: Vec<f64> = self.inputs.iter().map(|(_, mean)| *mean).collect();
+        let perturbed = robot.perturbed(errors.deviations(&about).values())?;
+        let gradient =
+            |slopes: &[f64]| errors.gradient(slopes).into_iter().map(|slope| 1e3 * slope).collect();
+        let (value, slopes): (Vec<f64>, Vec<Vec<f64>>) = match self.of {
             Limited::Deflection => {
                 let found = observer.derivatives(&perturbed)?;
-                Ok((1e3 * found.deflection.magnitude(), squares(&[found.magnitude()?])))
+                (vec![found.deflection.magnitude()], vec![gradient(&found.magnitude()?)])
             }
             Limited::Position => {
                 let (displaced, slopes) = observer.displaced_slopes(&perturbed, errors)?;
-                let row = |axis| slopes.row(axis).iter().copied().collect();
-                Ok((1e3 * displaced.norm(), squares(&[0, 1, 2].map(row))))
+                let row = |axis| gradient(&slopes.row(axis).iter().copied().collect::<Vec<_>>());
+                (displaced.iter().copied().collect(), [0, 1, 2].map(row).to_vec())
             }
-        }
+        };
+        Ok(LinearLaw { about, value: value.into_iter().map(|x| 1e3 * x).collect(), slopes })
+    }
+
+    /// Share of the variance of the error that its linear law explains, of the first robots of a round.
+    fn explained(&self, factors: &[f64]) -> Result<Option<f64>, AssessError> {
+        let design = self.round()?;
+        let pairs = observe_rows(&design, 0..EXPLAINED, |rows| {
+            let width = self.inputs.len();
+            let linear: Vec<f64> = rows.chunks_exact(width).map(|row| self.law.at(row)).collect();
+            let outcomes = self.outcomes(rows, factors).into_iter();
+            linear.into_iter().zip(outcomes.map(|outcome| outcome.ok().map(|metres| 1e3 * metres))).collect()
+        });
+        let pairs: Vec<_> =
+            pairs.into_iter().filter_map(|(linear, observed)| Some((linear, observed?))).collect();
+        Ok(explained(&pairs))
     }
 
     /// Errors [mm] of the robots of a design under tightened tolerances, in ascending order; infinite for
@@ -310,10 +335,15 @@ impl<'a> Model<'a> {
     /// The quantile [mm] of a round. It uses the same points for all factors, so that it changes with the
     /// factors alone.
     fn rounded_quantile(&self, factors: &[f64]) -> Result<f64, AssessError> {
+        let ascending = self.errors(&self.round()?, factors)?;
+        self.estimate(&ascending).map(|quantile| quantile.value)
+    }
+
+    /// The points of a round.
+    fn round(&self) -> Result<SobolDesign, StudyError> {
         let (study, errors) = (self.sampling.study, &self.sampling.errors);
         let design = SobolDesign::scrambled(errors.inputs.clone(), ROUND, study.file.seed);
-        let ascending = self.errors(&design.map_err(|source| self.wrong(source))?, factors)?;
-        self.estimate(&ascending).map(|quantile| quantile.value)
+        design.map_err(|source| self.wrong(source))
     }
 
     /// Equation (B2) with independent draws.

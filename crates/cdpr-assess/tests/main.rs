@@ -8,6 +8,7 @@ mod inspection;
 mod maps;
 mod refused_workspaces;
 mod robustness;
+mod safety;
 mod tolerance;
 mod vibration;
 mod workspace;

@@ -35,6 +35,7 @@ fn the_modulus_is_what_to_tighten_for_the_deflection() {
     let halved =
         (found.tolerances[0].halved_mm - found.least_mm) / (found.now.quantile_mm.value - found.least_mm);
     assert!((halved - 0.5).abs() < 0.02, "{halved}");
+    assert!(found.explained.unwrap() > 0.95 && found.sentences().len() == 2, "{:?}", found.explained);
 }
 
 #[test]

@@ -199,23 +199,8 @@ impl Cable<'_> {
     /// The tension [N] at `height` [m] above a point of the cable where it is `tension` [N], equation (C26);
     /// `None` where even without tension the cable between them weighs more.
     pub fn tension_above(&self, tension: f64, height: f64) -> Option<f64> {
-        const MAX_ITERATIONS: usize = 100;
-        let weight = self.weight_per_length * height;
-        let below = self.energy_per_length(tension);
-        if tension + below + weight <= 0.0 {
-            return None;
-        }
-        // Newton's method on a convex function: after a step it comes from above.
-        let mut above = tension;
-        for _ in 0..MAX_ITERATIONS {
-            let open = (above - tension) + (self.energy_per_length(above) - below) - weight;
-            let step = open / (1.0 + self.strain(above));
-            above -= step;
-            if step.abs() <= 4.0 * f64::EPSILON * above {
-                return Some(above);
-            }
-        }
-        Some(above)
+        let above = self.material(&self.numbers(0.0)).tension_above(tension, height);
+        Some(above).filter(|above| *above > 0.0)
     }
 
     /// Checks that the weight is zero or from 1e-30 N/m to 1e30 N/m, the stiffness from 1e-30 N to 1e30 N.

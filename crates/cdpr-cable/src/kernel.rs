@@ -6,12 +6,14 @@
 //! of
 //! [`crate::Catenary`] answer the same questions, for cables of any elastic law.
 
+mod fixed_ends;
 mod guide;
 mod material;
 mod plane;
 mod response;
 mod series;
 
+pub use fixed_ends::AtFixedEnds;
 pub use guide::{GuideTerms, GuidedEndSlopes, GuidedInSpace, LeavePoint, SwivelAxis, Way};
 pub use material::{LawSegment, Material};
 pub use plane::{closure_of_slack, in_plane_stiffness, stiffness_in_space};

@@ -54,22 +54,18 @@ pub fn simulate_controlled(
     settings.check()?;
     event::check(problem, events)?;
     let wanted = Wanted { problem, rest, events, settings, control };
-    let solve = |discretization: Discretization, ends_at_slack| {
-        let coarse = Settings { tolerance: 4.0 * settings.tolerance, ..*settings };
-        rayon::join(
-            || run(wanted, (discretization, ends_at_slack)),
-            || run(Wanted { settings: &coarse, ..wanted }, (discretization.coarser(), ends_at_slack)),
-        )
+    let coarse = Settings { tolerance: 4.0 * settings.tolerance, ..*settings };
+    let (taut, slack) = match settings.discretization {
+        Some(discretization) => (discretization, None),
+        None => (Discretization::TAUT, Some(Discretization::SLACK)),
     };
-    let (mut fine, mut coarse) = match settings.discretization {
-        Some(discretization) => solve(discretization, false),
-        None => solve(Discretization::TAUT, true),
-    };
-    let is_slack =
-        |series: &Result<Series, _>| series.as_ref().is_ok_and(|series| series.slack.contains(&true));
-    if settings.discretization.is_none() && (is_slack(&fine) || is_slack(&coarse)) {
-        (fine, coarse) = solve(Discretization::SLACK, false);
-    }
+    let (fine, coarse) = rayon::join(
+        || run(wanted, (taut, slack)),
+        || {
+            let coarser = (taut.coarser(), slack.map(Discretization::coarser));
+            run(Wanted { settings: &coarse, ..wanted }, coarser)
+        },
+    );
     let (fine, coarse) = (fine?, coarse?);
     Ok(Series { difference: fine.difference_to(&coarse), ..fine })
 }

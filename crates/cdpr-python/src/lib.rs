@@ -13,6 +13,7 @@ mod catenary;
 mod convert;
 mod exchange;
 mod explorer;
+mod program;
 mod robot;
 mod sensitivity;
 mod source;
@@ -34,11 +35,15 @@ mod _core {
     #[pymodule_export]
     use crate::explorer::explorer_parts;
     #[pymodule_export]
+    use crate::program::run_program;
+    #[pymodule_export]
     use crate::robot::Robot;
     #[pymodule_export]
-    use crate::robot::boundary::Boundary;
+    use crate::robot::bearing::capacity::Capacity;
     #[pymodule_export]
-    use crate::robot::capacity::Capacity;
+    use crate::robot::bearing::safety::Safety;
+    #[pymodule_export]
+    use crate::robot::boundary::Boundary;
     #[pymodule_export]
     use crate::robot::certify::Certificate;
     #[pymodule_export]

@@ -3,8 +3,8 @@
 //! Each model is a method in a file of the folder.
 
 mod arguments;
+pub(crate) mod bearing;
 pub(crate) mod boundary;
-pub(crate) mod capacity;
 pub(crate) mod certify;
 mod content;
 pub(crate) mod deflection;

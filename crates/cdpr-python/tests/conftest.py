@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import subprocess
 from pathlib import Path
 
@@ -43,7 +44,7 @@ def program():
         return os.environ["CDPR"]
     built = [ROOT / "target" / profile / "cdpr" for profile in ("release", "debug")]
     built = [path for path in built if path.exists()]
-    assert built, "no program cdpr: run `cargo build -p cdpr-cli`, or name it in the variable CDPR"
+    assert built, "no program cdpr: run `cargo build -p cdpr`, or name it in the variable CDPR"
     return str(max(built, key=lambda path: path.stat().st_mtime))
 
 
@@ -59,7 +60,7 @@ def answer(*arguments):
 
 
 def refusal(*arguments):
-    """What a command says as it fails."""
+    """What a command says as it fails, with the lines that are wrapped at 80 columns joined."""
     done = command(*arguments)
     assert done.returncode == 1, (done.returncode, done.stdout)
-    return done.stderr.removeprefix("error: ").strip()
+    return re.sub(r"\n {2}(?! )", " ", done.stderr.removeprefix("error: ").strip())

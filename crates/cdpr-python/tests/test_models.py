@@ -656,3 +656,16 @@ def test_answers_can_be_drawn(name):
         axis = figure.axes[0]
         assert axis.get_ylabel() and (axis.lines or axis.patches or axis.collections), answer
         pyplot.close(figure)
+
+
+def test_the_platform_rests_when_a_cable_breaks(caroca):
+    one = caroca.safety(POSE)
+    assert one.broken == [str(i) for i in range(1, 9)] and set(one.endings) == {"held"}
+    assert one.moved.shape == (8,) and one.poses.shape == (8, 7) and one.tensions.shape == (8, 8)
+    assert (one.moved > 0).all() and (numpy.diag(one.tensions) == 0).all()
+    several = caroca.safety([POSE, [0, 0, 1e3]], pairs=True)
+    assert several.moved.shape == (2, 36) and several.broken[0][8] == "1+2"
+    numpy.testing.assert_array_equal(several.moved[0, :8], one.moved)
+    assert several.kinds[0] is None and several.kinds[1] is not None and numpy.isnan(several.moved[1]).all()
+    with pytest.raises(cdpr.NoSolutionError):
+        caroca.safety([0, 0, 1e3])

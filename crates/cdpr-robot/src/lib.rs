@@ -61,5 +61,5 @@ pub use pose::quaternion::{QuaternionError, rotation_by_angles, rotation_in_orde
 pub use pose::{Pose, orthonormalized};
 pub use robot::provenance::{Grade, Provenance};
 pub use robot::{CableProperties, Platform, Pulley, Robot, RobotCable};
-pub use shown::{COLUMNS, broken, listing, shown, shown_lines};
+pub use shown::{COLUMNS, broken, listing, shown, shown_lines, wrapped};
 pub use wrench::Wrench;

@@ -63,14 +63,49 @@ pub fn listing<T: AsRef<str>>(before: &str, items: &[T], after: &str) -> String 
 /// The lines of a sentence, broken at blanks so that each has at most [`COLUMNS`] columns. A longer word has
 /// a line of its own.
 pub fn broken(sentence: &str) -> Vec<String> {
+    filled(sentence.split_whitespace(), "", "")
+}
+
+/// A message whose lines have at most [`COLUMNS`] columns where its words allow it. What follows of a longer
+/// line is indented by two more blanks. A text in backquotes, such as a command, stays on one line where it
+/// fits.
+pub fn wrapped(message: &str) -> String {
+    let lines = message.split('\n').flat_map(|line| {
+        if line.chars().count() <= COLUMNS {
+            return vec![line.to_owned()];
+        }
+        let indent = &line[..line.len() - line.trim_start().len()];
+        let room = COLUMNS.saturating_sub(indent.len() + 2);
+        let words = quoted_whole(line).into_iter().flat_map(|text| {
+            let fits = text.chars().count() <= room;
+            if fits { vec![text] } else { text.split_whitespace().collect() }
+        });
+        filled(words, indent, &format!("{indent}  "))
+    });
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+/// The words of a line; those within backquotes are one word.
+fn quoted_whole(line: &str) -> Vec<&str> {
+    let mut is_quoted = false;
+    let blank = |c: char| {
+        is_quoted ^= c == '`';
+        c == ' ' && !is_quoted
+    };
+    line.split(blank).filter(|word| !word.is_empty()).collect()
+}
+
+/// Lines of words with the indent of the first one and that of those below.
+fn filled<'a>(words: impl Iterator<Item = &'a str>, first: &str, below: &str) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
-    for word in sentence.split_whitespace() {
+    for word in words {
         match lines.last_mut() {
             Some(line) if line.chars().count() + 1 + word.chars().count() <= COLUMNS => {
                 line.push(' ');
                 line.push_str(word);
             }
-            _ => lines.push(word.to_owned()),
+            Some(_) => lines.push(format!("{below}{word}")),
+            None => lines.push(format!("{first}{word}")),
         }
     }
     lines
@@ -95,6 +130,22 @@ mod tests {
             assert_eq!(shown_lines(text), expected);
         }
         assert_eq!((shown("a\nb").as_ref(), shown_lines("a\n\tb").as_ref()), ("a\\u000ab", "a\n\tb"));
+    }
+
+    #[test]
+    fn messages_are_wrapped_and_commands_stay_whole() {
+        let long = "word ".repeat(20);
+        let message =
+            format!("error: {long}then `cdpr study run --resume`\n    meant? {long}end\nshort  as it is");
+        let found = wrapped(&message);
+        let lines: Vec<&str> = found.lines().collect();
+        assert_eq!(lines.len(), 5, "{found}");
+        assert!(lines.iter().all(|line| line.chars().count() <= COLUMNS), "{found}");
+        assert!(lines[1].starts_with("  word") && lines[1].ends_with("`cdpr study run --resume`"), "{found}");
+        assert!(lines[2].starts_with("    meant?") && lines[3].starts_with("      word"), "{found}");
+        assert_eq!(lines[4], "short  as it is");
+        let path = "/a".repeat(50);
+        assert_eq!(wrapped(&format!("error: {path}: no")), format!("error:\n  {path}:\n  no"));
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! The problems that `cargo xtask bench-peers` gives to other solvers, with this crate's own answers and
+//! The problems that `peers/run direct` gives to other solvers, with this crate's own answers and
 //! times, as JSON.
 //!
 //! `peer_problem FILE` writes `repeats`, how often to solve for a median time, and `cases`, a list of

@@ -339,6 +339,15 @@ impl StaticsError {
         self
     }
 
+    /// With the cables of an error of the direct model renumbered, as where it is about some cables of a robot.
+    #[must_use]
+    pub fn with_cables(mut self, of: impl Fn(usize) -> usize) -> Self {
+        if let Self::Cable { index, .. } | Self::Overstrained { index, .. } = &mut self {
+            *index = of(*index);
+        }
+        self
+    }
+
     pub(crate) fn invalid(field: String, value: impl ToString, expected: impl ToString) -> Self {
         Self::Invalid {
             field,

@@ -1,29 +1,49 @@
-//! How fast a sampling of a study runs, in one line of JSON:
-//! `cargo run --release -p cdpr-study --example throughput -- STUDY SAMPLING [OBSERVATIONS [THREADS]]`.
+//! How fast samplings of studies run. Nothing is written.
 //!
-//! Nothing is written. The intervals of replicates and the measures of sensitivity are observations of their
-//! own and are left out. All cores compute if THREADS is left out.
+//! ```text
+//! throughput STUDY SAMPLING [OBSERVATIONS [THREADS]]   one line of JSON: time, memory and results
+//! throughput LIST [NAME]                               a table of robots and poses, on one thread
+//! ```
+//!
+//! The list is `data/benchmarks/throughput.json`; NAME is a part of the names of its robots. The intervals of
+//! replicates and the measures of sensitivity are observations of their own and are left out. All cores
+//! compute if THREADS is left out.
 
-#![allow(clippy::print_stdout)]
+#![allow(clippy::print_stderr, clippy::print_stdout)]
 
 use cdpr_study::{Session, Study, analyse, observe};
-use serde_json::json;
+use serde_json::{Map, Value, json};
+use std::collections::BTreeMap;
+use std::error::Error;
 use std::path::Path;
 use std::time::Instant;
 
-fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let mut arguments = std::env::args().skip(1);
-    let path = arguments.next().ok_or("which study file?")?;
-    let name = arguments.next().ok_or("which sampling of the study?")?;
-    let observations = arguments.next().map_or(Ok(1_000_000), |number| number.parse())?;
-    if let Some(threads) = arguments.next() {
+type Outcome<T = ()> = Result<T, Box<dyn Error>>;
+
+fn main() -> Outcome {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    let [path, rest @ ..] = &arguments[..] else { return Err("which study file, or which list?".into()) };
+    let file: Value = serde_json::from_str(&std::fs::read_to_string(path)?)?;
+    if file["format"] == "cdpr-throughput/1" {
+        return table(&file, Path::new(path), rest.first().copied().unwrap_or_default());
+    }
+    let [name, rest @ ..] = rest else { return Err("which sampling of the study?".into()) };
+    let observations = rest.first().map_or(Ok(1_000_000), |number| number.parse())?;
+    if let Some(threads) = rest.get(1) {
         rayon::ThreadPoolBuilder::new().num_threads(threads.parse()?).build_global()?;
     }
-    let mut study = Study::open(Path::new(&path))?;
+    println!("{}", json!(measured(Path::new(path), name, observations)?));
+    Ok(())
+}
+
+/// Observes a sampling; returns its figures.
+fn measured(path: &Path, name: &str, observations: usize) -> Outcome<Map<String, Value>> {
+    let mut study = Study::open(path)?;
     study.set_observations(observations)?;
     study.file.replicates = 0;
     study.file.sensitivity = None;
-    let sampling = study.sampling(&name)?;
+    let sampling = study.sampling(name)?;
     let clock = Instant::now();
     let session = Session::in_memory();
     let tally = observe(&sampling, &session)?;
@@ -33,20 +53,19 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let threads = rayon::current_num_threads();
     let each = |seconds: f64| 1e6 * seconds * threads as f64 / observations as f64;
     let values = summary.values.map(|values| json!({ "mean": values.mean, "std": values.std }));
-    let line = json!({
-        "sampling": sampling.name,
-        "observations": observations,
-        "failed": summary.failed.values().sum::<usize>(),
-        "scalar": summary.scalar,
-        "threads": threads,
-        "wall_s": wall,
-        "us_per_observation_core": each(wall),
-        "us_without_analysis": each(observed),
-        "peak_memory_mib": peak_memory_mib(),
-        (summary.output.name()): values,
-    });
-    println!("{line}");
-    Ok(())
+    let line = [
+        ("sampling", json!(sampling.name)),
+        ("observations", json!(observations)),
+        ("failed", json!(summary.failed.values().sum::<usize>())),
+        ("scalar", json!(summary.scalar)),
+        ("threads", json!(threads)),
+        ("wall_s", json!(wall)),
+        ("us_per_observation_core", json!(each(wall))),
+        ("us_without_analysis", json!(each(observed))),
+        ("peak_memory_mib", json!(peak_memory_mib())),
+        (summary.output.name(), json!(values)),
+    ];
+    Ok(line.map(|(name, value)| (name.to_owned(), value)).into_iter().collect())
 }
 
 /// Largest resident memory of this process so far; `None` where the system does not say.
@@ -55,4 +74,94 @@ fn peak_memory_mib() -> Option<f64> {
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
     let kib: f64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
     Some(kib / 1024.0)
+}
+
+/// Prints a row for each robot of a list, and the means of all.
+fn table(list: &Value, path: &Path, part: &str) -> Outcome {
+    rayon::ThreadPoolBuilder::new().num_threads(1).build_global()?;
+    let data = path.parent().and_then(Path::parent).unwrap_or(Path::new("."));
+    let folder = tempfile::tempdir()?;
+    println!(
+        "| robot | poses | mean [us] | slowest pose [us] | scalar [%] | failed a row [%] | why scalar |\n\
+         |---|---|---|---|---|---|---|"
+    );
+    let mut means: Vec<f64> = Vec::new();
+    for case in list["cases"].as_array().into_iter().flatten() {
+        let name = case["name"].as_str().unwrap_or_default();
+        if name.to_lowercase().contains(&part.to_lowercase()) {
+            means.push(row(case, name, data, folder.path())?);
+        }
+    }
+    let count = means.len() as f64;
+    let geometric = (means.iter().map(|mean| mean.ln()).sum::<f64>() / count).exp();
+    eprintln!(
+        "of {count} robots: geometric mean {geometric:.2} us, arithmetic mean {:.2} us",
+        means.iter().sum::<f64>() / count
+    );
+    Ok(())
+}
+
+/// Prints the row of a robot; returns the mean time of an observation [us].
+fn row(case: &Value, name: &str, data: &Path, folder: &Path) -> Outcome<f64> {
+    let robot = case["robot"].as_str().ok_or("a case without a robot")?;
+    let mut robot: Value = serde_json::from_str(&std::fs::read_to_string(data.join(robot))?)?;
+    for (field, value) in case["changes"].as_object().into_iter().flatten() {
+        robot[field] = value.clone();
+    }
+    let poses = case["poses"].as_array().ok_or("a case without poses")?;
+    let observations = usize::try_from(case["observations"].as_u64().ok_or("a case without observations")?)?;
+    std::fs::write(folder.join("robot.json"), robot.to_string())?;
+    let study = folder.join("study.json");
+    std::fs::write(&study, study_of(case).to_string())?;
+    let (mut times, mut failed, mut scalar) = (Vec::new(), 0, 0);
+    let mut why = BTreeMap::<String, u64>::new();
+    for pose in 0..poses.len() {
+        let line = measured(&study, &format!("all/{pose:04}"), observations)?;
+        times.push(line["us_without_analysis"].as_f64().unwrap_or(f64::NAN));
+        failed += line["failed"].as_u64().unwrap_or_default();
+        scalar += line["scalar"]["count"].as_u64().unwrap_or_default();
+        for (reason, count) in line["scalar"]["why"].as_object().into_iter().flatten() {
+            *why.entry(reason.clone()).or_default() += count.as_u64().unwrap_or_default();
+        }
+    }
+    let all = (poses.len() * observations) as f64;
+    let mean = times.iter().sum::<f64>() / times.len() as f64;
+    let why: Vec<String> = why.iter().map(|(reason, count)| format!("{reason} {count}")).collect();
+    println!(
+        "| {name} | {} | {mean:.2} | {:.2} | {:.2} | {:.2} | {} |",
+        poses.len(),
+        times.iter().copied().fold(0.0, f64::max),
+        100.0 * scalar as f64 / (all - failed as f64).max(1.0),
+        100.0 * failed as f64 / all,
+        why.join(", "),
+    );
+    Ok(mean)
+}
+
+/// The study of a robot: uniform laws of the half widths in `errors`.
+fn study_of(case: &Value) -> Value {
+    let errors = case["errors"].as_object().into_iter().flatten().map(|(parameter, half)| {
+        let half = half.as_f64().unwrap_or(f64::NAN);
+        (parameter.clone(), json!({"law": {"uniform": {"min": -half, "max": half}}}))
+    });
+    let errors: Map<String, Value> = errors.collect();
+    let free = if case["free"].is_null() { json!([]) } else { case["free"].clone() };
+    json!({
+        "format": "cdpr-study/1",
+        "name": case["name"],
+        "robot": "robot.json",
+        "payload": case["payload"],
+        "seed": 1,
+        "replicates": 0,
+        "confidence": 0.95,
+        "bootstrap_resamples": 1,
+        "error_models": { "errors": errors },
+        "samplings": { "all": {
+            "title": case["name"],
+            "poses": { "list": case["poses"] },
+            "free": free,
+            "error_model": "errors",
+            "observations": case["observations"],
+        } },
+    })
 }

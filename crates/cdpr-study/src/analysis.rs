@@ -2,6 +2,7 @@
 
 pub(crate) mod extremes;
 pub(crate) mod keys;
+pub(crate) mod linear_law;
 pub(crate) mod measures;
 pub(crate) mod methods;
 pub(crate) mod part;

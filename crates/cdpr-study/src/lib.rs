@@ -51,6 +51,7 @@ mod store;
 mod table;
 
 pub use analysis::extremes::Extremes;
+pub use analysis::linear_law::{LinearLaw, explained, explained_deflection, little_explained};
 pub use analysis::measures::{GroupMeasures, InputMeasures, MEASURES, Measure, Quantity, SubspaceSummary};
 pub use analysis::methods::run::MethodSummary;
 pub use analysis::part::{Overview, StudySummary};

@@ -55,19 +55,17 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! [`BoxProblem`], [`LinearProgram`] and [`bounded_least_squares`] are the programs of single steps towards
-//! an equilibrium with sagging cables. They are solved many times for one pose, in a tenth of Clarabel's
+//! [`BoxProblem`] and [`LinearProgram`] are the programs of single steps towards an equilibrium with sagging
+//! cables. They are solved many times for one pose, in a tenth of Clarabel's
 //! time. [`box_problem`] solves the first for many robots at a time, too, in the lanes of the vector unit.
 
 pub mod box_problem;
 mod distribution;
-mod least_squares;
 mod linear_program;
 mod problem;
 mod program;
 
 pub use box_problem::{BoxProblem, BoxSolution, BoxUnknown};
 pub use distribution::{Distribution, DistributionMethod, distribute, offset};
-pub use least_squares::bounded_least_squares;
 pub use linear_program::{LinearProgram, LinearSolution};
 pub use problem::{Bound, Objective, Problem, TensionError};

@@ -1,6 +1,6 @@
 //! Properties that hold for every input, one function for each fuzz target, and mutations of inputs.
 //!
-//! `cargo xtask fuzz [SECONDS]` runs all targets. One alone, from the root of the repository:
+//! `tests/fuzz/run [SECONDS]` runs all targets. One alone, from the root of the repository:
 //!
 //! ```text
 //! cargo +nightly fuzz run --fuzz-dir tests/fuzz end_force -- -max_total_time=600 -timeout=10

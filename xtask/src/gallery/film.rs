@@ -1,8 +1,7 @@
 //! The film of the README: CoGiRo after one of its cables has parted.
 
-use crate::cargo::{number, output, parsed, root, write};
+use crate::cargo::{number, output, read, read_json, root, write};
 use serde_json::Value;
-use std::path::Path;
 
 /// Where the platform rests at first, and what happens.
 const POSE: &str = "0,0,2";
@@ -26,10 +25,7 @@ pub(super) fn run() -> Result<(), String> {
     let motion = ["simulate", "cogiro", "--pose", POSE, "--events", &events, "--until", &seconds];
     let sampled = ["--rate", &rate, "--damping", "2e-3", "--out", &series, "--overwrite"];
     output(&[&motion[..], &sampled].concat(), &[0, 3])?;
-    let read = |path: &Path| {
-        std::fs::read_to_string(path).map_err(|error| format!("cannot read {}: {error}", path.display()))
-    };
-    let robot = parsed(&read(&root().join("data/robots/cogiro.json"))?)?;
+    let robot = read_json(&root().join("data/robots/cogiro.json"))?;
     let frames: Vec<[f64; 6]> = read(series.as_ref())?.lines().skip(1).filter_map(frame).collect();
     write(&root().join("docs/images/cable-parts.svg"), &film(&robot, &frames)?)
 }

@@ -43,13 +43,23 @@ pub fn doubtful_rest(
 
 /// The lowest of P and the anchor points below what robots stand on.
 fn below_floor(robot: &Robot, pose: &Pose) -> Option<(String, String)> {
-    let anchors = robot.cables.iter().map(|cable| (pose.rotation * cable.anchor_point).z);
-    let lowest = pose.position.z + anchors.fold(0.0, f64::min);
     let (floor, name) = floor(robot);
+    let lowest = lowest(robot, pose);
     (lowest < floor).then(|| {
         let value = format!("at z = {} m", short(pose.position.z));
         (value, format!("its lowest point is at {} m, below {name}", short(lowest)))
     })
+}
+
+/// Height of the lowest of P and the anchor points [m].
+fn lowest(robot: &Robot, pose: &Pose) -> f64 {
+    let anchors = robot.cables.iter().map(|cable| (pose.rotation * cable.anchor_point).z);
+    pose.position.z + anchors.fold(0.0, f64::min)
+}
+
+/// Whether P or an anchor point is below the ground or the floor.
+pub(crate) fn is_below_floor(robot: &Robot, pose: &Pose) -> bool {
+    lowest(robot, pose) < floor(robot).0
 }
 
 /// The height below which no platform is expected [m], and what is there.

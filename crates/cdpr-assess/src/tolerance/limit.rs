@@ -50,7 +50,11 @@ pub struct Limit {
 }
 
 impl Limit {
-    pub(super) fn check(&self) -> Result<(), StudyError> {
+    /// Refuses what no budget can have.
+    ///
+    /// # Errors
+    /// [`StudyError::Setting`] for an invalid limit, quantile, count or cost.
+    pub fn check(&self) -> Result<(), StudyError> {
         let Self { limit_mm, quantile, verified_with, costs, .. } = self;
         if !(limit_mm.is_finite() && *limit_mm > 0.0) {
             return Err(StudyError::setting("limit", limit_mm, "a positive finite number of millimetres"));

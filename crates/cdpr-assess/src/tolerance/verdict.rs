@@ -2,6 +2,7 @@
 
 use crate::tolerance::{Limited, Reached, ToleranceBudget};
 use cdpr_robot::{listing, rounded, significant};
+use cdpr_study::little_explained;
 
 impl ToleranceBudget {
     /// Which tolerances to tighten, and what independent robots say of it: one sentence each.
@@ -40,6 +41,8 @@ impl ToleranceBudget {
             let lower = significant(lower, 4);
             sentences.push(format!("That is less than {wanted} %: a limit of {lower} mm leaves a reserve."));
         }
+        let little = little_explained(self.explained);
+        sentences.extend(little.map(|little| format!("{little}: trust the counted robots, not the shares.")));
         sentences
     }
 }

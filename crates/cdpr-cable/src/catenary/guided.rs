@@ -61,19 +61,17 @@ impl<T: Real> Guided<T> {
 
 /// The way of a cable with an unstrained length `free` [m] beyond its leave point, which need not fit the
 /// whole one.
-fn way<T: Real>(cable: &Cable, guide: &Guide, numbers: &Numbers<T>, free: T, force: [T; 2]) -> Way<T> {
+pub(crate) fn way<T: Real>(
+    cable: &Cable,
+    guide: &Guide,
+    numbers: &Numbers<T>,
+    free: T,
+    force: [T; 2],
+) -> Way<T> {
     let Numbers { weight_per_length, lead, radius, axis, .. } = *numbers;
     let terms = GuideTerms { lead, radius, axis: guide.entry.swivel(radius, axis) };
     let leave = terms.leave_point(weight_per_length, free, force);
     terms.way(weight_per_length, free, leave, cable.material(numbers).stretch(leave.tension))
-}
-
-/// What a response does not tell of a cable on a guide.
-pub(crate) struct OnGuide<T> {
-    /// Half the difference `dx/dfz - dz/dfx` of the flexibility (C22) [m/N].
-    pub(crate) asymmetry: T,
-    /// Unstrained length beyond the leave point [m].
-    pub(crate) free: T,
 }
 
 /// The response to the force `force` [N] at A of a cable on a guide.
@@ -83,10 +81,9 @@ pub(crate) fn response<T: Real>(
     guide: &Guide,
     numbers: &Numbers<T>,
     force: [T; 2],
-) -> (Response<T>, OnGuide<T>) {
+) -> Response<T> {
     let Guided { way, free } = Guided::new(cable, guide, numbers, force);
-    let beyond = cable.free_response(&Numbers { length: free, ..*numbers }, force);
-    (way.response(force[0], &beyond), OnGuide { asymmetry: way.asymmetry(), free })
+    way.response(force[0], &cable.free_response(&Numbers { length: free, ..*numbers }, force))
 }
 
 impl<'a> Catenary<'a> {

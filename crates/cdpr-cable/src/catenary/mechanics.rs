@@ -5,7 +5,7 @@
 
 use crate::cable::{Cable, Numbers};
 use crate::catenary::Catenary;
-use crate::catenary::guided::{self, OnGuide};
+use crate::catenary::guided;
 use crate::kernel::{Material, Response, Terms, stiffness_in_space};
 use crate::law::ElasticLaw;
 use cdpr_number::Real;
@@ -18,23 +18,7 @@ impl Cable<'_> {
     pub(crate) fn response<T: Real>(&self, numbers: &Numbers<T>, force: [T; 2]) -> Response<T> {
         match &self.guide {
             None => self.free_response(numbers, force),
-            Some(guide) => guided::response(self, guide, numbers, force).0,
-        }
-    }
-
-    /// The same, with what it does not tell of a cable on a guide.
-    #[inline]
-    pub(crate) fn whole_response<T: Real>(
-        &self,
-        numbers: &Numbers<T>,
-        force: [T; 2],
-    ) -> (Response<T>, Option<OnGuide<T>>) {
-        match &self.guide {
-            None => (self.free_response(numbers, force), None),
-            Some(guide) => {
-                let (response, on_guide) = guided::response(self, guide, numbers, force);
-                (response, Some(on_guide))
-            }
+            Some(guide) => guided::response(self, guide, numbers, force),
         }
     }
 

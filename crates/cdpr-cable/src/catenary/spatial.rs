@@ -127,7 +127,7 @@ fn with_slopes(vector: &[Input; 3]) -> WithSlopes {
 const VERTICAL: f64 = 1e-20;
 
 /// The response of the cable to the force `force` [N] at A.
-pub(crate) fn response<T: Real>(cable: &Cable, numbers: &Numbers<T>, force: &[T; 3]) -> GuidedInSpace<T> {
+fn response<T: Real>(cable: &Cable, numbers: &Numbers<T>, force: &[T; 3]) -> GuidedInSpace<T> {
     free_length_and_response(cable, numbers, force).1
 }
 
@@ -137,15 +137,15 @@ fn free_length_and_response<T: Real>(
     numbers: &Numbers<T>,
     force: &[T; 3],
 ) -> (T, GuidedInSpace<T>) {
-    let z = force[2];
     let (fx, [c, s]) = horizontal(force);
+    let in_plane = [fx, force[2]];
     let (free_length, in_plane) = match cable.guide {
-        None => (numbers.length, without_guide(&cable.free_response(numbers, [fx, z]))),
+        None => (numbers.length, without_guide(&cable.free_response(numbers, in_plane))),
         Some(_) => {
             let [kx, ky, kz] = numbers.axis;
             let turned = Numbers { axis: [c * kx + s * ky, c * ky - s * kx, kz], ..*numbers };
-            let guided = Guided::new(cable, &guide(cable), &turned, [fx, z]);
-            let free = cable.free_response(&Numbers { length: guided.free, ..*numbers }, [fx, z]);
+            let guided = Guided::new(cable, &guide(cable), &turned, in_plane);
+            let free = cable.free_response(&Numbers { length: guided.free, ..*numbers }, in_plane);
             (guided.free, guided.in_space(fx, &free))
         }
     };
@@ -177,7 +177,7 @@ fn without_guide<T: Real>(free: &Response<T>) -> GuidedInSpace<T> {
 }
 
 /// `matrix⁻¹ right` by Cramer's rule, for a matrix of rows.
-pub(crate) fn solve<T: Real>([a, b, c]: &[[T; 3]; 3], right: &[T; 3]) -> [T; 3] {
+fn solve<T: Real>([a, b, c]: &[[T; 3]; 3], right: &[T; 3]) -> [T; 3] {
     let columns = [cross(b, c), cross(c, a), cross(a, b)];
     let determinant = dot(a, &columns[0]);
     [0, 1, 2].map(|i| dot(&columns.map(|column| column[i]), right) / determinant)

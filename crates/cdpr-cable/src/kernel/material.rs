@@ -119,6 +119,27 @@ impl<T: Lanewise> Material<'_, T> {
         scaled * self.axial_flexibility
     }
 
+    /// Tension [N] at `height` [m] above a point where it is `tension` [N], (C26) of `cable.rs`; zero or less
+    /// where the cable weighs more. With a law Newton's method on a convex function finds it.
+    #[inline(always)]
+    pub fn tension_above(&self, tension: T, height: T) -> T {
+        let work = tension + self.energy(tension) + self.weight_per_length * height;
+        if self.law.is_empty() {
+            return work * 2.0 * ((work * self.axial_flexibility * 2.0 + 1.0).sqrt() + 1.0).recip();
+        }
+        let (zero, mut above, mut open) = (tension * 0.0, tension, tension * 0.0 + 1.0);
+        for _ in 0..30 {
+            let step = (above + self.energy(above) - work) / (self.strain(above) + 1.0);
+            above = T::select(open.at_most(0.0), above, above - step);
+            let left = step * step - above * above * (4.0 * f64::EPSILON).powi(2);
+            open = T::select(left.at_most(0.0), zero, open);
+            if T::all(open.at_most(0.0)) {
+                break;
+            }
+        }
+        T::select(work.at_most(0.0), zero + -1.0, above)
+    }
+
     #[inline(always)]
     fn terms(&self, length: T, fx: T, fz: T) -> Terms<T> {
         Terms::with_square(self.weight_per_length, self.axial_flexibility, length, fx, fz, fx * fx)

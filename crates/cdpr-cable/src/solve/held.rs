@@ -9,11 +9,9 @@
 //!
 //! is the part of the force at A along the chord when the rest is vertical (Irvine 1981, section 2.5). It is
 //! the tension of a straight cable, differs little from that of a taut one, and falls steadily while cable is
-//! paid out, through the least tension and beyond. How force and length follow from σ is in `in_plane` for
-//! cables that stay in the vertical plane of their ends, and in `in_space` for those over a tilted axis.
+//! paid out, through the least tension and beyond. How force and length follow from σ is in `closed`.
 
-mod in_plane;
-mod in_space;
+mod closed;
 
 use crate::cable::Cable;
 use crate::catenary::Catenary;
@@ -34,10 +32,14 @@ pub struct HeldCable<'a> {
     pub end: Vector3<f64>,
     /// Chord force σ [N], (C16).
     pub chord_force: f64,
-    /// dF/dσ, (C18) or (C27).
+    /// dF/dσ, (C38).
     pub force_slope: Vector3<f64>,
     /// dL/dσ [m/N], always negative.
     pub length_slope: f64,
+    /// Unstrained length beyond its guide [m].
+    free_length: f64,
+    /// Its derivative by σ [m/N].
+    free_slope: f64,
 }
 
 /// A cable below this chord force, relative to its weight per length times the chord, is nearly vertical and
@@ -94,11 +96,10 @@ impl<'a> HeldCable<'a> {
         if cable.guide.is_none() {
             return Self::close(cable, end, chord_force, Self::inextensible(cable, end, chord_force));
         }
-        let (straight, plain, beyond) = cable.straightened(end)?;
+        let (_, plain, beyond) = cable.straightened(end)?;
         let plain_chord_force = chord_force / per_horizontal(end) * per_horizontal(beyond);
         let free = Self::near_straight(&plain, beyond, plain_chord_force)?;
-        let led = straight.guided / (1.0 + cable.strain(free.catenary.exit_tension()));
-        Self::close(cable, end, chord_force, (free.force(), free.catenary.unstrained_length + led))
+        Self::close(cable, end, chord_force, (free.force(), free.free_length))
     }
 
     /// The same cable with another chord force [N], started from this one.
@@ -117,33 +118,22 @@ impl<'a> HeldCable<'a> {
     /// The same cable with a chord force [N] nearby.
     fn stepped(&self, chord_force: f64) -> Result<Self, CableError> {
         let step = chord_force - self.chord_force;
-        let length = self.catenary.unstrained_length + step * self.length_slope;
+        let length = self.free_length + step * self.free_slope;
         check_length(length)?;
         let force = self.force() + step * self.force_slope;
         Self::close(&self.catenary.cable, self.end, chord_force, (force, length))
     }
 
-    /// Newton's method for force [N] and length [m] at a chord force.
-    fn close(
-        cable: &Cable<'a>,
-        end: Vector3<f64>,
-        chord_force: f64,
-        start: (Vector3<f64>, f64),
-    ) -> Result<Self, CableError> {
-        match cable.leaves_its_plane() {
-            true => Self::close_in_space(cable, end, chord_force, start),
-            false => Self::close_in_plane(cable, end, chord_force, start),
-        }
-    }
-
     /// The derivatives of a cable whose end is at `end` [m] from its exit point.
     pub fn of(SpatialCable { cable, unstrained_length, force }: SpatialCable<'a>, end: Vector3<f64>) -> Self {
-        let (force, azimuth) = flat(force);
-        let catenary = Catenary { cable, unstrained_length, force };
-        if cable.leaves_its_plane() {
-            return Self::at_in_space(catenary, azimuth, end, force.x * per_horizontal(end));
+        let (flat_force, mut azimuth) = flat(force);
+        let mut chord_force = flat_force.x * per_horizontal(end);
+        let catenary = Catenary { cable: cable.turned(azimuth), unstrained_length, force: flat_force };
+        if !cable.leaves_its_plane() {
+            chord_force = end.norm() / catenary.response().lateral_flexibility;
+            azimuth = flat(end).1;
         }
-        Self::at_in_plane(catenary, end, end.norm() / catenary.response().lateral_flexibility)
+        Self::at(&cable, (end, chord_force), azimuth, [force.z, catenary.free_length()])
     }
 
     /// The cable with the tension `tension` [N] at A, on its taut branch.
@@ -267,14 +257,6 @@ impl<'a> HeldCable<'a> {
     /// dt/dσ: positive on the taut branch, zero at the least tension.
     pub fn tension_slope(&self) -> f64 {
         self.force().dot(&self.force_slope) / self.tension()
-    }
-
-    /// d²F/dσ² [1/N].
-    pub fn force_curvature(&self) -> Vector3<f64> {
-        match self.catenary.cable.leaves_its_plane() {
-            true => self.curvature_in_space(),
-            false => self.curvature_in_plane(),
-        }
     }
 
     /// d²t/dσ² [1/N], from the second derivative of the force.

@@ -2,7 +2,7 @@
 
 use super::band::Band;
 use super::lead::{Lead, Way};
-use super::mesh::{Forces, Material, Mesh, Part, Points, Pull, Rule};
+use super::mesh::{Forces, Material, Mesh, Points, Pull};
 use super::winch::Reeling;
 use cdpr_robot::{Matrix3, Vector3, Vector6};
 
@@ -93,8 +93,21 @@ impl CableInMotion<'_> {
     }
 
     /// Number of unknowns.
-    pub(super) fn size(&self, rule: &Rule) -> usize {
-        self.of_start() + self.mesh.as_ref().map_or(0, |mesh| 3 * (mesh.size(rule) - 2))
+    pub(super) fn size(&self) -> usize {
+        self.of_start() + self.mesh.as_ref().map_or(0, |mesh| 3 * (mesh.size() - 2))
+    }
+
+    /// The unknowns and their rates on other elements.
+    pub(super) fn on(&self, mesh: &Mesh, at: &Instant, own: [&[f64]; 2]) -> [Vec<f64>; 2] {
+        let shares = mesh.shares();
+        let vectors = [&at.points.positions, &at.points.velocities];
+        std::array::from_fn(|k| {
+            let inner = shares[1..shares.len() - 1].iter().flat_map(|share| {
+                let vector = self.mesh.as_ref().map(|mesh| mesh.at(*share, vectors[k]));
+                <[f64; 3]>::from(vector.unwrap_or_default())
+            });
+            own[k][..self.of_start()].iter().copied().chain(inner).collect()
+        })
     }
 
     /// Unstrained length [m] and its rate [m/s] at a time [s].
@@ -106,14 +119,14 @@ impl CableInMotion<'_> {
     }
 
     /// The cable at a time; `own` are its unknowns and their rates.
-    pub(super) fn at(&self, rule: &Rule, time: f64, end: &End, own: [&[f64]; 2]) -> Instant {
+    pub(super) fn at(&self, time: f64, end: &End, own: [&[f64]; 2]) -> Instant {
         let length = self.length_at(time);
         let way = match &self.start {
             Start::Led(lead) => Some(lead.way(&end.position)),
             _ => None,
         };
         let Some(mesh) = &self.mesh else { return self.straight(end, length, way) };
-        let size = mesh.size(rule);
+        let size = mesh.size();
         let mut points = Points { positions: Vec::with_capacity(size), velocities: Vec::with_capacity(size) };
         let begin = match &self.start {
             Start::Fixed(exit) => [*exit, Vector3::zeros()],
@@ -130,11 +143,11 @@ impl CableInMotion<'_> {
         points.positions.push(end.position);
         points.velocities.push(end.velocity);
         // Material comes out of the exit along the cable.
-        if let (true, Some(part)) = (length.1 != 0.0, mesh.parts(rule, length.0).next()) {
-            let slope = part.slopes(&rule.slopes[0], &points).0;
+        if let (true, Some(part)) = (length.1 != 0.0, mesh.parts(length.0).next()) {
+            let slope = part.slopes(&mesh.rule.slopes[0], &points).0;
             points.velocities[0] += slope * length.1;
         }
-        let forces = mesh.forces(rule, &self.material, length, &points);
+        let forces = mesh.forces(&self.material, length, &points);
         Instant { points, forces, length, way }
     }
 
@@ -220,13 +233,7 @@ impl CableInMotion<'_> {
 
     /// Energy [J]: kinetic without that of the anchor point's mass, and stored; power [W] of the winch, and
     /// power lost.
-    pub(super) fn energy(
-        &self,
-        rule: &Rule,
-        at: &Instant,
-        own: [&[f64]; 2],
-        gravity: &Vector3<f64>,
-    ) -> [f64; 4] {
+    pub(super) fn energy(&self, at: &Instant, own: [&[f64]; 2], gravity: &Vector3<f64>) -> [f64; 4] {
         let [mut kinetic, mut stored, mut lost] = [0.0; 3];
         let pulls = &at.forces.pulls;
         let Some(mesh) = &self.mesh else {
@@ -238,9 +245,9 @@ impl CableInMotion<'_> {
             }
             return [0.0; 4];
         };
-        let count = rule.degree + 1;
-        for (e, part) in mesh.parts(rule, at.length.0).enumerate() {
-            for (j, [_, weight]) in rule.points.iter().enumerate() {
+        let count = mesh.rule.degree + 1;
+        for (e, part) in mesh.parts(at.length.0).enumerate() {
+            for (j, [_, weight]) in mesh.rule.points.iter().enumerate() {
                 let pull = &pulls[e * count + j];
                 let length = 0.5 * weight * part.length;
                 stored += length * self.material.energy(pull);
@@ -269,13 +276,13 @@ impl CableInMotion<'_> {
     /// Matrices about an instant, and stiffness and damping at the anchor point.
     pub(super) fn matrices(
         &self,
-        rule: &Rule,
         at: &Instant,
         lever: &Vector3<f64>,
         own: [&[f64]; 2],
     ) -> (CableMatrices, [Matrix3<f64>; 2]) {
-        let size = self.size(rule);
-        let width = (3 * rule.degree + 2).min(size.max(1) - 1);
+        let size = self.size();
+        let degree = self.mesh.as_ref().map_or(0, |mesh| mesh.rule.degree);
+        let width = (3 * degree + 2).min(size.max(1) - 1);
         let mut matrices = CableMatrices {
             first: self.first,
             mass: vec![0.0; size],
@@ -306,11 +313,11 @@ impl CableInMotion<'_> {
             matrices.damping.add(0, 0, damping);
         }
         let arm = lever.cross_matrix();
-        for (e, part) in mesh.parts(rule, at.length.0).enumerate() {
-            let pulls = &at.forces.pulls[e * (rule.degree + 1)..][..=rule.degree];
-            for a in 0..=rule.degree {
-                for b in 0..=rule.degree {
-                    let blocks = || part.blocks(rule, pulls, [a, b]);
+        for (e, part) in mesh.parts(at.length.0).enumerate() {
+            let pulls = &at.forces.pulls[e * (degree + 1)..][..=degree];
+            for a in 0..=degree {
+                for b in 0..=degree {
+                    let blocks = || part.blocks(&mesh.rule, pulls, [a, b]);
                     match (&columns[part.first + a], &columns[part.first + b]) {
                         (Columns::Own(rows), Columns::Own(columns)) if b <= a => {
                             let [stiffness, damping] = blocks();
@@ -369,32 +376,4 @@ enum Columns {
     Fixed,
     Platform,
     Own(Vec<(usize, Vector3<f64>)>),
-}
-
-impl Part {
-    /// Stiffness and damping between two points.
-    fn blocks(&self, rule: &Rule, pulls: &[Pull], [a, b]: [usize; 2]) -> [Matrix3<f64>; 2] {
-        let mut blocks = [Matrix3::zeros(); 2];
-        for (j, pull) in pulls.iter().enumerate() {
-            let row = &rule.slopes[j];
-            let share = 2.0 / self.length * rule.points[j][1] * row[a] * row[b];
-            let along: Matrix3<f64> = pull.along * pull.along.transpose();
-            let across = pull.across / pull.stretch;
-            blocks[0] += (along * (pull.modulus - across) + Matrix3::identity() * across) * share;
-            blocks[1] += along * (pull.viscosity * share);
-        }
-        blocks
-    }
-}
-
-impl Pull {
-    /// Stiffness of a straight cable of an unstrained length and a length across which it turns [m].
-    fn stiffness(&self, length: f64, free: f64) -> Matrix3<f64> {
-        let along = self.along * self.along.transpose();
-        along * (self.modulus / length) + (Matrix3::identity() - along) * (self.across / free)
-    }
-
-    fn damping(&self, length: f64) -> Matrix3<f64> {
-        self.along * self.along.transpose() * (self.viscosity / length)
-    }
 }

@@ -2,9 +2,12 @@
 
 use super::cable::Start;
 use super::event::{Change, CutAt, Event};
+use super::mesh::{Mesh, Rule};
 use super::radau::{Equations, Linearization};
+use super::setting::Discretization;
 use super::system::System;
 use cdpr_robot::Wrench;
+use std::sync::Arc;
 
 impl System<'_> {
     /// Newton's method for the rest of the discrete cables, with the platform free or held; the greatest
@@ -79,44 +82,64 @@ impl System<'_> {
 
     fn cut(&mut self, index: usize, at: CutAt, time: f64, state: &mut Vec<f64>) {
         let Some(place) = self.cables.iter().position(|cable| cable.index == index) else { return };
-        let is_gone = at == CutAt::Anchor || self.cables[place].mesh.is_none();
-        let before = self.cables.clone();
-        let n = self.size();
-        let begin = self.beginning(time, state, place);
-        if is_gone {
+        let mut parts = self.parts(state);
+        if at == CutAt::Anchor || self.cables[place].mesh.is_none() {
             self.cables.remove(place);
+            parts.remove(place);
         } else {
+            let points = self.instant(time, state, &self.cables[place]).points;
             let cable = &mut self.cables[place];
             cable.length = cable.length_at(time).0;
             cable.reeling.clear();
+            // Its first point has three unknowns, where a lead has one, and a fixed point none.
+            let of_lead = usize::from(matches!(cable.start, Start::Led(_)));
+            if !matches!(cable.start, Start::Loose) {
+                let [own, rates] = &mut parts[place];
+                own.splice(..of_lead, points.positions[0].iter().copied());
+                rates.splice(..of_lead, points.velocities[0].iter().copied());
+            }
             cable.start = Start::Loose;
         }
-        let (old, scale) = (state.clone(), self.scale.clone());
-        let parts = [&old[..n], &old[n..]];
-        let mut halves = parts.map(|half| half[..6].to_vec());
-        let mut scales = [scale[..6].to_vec(), scale[n..n + 6].to_vec()];
-        for cable in &mut self.cables {
-            let Some(was) = before.iter().find(|was| was.index == cable.index) else { continue };
-            cable.first = halves[0].len();
-            let range = was.first..was.first + was.size(&self.rule);
-            for k in 0..2 {
-                let own = &parts[k][range.clone()];
-                let more = cable.size(&self.rule) + usize::from(matches!(was.start, Start::Led(_)));
-                if more > own.len()
-                    && matches!(cable.start, Start::Loose)
-                    && !matches!(was.start, Start::Loose)
-                {
-                    halves[k].extend(begin[k].iter());
-                    halves[k].extend(&own[usize::from(matches!(was.start, Start::Led(_)))..]);
-                } else {
-                    halves[k].extend(own);
-                }
-                let usual = if k == 0 { scale[n - 1] } else { scale[2 * n - 1] };
-                let size = halves[k].len();
-                scales[k].resize(size, usual);
+        self.assemble(parts, state);
+    }
+
+    /// Puts cables on other elements.
+    pub(super) fn refine(
+        &mut self,
+        (indices, time): (&[usize], f64),
+        Discretization { elements, degree }: Discretization,
+        state: &mut Vec<f64>,
+    ) {
+        let mut parts = self.parts(state);
+        let rule = Arc::new(Rule::new(degree));
+        for (place, part) in parts.iter_mut().enumerate() {
+            if indices.contains(&self.cables[place].index) {
+                let cable = &self.cables[place];
+                let mesh = Mesh::equal(&rule, elements);
+                let at = self.instant(time, state, cable);
+                *part = cable.on(&mesh, &at, self.own(cable, state));
+                let cable = &mut self.cables[place];
+                cable.material.resist_shocks(&rule, at.length.0 / elements as f64);
+                cable.mesh = Some(mesh);
             }
         }
+        self.assemble(parts, state);
+    }
+
+    /// Unknowns of each cable and their rates.
+    fn parts(&self, state: &[f64]) -> Vec<[Vec<f64>; 2]> {
+        self.cables.iter().map(|cable| self.own(cable, state).map(<[f64]>::to_vec)).collect()
+    }
+
+    /// The state with other unknowns of the cables.
+    fn assemble(&mut self, parts: Vec<[Vec<f64>; 2]>, state: &mut Vec<f64>) {
+        let (positions, velocities) = state.split_at(state.len() / 2);
+        let mut halves = [positions, velocities].map(|half| half[..6].to_vec());
+        for (cable, part) in self.cables.iter_mut().zip(parts) {
+            cable.first = halves[0].len();
+            halves.iter_mut().zip(part).for_each(|(half, part)| half.extend(part));
+        }
         *state = halves.concat();
-        self.scale = scales.concat();
+        self.rescale();
     }
 }

@@ -24,7 +24,8 @@
 
 use crate::polynomial::{lobatto, lobatto_slopes};
 use cdpr_cable::Cable;
-use cdpr_robot::Vector3;
+use cdpr_robot::{Matrix3, Vector3};
+use std::sync::Arc;
 
 /// Lobatto's points of one degree, and the derivative through them.
 #[derive(Clone, Debug)]
@@ -77,6 +78,17 @@ pub(super) struct Pull {
 }
 
 impl Material<'_> {
+    /// Raises the damping to the least one of straight elements of a length [m]. A cable that goes slack and taut
+    /// again has shocks, which no mesh resolves; without damping their waves stay for ever (the artificial
+    /// viscosity of J. von Neumann, R. D. Richtmyer, *A method for the numerical calculation of hydrodynamic
+    /// shocks*, 1950). It vanishes with the length of the elements.
+    pub(super) fn resist_shocks(&mut self, rule: &Rule, length: f64) {
+        if rule.degree == 1 && self.density > 0.0 {
+            let passing = length * (self.density / self.cable.axial_stiffness).sqrt();
+            self.damping = self.damping.max(passing);
+        }
+    }
+
     /// Tension where `r' = slope` and its rate is `rate` [1/s].
     pub(super) fn pull(&self, slope: Vector3<f64>, rate: Vector3<f64>) -> Pull {
         let stretch = slope.norm();
@@ -143,6 +155,7 @@ pub(super) struct Forces {
 /// Elements of one degree, as shares of the free length.
 #[derive(Clone, Debug)]
 pub(super) struct Mesh {
+    pub(super) rule: Arc<Rule>,
     /// Ends of the elements, from 0 at the exit to 1 at the anchor point.
     pub(super) ends: Vec<f64>,
 }
@@ -157,66 +170,86 @@ impl Points {
 
 impl Mesh {
     /// Elements of the same length.
-    pub(super) fn equal(elements: usize) -> Self {
-        Self { ends: (0..=elements).map(|k| k as f64 / elements as f64).collect() }
+    pub(super) fn equal(rule: &Arc<Rule>, elements: usize) -> Self {
+        let ends = (0..=elements).map(|k| k as f64 / elements as f64).collect();
+        Self { rule: Arc::clone(rule), ends }
+    }
+
+    /// Number of elements.
+    pub(super) fn elements(&self) -> usize {
+        self.ends.len() - 1
     }
 
     /// Whether the tensions at its points are those that a static shape has at these shares.
     pub(super) fn is_exact(
         &self,
-        rule: &Rule,
         material: &Material,
         (length, points): (f64, &Points),
         tension_at: impl Fn(f64) -> f64,
     ) -> bool {
         /// Greatest error of a tension, relative to it.
         const ERROR: f64 = 1e-3;
-        let shares = self.shares(rule);
-        let pulls = self.forces(rule, material, (length, 0.0), points).pulls;
+        let (shares, degree) = (self.shares(), self.rule.degree);
+        let pulls = self.forces(material, (length, 0.0), points).pulls;
         pulls.iter().enumerate().all(|(k, pull)| {
-            let point = k / (rule.degree + 1) * rule.degree + k % (rule.degree + 1);
+            let point = k / (degree + 1) * degree + k % (degree + 1);
             let expected = tension_at(shares[point]);
             (pull.tension - expected).abs() <= ERROR * expected
         })
     }
 
-    pub(super) fn parts(&self, rule: &Rule, length: f64) -> impl Iterator<Item = Part> {
+    pub(super) fn parts(&self, length: f64) -> impl Iterator<Item = Part> {
+        let degree = self.rule.degree;
         self.ends
             .windows(2)
             .enumerate()
-            .map(move |(e, ends)| Part { first: e * rule.degree, length: length * (ends[1] - ends[0]) })
+            .map(move |(e, ends)| Part { first: e * degree, length: length * (ends[1] - ends[0]) })
     }
 
     /// Number of points.
-    pub(super) fn size(&self, rule: &Rule) -> usize {
-        (self.ends.len() - 1) * rule.degree + 1
+    pub(super) fn size(&self) -> usize {
+        self.elements() * self.rule.degree + 1
     }
 
     /// The share of the free length at each point.
-    pub(super) fn shares(&self, rule: &Rule) -> Vec<f64> {
+    pub(super) fn shares(&self) -> Vec<f64> {
         let mut shares = vec![0.0];
         for ends in self.ends.windows(2) {
             let share = |[x, _]: &[f64; 2]| ends[0] + 0.5 * (1.0 + x) * (ends[1] - ends[0]);
-            shares.extend(rule.points.iter().skip(1).map(share));
+            shares.extend(self.rule.points.iter().skip(1).map(share));
         }
         shares
+    }
+
+    /// The vector at a share of the free length, of vectors at the points.
+    pub(super) fn at(&self, share: f64, vectors: &[Vector3<f64>]) -> Vector3<f64> {
+        let element = self.ends.partition_point(|end| *end <= share).clamp(1, self.elements()) - 1;
+        let (begin, end) = (self.ends[element], self.ends[element + 1]);
+        let x = 2.0 * (share - begin) / (end - begin) - 1.0;
+        let points = &self.rule.points;
+        let mut sum = Vector3::zeros();
+        for (k, [own, _]) in points.iter().enumerate() {
+            let others = points.iter().enumerate().filter(|(other, _)| *other != k);
+            let weight: f64 = others.map(|(_, [other, _])| (x - other) / (own - other)).product();
+            sum += vectors[element * self.rule.degree + k] * weight;
+        }
+        sum
     }
 
     /// Forces of a cable of this free length [m] that grows by `growth` [m/s] at its exit.
     pub(super) fn forces(
         &self,
-        rule: &Rule,
         material: &Material,
         (length, growth): (f64, f64),
         points: &Points,
     ) -> Forces {
-        let size = self.size(rule);
+        let (rule, size) = (&*self.rule, self.size());
         let mut forces = vec![Vector3::zeros(); size];
         let mut masses = vec![0.0; size];
         let mut pulls = Vec::with_capacity(size + self.ends.len());
         let mut flow = (growth != 0.0).then(|| (vec![Vector3::zeros(); size], vec![Vector3::zeros(); size]));
-        let shares = if flow.is_some() { self.shares(rule) } else { Vec::new() };
-        for part in self.parts(rule, length) {
+        let shares = if flow.is_some() { self.shares() } else { Vec::new() };
+        for part in self.parts(length) {
             let (mut slope, mut rate) = part.slopes(&rule.slopes[0], points);
             let mut pull = material.pull(slope, rate);
             for (j, row) in rule.slopes.iter().enumerate() {
@@ -261,5 +294,32 @@ impl Part {
         }
         let scale = 2.0 / self.length;
         (slope * scale, rate * scale)
+    }
+
+    /// Stiffness and damping between two points.
+    pub(super) fn blocks(&self, rule: &Rule, pulls: &[Pull], [a, b]: [usize; 2]) -> [Matrix3<f64>; 2] {
+        let mut blocks = [Matrix3::zeros(); 2];
+        for (j, pull) in pulls.iter().enumerate() {
+            let row = &rule.slopes[j];
+            let share = 2.0 / self.length * rule.points[j][1] * row[a] * row[b];
+            let along: Matrix3<f64> = pull.along * pull.along.transpose();
+            let across = pull.across / pull.stretch;
+            blocks[0] += (along * (pull.modulus - across) + Matrix3::identity() * across) * share;
+            blocks[1] += along * (pull.viscosity * share);
+        }
+        blocks
+    }
+}
+
+impl Pull {
+    /// Stiffness of a straight cable of an unstrained length and a length across which it turns [m].
+    pub(super) fn stiffness(&self, length: f64, free: f64) -> Matrix3<f64> {
+        let along = self.along * self.along.transpose();
+        along * (self.modulus / length) + (Matrix3::identity() - along) * (self.across / free)
+    }
+
+    /// Its damping.
+    pub(super) fn damping(&self, length: f64) -> Matrix3<f64> {
+        self.along * self.along.transpose() * (self.viscosity / length)
     }
 }

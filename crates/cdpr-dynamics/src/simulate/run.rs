@@ -85,8 +85,8 @@ pub struct Series {
     pub slack: Vec<bool>,
     /// What it took.
     pub work: Work,
-    /// Elements of each cable.
-    pub discretization: Discretization,
+    /// Elements of each cable, those at the end of the motion.
+    pub discretizations: Vec<Discretization>,
 }
 
 impl Series {
@@ -116,13 +116,14 @@ struct Run<'a> {
     series: Series,
     /// Energy that there should be [J].
     before: f64,
-    ends_at_slack: bool,
+    /// Elements of cables that go slack, where they get others.
+    slack: Option<Discretization>,
 }
 
-/// The motion with one discretization, up to where a cable goes slack if it ends there.
+/// The motion with one discretization, and with another one of cables that go slack.
 pub(super) fn run(
     Wanted { problem, rest, events, settings, control }: Wanted,
-    (discretization, ends_at_slack): (Discretization, bool),
+    (discretization, slack): (Discretization, Option<Discretization>),
 ) -> Result<Series, DynamicsError> {
     let mut events = events.to_vec();
     events.sort_by(|one, other| one.time.total_cmp(&other.time));
@@ -153,12 +154,13 @@ pub(super) fn run(
             peaks: vec![(0.0, 0.0); cables],
             slack: vec![false; cables],
             work: Work::default(),
-            discretization,
+            discretizations: vec![Discretization { elements: 1, degree: 1 }; cables],
         },
         before: 0.0,
-        ends_at_slack,
+        slack,
     };
     run.before = run.energy();
+    run.count_elements();
     run.all(settings, control)?;
     Ok(run.series)
 }
@@ -192,7 +194,7 @@ impl Run<'_> {
                 });
             }
             self.until(sample)?;
-            if (is_sample && !self.sample(control)) || !self.may_go_on() {
+            if is_sample && !self.sample(control) {
                 break;
             }
         }
@@ -215,8 +217,33 @@ impl Run<'_> {
         self.series.energy.given += change;
     }
 
-    fn may_go_on(&self) -> bool {
-        !(self.ends_at_slack && self.series.slack.contains(&true))
+    /// Puts cables that went slack on the elements for that.
+    fn refine(&mut self) {
+        let Some(elements) = self.slack else { return };
+        let found = &self.series;
+        let indices: Vec<usize> = self
+            .system
+            .cables
+            .iter()
+            .filter(|cable| found.slack[cable.index] && cable.mesh.is_some())
+            .map(|cable| cable.index)
+            .filter(|index| found.discretizations[*index] != elements)
+            .collect();
+        if indices.is_empty() {
+            return;
+        }
+        let time = self.radau.time;
+        self.restart(|system, _, state| system.refine((&indices, time), elements, state));
+        self.count_elements();
+    }
+
+    fn count_elements(&mut self) {
+        for cable in &self.system.cables {
+            if let Some(mesh) = &cable.mesh {
+                self.series.discretizations[cable.index] =
+                    Discretization { elements: mesh.elements(), degree: mesh.rule.degree };
+            }
+        }
     }
 
     fn energy(&self) -> f64 {
@@ -226,6 +253,7 @@ impl Run<'_> {
 
     fn until(&mut self, time: f64) -> Result<(), DynamicsError> {
         while time - self.radau.time > 1e-12 * (1.0 + time) {
+            self.refine();
             let stalled = DynamicsError::Stalled { time: self.radau.time };
             let step = self.radau.advance(&self.system, time).map_err(|_| stalled)?;
             for (weight, (at, state)) in WEIGHTS.iter().zip(&step.stages) {
@@ -238,9 +266,6 @@ impl Run<'_> {
             }
             self.system.turn(&mut self.radau.state);
             self.watch();
-            if !self.may_go_on() {
-                return Ok(());
-            }
         }
         // Without the rounding of the steps.
         self.radau.time = time;

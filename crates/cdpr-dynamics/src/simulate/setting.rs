@@ -9,6 +9,7 @@ use cdpr_cable::{Cable, FromLeavePoint};
 use cdpr_robot::{Matrix3, Vector3, Wrench};
 use cdpr_statics::vibration::CableAtRest;
 use cdpr_statics::{DirectProblem, Equilibrium, Load};
+use std::sync::Arc;
 
 /// Elements of each cable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,8 +46,8 @@ pub struct Settings {
     pub rate: f64,
     /// Ratio τ of the viscous to the elastic modulus of the cables [s].
     pub damping: f64,
-    /// Elements of each cable. Without, there are [`Discretization::TAUT`], and [`Discretization::SLACK`] once
-    /// a cable goes slack.
+    /// Elements of each cable. Without, a cable has [`Discretization::TAUT`], or more of them where its tension
+    /// at rest needs more, and [`Discretization::SLACK`] from the step on in which it goes slack.
     pub discretization: Option<Discretization>,
     /// Error of a step that is accepted, as a position [m].
     pub tolerance: f64,
@@ -99,51 +100,34 @@ impl Settings {
     ) -> Result<(System<'a>, Vec<f64>), DynamicsError> {
         let (robot, load) = (problem.robot(), problem.load());
         let small = problem.small_motions(rest)?;
-        let rule = Rule::new(degree);
+        let rule = Arc::new(Rule::new(degree));
         let pose = &rest.pose;
         let mut free = [false; 6];
         small.free.iter().for_each(|k| free[*k] = true);
         let mut system = System {
-            rule,
             cables: Vec::new(),
             body: body(robot, &load),
             rotation: pose.rotation,
             gravity: robot.gravity.vector(),
             free,
+            tolerances: [self.tolerance, self.tolerance / robot.platform_size().max(f64::MIN_POSITIVE)],
             scale: Vec::new(),
         };
         let mut state: Vec<f64> = pose.position.iter().copied().chain([0.0; 3]).collect();
         for (index, at_rest) in small.cables.iter().enumerate() {
-            let (cable, own) = self.cable(problem, &system.rule, (index, at_rest), rest, elements);
+            let (cable, own) = self.cable(problem, &rule, (index, at_rest), rest, elements);
             system.cables.push(CableInMotion { first: state.len(), ..cable });
             state.extend(own);
         }
         state.extend(vec![0.0; state.len()]);
-        system.scale = self.scale(&system, robot.platform_size());
+        system.rescale();
         Ok((system, state))
-    }
-
-    /// Errors of the unknowns and of their velocities that are accepted.
-    pub(super) fn scale(&self, system: &System, size: f64) -> Vec<f64> {
-        /// Angular frequency of the motions whose velocities count as much as their positions [1/s].
-        const FREQUENCY: f64 = 300.0;
-        /// By how much more those of a chain of straight elements may err: what its waves do to the platform
-        /// averages out.
-        const CHAIN: f64 = 1000.0;
-        let n = system.size();
-        let cables = if system.rule.degree == 1 { CHAIN } else { 1.0 };
-        let mut scale = vec![self.tolerance; n];
-        scale[6..].iter_mut().for_each(|value| *value *= cables);
-        scale[3..6].fill(self.tolerance / size.max(f64::MIN_POSITIVE));
-        scale.extend_from_within(..);
-        scale[n..].iter_mut().for_each(|value| *value *= FREQUENCY);
-        scale
     }
 
     fn cable<'a>(
         &self,
         problem: &DirectProblem<'a>,
-        rule: &Rule,
+        rule: &Arc<Rule>,
         (index, at_rest): (usize, &CableAtRest<'a>),
         rest: &Equilibrium,
         elements: usize,
@@ -153,9 +137,8 @@ impl Settings {
         let free = whole.free();
         let density = at_rest.linear_density;
         let cable = Cable { guide: None, ..free.cable };
-        let damping =
-            self.damping.max(shock_damping(rule, &cable, density, free.unstrained_length / elements as f64));
-        let material = Material { cable, density, damping, relaxing: None };
+        let mut material = Material { cable, density, damping: self.damping, relaxing: None };
+        material.resist_shocks(rule, free.unstrained_length / elements as f64);
         let end = rest.pose.position + at_rest.lever;
         let lift = |x: f64, z: f64| at_rest.axes * Vector3::new(x, 0.0, z);
         let last = if whole.is_slack_and_weightless() { None } else { Some(free.end_position()) };
@@ -176,20 +159,20 @@ impl Settings {
         let lead = Lead::new(robot, index, &material, &rest);
         let tension_at = |share: f64| free.tension(FromLeavePoint(share * free.unstrained_length));
         let mesh = (density > 0.0).then(|| {
-            let mut mesh = Mesh::equal(elements);
+            let mut mesh = Mesh::equal(rule, elements);
             while rule.degree > 1 && !whole.is_slack_and_weightless() && mesh.ends.len() <= MOST_ELEMENTS {
-                let still = Points::still(mesh.shares(rule).iter().map(|share| point(*share)));
-                if mesh.is_exact(rule, &material, (free.unstrained_length, &still), tension_at) {
+                let still = Points::still(mesh.shares().iter().map(|share| point(*share)));
+                if mesh.is_exact(&material, (free.unstrained_length, &still), tension_at) {
                     break;
                 }
-                mesh = Mesh::equal(2 * (mesh.ends.len() - 1));
+                mesh = Mesh::equal(rule, 2 * mesh.elements());
             }
             mesh
         });
         let mut own = Vec::new();
         if let Some(mesh) = &mesh {
             own.extend(lead.iter().map(|_| 0.0));
-            let shares = mesh.shares(rule);
+            let shares = mesh.shares();
             own.extend(shares[1..shares.len() - 1].iter().flat_map(|share| <[f64; 3]>::from(point(*share))));
         }
         let cable = CableInMotion {
@@ -207,17 +190,24 @@ impl Settings {
     }
 }
 
-/// Least ratio of viscous to elastic modulus [s] of straight elements of a length [m]. A cable that goes slack
-/// and taut again has shocks, which no mesh resolves; without damping their waves stay for ever (the artificial
-/// viscosity of J. von Neumann, R. D. Richtmyer, *A method for the numerical calculation of hydrodynamic shocks*,
-/// 1950). It vanishes with the length of the elements.
-fn shock_damping(rule: &Rule, cable: &Cable, density: f64, length: f64) -> f64 {
-    /// Of the time in which a wave passes an element.
-    const SHARE: f64 = 1.0;
-    if rule.degree > 1 || density == 0.0 {
-        return 0.0;
+impl System<'_> {
+    /// Errors of the unknowns and of their velocities that are accepted.
+    pub(super) fn rescale(&mut self) {
+        /// Angular frequency of the motions whose velocities count as much as their positions [1/s].
+        const FREQUENCY: f64 = 300.0;
+        /// By how much more those of a chain of straight elements may err: what its waves do to the platform
+        /// averages out.
+        const CHAIN: f64 = 1000.0;
+        let [position, rotation] = self.tolerances;
+        let mut scale = [[position; 3], [rotation; 3]].concat();
+        for cable in &self.cables {
+            let is_chain = cable.mesh.as_ref().is_some_and(|mesh| mesh.rule.degree == 1);
+            let size = scale.len() + cable.size();
+            scale.resize(size, if is_chain { CHAIN * position } else { position });
+        }
+        let velocities: Vec<f64> = scale.iter().map(|value| FREQUENCY * value).collect();
+        self.scale = [scale, velocities].concat();
     }
-    SHARE * length * (density / cable.axial_stiffness).sqrt()
 }
 
 fn body(robot: &cdpr_robot::Robot, load: &Load) -> Body {

@@ -12,7 +12,6 @@
 
 use super::band::Factored;
 use super::cable::{CableInMotion, CableMatrices, End, Instant};
-use super::mesh::Rule;
 use super::radau::{Equations, Linearization};
 use cdpr_robot::{Matrix3, Rotation3, Vector3, Vector6, Wrench, orthonormalized};
 use nalgebra::{ComplexField, Const, LU, Matrix6, SMatrix};
@@ -21,7 +20,6 @@ use nalgebra::{ComplexField, Const, LU, Matrix6, SMatrix};
 /// position of P [m] and the rotation vector [rad] since the last step.
 #[derive(Clone, Debug)]
 pub(super) struct System<'a> {
-    pub(super) rule: Rule,
     pub(super) cables: Vec<CableInMotion<'a>>,
     pub(super) body: Body,
     /// Rotation at the last step.
@@ -29,7 +27,9 @@ pub(super) struct System<'a> {
     pub(super) gravity: Vector3<f64>,
     /// Whether each motion of the platform is free.
     pub(super) free: [bool; 6],
-    /// Errors of one step that are accepted.
+    /// Error of a step that is accepted, of a position [m] and of a rotation [rad].
+    pub(super) tolerances: [f64; 2],
+    /// The same of each unknown and each velocity.
     pub(super) scale: Vec<f64>,
 }
 
@@ -88,7 +88,7 @@ pub(super) struct Power {
 impl System<'_> {
     /// Number of unknowns.
     pub(super) fn size(&self) -> usize {
-        self.cables.iter().map(|cable| cable.size(&self.rule)).sum::<usize>() + 6
+        self.cables.iter().map(CableInMotion::size).sum::<usize>() + 6
     }
 
     fn frame(&self, state: &[f64]) -> Frame {
@@ -102,9 +102,10 @@ impl System<'_> {
         }
     }
 
-    fn own<'s>(&self, cable: &CableInMotion, state: &'s [f64]) -> [&'s [f64]; 2] {
+    /// Unknowns of a cable and their rates.
+    pub(super) fn own<'s>(&self, cable: &CableInMotion, state: &'s [f64]) -> [&'s [f64]; 2] {
         let (q, v) = state.split_at(state.len() / 2);
-        let range = cable.first..cable.first + cable.size(&self.rule);
+        let range = cable.first..cable.first + cable.size();
         [&q[range.clone()], &v[range]]
     }
 
@@ -116,7 +117,7 @@ impl System<'_> {
     fn instants(&self, time: f64, state: &[f64], frame: &Frame) -> Vec<(End, Instant)> {
         let of = |cable: &CableInMotion| {
             let end = Self::end(frame, cable);
-            (end, cable.at(&self.rule, time, &end, self.own(cable, state)))
+            (end, cable.at(time, &end, self.own(cable, state)))
         };
         self.cables.iter().map(of).collect()
     }
@@ -168,11 +169,9 @@ impl System<'_> {
         self.cables.iter().zip(&instants).map(of).collect()
     }
 
-    /// Place [m] and velocity [m/s] of the first point of a cable.
-    pub(super) fn beginning(&self, time: f64, state: &[f64], cable: usize) -> [Vector3<f64>; 2] {
-        let (_, at) = &self.instants(time, state, &self.frame(state))[cable];
-        let first = |vectors: &[Vector3<f64>]| vectors.first().copied().unwrap_or_default();
-        [first(&at.points.positions), first(&at.points.velocities)]
+    /// A cable at a state.
+    pub(super) fn instant(&self, time: f64, state: &[f64], cable: &CableInMotion) -> Instant {
+        cable.at(time, &Self::end(&self.frame(state), cable), self.own(cable, state))
     }
 
     /// Energies and powers.
@@ -190,8 +189,7 @@ impl System<'_> {
             lost: 0.0,
         };
         for (cable, (_, at)) in self.cables.iter().zip(&instants) {
-            let [kinetic, stored, given, lost] =
-                cable.energy(&self.rule, at, self.own(cable, state), &self.gravity);
+            let [kinetic, stored, given, lost] = cable.energy(at, self.own(cable, state), &self.gravity);
             power.kinetic += kinetic;
             power.stored += stored;
             power.given += given;
@@ -226,7 +224,7 @@ impl Equations for System<'_> {
             .map_or_else(|| Vector6::repeat(f64::NAN), |factors| factors.solve(&acting.wrench));
         accelerations[..6].copy_from_slice(motion.as_slice());
         for (cable, (_, at)) in self.cables.iter().zip(&instants) {
-            let range = cable.first..cable.first + cable.size(&self.rule);
+            let range = cable.first..cable.first + cable.size();
             let slopes = [&mut rates[range.clone()], &mut accelerations[range]];
             cable.slopes(at, self.own(cable, state), &self.gravity, slopes);
         }
@@ -246,7 +244,7 @@ impl Equations for System<'_> {
         }
         let mut cables = Vec::new();
         for (cable, (end, at)) in self.cables.iter().zip(&instants) {
-            let (matrices, at_end) = cable.matrices(&self.rule, at, &end.lever, self.own(cable, state));
+            let (matrices, at_end) = cable.matrices(at, &end.lever, self.own(cable, state));
             let mut moves = SMatrix::<f64, 3, 6>::zeros();
             moves.fixed_view_mut::<3, 3>(0, 0).fill_with_identity();
             moves.fixed_view_mut::<3, 3>(0, 3).copy_from(&-end.lever.cross_matrix());

@@ -33,6 +33,7 @@ __all__ = [
     "export_robot",
     "import_robot",
     "library",
+    "Safety",
     "Saltelli",
     "Sample",
     "Shapley",
@@ -69,6 +70,7 @@ __all__ = [
     "make_shard",
     "observations",
     "open_results",
+    "run_program",
     "status",
     "wasserstein_bures",
 ]
@@ -972,7 +974,7 @@ class Robot:
             Ratio of the viscous to the elastic modulus of the cables [s].
         elements, degree : int, optional
             Elements of each cable, and the degree of the polynomial on each; if left out, few elements of a high
-            degree, and many straight ones where a cable goes slack.
+            degree, and many straight ones of a cable from when it goes slack.
         tolerance : float, default 5e-9
             Error of a step that is accepted [m].
 
@@ -1238,6 +1240,67 @@ class Robot:
         tilt: int = 0,
         free: Sequence[str] | None = None,
     ) -> Capacity[_Floats, _Words]: ...
+    @overload
+    def safety(  # type: ignore[overload-overlap]
+        self,
+        pose: _Row,
+        *,
+        payload: float | None = None,
+        force: _Row | None = None,
+        moment: _Row | None = None,
+        pairs: bool = False,
+        free: Sequence[str] | None = None,
+    ) -> Safety[None]:
+        """Finds where the platform comes to rest when a cable breaks, and whether the others bear that.
+
+        The winches keep the lengths that hold the pose. The rest is the equilibrium downhill of the pose; on the
+        way there the platform swings and tensions are greater: `Robot.simulate` follows it. Arguments are of one
+        case, or have a first axis of m cases.
+
+        Parameters
+        ----------
+        pose : array_like
+            x, y, z [m], or x, y, z, qw, qx, qy, qz, (3,) or (7,).
+        payload : array_like, optional
+            Mass that the platform carries there, at its centre of mass [kg].
+        force, moment : array_like, optional
+            On the platform in the base frame, about P [N, N m], (3,).
+        pairs : bool, default False
+            Whether every pair of cables breaks, too.
+        free : sequence of str, optional
+            Names of the coordinates of the pose that are found, for a robot with fewer cables than free
+            motions, as `Robot.inverse` takes them.
+
+        Returns
+        -------
+        Safety
+            The end of each break.
+
+        Raises
+        ------
+        InputError
+            For an invalid value; the message names it and what would be right.
+        NoSolutionError
+            For one case without an answer; of several, its row has NaN and a reason.
+
+        Examples
+        --------
+        >>> import cdpr
+        >>> robot = cdpr.Robot.from_file("cogiro")
+        >>> robot.safety([0, 0, 2]).moved.shape  # [m]
+        (8,)
+        """
+    @overload
+    def safety(
+        self,
+        pose: ArrayLike,
+        *,
+        payload: ArrayLike | None = None,
+        force: ArrayLike | None = None,
+        moment: ArrayLike | None = None,
+        pairs: bool = False,
+        free: Sequence[str] | None = None,
+    ) -> Safety[_Words]: ...
     @overload
     def certify(  # type: ignore[overload-overlap]
         self,
@@ -1954,11 +2017,11 @@ class MotionSummary:
     def energy_drift(self) -> float:
         """Energy that is missing at the end, or too much [J]."""
     @property
-    def elements(self) -> int:
-        """Elements of each cable."""
+    def elements(self) -> _Ints:
+        """Elements of each cable at the end, (n,)."""
     @property
-    def degree(self) -> int:
-        """Degree of the polynomial on each."""
+    def degree(self) -> _Ints:
+        """Degree of the polynomial on them, (n,)."""
     @property
     def steps(self) -> int:
         """Steps of time."""
@@ -2172,6 +2235,69 @@ class Capacity(Generic[_N, _R]):
     @property
     def tilt(self) -> _Floats:
         """How far the platform may tilt towards each azimuth [rad], (tilt,); (0,) if not asked for."""
+    @property
+    def reasons(self) -> _R:
+        """Why there is no answer, None where there is one; None for one pose."""
+    @property
+    def kinds(self) -> _R:
+        """The kind of each failure, in the same form: `infeasible_tension`, ..."""
+
+@final
+class Safety(Generic[_R]):
+    """What becomes of the platform when cables break, while the winches stand still.
+
+    The k breaks are those of each cable alone, then those of all pairs, if asked for. The answer is of one
+    pose, or of m: then every field has a first axis of m, with NaN where there is no answer, and `reasons`
+    says why. Where no rest was found after a break, its numbers are NaN.
+    """
+
+    def __new__(cls, *fields: Any) -> Safety: ...
+    def __class_getitem__(cls, number: Any) -> GenericAlias: ...
+    def plot(self) -> Any:
+        """Draws the answer: of one case a bar for each element, of several a line over the cases.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            The figure.
+        """
+    def to_dataframe(self) -> Any:
+        """Makes a frame with a row for each case and columns of numbers and words.
+
+        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
+        name: `magnitude/a1.x`.
+
+        Returns
+        -------
+        pandas.DataFrame
+            The frame.
+        """
+    @property
+    def broken(self) -> list[Any]:
+        """Numbers of the broken cables, from 1: `"3"`, `"3+4"`; a list of k."""
+    @property
+    def endings(self) -> list[Any]:
+        """How each break ends: `held`, `overloaded` (another cable is beyond its greatest tension or breaking
+        force), `below_ground`, or the kind of failure where no rest was found; a list of k.
+        """
+    @property
+    def moved(self) -> _Floats:
+        """How far the platform moves [m], (k,)."""
+    @property
+    def turned(self) -> _Floats:
+        """How far it turns [rad], (k,)."""
+    @property
+    def poses(self) -> _Floats:
+        """Where it comes to rest: x, y, z [m], qw, qx, qy, qz, (k, 7)."""
+    @property
+    def tensions(self) -> _Floats:
+        """Tensions at the platform there [N], zero in a broken cable, (k, n)."""
+    @property
+    def exit_tensions(self) -> _Floats:
+        """Tensions at the exit points there [N], (k, n)."""
+    @property
+    def safety_factor(self) -> _Floats:
+        """Least breaking force over greatest tension, (k,); NaN where no breaking force is known."""
     @property
     def reasons(self) -> _R:
         """Why there is no answer, None where there is one; None for one pose."""
@@ -3042,3 +3168,5 @@ def template(
     """The text of a study file for a robot, with usual tolerances."""
 def explorer_parts() -> dict[str, Any]:
     """The packed script, the worker, the style and the packed module of the explorer, for its widget."""
+def run_program(arguments: list[str]) -> int:
+    """Runs the program `cdpr` with these arguments, its own name the first, and returns its exit code."""

@@ -109,8 +109,24 @@ pub(super) fn in_other_unit(
     others: &[(&str, f64)],
     fits: impl Fn(f64) -> bool,
 ) -> Option<String> {
-    let (other, factor) = others.iter().find(|(_, factor)| fits(value * factor))?;
-    Some(format!("{} {unit}, if {} is in {other}", four_digits(value * factor), four_digits(value)))
+    let first = others.iter().position(|(_, factor)| fits(value * factor))?;
+    in_other_units(value, unit, &others[first..=first], fits)
+}
+
+/// The value in its unit for each of `others` in which it fits, if it was typed in that.
+pub(super) fn in_other_units(
+    value: f64,
+    unit: &str,
+    others: &[(&str, f64)],
+    fits: impl Fn(f64) -> bool,
+) -> Option<String> {
+    let mut typed = four_digits(value);
+    let fitting = others.iter().filter(|(_, factor)| fits(value * factor));
+    let texts = fitting.map(|(other, factor)| {
+        let typed = std::mem::replace(&mut typed, "it".to_owned());
+        format!("{} {unit}, if {typed} is in {other}", four_digits(value * factor))
+    });
+    Some(texts.collect::<Vec<_>>().join("; ")).filter(|text| !text.is_empty())
 }
 
 #[cfg(test)]

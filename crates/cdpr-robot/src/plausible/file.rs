@@ -1,7 +1,9 @@
 //! Doubts about the values of a robot file, the field that is wrong first.
 
 use super::cable;
-use super::doubt::{Doubt, Doubts, capacity, four_digits, frame_size, in_other_unit, is_possible, reach};
+use super::doubt::{
+    Doubt, Doubts, capacity, four_digits, frame_size, in_other_unit, in_other_units, is_possible, reach,
+};
 use super::layout;
 use crate::robot::{Robot, RobotCable};
 use std::ops::Range;
@@ -72,7 +74,7 @@ fn inertia(robot: &Robot) -> Option<Doubt> {
     }
     let radius = four_digits((greatest / robot.platform.mass).sqrt());
     let fits = |inertia: f64| (0.1..2.0).contains(&over_size(inertia));
-    let meant = in_other_unit(greatest, "kg m\u{b2}", &INERTIA_UNITS, fits);
+    let meant = in_other_units(greatest, "kg m\u{b2}", &INERTIA_UNITS, fits);
     Some(Doubt::new(
         "platform.inertia",
         format!("up to {} kg m\u{b2}", four_digits(greatest)),

@@ -1,5 +1,5 @@
 //! Values that count as true, kept in `target/statistics/exact.json`: a function is computed once, and other
-//! programs read its inputs and values there (`xtask/peers/statistics.py`).
+//! programs read its inputs and values there (`peers/statistics.py`).
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -10,7 +10,7 @@ use cdpr_sensitivity::{
 use serde::{Deserialize, Serialize};
 
 use crate::functions::Function;
-use crate::indices::indices;
+use crate::measures::indices;
 use crate::tables::OfTables;
 
 /// Blocks and walks behind the values that no formula gives.

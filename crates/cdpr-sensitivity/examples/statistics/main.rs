@@ -8,11 +8,9 @@
 mod brackets;
 mod choice;
 mod exact;
-mod expansions;
 mod functions;
 mod given;
 mod gradients;
-mod indices;
 #[path = "../../tests/known_tables.rs"]
 #[allow(dead_code, clippy::unwrap_used)]
 mod known_tables;
@@ -32,8 +30,6 @@ type Table = fn(u64, &str) -> Result<(), SensitivityError>;
 fn main() -> Result<(), SensitivityError> {
     let tables: &[(&str, Table)] = &[
         ("choice", |studies, _| choice::table(studies)),
-        ("indices", |studies, _| indices::table(studies)),
-        ("expansions", |studies, _| expansions::table(studies)),
         ("given", |studies, _| given::table(studies)),
         ("levels", |studies, _| given::table_of_levels(studies)),
         ("verdicts", verdicts::table),

@@ -1,20 +1,20 @@
 //! All measures on twelve functions: how far off they are, how often their intervals hold, and how long they
-//! take. Each row goes to a file as well, from which `cargo xtask statistics peers` reads it.
+//! take. Each row goes to a file as well, from which `peers/run statistics` reads it.
 
 use std::fs;
 use std::time::Instant;
 
 use cdpr_sensitivity::{
-    Bracket, Delta, Estimate, GivenData, LatinHypercube, MorrisDesign, RandomDesign, Rows, SensitivityError,
-    ShapleyDesign, SobolDesign, Truncation, brackets, delta, dependence, expansion, morris_effects, observe,
-    pawn, rank_indices, regression, shapley_effects,
+    Bootstrap, Bracket, Delta, Estimate, GivenData, LatinHypercube, MorrisDesign, Order, RandomDesign, Rows,
+    SaltelliDesign, SensitivityError, ShapleyDesign, SobolDesign, SobolIndices, Truncation, brackets, delta,
+    dependence, expansion, morris_effects, observe, pawn, rank_indices, regression, shapley_effects,
+    sobol_indices,
 };
 use serde_json::{Value, json};
 
 use crate::brackets::{is_smooth, slopes};
 use crate::exact::{Exact, NEAR};
 use crate::functions::{Function, twelve};
-use crate::indices::indices;
 
 const FILE: &str = "target/statistics/measures.json";
 
@@ -254,6 +254,17 @@ fn carry_out(function: &Function, study: &Study, studies: u64) -> Result<Vec<Val
             "studies": studies, "error": error, "held": held, "ms": milliseconds})
     };
     Ok(study.measures.iter().zip(sums).map(row).collect())
+}
+
+/// Indices of a study of this many blocks.
+pub(crate) fn indices(
+    function: &Function,
+    blocks: usize,
+    seed: u64,
+) -> Result<SobolIndices, SensitivityError> {
+    let design = SaltelliDesign::scrambled(function.inputs.clone(), blocks, Order::First, seed)?;
+    let outputs = observe(&design, function.model)?;
+    sobol_indices(&design, &outputs, Bootstrap { resamples: 200, seed }, 0.95)
 }
 
 /// Shares of a variance of zero are an error, elementary effects are zero.

@@ -55,7 +55,7 @@
 //! effects that occur in a smaller share of them are often not seen. The inputs lie on other dimensions of
 //! Sobol's sequence in each scrambling. On the same dimensions, single inputs had intervals that held in 38 %
 //! of the cases, because short and long pieces of two dimensions differ in kind. `cargo xtask statistics
-//! indices` measures all this.
+//! measures` counts how often the intervals hold.
 //!
 //! A plain sequence has no replicates. Its intervals are from a bootstrap over its blocks, as in SALib. They
 //! depend on each other, so that such intervals are an indication: see [`SobolIndices::reliable`].

@@ -15,7 +15,7 @@ use crate::direct::solution::{DirectMethod, DirectReport, DirectSolution, descen
 use crate::error::{BranchEnd, StaticsError};
 use crate::problem::DirectProblem;
 use crate::state::Load;
-use cdpr_robot::{Robot, Wrench};
+use cdpr_robot::Robot;
 
 /// Unstrained lengths and load, as they are set from outside.
 #[derive(Clone, Debug, PartialEq)]
@@ -125,17 +125,25 @@ pub(crate) fn follow_change(
     {
         return solution(&problem, found, DirectMethod::Newton);
     }
+    let of_load = begin.0 == end.0;
     let [begin, end] = [begin, end].map(|(lengths, load)| Setting { lengths: lengths.to_vec(), load: *load });
-    let Path { mut steps, lost } = follow_from(robot, &begin, &end, from.clone())?;
-    let iterations = steps[1..].iter().map(|step| step.solution.report.iterations).sum();
-    match (steps.pop(), lost) {
-        (Some(PathStep { mut solution, .. }), None) => {
-            solution.report =
-                DirectReport { method: DirectMethod::Continuation, iterations, ..solution.report };
-            Ok(solution)
+    let end = follow_from(robot, &begin, &end, from.clone())?.end(from);
+    end.map_err(|lost| {
+        let (lost, iterations) = *lost;
+        lost.into_error(iterations, of_load)
+    })
+}
+
+impl Path {
+    /// The last solution with the iterations of all steps after `first`, or where they were lost.
+    pub(crate) fn end(mut self, first: &DirectSolution) -> Result<DirectSolution, Box<(Loss, usize)>> {
+        let iterations = self.steps[1..].iter().map(|step| step.solution.report.iterations).sum();
+        if let Some(lost) = self.lost {
+            return Err(Box::new((lost, iterations)));
         }
-        (_, Some(lost)) => Err(lost.into_error(iterations, begin.lengths == end.lengths)),
-        (None, None) => Ok(from.clone()),
+        let mut last = self.steps.pop().map_or_else(|| first.clone(), |step| step.solution);
+        last.report = DirectReport { method: DirectMethod::Continuation, iterations, ..last.report };
+        Ok(last)
     }
 }
 
@@ -248,12 +256,8 @@ fn beyond(
 
 fn between(from: &Setting, to: &Setting, share: f64) -> Setting {
     let mix = |a: f64, b: f64| if share == 1.0 { b } else { a + share * (b - a) };
-    let (a, b) = (from.load.wrench.to_vector(), to.load.wrench.to_vector());
     Setting {
         lengths: from.lengths.iter().zip(&to.lengths).map(|(a, b)| mix(*a, *b)).collect(),
-        load: Load {
-            payload: mix(from.load.payload, to.load.payload),
-            wrench: Wrench::from_vector(&a.zip_map(&b, mix)),
-        },
+        load: from.load.between(&to.load, share),
     }
 }

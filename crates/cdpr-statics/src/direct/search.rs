@@ -1,8 +1,8 @@
 //! Direct elasto-geometrical model (DEGM): the pose for given unstrained lengths.
 
-use crate::direct::continuation::{Loss, LossKind, Path, Setting, follow_from};
+use crate::direct::continuation::{Loss, LossKind, Setting, follow_from};
 use crate::direct::newton::newton;
-use crate::direct::solution::{DirectMethod, DirectReport, DirectSolution, descend, solution};
+use crate::direct::solution::{DirectMethod, DirectSolution, descend, solution};
 use crate::equations::{cables_at, to_base};
 use crate::error::StaticsError;
 use crate::problem::{DirectProblem, Unstable};
@@ -16,6 +16,9 @@ pub enum DirectStart<'a> {
     Pose(&'a Pose),
     /// At a pose with cable forces that need not fit it: an equilibrium nearby.
     Near(&'a Equilibrium),
+    /// Released at rest at a pose: the stable equilibrium downhill of it, even where Newton's method would reach
+    /// another one.
+    Released(&'a Pose),
 }
 
 /// The stable equilibrium of a robot for unstrained lengths [m] and a load: [`DirectProblem::direct`] in one
@@ -51,9 +54,11 @@ impl DirectProblem<'_> {
     /// - [`StaticsError::Robot`] where the search fails because a value of the robot is invalid.
     /// - [`StaticsError::Unstable`] for an unstable equilibrium that is refused.
     pub fn direct(&self, start: DirectStart) -> Result<DirectSolution, StaticsError> {
+        let released = matches!(start, DirectStart::Released(_));
         let start = checked(self, start)?;
         let pose = start.pose;
-        let found = match newton(self, start) {
+        let newtons = if released { None } else { newton(self, start) };
+        let found = match newtons {
             // A strained equilibrium far from the start need not be the one downhill.
             Some(converged) if converged.stability.is_stable() || self.unstable != Unstable::Left => {
                 solution(self, converged, DirectMethod::Newton).or_else(|_| settle(self, &pose))?
@@ -102,8 +107,8 @@ pub fn rough_pose(robot: &Robot, lengths: &[f64]) -> Pose {
 /// The start as an equilibrium to be found, validated.
 fn checked(problem: &DirectProblem, start: DirectStart) -> Result<Equilibrium, StaticsError> {
     match start {
-        DirectStart::Pose(pose) if pose.is_finite() => cables_at(problem, pose),
-        DirectStart::Pose(pose) => {
+        DirectStart::Pose(pose) | DirectStart::Released(pose) if pose.is_finite() => cables_at(problem, pose),
+        DirectStart::Pose(pose) | DirectStart::Released(pose) => {
             let position = format!("{:?}", pose.position.as_slice());
             Err(StaticsError::invalid("start".to_owned(), position, "a finite pose"))
         }
@@ -133,22 +138,18 @@ fn settle(problem: &DirectProblem, pose: &Pose) -> Result<DirectSolution, Static
     let without = DirectProblem { load: resting, ..*problem };
     let Ok(first) = descend(&without, pose) else { return Err(error) };
     let [from, to] = [resting, problem.load].map(|load| Setting { lengths: problem.lengths.to_vec(), load });
-    let Path { mut steps, lost } = follow_from(problem.robot, &from, &to, first)?;
-    let iterations = steps.iter().map(|step| step.solution.report.iterations).sum();
-    match (steps.pop(), lost) {
-        (Some(last), None) => {
-            let mut solution = last.solution;
-            solution.report =
-                DirectReport { method: DirectMethod::Continuation, iterations, ..solution.report };
+    let iterations = first.report.iterations;
+    match follow_from(problem.robot, &from, &to, first.clone())?.end(&first).map_err(|lost| *lost) {
+        Ok(mut solution) => {
+            solution.report.iterations += iterations;
             Ok(solution)
         }
-        (_, Some(Loss { kind: LossKind::Overstrained, after: Err(error), .. })) => Err(error),
-        (_, Some(Loss { kind: LossKind::StepLimit, .. })) => Err(error),
-        (_, Some(loss)) => Err(StaticsError::EquilibriumLost {
+        Err((Loss { kind: LossKind::Overstrained, after: Err(error), .. }, _)) => Err(error),
+        Err((Loss { kind: LossKind::StepLimit, .. }, _)) => Err(error),
+        Err((loss, _)) => Err(StaticsError::EquilibriumLost {
             share: loss.share,
             least_stiffness: loss.before.stability.least_stiffness(),
             pose: Box::new(loss.before.equilibrium.pose),
         }),
-        (None, None) => Err(error),
     }
 }

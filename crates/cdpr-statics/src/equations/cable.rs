@@ -54,6 +54,13 @@ impl<T: Number> CablePlane<T> {
         self.azimuth[0] * y - self.azimuth[1] * x
     }
 
+    /// A vector in the base frame from its components in the plane and across it.
+    #[inline(always)]
+    pub(crate) fn in_space(&self, along: [T; 2], across: T) -> [T; 3] {
+        let [x, y, z] = self.lift(along);
+        [x - self.azimuth[1] * across, y + self.azimuth[0] * across, z]
+    }
+
     /// Force F_i on the platform [N] of a cable with the force (fx, fz) at A, equation (S1).
     #[inline(always)]
     pub(crate) fn force_on_platform(&self, [x, z]: [T; 2]) -> [T; 3] {

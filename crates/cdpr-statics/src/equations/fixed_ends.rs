@@ -93,6 +93,12 @@ impl<'a> Ends<'a> {
         self.on_platform(held.force_slope.into())
     }
 
+    /// dF_i/dr_i at the same chord force [N/m].
+    pub(crate) fn force_per_end(&self, held: &HeldCable) -> Matrix3<f64> {
+        let slopes = -held.force_per_end();
+        self.level.map_or(slopes, |level| level.transpose() * slopes * level)
+    }
+
     /// d²F_i/dσ² [1/N] and d²t/dσ² [1/N].
     pub(crate) fn curvatures(&self, held: &HeldCable) -> ([f64; 3], f64) {
         let force = held.force_curvature();

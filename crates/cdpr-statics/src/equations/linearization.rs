@@ -18,8 +18,8 @@ use crate::equations::spanned::SpannedCable;
 use crate::error::StaticsError;
 use crate::problem::DirectProblem;
 use crate::state::Equilibrium;
-use cdpr_robot::{Matrix3, Matrix6xX, Vector3, Vector6, Wrench};
-use nalgebra::Matrix6;
+use cdpr_robot::{Matrix6xX, Vector3, Vector6, Wrench};
+use nalgebra::{Matrix3x6, Matrix6};
 
 /// The direct problem linearized at an equilibrium.
 pub struct Linearization {
@@ -54,13 +54,9 @@ impl DirectProblem<'_> {
             if let Some(skew) = cable.skew_stiffness(&catenary) {
                 stiffness += skew;
                 // dr_i = dp - [s_i] dφ
-                let arm = Vector3::from(cable.anchor_arm).cross_matrix();
-                for (row, left) in [(0, Matrix3::identity()), (3, arm)] {
-                    for (column, right) in [(0, Matrix3::identity()), (3, -arm)] {
-                        let mut block = of_guides.fixed_view_mut::<3, 3>(row, column);
-                        block += left * skew * right;
-                    }
-                }
+                let mut motion = Matrix3x6::identity();
+                motion.fixed_columns_mut::<3>(3).copy_from(&-Vector3::from(cable.anchor_arm).cross_matrix());
+                of_guides += motion.transpose() * skew * motion;
             }
             wrench_per_length.push(wrench(&cable.anchor_arm.into(), &(stiffness * cable.end_per_length())));
         }

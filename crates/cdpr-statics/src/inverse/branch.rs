@@ -18,7 +18,7 @@ use super::cable::CableAtPose;
 use super::optimum::{ELASTICITY, NEARLY_ROUNDING, Optimum, Point, ROUNDING};
 use super::problem::InverseProblem;
 use crate::state::Load;
-use cdpr_robot::{Pose, Vector6, Wrench};
+use cdpr_robot::{Pose, Vector6};
 use cdpr_tension::Bound;
 
 /// The least step, as a share of the way.
@@ -93,9 +93,7 @@ impl KnownOptimum {
         let motion = self.pose.motion_to(problem.pose) * share;
         let pose = self.pose.moved(motion.fixed_rows::<3>(0).into(), motion.fixed_rows::<3>(3).into());
         let change = |from: f64, to: f64| from + share * (to - from);
-        let (a, b) = (&self.load, problem.load);
-        let wrench = a.wrench.to_vector().zip_map(&b.wrench.to_vector(), change);
-        let load = Load { payload: change(a.payload, b.payload), wrench: Wrench::from_vector(&wrench) };
+        let load = self.load.between(problem.load, share);
         let references = self.reference.iter().zip(&problem.reference);
         (pose, load, references.map(|(from, to)| change(*from, *to)).collect())
     }

@@ -4,7 +4,7 @@ use super::problem::InverseProblem;
 use crate::equations::{ABOVE_LEAST, Bounds, Ends, wrench};
 use crate::error::StaticsError;
 use cdpr_cable::{CableError, HeldCable};
-use cdpr_robot::{Freedoms, TensionLimits, Vector3, Vector6};
+use cdpr_robot::{Freedoms, Matrix3, TensionLimits, Vector3, Vector6};
 use cdpr_tension::Bound;
 
 /// One cable between its two points, at one chord force.
@@ -21,6 +21,16 @@ pub(super) struct CableAtPose<'a> {
     chord_forces: [Option<f64>; 2],
     pub(super) reference: f64,
     freedoms: Freedoms,
+}
+
+/// The force of a cable on the platform.
+pub(super) struct Pull {
+    /// Lever arm of its anchor point [m].
+    pub(super) lever_arm: Vector3<f64>,
+    /// [N]
+    pub(super) force: Vector3<f64>,
+    /// Its derivative by the position of the anchor point [N/m].
+    pub(super) per_motion: Matrix3<f64>,
 }
 
 impl<'a> CableAtPose<'a> {
@@ -93,6 +103,12 @@ impl<'a> CableAtPose<'a> {
             slope: self.wrench(self.ends.force_slope(fixed), characteristic_length),
             reference: self.reference,
         }
+    }
+
+    /// Its force, which changes with the anchor point at the same chord force.
+    pub(super) fn pull(&self) -> Pull {
+        let force = self.ends.force(&self.fixed).into();
+        Pull { lever_arm: self.lever_arm, force, per_motion: self.ends.force_per_end(&self.fixed) }
     }
 
     /// Second derivative of the Lagrangian, h_i of (I3).
@@ -233,20 +249,14 @@ impl<'a> CableAtPose<'a> {
             let beyond = fixed.tension() - cable.reference;
             0.5 * beyond * beyond + y.dot(&cable.wrench(cable.ends.force(fixed), characteristic_length))
         };
-        let here = part(self, &self.fixed);
-        Ok((here, self.least_of(part)?))
-    }
-
-    /// The tension within the limits, on a grid of chord forces, at which a function is least, and its value.
-    fn least_of(&mut self, function: impl Fn(&Self, &HeldCable) -> f64) -> Result<(f64, f64), CableError> {
-        let mut least = (f64::NAN, f64::INFINITY);
+        let (here, mut least) = (part(self, &self.fixed), (f64::NAN, f64::INFINITY));
         for fixed in self.grid()? {
-            let value = function(self, &fixed);
+            let value = part(self, &fixed);
             if value < least.1 {
                 least = (fixed.tension(), value);
             }
         }
-        Ok(least)
+        Ok((here, least))
     }
 
     /// The cable at chord forces from limit to limit.

@@ -33,11 +33,11 @@
 
 use super::optimum::{Optimum, Point};
 use super::problem::InverseProblem;
-use super::start::{Goal, StraightStart};
+use super::start::StraightStart;
 use crate::error::{Blocked, StaticsError};
 use cdpr_cable::CableError;
 use cdpr_robot::{Matrix6xX, TensionLimits, Vector6};
-use cdpr_tension::{BoxUnknown, bounded_least_squares};
+use cdpr_tension::{BoxUnknown, Objective};
 
 /// A residual below this, relative to wrench and tensions, balances.
 pub(super) const BALANCED: f64 = 1e-8;
@@ -67,7 +67,8 @@ pub(super) fn search<'a>(problem: &InverseProblem<'a>) -> Result<Optimum<'a>, St
     {
         return Ok(Optimum { iterations, ..best.optimum() });
     }
-    let StraightStart { tensions, residue, certificate, .. } = problem.straight(&Goal::Nearest);
+    let StraightStart { tensions, residue, certificate, .. } =
+        problem.straight(Objective::Nearest(&problem.reference));
     let first = Point::new(problem, &tensions)?;
     if best.is_none() {
         if residue > CLEAR_RESIDUE
@@ -129,7 +130,8 @@ pub(super) fn has_tensions(problem: &InverseProblem) -> Result<bool, StaticsErro
     {
         return Ok(true);
     }
-    Ok(Point::new(problem, &problem.straight(&Goal::Nearest).tensions)?.balance(CLEAR_GAIN))
+    Ok(Point::new(problem, &problem.straight(Objective::Nearest(&problem.reference)).tensions)?
+        .balance(CLEAR_GAIN))
 }
 
 /// Straight cables, a balance from there, and those of [`starts`].
@@ -220,27 +222,15 @@ impl<'a> Point<'a> {
         residual <= BALANCED * self.size()
     }
 
-    /// Solves (I4) for a step, and computes the chord forces of all limits that it meets.
+    /// The step of (I4), followed by what it leaves of the balance.
     fn least_step(&mut self, curvature: &[f64]) -> Option<Vec<f64>> {
-        let residual = self.residual();
-        loop {
-            let each = self.rows.iter().zip(curvature).zip(&self.cables);
-            let unknowns: Vec<BoxUnknown> = each
-                .map(|((row, curvature), cable)| BoxUnknown {
-                    gradient: 0.0,
-                    curvature: *curvature,
-                    column: row.slope,
-                    bounds: cable.step_bounds(),
-                })
-                .collect();
-            let step = bounded_least_squares(&unknowns, &residual)?;
-            if !step.iter().all(|d| d.is_finite()) {
-                return None;
-            }
-            if !self.compute_reached_limits(&step, &unknowns)? {
-                return Some(step);
-            }
-        }
+        let of_cables = self.rows.iter().zip(curvature).map(|(row, curvature)| (row.slope, *curvature));
+        // What is left of the balance: J d + F - e = 0 with the least |e|².
+        let left = (0..6).map(|k| (-Vector6::ith(k, 1.0), 1.0));
+        let bounds = [f64::NEG_INFINITY, f64::INFINITY];
+        let unknown = |(column, curvature)| BoxUnknown { gradient: 0.0, curvature, column, bounds };
+        let unknowns = of_cables.chain(left).map(unknown).collect();
+        self.within_limits(unknowns, Vector6::zeros()).map(|solution| solution.values)
     }
 
     /// |F|, relative to wrench and tensions.

@@ -28,9 +28,9 @@ use crate::inverse::cable::CableAtPose;
 use crate::inverse::feasible::{BALANCED, search};
 use crate::inverse::optimum::{Optimum, Point};
 use crate::inverse::problem::InverseProblem;
-use crate::inverse::start::{Goal, StraightStart};
+use crate::inverse::start::StraightStart;
 use cdpr_robot::{TensionLimits, Vector6};
-use cdpr_tension::{Bound, BoxProblem, BoxUnknown, LinearProgram, LinearSolution};
+use cdpr_tension::{Bound, BoxProblem, BoxUnknown, LinearProgram, LinearSolution, Objective};
 
 /// What z of (I7) and (I13) is.
 pub(super) enum Aim {
@@ -124,13 +124,14 @@ impl Maximization {
         problem: &InverseProblem<'a>,
         own: &InverseProblem<'a>,
     ) -> Result<Maximum<'a>, StaticsError> {
-        let (goal, sign) = match &self.aim {
-            Aim::Wrench(direction) => (Goal::Wrench(direction), 1.0),
-            Aim::Margin(limits) => (Goal::Margin(limits), 1.0),
-            Aim::Sum => (Goal::LeastSum, -1.0),
-            Aim::Greatest(_) => (Goal::LeastGreatest, -1.0),
+        let direction = problem.components_of(&self.direction());
+        let (objective, sign) = match &self.aim {
+            Aim::Wrench(_) => (Objective::GreatestWrench(&direction), 1.0),
+            Aim::Margin(limits) => (Objective::GreatestMargin(limits), 1.0),
+            Aim::Sum => (Objective::LeastSum, -1.0),
+            Aim::Greatest(_) => (Objective::LeastGreatest, -1.0),
         };
-        let StraightStart { tensions, value, certificate, .. } = problem.straight(&goal);
+        let StraightStart { tensions, value, certificate, .. } = problem.straight(objective);
         let (mut point, found) = self.climb(problem, &tensions, sign * value.unwrap_or(0.0))?;
         if let Some(found) = found {
             return Ok(found);

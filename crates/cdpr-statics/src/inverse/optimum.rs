@@ -20,7 +20,7 @@ use super::problem::InverseProblem;
 use crate::error::StaticsError;
 use cdpr_cable::{Catenary, HeldCable};
 use cdpr_robot::Vector6;
-use cdpr_tension::{Bound, BoxProblem, BoxUnknown};
+use cdpr_tension::{Bound, BoxProblem, BoxSolution, BoxUnknown};
 
 /// The optimum, or the best near a start.
 pub(super) struct Optimum<'a> {
@@ -142,18 +142,26 @@ impl<'a> Point<'a> {
         self.rows = rows;
     }
 
-    /// Solves a program for a step, and computes the chord forces of all limits that it meets.
+    /// The step of (I3) within the limits.
     fn step(&mut self, curvature: &[f64]) -> Option<(Vec<f64>, Vector6<f64>)> {
-        let (multipliers, residual) = (self.multipliers, self.residual());
         let each = self.rows.iter().zip(curvature);
-        let mut unknowns: Vec<BoxUnknown> = each
-            .map(|(row, curvature)| BoxUnknown {
-                gradient: row.gradient(),
-                curvature: *curvature,
-                column: row.slope,
-                bounds: [0.0; 2],
-            })
-            .collect();
+        let unknown = |(row, curvature): (&Row, &f64)| {
+            let (gradient, column) = (row.gradient(), row.slope);
+            BoxUnknown { gradient, curvature: *curvature, column, bounds: [0.0; 2] }
+        };
+        let BoxSolution { values, multipliers } =
+            self.within_limits(each.map(unknown).collect(), self.multipliers)?;
+        Some((values, multipliers))
+    }
+
+    /// Solves a program whose first unknowns are the changes of the chord forces, and computes the chord
+    /// forces of all limits that they meet.
+    pub(super) fn within_limits(
+        &mut self,
+        mut unknowns: Vec<BoxUnknown>,
+        multipliers: Vector6<f64>,
+    ) -> Option<BoxSolution> {
+        let residual = self.residual();
         loop {
             for (unknown, cable) in unknowns.iter_mut().zip(&self.cables) {
                 unknown.bounds = cable.step_bounds();
@@ -163,13 +171,13 @@ impl<'a> Point<'a> {
                 return None;
             }
             if !self.compute_reached_limits(&solution.values, &unknowns)? {
-                return Some((solution.values, solution.multipliers));
+                return Some(solution);
             }
         }
     }
 
     /// Computes the chord force of each limit that a step reaches for the first time; true if there was one.
-    pub(super) fn compute_reached_limits(&mut self, values: &[f64], unknowns: &[BoxUnknown]) -> Option<bool> {
+    fn compute_reached_limits(&mut self, values: &[f64], unknowns: &[BoxUnknown]) -> Option<bool> {
         let mut computed = false;
         for ((cable, d), unknown) in self.cables.iter_mut().zip(values).zip(unknowns) {
             for bound in Bound::BOTH {

@@ -6,7 +6,7 @@
 //! not keep it: `feasible` checks whether they do.
 
 use super::problem::InverseProblem;
-use cdpr_robot::{Matrix6xX, TensionLimits, Vector3, Vector6};
+use cdpr_robot::{Matrix6xX, Vector3, Vector6};
 use cdpr_tension::{Distribution, Objective, Problem, TensionError, distribute};
 use nalgebra::{DMatrix, DVector};
 
@@ -23,20 +23,6 @@ pub(super) struct StraightStart {
     pub(super) certificate: Option<Vector6<f64>>,
 }
 
-/// What a search begins with.
-pub(super) enum Goal<'a> {
-    /// The tensions nearest to the reference.
-    Nearest,
-    /// The greatest multiple of a wrench, its moment divided by a length.
-    Wrench(&'a Vector6<f64>),
-    /// The greatest distance from limits.
-    Margin(&'a [TensionLimits]),
-    /// The least 1-norm.
-    LeastSum,
-    /// The least infinity-norm.
-    LeastGreatest,
-}
-
 /// Wrench matrix and wrench of straight cables, for the motions that the platform has.
 struct Straight {
     matrix: DMatrix<f64>,
@@ -51,20 +37,9 @@ impl InverseProblem<'_> {
         Some(self.within_limits(nearest.as_slice()))
     }
 
-    /// The tensions of straight cables that meet a goal, or those nearest to a balance.
-    pub(super) fn straight(&self, goal: &Goal) -> StraightStart {
+    /// The tensions of straight cables that an objective chooses, or those nearest to a balance.
+    pub(super) fn straight(&self, objective: Objective) -> StraightStart {
         let balance = self.balance();
-        let direction;
-        let objective = match goal {
-            Goal::Nearest => Objective::Nearest(&self.reference),
-            Goal::Wrench(along) => {
-                direction = self.components_of(along);
-                Objective::GreatestWrench(&direction)
-            }
-            Goal::Margin(limits) => Objective::GreatestMargin(limits),
-            Goal::LeastSum => Objective::LeastSum,
-            Goal::LeastGreatest => Objective::LeastGreatest,
-        };
         match distribute(&self.straight_problem(&balance), objective) {
             Ok(Distribution { tensions, value, .. }) => {
                 StraightStart { tensions, value: Some(value), residue: 0.0, certificate: None }
@@ -94,7 +69,7 @@ impl InverseProblem<'_> {
     }
 
     /// The components of a wrench along the motions that the platform has.
-    fn components_of(&self, wrench: &Vector6<f64>) -> DVector<f64> {
+    pub(super) fn components_of(&self, wrench: &Vector6<f64>) -> DVector<f64> {
         let components = self.robot.freedoms().components();
         DVector::from_iterator(components.len(), components.iter().map(|k| wrench[*k]))
     }

@@ -9,17 +9,15 @@ use cdpr_robot::Pose;
 /// # Errors
 /// [`StaticsError::Invalid`] for offsets: they are of set-points, which this model does not set.
 pub(crate) fn refuse_offsets(wanted: WantedPose) -> Result<WantedPose, StaticsError> {
+    let expected = "none here: deflections, their derivatives and `set_point_lengths` take them";
     match wanted.tension_offsets {
         [] => Ok(wanted),
-        given => {
-            let expected = "none here: deflections, their derivatives and `set_point_lengths` take them";
-            Err(StaticsError::invalid(
-                "tension_offsets".to_owned(),
-                format!("a list of {}", given.len()),
-                expected,
-            ))
-        }
+        given => Err(refusal("tension_offsets", given.len(), expected)),
     }
+}
+
+fn refusal(field: &str, given: usize, expected: &str) -> StaticsError {
+    StaticsError::invalid(field.to_owned(), format!("a list of {given}"), expected)
 }
 
 /// A whole pose without offsets.
@@ -31,11 +29,10 @@ pub(super) fn whole(wanted: WantedPose) -> Result<WantedPose, StaticsError> {
     let wanted = refuse_offsets(wanted)?;
     match wanted.free {
         [] => Ok(wanted),
-        given => Err(StaticsError::invalid(
-            "free".to_owned(),
-            format!("a list of {}", given.len()),
-            "none here: it takes whole poses, at which tensions are chosen",
-        )),
+        given => {
+            let expected = "none here: it takes whole poses, at which tensions are chosen";
+            Err(refusal("free", given.len(), expected))
+        }
     }
 }
 
@@ -47,10 +44,6 @@ pub(super) fn pose_alone(wanted: WantedPose) -> Result<Pose, StaticsError> {
     let WantedPose { pose, tension_reference, .. } = whole(wanted)?;
     match tension_reference {
         None => Ok(pose),
-        Some(given) => Err(StaticsError::invalid(
-            "tension_reference".to_owned(),
-            format!("a list of {}", given.len()),
-            "none here: no tensions are chosen",
-        )),
+        Some(given) => Err(refusal("tension_reference", given.len(), "none here: no tensions are chosen")),
     }
 }

@@ -2,11 +2,10 @@
 
 use crate::equations::Span;
 use crate::local::cable::LaneCable;
-use crate::local::guided::{FixedInSpace, Guided};
-use cdpr_cable::kernel::{LeavePoint, Response, TAUT};
+use crate::local::guided::Guided;
+use cdpr_cable::kernel::{AtFixedEnds, LeavePoint, Response, TAUT};
 use cdpr_number::dense::{Lanes2, Lanes3, replace};
 use cdpr_number::lanes::{Lanes, Mask, Simd, WithSimd};
-use cdpr_number::vector::dot;
 use cdpr_number::{Lanewise, Number};
 
 /// Part of a tension by which it has to exceed the least one of the span, as its slope and curvature tell.
@@ -88,14 +87,10 @@ impl<S: Simd> FixedEnds<S> {
         span: &Span<Lanes<S>>,
         response: &Response<Lanes<S>>,
     ) -> Self {
-        let [xx, xz, zz] = response.flexibility;
         let [ux, uz] = response.direction;
-        let miss = span.misclosure(response.end);
-        let longer = response.end_per_length;
-        let inverse = (longer[0] * zz - longer[1] * xz).recip();
-        let here = (longer[1] * xx - longer[0] * xz) * inverse;
-        let closing =
-            [(longer[0] * miss[1] - longer[1] * miss[0]) * inverse, (zz * miss[0] - xz * miss[1]) * inverse];
+        let AtFixedEnds { closing: [_, rising, longer], per_force: [_, here, length_slope], .. } =
+            plain(cable, span, response);
+        let closing = [rising, longer];
         // Closing turns the force, and g ≈ z/h with the chord: from fz = fx z/h + w L/2.
         let fx_inv = cable.force[0].recip();
         let turns = response.slackness.at_most(NEARLY_CHORD);
@@ -112,7 +107,7 @@ impl<S: Simd> FixedEnds<S> {
             slackness: response.slackness,
             closing,
             rise,
-            length_slope: -(response.determinant * inverse),
+            length_slope,
             tension_slope,
             curvatures: [bent, bent],
             across: [fx_inv.all(0.0); 2],
@@ -250,46 +245,23 @@ impl<S: Simd> FixedEnds<S> {
     }
 }
 
-/// How a cable at its fixed ends responds to a motion of its anchor point along its plane, across it and
-/// upwards, at constant fx.
-#[derive(Clone, Copy)]
-pub(crate) struct EndSlopes<S: Simd> {
-    /// The force across the plane by (d_h, d_l, d_z) [N/m].
-    pub(crate) across: Lanes3<S>,
-    /// dz by it [N/m].
-    pub(crate) rise: Lanes3<S>,
-    /// dL by it.
-    pub(crate) length: Lanes3<S>,
-}
-
-impl<S: Simd> EndSlopes<S> {
-    /// A cable without guide, from its response: the solution of (L1) for any c.
-    #[inline(always)]
-    fn plain(cable: &LaneCable<'_, S>, span: &Span<Lanes<S>>, response: &Response<Lanes<S>>) -> Self {
-        let ([_, xz, zz], [ex, ez]) = (response.flexibility, response.end_per_length);
-        let (inverse, zero) = ((ex * zz - ez * xz).recip(), ex.all(0.0));
-        Self {
-            across: [zero, cable.force[0] / span.end[0], zero],
-            rise: [-(ez * inverse), zero, ex * inverse],
-            length: [zz * inverse, zero, -(xz * inverse)],
-        }
-    }
-
-    /// The change of the force on the platform by a motion of the anchor point [N].
-    #[inline(always)]
-    pub(crate) fn pull(&self, [x, y]: Lanes2<S>, moved: &Lanes3<S>) -> Lanes3<S> {
-        let across = dot(&self.across, moved);
-        [across * y, -(across * x), -dot(&self.rise, moved)]
-    }
+/// What closes a cable without guide, from its response, (L1).
+#[inline(always)]
+fn plain<S: Simd>(
+    cable: &LaneCable<'_, S>,
+    span: &Span<Lanes<S>>,
+    response: &Response<Lanes<S>>,
+) -> AtFixedEnds<Lanes<S>> {
+    AtFixedEnds::in_plane(response, span.misclosure(response.end), cable.force[0] / span.end[0])
 }
 
 impl<S: Simd> FixedEnds<S> {
-    /// A cable between its ends, with its response to their motion.
+    /// A cable between its ends, with the rows of [`AtFixedEnds::per_end`].
     #[inline(always)]
-    pub(crate) fn with_end_slopes(cable: &LaneCable<'_, S>, span: &Span<Lanes<S>>) -> (Self, EndSlopes<S>) {
+    pub(crate) fn with_end_slopes(cable: &LaneCable<'_, S>, span: &Span<Lanes<S>>) -> (Self, [Lanes3<S>; 3]) {
         let response = cable.response();
         match &cable.guided {
-            None => (Self::plain(cable, span, &response), EndSlopes::plain(cable, span, &response)),
+            None => (Self::plain(cable, span, &response), plain(cable, span, &response).per_end),
             Some(guided) if guided.is_tilted() => Leaving { guided, cable, span }.in_space(&response),
             Some(guided) => Leaving { guided, cable, span }.leave(&response),
         }
@@ -328,10 +300,10 @@ impl<S: Simd> WithSimd for Leaving<'_, '_, S> {
 
 impl<S: Simd> Leaving<'_, '_, S> {
     #[inline(always)]
-    fn leave(&self, response: &Response<Lanes<S>>) -> (FixedEnds<S>, EndSlopes<S>) {
+    fn leave(&self, response: &Response<Lanes<S>>) -> (FixedEnds<S>, [Lanes3<S>; 3]) {
         let Self { guided, cable, span } = self;
         let LeavePoint { position, tangent: [tx, tz], tension_inv, .. } = guided.leave_point(&cable.free());
-        let mut ends = EndSlopes::plain(cable, span, response);
+        let [across, rise, mut length] = plain(cable, span, response).per_end;
         let span = Span { plane: span.plane, end: span.misclosure(position) };
         let mut fixed = FixedEnds::plain(cable, &span, response);
         let ([_, xz, zz], [ex, ez]) = (response.flexibility, response.end_per_length);
@@ -342,8 +314,8 @@ impl<S: Simd> Leaving<'_, '_, S> {
         let [dz, longer] = fixed.closing;
         fixed.closing[1] += per_turn * whole * (tx * tension_inv * dz - falling * longer);
         for k in [0, 2] {
-            let turn = tx * tension_inv * ends.rise[k] - falling * ends.length[k];
-            ends.length[k] += per_turn * whole * turn;
+            let turn = tx * tension_inv * rise[k] - falling * length[k];
+            length[k] += per_turn * whole * turn;
         }
         let turn = (tx * fixed.rise - tz) * tension_inv - falling * fixed.length_slope;
         fixed.length_slope += per_turn * whole * turn;
@@ -351,15 +323,20 @@ impl<S: Simd> Leaving<'_, '_, S> {
         let [_, uz] = response.direction;
         fixed.curvatures[0] -= uz * bend;
         fixed.curvatures[1] -= bend;
-        (fixed, ends)
+        (fixed, [across, rise, length])
     }
 
     /// The same over a tilted axis, (L19).
     #[inline(always)]
-    fn in_space(&self, response: &Response<Lanes<S>>) -> (FixedEnds<S>, EndSlopes<S>) {
+    fn in_space(&self, response: &Response<Lanes<S>>) -> (FixedEnds<S>, [Lanes3<S>; 3]) {
         let Self { guided, cable, span } = self;
-        let FixedInSpace { closing, per_force, per_end: [across, rise, length], beyond } =
-            FixedInSpace::new(guided, &cable.free(), span, response);
+        let way = guided.way(&cable.free());
+        let space = way.in_space(cable.force[0], response);
+        let (span, across) = guided.seen(span);
+        let open = [span.end[0] - space.end[0], across - space.end[1], span.end[1] - space.end[2]];
+        let AtFixedEnds { closing, per_force, per_end } =
+            AtFixedEnds::in_space(&space, way.free_per_length, open);
+        let beyond = Span { plane: span.plane, end: span.misclosure(way.leave.position) };
         let fixed = FixedEnds::plain(cable, &beyond, response);
         let [ux, uz] = response.direction;
         let fixed = FixedEnds {
@@ -371,6 +348,6 @@ impl<S: Simd> Leaving<'_, '_, S> {
             across: [closing[0], per_force[0]],
             ..fixed
         };
-        (fixed, EndSlopes { across, rise, length })
+        (fixed, per_end)
     }
 }

@@ -22,7 +22,7 @@ use crate::lanes::poses::in_lanes::{Asked, InLanes, LaneSolution, Near, Setting}
 use crate::lanes::poses::placed::PlacedRobot;
 use crate::local::cable::Shape;
 use crate::problem::DirectProblem;
-use crate::state::{Equilibrium, Load, Residual, Wanted, WantedPose};
+use crate::state::{Load, Residual, Wanted, WantedPose};
 use cdpr_number::lanes::{Lanes, MAX_LANES, Simd, WithSimd, dispatch};
 use cdpr_robot::{Pose, Robot};
 pub use loaded::loaded_poses;
@@ -185,27 +185,15 @@ impl<'a> Setting<'a> {
         }
     }
 
-    /// The solution of a lane, if its equations are solved to rounding, and what it is for the next pose.
-    fn checked(&self, pose: &Pose, solution: LaneSolution) -> Option<(InverseSolution, Near)> {
-        let LaneSolution { lengths, forces, tensions, active, stationarity, near } = solution;
-        let equilibrium = Equilibrium { pose: *pose, cable_forces: forces };
-        let problem = DirectProblem::new(self.placed.robot, &lengths, self.load).ok()?;
-        let residual = Residual::of(&problem, &equilibrium);
-        let is_solved = problem.check_strains(&equilibrium).is_ok()
-            && residual.is_rounding(&problem, &equilibrium)
-            && stationarity <= STATIONARY * tensions.iter().sum::<f64>();
-        let multipliers = self.placed.both(PlacedRobot::to_base, &near.multipliers);
-        let solution = InverseSolution {
-            lengths,
-            tensions,
-            active,
-            multipliers,
-            equilibrium,
-            iterations: 0,
-            stationarity,
-            residual,
-        };
-        is_solved.then_some((solution, near))
+    /// The solution of a lane, if its equations are solved to rounding.
+    fn checked(&self, (solution, near): LaneSolution) -> Option<LaneSolution> {
+        let InverseSolution { lengths, tensions, equilibrium, stationarity, .. } = &solution;
+        let problem = DirectProblem::new(self.placed.robot, lengths, self.load).ok()?;
+        let residual = Residual::of(&problem, equilibrium);
+        let is_solved = problem.check_strains(equilibrium).is_ok()
+            && residual.is_rounding(&problem, equilibrium)
+            && *stationarity <= STATIONARY * tensions.iter().sum::<f64>();
+        is_solved.then_some((InverseSolution { residual, ..solution }, near))
     }
 
     /// What a result of the scalar model is for the next pose.
@@ -225,15 +213,14 @@ struct Batch<'a> {
 }
 
 impl WithSimd for Batch<'_> {
-    type Output = Vec<Option<(InverseSolution, Near)>>;
+    type Output = Vec<Option<LaneSolution>>;
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
         let mut found = Vec::with_capacity(self.asked.len());
         for asked in self.asked.chunks(Lanes::<S>::COUNT) {
             let results = InLanes { simd, setting: self.setting, asked }.solutions();
-            let checked = |(result, asked): (Option<_>, &Asked)| self.setting.checked(asked.pose, result?);
-            found.extend(results.into_iter().zip(asked).map(checked));
+            found.extend(results.into_iter().map(|result| self.setting.checked(result?)));
         }
         found
     }

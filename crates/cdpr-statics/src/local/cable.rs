@@ -75,14 +75,21 @@ impl Shape<f64> {
     /// The same in all lanes.
     #[inline(always)]
     pub(crate) fn all<S: Simd>(&self, lanes: Lanes<S>) -> Shape<Lanes<S>> {
+        Shape::of_numbers(self.numbers().map(|number| lanes.all(number)))
+    }
+}
+
+impl<T: Copy> Shape<T> {
+    /// Its numbers; cables without guide have only the first three.
+    #[inline(always)]
+    pub(crate) fn numbers(&self) -> [T; 7] {
         let ([c, s], [x, z]) = (self.turn, self.tangent);
-        Shape {
-            turn: [lanes.all(c), lanes.all(s)],
-            tangent: [lanes.all(x), lanes.all(z)],
-            chord_force: lanes.all(self.chord_force),
-            sag_force: lanes.all(self.sag_force),
-            longer: lanes.all(self.longer),
-        }
+        [self.chord_force, self.sag_force, self.longer, c, s, x, z]
+    }
+
+    #[inline(always)]
+    pub(crate) fn of_numbers([chord_force, sag_force, longer, c, s, x, z]: [T; 7]) -> Self {
+        Self { turn: [c, s], tangent: [x, z], chord_force, sag_force, longer }
     }
 }
 
@@ -101,7 +108,7 @@ impl<S: Simd> LaneCable<'_, S> {
 
     /// The part beyond the guide.
     #[inline(always)]
-    pub(crate) fn free(&self) -> FreeCable<'_, S> {
+    pub(crate) fn free(&self) -> FreeCable<'_, Lanes<S>> {
         FreeCable { material: self.material(), length: self.length, force: self.force }
     }
 

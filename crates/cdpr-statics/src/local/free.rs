@@ -2,20 +2,19 @@
 
 use cdpr_cable::kernel::{LaneEnd, Material, Response};
 use cdpr_number::apart;
-use cdpr_number::dense::Lanes2;
 use cdpr_number::lanes::{Lanes, Simd};
 
 /// A cable without guide, or the part of one beyond its guide.
 #[derive(Clone, Copy)]
-pub(crate) struct FreeCable<'a, S: Simd> {
-    pub(crate) material: Material<'a, Lanes<S>>,
+pub(crate) struct FreeCable<'a, T> {
+    pub(crate) material: Material<'a, T>,
     /// Unstrained length [m].
-    pub(crate) length: Lanes<S>,
+    pub(crate) length: T,
     /// Force at A [N].
-    pub(crate) force: Lanes2<S>,
+    pub(crate) force: [T; 2],
 }
 
-impl<S: Simd> FreeCable<'_, S> {
+impl<S: Simd> FreeCable<'_, Lanes<S>> {
     /// The position of its end. Cables with a law are evaluated in functions of their own: most robots have
     /// linear cables, and their code is faster without it.
     #[inline(always)]
@@ -38,12 +37,12 @@ impl<S: Simd> FreeCable<'_, S> {
 
 apart! {
     #[inline(always)]
-    on(cable.length) fn law_end<'a, S: Simd>(cable: FreeCable<'a, S>) -> LaneEnd<Lanes<S>> {
+    on(cable.length) fn law_end<'a, S: Simd>(cable: FreeCable<'a, Lanes<S>>) -> LaneEnd<Lanes<S>> {
         cable.material.end(cable.length, cable.force)
     }
 
     #[inline(always)]
-    on(cable.length) fn law_response<'a, S: Simd>(cable: FreeCable<'a, S>) -> Response<Lanes<S>> {
+    on(cable.length) fn law_response<'a, S: Simd>(cable: FreeCable<'a, Lanes<S>>) -> Response<Lanes<S>> {
         cable.material.response(cable.length, cable.force)
     }
 }

@@ -23,12 +23,11 @@
 use crate::equations::{CablePlane, LinearizedCable, Span};
 use crate::local::free::FreeCable;
 use crate::local::swivel::{Swivel, in_space};
-use cdpr_cable::kernel::{GuideTerms, GuidedInSpace, LaneEnd, LeavePoint, Response, SwivelAxis, Way};
+use cdpr_cable::kernel::{GuideTerms, LaneEnd, LeavePoint, Response, SwivelAxis, Way};
 use cdpr_number::Number;
-use cdpr_number::dense::{Lanes2, Lanes3, replace};
+use cdpr_number::apart;
+use cdpr_number::dense::{Lanes2, replace};
 use cdpr_number::lanes::{Lanes, Mask, Simd};
-use cdpr_number::vector::{cross, dot};
-use cdpr_number::{apart, three};
 
 /// Horizontal distance of a cable's end from its leave point, in radii of its wheel, within which a slack
 /// cable may hang from either side of the wheel.
@@ -161,7 +160,7 @@ impl<S: Simd> Guided<S> {
 
     /// Where the cable leaves its guide.
     #[inline(always)]
-    pub(crate) fn leave_point(&self, free: &FreeCable<'_, S>) -> LeavePoint<Lanes<S>> {
+    pub(crate) fn leave_point(&self, free: &FreeCable<'_, Lanes<S>>) -> LeavePoint<Lanes<S>> {
         match self.is_tilted() {
             true => tilted_way(self, *free).leave,
             false => self.guide.leave_point(free.material.weight_per_length, free.length, free.force),
@@ -175,7 +174,7 @@ impl<S: Simd> Guided<S> {
     }
 
     #[inline(always)]
-    pub(crate) fn way(&self, free: &FreeCable<'_, S>) -> Way<Lanes<S>> {
+    pub(crate) fn way(&self, free: &FreeCable<'_, Lanes<S>>) -> Way<Lanes<S>> {
         match self.is_tilted() {
             true => tilted_way(self, *free),
             false => way(&self.guide, free),
@@ -187,7 +186,7 @@ impl<S: Simd> Guided<S> {
     #[inline(never)]
     pub(crate) fn linearize(
         &self,
-        free: &FreeCable<'_, S>,
+        free: &FreeCable<'_, Lanes<S>>,
         span: &Span<Lanes<S>>,
         linearized: GuidedLinearization<'_, S>,
         active: Mask<S>,
@@ -199,14 +198,14 @@ impl<S: Simd> Guided<S> {
     /// slackness of 2.
     #[cold]
     #[inline(never)]
-    pub(crate) fn end(&self, free: &FreeCable<'_, S>, span: &Span<Lanes<S>>) -> GuidedEnd<S> {
+    pub(crate) fn end(&self, free: &FreeCable<'_, Lanes<S>>, span: &Span<Lanes<S>>) -> GuidedEnd<S> {
         whole_end(self, *free, *span)
     }
 }
 
 /// The way of a cable over a guide as it is in the plane of the cable.
 #[inline(always)]
-fn way<S: Simd>(guide: &GuideTerms<Lanes<S>>, free: &FreeCable<'_, S>) -> Way<Lanes<S>> {
+fn way<S: Simd>(guide: &GuideTerms<Lanes<S>>, free: &FreeCable<'_, Lanes<S>>) -> Way<Lanes<S>> {
     let weight_per_length = free.material.weight_per_length;
     let leave = guide.leave_point(weight_per_length, free.length, free.force);
     let stretch = free.material.stretch(leave.tension);
@@ -226,7 +225,7 @@ apart! {
     #[inline(always)]
     on(free.length) fn tilted_way<'a, 'b, S: Simd>(
         guided: &'a Guided<S>,
-        free: FreeCable<'b, S>,
+        free: FreeCable<'b, Lanes<S>>,
     ) -> Way<Lanes<S>> {
         way(&guided.in_plane(), &free)
     }
@@ -234,7 +233,7 @@ apart! {
     #[inline(always)]
     on(free.length) fn linearize<'a, 'b, S: Simd>(
         guided: &'a Guided<S>,
-        free: FreeCable<'b, S>,
+        free: FreeCable<'b, Lanes<S>>,
         span: Span<Lanes<S>>,
         linearized: GuidedLinearization<'a, S>,
         active: Mask<S>,
@@ -265,7 +264,7 @@ apart! {
     #[inline(never)]
     on(free.length) pub(crate) fn is_next_to_wheel<'a, 'b, S: Simd>(
         guided: &'a Guided<S>,
-        free: FreeCable<'b, S>,
+        free: FreeCable<'b, Lanes<S>>,
         span: Span<Lanes<S>>,
     ) -> Mask<S> {
         let [beyond, _] = guided.seen(&span).0.misclosure(guided.leave_point(&free).position);
@@ -275,7 +274,7 @@ apart! {
     #[inline(always)]
     on(free.length) fn whole_end<'a, 'b, S: Simd>(
         guided: &'a Guided<S>,
-        free: FreeCable<'b, S>,
+        free: FreeCable<'b, Lanes<S>>,
         span: Span<Lanes<S>>,
     ) -> GuidedEnd<S> {
         let zero = free.length.all(0.0);
@@ -297,47 +296,4 @@ apart! {
 #[inline(always)]
 fn moved<S: Simd>([x, z]: Lanes2<S>, way: &Way<Lanes<S>>, missing: Lanes<S>) -> Lanes2<S> {
     [x + way.end_per_length[0] * missing, z + way.end_per_length[1] * missing]
-}
-
-/// A whole cable over a tilted axis at fixed ends: what closes it, and how it responds there, (L19).
-pub(crate) struct FixedInSpace<S: Simd> {
-    /// (dF_l, dfz, dLf) that close the cable at the same fx.
-    pub(crate) closing: Lanes3<S>,
-    /// The same by fx.
-    pub(crate) per_force: Lanes3<S>,
-    /// The rows of (dF_l, dfz, dLf) by the motion of A along e_h, across and upwards, at the same fx.
-    pub(crate) per_end: [Lanes3<S>; 3],
-    /// Its span beyond the leave point, in its plane.
-    pub(crate) beyond: Span<Lanes<S>>,
-}
-
-impl<S: Simd> FixedInSpace<S> {
-    #[inline(always)]
-    pub(crate) fn new(
-        guided: &Guided<S>,
-        free: &FreeCable<'_, S>,
-        span: &Span<Lanes<S>>,
-        response: &Response<Lanes<S>>,
-    ) -> Self {
-        let way = guided.way(free);
-        let GuidedInSpace { end, flexibility: c, end_per_length, free_per_force: q, .. } =
-            way.in_space(free.force[0], response);
-        let (span, across) = guided.seen(span);
-        let open = [span.end[0] - end[0], across - end[1], span.end[1] - end[2]];
-        let [across, upwards] = [three!(|k| c[k][1]), three!(|k| c[k][2])];
-        // The rows of the inverse of [C e_l, C e_z, dA/dL].
-        let [first, second, third] =
-            [cross(&upwards, &end_per_length), cross(&end_per_length, &across), cross(&across, &upwards)];
-        let inverse = dot(&across, &first).recip();
-        let [across, upwards, whole] =
-            [three!(|k| first[k] * inverse), three!(|k| second[k] * inverse), three!(|k| third[k] * inverse)];
-        let free = three!(|k| whole[k] * way.free_per_length + q[1] * across[k] + q[2] * upwards[k]);
-        let forwards = three!(|k| -c[k][0]);
-        Self {
-            closing: [dot(&across, &open), dot(&upwards, &open), dot(&free, &open)],
-            per_force: [dot(&across, &forwards), dot(&upwards, &forwards), dot(&free, &forwards) + q[0]],
-            per_end: [across, upwards, free],
-            beyond: Span { plane: span.plane, end: span.misclosure(way.leave.position) },
-        }
-    }
 }

@@ -60,27 +60,18 @@ impl WithSimd for Solve<'_, '_> {
         }
         problem.take(&robots, state);
         let upper = robots.stiffness(&load, &mut platform);
-        let level = problem.robot.gravity.level();
-        let turned = |v: Vector6<f64>| match level {
-            None => v,
-            Some(level) => {
-                let [first, second] = [0, 3].map(|row| level.tr_mul(&v.fixed_rows::<3>(row)));
-                Vector6::new(first.x, first.y, first.z, second.x, second.y, second.z)
-            }
-        };
-        let mut stiffness = Matrix6::from_fn(|i, j| upper[i.min(j)][i.max(j)].first());
-        if level.is_some() {
-            // Both sides, one after the other: the matrix is symmetric.
-            for _ in 0..2 {
-                let columns: Vec<_> = stiffness.column_iter().map(|column| turned(column.into())).collect();
-                stiffness = Matrix6::from_columns(&columns).transpose();
-            }
-        }
         let first = &platform.steps.first;
+        let mut first_step = Vector6::from_fn(|k, _| first[k].first());
+        let mut stiffness = Matrix6::from_fn(|i, j| upper[i.min(j)][i.max(j)].first());
+        if let Some(level) = problem.robot.gravity.level() {
+            let mut both = Matrix6::zeros();
+            [0, 3].into_iter().for_each(|k| both.fixed_view_mut::<3, 3>(k, k).copy_from(level));
+            (first_step, stiffness) = (both.tr_mul(&first_step), both.tr_mul(&stiffness) * both);
+        }
         Some(Solved {
             iterations: platform.steps.count,
             residual: residual.norms()[0],
-            first_step: turned(Vector6::from_fn(|k, _| first[k].first())),
+            first_step,
             stiffness: problem.robot.freedoms().of_matrix(&stiffness),
         })
     }

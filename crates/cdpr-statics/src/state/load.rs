@@ -27,6 +27,13 @@ impl Load {
         Self { wrench, ..Self::none() }
     }
 
+    /// The load at a share of the way to another one.
+    pub(crate) fn between(&self, other: &Self, share: f64) -> Self {
+        let mix = |a: f64, b: f64| if share == 1.0 { b } else { a + share * (b - a) };
+        let wrench = self.wrench.to_vector().zip_map(&other.wrench.to_vector(), mix);
+        Self { payload: mix(self.payload, other.payload), wrench: Wrench::from_vector(&wrench) }
+    }
+
     /// Wrench w_ex of weight and load about P [N, N m].
     pub(crate) fn total(&self, robot: &Robot, pose: &Pose) -> Wrench {
         robot.weight(pose, self.payload) + self.wrench

@@ -1,10 +1,11 @@
 //! Analysis of a sampling: summary, fitted laws, effects.
 
+use crate::analysis::linear_law::{LinearLaw, explained};
 use crate::analysis::methods::run::Run;
 use crate::analysis::sensitivity::{SensitivitySummary, bounded, measured};
 use crate::analysis::values::ValueSummary;
 use crate::analysis::verdict::PartVerdict;
-use crate::analysis::verdict::recommendation::{Candidate, Recommendation, recommend};
+use crate::analysis::verdict::recommendation::{Basis, Candidate, Recommendation, recommend};
 use crate::error::StudyError;
 use crate::file::output::Output;
 use crate::file::sensitivity_spec::{SensitivitySpec, VERDICT_POINTS};
@@ -266,7 +267,26 @@ fn recommended(
     };
     let student = names.iter().map(|name| t_student.get(name).copied()).collect::<Option<Vec<f64>>>();
     candidates.extend(student.map(Candidate::of_student));
-    Ok((summary, recommend(&names, candidates, settings.confidence)))
+    let mut recommendation = recommend(&names, candidates, settings.confidence);
+    if let Some(of) = recommendation.as_mut().filter(|of| of.basis == Basis::Derivatives) {
+        of.explained = explained_to_first_order(sampling, tally);
+    }
+    Ok((summary, recommendation))
+}
+
+/// Share of the variance that the derivatives of the nominal robot explain; `None` where it has none.
+fn explained_to_first_order(sampling: &Sampling, tally: &Tally) -> Option<f64> {
+    let (value, slopes) = sampling.observer.to_first_order(&sampling.errors).ok()?;
+    let mut row = vec![0.0; sampling.design.inputs().len()];
+    let law = LinearLaw { about: row.clone(), value, slopes };
+    let mut pairs = Vec::new();
+    for (index, observed) in tally.first_values.iter().enumerate() {
+        if let Some(observed) = observed {
+            sampling.design.row(index, &mut row).ok()?;
+            pairs.push((law.at(&row), *observed));
+        }
+    }
+    explained(&pairs)
 }
 
 /// The summary of a sampling whose outputs are below rounding: zero, without laws and effects.

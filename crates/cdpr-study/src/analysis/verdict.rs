@@ -3,6 +3,7 @@
 
 pub(crate) mod recommendation;
 
+use crate::analysis::linear_law::little_explained;
 use crate::analysis::values::ValueSummary;
 use crate::analysis::verdict::recommendation::{Basis, MATTERS, Recommendation, RecommendedIndex, Standing};
 use crate::file::output::Output;
@@ -24,24 +25,30 @@ pub struct PartVerdict {
 }
 
 impl PartVerdict {
-    /// Of a sampling at one pose. Its statistics are absent where fewer than two observations succeeded.
-    pub(crate) fn of_sampling(
-        sampling: &Sampling,
-        tally: &Tally,
-        values: Option<&ValueSummary>,
-        recommendation: Option<Recommendation>,
-    ) -> Self {
+    /// What comes out of a sampling at one pose: the first sentences of its verdict, from its observations.
+    /// Statistics are absent where fewer than two observations succeeded.
+    pub fn outcome(sampling: &Sampling, tally: &Tally, values: Option<&ValueSummary>) -> Vec<String> {
         let output = sampling.output();
         let (noun, unit) = (output.noun(), output.unit());
-        let mut sentences = vec![match values {
+        let first = match values {
             Some(ValueSummary { mean, std, min, max, .. }) => {
                 let [mean, min, max] = [mean, min, max].map(|value| number(*value));
                 let std = significant(*std, 3);
                 format!("Mean {noun} {mean} {unit}, deviation {std} {unit}, range {min} to {max} {unit}.")
             }
             None => format!("No {noun}: fewer than two observations succeeded."),
-        }];
-        sentences.extend(of_failed(&tally.failed, sampling.design.points()));
+        };
+        [Some(first), of_failed(&tally.failed, sampling.design.points())].into_iter().flatten().collect()
+    }
+
+    /// Of a sampling at one pose.
+    pub(crate) fn of_sampling(
+        sampling: &Sampling,
+        tally: &Tally,
+        values: Option<&ValueSummary>,
+        recommendation: Option<Recommendation>,
+    ) -> Self {
+        let mut sentences = Self::outcome(sampling, tally, values);
         sentences.extend(recommendation.iter().flat_map(Recommendation::sentences));
         Self { sentences, recommendation }
     }
@@ -118,6 +125,9 @@ impl Recommendation {
             let leading: Vec<&str> = self.inputs.iter().take(3).map(|of| of.input.as_str()).collect();
             sentences.push(listing("Leading, without bounds: ", &leading, "."));
         }
+        let little = little_explained(self.explained);
+        sentences
+            .extend(little.map(|little| format!("{little}: the bounds hold, nominal derivatives mislead.")));
         sentences.extend(self.remedy.clone());
         sentences
     }

@@ -28,7 +28,9 @@ pub struct StudyFile {
     pub source: Option<String>,
     /// Robot file, relative to this file, or the name of a robot of the library.
     pub robot: String,
-    /// Mass added at the platform's centre of mass, whose effect is the deflection [kg].
+    /// Mass added at the platform's centre of mass, whose effect is the deflection [kg]; other outputs need
+    /// none.
+    #[serde(default)]
     pub payload: f64,
     /// What is observed of every robot: "deflection" unless another output is named.
     #[serde(default, skip_serializing_if = "Output::is_deflection")]

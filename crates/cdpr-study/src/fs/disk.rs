@@ -1,5 +1,5 @@
 //! The one place where files and folders are changed: each function is one operation of the system. Tests of
-//! the program (`crates/cdpr-cli/tests/faults.rs`) let any of them fail, or end the process before or after
+//! the program (`crates/cdpr/tests/faults.rs`) let any of them fail, or end the process before or after
 //! it.
 
 use std::fs::{self, File, TryLockError};

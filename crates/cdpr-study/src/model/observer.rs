@@ -208,6 +208,29 @@ impl<'a> OutputObserver<'a> {
         Ok((found.pose.position - rest.pose.position, slopes))
     }
 
+    /// The output of the nominal robot in its unit, and its derivatives by the inputs of an error model; of a
+    /// position error those of each component of the displacement.
+    ///
+    /// # Errors
+    /// Those of the models and of their derivatives.
+    pub(crate) fn to_first_order(
+        &self,
+        errors: &ErrorModel,
+    ) -> Result<(Vec<f64>, Vec<Vec<f64>>), StaticsError> {
+        let none = vec![0.0; errors.inputs.len()];
+        if self.output == Output::Position {
+            let perturbed = self.robot.perturbed(errors.deviations(&none).values())?;
+            let (displaced, slopes) = self.displaced_slopes(&perturbed, errors)?;
+            let row = |axis| {
+                let slopes: Vec<f64> = slopes.row(axis).iter().copied().collect();
+                scaled(1e3, errors.gradient(&slopes))
+            };
+            return Ok((displaced.iter().map(|x| 1e3 * x).collect(), [0, 1, 2].map(row).to_vec()));
+        }
+        let (value, gradient) = self.slopes_one_by_one(errors.deviations(&none).values(), errors)?;
+        Ok((vec![value], vec![gradient]))
+    }
+
     /// Lengths of the nominal robot for the wanted pose, with the offsets of a deviating one.
     fn lengths(&self, perturbed: &Perturbed) -> Result<Cow<'_, [f64]>, StaticsError> {
         let offsets = &perturbed.tension_offsets;

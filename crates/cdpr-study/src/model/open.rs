@@ -178,8 +178,15 @@ impl Study {
         if file.format != STUDY_FORMAT {
             return Err(self.invalid("format", &file.format, STUDY_FORMAT));
         }
-        if !(file.payload.is_finite() && file.payload > 0.0) {
-            return Err(self.invalid("payload", file.payload, "a finite mass above zero [kg]"));
+        let is_loaded = file.payload > 0.0 || file.payload == 0.0 && !file.output.is_deflection();
+        if !(file.payload.is_finite() && is_loaded) {
+            let expected = match file.output {
+                Output::Deflection => {
+                    "a finite mass above zero [kg], whose effect is the deflection; output position needs none"
+                }
+                _ => "a finite mass, zero or more [kg]",
+            };
+            return Err(self.invalid("payload", file.payload, expected));
         }
         if !self.robot.distribution.is_smooth() {
             let expected =

@@ -80,6 +80,7 @@ class ToleranceBudget(Table):
     cost = Column("cost", "Cost now; tightened, it is divided by the factor.", "tolerances")
     limit_mm = Value("limit_mm", "Limit of the error [mm].")
     least_mm = Value("least_mm", "The error without any deviation [mm]: no tolerance goes below it.")
+    explained = Value("explained", "Share of the variance that the linear law explains.")
     now = Value("now", "What the tolerances reach as they are, a dictionary: `quantile_mm`, `within`, ...")
     tightened = Value("tightened", "What the tightened tolerances reach, a dictionary as `now`.")
 

@@ -69,10 +69,10 @@ answer! {
         lost_energy: Py<PyAny>,
         /// Energy that is missing at the end, or too much [J].
         energy_drift: Py<PyAny>,
-        /// Elements of each cable.
-        elements: usize,
-        /// Degree of the polynomial on each.
-        degree: usize,
+        /// Elements of each cable at the end, (n,).
+        elements: Py<PyAny>,
+        /// Degree of the polynomial on them, (n,).
+        degree: Py<PyAny>,
         /// Steps of time.
         steps: usize,
     }
@@ -135,7 +135,7 @@ impl Robot {
     ///     Ratio of the viscous to the elastic modulus of the cables [s].
     /// elements, degree : int, optional
     ///     Elements of each cable, and the degree of the polynomial on each; if left out, few elements of a high
-    ///     degree, and many straight ones where a cable goes slack.
+    ///     degree, and many straight ones of a cable from when it goes slack.
     /// tolerance : float, default 5e-9
     ///     Error of a step that is accepted [m].
     ///
@@ -372,9 +372,11 @@ impl MotionSummary {
         let outcome: [Result<&Series, StaticsError>; 1] = [Ok(series)];
         let all = Columns::new(py, SINGLE, &outcome)?;
         let of_cables = |of: &dyn Fn(usize) -> f64| {
-            all.numbers(&[lengths.len()], |_, out| {
-                out.iter_mut().enumerate().for_each(|(i, out)| *out = of(i));
-            })
+            all.numbers(&[lengths.len()], |_, out| (0..out.len()).for_each(|i| out[i] = of(i)))
+        };
+        let counts = |of: &dyn Fn(usize) -> usize| {
+            let fill = |_: &Series, out: &mut [i64]| (0..out.len()).for_each(|i| out[i] = of(i) as i64);
+            all.array(0, &[lengths.len()], fill)
         };
         let (difference, energy) = (&series.difference, &series.energy);
         Ok(Self {
@@ -390,8 +392,8 @@ impl MotionSummary {
             given_energy: all.number(|_| energy.given)?,
             lost_energy: all.number(|_| energy.lost)?,
             energy_drift: all.number(|_| energy.drift)?,
-            elements: series.discretization.elements,
-            degree: series.discretization.degree,
+            elements: counts(&|i| series.discretizations[i].elements)?,
+            degree: counts(&|i| series.discretizations[i].degree)?,
             steps: series.work.steps,
         })
     }

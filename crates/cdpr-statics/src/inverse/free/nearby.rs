@@ -1,15 +1,9 @@
 //! The rest of a robot that differs a little from one whose rest is known.
 //!
-//! From the chord forces and coordinates of the known rest, steps in (ln σ, q) follow the inverse H of its
-//! slopes, which Broyden's update (1965) corrects by each step s and the change y of the residual,
-//!
-//! ```text
-//! H' = H + (s - H y) sᵀH/(s·H y)                                                                  (I8)
-//! ```
-//!
-//! so that no slope is computed again as long as every step halves the residual at least.
+//! Newton's steps lead to it from the chord forces and coordinates of the known rest, each of which halves the
+//! residual at least.
 
-use super::search::{Outcome, Point, ROUNDING, SINGULAR_VALUES, SOLVED, Search, Unknowns};
+use super::search::{Outcome, Point, ROUNDING, SOLVED, Search, Unknowns, newton_step};
 use super::solution::FreeSolution;
 use super::sound::Loops;
 use super::{NEXT_TO_POSE, Nearby, check_free, lengths_at};
@@ -18,7 +12,6 @@ use crate::inverse::PoseLengths;
 use crate::rest_fault::RestFault;
 use crate::state::{Equilibrium, Load, WantedPose};
 use cdpr_robot::{Coordinate, Pose, Robot};
-use nalgebra::{DMatrix, DVector};
 
 /// A platform that rests under its own weight with free coordinates, from which the rest of other robots is
 /// found.
@@ -26,21 +19,10 @@ use nalgebra::{DMatrix, DVector};
 pub(crate) struct FreeBranch {
     free: Vec<Coordinate>,
     rest: PoseLengths,
-    /// Where steps start; `None` where the slopes have no inverse.
-    start: Option<Known>,
+    /// Where steps start; `None` where none led there.
+    start: Option<Unknowns>,
     /// Whether it is nearly that of straight cables, so that these show what becomes of it.
     is_straight: bool,
-}
-
-/// What is known of a rest.
-#[derive(Clone, Debug)]
-struct Known {
-    /// Changes of the free coordinates, in their units.
-    changes: Vec<f64>,
-    /// [N]
-    chord_forces: Vec<f64>,
-    /// H, the inverse of dF/d(ln σ, q).
-    inverse: DMatrix<f64>,
 }
 
 /// Steps until a residual that is halved at least by each is rounding.
@@ -63,9 +45,9 @@ impl FreeBranch {
         let none = Load::none();
         let rest = lengths_at(robot, &WantedPose::at(pose).free(free), &none)?;
         let search = Search::new(robot, &rest.equilibrium.pose, &none, free)?;
-        let start = search
-            .known(chord_forces(robot, &rest.equilibrium))
-            .and_then(|near| Some(search.follow(near)?.1));
+        let changes = vec![0.0; free.len()];
+        let near = Unknowns { changes, chord_forces: chord_forces(robot, &rest.equilibrium) };
+        let start = search.follow(near).map(|(_, start)| start);
         let is_straight = search.is_straight();
         Ok(Self { free: free.to_vec(), rest, start, is_straight })
     }
@@ -146,7 +128,7 @@ impl Search<'_> {
     ///
     /// # Errors
     /// [`StaticsError::NoRest`] and [`StaticsError::Unstable`] where it is refused or lost.
-    fn belonging(&self, known: Known, is_straight: bool) -> Result<Option<FreeSolution>, StaticsError> {
+    fn belonging(&self, known: Unknowns, is_straight: bool) -> Result<Option<FreeSolution>, StaticsError> {
         if let Some((point, _)) = self.follow(known) {
             return self.decided(point, 0, REACH)?.solution();
         }
@@ -224,54 +206,22 @@ impl Search<'_> {
         if is_nearer { scaled } else { chord_forces }
     }
 
-    /// The given coordinates with these chord forces [N].
-    fn known(&self, chord_forces: Vec<f64>) -> Option<Known> {
-        let changes = vec![0.0; self.free.len()];
-        let point = self.point(&changes, &chord_forces)?;
-        let inverse = self.inverse_slopes(&changes, &chord_forces, &point)?;
-        Some(Known { changes, chord_forces, inverse })
-    }
-
-    fn inverse_slopes(&self, changes: &[f64], chord_forces: &[f64], point: &Point) -> Option<DMatrix<f64>> {
-        let slopes = self.slopes(changes, chord_forces, point)?;
-        let svd = slopes.try_svd(true, true, f64::EPSILON, SINGULAR_VALUES)?;
-        let greatest = svd.singular_values.max();
-        svd.pseudo_inverse(1e-13 * greatest).ok()
-    }
-
-    /// The solution that steps lead to which halve the residual at least, and what is known of it.
-    fn follow(&self, mut known: Known) -> Option<(Point, Known)> {
-        let mut point = self.point(&known.changes, &known.chord_forces)?;
-        // Slopes are computed again where those at hand do not halve the residual.
-        let mut exact = false;
+    /// The solution that steps lead to which halve the residual at least.
+    fn follow(&self, mut at: Unknowns) -> Option<(Point, Unknowns)> {
+        let mut point = self.point(&at.changes, &at.chord_forces)?;
         for _ in 0..MAX_STEPS {
             let norm = point.residual.norm();
             if norm <= ROUNDING * point.forces {
-                return Some((point, known));
+                break;
             }
-            let residual = DVector::from_column_slice(point.residual.as_slice());
-            let step = -(&known.inverse * &residual);
-            let moved = self.moved(&known.changes, &known.chord_forces, &step);
-            let moved = moved.filter(|(_, _, next)| next.residual.norm() <= 0.5 * norm);
-            let Some((changes, chord_forces, next)) = moved else {
-                if norm <= SOLVED * point.forces {
-                    return Some((point, known));
-                }
-                if exact {
-                    return None;
-                }
-                known.inverse = self.inverse_slopes(&known.changes, &known.chord_forces, &point)?;
-                exact = true;
-                continue;
+            let step = newton_step(&self.slopes(&at.changes, &at.chord_forces, &point)?, &point.residual)?;
+            let moved = self.moved(&at.changes, &at.chord_forces, &step);
+            let Some((changes, chord_forces, next)) = moved.filter(|to| to.2.residual.norm() <= 0.5 * norm)
+            else {
+                break;
             };
-            let change = DVector::from_column_slice((next.residual - point.residual).as_slice());
-            let predicted = &known.inverse * change;
-            let row = step.transpose() * &known.inverse;
-            let scale = step.dot(&predicted);
-            known.inverse += (&step - predicted) * row / scale;
-            (known.changes, known.chord_forces, point) = (changes, chord_forces, next);
-            exact = false;
+            (at, point) = (Unknowns { changes, chord_forces }, next);
         }
-        None
+        (point.residual.norm() <= SOLVED * point.forces).then_some((point, at))
     }
 }

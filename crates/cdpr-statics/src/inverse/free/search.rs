@@ -2,12 +2,16 @@
 //!
 //! In chord forces (`cdpr_cable::HeldCable`) the elasticity of the cables does not appear in the slopes, and
 //! the equations are nearly those of straight strings. Steps of Levenberg and Marquardt in (ln σ, q) make |F|
-//! least. Slopes with respect to q are central differences: their error changes the rate of convergence and
-//! not the solution.
+//! least. A coordinate q moves anchor point i by d_i and turns its lever arm by ds_i. At the same chord
+//! force, with the derivative of F_i by (C38) of `cdpr_cable`,
+//!
+//! ```text
+//! dF/dq = sum [ ∂F_i/∂r_i d_i; s_i x ∂F_i/∂r_i d_i + ds_i x F_i ] + [0; dRc x F_w]                 (I8)
+//! ```
 
 use crate::error::StaticsError;
 use crate::inverse::PoseLengths;
-use crate::inverse::cable::{CableAtPose, Row};
+use crate::inverse::cable::{CableAtPose, Pull, Row};
 use crate::inverse::problem::InverseProblem;
 use crate::rest_fault::RestFault;
 use crate::state::Load;
@@ -28,9 +32,6 @@ pub(super) const SOLVED: f64 = 1e-11;
 
 /// Solutions nearer than this, in radians and relative to the longest span, are the same.
 pub(super) const SAME: f64 = 1e-7;
-
-/// Half of a difference of an angle [rad], or of a position relative to the longest span.
-const DIFFERENCE: f64 = 1e-5;
 
 /// Greatest change of an angle [rad] in one step, or of a position relative to the longest span.
 const GREATEST_STEP: f64 = 0.3;
@@ -143,15 +144,11 @@ impl<'a> Search<'a> {
     /// The cables at a pose with given chord forces [N]; `None` where one of them has no shape.
     pub(super) fn point(&self, changes: &[f64], chord_forces: &[f64]) -> Option<Point> {
         let pose = self.pose(changes);
-        let characteristic_length = self.problem.characteristic_length;
-        let problem = self.problem_at(&pose);
-        let cable = |(i, force): (usize, &f64)| CableAtPose::near(&problem, i, *force, None).ok();
-        let cables: Vec<CableAtPose> = chord_forces.iter().enumerate().map(cable).collect::<Option<_>>()?;
-        let rows: Vec<Row> =
-            cables.iter().map(|cable| cable.row(&cable.fixed, characteristic_length)).collect();
-        let mut external = self.problem.load.total(self.problem.robot, &pose).to_vector();
-        external.fixed_rows_mut::<3>(3).unscale_mut(characteristic_length);
-        let external = self.problem.robot.freedoms().of_vector(&external);
+        let cables = cables(&self.problem_at(&pose), chord_forces)?;
+        let row = |cable: &CableAtPose| cable.row(&cable.fixed, self.problem.characteristic_length);
+        let rows: Vec<Row> = cables.iter().map(row).collect();
+        let external = self.problem.load.total(self.problem.robot, &pose);
+        let external = self.scaled(external.force, external.moment);
         let residual = rows.iter().fold(external, |sum, row| sum + row.wrench);
         let forces = external.norm() + rows.iter().map(|row| row.wrench.norm()).sum::<f64>();
         let catenaries: Vec<_> = cables.iter().map(|cable| cable.fixed.catenary).collect();
@@ -170,18 +167,44 @@ impl<'a> Search<'a> {
         for (i, (row, force)) in point.rows.iter().zip(chord_forces).enumerate() {
             slopes.set_column(i, &(row.slope * *force));
         }
-        let mut moved = changes.to_vec();
-        for k in 0..changes.len() {
-            let mut at = |change: f64| {
-                moved[k] = changes[k] + change;
-                let residual = self.point(&moved, chord_forces).map(|point| point.residual);
-                moved[k] = changes[k];
-                residual
-            };
-            let slope = (at(DIFFERENCE)? - at(-DIFFERENCE)?) / (2.0 * DIFFERENCE);
+        let pose = self.pose(changes);
+        let cables = cables(&self.problem_at(&pose), chord_forces)?;
+        let pulls: Vec<Pull> = cables.iter().map(CableAtPose::pull).collect();
+        for (k, slope) in self.per_coordinate(&pose, changes, &pulls).enumerate() {
             slopes.set_column(chord_forces.len() + k, &slope);
         }
         slopes.iter().all(|slope| slope.is_finite()).then_some(slopes)
+    }
+
+    /// A wrench with its moment divided by the characteristic length, along the motions of the platform.
+    pub(super) fn scaled(&self, force: Vector3<f64>, moment: Vector3<f64>) -> Vector6<f64> {
+        let InverseProblem { robot, characteristic_length, .. } = self.problem;
+        let moment = moment / characteristic_length;
+        robot.freedoms().of_vector(&Vector6::new(force.x, force.y, force.z, moment.x, moment.y, moment.z))
+    }
+
+    /// Derivatives (I8) of the balance by the free coordinates.
+    pub(super) fn per_coordinate(
+        &self,
+        pose: &Pose,
+        changes: &[f64],
+        pulls: &[Pull],
+    ) -> impl Iterator<Item = Vector6<f64>> {
+        let InverseProblem { robot, load, .. } = self.problem;
+        let weight = robot.weight(pose, load.payload).force;
+        let center = pose.rotation * robot.platform.center_of_mass;
+        self.free.iter().map(move |coordinate| {
+            let motion = self.motion(*coordinate, changes);
+            let [shift, turn]: [Vector3<f64>; 2] = [0, 3].map(|row| motion.fixed_rows::<3>(row).into());
+            let (mut force, mut moment) = (Vector3::zeros(), turn.cross(&center).cross(&weight));
+            for Pull { lever_arm, force: pull, per_motion } in pulls {
+                let turned = turn.cross(lever_arm);
+                let change = per_motion * (shift + turned);
+                force += change;
+                moment += lever_arm.cross(&change) + turned.cross(pull);
+            }
+            self.scaled(force, moment)
+        })
     }
 
     /// Chord forces of the straight cables that hold the pose best within their limits [N]: fewer cables than
@@ -253,10 +276,8 @@ impl<'a> Search<'a> {
         while *damping < 1e6 {
             let shift = greatest * if norm <= 1e-6 * point.forces { 1e-3 * *damping } else { *damping };
             let step = if norm <= 1e-3 * point.forces && *damping < 1e-6 {
-                // Near the solution Newton's step, whose equations are not squared.
-                // Unlimited, the iterations for singular values need not end.
-                let svd = slopes.clone().try_svd(true, true, f64::EPSILON, SINGULAR_VALUES);
-                svd.and_then(|svd| svd.solve(&-point.residual, 1e-13 * greatest.sqrt()).ok())
+                // Near the solution, whose equations are not squared.
+                newton_step(slopes, &point.residual)
             } else {
                 let mut matrix = normal.clone();
                 (0..matrix.nrows()).for_each(|k| matrix[(k, k)] += shift);
@@ -329,4 +350,17 @@ impl<'a> Search<'a> {
         let motion = one.motion_to(other);
         (motion.fixed_rows::<3>(0) / self.size).norm().hypot(motion.fixed_rows::<3>(3).norm())
     }
+}
+
+/// The cables with these chord forces [N]; `None` where one of them has no shape.
+fn cables<'a>(problem: &InverseProblem<'a>, chord_forces: &[f64]) -> Option<Vec<CableAtPose<'a>>> {
+    let cable = |(i, force): (usize, &f64)| CableAtPose::near(problem, i, *force, None).ok();
+    chord_forces.iter().enumerate().map(cable).collect()
+}
+
+/// Newton's step in (ln σ, q), the least one where the slopes are singular.
+pub(super) fn newton_step(slopes: &DMatrix<f64>, residual: &Vector6<f64>) -> Option<DVector<f64>> {
+    // Unlimited, the iterations for singular values need not end.
+    let svd = slopes.clone().try_svd(true, true, f64::EPSILON, SINGULAR_VALUES)?;
+    svd.solve(&-residual, 1e-13 * svd.singular_values.max()).ok()
 }

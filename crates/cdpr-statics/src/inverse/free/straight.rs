@@ -6,13 +6,14 @@
 //! sum [u_i; s_i x u_i] t_i + w_ex = 0            n tensions t_i of either sign, m - n coordinates q     (I9)
 //! ```
 //!
-//! Its slopes are exact and cheap: with the velocity v_i of anchor i for a change of q, `du_i = -(v_i - u_i
-//! (u_i·v_i))/c_i` over a chord c_i, and points of attack turn with the platform. Steps of Levenberg and
+//! Its slopes are (I8) with `∂(u_i t_i)/∂r_i = t_i (u_i u_iᵀ - 1)/c_i` over a chord c_i. Steps of Levenberg and
 //! Marquardt in (t, q) start from many places. A root with a negative tension is one with a cable that would
 //! have to push: it is kept to say so.
 
 use super::search::{SAME, Search, Unknowns};
-use cdpr_robot::{Vector3, Vector6};
+use crate::inverse::cable::Pull;
+use crate::inverse::problem::InverseProblem;
+use cdpr_robot::{Matrix3, Vector6};
 use nalgebra::Matrix6;
 
 /// A pose that straight cables hold.
@@ -148,46 +149,24 @@ impl Search<'_> {
     }
 
     fn straight_equations(&self, changes: &[f64], tensions: &[f64]) -> Equations {
-        let (robot, cables) = (self.problem.robot, self.problem.cables());
-        let (pose, freedoms) = (self.pose(changes), robot.freedoms());
-        let scaled = |force: Vector3<f64>, moment: Vector3<f64>| {
-            let moment = moment / self.problem.characteristic_length;
-            freedoms.of_vector(&Vector6::new(force.x, force.y, force.z, moment.x, moment.y, moment.z))
-        };
-        let unit = self.problem.external.norm();
-        let load = self.problem.load;
+        let InverseProblem { robot, load, .. } = self.problem;
+        let (pose, unit) = (self.pose(changes), self.problem.external.norm());
         let external = load.total(robot, &pose);
-        let external = scaled(external.force, external.moment) / unit;
-        let weight = robot.weight(&pose, load.payload).force / unit;
-        let center = pose.rotation * robot.platform.center_of_mass;
-        let motions: Vec<(Vector3<f64>, Vector3<f64>)> = self
-            .free
-            .iter()
-            .map(|coordinate| self.motion(*coordinate, changes))
-            .map(|motion| (motion.fixed_rows::<3>(0).into(), motion.fixed_rows::<3>(3).into()))
-            .collect();
+        let external = self.scaled(external.force, external.moment) / unit;
         let (mut residual, mut size, mut slopes) = (external, external.norm(), Matrix6::zeros());
+        let mut pulls = Vec::with_capacity(tensions.len());
         for (i, tension) in tensions.iter().enumerate() {
-            let lever = robot.anchor_arm(&pose, i);
-            let span = robot.span(&pose, i);
-            let chord = span.norm();
-            let (pull, tension) = (-span / chord, tension / unit);
-            let column = scaled(pull, lever.cross(&pull));
+            let (lever_arm, span) = (robot.anchor_arm(&pose, i), robot.span(&pose, i));
+            let (chord, pull) = (span.norm(), -span.normalize());
+            let column = self.scaled(pull, lever_arm.cross(&pull));
             slopes.set_column(i, &column);
-            residual += column * tension;
-            size += (column * tension).norm();
-            for (k, (shift, turn)) in motions.iter().enumerate() {
-                let moved = turn.cross(&lever);
-                let velocity = shift + moved;
-                let change = (pull * pull.dot(&velocity) - velocity) * (tension / chord);
-                let moment = lever.cross(&change) + moved.cross(&pull) * tension;
-                let mut column = slopes.column_mut(cables + k);
-                column += scaled(change, moment);
-            }
+            residual += column * (tension / unit);
+            size += (column * (tension / unit)).norm();
+            let per_motion = (pull * pull.transpose() - Matrix3::identity()) * (tension / chord);
+            pulls.push(Pull { lever_arm, force: pull * *tension, per_motion });
         }
-        for (k, (_, turn)) in motions.iter().enumerate() {
-            let mut column = slopes.column_mut(cables + k);
-            column += scaled(Vector3::zeros(), turn.cross(&center).cross(&weight));
+        for (k, slope) in self.per_coordinate(&pose, changes, &pulls).enumerate() {
+            slopes.set_column(tensions.len() + k, &(slope / unit));
         }
         Equations { residual, slopes, size }
     }

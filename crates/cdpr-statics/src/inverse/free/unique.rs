@@ -13,8 +13,7 @@ use crate::error::StaticsError;
 use crate::inverse::PoseLengths;
 use nalgebra::{DVector, SVD};
 
-/// Singular values below this share of the greatest may be those of a kernel: the differences of the slopes
-/// are exact to 1e-9.
+/// Singular values below this share of the greatest may be those of a kernel.
 const KERNEL: f64 = 1e-7;
 
 /// Greatest part of a step along the kernel: the logarithm of a chord force, an angle [rad], or a position

@@ -95,7 +95,7 @@ impl<S: Simd> CableResponse<Lanes<S>> {
             pulled[0] += skew * z;
             pulled[1] -= skew * h;
         }
-        let across = sideways(&plane, twisted) * linearized.lateral_stiffness;
+        let across = plane.across(*twisted) * linearized.lateral_stiffness;
         let slopes = self.slopes(&plane, [-pulled[0], -pulled[1]], -across);
         (slopes, dot(&pulled, &self.response.end_per_length))
     }
@@ -117,7 +117,7 @@ impl<S: Simd> CableResponse<Lanes<S>> {
     #[inline(always)]
     fn slopes(&self, plane: &CablePlane<Lanes<S>>, along: Lanes2<S>, across: Lanes<S>) -> CableSlopes<S> {
         CableSlopes {
-            span: in_space(plane, along, across),
+            span: plane.in_space(along, across),
             weight: -dot(&along, &self.per_weight),
             flexibility: -dot(&along, &self.per_flexibility),
             guide: match &self.guide {
@@ -137,22 +137,9 @@ impl<S: Simd> GuideResponse<Lanes<S>> {
         GuideSlopes {
             lead: -dot(along, &end.per_lead),
             radius: -dot(along, &end.per_radius),
-            axis: in_space(plane, [forwards, across.all(0.0)], -(across * end.across_per_axis)),
+            axis: plane.in_space([forwards, across.all(0.0)], -(across * end.across_per_axis)),
         }
     }
-}
-
-/// The component of a vector across a plane, along e_l.
-#[inline(always)]
-fn sideways<S: Simd>(plane: &CablePlane<Lanes<S>>, [x, y, _]: &Lanes3<S>) -> Lanes<S> {
-    plane.azimuth[0] * *y - plane.azimuth[1] * *x
-}
-
-/// A vector from its components in a plane and across it.
-#[inline(always)]
-fn in_space<S: Simd>(plane: &CablePlane<Lanes<S>>, along: Lanes2<S>, across: Lanes<S>) -> Lanes3<S> {
-    let [x, y, z] = plane.lift(along);
-    [x - plane.azimuth[1] * across, y + plane.azimuth[0] * across, z]
 }
 
 /// A cable between fixed ends with the derivatives of (L9) by its tension.
@@ -198,7 +185,7 @@ impl<S: Simd> TensionSlopes<S> {
         };
         let (one, zero) = (Dual::constant(share.all(1.0)), Dual::constant(share.all(0.0)));
         let lateral = found.response.lateral_flexibility.recip();
-        let [lateral_once, lateral_twice] = [sideways(plane, force), sideways(plane, twisted) * share];
+        let [lateral_once, lateral_twice] = [plane.across(*force), plane.across(*twisted) * share];
         let across = lateral_once * lateral.value + lateral_twice * lateral.slopes[0];
         let guide = match &found.guide {
             None => None,
@@ -208,12 +195,12 @@ impl<S: Simd> TensionSlopes<S> {
                 Some(GuideSlopes {
                     lead: -of(guide.end.per_lead),
                     radius: -of(guide.end.per_radius),
-                    axis: in_space(plane, [-of(guide.end.per_axis), share.all(0.0)], -across),
+                    axis: plane.in_space([-of(guide.end.per_axis), share.all(0.0)], -across),
                 })
             }
         };
         CableSlopes {
-            span: in_space(plane, [of([one, zero]), of([zero, one])], across),
+            span: plane.in_space([of([one, zero]), of([zero, one])], across),
             weight: -of(found.per_weight),
             flexibility: -of(found.per_flexibility),
             guide,

@@ -23,6 +23,7 @@
 //! ```
 
 use crate::local::cable::LaneCable;
+use crate::local::free::FreeCable;
 use crate::local::guided::Guided;
 use cdpr_cable::kernel::{GuideTerms, GuidedEndSlopes, Material, Response, SwivelAxis};
 use cdpr_number::dense::Lanes3;
@@ -57,32 +58,22 @@ impl<T: Lanewise> GuideResponse<T> {
     }
 }
 
-/// A cable to be evaluated: its material, its length and the force at A.
-#[derive(Clone, Copy)]
-struct GivenCable<'a, T> {
-    material: Material<'a, T>,
-    length: T,
-    force: [T; 2],
-}
-
-impl<T: Lanewise> GivenCable<'_, T> {
-    #[inline(always)]
-    fn response(self) -> CableResponse<T> {
-        let Self { material, length, force } = self;
-        let response = material.response(length, force);
-        let material = Material {
-            law: material.law,
-            weight_per_length: Dual::<_, 2>::input(material.weight_per_length, 0),
-            axial_flexibility: Dual::input(material.axial_flexibility, 1),
-        };
-        let force = [Dual::constant(force[0]), Dual::constant(force[1])];
-        let [x, z] = material.end(Dual::constant(length), force).end;
-        CableResponse {
-            response,
-            per_weight: [x.slopes[0], z.slopes[0]],
-            per_flexibility: [x.slopes[1], z.slopes[1]],
-            guide: None,
-        }
+/// The response of a cable without guide.
+#[inline(always)]
+fn of_free<T: Lanewise>(FreeCable { material, length, force }: FreeCable<'_, T>) -> CableResponse<T> {
+    let response = material.response(length, force);
+    let material = Material {
+        law: material.law,
+        weight_per_length: Dual::<_, 2>::input(material.weight_per_length, 0),
+        axial_flexibility: Dual::input(material.axial_flexibility, 1),
+    };
+    let force = [Dual::constant(force[0]), Dual::constant(force[1])];
+    let [x, z] = material.end(Dual::constant(length), force).end;
+    CableResponse {
+        response,
+        per_weight: [x.slopes[0], z.slopes[0]],
+        per_flexibility: [x.slopes[1], z.slopes[1]],
+        guide: None,
     }
 }
 
@@ -90,10 +81,9 @@ impl<S: Simd> CableResponse<Lanes<S>> {
     /// The response of a cable to the force and the length that it has.
     #[inline(always)]
     pub(super) fn of(cable: &LaneCable<'_, S>) -> Self {
-        let given = GivenCable { material: cable.material(), length: cable.length, force: cable.force };
         match &cable.guided {
-            None => without_guide(given, cable.length),
-            Some(guided) => over_guide(guided.guide, given, cable.length),
+            None => without_guide(cable.free(), cable.length),
+            Some(guided) => over_guide(guided.guide, cable.free(), cable.length),
         }
     }
 
@@ -125,7 +115,7 @@ impl<S: Simd> CableResponse<Dual<Lanes<S>, 1>> {
             axial_flexibility: Dual::constant(cable.axial_flexibility),
         };
         let force = [along(cable.force[0], x), along(cable.force[1], z)];
-        let given = GivenCable { material, length: along(cable.length, longer), force };
+        let given = FreeCable { material, length: along(cable.length, longer), force };
         match &cable.guided {
             None => without_guide(given, cable.length),
             Some(guided) => {
@@ -145,10 +135,10 @@ impl<S: Simd> CableResponse<Dual<Lanes<S>, 1>> {
 apart! {
     #[inline(always)]
     on(lanes) fn without_guide<'a, S: Simd, T: Lanewise>(
-        given: GivenCable<'a, T>,
+        given: FreeCable<'a, T>,
         lanes: Lanes<S>,
     ) -> CableResponse<T> {
-        given.response()
+        of_free(given)
     }
 
     /// The response of a cable over a guide, whose length is that beyond its leave point; `lanes` are those
@@ -157,12 +147,12 @@ apart! {
     #[inline(never)]
     on(lanes) fn over_guide<'a, S: Simd, T: Lanewise>(
         guide: GuideTerms<T>,
-        given: GivenCable<'a, T>,
+        given: FreeCable<'a, T>,
         lanes: Lanes<S>,
     ) -> CableResponse<T> {
-        let GivenCable { material, length: free, force } = given;
+        let FreeCable { material, length: free, force } = given;
         let w = material.weight_per_length;
-        let beyond = given.response();
+        let beyond = of_free(given);
         let leave = guide.leave_point(w, free, force);
         let way = guide.way(w, free, leave, material.stretch(leave.tension));
         let end = guide.end_slopes(

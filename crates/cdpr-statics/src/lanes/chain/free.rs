@@ -175,7 +175,9 @@ impl<S: Simd> Rest<'_, '_, S> {
             for (motion, column) in free.iter().zip(&mut columns[cables..]) {
                 let moved = motion.of(arm);
                 let [h, z] = plane.project(moved);
-                add(column, arm, &ends.pull(plane.azimuth, &[h, plane.across(moved), z]));
+                let along = [h, plane.across(moved), z];
+                let ([x, y], across) = (plane.azimuth, dot(&ends[0], &along));
+                add(column, arm, &[across * y, -(across * x), -dot(&ends[1], &along)]);
                 motion.add_lever(column, &moved, &pull);
             }
             all_fixed.push((fixed, ends));
@@ -206,9 +208,9 @@ impl<S: Simd> Rest<'_, '_, S> {
             let plane = cable.plane(span);
             let [h, z] = plane.project(displacement);
             let along = [h, plane.across(displacement), z];
-            fixed.across[0] += dot(&ends.across, &along);
-            fixed.closing[0] += dot(&ends.rise, &along);
-            fixed.closing[1] += dot(&ends.length, &along);
+            fixed.across[0] += dot(&ends[0], &along);
+            fixed.closing[0] += dot(&ends[1], &along);
+            fixed.closing[1] += dot(&ends[2], &along);
             moved = moved.max(fixed.change(cable, step[i], active, compared));
         }
         for k in 0..free.len() {

@@ -22,9 +22,6 @@ const LAST_CHANGE: f64 = 1e-7;
 
 const MAX_ITERATIONS: usize = 10;
 
-/// A law has few kinks, between which one step is nearly enough.
-const MAX_ITERATIONS_OF_LAW: usize = 30;
-
 /// Greatest change of the logarithm of a horizontal force in one step towards the least tension.
 const LONGEST_CHANGE: f64 = 0.7;
 
@@ -120,12 +117,10 @@ apart! {
 /// The tension at the platform [N] of a cable with the tension `exit` [N] at its exit, `height` [m] below it.
 #[inline(always)]
 pub(crate) fn at_platform<S: Simd>(cable: &LaneCable<'_, S>, exit: Lanes<S>, height: Lanes<S>) -> Lanes<S> {
-    if !cable.law.is_empty() {
-        return with_law(cable, exit, height);
+    match cable.law {
+        [] => cable.material().tension_above(exit, height),
+        _ => with_law(cable, exit, height),
     }
-    let half = cable.axial_flexibility * 0.5;
-    let whole = exit + exit * exit * half + cable.weight_per_length * height;
-    whole * 2.0 * ((whole * half * 4.0 + 1.0).sqrt() + 1.0).recip()
 }
 
 apart! {
@@ -136,18 +131,7 @@ apart! {
         exit: Lanes<S>,
         height: Lanes<S>,
     ) -> Lanes<S> {
-        let work = exit + cable.energy(exit) + cable.weight_per_length * height;
-        let (mut tension, mut active) = (exit, exit.less_or_equal(exit));
-        for _ in 0..MAX_ITERATIONS_OF_LAW {
-            let open = tension + cable.energy(tension) - work;
-            let step = open / (cable.strain(tension) + 1.0);
-            tension.replace(tension - step, active);
-            active = active & !step.abs().less_or_equal(tension.abs() * (4.0 * f64::EPSILON));
-            if !active.any() {
-                break;
-            }
-        }
-        (active | work.less_or_equal(work.all(0.0))).select(exit.all(-1.0), tension)
+        cable.material().tension_above(exit, height)
     }
 
     /// The greatest tension at the platform of a cable with the tension `greatest` at its leave point.

@@ -1,6 +1,7 @@
 //! The inverse model at poses of one robot, one in each lane.
 
 use crate::equations::Span;
+use crate::inverse::InverseSolution;
 use crate::lanes::chain::lengths::find_lengths;
 use crate::lanes::chain::minimum::is_least;
 use crate::lanes::chain::shared::Shared;
@@ -11,7 +12,7 @@ use crate::local::cable::Shape;
 use crate::local::freedoms::constrain;
 use crate::local::load::PlatformLoad;
 use crate::local::platform::{LinearizedPlatform, Robots};
-use crate::state::Load;
+use crate::state::{Equilibrium, Load, Residual};
 use cdpr_number::dense::{Lanes2, Lanes6};
 use cdpr_number::lanes::{Lanes, MAX_LANES, Mask, Simd};
 use cdpr_number::six;
@@ -43,16 +44,8 @@ pub(crate) struct Asked<'a> {
     pub(crate) near: &'a Near,
 }
 
-/// Solution of one lane, its equations still to be checked.
-pub(crate) struct LaneSolution {
-    pub(crate) lengths: Vec<f64>,
-    pub(crate) forces: Vec<Vector2<f64>>,
-    pub(crate) tensions: Vec<f64>,
-    pub(crate) active: Vec<Option<Bound>>,
-    /// Greatest error of (I2) in a cable [N].
-    pub(crate) stationarity: f64,
-    pub(crate) near: Near,
-}
+/// Solution of one lane, its equations still to be checked, and what it is for the next pose.
+pub(crate) type LaneSolution = (InverseSolution, Near);
 
 /// Poses, one for each lane; lanes without a pose of their own repeat the last one.
 pub(crate) struct InLanes<'a, S> {
@@ -107,27 +100,12 @@ impl<S: Simd> InLanes<'_, S> {
         let mut spans = Vec::with_capacity(robots.cables.len());
         for (i, cable) in robots.cables.iter_mut().enumerate() {
             let span = cable.span(&robots.position);
-            let mut tangent = [self.all(0.0); 2];
-            if cable.guided.is_some() {
-                tangent = [
-                    self.each(&|asked| asked.near.shapes[i].tangent[0]),
-                    self.each(&|asked| asked.near.shapes[i].tangent[1]),
-                ];
+            let mut numbers = [self.all(0.0); 7];
+            let count = if cable.guided.is_some() { 7 } else { 3 };
+            for (k, number) in numbers[..count].iter_mut().enumerate() {
+                *number = self.each(&|asked| asked.near.shapes[i].numbers()[k]);
             }
-            let mut turn = [self.all(1.0), self.all(0.0)];
-            if cable.is_tilted() {
-                turn = [
-                    self.each(&|asked| asked.near.shapes[i].turn[0]),
-                    self.each(&|asked| asked.near.shapes[i].turn[1]),
-                ];
-            }
-            let shape = Shape {
-                turn,
-                tangent,
-                chord_force: self.each(&|asked| asked.near.shapes[i].chord_force),
-                sag_force: self.each(&|asked| asked.near.shapes[i].sag_force),
-                longer: self.each(&|asked| asked.near.shapes[i].longer),
-            };
+            let shape = Shape::of_numbers(numbers);
             cable.take(&shape, &span);
             spans.push(span);
         }
@@ -173,21 +151,25 @@ impl<S: Simd> InLanes<'_, S> {
         let found = found.to_array();
         let multipliers_of = multipliers.map(Lanes::to_array);
         let count = spans.len();
-        let result = |lane: usize| LaneSolution {
-            lengths: Vec::with_capacity(count),
-            forces: Vec::with_capacity(count),
-            tensions: Vec::with_capacity(count),
-            active: Vec::with_capacity(count),
-            stationarity: 0.0,
-            near: Near {
-                position: self.asked[lane].pose.position,
-                shapes: Vec::with_capacity(count),
-                multipliers: Vector6::from_fn(|k, _| multipliers_of[k][lane]),
-            },
+        let Setting { placed, shared, .. } = self.setting;
+        let result = |lane: usize| {
+            let pose = *self.asked[lane].pose;
+            let multipliers = Vector6::from_fn(|k, _| multipliers_of[k][lane]);
+            let solution = InverseSolution {
+                lengths: Vec::with_capacity(count),
+                tensions: Vec::with_capacity(count),
+                active: Vec::with_capacity(count),
+                multipliers: placed.both(PlacedRobot::to_base, &multipliers),
+                equilibrium: Equilibrium { pose, cable_forces: Vec::with_capacity(count) },
+                iterations: 0,
+                stationarity: 0.0,
+                residual: Residual { closure: f64::NAN, force: f64::NAN, moment: f64::NAN },
+            };
+            (solution, Near { position: pose.position, shapes: Vec::with_capacity(count), multipliers })
         };
         let mut results: Vec<_> =
             (0..self.asked.len()).map(|lane| found[lane].then(|| result(lane))).collect();
-        let choices = &self.setting.shared.choices;
+        let choices = &shared.choices;
         for (i, (cable, span)) in robots.cables.iter().zip(spans).enumerate() {
             let fixed = FixedEnds::new(cable, span);
             let pull = wrench(&cable.anchor_arm, &fixed.pull_slope(cable, span));
@@ -199,25 +181,17 @@ impl<S: Simd> InLanes<'_, S> {
             let [slope, length, tension, x, z, least, greatest] =
                 [slope, length, set_points[i], cable.force[0], cable.force[1], limits[i][0], limits[i][1]]
                     .map(Lanes::to_array);
-            let ([c, s], [tx, tz]) = (shape.turn.map(Lanes::to_array), shape.tangent.map(Lanes::to_array));
-            let [chord_force, sag_force, longer] =
-                [shape.chord_force, shape.sag_force, shape.longer].map(Lanes::to_array);
+            let numbers = shape.numbers().map(Lanes::to_array);
             for (lane, result) in results.iter_mut().enumerate() {
-                let Some(result) = result else { continue };
+                let Some((result, near)) = result else { continue };
                 let (active, stationarity) = match tension[lane] {
                     t if t == least[lane] => (Some(Bound::Min), (-slope[lane]).max(0.0)),
                     t if t == greatest[lane] => (Some(Bound::Max), slope[lane].max(0.0)),
                     _ => (None, slope[lane].abs()),
                 };
-                result.near.shapes.push(Shape {
-                    turn: [c[lane], s[lane]],
-                    tangent: [tx[lane], tz[lane]],
-                    chord_force: chord_force[lane],
-                    sag_force: sag_force[lane],
-                    longer: longer[lane],
-                });
+                near.shapes.push(Shape::of_numbers(numbers.map(|number| number[lane])));
                 result.lengths.push(length[lane]);
-                result.forces.push(Vector2::new(x[lane], z[lane]));
+                result.equilibrium.cable_forces.push(Vector2::new(x[lane], z[lane]));
                 result.tensions.push(tension[lane]);
                 result.active.push(active);
                 result.stationarity = result.stationarity.max(stationarity);

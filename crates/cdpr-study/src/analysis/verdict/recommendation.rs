@@ -91,6 +91,10 @@ pub struct Recommendation {
     pub inputs: Vec<RecommendedIndex>,
     /// What would settle the inputs that are open, in words.
     pub remedy: Option<String>,
+    /// Share of the variance that the linear law of the nominal robot explains, where this rests on
+    /// derivatives.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub explained: Option<f64>,
 }
 
 /// Bounds of the total share of an input: estimates of both bounds, and the outer ends of their intervals.
@@ -242,6 +246,7 @@ impl Candidate {
             confidence: joint.then_some(confidence),
             inputs: inputs.into_iter().map(|(_, index)| index).collect(),
             remedy,
+            explained: None,
         }
     }
 

@@ -1,0 +1,97 @@
+//! Where the platform comes to rest when cables break: against the model of the robot that lacks them, and against
+//! a motion with damping.
+
+use cdpr_assess::safety_at;
+use cdpr_robot::{Coordinate, Pose, Robot};
+use cdpr_statics::{DirectProblem, DirectStart, Load, StaticsError, WantedPose};
+
+fn robot(name: &str) -> Robot {
+    let folder = if name == "stadium" { "docs/how-to/broken-cable" } else { "data/robots" };
+    let path = format!("{}/../../{folder}/{name}.json", env!("CARGO_MANIFEST_DIR"));
+    Robot::from_json(&std::fs::read_to_string(path).unwrap()).unwrap()
+}
+
+/// Robots that differ, each at a pose that it holds.
+fn robots() -> Vec<(Robot, Pose)> {
+    let at = |name: &str, x, y, z| (robot(name), Pose::at(x, y, z));
+    vec![
+        at("caroca", 0.0, 0.0, 1.75),
+        at("cogiro", 1.0, 0.5, 2.0),
+        at("ipanema-3", 0.0, 0.0, 1.0),
+        at("ipanema-1", 0.0, 0.0, 1.0),
+        at("stadium", 5.0, 3.0, 12.0),
+    ]
+}
+
+#[test]
+fn every_rest_is_a_stable_equilibrium_of_the_robot_without_the_cable() {
+    let mut rests = 0;
+    for (robot, pose) in robots() {
+        let found = safety_at(&robot, WantedPose::at(&pose), &Load::none(), false).unwrap();
+        assert_eq!(found.broken.len(), robot.cables.len());
+        for broken in &found.broken {
+            let (Ok(rest), [gone]) = (&broken.rest, &broken.cables[..]) else { continue };
+            rests += 1;
+            let mut others = robot.clone();
+            others.cables.remove(*gone);
+            others.tension_reference = None;
+            let mut lengths = found.lengths.clone();
+            lengths.remove(*gone);
+            let problem = DirectProblem::new(&others, &lengths, &Load::none()).unwrap();
+            let again = problem.direct(DirectStart::Pose(&rest.pose)).unwrap();
+            assert!(again.stability.is_stable(), "{} {gone}", robot.name);
+            let apart = (again.equilibrium.pose.position - rest.pose.position).norm();
+            assert!(apart < 1e-6, "{} without {gone}: {apart} m", robot.name);
+            assert_eq!(rest.tensions[*gone], [0.0; 2]);
+            let moved = (rest.pose.position - pose.position).norm();
+            assert!((moved - rest.moved).abs() < 1e-12 && rest.moved > 0.0);
+            assert!(rest.residual.force < 1e-5, "{} {gone}: {:?}", robot.name, rest.residual);
+        }
+    }
+    assert!(rests >= 30, "{rests}");
+}
+
+#[test]
+fn the_potential_falls_from_the_pose_to_each_rest() {
+    // The path of a strongly damped platform leads downhill: the rest of the whole robot, released, is its pose.
+    for (robot, pose) in robots() {
+        let found = safety_at(&robot, WantedPose::at(&pose), &Load::none(), false).unwrap();
+        let problem = DirectProblem::new(&robot, &found.lengths, &Load::none()).unwrap();
+        let whole = problem.direct(DirectStart::Released(&pose)).unwrap();
+        let apart = (whole.equilibrium.pose.position - pose.position).norm();
+        assert!(apart < 1e-6, "{}: {apart} m", robot.name);
+    }
+}
+
+#[test]
+fn pairs_come_after_single_cables_and_the_ground_is_noticed() {
+    let robot = robot("stadium");
+    let pose = Pose::at(5.0, 3.0, 12.0);
+    let found = safety_at(&robot, WantedPose::at(&pose), &Load::none(), true).unwrap();
+    let sets: Vec<_> = found.broken.iter().map(|broken| broken.cables.clone()).collect();
+    assert_eq!(sets[..5], [vec![0], vec![1], vec![2], vec![3], vec![0, 1]]);
+    assert_eq!(sets.len(), 10);
+    let below = |found: &cdpr_assess::Safety| {
+        found.broken.iter().filter(|one| one.rest.as_ref().is_ok_and(|rest| rest.below_ground)).count()
+    };
+    let high = Robot { ground_z: Some(11.9), ..robot.clone() };
+    let above = safety_at(&high, WantedPose::at(&pose), &Load::none(), false).unwrap();
+    assert!(below(&above) > 0);
+    let deep = Robot { ground_z: Some(-1000.0), ..robot };
+    assert_eq!(below(&safety_at(&deep, WantedPose::at(&pose), &Load::none(), true).unwrap()), 0);
+}
+
+#[test]
+fn a_robot_with_few_cables_rests_and_an_unheld_pose_is_refused() {
+    let few = robot("four-cables");
+    let pose = Pose::at(0.5, 0.3, 2.0);
+    let wanted = WantedPose::at(&pose).free(&[Coordinate::Roll, Coordinate::Pitch]);
+    let found = safety_at(&few, wanted, &Load::none(), false).unwrap();
+    assert_eq!(found.broken.len(), 4);
+    assert!(found.broken.iter().all(|broken| broken.rest.is_ok()), "{found:?}");
+    let refused = safety_at(&few, WantedPose::at(&pose), &Load::none(), false);
+    assert!(matches!(refused, Err(StaticsError::FreeCoordinates { .. })), "{refused:?}");
+    let heavy =
+        safety_at(&robot("cogiro"), WantedPose::at(&Pose::at(0.0, 0.0, 2.0)), &Load::payload(1e7), false);
+    assert!(matches!(heavy, Err(StaticsError::NoTensions { .. })), "{heavy:?}");
+}

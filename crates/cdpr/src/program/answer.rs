@@ -1,0 +1,265 @@
+//! Results that several commands print, as JSON and as tables.
+//!
+//! JSON is in SI units; cables are numbered from 1, as in `a1.x`.
+
+use crate::program::output::{Ending, print_sentence, table};
+use cdpr_cable::SLACK_BELOW_OWN_WEIGHTS;
+pub(crate) use cdpr_robot::decimal;
+use cdpr_robot::{CableEnd, Pose, Robot, counted, significant};
+use cdpr_statics::stiffness::Mode;
+use cdpr_statics::{Bound, DirectSolution, Equilibrium, Stability};
+use serde::Serialize;
+
+/// Residuals of the equations at a solution.
+#[derive(Serialize)]
+pub(crate) struct Residual {
+    /// Largest distance between the end of a cable and its anchor point [m].
+    closure: f64,
+    /// Norm of the force that remains on the platform [N].
+    force: f64,
+    /// Norm of the moment about P that remains on the platform [N m].
+    moment: f64,
+}
+
+impl Residual {
+    pub(crate) fn new(residual: &cdpr_statics::Residual) -> Self {
+        let cdpr_statics::Residual { closure, force, moment } = *residual;
+        Self { closure, force, moment }
+    }
+
+    pub(crate) fn print(&self) {
+        let Self { closure, force, moment } = self;
+        println!("residuals: closure {closure:.1e} m, force {force:.1e} N, moment {moment:.1e} N m");
+    }
+}
+
+/// A tension outside of what a cable is to bear, or can bear.
+#[derive(Serialize)]
+pub(crate) struct OutOfLimits {
+    pub(crate) cable: usize,
+    /// The end that has it: `anchor` or `exit`.
+    end: CableEnd,
+    /// The tension [N].
+    tension: f64,
+    /// `min` or `max` of its limits, or `breaking_force`.
+    pub(crate) limit: &'static str,
+    /// The limit [N].
+    value: f64,
+    #[serde(skip)]
+    found: cdpr_statics::limits::OutOfLimits,
+}
+
+impl OutOfLimits {
+    /// Those of an answer of these unstrained lengths [m], over all its equilibria.
+    pub(crate) fn all(robot: &Robot, lengths: &[f64], equilibria: &[&Equilibrium]) -> Vec<Self> {
+        let found = cdpr_statics::limits::out_of_limits(robot, lengths, equilibria);
+        found.into_iter().map(Self::new).collect()
+    }
+
+    pub(crate) fn new(found: cdpr_statics::limits::OutOfLimits) -> Self {
+        Self {
+            cable: found.cable + 1,
+            end: found.end,
+            tension: found.tension,
+            limit: found.limit.name(),
+            value: found.value,
+            found,
+        }
+    }
+
+    pub(crate) fn print(list: &[Self]) {
+        list.iter().for_each(|one| print_sentence(&one.found.to_string()));
+    }
+
+    /// In one cell of a table.
+    pub(crate) fn cell(list: &[Self]) -> String {
+        list.iter().map(|one| one.found.to_string()).collect::<Vec<_>>().join("; ")
+    }
+
+    /// A cable that is slack answers the question; one that breaks or may not be strained so does not.
+    pub(crate) fn ending(list: &[Self]) -> Ending {
+        if list.iter().any(|one| one.found.is_too_much()) { Ending::SomethingWrong } else { Ending::Well }
+    }
+}
+
+/// A motion that nothing resists, with `|translation|² + ℓ² |rotation|² = 1`.
+#[derive(Serialize)]
+pub(crate) struct Neutral {
+    /// Translation of P [m/m].
+    translation: [f64; 3],
+    /// Rotation vector [rad/m].
+    rotation: [f64; 3],
+}
+
+impl Neutral {
+    /// Those of an equilibrium.
+    pub(crate) fn all(stability: &Stability) -> Vec<Self> {
+        let one = |mode: &Mode| Self { translation: mode.translation.into(), rotation: mode.rotation.into() };
+        stability.neutral().iter().map(one).collect()
+    }
+
+    pub(crate) fn print(list: &[Self]) {
+        for Self { translation, rotation } in list {
+            let (translation, rotation) = (vector(translation, 4), vector(rotation, 4));
+            print_sentence(&format!(
+                "nothing resists the motion {translation} m/m with the rotation {rotation} rad/m"
+            ));
+        }
+    }
+}
+
+/// A stable equilibrium of the direct model.
+#[derive(Serialize)]
+pub(crate) struct Found {
+    /// Position of P in the base frame.
+    position: [f64; 3],
+    /// Rows of the rotation matrix R.
+    rotation: [[f64; 3]; 3],
+    /// Position and angles in words.
+    #[serde(skip)]
+    place: String,
+    /// Force (fx, fz) on each cable at its anchor point, in its vertical plane.
+    cable_forces: Vec<[f64; 2]>,
+    pub(crate) tensions: Vec<f64>,
+    pub(crate) exit_tensions: Vec<f64>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(crate) out_of_limits: Vec<OutOfLimits>,
+    stable: bool,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    neutral: Vec<Neutral>,
+    residual: Residual,
+    report: Report,
+}
+
+#[derive(Serialize)]
+struct Report {
+    method: String,
+    iterations: usize,
+    /// Stiffness of the softest motion [N/m].
+    least_stiffness: f64,
+    /// Cables whose tension at the lower end is at most `slack_below_own_weights` times their weight.
+    slack_cables: Vec<usize>,
+    slack_below_own_weights: f64,
+    /// Other cables that are longer than the distance of their points: loaded, but sagging.
+    sagging_cables: Vec<usize>,
+}
+
+impl Found {
+    pub(crate) fn new(robot: &Robot, lengths: &[f64], solution: &DirectSolution) -> Self {
+        let DirectSolution { equilibrium, report, stability } = solution;
+        let sagging = report.longer_than_chord.iter().filter(|i| !report.slack.contains(i));
+        Self {
+            position: equilibrium.pose.position.into(),
+            rotation: rows(&equilibrium.pose),
+            place: exact_place(&equilibrium.pose),
+            cable_forces: forces(equilibrium),
+            tensions: equilibrium.tensions(),
+            exit_tensions: equilibrium.exit_tensions(robot, lengths),
+            out_of_limits: OutOfLimits::all(robot, lengths, &[equilibrium]),
+            stable: stability.is_stable(),
+            neutral: Neutral::all(stability),
+            residual: Residual::new(&report.residual),
+            report: Report {
+                method: report.method.to_string(),
+                iterations: report.iterations,
+                least_stiffness: stability.least_stiffness(),
+                slack_cables: report.slack.iter().map(|i| i + 1).collect(),
+                slack_below_own_weights: SLACK_BELOW_OWN_WEIGHTS,
+                sagging_cables: sagging.map(|i| i + 1).collect(),
+            },
+        }
+    }
+
+    pub(crate) fn ending(&self) -> Ending {
+        OutOfLimits::ending(&self.out_of_limits)
+    }
+
+    /// Where it rests, and its cables.
+    pub(crate) fn print(&self, name: &str, lengths: &[f64]) {
+        print_sentence(&format!("{name} rests at {}, {}.", self.place, stability_word(self.stable)));
+        print_cables(lengths, &self.tensions, &self.exit_tensions);
+        self.print_rest();
+    }
+
+    /// Tensions out of limits, stability, slack cables and residuals.
+    pub(crate) fn print_rest(&self) {
+        OutOfLimits::print(&self.out_of_limits);
+        let Report { method, iterations, least_stiffness, slack_cables, sagging_cables, .. } = &self.report;
+        let iterations = counted(*iterations, "iteration");
+        println!("softest motion {least_stiffness:.1} N/m; {method}, {iterations}");
+        Neutral::print(&self.neutral);
+        if !slack_cables.is_empty() {
+            println!("slack cables: {} (they carry less than their own weight)", numbers(slack_cables));
+        }
+        if !sagging_cables.is_empty() {
+            let cables = numbers(sagging_cables);
+            println!("sagging cables: {cables} (longer than the distance of their points)");
+        }
+        self.residual.print();
+    }
+
+    /// Whether it is stable.
+    pub(crate) fn is_stable(&self) -> bool {
+        self.stable
+    }
+}
+
+/// `stable` or `unstable`.
+pub(crate) fn stability_word(stable: bool) -> &'static str {
+    if stable { "stable" } else { "unstable" }
+}
+
+/// Least and greatest of the tensions [N] in words, such as `55.07 to 412.3 N`.
+pub(crate) fn tension_range(tensions: &[f64]) -> String {
+    let [least, greatest] = [
+        tensions.iter().copied().fold(f64::INFINITY, f64::min),
+        tensions.iter().copied().fold(0.0, f64::max),
+    ]
+    .map(|tension| significant(tension, 4));
+    if least == greatest { format!("{least} N") } else { format!("{least} to {greatest} N") }
+}
+
+/// Position and angles of a pose, to a micrometre.
+pub(crate) fn exact_place(pose: &Pose) -> String {
+    let (roll, pitch, yaw) = pose.rotation.euler_angles();
+    let angles = [roll, pitch, yaw].map(f64::to_degrees);
+    let position = vector(pose.position.as_slice(), 6);
+    format!("{position} m with (roll, pitch, yaw) = {} degrees", vector(&angles, 4))
+}
+
+/// Prints lengths and tensions of all cables, these at the platform and at the exit point.
+pub(crate) fn print_cables(lengths: &[f64], tensions: &[f64], exit_tensions: &[f64]) {
+    let mut rows = table(&["cable", "unstrained length [m]", "tension [N]", "at exit point [N]"]);
+    for (i, (length, (tension, exit))) in lengths.iter().zip(tensions.iter().zip(exit_tensions)).enumerate() {
+        rows.add_row([(i + 1).to_string(), format!("{length:.6}"), decimal(*tension, 3), decimal(*exit, 3)]);
+    }
+    println!("{rows}");
+}
+
+pub(crate) fn forces(equilibrium: &Equilibrium) -> Vec<[f64; 2]> {
+    equilibrium.cable_forces.iter().map(|force| (*force).into()).collect()
+}
+
+/// Rows of the rotation matrix R.
+fn rows(pose: &Pose) -> [[f64; 3]; 3] {
+    pose.rotation.matrix().transpose().into()
+}
+
+/// A vector in brackets.
+pub(crate) fn vector(components: &[f64], decimals: usize) -> String {
+    let texts: Vec<_> = components.iter().map(|component| decimal(*component, decimals)).collect();
+    format!("({})", texts.join(", "))
+}
+
+/// `min` or `max`.
+pub(crate) fn bound_name(bound: Bound) -> &'static str {
+    match bound {
+        Bound::Min => "min",
+        Bound::Max => "max",
+    }
+}
+
+/// Numbers separated by commas.
+pub(crate) fn numbers(list: &[usize]) -> String {
+    list.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
+}

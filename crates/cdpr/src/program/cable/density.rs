@@ -1,0 +1,43 @@
+//! `cdpr cable density`: the mass per length of a cable from a weighing.
+
+use crate::program::arguments::{Named, Printing, named, number};
+use crate::program::error::ProgramError;
+use crate::program::questions;
+use cdpr_cable::{Measured, linear_density};
+use cdpr_robot::plausible;
+use serde::Serialize;
+
+/// The piece of cable that was weighed.
+#[derive(clap::Args)]
+pub(crate) struct Settings {
+    /// Mass of the piece [kg].
+    #[arg(long, value_parser = number, allow_hyphen_values = true)]
+    mass: f64,
+    /// Length of the piece [m].
+    #[arg(long, value_parser = number, allow_hyphen_values = true)]
+    length: f64,
+    /// Greatest errors: mass=0.001,length=0.001 [kg, m]; without error if left out.
+    #[arg(long, value_parser = named, default_value = "mass=0")]
+    errors: Named,
+    #[command(flatten)]
+    printing: Printing,
+}
+
+#[derive(Serialize)]
+struct Found {
+    linear_density: f64,
+    error: f64,
+    unit: &'static str,
+}
+
+pub(super) fn run(settings: &Settings) -> Result<(), ProgramError> {
+    let [mass, length] = settings.errors.all("--errors", ["mass", "length"])?.map(Option::unwrap_or_default);
+    let found = linear_density(
+        Measured { value: settings.mass, error: mass },
+        Measured { value: settings.length, error: length },
+    )?;
+    questions::ask(plausible::linear_density(found.value));
+    let found = Found { linear_density: found.value, error: found.error, unit: "kg/m" };
+    let text = |found: &Found| println!("{:.6} kg/m +- {:.6} kg/m", found.linear_density, found.error);
+    Ok(settings.printing.format().print(&found, text)?)
+}

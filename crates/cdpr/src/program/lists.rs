@@ -1,0 +1,276 @@
+//! Poses and wrenches as files list them, one a line: which column is which quantity, and in which unit.
+
+use crate::program::arguments::poses::pose_of;
+use crate::program::error::ProgramError;
+use crate::program::questions;
+use cdpr_dynamics::simulate::WinchLengths;
+use cdpr_robot::{Pose, Vector3, counted, plausible, rotation_by_angles, rotation_of, short};
+use cdpr_study::{Column, Dimension, InputKind, StudyError, Table, TableError, read_table};
+use std::path::Path;
+
+/// Names of positions, quaternions and angles, as `Quantities` finds them.
+const POSITION: [&str; 3] = ["x", "y", "z"];
+const QUATERNION: [&str; 4] = ["qw", "qx", "qy", "qz"];
+const ANGLES: [&str; 3] = ["roll", "pitch", "yaw"];
+
+/// Names of the components of a wrench.
+const WRENCH: [&str; 6] = ["fx", "fy", "fz", "mx", "my", "mz"];
+
+/// Poses of a table, and its further columns.
+pub(crate) struct PoseTable {
+    pub(crate) poses: Vec<Pose>,
+    /// Names and cells, which the answer has, too.
+    pub(crate) further: Vec<(String, Vec<String>)>,
+}
+
+/// Why a line, or the names, are no list.
+type Reason = Box<dyn std::fmt::Display>;
+
+/// Poses from a file, one a line: x, y, z, and a quaternion or angles. Three or seven plain numbers need no
+/// names.
+pub(crate) fn pose_file(path: &Path) -> Result<PoseTable, ProgramError> {
+    listed("--poses", path, "a pose", |table| {
+        let Some(header) = table.header else {
+            let row = |row: &[f64]| pose_of(row).map_err(|error| Box::new(error) as Reason);
+            let columns: Vec<_> = table.columns.iter().map(|column| (column, 1.0)).collect();
+            return Ok(PoseTable { poses: rows(table, &columns, row)?, further: Vec::new() });
+        };
+        let of = |reason| at(header, &reason);
+        let found =
+            Quantities::of(table, &[&POSITION[..], &QUATERNION, &ANGLES].concat(), POSES).map_err(of)?;
+        let place = found.all(&POSITION).ok_or_else(|| of(found.lacking(POSES)))?;
+        // Numbers of `--rpy` are degrees, too.
+        let angle =
+            |name: &&str| found.get(name).map(|(column, factor)| (column, factor / 1f64.to_radians()));
+        let angles: Vec<Option<(&Column, f64)>> = ANGLES.iter().map(angle).collect();
+        if let Some((column, _)) = angles.iter().flatten().find(|(column, _)| column.quantity().1.is_none()) {
+            let name = &column.name;
+            return Err(of(format!("column {name} has no unit: expected {name}_deg or {name}_rad")));
+        }
+        let poses = match (found.all(&QUATERNION), angles.iter().all(Option::is_none)) {
+            (Some(quaternion), true) => {
+                let poses = rows(table, &[place, quaternion].concat(), |row| {
+                    let rotation = rotation_of([row[3], row[4], row[5], row[6]]);
+                    let rotation = rotation.map_err(|error| Box::new(error) as Reason)?;
+                    Ok(Pose { position: Vector3::new(row[0], row[1], row[2]), rotation })
+                })?;
+                // The names of the columns state the order; the numbers may have another one.
+                let doubt = |(line, pose): (&usize, &Pose)| {
+                    plausible::quaternion(&format!("line {line}: qw,qx,qy,qz"), &pose.rotation)
+                };
+                questions::ask(table.lines.iter().zip(&poses).find_map(doubt));
+                Ok::<_, String>(poses)
+            }
+            (None, _) if !QUATERNION.iter().any(|name| found.get(name).is_some()) => {
+                let columns = place.into_iter().chain(angles.iter().flatten().copied()).collect::<Vec<_>>();
+                rows(table, &columns, |row| by_angles(row, &angles))
+            }
+            _ => Err(of(found.lacking(POSES))),
+        }?;
+        let rows = 0..table.rows();
+        let cells = |column: &&Column| rows.clone().map(|row| column.text(row)).collect();
+        let further = found.further.iter().map(|column| (column.name.clone(), cells(column))).collect();
+        Ok(PoseTable { poses, further })
+    })
+}
+
+/// The pose of a position [m] and of those angles [degrees] that have a column; the others are zero.
+fn by_angles(row: &[f64], columns: &[Option<(&Column, f64)>]) -> Result<Pose, Reason> {
+    let mut given = row[3..].iter();
+    let mut angles = [0.0; 3];
+    for ((angle, column), name) in angles.iter_mut().zip(columns).zip(ANGLES) {
+        let Some((_, factor)) = column else { continue };
+        *angle = given.next().copied().unwrap_or_default();
+        if *factor != 1.0 && angle.abs() > 360.0 {
+            let value = short(*angle / factor);
+            let reason =
+                format!("{name} is {value}: expected less than a turn; degrees are called {name}_deg");
+            return Err(Box::new(reason));
+        }
+    }
+    Ok(Pose { position: Vector3::new(row[0], row[1], row[2]), rotation: rotation_by_angles(angles) })
+}
+
+/// Wrenches from a file, one a line: fx, fy, fz [N], mx, my, mz [N m].
+pub(crate) fn wrench_file(path: &Path) -> Result<Vec<[f64; 6]>, ProgramError> {
+    listed("--wrench", path, "a wrench", |table| {
+        let columns = match table.header {
+            Some(header) => {
+                let found = Quantities::of(table, &WRENCH, WRENCHES).map_err(|reason| at(header, &reason))?;
+                if let Some(column) = found.further.iter().find(|column| !column.is_aside()) {
+                    let reason = format!("column {}: expected {WRENCHES}, texts and a time t", column.name);
+                    return Err(at(header, &reason));
+                }
+                found.all(&WRENCH).ok_or_else(|| at(header, &found.lacking(WRENCHES)))?
+            }
+            None => table.columns.iter().map(|column| (column, 1.0)).collect(),
+        };
+        rows(table, &columns, |row| {
+            let wrench = <[f64; 6]>::try_from(row);
+            wrench.map_err(|_| {
+                Box::new(format!("{}: expected {WRENCHES}", counted(row.len(), "number"))) as Reason
+            })
+        })
+    })
+}
+
+/// Lengths over time from a table: the time `t_s`, and `length_1_m` and so on for each cable; other columns are
+/// further ones.
+pub(crate) fn winch_file(path: &Path, cables: usize) -> Result<WinchLengths, ProgramError> {
+    let option = "--lengths";
+    let rows = listed(option, path, "a time and lengths", |table| {
+        let names = ["t_s".to_owned()].into_iter().chain((1..=cables).map(|i| format!("length_{i}_m")));
+        let column = |name: String| {
+            let found = table.column(&name).map(|column| (column, 1.0));
+            found.ok_or_else(|| {
+                format!("expected the columns t_s and length_1_m to length_{cables}_m, no {name}")
+            })
+        };
+        let columns = names.map(column).collect::<Result<Vec<_>, _>>()?;
+        rows(table, &columns, |row| Ok(row.to_vec()))
+    })?;
+    let times: Vec<f64> = rows.iter().map(|row| row[0]).collect();
+    let rows: Vec<Vec<f64>> = rows.iter().map(|row| row[1..].to_vec()).collect();
+    WinchLengths::new(&times, &rows).map_err(|error| {
+        let reason = error.to_string();
+        ProgramError::List { option, path: path.to_owned(), reason }
+    })
+}
+
+/// What the columns of a list are.
+const POSES: &str = "x_m,y_m,z_m, then none, qw,qx,qy,qz or roll_deg,pitch_deg,yaw_deg";
+const WRENCHES: &str = "fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm";
+
+/// A list from the table of a file.
+fn listed<T>(
+    option: &'static str,
+    path: &Path,
+    what: &str,
+    read: impl FnOnce(&Table) -> Result<T, String>,
+) -> Result<T, ProgramError> {
+    let refused = |reason: String| ProgramError::List { option, path: path.to_owned(), reason };
+    let table = match read_table(path, InputKind::Poses) {
+        Err(StudyError::Table { source, .. }) => return Err(refused(source.to_string())),
+        table => table?,
+    };
+    let list = read(&table).map_err(refused)?;
+    if table.rows() == 0 {
+        let empty = format!("{option} {}: the file is empty, expected {what} on each line", path.display());
+        return Err(ProgramError::Usage(empty));
+    }
+    Ok(list)
+}
+
+/// What `row` makes of the numbers of each line, in SI units.
+fn rows<T>(
+    table: &Table,
+    columns: &[(&Column, f64)],
+    row: impl Fn(&[f64]) -> Result<T, Reason>,
+) -> Result<Vec<T>, String> {
+    let numbers = |&(column, factor)| Ok((table.finite(column)?, factor));
+    let columns: Vec<_> =
+        columns.iter().map(numbers).collect::<Result<_, TableError>>().map_err(|error| error.to_string())?;
+    let line = |k: usize| {
+        let numbers: Vec<f64> = columns.iter().map(|(values, factor)| values[k] * factor).collect();
+        row(&numbers).map_err(|reason| at(table.lines[k], &reason))
+    };
+    (0..table.rows()).map(line).collect()
+}
+
+/// A reason with its line.
+fn at(line: usize, reason: &dyn std::fmt::Display) -> String {
+    format!("line {line}: {reason}")
+}
+
+/// The columns of a table by the names of their quantities, with the factors to SI units.
+struct Quantities<'a> {
+    found: Vec<(String, &'a Column, f64)>,
+    further: Vec<&'a Column>,
+    names: Vec<&'a str>,
+}
+
+impl<'a> Quantities<'a> {
+    /// Finds the quantities of these names. All other columns are further ones, unless their names are those
+    /// of rotations or nearly those of a wanted quantity: what is meant by them must not be left out.
+    fn of(table: &'a Table, wanted: &[&str], expected: &str) -> Result<Self, String> {
+        let mut found: Vec<(String, &Column, f64)> = Vec::new();
+        let mut further = Vec::new();
+        // A series of `simulate` has a rotation vector from its rest next to the orientation.
+        let has_quaternion = table.columns.iter().any(|column| column.quantity().0 == "qw");
+        for column in &table.columns {
+            let (quantity, unit) = column.quantity();
+            let name = &column.name;
+            if wanted.contains(&quantity.as_str()) {
+                if let Some(unit) = unit.filter(|unit| Some(unit.dimension) != dimension(&quantity)) {
+                    let of = format!("column {name}: {quantity} in a unit of {}", unit.dimension.name());
+                    return Err(format!("{of}: expected {expected}"));
+                }
+                if found.iter().any(|(known, ..)| *known == quantity) {
+                    return Err(format!("column {name}: {quantity} is there twice"));
+                }
+                found.push((quantity, column, unit.map_or(1.0, |unit| unit.factor)));
+            } else if has_quaternion && VECTOR.contains(&quantity.as_str()) {
+                further.push(column);
+            } else if is_rotation(&quantity) || wanted.iter().any(|wanted| is_near(wanted, &quantity)) {
+                return Err(format!(
+                    "column {name}: expected {expected}; give it another name if it is not of these"
+                ));
+            } else {
+                further.push(column);
+            }
+        }
+        let names = table.columns.iter().map(|column| column.name.as_str()).collect();
+        Ok(Self { found, further, names })
+    }
+
+    fn get(&self, name: &str) -> Option<(&'a Column, f64)> {
+        self.found.iter().find(|(known, ..)| known == name).map(|(_, column, factor)| (*column, *factor))
+    }
+
+    /// The columns of all of these names, or nothing.
+    fn all(&self, names: &[&str]) -> Option<Vec<(&'a Column, f64)>> {
+        names.iter().map(|name| self.get(name)).collect()
+    }
+
+    fn lacking(&self, expected: &str) -> String {
+        format!("columns {}: expected {expected}", self.names.join(","))
+    }
+}
+
+/// Components of a rotation vector.
+const VECTOR: [&str; 3] = ["rx", "ry", "rz"];
+
+/// Whether a name is that of a part of a rotation.
+fn is_rotation(name: &str) -> bool {
+    const NAMES: [&str; 5] = ["phi", "theta", "psi", "heading", "azimuth"];
+    let component = name.strip_prefix('q').map(|rest| rest.trim_start_matches('_'));
+    let is_component = |rest: &str| rest.len() == 1 && rest.ends_with(|c: char| "wxyzijk0123".contains(c));
+    VECTOR.contains(&name)
+        || NAMES.contains(&name)
+        || name.contains("quat")
+        || component.is_some_and(is_component)
+}
+
+/// Whether two names of three letters or more differ in one letter, or by one that is missing.
+fn is_near(wanted: &str, name: &str) -> bool {
+    let (one, other): (Vec<char>, Vec<char>) = (wanted.chars().collect(), name.chars().collect());
+    if one.len() < 3 || one.len().abs_diff(other.len()) > 1 {
+        return false;
+    }
+    let same_start = one.iter().zip(&other).take_while(|(a, b)| a == b).count();
+    let ends =
+        |a: &[char], b: &[char]| a.iter().rev().zip(b.iter().rev()).take_while(|(a, b)| a == b).count();
+    let same_end = ends(&one[same_start..], &other[same_start..]);
+    same_start + same_end + 1 >= one.len().max(other.len())
+}
+
+/// What a quantity measures.
+fn dimension(quantity: &str) -> Option<Dimension> {
+    Some(match quantity {
+        name if POSITION.contains(&name) => Dimension::Length,
+        name if ANGLES.contains(&name) => Dimension::Angle,
+        name if WRENCH[..3].contains(&name) => Dimension::Force,
+        name if WRENCH[3..].contains(&name) => Dimension::Moment,
+        _ => return None,
+    })
+}

@@ -1,0 +1,351 @@
+//! `cdpr capacity`: what a robot can carry at a pose, and how far its tensions are from their limits.
+
+use crate::program::answer::{OutOfLimits, decimal, vector};
+use crate::program::arguments::{FreeArguments, With, count, with};
+use crate::program::error::ProgramError;
+use crate::program::output::{Ending, print_sentence, table};
+use crate::program::pose::at_pose::{Failure, RobotAtPose, Row};
+use crate::program::questions;
+use crate::program::wrenches::WrenchArguments;
+use cdpr_assess::{
+    Block, CableDistance, Capacity, Clearance, Figure, PlatformDistance, TiltTowards, WrenchSet, capacity_at,
+    clearance_under, tilt_at,
+};
+use cdpr_robot::{Pose, Robot, significant};
+use cdpr_statics::capacity::tension_margin;
+use cdpr_statics::{Load, StaticsError, WantedPose};
+use serde::Serialize;
+
+/// The robot, its poses, and the wrenches.
+#[derive(clap::Args)]
+pub(crate) struct Settings {
+    #[command(flatten)]
+    at: RobotAtPose,
+    #[command(flatten)]
+    free: FreeArguments,
+    #[command(flatten)]
+    set: WrenchArguments,
+    /// Further figures: tilt or tilt=N, how far the platform may tilt under the load, to 0.01 degrees,
+    /// towards N directions (8).
+    #[arg(long, value_name = "NAMES", value_parser = with)]
+    with: Option<With>,
+}
+
+/// Accuracy of the tilt [degrees].
+const TILT_ACCURACY: f64 = 0.01;
+
+pub(crate) fn run(Settings { at, free, set, with }: &Settings) -> Result<Ending, ProgramError> {
+    let (load, set) = (at.load.load(), set.set()?);
+    let with = with.clone().unwrap_or_default();
+    with.check(&["tilt"])?;
+    let tilt = with.value("tilt", Some(8), count::<1, 360>)?;
+    if tilt.is_some() && !free.free.is_empty() {
+        let expected = "--with tilt: expected no --free: there the rotation follows from the position";
+        return Err(ProgramError::Usage(expected.to_owned()));
+    }
+    questions::about_wrenches(&at.robot()?, set.wrenches());
+    let solve = |robot: &Robot, pose: &_| {
+        let found = capacity_at(robot, WantedPose::at(pose).free(&free.free), &load, &set);
+        // Whatever else fails, fails with it.
+        if let (Err(error), Err(_)) = (&found.payload_kept, &found.margin_recomputed) {
+            return Err(error.clone());
+        }
+        let clearance = clearance_under(robot, WantedPose::at(pose).free(&free.free), &load).ok();
+        let tilted = |count: &usize| tilt_at(robot, pose, &load, *count, TILT_ACCURACY.to_radians());
+        let tilt = tilt.as_ref().map(tilted).transpose()?;
+        let ends = tilt.iter().flat_map(|tilt| &tilt.directions);
+        let tilt = ends.map(|towards| Towards::new(robot, pose, &load, towards)).collect();
+        Ok(Answer::new(found, clearance, tilt, &set))
+    };
+    at.answer(solve, Answer::print)
+}
+
+/// The figures, payloads in kg and margins in N.
+#[derive(Serialize)]
+struct Answer {
+    /// Greatest mass at the centre of mass.
+    payload: Ways,
+    /// With the lengths kept until a greatest tension or breaking force is reached, whichever cables are
+    /// slack.
+    payload_kept_slack: Shown,
+    /// Distance of the tensions from the nearest limit.
+    margin: Ways,
+    /// The nearest two cables and the cable nearest to the platform [m], tensions recomputed; `null`
+    /// where no tensions bear the load, or all cables share points.
+    nearest_cables: Option<NearCables>,
+    nearest_to_platform: Option<NearPlatform>,
+    /// How far the platform may tilt towards each direction, if asked for.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    tilt: Vec<Towards>,
+}
+
+/// How far the platform may tilt towards a direction.
+#[derive(Serialize)]
+struct Towards {
+    /// The direction in which the upward axis leans, from x to y.
+    azimuth_deg: f64,
+    angle_deg: f64,
+    /// The limit next to the tensions there; absent where nothing ends it below a right angle.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    blocking: Option<Blocking>,
+}
+
+impl Towards {
+    fn new(robot: &Robot, pose: &Pose, load: &Load, towards: &TiltTowards) -> Self {
+        let margin = (!towards.is_free()).then(|| tension_margin(robot, &towards.of(robot, pose), load).ok());
+        let blocking = margin.flatten().and_then(|margin| margin.blocking.first().copied());
+        let blocking = blocking.and_then(|found| Blocking::new(&found.into()));
+        let blocking = blocking.map(|blocking| Blocking { gain: None, ..blocking });
+        Self { azimuth_deg: towards.azimuth.to_degrees(), angle_deg: towards.angle.to_degrees(), blocking }
+    }
+}
+
+/// Two cables and the distance of their surfaces.
+#[derive(Serialize)]
+struct NearCables {
+    distance: f64,
+    cables: [usize; 2],
+}
+
+/// A cable and the distance of its surface from the hull of the other anchor points.
+#[derive(Serialize)]
+struct NearPlatform {
+    distance: f64,
+    cable: usize,
+}
+
+/// Both ways to bear a load.
+#[derive(Serialize)]
+struct Ways {
+    /// Tensions recomputed.
+    recomputed: Shown,
+    /// Lengths kept.
+    kept: Shown,
+}
+
+/// A figure, or why it does not exist.
+#[derive(Serialize)]
+struct Shown {
+    /// `null` where the figure does not exist or a limit is passed without a payload.
+    value: Option<f64>,
+    /// The wrench of the set that leaves the least, fx to mz; absent for a single one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    wrench: Option<[f64; 6]>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    blocking: Vec<Blocking>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    error: Option<Failure>,
+}
+
+/// A limit that blocks a greater value.
+#[derive(Serialize)]
+struct Blocking {
+    cable: usize,
+    /// `min`, `max`, `breaking_force` or `strain`.
+    limit: &'static str,
+    /// The limit [N].
+    value: f64,
+    /// By how much the figure grows where the limit gives way [kg/N, N/N].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    gain: Option<f64>,
+    #[serde(skip)]
+    words: String,
+}
+
+impl Blocking {
+    /// `None` where the platform is lost and no limit reached.
+    fn new(block: &Block) -> Option<Self> {
+        let Block::Limit { cable, limit, value, gain } = *block else { return None };
+        Some(Self { cable: cable + 1, limit: limit.name(), value, gain, words: block.to_string() })
+    }
+}
+
+impl Shown {
+    fn new(figure: Result<Figure, StaticsError>, set: &WrenchSet) -> Self {
+        let none = Self { value: None, wrench: None, blocking: Vec::new(), error: None };
+        let Figure { value, wrench, blocking } = match figure {
+            Ok(figure) => figure,
+            Err(error) => return Self { error: Some(error.into()), ..none },
+        };
+        let wrenches = set.wrenches();
+        let mut shown = Self {
+            value: value.is_finite().then_some(value),
+            wrench: (wrenches.len() > 1).then(|| wrenches[wrench].to_vector().into()),
+            ..none
+        };
+        for block in blocking {
+            shown.blocking.extend(Blocking::new(&block));
+            let message = block.to_string();
+            if let Block::Lost(error) = block {
+                // At this payload, and not at a share of one.
+                let mut failure = Failure::from(error.with_share(|_| 1.0));
+                failure.message = message;
+                shown.error = Some(failure);
+            }
+        }
+        shown
+    }
+
+    /// What blocks, in words.
+    fn words(&self) -> String {
+        let mut words: Vec<_> = self.blocking.iter().map(|blocking| blocking.words.clone()).collect();
+        if let Some(wrench) = &self.wrench {
+            words.push(format!("under the wrench {}", vector(wrench, 1)));
+        }
+        words.extend(self.error.as_ref().map(|error| error.message.clone()));
+        words.join("; ")
+    }
+
+    /// Why it does not exist, in a few words.
+    fn cause(&self) -> &str {
+        let message = self.error.as_ref().map_or("", |error| error.message.as_str());
+        message.split(';').next().unwrap_or_default()
+    }
+
+    fn number(&self) -> String {
+        self.value.map_or_else(String::new, |value| format!("{value:?}"))
+    }
+}
+
+impl Row for Answer {
+    fn columns(_: &Robot) -> Vec<String> {
+        let names = [
+            "payload_recomputed_kg",
+            "payload_kept_kg",
+            "payload_kept_slack_kg",
+            "margin_recomputed_n",
+            "margin_kept_n",
+        ];
+        let both = |name: &str| {
+            let blocked = name.rsplit_once('_').map_or(name, |(start, _)| start);
+            [name.to_owned(), format!("{blocked}_blocked_by")]
+        };
+        let distances = [
+            "nearest_cables_m",
+            "nearest_cables",
+            "nearest_to_platform_m",
+            "nearest_to_platform",
+            "tilt_deg",
+            "tilt_azimuth_deg",
+        ];
+        names.into_iter().flat_map(both).chain(distances.map(str::to_owned)).collect()
+    }
+
+    fn cells(&self) -> Vec<String> {
+        let figures = self.all().into_iter().flat_map(|(_, shown)| [shown.number(), shown.words()]);
+        let cables = self.nearest_cables.as_ref();
+        let platform = self.nearest_to_platform.as_ref();
+        let least = self.tilt.iter().min_by(|a, b| a.angle_deg.total_cmp(&b.angle_deg));
+        let distances = [
+            cables.map(|near| format!("{:?}", near.distance)),
+            cables.map(|NearCables { cables: [i, j], .. }| format!("{i} {j}")),
+            platform.map(|near| format!("{:?}", near.distance)),
+            platform.map(|near| near.cable.to_string()),
+            least.map(|towards| format!("{:?}", towards.angle_deg)),
+            least.map(|towards| format!("{:?}", towards.azimuth_deg)),
+        ];
+        figures.chain(distances.map(Option::unwrap_or_default)).collect()
+    }
+
+    fn out_of_limits(&self) -> Vec<&[OutOfLimits]> {
+        Vec::new()
+    }
+
+    /// A platform that falls under the load itself is something wrong.
+    fn ending(&self) -> Ending {
+        let falls =
+            |shown: &Shown| shown.value.is_none() && shown.error.as_ref().is_some_and(Failure::is_fall);
+        if self.all().iter().any(|(_, shown)| falls(shown)) { Ending::SomethingWrong } else { Ending::Well }
+    }
+}
+
+impl Answer {
+    fn new(found: Capacity, clearance: Option<Clearance>, tilt: Vec<Towards>, set: &WrenchSet) -> Self {
+        let shown = |figure| Shown::new(figure, set);
+        let (cables, platform) = clearance.map_or((None, None), |found| (found.cables, found.platform));
+        Self {
+            payload: Ways { recomputed: shown(found.payload_recomputed), kept: shown(found.payload_kept) },
+            payload_kept_slack: shown(found.payload_kept_slack),
+            margin: Ways { recomputed: shown(found.margin_recomputed), kept: shown(found.margin_kept) },
+            nearest_cables: cables
+                .map(|CableDistance { distance, pair }| NearCables { distance, cables: pair.map(|i| i + 1) }),
+            nearest_to_platform: platform
+                .map(|PlatformDistance { distance, cable }| NearPlatform { distance, cable: cable + 1 }),
+            tilt,
+        }
+    }
+
+    fn all(&self) -> [(&'static str, &Shown); 5] {
+        [
+            ("greatest payload [kg], tensions recomputed", &self.payload.recomputed),
+            ("greatest payload [kg], lengths kept", &self.payload.kept),
+            ("greatest payload [kg], lengths kept, slack allowed", &self.payload_kept_slack),
+            ("margin [N], tensions recomputed", &self.margin.recomputed),
+            ("margin [N], lengths kept", &self.margin.kept),
+        ]
+    }
+
+    /// What the robot carries, and how far its tensions are from their limits.
+    fn sentences(&self, heading: &str) -> Vec<String> {
+        let least = self.tilt.iter().min_by(|a, b| a.angle_deg.total_cmp(&b.angle_deg));
+        let tilt = least.map(|towards| {
+            let [angle, azimuth] =
+                [(towards.angle_deg, 2), (towards.azimuth_deg, 1)].map(|(x, n)| decimal(x, n));
+            format!("{heading} may tilt by {angle} degrees in any direction, least towards {azimuth}.")
+        });
+        let payload = &self.payload.recomputed;
+        let limit = |of: &Blocking| of.words.split(',').next().unwrap_or_default().to_owned();
+        let by =
+            payload.blocking.first().map_or_else(String::new, |first| format!("; then {}", limit(first)));
+        let carries = match payload.value {
+            Some(value) => format!("{heading} carries up to {} kg{by}.", significant(value, 4)),
+            None if payload.error.is_some() => format!("{heading} carries nothing: {}.", payload.cause()),
+            None => format!("{heading} is beyond a limit without any payload{by}."),
+        };
+        let margin = self.margin.recomputed.value.map(|margin| match margin {
+            ..0.0 => format!(
+                "No tensions within the limits hold this pose: they miss them by {} N.",
+                significant(-margin, 4)
+            ),
+            _ => format!("Its tensions can stay {} N away from their limits.", significant(margin, 4)),
+        });
+        [tilt, Some(carries), margin].into_iter().flatten().collect()
+    }
+
+    fn print(&self, heading: &str) {
+        for sentence in self.sentences(heading) {
+            print_sentence(&sentence);
+        }
+        let mut rows = table(&["", "value", "blocked by"]);
+        let mut told: Vec<&str> = Vec::new();
+        for (name, shown) in self.all() {
+            let value = match shown.value {
+                Some(value) => decimal(value, 3),
+                None if shown.error.is_some() => "none".to_owned(),
+                None => "beyond a limit without it".to_owned(),
+            };
+            let reason = shown.error.as_ref().map(|error| error.message.as_str());
+            let known = reason.is_some_and(|reason| told.contains(&reason));
+            told.extend(reason);
+            let words = if known { "as above".to_owned() } else { shown.words() };
+            rows.add_row([name.to_owned(), value, words]);
+        }
+        println!("{rows}");
+        if let Some(NearCables { distance, cables: [i, j] }) = self.nearest_cables {
+            println!("nearest cables {i} and {j}, {:.1} mm apart", 1e3 * distance);
+        }
+        if let Some(NearPlatform { distance, cable }) = self.nearest_to_platform {
+            println!("cable {cable} is nearest to the platform, {:.1} mm", 1e3 * distance);
+        }
+        if self.tilt.is_empty() {
+            return;
+        }
+        let mut rows = table(&["tilt towards [deg]", "reached [deg]", "ended by"]);
+        for Towards { azimuth_deg, angle_deg, blocking } in &self.tilt {
+            let ended =
+                blocking.as_ref().map(|blocking| blocking.words.as_str()).unwrap_or_default().to_owned();
+            rows.add_row([decimal(*azimuth_deg, 1), decimal(*angle_deg, 2), ended]);
+        }
+        println!("{rows}");
+    }
+}

@@ -1,0 +1,250 @@
+//! `cdpr modes`: natural frequencies and motions of platform and cables.
+
+mod massless;
+
+use crate::program::answer::{OutOfLimits, decimal};
+use crate::program::arguments::poses;
+use crate::program::arguments::{self, FreeArguments};
+use crate::program::error::ProgramError;
+use crate::program::output::{Ending, table};
+use crate::program::pose::at_pose::{RobotAtPose, Row};
+use crate::program::questions;
+use crate::program::said::note;
+use cdpr_dynamics::{Mode, Modes, Wanted};
+use cdpr_robot::{Platform, Pose, Robot, shown};
+use cdpr_statics::vibration::PoseModes;
+use cdpr_statics::{
+    DirectProblem, DirectStart, Equilibrium, StaticsError, Unstable, WantedPose, inverse, rough_pose,
+};
+use massless::Massless;
+use serde::Serialize;
+use std::borrow::Cow;
+use std::sync::Once;
+
+/// Motions that are listed where nothing else is asked for.
+const NUMBER: usize = 12;
+
+/// A robot at a pose or with lengths, a load, and which motions are looked for.
+#[derive(clap::Args)]
+pub(crate) struct Settings {
+    #[command(flatten)]
+    at: RobotAtPose,
+    #[command(flatten)]
+    free: FreeArguments,
+    /// Unstrained lengths of the cables, in the order of the file: l1,..,ln [m]. The search for their pose
+    /// starts from --pose, or where straight cables would hold a point.
+    #[arg(long, value_parser = arguments::lengths, conflicts_with = "poses", allow_hyphen_values = true)]
+    lengths: Option<arguments::Lengths>,
+    /// All natural motions up to this frequency [Hz].
+    #[arg(long, value_name = "HZ", conflicts_with_all = ["number", "massless"])]
+    below: Option<f64>,
+    /// This many natural motions, the slowest; 12 if left out.
+    #[arg(long, value_name = "N", value_parser = arguments::count::<1, 10_000>, conflicts_with = "massless")]
+    number: Option<usize>,
+    /// Cables without mass: the platform alone, with the shares of weight and cables in the energy.
+    #[arg(long)]
+    massless: bool,
+}
+
+pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
+    if settings.massless {
+        let solve = |robot: &Cow<'_, Robot>, problem: &DirectProblem<'_>, rest| {
+            Ok(Massless::new(robot, &PoseModes::new(problem, rest)?))
+        };
+        return settings.answer(solve, Massless::print);
+    }
+    let wanted = settings.below.map_or(Wanted::Number(settings.number.unwrap_or(NUMBER)), Wanted::Below);
+    let solve = |robot: &Cow<'_, Robot>, problem: &DirectProblem<'_>, rest| {
+        let found = Modes::new(problem, &rest, wanted)?;
+        Ok(Answer::new(robot, matches!(robot, Cow::Owned(_)), &found))
+    };
+    settings.answer(solve, Answer::print)
+}
+
+impl Settings {
+    /// Prints what `solve` finds at the equilibrium of the lengths, or at each pose.
+    fn answer<T: Row>(
+        &self,
+        solve: impl Fn(&Cow<'_, Robot>, &DirectProblem<'_>, Equilibrium) -> Result<T, StaticsError> + Sync,
+        print: impl Fn(&T, &str),
+    ) -> Result<Ending, ProgramError> {
+        let load = self.at.load.load();
+        let lengths = self.lengths.as_ref().map(arguments::Lengths::listed).transpose()?;
+        let Some(lengths) = lengths else {
+            let at_pose = |robot: &Robot, pose: &Pose| {
+                let robot = with_inertia(robot);
+                let held = inverse(&robot, WantedPose::at(pose).free(&self.free.free), &load)?;
+                let problem = DirectProblem::new(&robot, &held.lengths, &load)?;
+                let rest =
+                    problem.with_unstable(Unstable::Accepted).direct(DirectStart::Near(&held.equilibrium))?;
+                solve(&robot, &problem, rest.equilibrium)
+            };
+            return self.at.answer(at_pose, print);
+        };
+        let (robot, start) = (self.at.robot()?, self.at.pose()?);
+        questions::about_lengths(&robot, lengths);
+        let robot = with_inertia(&robot);
+        let problem = DirectProblem::new(&robot, lengths, &load)?;
+        let start = start.unwrap_or_else(|| rough_pose(&robot, lengths));
+        let found = problem.direct(DirectStart::Pose(&start))?;
+        questions::about_rest(&robot, "the equilibrium", (lengths, &load), &found, &start);
+        let pose = found.equilibrium.pose;
+        let answer = solve(&robot, &problem, found.equilibrium)?;
+        let heading = format!("{} at {}", shown(&robot.name), poses::place(&pose));
+        self.at.print(&robot, &pose, &answer, |answer| print(answer, &heading))
+    }
+}
+
+/// The robot, with an assumed inertia where it has none and rotates.
+pub(super) fn with_inertia(robot: &Robot) -> Cow<'_, Robot> {
+    if !robot.lacks_inertia() {
+        return Cow::Borrowed(robot);
+    }
+    static NOTED: Once = Once::new();
+    NOTED.call_once(|| {
+        note(format_args!(
+            "the robot has no inertia: that of a ball with the radius {:.3} m is assumed",
+            robot.platform_size()
+        ));
+    });
+    let platform = Platform { inertia: Some(robot.assumed_inertia()), ..robot.platform };
+    Cow::Owned(Robot { platform, ..robot.clone() })
+}
+
+/// The natural motions of platform and cables.
+#[derive(Serialize)]
+struct Answer {
+    /// The motions, the slowest first.
+    modes: Vec<Motion>,
+    /// How many there are up to this frequency [Hz], by a count that shares no eigenvalues with them.
+    counted: usize,
+    complete_below_hz: f64,
+    /// Whether the inertia of the platform is assumed.
+    inertia_assumed: bool,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    out_of_limits: Vec<OutOfLimits>,
+}
+
+/// A natural motion of unit mass.
+#[derive(Serialize)]
+struct Motion {
+    frequency_hz: f64,
+    /// Greatest relative error of the frequency that the counts leave.
+    within: f64,
+    /// Share of platform and payload in the kinetic energy.
+    platform_share: f64,
+    cable_shares: Vec<f64>,
+    /// Part of the platform's share that is its slowest motion on cables without mass.
+    swing_share: f64,
+    /// Translation of P [1/√kg].
+    translation: [f64; 3],
+    /// Rotation vector [rad/(m √kg)].
+    rotation: [f64; 3],
+}
+
+impl Row for Answer {
+    fn columns(_: &Robot) -> Vec<String> {
+        ["lowest_frequency_hz", "platform_frequency_hz", "platform_share", "counted", "complete_below_hz"]
+            .map(str::to_owned)
+            .into()
+    }
+
+    fn cells(&self) -> Vec<String> {
+        let number = |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:?}"));
+        let platform = self.of_platform();
+        vec![
+            number(self.modes.first().map(|mode| mode.frequency_hz)),
+            number(platform.map(|mode| mode.frequency_hz)),
+            number(platform.map(|mode| mode.platform_share)),
+            self.counted.to_string(),
+            number(Some(self.complete_below_hz)),
+        ]
+    }
+
+    fn out_of_limits(&self) -> Vec<&[OutOfLimits]> {
+        vec![&self.out_of_limits]
+    }
+}
+
+impl Answer {
+    fn new(robot: &Robot, inertia_assumed: bool, found: &Modes) -> Self {
+        let motion = |mode: &Mode| Motion {
+            frequency_hz: mode.frequency,
+            within: mode.within,
+            platform_share: mode.platform_share,
+            cable_shares: mode.cable_shares.clone(),
+            swing_share: mode.swing_share,
+            translation: mode.translation.into(),
+            rotation: mode.rotation.into(),
+        };
+        Self {
+            modes: found.modes.iter().map(motion).collect(),
+            counted: found.counted,
+            complete_below_hz: found.complete_below,
+            inertia_assumed,
+            out_of_limits: OutOfLimits::all(robot, &found.lengths, &[&found.equilibrium]),
+        }
+    }
+
+    /// How the platform swings.
+    fn of_platform(&self) -> Option<&Motion> {
+        self.modes.iter().max_by(|one, other| one.swing_share.total_cmp(&other.swing_share))
+    }
+
+    fn print(&self, heading: &str) {
+        println!("{heading}: {} natural motions up to {:.4} Hz.", self.counted, self.complete_below_hz);
+        if let Some(Motion { frequency_hz, platform_share, .. }) = self.of_platform() {
+            let share = decimal(100.0 * platform_share, 1);
+            println!(
+                "The platform swings at {frequency_hz:.4} Hz, with {share} % of the energy of that motion."
+            );
+        }
+        let names = ["frequency [Hz]", "platform [%]", "cables [%]", "moves most", "within"];
+        let mut rows = table(&names);
+        for mode in &self.modes {
+            let cells = [
+                format!("{:.4}", mode.frequency_hz),
+                decimal(100.0 * mode.platform_share, 1),
+                most(&mode.cable_shares),
+                mode.direction(),
+                format!("{:.0e}", mode.within),
+            ];
+            rows.add_row(cells);
+        }
+        println!("{rows}");
+        println!("shares of the kinetic energy, of the cables the two largest by number");
+        OutOfLimits::print(&self.out_of_limits);
+    }
+}
+
+impl Motion {
+    /// The direction in which the platform moves most, and the axis about which it turns most.
+    fn direction(&self) -> String {
+        /// Share of the platform below which its direction is rounding.
+        const LEAST_SHARE: f64 = 1e-4;
+        if self.platform_share < LEAST_SHARE {
+            return "cables alone".to_owned();
+        }
+        // Of components that are equal but for rounding the first one.
+        let largest = |vector: &[f64; 3]| {
+            let most = vector.iter().fold(0.0, |most: f64, component| most.max(component.abs()));
+            let axis = vector.iter().position(|component| component.abs() >= (1.0 - 1e-6) * most);
+            ["x", "y", "z"][axis.unwrap_or_default()]
+        };
+        let still = |vector: &[f64; 3]| vector.iter().all(|component| *component == 0.0);
+        match (still(&self.translation), still(&self.rotation)) {
+            (_, true) => format!("along {}", largest(&self.translation)),
+            (true, false) => format!("about {}", largest(&self.rotation)),
+            _ => format!("along {}, about {}", largest(&self.translation), largest(&self.rotation)),
+        }
+    }
+}
+
+/// The cables with the largest shares, by number; of shares that are equal but for rounding the first.
+fn most(shares: &[f64]) -> String {
+    let mut order: Vec<_> = shares.iter().enumerate().collect();
+    order.sort_by(|one, other| (1e6 * other.1).round().total_cmp(&(1e6 * one.1).round()));
+    let named = order.iter().take(2).filter(|(_, share)| **share >= 0.0005);
+    let named = named.map(|(i, share)| format!("{}: {}", i + 1, decimal(100.0 * **share, 1)));
+    named.collect::<Vec<_>>().join(", ")
+}

@@ -1,0 +1,167 @@
+//! `cdpr path --with seconds=1`: a move along the poses, as set points of the winches.
+
+mod answer;
+
+use crate::program::arguments::{self, UncertaintyArgument, With};
+use crate::program::error::ProgramError;
+use crate::program::output::{Ending, progress};
+use crate::program::pose::at_pose::RobotAtPose;
+use crate::program::pose::modes::with_inertia;
+use answer::{After, Answer, Robots};
+use cdpr_assess::DrawnRobots;
+use cdpr_dynamics::moves::{FeedForward, Move, SetPoint, Shaper, ShaperKind, residual};
+use cdpr_dynamics::simulate::{Discretization, Profile};
+
+/// The names of `--with`.
+const NAMES: [&str; 10] = [
+    "seconds",
+    "profile",
+    "shaper",
+    "modes",
+    "feed-forward",
+    "rate",
+    "damping",
+    "residual",
+    "robots",
+    "seed",
+];
+
+const PROFILES: [(&str, Profile); 3] =
+    [("trapezoid", Profile::Trapezoid), ("cosine", Profile::Cosine), ("polynomial", Profile::Polynomial)];
+
+const FEED_FORWARD: [(&str, FeedForward); 2] =
+    [("platform", FeedForward::Platform), ("cables", FeedForward::Cables)];
+
+/// Robots that are drawn where no number is given.
+const ROBOTS: usize = 100;
+
+/// What the names of `--with` say.
+struct Wanted {
+    seconds: f64,
+    profile: Profile,
+    shaper: Option<ShaperKind>,
+    modes: usize,
+    feed_forward: FeedForward,
+    rate: f64,
+    damping: f64,
+    /// Whether the motion after the move is watched, and how long [s].
+    residual: Option<Option<f64>>,
+    robots: Option<usize>,
+    seed: Option<u64>,
+}
+
+impl Wanted {
+    fn read(with: &With) -> Result<Self, ProgramError> {
+        with.check(&NAMES)?;
+        let number =
+            |name, usual: f64| with.value(name, None, arguments::number).map(|value| value.unwrap_or(usual));
+        let seconds = with.value("seconds", None, arguments::number)?;
+        let missing = "--with: expected seconds=S, how long the move takes [s]";
+        let feed_forward =
+            with.value("feed-forward", Some(FeedForward::Cables), |text| one_of(text, &FEED_FORWARD))?;
+        let seed = with.value("seed", None, |text| {
+            text.parse::<u64>().map_err(|_| "expected a whole number, zero or more".to_owned())
+        })?;
+        // Lengths follow the acceleration only where it does not jump.
+        let usual = if feed_forward.is_some() { Profile::Polynomial } else { Profile::Cosine };
+        Ok(Self {
+            seconds: seconds.ok_or_else(|| ProgramError::Usage(missing.to_owned()))?,
+            profile: with.value("profile", None, |text| one_of(text, &PROFILES))?.unwrap_or(usual),
+            shaper: with.value("shaper", Some(ShaperKind::Zvd), |text| one_of(text, &ShaperKind::NAMED))?,
+            modes: with.value("modes", None, arguments::count::<1, 6>)?.unwrap_or(2),
+            feed_forward: feed_forward.unwrap_or_default(),
+            rate: number("rate", 200.0)?,
+            damping: number("damping", 0.0)?,
+            residual: with.value("residual", Some(None), |text| arguments::number(text).map(Some))?,
+            robots: with.value("robots", None, arguments::count::<1, 100_000>)?,
+            seed,
+        })
+    }
+
+    /// How moves are simulated, for a time after their end [s].
+    fn simulated(&self, seconds: f64) -> cdpr_dynamics::simulate::Settings {
+        /// Fast, and exact to some micrometres for cables that stay taut: two discretizations are compared.
+        const DISCRETIZATION: Discretization = Discretization { elements: 2, degree: 5 };
+        cdpr_dynamics::simulate::Settings {
+            rate: self.rate,
+            damping: self.damping,
+            discretization: Some(DISCRETIZATION),
+            tolerance: 1e-6,
+            ..cdpr_dynamics::simulate::Settings::until(seconds)
+        }
+    }
+}
+
+fn one_of<T: Copy>(text: &str, named: &[(&str, T)]) -> Result<T, String> {
+    let names: Vec<&str> = named.iter().map(|(name, _)| *name).collect();
+    let found = named.iter().find(|(name, _)| name.eq_ignore_ascii_case(text));
+    found.map(|(_, value)| *value).ok_or_else(|| format!("expected {}", names.join(", ")))
+}
+
+/// Two periods of the slowest motion that swings, and no less than half a second.
+fn two_periods(of: &Move, damping: f64) -> Result<f64, ProgramError> {
+    const LEAST: f64 = 0.5;
+    let excited = of.excited(damping)?;
+    Ok(excited.iter().map(|one| 2.0 / one.frequency).fold(LEAST, f64::max))
+}
+
+/// Plans the move, and simulates it where that is wanted.
+pub(super) fn run(
+    at: &RobotAtPose,
+    errors: &UncertaintyArgument,
+    with: &With,
+) -> Result<Ending, ProgramError> {
+    let wanted = Wanted::read(with)?;
+    let usage = |reason: &str| ProgramError::Usage(reason.to_owned());
+    let robot = at.robot()?;
+    let model = errors.model(&robot)?;
+    if model.is_some() && wanted.residual.is_none() {
+        return Err(usage("--uncertainty: expected --with residual, what swings after the move"));
+    }
+    if model.is_some() && wanted.seed.is_none() {
+        return Err(usage("--with: expected seed=N, from which the robots are drawn"));
+    }
+    if model.is_none() && (wanted.robots.is_some() || wanted.seed.is_some()) {
+        return Err(usage("--with robots, seed: expected --uncertainty, too, from which robots are drawn"));
+    }
+    let poses = at.poses(&robot)?;
+    let robot = with_inertia(&robot);
+    let plain = Move {
+        robot: &robot,
+        load: at.load.load(),
+        poses: &poses,
+        seconds: wanted.seconds,
+        profile: wanted.profile,
+        shaper: Shaper::default(),
+        feed_forward: FeedForward::None,
+        rate: wanted.rate,
+    };
+    let mut planned = Move { feed_forward: wanted.feed_forward, ..plain.clone() };
+    let mut modes = Vec::new();
+    if let Some(kind) = wanted.shaper {
+        (planned, modes) = planned.shaped(kind, wanted.modes, wanted.damping)?;
+    }
+    let set_points = planned.plan()?;
+    let mut answer = Answer::new(&planned, &modes, &set_points);
+    if let Some(seconds) = wanted.residual {
+        let seconds = match seconds {
+            Some(seconds) => seconds,
+            None => two_periods(&plain, wanted.damping)?,
+        };
+        let simulated = wanted.simulated(seconds);
+        let unshaped = plain.plan()?;
+        let after = |points: &[SetPoint]| residual(&robot, &plain.load, points, &[], &simulated);
+        answer.residual = Some(After::new(&after(&set_points)?, &after(&unshaped)?, seconds));
+        if let (Some(model), Some(seed)) = (&model, wanted.seed) {
+            let count = wanted.robots.unwrap_or(ROBOTS);
+            let drawn = DrawnRobots { nominal: &robot, model, count, seed };
+            let bar = progress(count, "robots");
+            let compared =
+                drawn.compare(&plain.load, [&unshaped, &set_points], &simulated, &|| bar.inc(1))?;
+            bar.finish_and_clear();
+            answer.robots = Some(Robots::new(&compared));
+        }
+    }
+    answer.show(&at.printing, &robot, &set_points)?;
+    Ok(answer.ending())
+}

@@ -1,0 +1,263 @@
+//! What is printed of a move.
+
+use crate::program::arguments::Printing;
+use crate::program::error::ProgramError;
+use crate::program::output::{Ending, print_sentence};
+use crate::program::pose::at_pose::numbered;
+use cdpr_assess::{Compared, ratio_of_best};
+use cdpr_dynamics::moves::{Excited, Move, Residual, SetPoint};
+use cdpr_robot::{Robot, broken, counted, shown, significant};
+use serde::Serialize;
+
+/// A move as a whole.
+#[derive(Serialize)]
+pub(super) struct Answer {
+    seconds: f64,
+    way_m: f64,
+    /// Time [s] and amplitude of each impulse of the shaper.
+    impulses: Vec<[f64; 2]>,
+    /// Motions that the shaper is for.
+    shaped: Vec<Shaped>,
+    least_tension_n: f64,
+    greatest_exit_tension_n: f64,
+    /// Greatest difference of a length to that at rest.
+    feed_forward_m: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) residual: Option<After>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) robots: Option<Robots>,
+    columns: Vec<String>,
+}
+
+#[derive(Serialize)]
+struct Whole<'a> {
+    #[serde(flatten)]
+    answer: &'a Answer,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    set_points: Vec<Vec<f64>>,
+}
+
+#[derive(Serialize)]
+struct Shaped {
+    frequency_hz: f64,
+    damping_ratio: f64,
+    platform_share: f64,
+}
+
+/// What swings after a move.
+#[derive(Serialize)]
+pub(super) struct After {
+    /// For how long it is watched.
+    watched_s: f64,
+    /// Greatest distance of P from its rest.
+    amplitude_m: f64,
+    /// The same of the move without shaper and feed-forward, and the ratio of both.
+    unshaped_amplitude_m: f64,
+    ratio: Option<f64>,
+    /// Greatest distance from the way, with and without.
+    deviation_m: f64,
+    unshaped_deviation_m: f64,
+    /// Greatest difference to a coarser computation.
+    difference_m: f64,
+    /// Numbers of the cables that lost their tension, from 1.
+    slack_cables: Vec<usize>,
+}
+
+/// What robots leave that are drawn from the error model.
+#[derive(Serialize)]
+pub(super) struct Robots {
+    drawn: usize,
+    /// Robots that do not hold a pose or cannot be followed; the reason of the first one.
+    failed: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reason: Option<String>,
+    /// Robots of which a cable lost its tension.
+    slack: usize,
+    /// As many leave at most `ratio` of what they leave without shaper and feed-forward.
+    best: usize,
+    /// `null` where fewer could be followed.
+    ratio: Option<f64>,
+    worst_ratio: Option<f64>,
+    /// Greatest amplitude that a robot leaves, with and without.
+    worst_amplitude_m: f64,
+    worst_unshaped_amplitude_m: f64,
+}
+
+/// Prints a sentence in lines of 80 columns.
+fn print_lines(text: &str) {
+    broken(text).iter().for_each(|line| println!("{line}"));
+}
+
+fn mm(metres: f64) -> String {
+    significant(1e3 * metres, 3)
+}
+
+fn percent(ratio: f64) -> String {
+    significant(100.0 * ratio, 3)
+}
+
+impl After {
+    pub(super) fn new(left: &Residual, without: &Residual, watched_s: f64) -> Self {
+        let ratio = left.amplitude / without.amplitude;
+        let mut slack_cables: Vec<usize> = left.slack.iter().chain(&without.slack).map(|i| i + 1).collect();
+        slack_cables.sort_unstable();
+        slack_cables.dedup();
+        Self {
+            watched_s,
+            amplitude_m: left.amplitude,
+            unshaped_amplitude_m: without.amplitude,
+            ratio: ratio.is_finite().then_some(ratio),
+            deviation_m: left.deviation,
+            unshaped_deviation_m: without.deviation,
+            difference_m: left.difference.max(without.difference),
+            slack_cables,
+        }
+    }
+
+    fn print(&self, name: &str) {
+        let ratio = self.ratio.map_or_else(String::new, |ratio| format!(", {} %", percent(ratio)));
+        print_lines(&format!(
+            "{name}: in {} s after the move P swings by up to {} mm{ratio} of the {} mm without shaper and \
+             feed-forward. \
+             On the way it is up to {} mm off, without both {} mm. A coarser computation differs by up to {} mm.",
+            significant(self.watched_s, 3),
+            mm(self.amplitude_m),
+            mm(self.unshaped_amplitude_m),
+            mm(self.deviation_m),
+            mm(self.unshaped_deviation_m),
+            mm(self.difference_m)
+        ));
+        if !self.slack_cables.is_empty() {
+            let cables: Vec<_> = self.slack_cables.iter().map(ToString::to_string).collect();
+            println!("Cables that lost their tension: {}.", cables.join(", "));
+        }
+    }
+}
+
+impl Robots {
+    pub(super) fn new(compared: &[Compared]) -> Self {
+        let drawn = compared.len();
+        // 95 of 100.
+        let best = drawn - drawn / 20;
+        let finite = |count| ratio_of_best(compared, count).filter(|ratio| ratio.is_finite());
+        let followed = || compared.iter().filter_map(|one| one.as_ref().ok());
+        let worst = |k: usize| followed().map(|both| both[k].amplitude).fold(0.0, f64::max);
+        Self {
+            drawn,
+            failed: drawn - followed().count(),
+            reason: compared.iter().find_map(|one| one.as_ref().err().map(ToString::to_string)),
+            slack: followed().filter(|both| both.iter().any(|one| !one.slack.is_empty())).count(),
+            best,
+            ratio: finite(best),
+            worst_ratio: finite(drawn),
+            worst_amplitude_m: worst(1),
+            worst_unshaped_amplitude_m: worst(0),
+        }
+    }
+
+    fn print(&self) {
+        let Self { drawn, failed, slack, best, .. } = self;
+        match self.ratio {
+            Some(ratio) => {
+                let worst = self.worst_ratio;
+                let worst =
+                    worst.map_or_else(String::new, |worst| format!(", the worst one {} %", percent(worst)));
+                let left = percent(ratio);
+                print_lines(&format!(
+                    "{best} of {drawn} robots leave {left} % or less of what they leave without both{worst}. \
+                     They swing by up to {} mm, without both by up to {} mm.",
+                    mm(self.worst_amplitude_m),
+                    mm(self.worst_unshaped_amplitude_m)
+                ));
+            }
+            None => println!("Fewer than {best} of {drawn} robots could be followed."),
+        }
+        if *slack > 0 {
+            println!("Robots of which a cable lost its tension: {slack}.");
+        }
+        if let Some(reason) = &self.reason {
+            print_lines(&format!(
+                "{} could not be followed, the first one: {reason}",
+                counted(*failed, "robot")
+            ));
+        }
+    }
+}
+
+impl Answer {
+    pub(super) fn new(planned: &Move, modes: &[Excited], set_points: &[SetPoint]) -> Self {
+        let cables = planned.robot.cables.len();
+        let ways = planned.poses.windows(2).map(|pair| (pair[1].position - pair[0].position).norm());
+        let own = ["t_s", "x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"].map(str::to_owned);
+        let of_cables = [("length", "m"), ("feed_forward", "m"), ("tension", "n"), ("exit_tension", "n")];
+        let of_cables = of_cables.into_iter().flat_map(|(name, unit)| numbered(name, unit, cables));
+        let all = |of: fn(&SetPoint) -> &Vec<f64>| set_points.iter().flat_map(of).copied();
+        let shaped = |mode: &Excited| Shaped {
+            frequency_hz: mode.frequency,
+            damping_ratio: mode.damping_ratio,
+            platform_share: mode.platform_share,
+        };
+        Self {
+            seconds: planned.seconds,
+            way_m: ways.sum(),
+            impulses: planned.shaper.impulses.clone(),
+            shaped: modes.iter().map(shaped).collect(),
+            least_tension_n: all(|point| &point.tensions).fold(f64::INFINITY, f64::min),
+            greatest_exit_tension_n: all(|point| &point.exit_tensions).fold(0.0, f64::max),
+            feed_forward_m: all(|point| &point.feed_forward).fold(0.0, |most: f64, one| most.max(one.abs())),
+            residual: None,
+            robots: None,
+            columns: own.into_iter().chain(of_cables).collect(),
+        }
+    }
+
+    pub(super) fn ending(&self) -> Ending {
+        let failed = self.robots.as_ref().is_some_and(|robots| robots.failed > 0);
+        if failed { Ending::SomethingWrong } else { Ending::Well }
+    }
+
+    pub(super) fn show(
+        &self,
+        printing: &Printing,
+        robot: &Robot,
+        set_points: &[SetPoint],
+    ) -> Result<(), ProgramError> {
+        let (name, records) = (shown(&robot.name), set_points.iter().map(record).collect());
+        let whole = |set_points| Whole { answer: self, set_points };
+        printing.with_table(&self.columns, records, whole, || self.print(&name, set_points.len()))
+    }
+
+    fn print(&self, name: &str, set_points: usize) {
+        self.residual.iter().for_each(|after| after.print(name));
+        self.robots.iter().for_each(Robots::print);
+        let (way, seconds) = (significant(self.way_m, 4), self.seconds);
+        print_sentence(&format!("{name}: {way} m in {seconds} s, {}", counted(set_points, "set point")));
+        if let ([.., [duration, _]], false) = (&self.impulses[..], self.shaped.is_empty()) {
+            let of: Vec<_> = self.shaped.iter().map(|mode| significant(mode.frequency_hz, 4)).collect();
+            let impulses = counted(self.impulses.len(), "impulse");
+            print_lines(&format!(
+                "Shaper for {} Hz: {impulses} in {} s.",
+                of.join(" and "),
+                significant(*duration, 3)
+            ));
+        }
+        let of = if self.feed_forward_m == 0.0 {
+            "those at rest: the motion is not in them without feed-forward".to_owned()
+        } else {
+            format!("with the motion; feed-forward up to {} mm", mm(self.feed_forward_m))
+        };
+        print_lines(&format!(
+            "Tensions {} N at the platform to {} N at the exits, {of}.",
+            significant(self.least_tension_n, 3),
+            significant(self.greatest_exit_tension_n, 4)
+        ));
+    }
+}
+
+/// A set point as a row.
+fn record(point: &SetPoint) -> Vec<f64> {
+    let SetPoint { time, pose, lengths, feed_forward, tensions, exit_tensions } = point;
+    let of_cables = lengths.iter().chain(feed_forward).chain(tensions).chain(exit_tensions);
+    let place = pose.position.iter().copied().chain(pose.quaternion());
+    [*time].into_iter().chain(place).chain(of_cables.copied()).collect()
+}

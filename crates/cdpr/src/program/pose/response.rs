@@ -1,0 +1,269 @@
+//! `cdpr response`: how a platform that is shaken moves.
+
+use crate::program::answer::{OutOfLimits, decimal};
+use crate::program::arguments::{
+    self, FigureArgument, Format, FreeArguments, With, figure, print_record, with,
+};
+use crate::program::error::ProgramError;
+use crate::program::output::{Ending, print_sentence, table};
+use crate::program::pose::at_pose::{RobotAtPose, Row};
+use crate::program::pose::modes::with_inertia;
+use cdpr_dynamics::{Damping, FrequencyResponse, Modes, Response, Wanted};
+use cdpr_report::{Amplitudes, amplitudes};
+use cdpr_robot::{Pose, Robot, Vector3, shown, significant};
+use cdpr_statics::{DirectProblem, DirectStart, StaticsError, Unstable, WantedPose, inverse};
+use serde::Serialize;
+
+/// Frequencies at equal distances where no other number is given.
+const NUMBER: usize = 200;
+
+/// Damping of the stretch of cables where none is given [s].
+const STRETCH: f64 = 2e-4;
+
+/// Peaks that are listed.
+const LISTED: usize = 12;
+
+/// A robot at a pose, what shakes it, and what damps its cables.
+#[derive(clap::Args)]
+pub(crate) struct Settings {
+    #[command(flatten)]
+    at: RobotAtPose,
+    #[command(flatten)]
+    free: FreeArguments,
+    /// The highest frequency [Hz].
+    #[arg(long, value_name = "HZ")]
+    below: f64,
+    /// This many frequencies at equal distances, 200 if left out; the natural ones come on top.
+    #[arg(long, value_name = "N", value_parser = arguments::count::<1, 10_000>)]
+    number: Option<usize>,
+    /// damping=TAU and drag=RATE, what damps the cables; 2e-4 s and none if left out.
+    ///
+    /// A cable that is stretched at a rate dε/dt bears EA TAU dε/dt more [s]. The air takes RATE times the mass
+    /// per length for each m/s [1/s].
+    #[arg(long, value_name = "NAMES", value_parser = with)]
+    with: Option<With>,
+    /// Point of the platform that is shaken and that moves: x,y,z in its frame [m]; P if left out.
+    #[arg(long, value_parser = arguments::components::<3>, allow_hyphen_values = true)]
+    marker: Option<[f64; 3]>,
+    /// File for a figure of the amplitudes (.svg, .pdf, .png); behind its name: width=MM, untitled.
+    #[arg(long, value_name = "FILE", value_parser = figure, conflicts_with = "poses")]
+    figure: Option<FigureArgument>,
+}
+
+pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
+    let Settings { at, figure, .. } = settings;
+    let with = settings.with.clone().unwrap_or_default();
+    with.check(&["damping", "drag"])?;
+    let stretch = with.value("damping", None, arguments::number)?.unwrap_or(STRETCH);
+    let drag = with.value("drag", None, arguments::number)?.unwrap_or(0.0);
+    let damping = Damping { stretch, drag };
+    let is_table = matches!(at.printing.format(), Format::Csv) && at.pose()?.is_some();
+    if !is_table && figure.is_none() {
+        return at.answer(|robot, pose| settings.solve(robot, pose, damping), Answer::print);
+    }
+    let (robot, pose) = (at.robot()?, at.pose()?);
+    let Some(pose) = pose else {
+        return Err(ProgramError::Usage("--figure: expected --pose x,y,z".to_owned()));
+    };
+    let answer = settings.solve(&robot, &pose, damping)?;
+    if let Some(file) = figure {
+        file.write(&at.printing.overwrite, &answer.figure(&robot)?)?;
+    }
+    if is_table {
+        answer.print_table();
+        return Ok(answer.ending());
+    }
+    at.print(&robot, &pose, &answer, |answer| answer.print(&shown(&robot.name)))
+}
+
+impl Settings {
+    fn solve(&self, robot: &Robot, pose: &Pose, damping: Damping) -> Result<Answer, StaticsError> {
+        let (robot, load) = (with_inertia(robot), self.at.load.load());
+        let held = inverse(&robot, WantedPose::at(pose).free(&self.free.free), &load)?;
+        let problem = DirectProblem::new(&robot, &held.lengths, &load)?;
+        let rest = problem
+            .with_unstable(Unstable::Accepted)
+            .direct(DirectStart::Near(&held.equilibrium))?
+            .equilibrium;
+        let response = FrequencyResponse::new(&problem, &rest, self.below, damping)?;
+        let natural = Modes::new(&problem, &rest, Wanted::Below(self.below))?;
+        let number = self.number.unwrap_or(NUMBER);
+        let equal = (0..=number).map(|k| self.below * k as f64 / number as f64);
+        let mut frequencies: Vec<f64> =
+            equal.chain(natural.modes.iter().map(|mode| mode.frequency)).collect();
+        frequencies.sort_by(f64::total_cmp);
+        frequencies.dedup();
+        let lever = rest.pose.rotation * Vector3::from(self.marker.unwrap_or_default());
+        let at = |frequency: &f64| Ok(At::new(&response.at(*frequency)?, &lever));
+        Ok(Answer {
+            damping_s: damping.stretch,
+            drag_per_s: damping.drag,
+            inertia_assumed: matches!(robot, std::borrow::Cow::Owned(_)),
+            frequencies: frequencies.iter().map(at).collect::<Result<_, StaticsError>>()?,
+            out_of_limits: OutOfLimits::all(&robot, &held.lengths, &[&rest]),
+        })
+    }
+}
+
+/// How a platform that is shaken moves.
+#[derive(Serialize)]
+struct Answer {
+    damping_s: f64,
+    drag_per_s: f64,
+    /// Whether the inertia of the platform is assumed.
+    inertia_assumed: bool,
+    /// Without motion first.
+    frequencies: Vec<At>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    out_of_limits: Vec<OutOfLimits>,
+}
+
+/// What is found at a frequency.
+#[derive(Serialize)]
+struct At {
+    frequency_hz: f64,
+    /// Largest amplitude of the point for a force there of any direction [m/N].
+    amplitude_m_per_n: f64,
+    /// Amplitude in x, y and z for forces in these directions, row by row: real and imaginary part [m/N].
+    per_force: [[[f64; 2]; 3]; 3],
+    /// The same for the length that each winch takes in, cable by cable [m/m].
+    per_shortening: Vec<[[f64; 2]; 3]>,
+}
+
+impl At {
+    fn new(found: &Response, lever: &Vector3<f64>) -> Self {
+        let (per_force, per_shortening) = found.at_point(lever);
+        Self {
+            frequency_hz: found.frequency,
+            amplitude_m_per_n: per_force.singular_values().max(),
+            per_force: [0, 1, 2].map(|i| [0, 1, 2].map(|j| [per_force[(i, j)].re, per_force[(i, j)].im])),
+            per_shortening: per_shortening
+                .column_iter()
+                .map(|of| [0, 1, 2].map(|i| [of[i].re, of[i].im]))
+                .collect(),
+        }
+    }
+
+    /// Amplitudes for forces along the axes, each in its own direction [m/N].
+    fn along(&self) -> [f64; 3] {
+        [0, 1, 2].map(|k| size(&self.per_force[k][k]))
+    }
+
+    /// Amplitude of the point for each winch [m/m].
+    fn of_winches(&self) -> Vec<f64> {
+        let norm = |of: &[[f64; 2]; 3]| of.iter().flatten().map(|part| part * part).sum::<f64>().sqrt();
+        self.per_shortening.iter().map(norm).collect()
+    }
+}
+
+fn size([re, im]: &[f64; 2]) -> f64 {
+    re.hypot(*im)
+}
+
+impl Answer {
+    /// The largest amplitude beyond rest.
+    fn peak(&self) -> Option<&At> {
+        self.frequencies.iter().max_by(|one, other| one.amplitude_m_per_n.total_cmp(&other.amplitude_m_per_n))
+    }
+
+    /// Frequencies whose amplitude no neighbour exceeds, the largest first.
+    fn peaks(&self) -> Vec<&At> {
+        let middle = |three: &&[At]| {
+            let [before, at, after] = three else { return false };
+            at.amplitude_m_per_n >= before.amplitude_m_per_n && at.amplitude_m_per_n > after.amplitude_m_per_n
+        };
+        let mut peaks: Vec<&At> = self.frequencies.windows(3).filter(middle).map(|three| &three[1]).collect();
+        peaks.sort_by(|one, other| other.amplitude_m_per_n.total_cmp(&one.amplitude_m_per_n));
+        peaks
+    }
+
+    fn print(&self, heading: &str) {
+        let greatest = |one: &&At, other: &&At| one.amplitude_m_per_n.total_cmp(&other.amplitude_m_per_n);
+        if let (Some(still), Some(most)) =
+            (self.frequencies.first(), self.frequencies.iter().max_by(greatest))
+        {
+            print_sentence(&format!(
+                "{heading}: a force shakes the point by up to {} mm/N, at {:.4} Hz; at rest it moves it by {} mm/N.",
+                significant(1e3 * most.amplitude_m_per_n, 3),
+                most.frequency_hz,
+                significant(1e3 * still.amplitude_m_per_n, 3)
+            ));
+        }
+        println!(
+            "Damping of the cables: stretch {} s, drag {} 1/s. The largest peaks:",
+            self.damping_s, self.drag_per_s
+        );
+        let names = ["frequency [Hz]", "amplitude [mm/N]", "x, y, z along [mm/N]", "winches [mm/mm]"];
+        let mut rows = table(&names);
+        for at in self.peaks().into_iter().take(LISTED) {
+            let millimetres = |value: f64| significant(1e3 * value, 3);
+            let winches = at.of_winches().into_iter().fold(0.0, f64::max);
+            let along = at.along().map(millimetres).join(" ");
+            let cells = [
+                format!("{:.4}", at.frequency_hz),
+                millimetres(at.amplitude_m_per_n),
+                along,
+                decimal(winches, 2),
+            ];
+            rows.add_row(cells);
+        }
+        println!("{rows}");
+        println!("amplitude: of a force in the worst direction; winches: the one that moves the point most");
+        if self.drag_per_s == 0.0 {
+            println!(
+                "nothing damps cables across their stretch: such peaks are far above real ones; --with drag=RATE"
+            );
+        }
+        OutOfLimits::print(&self.out_of_limits);
+    }
+
+    /// A line of CSV for each frequency.
+    fn print_table(&self) {
+        let cables = self.frequencies.first().map_or(0, |at| at.per_shortening.len());
+        let winches = (1..=cables).map(|i| format!("winch_{i}_m_per_m"));
+        let names = ["frequency_hz", "amplitude_m_per_n", "x_m_per_n", "y_m_per_n", "z_m_per_n"];
+        print_record(&names.map(str::to_owned).into_iter().chain(winches).collect::<Vec<_>>());
+        for at in &self.frequencies {
+            let numbers = [at.frequency_hz, at.amplitude_m_per_n].into_iter().chain(at.along());
+            let numbers = numbers.chain(at.of_winches());
+            print_record(&numbers.map(|number| format!("{number:?}")).collect::<Vec<_>>());
+        }
+    }
+
+    fn figure(&self, robot: &Robot) -> Result<String, ProgramError> {
+        let curve = |name: &str, of: &dyn Fn(&At) -> f64| {
+            let points = self.frequencies.iter().map(|at| (at.frequency_hz, 1e3 * of(at))).collect();
+            (name.to_owned(), points)
+        };
+        let curves = [
+            curve("worst direction", &|at| at.amplitude_m_per_n),
+            curve("x", &|at| at.along()[0]),
+            curve("y", &|at| at.along()[1]),
+            curve("z", &|at| at.along()[2]),
+        ];
+        let title = format!("{} shaken by a force", shown(&robot.name));
+        let lines =
+            [format!("damping of the cables: stretch {} s, drag {} 1/s", self.damping_s, self.drag_per_s)];
+        let given = Amplitudes { title: &title, lines: &lines, y: "amplitude [mm/N]", curves: &curves };
+        Ok(amplitudes(&given)?)
+    }
+}
+
+impl Row for Answer {
+    fn columns(_: &Robot) -> Vec<String> {
+        ["peak_frequency_hz", "peak_m_per_n", "static_m_per_n"].map(str::to_owned).into()
+    }
+
+    fn cells(&self) -> Vec<String> {
+        let number = |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:?}"));
+        vec![
+            number(self.peak().map(|at| at.frequency_hz)),
+            number(self.peak().map(|at| at.amplitude_m_per_n)),
+            number(self.frequencies.first().map(|at| at.amplitude_m_per_n)),
+        ]
+    }
+
+    fn out_of_limits(&self) -> Vec<&[OutOfLimits]> {
+        vec![&self.out_of_limits]
+    }
+}

@@ -1,0 +1,125 @@
+//! `cdpr stiffness`: the Cartesian stiffness at a pose, with its eigenvalues and their motions.
+
+use crate::program::answer::{self, Neutral, OutOfLimits, decimal};
+use crate::program::error::ProgramError;
+use crate::program::output::{Ending, print_sentence, table};
+use crate::program::pose::at_pose::{RobotAtFreePose, Row, cells};
+use cdpr_robot::{Robot, significant};
+use cdpr_statics::WantedPose;
+use cdpr_statics::stiffness::{PoseStiffness, stiffness_at};
+use serde::Serialize;
+
+pub(crate) fn run(RobotAtFreePose { at, free }: &RobotAtFreePose) -> Result<Ending, ProgramError> {
+    let load = at.load.load();
+    let solve = |robot: &Robot, pose: &_| {
+        Ok(Answer::new(robot, &stiffness_at(robot, WantedPose::at(pose).free(&free.free), &load)?))
+    };
+    at.answer(solve, Answer::print)
+}
+
+/// The stiffness.
+#[derive(Serialize)]
+struct Answer {
+    /// Rows of K in (dp, dφ) [N/m, N/rad, N, N m/rad]: the true tangent of the balance.
+    stiffness: [[f64; 6]; 6],
+    /// Rows of the symmetric part of K.
+    symmetric_part: [[f64; 6]; 6],
+    #[serde(skip)]
+    symmetric: bool,
+    /// Eigenvalues of the symmetric part, the softest motion first.
+    eigenvalues: Vec<Eigenvalue>,
+    least_stiffness: f64,
+    stable: bool,
+    /// Motions that nothing resists.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    neutral: Vec<Neutral>,
+    /// Characteristic length ℓ, which makes rotations comparable with translations [m].
+    characteristic_length: f64,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    out_of_limits: Vec<OutOfLimits>,
+}
+
+/// An eigenvalue of the stiffness in (dp, ℓ dφ) and its motion.
+#[derive(Serialize)]
+struct Eigenvalue {
+    /// Stiffness of the motion [N/m].
+    stiffness: f64,
+    /// Translation of P [m/m], with `|translation|² + ℓ² |rotation|² = 1`.
+    translation: [f64; 3],
+    /// Rotation vector [rad/m].
+    rotation: [f64; 3],
+}
+
+impl Row for Answer {
+    fn columns(robot: &Robot) -> Vec<String> {
+        let names = ["least_stiffness", "characteristic_length_m"].into_iter().map(str::to_owned);
+        let eigenvalues = (1..=robot.freedoms().count()).map(|i| format!("eigenvalue_{i}"));
+        let entries = (1..=6).flat_map(|row| (1..=6).map(move |column| format!("k_{row}{column}")));
+        names.chain(eigenvalues).chain(entries).collect()
+    }
+
+    fn cells(&self) -> Vec<String> {
+        // Neutral motions are the softest.
+        let neutral = self.neutral.iter().map(|_| &0.0);
+        let eigenvalues = neutral.chain(self.eigenvalues.iter().map(|eigenvalue| &eigenvalue.stiffness));
+        let first = [&self.least_stiffness, &self.characteristic_length].into_iter();
+        cells(first.chain(eigenvalues).chain(self.stiffness.as_flattened()))
+    }
+
+    fn out_of_limits(&self) -> Vec<&[OutOfLimits]> {
+        vec![&self.out_of_limits]
+    }
+}
+
+impl Answer {
+    fn new(robot: &Robot, found: &PoseStiffness) -> Self {
+        let PoseStiffness { matrix, symmetric_part, stability, lengths, equilibrium } = found;
+        let skew = (matrix - symmetric_part).amax();
+        Self {
+            stiffness: matrix.transpose().into(),
+            symmetric_part: symmetric_part.transpose().into(),
+            // To rounding: K has entries in N/m to N m.
+            symmetric: skew <= 1e-9 * matrix.amax(),
+            eigenvalues: stability
+                .modes()
+                .iter()
+                .map(|mode| Eigenvalue {
+                    stiffness: mode.stiffness,
+                    translation: mode.translation.into(),
+                    rotation: mode.rotation.into(),
+                })
+                .collect(),
+            least_stiffness: stability.least_stiffness(),
+            stable: stability.is_stable(),
+            neutral: Neutral::all(stability),
+            characteristic_length: stability.characteristic_length(),
+            out_of_limits: OutOfLimits::all(robot, lengths, &[equilibrium]),
+        }
+    }
+
+    fn print(&self, heading: &str) {
+        let stable = answer::stability_word(self.stable);
+        let least = significant(self.least_stiffness, 5);
+        print_sentence(&format!("{heading} is {stable}; its softest motion has {least} N/m."));
+        let mut rows = table(&["eigenvalue [N/m]", "translation [m/m]", "rotation [rad/m]"]);
+        for Eigenvalue { stiffness, translation, rotation } in &self.eigenvalues {
+            let words = |vector: &[f64; 3]| answer::vector(vector, 4);
+            rows.add_row([format!("{stiffness:.1}"), words(translation), words(rotation)]);
+        }
+        println!("{rows}");
+        println!("rotations times \u{2113} = {:.4} m", self.characteristic_length);
+        Neutral::print(&self.neutral);
+        OutOfLimits::print(&self.out_of_limits);
+        println!("K in (dp, d\u{3c6}) [N/m, N/rad, N, N m/rad]:");
+        let print = |matrix: &[[f64; 6]; 6]| {
+            for row in matrix {
+                println!("{}", row.map(|entry| format!("{:>13}", decimal(entry, 1))).concat());
+            }
+        };
+        print(&self.stiffness);
+        if !self.symmetric {
+            println!("its symmetric part, which has these eigenvalues:");
+            print(&self.symmetric_part);
+        }
+    }
+}

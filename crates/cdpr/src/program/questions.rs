@@ -1,0 +1,202 @@
+//! Questions about numbers that are probably not what was meant: asked on the standard error and in JSON. The
+//! number is taken as it is, and the program ends with exit code 3.
+//!
+//! Robots and studies are opened here and nowhere else, so that no command forgets to ask.
+
+use crate::program::error::ProgramError;
+use crate::program::said;
+use cdpr_assess::{HELD, WorkspaceSummary, doubtful_rest};
+use cdpr_robot::{Doubt, Pose, Robot, Vector3, Wrench, place_of, plausible, shown};
+use cdpr_statics::{DirectSolution, Load};
+use cdpr_study::{Access, ErrorModel, InputKind, StoredStudy, Study, is_standard_input, read_text};
+use serde::Serialize;
+use std::path::Path;
+use std::sync::{Mutex, PoisonError};
+
+/// A question.
+#[derive(Serialize)]
+struct Asked {
+    #[serde(flatten)]
+    doubt: Doubt,
+    /// The file, with line and column of the field where they are known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    place: Option<String>,
+}
+
+/// What was asked so far.
+static ASKED: Mutex<Vec<Asked>> = Mutex::new(Vec::new());
+
+/// Asks what was not asked before.
+pub(crate) fn ask(doubts: impl IntoIterator<Item = Doubt>) {
+    ask_at(doubts, |_| None);
+}
+
+/// Asks about what a file says.
+fn ask_in(path: &Path, doubts: impl IntoIterator<Item = Doubt>) {
+    // The robot of a library has no file.
+    // A pipe is read once.
+    let is_read_again = path.is_file() || is_standard_input(path);
+    let text = is_read_again.then(|| read_text(path, InputKind::Study).ok()).flatten();
+    ask_at(doubts, |field| {
+        let text = text.as_deref()?;
+        let place = place_of(text, field).filter(|place| *place != place_of(text, "").unwrap_or_default());
+        let place =
+            place.map_or_else(String::new, |(line, column)| format!(", line {line}, column {column}"));
+        Some(format!("{}{place}", path.display()))
+    });
+}
+
+fn ask_at(doubts: impl IntoIterator<Item = Doubt>, place: impl Fn(&str) -> Option<String>) {
+    let mut asked = ASKED.lock().unwrap_or_else(PoisonError::into_inner);
+    for doubt in doubts {
+        if !asked.iter().any(|before| before.doubt == doubt) {
+            eprintln!("question: {doubt}");
+            let place = place(&doubt.quantity);
+            place.iter().for_each(|place| eprintln!("    in {place}"));
+            asked.push(Asked { doubt, place });
+        }
+    }
+}
+
+/// Whether anything was asked.
+pub(crate) fn were_asked() -> bool {
+    !ASKED.lock().unwrap_or_else(PoisonError::into_inner).is_empty()
+}
+
+/// The text of a JSON object with the questions as its last field, if there are any.
+pub(crate) fn added_to(object: String) -> serde_json::Result<String> {
+    let asked = ASKED.lock().unwrap_or_else(PoisonError::into_inner);
+    let Some(open) = object.strip_suffix('}').filter(|_| !asked.is_empty()) else { return Ok(object) };
+    let comma = if open == "{" { "" } else { "," };
+    Ok(format!("{open}{comma}\"questions\":{}}}", serde_json::to_string(&*asked)?))
+}
+
+/// The robot of a file.
+pub(crate) fn open_robot(path: &Path) -> Result<Robot, ProgramError> {
+    let robot = cdpr_study::open_robot(path)?;
+    let cables = robot.cables.len();
+    said::detail(format_args!("robot {}: {}, {cables} cables", path.display(), shown(&robot.name)));
+    ask_in(path, plausible::robot(&robot));
+    Ok(robot)
+}
+
+/// The study of a file.
+pub(crate) fn open_study(path: &Path) -> Result<Study, ProgramError> {
+    let study = Study::open(path)?;
+    said::detail(format_args!("study {} of the robot {}", path.display(), shown(&study.robot.name)));
+    ask_in(&path.with_file_name(&study.file.robot), plausible::robot(&study.robot));
+    ask_in(path, study.doubts());
+    Ok(study)
+}
+
+/// The study of a folder of results.
+pub(crate) fn take_results(folder: &Path, access: Access) -> Result<StoredStudy, ProgramError> {
+    let stored = cdpr_study::take_results(folder, access)?;
+    ask(plausible::robot(&stored.study.robot).into_iter().chain(stored.study.doubts()));
+    Ok(stored)
+}
+
+/// The error model of a file.
+pub(crate) fn open_errors(path: &Path, robot: &Robot) -> Result<ErrorModel, ProgramError> {
+    let model = cdpr_study::open_errors(path, robot)?;
+    about_model(robot, &model);
+    Ok(model)
+}
+
+/// Asks about the deviations of an error model.
+pub(crate) fn about_model(robot: &Robot, model: &ErrorModel) {
+    ask(model.doubts(robot));
+}
+
+/// Asks about a pose.
+pub(crate) fn about_pose(robot: &Robot, name: &str, pose: &Pose) {
+    ask(odd_pose(robot, name, pose));
+}
+
+/// A pose that is far away, or in the ground.
+fn odd_pose(robot: &Robot, name: &str, pose: &Pose) -> Option<Doubt> {
+    plausible::position(robot, name, &pose.position).or_else(|| plausible::in_ground(robot, name, pose))
+}
+
+/// Asks about the first of several poses that is far away or in the ground, and how many are.
+pub(crate) fn about_poses(robot: &Robot, name: &str, poses: &[Pose]) {
+    let mut doubts = poses.iter().enumerate().filter_map(|(i, pose)| Some((i, odd_pose(robot, name, pose)?)));
+    let Some((i, doubt)) = doubts.next() else { return };
+    let others = match doubts.count() {
+        0 => String::new(),
+        1 => ", and of another pose".to_owned(),
+        more => format!(", and of {more} more poses"),
+    };
+    let quantity = format!("pose {} of {}", i + 1, doubt.quantity);
+    ask([Doubt { quantity, value: format!("{}{others}", doubt.value), ..doubt }]);
+}
+
+/// Asks about a load.
+pub(crate) fn about_load(robot: &Robot, load: &Load) {
+    ask(plausible::load(robot, load.payload, &load.wrench));
+}
+
+/// Asks about the first wrench of a set that no cables bear.
+pub(crate) fn about_wrenches<'a>(robot: &Robot, wrenches: impl IntoIterator<Item = &'a Wrench>) {
+    let first = wrenches.into_iter().map(|wrench| plausible::wrench(robot, "wrench: ", wrench));
+    ask(first.flatten().take(1));
+}
+
+/// Asks about markers on the platform, in the platform frame.
+pub(crate) fn about_markers(robot: &Robot, markers: impl IntoIterator<Item = Vector3<f64>>) {
+    ask(markers.into_iter().find_map(|marker| plausible::on_platform(robot, "marker", &marker)));
+}
+
+/// Asks about a map on which no position is held.
+pub(crate) fn about_map(summary: &WorkspaceSummary) {
+    let held = summary.rows.iter().any(|row| row.status == HELD || row.recomputed_status == Some(HELD));
+    ask((!held).then(|| plausible::nothing_held(summary.rows.len())));
+}
+
+/// What is said of a map on which some positions are held, and fewer than half.
+pub(crate) fn few_held(summary: &WorkspaceSummary) -> Option<String> {
+    let is_held = |status: Option<&str>| status == Some(HELD);
+    let rows = &summary.rows;
+    let held = rows.iter().filter(|row| is_held(Some(row.status)) || is_held(row.recomputed_status)).count();
+    let all = rows.len();
+    (held > 0 && 2 * held < all)
+        .then(|| format!("fewer than half of the positions are held, {held} of {all}"))
+}
+
+/// Asks about where a platform was found to rest with given lengths [m], from a start and under a load.
+pub(crate) fn about_rest(
+    robot: &Robot,
+    name: &str,
+    given: (&[f64], &Load),
+    found: &DirectSolution,
+    start: &Pose,
+) {
+    ask(doubtful_rest(robot, name, given, found, &start.rotation));
+}
+
+/// Asks about unstrained lengths.
+pub(crate) fn about_lengths(robot: &Robot, lengths: &[f64]) {
+    ask(plausible::lengths(robot, lengths));
+}
+
+/// Asks about standard deviations of sensors by their names.
+pub(crate) fn about_noise(robot: &Robot, named: &[(String, f64)]) {
+    let unit = |name: &str| match name {
+        "position" | "length" | "lengths" | "displacement" | "marker" => "m",
+        "rotation" | "swivel" => "rad",
+        "tension" | "tensions" => "N",
+        _ => "",
+    };
+    ask(named.iter().filter_map(|(name, std)| plausible::noise(robot, name, unit(name), *std)));
+}
+
+/// Asks about the standard deviation of a position that is to be reached [m].
+pub(crate) fn about_accuracy(robot: &Robot, accuracy: Option<f64>) {
+    let doubt = accuracy.and_then(|std| plausible::noise(robot, "position", "m", std));
+    ask(doubt.map(|doubt| Doubt { quantity: "accuracy".to_owned(), ..doubt }));
+}
+
+/// Asks about a result of which more than half of the observations are missing.
+pub(crate) fn about_failed(name: &str, failed: usize, all: usize) {
+    ask(plausible::more_than_half_failed(name, failed, all));
+}

@@ -1,0 +1,151 @@
+//! `cdpr robot show`: what a robot is, in a few lines.
+
+use crate::program::arguments::{Printing, RobotArgument};
+use crate::program::error::ProgramError;
+use crate::program::output::print_sentence;
+use crate::program::questions;
+use crate::program::robot::library::{exit_points, extent};
+use cdpr_robot::{CableEnd, Grade, Robot, counted, rounded, shown};
+use serde::Serialize;
+
+/// The robot.
+#[derive(clap::Args)]
+pub(crate) struct Settings {
+    #[command(flatten)]
+    robot: RobotArgument,
+    #[command(flatten)]
+    printing: Printing,
+}
+
+/// A robot, in SI units.
+#[derive(Serialize)]
+struct Shown {
+    name: String,
+    cables: usize,
+    /// Cables whose exit point is on a pulley.
+    pulleys: usize,
+    /// Free motions of the platform.
+    free_motions: usize,
+    mass: f64,
+    center_of_mass: [f64; 3],
+    has_inertia: bool,
+    /// Sides of the boxes around the exit points and the anchor points.
+    exit_points: [f64; 3],
+    anchor_points: [f64; 3],
+    /// Least and greatest value over the cables.
+    linear_density: [f64; 2],
+    axial_stiffness: [f64; 2],
+    min_tension: [f64; 2],
+    max_tension: [f64; 2],
+    /// Least breaking force.
+    breaking_force: Option<f64>,
+    /// Ends at which the greatest tension is limited.
+    max_at: Vec<CableEnd>,
+    distribution: &'static str,
+    has_reference: bool,
+    has_laws: bool,
+    grade: Option<Grade>,
+    source: Option<String>,
+    assumed: Vec<String>,
+}
+
+pub(super) fn run(settings: &Settings) -> Result<(), ProgramError> {
+    let robot = questions::open_robot(settings.robot.path())?;
+    Ok(settings.printing.format().print(&Shown::new(&robot), print)?)
+}
+
+impl Shown {
+    fn new(robot: &Robot) -> Self {
+        let cables = &robot.cables;
+        let limits = || (0..cables.len()).map(|i| robot.limits(i));
+        let ends = (0..cables.len()).map(|i| robot.max_at(i));
+        let anchor_points: Vec<_> = cables.iter().map(|cable| cable.anchor_point).collect();
+        let breaking = cables.iter().filter_map(|cable| cable.properties.breaking_force);
+        Self {
+            name: robot.name.clone(),
+            cables: cables.len(),
+            pulleys: cables.iter().filter(|cable| cable.pulley.is_some()).count(),
+            free_motions: robot.freedoms().count(),
+            mass: robot.platform.mass,
+            center_of_mass: robot.platform.center_of_mass.into(),
+            has_inertia: robot.platform.inertia.is_some(),
+            exit_points: extent(&exit_points(robot)),
+            anchor_points: extent(&anchor_points),
+            linear_density: range(cables.iter().map(|cable| cable.properties.linear_density)),
+            axial_stiffness: range(cables.iter().map(|cable| cable.properties.axial_stiffness())),
+            min_tension: range(limits().map(|limits| limits.min)),
+            max_tension: range(limits().map(|limits| limits.max)),
+            breaking_force: breaking.reduce(f64::min),
+            max_at: ends.fold(Vec::new(), |mut ends, end| {
+                if !ends.contains(&end) {
+                    ends.push(end);
+                }
+                ends
+            }),
+            distribution: robot.distribution.name(),
+            has_reference: robot.tension_reference.is_some(),
+            has_laws: cables.iter().any(|cable| cable.properties.law.is_some()),
+            grade: robot.provenance.grade,
+            source: robot.provenance.source.clone(),
+            assumed: robot.provenance.assumed.clone(),
+        }
+    }
+}
+
+/// Least and greatest of several values.
+fn range(values: impl Iterator<Item = f64>) -> [f64; 2] {
+    values.fold([f64::INFINITY, f64::NEG_INFINITY], |[min, max], value| [min.min(value), max.max(value)])
+}
+
+/// One number, or two.
+fn words([min, max]: [f64; 2]) -> String {
+    let short = |value: f64| {
+        let decimals = 3 - value.abs().max(1e-12).log10().floor() as i32;
+        rounded(value, decimals)
+    };
+    if min == max { short(min).to_string() } else { format!("{} to {}", short(min), short(max)) }
+}
+
+fn print(robot: &Shown) {
+    let sides = |[x, y, z]: [f64; 3]| format!("{x:.2} x {y:.2} x {z:.2} m");
+    let inertia = if robot.has_inertia { "" } else { ", inertia not known" };
+    print_sentence(&format!(
+        "{}: {}, {} free motions, platform of {} kg{inertia}",
+        shown(&robot.name),
+        counted(robot.cables, "cable"),
+        robot.free_motions,
+        robot.mass
+    ));
+    println!("exit points in a box of    {}", sides(robot.exit_points));
+    println!("anchor points in a box of  {}", sides(robot.anchor_points));
+    let law = if robot.has_laws { ", with an elastic law" } else { "" };
+    print_sentence(&format!(
+        "cables: {} kg/m, EA {} N{law}; {}",
+        words(robot.linear_density),
+        words(robot.axial_stiffness),
+        counted(robot.pulleys, "pulley")
+    ));
+    let ends: Vec<&str> = robot
+        .max_at
+        .iter()
+        .map(|end| match end {
+            CableEnd::Anchor => "platform",
+            CableEnd::Exit => "exit point",
+        })
+        .collect();
+    let breaking = robot
+        .breaking_force
+        .map_or_else(String::new, |force| format!("; breaking force {} N", words([force; 2])));
+    print_sentence(&format!(
+        "tensions: {} to {} N at the {}{breaking}",
+        words(robot.min_tension),
+        words(robot.max_tension),
+        ends.join(" and ")
+    ));
+    let grade = robot.grade.map_or_else(|| "not graded".to_owned(), |grade| grade.to_string());
+    println!("grade: {grade}");
+    print_sentence(&format!("source: {}", shown(robot.source.as_deref().unwrap_or("not known"))));
+    for assumed in &robot.assumed {
+        print_sentence(&format!("assumed: {}", shown(assumed)));
+    }
+}

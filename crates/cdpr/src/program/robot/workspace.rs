@@ -1,0 +1,309 @@
+//! `cdpr workspace`: where the cables hold the platform, and how far it gives there, over a plane or a box.
+
+use crate::program::arguments::poses::Angles;
+use crate::program::arguments::{
+    self, FigureArgument, Format, FreeArguments, LoadArguments, Overwrite, Preference, Region, RobotArgument,
+    Threads, UncertaintyArgument, With, count, figure, region, with, write_figures,
+};
+use crate::program::error::ProgramError;
+use crate::program::output::{
+    Details, Ending, drawn, patiently, print_sentence, progress, table, wide_table,
+};
+use crate::program::questions;
+use crate::program::wrenches::WrenchArguments;
+use cdpr_assess::{
+    BoundarySummary, Further, HELD, TiltDirections, Way, Workspace, WorkspaceSummary, begin_workspace,
+    compute_workspace, workspace_boundary, write_workspace,
+};
+use cdpr_report::{MapQuantity, layers, workspace_maps};
+use cdpr_robot::{Axis, Rotation3, counted, listing, shown, significant};
+use cdpr_study::{Extremes, Grid};
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use std::time::Instant;
+
+/// The robot, the positions and the load.
+#[derive(clap::Args)]
+pub(crate) struct Settings {
+    #[command(flatten)]
+    robot: RobotArgument,
+    /// Where the platform is mapped: a plane, z=1.75, or x, y and z, each of them a coordinate, min:max or
+    /// min:max:points [m], such as -2:2:9,-1:1:5,1.75.
+    ///
+    /// What is left out, such as in ::11,::7,1.75, is that of the frame of the exit points, and 41 points in
+    /// a plane or 11 in a box.
+    #[arg(long, value_parser = region, allow_hyphen_values = true)]
+    region: Region,
+    #[command(flatten)]
+    angles: Angles,
+    #[command(flatten)]
+    free: FreeArguments,
+    #[command(flatten)]
+    load: LoadArguments,
+    #[command(flatten)]
+    preference: Preference,
+    #[command(flatten)]
+    errors: UncertaintyArgument,
+    #[command(flatten)]
+    set: WrenchArguments,
+    /// Further results, which take longer: capacity, distances, tilt=N, boundary, layers=N.
+    ///
+    /// capacity: greatest payload and margins of the tensions, for each --wrench on top of the load.
+    /// distances: of the nearest two cables, and of the cable nearest to the platform. tilt: how far the
+    /// platform may tilt, to 0.1 degrees, in the worst of N directions (4). boundary: of the positions that
+    /// are held under the load with the tensions distributed again, or boundary=kept, with the lengths kept:
+    /// polygons in a plane, a mesh in a box (STL). layers: of a box that are drawn, spread evenly (12); 0
+    /// draws nothing.
+    #[arg(long, value_name = "NAMES", value_parser = with)]
+    with: Option<With>,
+    /// Folder for the results, made if missing; NAME-workspace in the current folder if left out.
+    #[arg(short, long)]
+    out: Option<PathBuf>,
+    /// File for one of the maps, too, with the name that it has in the folder; behind its name: width=MM,
+    /// untitled. It can be given several times.
+    #[arg(long, value_name = "NAME.pdf", value_parser = figure)]
+    figure: Vec<FigureArgument>,
+    #[command(flatten)]
+    overwrite: Overwrite,
+    #[command(flatten)]
+    threads: Threads,
+    #[command(flatten)]
+    details: Details,
+    /// How the results are printed.
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+}
+
+/// What is computed besides the map.
+struct Wanted {
+    capacity: bool,
+    distances: bool,
+    /// Directions of the tilt.
+    tilt: Option<usize>,
+    boundary: Option<Way>,
+    /// Layers of a box that are drawn.
+    layers: usize,
+}
+
+impl Wanted {
+    fn new(with: &With) -> Result<Self, ProgramError> {
+        with.check(&["capacity", "distances", "tilt", "boundary", "layers"])?;
+        let way = |text: &str| match text {
+            "kept" => Ok(Way::Kept),
+            _ => Err("expected boundary or boundary=kept".to_owned()),
+        };
+        Ok(Self {
+            capacity: with.has("capacity")?,
+            distances: with.has("distances")?,
+            tilt: with.value("tilt", Some(4), count::<1, 360>)?,
+            boundary: with.value("boundary", Some(Way::Recomputed), way)?,
+            layers: with.value("layers", None, count::<0, 10_000>)?.unwrap_or(12),
+        })
+    }
+}
+
+impl Wanted {
+    /// Refuses what the map cannot have, before it is computed.
+    fn check(&self, settings: &Settings, grid: &Grid) -> Result<(), ProgramError> {
+        let usage = |reason: String| Err(ProgramError::Usage(reason));
+        if settings.set.are_given() && !self.capacity {
+            return usage("--wrench: expected --with capacity, too, whose figures it changes".to_owned());
+        }
+        let axes = Axis::ALL.into_iter().filter(|axis| grid.axis(*axis).points > 1).count();
+        if self.boundary.is_some() && axes < 2 {
+            let expected = "expected a plane or a box, with two points or more along two axes or three";
+            return usage(format!("--with boundary: {expected}"));
+        }
+        let names = MapQuantity::ALL.iter().map(|of| of.name()).chain(["dominant_tolerance"]);
+        let names: Vec<&str> = names.collect();
+        // Those of layers end in `_z00`, ....
+        let is_of = |stem: &str, name: &str| {
+            stem.strip_prefix(name).is_some_and(|rest| rest.is_empty() || rest.starts_with("_z"))
+        };
+        let unknown = |file: &&FigureArgument| !names.iter().any(|name| is_of(file.stem(), name));
+        match settings.figure.iter().find(unknown) {
+            Some(file) => {
+                let (file, names) = (file.path.display(), names.join(", "));
+                usage(format!("--figure {file}: expected the name of a map: {names}"))
+            }
+            None => Ok(()),
+        }
+    }
+}
+
+/// Accuracy of the tilt in a map [degrees].
+const TILT_ACCURACY: f64 = 0.1;
+
+pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
+    settings.threads.start()?;
+    let wanted = Wanted::new(&settings.with.clone().unwrap_or_default())?;
+    let robot = settings.preference.open_robot(settings.robot.path())?;
+    let grid = settings.region.grid(&robot)?;
+    questions::about_poses(&robot, "the map", &grid.corners());
+    questions::about_load(&robot, &settings.load.load());
+    let tolerances = settings.errors.model(&robot)?;
+    wanted.check(settings, &grid)?;
+    let out =
+        settings.out.clone().unwrap_or_else(|| arguments::named_after(settings.robot.path(), "workspace"));
+    let folder = begin_workspace(&out, settings.overwrite.if_exists())?;
+    let set = settings.set.set()?;
+    questions::about_wrenches(&robot, set.wrenches());
+    let workspace = Workspace {
+        robot: &robot,
+        grid,
+        rotation: settings.angles.rotation().unwrap_or_else(Rotation3::identity),
+        load: settings.load.load(),
+        tolerances: tolerances.as_ref(),
+        free: &settings.free.free,
+        further: Further {
+            capacity: wanted.capacity.then_some(&set),
+            distances: wanted.distances,
+            tilt: wanted.tilt.map(|count| TiltDirections { count, accuracy: TILT_ACCURACY.to_radians() }),
+        },
+    };
+    let progress = progress(grid.poses().len(), "poses");
+    let clock = Instant::now();
+    let poses = compute_workspace(&workspace, &|| progress.inc(1), &|| false)?;
+    let seconds = clock.elapsed().as_secs_f64();
+    progress.finish_and_clear();
+    let mut summary = WorkspaceSummary::new(&workspace, &poses);
+    questions::about_map(&summary);
+    let mut boundary = None;
+    if let Some(way) = wanted.boundary {
+        let found = patiently("boundary", || workspace_boundary(&workspace, way, &|| false))?;
+        summary.boundary = Some(BoundarySummary::new(way, &found));
+        boundary = Some(found);
+    }
+    let maps = workspace_maps(&robot, &summary, wanted.layers).into_iter();
+    let maps: Vec<_> = maps.filter_map(|map| drawn(&map.name, map.svg)).collect();
+    write_workspace(&folder, &summary, &maps, boundary.as_ref())?;
+    write_figures(&settings.figure, &maps, &settings.overwrite)?;
+    settings.format.print(&summary, |summary| {
+        print(summary);
+        if settings.details.details {
+            print_details(summary);
+        }
+        let (drawn, all) = (wanted.layers, layers(summary));
+        if drawn < all {
+            println!("{drawn} of {all} layers are drawn: --with layers={all} draws all of them");
+        }
+        println!("{} in {seconds:.2} s; results in {}", counted(poses.len(), "pose"), out.display());
+    })?;
+    let few = questions::few_held(&summary);
+    few.iter().for_each(|few| eprintln!("warning: {few}"));
+    Ok(if summary.too_much > 0 || few.is_some() { Ending::SomethingWrong } else { Ending::Well })
+}
+
+/// The share of the positions that is held, and what ranges over them.
+fn print(summary: &WorkspaceSummary) {
+    let all = summary.rows.len();
+    let held = summary.status.get(HELD).copied().unwrap_or(0);
+    let percent = 100.0 * held as f64 / all.max(1) as f64;
+    let of =
+        format!("{} holds {held} of {} ({percent:.1} %)", shown(&summary.robot), counted(all, "position"));
+    print_sentence(&format!("{of}, {}.", summary.conditions()));
+    let others = summary.status.iter().filter(|(status, _)| **status != HELD);
+    let others: Vec<String> =
+        others.map(|(status, count)| format!("{count} {}", status.replace('_', " "))).collect();
+    if !others.is_empty() {
+        print_sentence(&listing("Not held: ", &others, "."));
+    }
+    if summary.too_much > 0 {
+        let positions = counted(summary.too_much, "position");
+        print_sentence(&format!("At {positions} tensions are above tension_limits.max or a breaking force."));
+    }
+    let mut rows = table(&["over the positions held", "least", "greatest"]);
+    for (name, extremes) in ranges(summary) {
+        if let Some(Extremes { min, max, .. }) = extremes {
+            rows.add_row([name.to_owned(), significant(min, 4), significant(max, 4)]);
+        }
+    }
+    if rows.row_count() > 0 {
+        println!("{rows}");
+    }
+    if let Some(BoundarySummary { measure, error, unit, .. }) = &summary.boundary {
+        print_sentence(&format!("The region held has {measure:.4} {unit}, with an error of {error:.1e}."));
+    }
+}
+
+/// What ranges over the positions held.
+fn ranges(summary: &WorkspaceSummary) -> [(&'static str, Option<Extremes>); 14] {
+    [
+        ("|dp| [mm]", summary.magnitude_mm),
+        ("least stiffness [N/m]", summary.least_stiffness),
+        ("frequency of the platform [Hz]", summary.platform_frequency_hz),
+        ("lowest natural frequency [Hz]", summary.lowest_frequency_hz),
+        ("greatest tension [N]", summary.greatest_tension),
+        ("least tension [N]", summary.least_tension),
+        ("greatest tension, recomputed [N]", summary.recomputed_greatest_tension),
+        ("greatest payload, recomputed [kg]", summary.payload_recomputed_kg),
+        ("greatest payload, lengths kept [kg]", summary.payload_kept_kg),
+        ("margin, recomputed [N]", summary.margin_recomputed),
+        ("margin, lengths kept [N]", summary.margin_kept),
+        ("distance of the nearest cables [mm]", summary.nearest_cables_mm),
+        ("distance of cables and platform [mm]", summary.nearest_to_platform_mm),
+        ("tilt in the worst direction [deg]", summary.tilt_deg),
+    ]
+}
+
+fn print_details(summary: &WorkspaceSummary) {
+    println!("\n{}: {} positions, {}", shown(&summary.robot), summary.rows.len(), summary.conditions());
+    let counts = |status: &BTreeMap<&str, usize>| {
+        for (status, count) in status {
+            println!("{count:8} {status}");
+        }
+    };
+    if summary.is_loaded() {
+        println!("with the lengths kept under the load:");
+    }
+    counts(&summary.status);
+    if summary.too_much > 0 {
+        let positions = summary.too_much;
+        println!(
+            "{positions:8} with tensions above tension_limits.max or a breaking force: see workspace.csv"
+        );
+    }
+    if summary.is_loaded() {
+        println!("with the tensions recomputed:");
+    }
+    counts(&summary.recomputed_status);
+    // Without a load these are the counts above, unless they say more.
+    let says_more = summary.left_out.keys().any(|why| !summary.status.contains_key(why.as_str()));
+    if says_more || summary.is_loaded() && !summary.left_out.is_empty() {
+        println!("left out{}:", if summary.is_loaded() { ", with the lengths kept" } else { "" });
+        for (why, count) in &summary.left_out {
+            println!("{count:8} {why}");
+        }
+    }
+    let mut rows = wide_table(&["over the positions held", "least", "at [m]", "greatest", "at [m]"]);
+    let position = |[x, y, z]: [f64; 3]| format!("{x:.3}, {y:.3}, {z:.3}");
+    for (name, extremes) in ranges(summary) {
+        if let Some(Extremes { min, min_at, max, max_at }) = extremes {
+            rows.add_row([
+                name.to_owned(),
+                format!("{min:.4}"),
+                position(min_at),
+                format!("{max:.4}"),
+                position(max_at),
+            ]);
+        }
+    }
+    if rows.row_count() > 0 {
+        println!("{rows}");
+    }
+    if let Some(BoundarySummary { way, measure, error, unit, parts, evaluations }) = &summary.boundary {
+        let (name, parts) = match *unit {
+            "m2" => ("area", format!("{parts} polygons in boundary.csv")),
+            _ => ("volume", format!("{parts} triangles in boundary.stl")),
+        };
+        println!(
+            "{name} of the region held ({way}): {measure:.4} {unit}, error {error:.1e}; {parts}; \
+             {evaluations} positions asked for"
+        );
+    }
+    let mut dominant: Vec<_> = summary.dominant.iter().collect();
+    dominant.sort_by_key(|(_, count)| std::cmp::Reverse(**count));
+    for (name, count) in dominant.into_iter().take(5) {
+        println!("{name} dominates the tolerance of |dp| at {count} positions");
+    }
+}

@@ -1,0 +1,72 @@
+//! `cdpr study report`: the report of a study, from its folder of results.
+
+use crate::program::arguments::endings;
+use crate::program::arguments::{FigureArgument, Format, Overwrite, figure, write_figures};
+use crate::program::error::ProgramError;
+use crate::program::output::patiently;
+use cdpr_assess::read_region;
+use cdpr_report::{figures, report_with};
+use cdpr_study::Results;
+use serde::Serialize;
+use std::path::PathBuf;
+
+/// The folder and the file.
+#[derive(clap::Args)]
+pub(crate) struct Settings {
+    /// Folder that `cdpr study run` has written.
+    folder: PathBuf,
+    /// Folder that `cdpr workspace --with boundary` has written for the robot: its region is drawn around the
+    /// robot.
+    workspace: Option<PathBuf>,
+    /// File for the report; `report.html` in the folder if left out.
+    #[arg(short, long, value_parser = endings::html())]
+    out: Option<PathBuf>,
+    /// A figure of the results instead, with the name that it has in the folder; behind its name: width=MM,
+    /// untitled. It can be given several times.
+    #[arg(long, value_name = "NAME.pdf", value_parser = figure, conflicts_with_all = ["out", "workspace"])]
+    figure: Vec<FigureArgument>,
+    #[command(flatten)]
+    overwrite: Overwrite,
+    /// How the path of the report is printed.
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+}
+
+#[derive(Serialize)]
+struct Drawn {
+    figures: Vec<String>,
+}
+
+#[derive(Serialize)]
+struct Written {
+    report: String,
+}
+
+pub(super) fn run(settings: &Settings) -> Result<(), ProgramError> {
+    let Settings { folder, out, figure, overwrite, workspace, format } = settings;
+    if !figure.is_empty() {
+        let drawn = figures(&Results::read(folder)?);
+        let drawn: Vec<_> =
+            drawn.into_iter().filter_map(|figure| Some((figure.name, figure.svg.ok()?))).collect();
+        write_figures(figure, &drawn, overwrite)?;
+        let figures = figure.iter().map(|figure| figure.path.to_string_lossy().into_owned()).collect();
+        let text =
+            |Drawn { figures }: &Drawn| figures.iter().for_each(|figure| println!("figure in {figure}"));
+        return Ok(format.print(&Drawn { figures }, text)?);
+    }
+    let (results, page) = patiently("drawing the report", || -> Result<_, ProgramError> {
+        let results = Results::read(folder)?;
+        let region = workspace.as_deref().map(read_region).transpose()?;
+        let page = report_with(&results, &figures(&results), region.as_ref())?;
+        Ok((results, page))
+    })?;
+    let path = match out {
+        Some(path) => {
+            overwrite.write(path, &page)?;
+            path.clone()
+        }
+        None => results.write_report(folder, &page)?,
+    };
+    let text = |written: &Written| println!("report in {}", written.report);
+    Ok(format.print(&Written { report: path.to_string_lossy().into_owned() }, text)?)
+}

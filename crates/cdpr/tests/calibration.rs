@@ -1,0 +1,100 @@
+//! `cdpr calibrate` as a user meets it.
+
+use crate::common::{answered, cdpr, data_path, text, unwrapped};
+use serde_json::Value;
+use std::process::Output;
+use tempfile::TempDir;
+
+const UNCERTAINTY: [&str; 2] = ["--uncertainty", "a=0.002,b=0.002,youngs_modulus=5e9,mass=1,dt=5,b1.x=0.01"];
+const NOISE: [&str; 2] = ["--noise", "position=1e-4,rotation=1e-4"];
+
+fn run(arguments: &[&str]) -> Output {
+    cdpr(&[&["calibrate", "identify", &data_path("robots/caroca.json")], arguments].concat())
+}
+
+#[test]
+fn a_grid_of_poses_tells_geometry_but_no_offset_of_a_tension() {
+    let arguments = [&["--region=-2:2:3,-1:1:3,1:9:2"][..], &UNCERTAINTY, &NOISE].concat();
+    let output = run(&[&arguments[..], &["--number", "4", "--format", "json"]].concat());
+    let json: Value = serde_json::from_str(&answered(output)).unwrap();
+    assert_eq!((json["poses"].as_u64(), json["refused"]["infeasible_tension"].as_u64()), (Some(9), Some(9)));
+    let unidentifiable: Vec<_> =
+        json["unidentifiable"].as_array().unwrap().iter().map(|part| &part["weights"][0][0]).collect();
+    assert!((1..=8).all(|i| unidentifiable.contains(&&Value::from(format!("dt{i}")))), "{unidentifiable:?}");
+    assert_eq!(json["identifiable"].as_array().unwrap().len() + unidentifiable.len(), 58);
+    let left = |name: &str| json["remaining"][name].as_f64().unwrap();
+    assert!((left("dt1") - 1.0).abs() < 1e-9 && left("b1.x") < 0.5);
+    assert_eq!(json["best_poses"].as_array().unwrap().len(), 4);
+    assert_eq!(json["best_poses"][0]["pose"].as_array().unwrap().len(), 7);
+
+    let short = text(run(&arguments).stdout);
+    assert!(
+        short.starts_with("CAROCA: 9 poses identify 48 of 58 combinations of the parameters.\n"),
+        "{short}"
+    );
+    let text = text(run(&[&arguments[..], &["--details"]].concat()).stdout);
+    for words in ["9 poses left out: infeasible tension", "+1.00 dt8", "adds [bit]"] {
+        assert!(text.contains(words), "{words}: {text}");
+        assert!(short.contains(words) || words == "+1.00 dt8", "{words}: {short}");
+    }
+}
+
+#[test]
+fn a_file_of_poses_is_read_line_by_line() {
+    let folder = TempDir::new().unwrap();
+    let path = folder.path().join("poses.csv");
+    let arguments = ["--poses", path.to_str().unwrap(), "--format", "json"];
+    let arguments = [&arguments[..], &UNCERTAINTY, &["--noise", "length=1e-3,tension=5"]].concat();
+    std::fs::write(&path, "0,0,1.75,1,0,0,0\n\n1,0.5,2,0.99,0,0,0.1\n").unwrap();
+    let json: Value = serde_json::from_slice(&run(&arguments).stdout).unwrap();
+    assert_eq!(json["poses"], 2);
+    std::fs::write(&path, "0,0,1.75\n1,0.5\n").unwrap();
+    let error = unwrapped(run(&arguments).stderr);
+    assert!(
+        error.starts_with("error: --poses ")
+            && error.contains("line 2: 2 cells: expected 3, as many as in line 1"),
+        "{error}"
+    );
+}
+
+#[test]
+fn bad_input_is_named_with_what_would_be_right() {
+    let grid = "--region=0:1:2,0:1:2,1:2:2";
+    for (arguments, words) in [
+        (vec![NOISE[0], NOISE[1], UNCERTAINTY[0], UNCERTAINTY[1]], "required"),
+        (
+            vec!["--region=0:1", NOISE[0], NOISE[1], UNCERTAINTY[0], UNCERTAINTY[1]],
+            "expected a plane, z=1.75, or x, y and z",
+        ),
+        (
+            vec![grid, NOISE[0], NOISE[1], "--uncertainty", "c=1"],
+            "uncertainty of c is 1: expected a positive standard deviation of mass",
+        ),
+        (vec![grid, NOISE[0], NOISE[1], "--uncertainty", "a"], "`a`: expected name=number"),
+        (
+            vec![grid, NOISE[0], "position=1e-4", UNCERTAINTY[0], UNCERTAINTY[1]],
+            "--noise is of position alone: expected position and rotation together",
+        ),
+        (
+            vec![grid, NOISE[0], "force=1", UNCERTAINTY[0], UNCERTAINTY[1]],
+            "--noise force is 1: expected one of position",
+        ),
+        (
+            vec![grid, NOISE[0], "lengths=0", UNCERTAINTY[0], UNCERTAINTY[1]],
+            "error: --noise lengths is 0: expected a standard deviation from 1e-15",
+        ),
+        (
+            vec![grid, "--poses", "x", NOISE[0], NOISE[1], UNCERTAINTY[0], UNCERTAINTY[1]],
+            "cannot be used with",
+        ),
+        (
+            vec!["--poses", "nowhere", NOISE[0], NOISE[1], UNCERTAINTY[0], UNCERTAINTY[1]],
+            "error: cannot read nowhere: No such file",
+        ),
+    ] {
+        let output = run(&arguments);
+        let text = unwrapped(output.stderr);
+        assert_ne!(output.status.code(), Some(0), "{text}");
+        assert!(text.contains(words) && !text.contains("panicked"), "`{words}` is not in: {text}");
+    }
+}

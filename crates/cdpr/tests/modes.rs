@@ -1,0 +1,115 @@
+//! `cdpr modes`: natural motions of platform and cables, and what says that cables have no mass.
+
+use crate::common::{cdpr, data_path, data_text, unwrapped};
+use crate::equilibria::number;
+use crate::models::{answer, close, joined, numbers, printed};
+use cdpr_robot::{Pose, Robot};
+use cdpr_statics::vibration::modes_at;
+use cdpr_statics::{Load, inverse};
+use serde_json::Value;
+use tempfile::TempDir;
+
+#[test]
+fn natural_frequencies_are_those_of_the_library_by_pose_and_by_lengths() {
+    let file = data_path("robots/cogiro.json");
+    let robot = Robot::from_json(&data_text("robots/cogiro.json")).unwrap();
+    let pose = Pose::at(0.5, 0.2, 2.0);
+    let modes = modes_at(&robot, pose, &Load::none()).unwrap().modes;
+    let expected: Vec<_> = modes.iter().map(|mode| mode.frequency).collect();
+    let at_pose = answer(&["modes", &file, "--massless", "--pose", "0.5,0.2,2"]);
+    assert_eq!(numbers(&at_pose["frequencies_hz"]), expected);
+    let lengths = joined(&inverse(&robot, &pose, &Load::none()).unwrap().lengths);
+    let by_lengths = answer(&["modes", &file, "--massless", "--lengths", &lengths, "--start", "0,0,2.5"]);
+    for (one, other) in numbers(&by_lengths["frequencies_hz"]).into_iter().zip(&expected) {
+        assert!(close(one, *other, 1e-9));
+    }
+    let printed = printed(&["modes", &file, "--massless", "--pose", "0.5,0.2,2"]);
+    assert!(printed.contains(&format!("{:.4}", expected[0])), "{printed}");
+}
+
+#[test]
+fn platform_and_cables_vibrate_together_and_none_of_their_motions_is_missing() {
+    let file = data_path("robots/cogiro.json");
+    let found = answer(&["modes", &file, "--pose", "0,0,2", "--below", "6"]);
+    let modes = found["modes"].as_array().unwrap();
+    assert_eq!(found["counted"].as_u64().unwrap() as usize, modes.len());
+    assert!(found["inertia_assumed"] == false && found["complete_below_hz"] == 6.0);
+    let frequencies: Vec<f64> = modes.iter().map(|mode| number(&mode["frequency_hz"])).collect();
+    assert!(frequencies.is_sorted() && frequencies.iter().all(|frequency| *frequency < 6.0));
+    for mode in modes {
+        let sum = number(&mode["platform_share"]) + numbers(&mode["cable_shares"]).iter().sum::<f64>();
+        assert!((sum - 1.0).abs() < 1e-8);
+    }
+    let first = answer(&["modes", &file, "--pose", "0,0,2", "--number", "5"]);
+    assert_eq!(first["modes"].as_array().unwrap().len(), 5);
+    for (one, other) in first["modes"].as_array().unwrap().iter().zip(&frequencies) {
+        assert!(close(number(&one["frequency_hz"]), *other, 2e-6));
+    }
+    let lengths = joined(
+        &inverse(
+            &Robot::from_json(&data_text("robots/cogiro.json")).unwrap(),
+            &Pose::at(0.0, 0.0, 2.0),
+            &Load::none(),
+        )
+        .unwrap()
+        .lengths,
+    );
+    let by_lengths = answer(&["modes", &file, "--lengths", &lengths, "--start", "0,0,2.2", "--below", "6"]);
+    assert_eq!(by_lengths["counted"], found["counted"]);
+    // Robots without inertia say what is assumed.
+    let assumed = cdpr(&["modes", "caroca", "--pose", "0,0,1.75", "--format", "json"]);
+    let answer: Value = serde_json::from_slice(&assumed.stdout).unwrap();
+    assert!(assumed.status.success() && answer["inertia_assumed"] == true);
+    assert!(unwrapped(assumed.stderr).contains("the robot has no inertia"));
+    for (option, value) in [("--below", "0"), ("--below", "1e9"), ("--number", "0"), ("--below", "nan")] {
+        let refused = cdpr(&["modes", &file, "--pose", "0,0,2", option, value]);
+        assert!(matches!(refused.status.code(), Some(1 | 2)), "{option} {value}");
+        assert!(unwrapped(refused.stderr).contains("expected"), "{option} {value}");
+    }
+}
+
+#[test]
+fn without_mass_of_cables_an_answer_says_how_slowly_the_cables_themselves_vibrate() {
+    let file = data_path("robots/cogiro.json");
+    let modes = answer(&["modes", &file, "--massless", "--pose", "0,0,2"]);
+    let lowest = number(&modes["lowest_cable_frequency_hz"]);
+    let cables = numbers(&modes["cable_frequencies_hz"]);
+    assert_eq!((cables.len(), cables.into_iter().fold(f64::INFINITY, f64::min)), (8, lowest));
+    assert!(lowest < 2.0 * numbers(&modes["frequencies_hz"])[0]);
+    assert!(modes["warning"].as_str().unwrap().contains("less than twice 4.158 Hz"));
+}
+
+#[test]
+fn paths_maps_and_derivatives_have_the_frequencies_of_platform_and_cables() {
+    let file = data_path("robots/cogiro.json");
+    let modes = answer(&["modes", &file, "--pose", "0,0,2", "--below", "8"]);
+    let modes = modes["modes"].as_array().unwrap();
+    let share = |mode: &&Value| number(&mode["platform_share"]);
+    let swing = |mode: &&Value| number(&mode["swing_share"]);
+    let platform = modes.iter().max_by(|one, other| swing(one).total_cmp(&swing(other))).unwrap();
+    let (first, platform, share) =
+        (&modes[0]["frequency_hz"], number(&platform["frequency_hz"]), share(&platform));
+    let check = |found: &Value| {
+        assert!(close(number(&found["platform_frequency_hz"]), platform, 2e-6), "{found}");
+        assert!(close(number(&found["platform_share"]), share, 1e-4), "{found}");
+        assert!(close(number(&found["lowest_frequency_hz"]), number(first), 2e-6), "{found}");
+    };
+    let folder = TempDir::new().unwrap();
+    let poses = folder.path().join("poses.csv");
+    std::fs::write(&poses, "x_m,y_m,z_m\n0,0,2\n").unwrap();
+    let path = cdpr(&["path", &file, "--poses", poses.to_str().unwrap(), "--format", "json"]);
+    check(&serde_json::from_slice(&path.stdout).unwrap());
+    // A payload of 10 g lowers the frequency by less than a thousandth.
+    let found = answer(&["derivatives", &file, "--pose", "0,0,2", "--payload", "0.01"]);
+    let (found, share_found) = (number(&found["platform_frequency_hz"]), number(&found["platform_share"]));
+    assert!(close(found, platform, 1e-3) && close(share_found, share, 0.1), "{found} {share_found}");
+    let out = folder.path().join("map");
+    let map = ["workspace", &file, "--region=0:1:2,0:1:2,2:2:1", "--out", out.to_str().unwrap()];
+    let map = cdpr(&map);
+    assert!(map.status.success(), "{}", unwrapped(map.stderr));
+    let rows: Value =
+        serde_json::from_str(&std::fs::read_to_string(out.join("workspace.json")).unwrap()).unwrap();
+    let of_first = ["platform_frequency_hz", "platform_share", "lowest_frequency_hz"]
+        .map(|name| (name.to_owned(), rows["columns"][name][0].clone()));
+    check(&Value::Object(of_first.into_iter().collect()));
+}

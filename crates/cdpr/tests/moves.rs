@@ -1,0 +1,76 @@
+//! `cdpr path --with seconds=1` and `cdpr simulate --lengths FILE` as a user types them.
+
+use crate::common::{cdpr, data_path, text, unwrapped};
+use serde_json::Value;
+use tempfile::TempDir;
+
+#[test]
+fn a_move_is_planned_for_a_controller_and_simulated_from_its_table() {
+    let folder = TempDir::new().unwrap();
+    let robot = data_path("robots/cogiro.json");
+    let poses = data_path("poses/one-metre.csv");
+    let out = folder.path().join("move.csv");
+    let out = out.to_str().unwrap();
+    let plan = ["path", &robot, "--poses", &poses];
+    let with = "seconds=1,shaper=zvd,rate=100,residual=0.3";
+    let printed = cdpr(&[&plan[..], &["--with", with, "--out", out]].concat());
+    let summary = text(printed.stdout);
+    assert_eq!(printed.status.code(), Some(0), "{}", unwrapped(printed.stderr));
+    assert!(summary.contains("\nCoGiRo: 1.000 m in 1 s, 101 set points\nShaper for "), "{summary}");
+    assert!(summary.starts_with("CoGiRo: in 0.300 s after the move P swings by up to 0."), "{summary}");
+    assert!(summary.lines().all(|line| line.chars().count() <= 80), "{summary}");
+    let table = std::fs::read_to_string(out).unwrap();
+    let mut lines = table.lines();
+    assert!(lines.next().unwrap().starts_with("t_s,x_m,y_m,z_m,qw,qx,qy,qz,length_1_m,length_2_m,"));
+    assert!(lines.next().unwrap().starts_with("0.0,-0.5,0.0,2.0,1.0,0.0,0.0,0.0,"), "{table}");
+    assert!(lines.next_back().unwrap().starts_with("1.0,0.5,0.0,2.0,1.0,0.0,0.0,0.0,"), "{table}");
+    assert_eq!(lines.count(), 99);
+
+    let simulated = cdpr(&[
+        "simulate",
+        &robot,
+        "--lengths",
+        out,
+        "--until",
+        "1.2",
+        "--with",
+        "degree=5,elements=2",
+        "--format",
+        "json",
+    ]);
+    assert_eq!(simulated.status.code(), Some(0), "{}", unwrapped(simulated.stderr));
+    let whole: Value = serde_json::from_str(&text(simulated.stdout)).unwrap();
+    let farthest = whole["greatest_distance_m"].as_f64().unwrap();
+    assert!((farthest - 1.0).abs() < 2e-3, "{farthest}");
+    assert!(whole["cables"].as_array().unwrap().iter().all(|cable| cable["slack"] == false), "{whole}");
+}
+
+#[test]
+fn what_a_move_cannot_be_is_refused_with_what_would_be_right() {
+    let robot = data_path("robots/cogiro.json");
+    let poses = data_path("poses/one-metre.csv");
+    for (with, further, expected) in [
+        ("profile=cosine", &[][..], "expected seconds=S"),
+        ("seconds=1,profile=linear", &[], "expected trapezoid, cosine, polynomial"),
+        ("seconds=1,shaper=zvdd", &[], "expected zv, zvd, ei"),
+        ("seconds=1,profile=cosine,feed-forward", &[], "expected polynomial with feed-forward"),
+        ("seconds=0.3,feed-forward=platform", &[], "the move is too fast at 0."),
+        ("seconds=1,speed=2", &[], "--with speed: expected seconds, profile"),
+        ("seconds=1,shaper", &["--uncertainty", "mass=1"], "expected --with residual"),
+        ("seconds=1,residual", &["--uncertainty", "mass=1"], "expected seed=N"),
+    ] {
+        let call = [&["path", &robot, "--poses", &poses, "--with", with], further].concat();
+        let printed = cdpr(&call);
+        let error = unwrapped(printed.stderr);
+        assert!(printed.status.code() == Some(1) || printed.status.code() == Some(2), "{with}: {error}");
+        assert!(error.replace('\n', " ").contains(expected), "{with}: {error}");
+    }
+    let none = cdpr(&["simulate", &robot, "--pose", "0,0,2", "--until", "1"]);
+    assert!(unwrapped(none.stderr).contains("expected --events"));
+    let folder = TempDir::new().unwrap();
+    let file = folder.path().join("lengths.csv");
+    let file = file.to_str().unwrap();
+    std::fs::write(file, "t_s,length_1_m\n0,9\n1,9\n").unwrap();
+    let error = unwrapped(cdpr(&["simulate", &robot, "--lengths", file, "--until", "1"]).stderr);
+    assert!(error.contains("no length_2_m") && error.contains("lengths.csv"), "{error}");
+}

@@ -1,0 +1,115 @@
+//! `cdpr simulate` as a user types it.
+
+use crate::common::{cdpr, data_path, text, unwrapped};
+use serde_json::Value;
+use tempfile::TempDir;
+
+fn events(folder: &TempDir, text: &str) -> String {
+    let path = folder.path().join("events.json");
+    std::fs::write(&path, text).unwrap();
+    path.to_str().unwrap().to_owned()
+}
+
+#[test]
+fn a_dropped_payload_makes_a_series_and_a_summary() {
+    let folder = TempDir::new().unwrap();
+    let robot = data_path("robots/cogiro.json");
+    let events = data_path("events/payload-dropped.json");
+    let out = folder.path().join("series.csv");
+    let out = out.to_str().unwrap();
+    let call =
+        ["simulate", &robot, "--pose", "0,0,2", "--payload", "50", "--events", &events, "--until", "0.2"];
+    let printed = cdpr(&[&call[..], &["--rate", "50", "--damping", "2e-4", "--out", out]].concat());
+    let summary = text(printed.stdout);
+    assert_eq!(printed.status.code(), Some(0), "{}", unwrapped(printed.stderr));
+    assert!(summary.contains("The platform moves up to 15.4 mm and 0.0783 deg"), "{summary}");
+    assert!(summary.lines().all(|line| line.chars().count() <= 80), "{summary}");
+    let series = std::fs::read_to_string(out).unwrap();
+    let mut lines = series.lines();
+    let header = lines.next().unwrap();
+    assert!(header.starts_with("t_s,x_m,y_m,z_m,rx_rad,ry_rad,rz_rad,t_exit_1_n,t_anchor_1_n,t_exit_2_n"));
+    assert!(header.ends_with("t_exit_8_n,t_anchor_8_n,qw,qx,qy,qz"), "{header}");
+    assert_eq!(lines.count(), 11);
+    let again = cdpr(&[&call[..], &["--out", out]].concat());
+    assert_eq!(again.status.code(), Some(1));
+    assert!(unwrapped(again.stderr).contains("--overwrite"));
+    assert_eq!(std::fs::read_to_string(out).unwrap(), series);
+
+    let whole = cdpr(&[&call[..], &["--rate", "50", "--damping", "2e-4", "--format", "json"]].concat());
+    let whole: Value = serde_json::from_str(&text(whole.stdout)).unwrap();
+    assert_eq!(whole["samples"].as_array().unwrap().len(), 11);
+    assert_eq!(whole["columns"].as_array().unwrap().len(), whole["samples"][0].as_array().unwrap().len());
+    assert!((whole["greatest_distance_m"].as_f64().unwrap() - 0.0154).abs() < 1e-4);
+    assert!(whole["difference"]["position_m"].as_f64().unwrap() < 1e-6);
+    let table = cdpr(&[&call[..], &["--rate", "50", "--damping", "2e-4", "--format", "csv"]].concat());
+    assert_eq!(text(table.stdout), series);
+}
+
+#[test]
+fn a_series_is_a_table_of_poses_and_a_figure_has_motion_and_tensions() {
+    let folder = TempDir::new().unwrap();
+    let [out, figure] =
+        ["series.csv", "motion.svg"].map(|name| folder.path().join(name).display().to_string());
+    let robot = data_path("robots/caroca.json");
+    let events = events(&folder, r#"[{"t": 0, "payload": 20}]"#);
+    let call =
+        ["simulate", &robot, "--pose", "0,0,1.75", "--rpy", "1,2,3", "--events", &events, "--until", "0.05"];
+    let found = cdpr(&[&call[..], &["--out", &out, "--figure", &figure]].concat());
+    assert_eq!(found.status.code(), Some(0), "{}", unwrapped(found.stderr));
+    let svg = std::fs::read_to_string(&figure).unwrap();
+    for words in ["Motion of ", "x, cable 1", "cable 8", "from the rest [mm]", "tension at the platform [N]"]
+    {
+        assert!(svg.contains(words), "{words}");
+    }
+    // The platform is turned as in the series, not as its rotation vector from the rest says.
+    let found = cdpr(&["deflection", &robot, "--payload", "20", "--poses", &out, "--format", "json"]);
+    assert_eq!(found.status.code(), Some(0), "{}", unwrapped(found.stderr));
+    let found = cdpr(&["inverse", &robot, "--poses", &out, "--format", "csv"]);
+    let rows = text(found.stdout);
+    let held = cdpr(&["inverse", &robot, "--pose", "0,0,1.75", "--rpy", "1,2,3", "--format", "json"]);
+    let held: Value = serde_json::from_str(&text(held.stdout)).unwrap();
+    let mut lines = rows.lines();
+    let place = lines.next().unwrap().split(',').position(|name| name.ends_with("length_1_m")).unwrap();
+    let first: f64 = lines.next().unwrap().split(',').nth(place).unwrap().parse().unwrap();
+    assert!((first - held["lengths"][0].as_f64().unwrap()).abs() < 1e-6, "{rows}");
+}
+
+#[test]
+fn lengths_are_searched_for_their_pose_and_a_tension_above_its_limit_ends_with_3() {
+    let folder = TempDir::new().unwrap();
+    let events = events(&folder, r#"[{"t": 0.01, "force": [0, 0, -20000]}]"#);
+    let robot = data_path("robots/four-cables.json");
+    let call = ["simulate", &robot, "--lengths", "5.2,5.2,5.3,5.3", "--events", &events, "--until", "0.1"];
+    let found = cdpr(&call);
+    assert_eq!(found.status.code(), Some(3), "{}", unwrapped(found.stderr));
+    let summary = text(found.stdout);
+    assert!(summary.contains("tension_limits.max 5000"), "{summary}");
+    assert!(summary.lines().all(|line| line.chars().count() <= 80), "{summary}");
+}
+
+#[test]
+fn what_is_wrong_is_named() {
+    let folder = TempDir::new().unwrap();
+    let robot = data_path("robots/cogiro.json");
+    let solve = |text_of: &str, more: &[&str]| {
+        let events = events(&folder, text_of);
+        let call = ["simulate", &robot, "--pose", "0,0,2", "--events", &events];
+        let found = cdpr(&[&call[..], more].concat());
+        assert_ne!(found.status.code(), Some(0));
+        assert!(found.stdout.is_empty());
+        unwrapped(found.stderr)
+    };
+    let until = ["--until", "0.1"];
+    assert!(
+        solve(r#"[{"t": 0, "cut": 9}]"#, &until)
+            .contains("event 1, cut is 9: expected the number of a cable")
+    );
+    assert!(solve("[{]", &until).contains("events.json: events: line 1, column 3"));
+    assert!(solve("[]", &[]).contains("--until"));
+    assert!(solve("[]", &["--until", "0"]).contains("until is 0.0: expected a time [s] above zero"));
+    assert!(solve("[]", &["--until", "1", "--rate", "0"]).contains("rate is 0.0"));
+    assert!(solve("[]", &["--until", "1", "--damping=-1"]).contains("damping is -1.0"));
+    assert!(
+        solve("[]", &["--until", "1", "--with", "mesh=3"]).contains("expected elements, degree, tolerance")
+    );
+}
