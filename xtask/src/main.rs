@@ -5,6 +5,7 @@
 #![allow(clippy::print_stderr, clippy::print_stdout)]
 
 mod bench;
+mod c_library;
 mod cable;
 mod cargo;
 mod dist;
@@ -55,6 +56,9 @@ tasks:
   release [--repository URL] [--authors \"NAME <MAIL>, ..\"] [--version X.Y.Z]
                  sets these wherever files name them: manifests, CITATION.cff, recipe, book, README, paper
                  and, with a version, the heading of CHANGELOG.md
+  c --prefix FOLDER
+                 builds libcdpr and installs it into FOLDER: header, libraries, pkg-config, CMake, MATLAB, see
+                 docs/c.md
   web [--check]  makes the module and the page of `cdpr explore` in crates/cdpr-web/dist, or says whether these
                  are of the sources as they are
   gallery        writes docs/robots.md, a picture and a table for each robot of the library
@@ -82,6 +86,7 @@ fn main() -> ExitCode {
         Some("dist") => dist::run(&rest),
         Some("release") => release::run(&rest).map_err(|error| error.to_string()),
         Some("evidence") => evidence::run(&rest),
+        Some("c") => c_library::run(&rest),
         Some("web") => web::run(&rest).map_err(|error| error.to_string()),
         Some("gallery") => gallery::run(),
         Some("schemas") => schemas(),

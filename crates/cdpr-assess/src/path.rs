@@ -63,7 +63,7 @@ pub struct Path<'a> {
     robot: &'a Robot,
     load: Load,
     model: Option<&'a ErrorModel>,
-    lengths: InversePath<'a>,
+    lengths: InversePath<&'a Robot>,
 }
 
 /// Lengths that differ by less than this share are on one branch.

@@ -62,6 +62,7 @@ pub(crate) use norm::require_smooth;
 pub(crate) use optimum::NEARLY_ROUNDING;
 use optimum::Optimum;
 use problem::InverseProblem;
+use std::borrow::Borrow;
 pub(crate) use wanted::refuse_offsets;
 use wanted::{pose_alone, whole};
 
@@ -112,6 +113,8 @@ pub(crate) fn inverse_at(
 /// The branch is followed, so that lengths are continuous, also where another branch becomes better. Only
 /// where it ends is the next pose solved as by [`crate::inverse`]; this is a jump.
 ///
+/// The path borrows the robot, or owns it, as in an [`std::sync::Arc`].
+///
 /// ```
 /// use cdpr_robot::{Pose, Robot};
 /// use cdpr_statics::{InversePath, Load};
@@ -125,8 +128,8 @@ pub(crate) fn inverse_at(
 /// # Ok::<(), cdpr_statics::StaticsError>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct InversePath<'a> {
-    robot: &'a Robot,
+pub struct InversePath<R: Borrow<Robot>> {
+    robot: R,
     last: Option<KnownOptimum>,
 }
 
@@ -139,9 +142,9 @@ pub struct PathSolution {
     pub jump: bool,
 }
 
-impl<'a> InversePath<'a> {
+impl<R: Borrow<Robot>> InversePath<R> {
     /// A path of `robot` that has yet to begin.
-    pub fn new(robot: &'a Robot) -> Self {
+    pub fn new(robot: R) -> Self {
         Self { robot, last: None }
     }
 
@@ -157,10 +160,11 @@ impl<'a> InversePath<'a> {
         load: &Load,
     ) -> Result<PathSolution, StaticsError> {
         let WantedPose { pose, tension_reference, .. } = whole(wanted.into())?;
+        let robot: &Robot = self.robot.borrow();
         if tension_reference.is_none() {
-            require_smooth(self.robot)?;
+            require_smooth(robot)?;
         }
-        let problem = InverseProblem::of_whole_pose(self.robot, &pose, load, tension_reference)?;
+        let problem = InverseProblem::of_whole_pose(robot, &pose, load, tension_reference)?;
         let followed = self.last.as_ref().and_then(|last| last.followed(&problem));
         let jump = self.last.is_some() && followed.is_none();
         let optimum = followed.map_or_else(|| search(&problem), Ok)?;

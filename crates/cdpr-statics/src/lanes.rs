@@ -13,4 +13,4 @@ mod tracker;
 pub use observer::{Observation, ObservationMotion, ObservationSlopes, Observed, Observer};
 pub use poses::{Loaded, LoadedPose, PoseSlopes, inverse, loaded_poses};
 pub use reason::ScalarReason;
-pub use tracker::Tracker;
+pub use tracker::{Tracker, TrackerStep};

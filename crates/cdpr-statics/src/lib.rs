@@ -70,7 +70,7 @@ pub use error::StaticsError;
 pub use inverse::{
     InversePath, InverseSolution, PathSolution, PoseLengths, is_feasible, lengths_for_tensions,
 };
-pub use lanes::{Observer, Tracker, inverse};
+pub use lanes::{Observer, Tracker, TrackerStep, inverse};
 pub use loading::{Deflection, deflection, deflection_from, set_point_lengths};
 pub use problem::{DirectProblem, Unstable, check_lengths};
 pub use state::{Equilibrium, Load, Residual, Wanted, WantedPose};

@@ -4,6 +4,7 @@ use crate::common::{caroca, ring, suspended};
 use cdpr_robot::{Pose, Robot, Rotation3, Vector3, Wrench};
 use cdpr_statics::{DirectStart, Load, StaticsError, Tracker, direct, inverse};
 use std::hint::black_box;
+use std::sync::Arc;
 
 /// Lengths along a path through the workspace, with loads that come and go.
 fn path(robot: &Robot, steps: usize) -> Vec<(Vec<f64>, Load)> {
@@ -146,4 +147,77 @@ fn a_platform_that_falls_is_an_error_and_not_a_step() {
         assert_eq!(tracker.equilibrium(), &before);
     }
     tracker.update(&wanted.lengths, &under(0.92)).unwrap();
+}
+
+#[test]
+fn a_step_has_the_digits_of_an_update_and_a_bounded_number_of_iterations() {
+    let robot = caroca();
+    let path = path(&robot, 200);
+    let start = inverse(&robot, &Pose::at(-1.0, 0.0, 1.5), &Load::none()).unwrap().equilibrium;
+    // The one borrows its robot, the other owns it.
+    let mut updated = Tracker::new(&robot, &path[0].0, &path[0].1, &start).unwrap();
+    let mut stepped = Tracker::new(Arc::new(robot.clone()), &path[0].0, &path[0].1, &start).unwrap();
+    assert!(stepped.takes_steps());
+    for (lengths, load) in &path {
+        let mut step = None;
+        let allocated = allocation_counter::measure(|| step = stepped.step(lengths, load).ok());
+        let step = step.unwrap();
+        assert!(step.converged && (1..=12).contains(&step.iterations), "{step:?}");
+        assert_eq!(allocated.count_total, 0);
+        assert_eq!(updated.update(lengths, load).unwrap(), stepped.equilibrium());
+        assert_eq!(updated.residual(), stepped.residual());
+    }
+}
+
+#[test]
+fn a_step_that_does_not_converge_keeps_the_last_equilibrium() {
+    let robot = caroca();
+    let wanted = inverse(&robot, &Pose::at(0.0, 0.0, 1.75), &Load::none()).unwrap();
+    let mut tracker = Tracker::new(&robot, &wanted.lengths, &Load::none(), &wanted.equilibrium).unwrap();
+    let (before, residual) = (tracker.equilibrium().clone(), tracker.residual());
+    // Too short by a metre all around.
+    let short: Vec<f64> = wanted.lengths.iter().map(|length| length - 1.0).collect();
+    let mut step = None;
+    let allocated = allocation_counter::measure(|| step = tracker.step(&short, &Load::none()).ok());
+    let step = step.unwrap();
+    assert!(!step.converged && step.iterations <= 12, "{step:?}");
+    assert_eq!((allocated.count_total, tracker.equilibrium(), tracker.residual()), (0, &before, residual));
+    // The next step starts from it.
+    let mut next = wanted.lengths.clone();
+    next[0] -= 1e-3;
+    assert!(tracker.step(&next, &Load::none()).unwrap().converged);
+    assert_ne!(tracker.equilibrium(), &before);
+    next[3] = f64::NAN;
+    assert!(matches!(tracker.step(&next, &Load::none()), Err(StaticsError::Invalid { .. })));
+}
+
+#[test]
+fn a_step_does_not_fall_to_another_equilibrium() {
+    let robot = suspended();
+    let [roll, pitch, yaw] = [3.0, -4.0, 6.0].map(f64::to_radians);
+    let rotation = Rotation3::from_euler_angles(roll, pitch, yaw);
+    let pose = Pose { position: Vector3::new(0.6, -0.4, 1.6), rotation };
+    let wanted = inverse(&robot, &pose, &Load::none()).unwrap();
+    let mut tracker = Tracker::new(&robot, &wanted.lengths, &Load::none(), &wanted.equilibrium).unwrap();
+    let moment = 1.5 * Vector3::new(400.0, -300.0, 100.0);
+    let load = Load { payload: 3.0, wrench: Wrench { force: Vector3::zeros(), moment } };
+    // `update` says that the platform falls under this load.
+    assert!(!tracker.step(&wanted.lengths, &load).unwrap().converged);
+    assert!(matches!(tracker.update(&wanted.lengths, &load), Err(StaticsError::BranchEnds(_))));
+}
+
+#[test]
+fn a_robot_with_fewer_cables_than_free_motions_takes_no_steps() {
+    let mut robot = caroca();
+    robot.cables.truncate(5);
+    let pose = Pose::at(0.0, 0.0, 1.75);
+    let lengths: Vec<f64> = (0..5).map(|i| robot.span(&pose, i).norm()).collect();
+    let start = direct(&robot, &lengths, &Load::none(), DirectStart::Pose(&pose)).unwrap().equilibrium;
+    let mut tracker = Tracker::new(&robot, &lengths, &Load::none(), &start).unwrap();
+    assert!(!tracker.takes_steps());
+    match tracker.step(&lengths, &Load::none()) {
+        Err(StaticsError::Invalid { field, .. }) => assert_eq!(field, "robot"),
+        outcome => panic!("{outcome:?}"),
+    }
+    assert!(tracker.update(&lengths, &Load::none()).is_ok());
 }

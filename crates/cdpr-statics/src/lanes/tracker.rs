@@ -5,12 +5,15 @@ use crate::error::StaticsError;
 use crate::local::newton::solve;
 use crate::local::one_robot::fits_lanes;
 use crate::local::platform::Robots;
-use crate::problem::{DirectProblem, Unstable};
+use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load, Residual};
 use cdpr_number::lanes::{Lanes, Simd, WithSimd, dispatch};
 use cdpr_robot::Robot;
+use std::borrow::Borrow;
 
 /// Follows the stable equilibrium of a robot while its lengths and its load change.
+///
+/// It borrows the robot, or owns it, as in an [`std::sync::Arc`].
 ///
 /// ```
 /// use cdpr_robot::{Pose, Robot};
@@ -26,8 +29,8 @@ use cdpr_robot::Robot;
 /// assert!(tracker.residual().force < 1e-8);
 /// # Ok::<(), cdpr_statics::StaticsError>(())
 /// ```
-pub struct Tracker<'a> {
-    robot: &'a Robot,
+pub struct Tracker<R: Borrow<Robot>> {
+    robot: R,
     /// Lengths [m] and load of the equilibrium.
     lengths: Vec<f64>,
     load: Load,
@@ -37,21 +40,27 @@ pub struct Tracker<'a> {
     in_lanes: bool,
 }
 
-impl<'a> Tracker<'a> {
+/// What [`Tracker::step`] has done.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TrackerStep {
+    /// Iterations of Newton's method, at most 12.
+    pub iterations: usize,
+    /// Whether they ended at the equilibrium that the last one becomes; if not, the tracker keeps the last
+    /// one.
+    pub converged: bool,
+}
+
+impl<R: Borrow<Robot>> Tracker<R> {
     /// Starts at the equilibrium for `lengths` [m] and `load` that [`direct`] finds from `start`.
     ///
     /// # Errors
     /// Those of [`direct`], and [`StaticsError::Robot`] for an invalid robot.
-    pub fn new(
-        robot: &'a Robot,
-        lengths: &[f64],
-        load: &Load,
-        start: &Equilibrium,
-    ) -> Result<Self, StaticsError> {
-        robot.validate()?;
-        let solution = direct(robot, lengths, load, DirectStart::Near(start))?;
+    pub fn new(robot: R, lengths: &[f64], load: &Load, start: &Equilibrium) -> Result<Self, StaticsError> {
+        let borrowed: &Robot = robot.borrow();
+        borrowed.validate()?;
+        let solution = direct(borrowed, lengths, load, DirectStart::Near(start))?;
         let (equilibrium, residual) = (solution.equilibrium, solution.report.residual);
-        let in_lanes = fits_lanes(robot);
+        let in_lanes = fits_lanes(borrowed);
         Ok(Self { robot, lengths: lengths.to_vec(), load: *load, equilibrium, residual, in_lanes })
     }
 
@@ -77,82 +86,118 @@ impl<'a> Tracker<'a> {
     /// [`StaticsError::BranchEnds`] where the platform falls on the way, and those of [`direct`]; the
     /// equilibrium is then the one before.
     pub fn update(&mut self, lengths: &[f64], load: &Load) -> Result<&Equilibrium, StaticsError> {
-        let problem = DirectProblem::new(self.robot, lengths, load)?;
-        let found = self.in_lanes && dispatch(Update { tracker: self, problem: &problem });
-        if !found {
+        if !self.newton(lengths, load)?.converged {
             let solution = self.followed(lengths, load)?;
             self.residual = solution.report.residual;
             self.equilibrium = solution.equilibrium;
+            self.lengths.copy_from_slice(lengths);
+            self.load = *load;
         }
-        self.lengths.copy_from_slice(lengths);
-        self.load = *load;
         Ok(&self.equilibrium)
+    }
+
+    /// Whether [`Tracker::step`] takes the robot: one with a cable for each free motion, all of one elastic
+    /// law, and with a level base where it is planar.
+    pub fn takes_steps(&self) -> bool {
+        self.in_lanes
+    }
+
+    /// Goes to the equilibrium for other lengths [m] and another load by Newton's method alone, from the last
+    /// equilibrium and in at most 12 iterations: the time of a step is bounded.
+    ///
+    /// Where the iterations do not converge, or not certainly to the equilibrium that the last one becomes,
+    /// the tracker keeps the last equilibrium with its lengths and its load. Nothing is allocated for cables
+    /// without guides (up to 32 cables with AVX-512, 16 with AVX2). Where it converges, the digits are those
+    /// of [`Tracker::update`].
+    ///
+    /// # Errors
+    /// [`StaticsError::Invalid`] unless there is one finite, positive length for each cable and the load is
+    /// finite, and for a robot that it does not take ([`Tracker::takes_steps`]).
+    pub fn step(&mut self, lengths: &[f64], load: &Load) -> Result<TrackerStep, StaticsError> {
+        if !self.in_lanes {
+            let expected = "one with a cable for each free motion, all of one elastic law";
+            let name = &self.robot.borrow().name;
+            return Err(StaticsError::invalid("robot".to_owned(), name, expected));
+        }
+        self.newton(lengths, load)
+    }
+
+    /// A step of a robot for the lanes; others do not converge.
+    fn newton(&mut self, lengths: &[f64], load: &Load) -> Result<TrackerStep, StaticsError> {
+        let robot: &Robot = self.robot.borrow();
+        let problem = &DirectProblem::new(robot, lengths, load)?;
+        if !self.in_lanes {
+            return Ok(TrackerStep { iterations: 0, converged: false });
+        }
+        let before = &DirectProblem { lengths: &self.lengths, load: self.load, ..*problem };
+        let (iterations, found) = dispatch(Update { problem, before, equilibrium: &mut self.equilibrium });
+        if let Some(residual) = found {
+            self.residual = residual;
+            self.lengths.copy_from_slice(lengths);
+            self.load = *load;
+        }
+        Ok(TrackerStep { iterations, converged: found.is_some() })
     }
 
     fn followed(&self, lengths: &[f64], load: &Load) -> Result<DirectSolution, StaticsError> {
         let start = DirectStart::Near(&self.equilibrium);
-        let now = direct(self.robot, &self.lengths, &self.load, start)?;
-        match follow_change(self.robot, ((&self.lengths, &self.load), &now), (lengths, load)) {
+        let robot: &Robot = self.robot.borrow();
+        let now = direct(robot, &self.lengths, &self.load, start)?;
+        match follow_change(robot, ((&self.lengths, &self.load), &now), (lengths, load)) {
             Err(StaticsError::Overstrained { .. } | StaticsError::DirectNotConverged { .. }) => {
-                direct(self.robot, lengths, load, start)
+                direct(robot, lengths, load, start)
             }
             followed => followed,
         }
     }
 }
 
-/// Newton's method for cables that fill the lanes; its output is whether it found an equilibrium.
-struct Update<'a, 'b> {
-    tracker: &'a mut Tracker<'b>,
+/// Newton's method for cables that fill the lanes. Its output is the number of iterations, and the residual
+/// where it found an equilibrium, which is then assigned.
+struct Update<'a> {
     problem: &'a DirectProblem<'a>,
+    before: &'a DirectProblem<'a>,
+    equilibrium: &'a mut Equilibrium,
 }
 
-impl WithSimd for Update<'_, '_> {
-    type Output = bool;
+impl WithSimd for Update<'_> {
+    type Output = (usize, Option<Residual>);
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> bool {
-        let Self { tracker, problem } = self;
-        let (robots, residual) = {
-            let before = DirectProblem {
-                robot: tracker.robot,
-                lengths: &tracker.lengths,
-                load: tracker.load,
-                length_of_rotations: None,
-                unstable: Unstable::Left,
-            };
-            match follow(simd, problem, &before, &tracker.equilibrium) {
-                Some(found) => found,
-                None => return false,
-            }
-        };
-        problem.take(&robots, &mut tracker.equilibrium);
-        tracker.residual = residual;
-        true
+    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
+        let Self { problem, before, equilibrium } = self;
+        let (iterations, found) = follow(simd, problem, before, equilibrium);
+        let residual = found.map(|(robots, residual)| {
+            problem.take(&robots, equilibrium);
+            residual
+        });
+        (iterations, residual)
     }
 }
 
-/// The robot of `problem` in the equilibrium that `now`, one of the problem `before`, becomes.
+/// The robot of `problem` in the equilibrium that `now`, one of the problem `before`, becomes, and the number
+/// of iterations.
 #[inline(always)]
 fn follow<'a, S: Simd>(
     simd: S,
     problem: &DirectProblem<'a>,
     before: &DirectProblem,
     now: &Equilibrium,
-) -> Option<(Robots<'a, S>, Residual)> {
+) -> (usize, Option<(Robots<'a, S>, Residual)>) {
     let zero = Lanes::splat(simd, 0.0);
     let everywhere = zero.less_or_equal(zero);
     let (mut robots, mut platform, load) = problem.linearized(simd, now);
     let scale = problem.scale(now);
     let (found, left) = solve(&mut robots, &load, &mut platform, &scale, everywhere);
+    let iterations = platform.steps.count;
     if !found.any() {
-        return None;
+        return (iterations, None);
     }
     if !platform.steps.end_near_prediction(&scale).any() {
         let (_, unloaded, _) = before.linearized(simd, now);
         if !robots.on_branch(&load, &platform, &unloaded.factored, &scale, everywhere).any() {
-            return None;
+            return (iterations, None);
         }
     }
-    Some((robots, left.norms()[0]))
+    (iterations, Some((robots, left.norms()[0])))
 }

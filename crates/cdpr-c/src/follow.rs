@@ -1,0 +1,78 @@
+//! The handles of a tracker and of a path, which own their robot.
+
+use crate::data::CdprReport;
+use crate::failure::Failure;
+use cdpr_robot::{Pose, Robot};
+use cdpr_statics::{DirectStart, InversePath, Load, PathSolution, Tracker, direct};
+use std::sync::Arc;
+
+/// Follows the pose of the platform while lengths and load change: the handle of `cdpr_tracker_new`. One
+/// thread at a time may use it.
+pub struct CdprTracker {
+    tracker: Tracker<Arc<Robot>>,
+}
+
+impl CdprTracker {
+    /// Starts at the equilibrium for `lengths` and `load` that the direct model finds from `start`.
+    pub(crate) fn new(
+        robot: &Arc<Robot>,
+        lengths: &[f64],
+        load: &Load,
+        start: &Pose,
+    ) -> Result<Self, Failure> {
+        let found = direct(robot, lengths, load, DirectStart::Pose(start))?;
+        let tracker = Tracker::new(Arc::clone(robot), lengths, load, &found.equilibrium)?;
+        if tracker.takes_steps() {
+            return Ok(Self { tracker });
+        }
+        Err(Failure::Unsupported(
+            "a robot with fewer cables than free motions, or with cables of different elastic laws,",
+        ))
+    }
+
+    pub(crate) fn cables(&self) -> usize {
+        self.tracker.equilibrium().cable_forces.len()
+    }
+
+    /// One step, and whether it converged; the report is that of the state after it.
+    pub(crate) fn step(
+        &mut self,
+        lengths: &[f64],
+        load: &Load,
+    ) -> Result<(CdprReport, Result<(), Failure>), Failure> {
+        let step = self.tracker.step(lengths, load)?;
+        let report = CdprReport::new(self.tracker.residual(), step.iterations);
+        let kept = Failure::NotConverged { iterations: step.iterations };
+        Ok((report, if step.converged { Ok(()) } else { Err(kept) }))
+    }
+
+    pub(crate) fn pose(&self) -> &Pose {
+        &self.tracker.equilibrium().pose
+    }
+
+    /// Tensions at the platform [N].
+    pub(crate) fn tensions(&self) -> impl Iterator<Item = f64> {
+        self.tracker.equilibrium().cable_forces.iter().map(|force| force.norm())
+    }
+}
+
+/// Lengths and tensions along a path of poses: the handle of `cdpr_path_new`. One thread at a time may use
+/// it.
+pub struct CdprPath {
+    path: InversePath<Arc<Robot>>,
+    cables: usize,
+}
+
+impl CdprPath {
+    pub(crate) fn new(robot: &Arc<Robot>) -> Self {
+        Self { path: InversePath::new(Arc::clone(robot)), cables: robot.cables.len() }
+    }
+
+    pub(crate) fn cables(&self) -> usize {
+        self.cables
+    }
+
+    pub(crate) fn next(&mut self, pose: &Pose, load: &Load) -> Result<PathSolution, Failure> {
+        Ok(self.path.solve(pose, load)?)
+    }
+}

@@ -1,0 +1,154 @@
+//! The digits of the C interface are those of the Rust interface.
+
+use crate::common::{Digits, LOAD, ROBOTS_AT, STEPS, expected, level, x_of_step};
+use cdpr_c::border::{
+    cdpr_deflection, cdpr_derivatives, cdpr_direct, cdpr_inverse, cdpr_path_free, cdpr_path_new,
+    cdpr_path_next, cdpr_robot_cables, cdpr_robot_free, cdpr_robot_inputs, cdpr_robot_named, cdpr_stiffness,
+    cdpr_tracker_free, cdpr_tracker_new, cdpr_tracker_state, cdpr_tracker_step,
+};
+use cdpr_c::{
+    CdprCables, CdprDerivatives, CdprMotion, CdprPose, CdprReport, CdprRobot, CdprStatus, CdprStiffness,
+};
+use std::ffi::CString;
+use std::ptr::{null, null_mut};
+
+const NO_REPORT: CdprReport =
+    CdprReport { closure: f64::NAN, force: f64::NAN, moment: f64::NAN, iterations: 99, jump: 99 };
+
+fn report(digits: &mut Digits, report: &CdprReport) {
+    let CdprReport { closure, force, moment, iterations, jump } = *report;
+    digits.line("report", &[closure, force, moment, f64::from(iterations), f64::from(jump)]);
+}
+
+fn pose(digits: &mut Digits, pose: &CdprPose) {
+    digits.line("position", &pose.position);
+    digits.line("quaternion", &pose.quaternion);
+}
+
+/// All results at a pose and along a path, by the C interface.
+fn through_c(name: &str, position: [f64; 3]) -> String {
+    let (name, mut robot, mut digits) = (CString::new(name).unwrap(), null_mut(), Digits::default());
+    unsafe {
+        assert_eq!(cdpr_robot_named(name.as_ptr(), &mut robot), CdprStatus::Ok);
+        at_pose(robot, position, &mut digits);
+        along_path(robot, position, &mut digits);
+        cdpr_robot_free(robot);
+    }
+    digits.0
+}
+
+unsafe fn at_pose(robot: *const CdprRobot, position: [f64; 3], digits: &mut Digits) {
+    let (n, inputs) = unsafe { (cdpr_robot_cables(robot), cdpr_robot_inputs(robot)) };
+    let (mut lengths, mut tensions) = (vec![0.0; n], vec![0.0; n]);
+    let cables = CdprCables { count: n, lengths: lengths.as_mut_ptr(), tensions: tensions.as_mut_ptr() };
+    let (wanted, mut found, mut of) = (level(position), level(position), NO_REPORT);
+    unsafe {
+        assert_eq!(cdpr_inverse(robot, &wanted, null(), &cables, &mut of), CdprStatus::Ok);
+        digits.line("lengths", &lengths);
+        digits.line("tensions", &tensions);
+        report(digits, &of);
+        assert_eq!(cdpr_direct(robot, &cables, &LOAD, &mut found, &mut of), CdprStatus::Ok);
+        pose(digits, &found);
+        digits.line("tensions", &tensions);
+        report(digits, &of);
+        let mut motion = CdprMotion { translation: [0.0; 3], rotation: [0.0; 3] };
+        assert_eq!(cdpr_deflection(robot, &wanted, &LOAD, &mut motion, &mut of), CdprStatus::Ok);
+        digits.line("translation", &motion.translation);
+        digits.line("rotation", &motion.rotation);
+        report(digits, &of);
+        let mut stiffness = CdprStiffness { matrix: [[0.0; 6]; 6], least: 0.0, is_stable: 9 };
+        assert_eq!(cdpr_stiffness(robot, &wanted, &LOAD, &mut stiffness, &mut of), CdprStatus::Ok);
+        digits.line("stiffness", stiffness.matrix.iter().flatten());
+        digits.line("least", &[stiffness.least]);
+        assert_eq!(stiffness.is_stable, 1);
+        report(digits, &of);
+        let [mut of_lengths, mut of_tensions, mut displacement, mut magnitude] =
+            [n, n, 3, 1].map(|rows| vec![0.0; rows * inputs]);
+        let slopes = CdprDerivatives {
+            inputs,
+            lengths: of_lengths.as_mut_ptr(),
+            tensions: of_tensions.as_mut_ptr(),
+            displacement: displacement.as_mut_ptr(),
+            magnitude: magnitude.as_mut_ptr(),
+        };
+        assert_eq!(cdpr_derivatives(robot, &wanted, &LOAD, &slopes, &mut of), CdprStatus::Ok);
+        digits.line("lengths", &of_lengths);
+        digits.line("tensions", &of_tensions);
+        digits.line("displacement", &displacement);
+        digits.line("magnitude", &magnitude);
+        report(digits, &of);
+    }
+}
+
+unsafe fn along_path(robot: *const CdprRobot, position: [f64; 3], digits: &mut Digits) {
+    let n = unsafe { cdpr_robot_cables(robot) };
+    let (mut lengths, mut tensions) = (vec![0.0; n], vec![0.0; n]);
+    let cables = CdprCables { count: n, lengths: lengths.as_mut_ptr(), tensions: null_mut() };
+    let (mut wanted, mut found, mut of) = (level(position), level([0.0; 3]), NO_REPORT);
+    let (mut path, mut tracker) = (null_mut(), null_mut());
+    unsafe {
+        assert_eq!(cdpr_path_new(robot, &mut path), CdprStatus::Ok);
+        assert_eq!(cdpr_path_next(path, &wanted, null(), &cables, &mut of), CdprStatus::Ok);
+        let created = cdpr_tracker_new(robot, lengths.as_ptr(), n, &LOAD, &wanted, &mut tracker);
+        assert_eq!(created, CdprStatus::Ok);
+        for k in 1..=STEPS {
+            wanted.position[0] = x_of_step(position[0], k);
+            assert_eq!(cdpr_path_next(path, &wanted, null(), &cables, &mut of), CdprStatus::Ok);
+            digits.line("lengths", &lengths);
+            report(digits, &of);
+            let stepped = cdpr_tracker_step(tracker, lengths.as_ptr(), n, &LOAD, &mut of);
+            assert_eq!(stepped, CdprStatus::Ok);
+            report(digits, &of);
+            let state = cdpr_tracker_state(tracker, &mut found, tensions.as_mut_ptr(), n);
+            assert_eq!(state, CdprStatus::Ok);
+            pose(digits, &found);
+            digits.line("tensions", &tensions);
+        }
+        cdpr_tracker_free(tracker);
+        cdpr_path_free(path);
+    }
+}
+
+#[test]
+fn the_bits_are_those_of_the_rust_interface() {
+    for (name, position) in ROBOTS_AT {
+        let (found, expected) = (through_c(name, position), expected(name, position));
+        for (found, expected) in found.lines().zip(expected.lines()) {
+            assert_eq!(found, expected, "{name}");
+        }
+        assert_eq!(found.lines().count(), expected.lines().count(), "{name}");
+    }
+}
+
+#[test]
+fn a_step_allocates_nothing_whether_it_converges_or_not() {
+    let (mut robot, mut tracker) = (null_mut(), null_mut());
+    let (mut lengths, mut tensions, mut pose) = ([0.0; 8], [0.0; 8], level([0.0, 0.0, 1.75]));
+    let cables = CdprCables { count: 8, lengths: lengths.as_mut_ptr(), tensions: null_mut() };
+    let mut of = NO_REPORT;
+    unsafe {
+        assert_eq!(cdpr_robot_named(c"caroca".as_ptr(), &mut robot), CdprStatus::Ok);
+        assert_eq!(cdpr_inverse(robot, &pose, null(), &cables, null_mut()), CdprStatus::Ok);
+        let created = cdpr_tracker_new(robot, lengths.as_ptr(), 8, null(), &pose, &mut tracker);
+        assert_eq!(created, CdprStatus::Ok);
+        // The tracker keeps its robot.
+        cdpr_robot_free(robot);
+        let short = lengths.map(|length| length - 1.0);
+        let mut not_a_number = lengths;
+        not_a_number[3] = f64::NAN;
+        let mut ended = [CdprStatus::Panic; 4];
+        let allocated = allocation_counter::measure(|| {
+            lengths[0] -= 1e-3;
+            ended[0] = cdpr_tracker_step(tracker, lengths.as_ptr(), 8, &LOAD, &mut of);
+            ended[1] = cdpr_tracker_step(tracker, short.as_ptr(), 8, &LOAD, &mut of);
+            ended[2] = cdpr_tracker_step(tracker, not_a_number.as_ptr(), 8, &LOAD, null_mut());
+            ended[3] = cdpr_tracker_state(tracker, &mut pose, tensions.as_mut_ptr(), 8);
+        });
+        assert_eq!(ended, [CdprStatus::Ok, CdprStatus::NotConverged, CdprStatus::Invalid, CdprStatus::Ok]);
+        assert_eq!(allocated.count_total, 0);
+        // The report is that of the state before, with the iterations of the step that failed.
+        assert!(of.iterations <= 12 && of.force < 1e-8 && tensions[0] > 0.0, "{of:?}");
+        assert!((pose.position[2] - 1.75).abs() < 0.01 && pose.position != [0.0, 0.0, 1.75]);
+        cdpr_tracker_free(tracker);
+    }
+}

@@ -1,0 +1,128 @@
+//! The gateway for MATLAB, compiled by `mkoctfile --mex`: the bits of the Rust interface in Octave.
+//!
+//! `.ci/run` runs this test by its name; a plain `cargo test` leaves it out, because it needs Octave with its
+//! headers.
+
+#![allow(clippy::unwrap_used)]
+
+use cdpr_robot::{Pose, Robot};
+use cdpr_statics::stiffness::stiffness_at;
+use cdpr_statics::{DirectStart, Load, Tracker, deflection, derivatives, direct, inverse};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+fn folder() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// Compiles the gateway, and returns its folder.
+fn gateway() -> PathBuf {
+    let built = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("octave");
+    std::fs::create_dir_all(&built).unwrap();
+    let program = std::env::current_exe().unwrap();
+    let candidates = program.ancestors().skip(1).take(2).map(|folder| folder.join("libcdpr_c.a"));
+    let library = candidates.into_iter().find(|file| file.exists()).unwrap();
+    let mut compile = Command::new("mkoctfile");
+    compile.args(["--mex", "-Wall", "-Wextra"]).arg(format!("-I{}", folder().join("include").display()));
+    compile.arg(folder().join("matlab/cdpr_mex.c")).arg(library).args(["-lpthread", "-ldl", "-lm", "-o"]);
+    let output = compile.arg(built.join("cdpr_mex.mex")).output();
+    let output = output.unwrap_or_else(|error| panic!("mkoctfile ({error}): install liboctave-dev"));
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success() && !said.contains("cdpr_mex.c"), "{said}");
+    built
+}
+
+/// What Octave prints for a script.
+fn octave(script: &str) -> String {
+    let paths = [gateway(), folder().join("matlab")].map(|path| format!("addpath('{}');", path.display()));
+    let run = format!("{}{script}", paths.concat());
+    let output = Command::new("octave-cli").args(["--quiet", "--eval", &run]).output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).unwrap()
+}
+
+fn line<'a>(values: impl IntoIterator<Item = &'a f64>) -> String {
+    values.into_iter().map(|value| format!("{:016x}", value.to_bits())).collect::<Vec<_>>().join(" ") + "\n"
+}
+
+const SCRIPT: &str = "
+    function show(values)
+        text = num2hex(reshape(values.', [], 1));
+        printf('%s\\n', strjoin(cellstr(text).', ' '));
+    end
+    robot = cdpr.Robot('caroca');
+    [lengths, tensions] = robot.inverse([0.25 -0.125 1.75]); show(lengths); show(tensions);
+    [pose, tensions] = robot.direct(lengths, [0.25 -0.125 1.75], 50); show(pose); show(tensions);
+    [moved, turned] = robot.deflection([0.25 -0.125 1.75], 50); show(moved); show(turned);
+    [matrix, least] = robot.stiffness([0.25 -0.125 1.75], 50); show(matrix); show(least);
+    slopes = robot.derivatives([0.25 -0.125 1.75], 50);
+    show(slopes.lengths); show(slopes.tensions); show(slopes.displacement); show(slopes.magnitude);
+    tracker = cdpr.Tracker(robot, lengths, [0.25 -0.125 1.75], 50);
+    for k = 1:200
+        lengths(1) = lengths(1) - 1e-5;
+        [pose, tensions, report, converged] = tracker.step(lengths, 50);
+        show(pose); show(tensions); assert(converged);
+    end
+";
+
+#[test]
+fn octave_gets_the_bits_of_the_rust_interface() {
+    let robot = Robot::from_json(include_str!("../../../data/robots/caroca.json")).unwrap();
+    let (load, none) = (Load::payload(50.0), Load::none());
+    let pose = Pose::with_quaternion([0.25, -0.125, 1.75].into(), [1.0, 0.0, 0.0, 0.0]).unwrap();
+    let mut expected = String::new();
+    let of_pose = |pose: &Pose| {
+        line(pose.position.iter().chain(&pose.quaternion()).copied().collect::<Vec<_>>().iter())
+    };
+    let wanted = inverse(&robot, &pose, &none).unwrap();
+    expected += &(line(&wanted.lengths) + &line(&wanted.tensions));
+    let found = direct(&robot, &wanted.lengths, &load, DirectStart::Pose(&pose)).unwrap().equilibrium;
+    expected += &(of_pose(&found.pose) + &line(&found.tensions()));
+    let motion = deflection(&robot, &pose, &load).unwrap().motion();
+    expected += &(line(&motion.fixed_rows::<3>(0)) + &line(&motion.fixed_rows::<3>(3)));
+    let stiffness = stiffness_at(&robot, &pose, &load).unwrap();
+    expected += &line(stiffness.matrix.transpose().as_slice());
+    expected += &line(&[stiffness.stability.least_stiffness()]);
+    let slopes = derivatives(&robot, &pose, &load).unwrap();
+    expected += &line(slopes.lengths.transpose().as_slice());
+    expected += &line(slopes.set_points.transpose().as_slice());
+    expected += &line(slopes.displacement().transpose().as_slice());
+    expected += &line(&slopes.magnitude().unwrap());
+    let mut lengths = wanted.lengths.clone();
+    let mut tracker = Tracker::new(&robot, &lengths, &load, &found).unwrap();
+    for _ in 0..200 {
+        lengths[0] -= 1e-5;
+        assert!(tracker.step(&lengths, &load).unwrap().converged);
+        let equilibrium = tracker.equilibrium();
+        expected += &(of_pose(&equilibrium.pose) + &line(&equilibrium.tensions()));
+    }
+    let printed = octave(SCRIPT);
+    for (printed, expected) in printed.lines().zip(expected.lines()) {
+        assert_eq!(printed, expected);
+    }
+    assert_eq!(printed.lines().count(), expected.lines().count());
+}
+
+#[test]
+fn the_example_prints_what_the_page_shows() {
+    let printed = octave("example");
+    let page = std::fs::read_to_string(folder().join("../../docs/c.md")).unwrap();
+    assert!(page.contains(&printed), "docs/c.md: {printed}");
+}
+
+#[test]
+fn octave_gets_errors_and_no_crash() {
+    let printed = octave(
+        "function show(run), try, run(); catch e, printf('%s: %s\\n', e.identifier, e.message); end, end
+        robot = cdpr.Robot('caroca');
+        show(@() cdpr.Robot('carroca')); show(@() robot.inverse([0 0 50]));
+        show(@() robot.inverse([0 NaN 1]));
+        show(@() robot.inverse([0 0])); show(@() robot.direct([1 2 3], [0 0 1.75]));
+        show(@() cdpr_mex('inverse', 77, [0 0 1], [])); show(@() cdpr_mex('fly', robot.id, [0 0 1], []));
+        show(@() cdpr.Robot(7)); delete(robot); show(@() robot.inverse([0 0 1.75]));",
+    );
+    let kinds: Vec<_> = printed.lines().map(|line| line.split(": ").next().unwrap()).collect();
+    let expected =
+        ["robot", "noSolution", "invalid", "invalid", "size", "invalid", "invalid", "invalid", "invalid"];
+    assert_eq!(kinds, expected.map(|kind| format!("cdpr:{kind}")), "{printed}");
+}
