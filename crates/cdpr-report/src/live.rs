@@ -27,8 +27,8 @@ pub(crate) struct LiveRobot<'a> {
 }
 
 /// What a page observes of a study: its first sampling at one pose, which is called `all` there, with the
-/// deflection as output, eight replicates and at most 2048 observations in each. None if no sampling has one
-/// pose.
+/// deflection as output, eight replicates and at most 2048 observations in each. A study without payload gets
+/// a tenth of the platform's mass. None if no sampling has one pose.
 pub fn explored_study(study: &Study) -> Option<StudyFile> {
     let mut file = study.file.clone();
     let first = file.samplings.values().position(|sampling| sampling.pose.is_some())?;
@@ -38,6 +38,10 @@ pub fn explored_study(study: &Study) -> Option<StudyFile> {
     file.samplings.clear();
     file.samplings.insert("all".to_owned(), sampling);
     file.output = Output::Deflection;
+    if file.payload == 0.0 {
+        // That of a template.
+        file.payload = 0.1 * study.robot.platform.mass;
+    }
     file.replicates = REPLICATES;
     file.sensitivity = None;
     file.surfaces.clear();

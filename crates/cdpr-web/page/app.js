@@ -333,7 +333,7 @@ export class App {
   }
 
   #mechanicsChanged() {
-    const { picture } = this.mechanics;
+    const picture = this.player.inMotion(this.mechanics.picture);
     if (picture) {
       const greatest = Math.max(...picture.loaded.cables.map((cable) => cable.tension));
       if (greatest > this.range || greatest < 0.4 * this.range) this.range = roundUp(greatest);
@@ -387,6 +387,7 @@ export class App {
       `Deflection ${short(picture.rms)}.`,
       `Tensions ${rangeWithUnit(least, greatest, "N")}.`,
       `Least stiffness ${withUnit(known.stiffness, "N/m")}.`,
+      ...(this.sampling.hasSample ? this.sampling.sample.sentences : []),
       sentence(this),
     ].join(" ");
   }

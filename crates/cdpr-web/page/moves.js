@@ -1,7 +1,7 @@
 // What keys, buttons and handles do to the platform.
 
 import { pointOf, withPoint } from "./robot.js";
-import { timed } from "./trajectory/track.js";
+import { timed, withoutTensions } from "./trajectory/track.js";
 import { placeOf, rounded, turned, turnedAngles, vectorBetween } from "./rotation.js";
 
 const AXES = ["x", "y", "z"];
@@ -70,7 +70,7 @@ export class Moves {
     );
     const position = this.#above(kept.map((value) => rounded(value, this.#decimals)));
     const row = (at) => [0, ...at, ...state.rpy_deg];
-    const before = state.trajectory.length > 0 ? state.trajectory : [row(state.position)];
+    const before = state.trajectory.length > 0 ? withoutTensions(state.trajectory) : [row(state.position)];
     const isSame = JSON.stringify(before.at(-1).slice(1)) === JSON.stringify(row(position).slice(1));
     this.app.speedCounts = true;
     // The platform goes to the end.

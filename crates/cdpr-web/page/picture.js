@@ -11,7 +11,8 @@ import { pointOf } from "./robot.js";
  */
 export function pictureOf(app) {
   const { mechanics, store, robot, handle, point, player } = app;
-  const { picture, failure, jump } = mechanics;
+  const { failure, jump } = mechanics;
+  const picture = player.inMotion(mechanics.picture);
   const { state } = store;
   const asked = state.free.length > 0 ? picture.unloaded?.pose : poseOf(state);
   return {

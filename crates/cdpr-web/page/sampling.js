@@ -23,7 +23,8 @@ export function affordable(time, rate, most) {
 }
 
 export class Sampling {
-  /** {summary, nominal, failed, milliseconds, coarse, key, observations, study} of the last observations. */
+  /** {summary, sentences, nominal, failed, milliseconds, coarse, key, observations, study} of the last
+   * observations. */
   sample = null;
   /** {inputs, confidence, replicates, key, observations} of the last effects, with those of a replicate. */
   effects = null;
@@ -208,11 +209,11 @@ export class Sampling {
       return false;
     }
     this.failure = null;
-    const { values_mm, failed, nominal_mm } = observed.ok;
+    const { values_mm, failed, nominal_mm, sentences } = observed.ok;
     const observations = values_mm.length;
     this.#rate = Math.max(milliseconds / observations, 1e-3);
     const numbers = { summary: summary(values_mm), nominal: nominal_mm, failed, milliseconds, observations };
-    this.sample = { ...numbers, ...asked };
+    this.sample = { ...numbers, sentences, ...asked };
     return true;
   }
 }

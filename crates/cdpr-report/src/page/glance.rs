@@ -77,7 +77,9 @@ fn question(summary: &Summary, output: Output) -> String {
             )
         }
         Output::Frequency | Output::Stiffness => {
-            format!("The {} of the platform of {robot} with {payload} kg added to it", output.label())
+            let loaded =
+                if summary.payload > 0.0 { format!(" with {payload} kg added to it") } else { String::new() };
+            format!("The {} of the platform of {robot}{loaded}", output.label())
         }
     }
 }

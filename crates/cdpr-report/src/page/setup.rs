@@ -42,8 +42,10 @@ fn settings(results: &Results) -> Markup {
                 dt { "Tensions chosen" }
                 dd { "of least 2-norm" }
             }
-            dt { "Load" }
-            dd { (text::digits(file.payload, 5)) " kg added at the platform's centre of mass" }
+            @if file.payload > 0.0 {
+                dt { "Load" }
+                dd { (text::digits(file.payload, 5)) " kg added at the platform's centre of mass" }
+            }
             dt { "Design" }
             dd { "all uncertain parameters at once, at points of Sobol's sequence" }
             dt { "Intervals" }

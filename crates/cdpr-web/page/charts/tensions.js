@@ -97,14 +97,15 @@ function bands(times, found, x, { top, bottom }, palette) {
 }
 
 /** The trajectory in a sentence: what is computed, what is not held, and between which tensions. */
-export function trackWords({ times, found, done, every }) {
+export function trackWords({ times, found, done, every, count = times.length, areInMotion = false }) {
   const failed = times.flatMap((time, i) => (found[i]?.failure ? [{ time, ...found[i].failure }] : []));
   const out = times.filter((_, i) => found[i]?.limits?.some(Boolean)).length;
   const tensions = found.flatMap((one) => one?.tensions ?? []);
   const [least, greatest] = tensions.reduce(([a, b], t) => [Math.min(a, t), Math.max(b, t)], [Infinity, 0]);
-  const parts = [done < times.length ? `${done} of ${times.length} poses computed` : `${times.length} poses`];
-  if (every > 1) parts[0] += `, one in ${every} of the table`;
-  if (tensions.length > 0) parts.push(`tensions ${digits(least, 3)} to ${digits(greatest, 3)} N`);
+  const parts = [done < times.length ? `${done} of ${times.length} poses computed` : `${count} poses`];
+  if (every > 1 && !areInMotion) parts[0] += `, one in ${every} of the table`;
+  const motion = areInMotion ? " in motion, as the table has them" : "";
+  if (tensions.length > 0) parts.push(`tensions ${digits(least, 3)} to ${digits(greatest, 3)} N${motion}`);
   if (out > 0) parts.push(`${out} with a tension out of its limits`);
   const [first] = failed;
   if (first) parts.push(`${failed.length} not held, first at ${digits(first.time, 3)} s: ${first.reason}`);

@@ -79,7 +79,7 @@ export function cablesPanel(app) {
   );
 
   function update() {
-    const { picture } = mechanics;
+    const picture = app.player.inMotion(mechanics.picture);
     const kept = store.state.way === "kept";
     keep.hidden = kept || !picture || Boolean(mechanics.failure);
     winding.hidden = !kept;
@@ -94,6 +94,7 @@ export function cablesPanel(app) {
       note,
       [
         ...(mechanics.failure ? ["These are of the last state that was found."] : []),
+        ...(picture.isInMotion ? ["Tensions in motion, as the table has them; all else is at rest."] : []),
         slack.length > 0 ? `Slack: ${slack.join(", ")}.` : "No cable is slack.",
         out.length > 0 ? `Out of limits: ${out.join("; ")}.` : "All tensions are within their limits.",
       ].join(" "),
@@ -127,7 +128,7 @@ function row(app, k) {
   const update = ({ loaded, unloaded, limits }, i) => {
     const cable = loaded.cables[i];
     setText(cells[0], `${digits(cable.tension)}${cable.limit ? " !" : cable.slack ? " slack" : ""}`);
-    cells[0].title = `${digits(cable.exit_tension)} N at the exit point`;
+    cells[0].title = cable.exit_tension === null ? "" : `${digits(cable.exit_tension)} N at the exit point`;
     const [min, max] = limits?.[i] ?? limitsOf(app, i);
     const { share, scale } = between(cable.tension, min, max);
     bar.firstChild.style.width = `${(100 * share).toFixed(2)}%`;

@@ -10,6 +10,7 @@ import { panel } from "./panel.js";
 /** @param {object} app */
 export function chartsPanel(app) {
   const { sampling, robot } = app;
+  const verdict = h("p", { class: "says" });
   const says = h("p", { class: "says" });
   const failed = h("p", { class: "failure", hidden: true });
   const numbers = h("p", { class: "hint" });
@@ -38,7 +39,7 @@ export function chartsPanel(app) {
     ),
   ];
   const pair = h("div", { class: "pair" }, ...parts);
-  const charts = h("div", { class: "charts" }, says, failed, pair);
+  const charts = h("div", { class: "charts" }, verdict, says, failed, pair);
   const { element, update: updateOpen } = panel("Uncertainty", { open: true, update }, charts);
   const [firstOther, secondOther] = [whenOther(), whenOther()];
   const observer = new ResizeObserver(() => updateOpen());
@@ -55,6 +56,7 @@ export function chartsPanel(app) {
     if (failure) setText(failed, `No observations here: ${reasonWords(app, failure)}.`);
     pair.hidden = failure?.kind === "unobserved";
     charts.classList.toggle("stale", Boolean(failure) || !sampling.hasEffects);
+    setText(verdict, sample ? sample.sentences.join(" ") : "");
     setText(says, sentence(app));
     const { palette } = app;
     const width = Math.max(240, Math.floor(first.clientWidth));

@@ -21,7 +21,8 @@ export function numbersPanel(app) {
   return { element, update };
 
   function update() {
-    const { picture, failure } = app.mechanics;
+    const { failure } = app.mechanics;
+    const picture = app.player.inMotion(app.mechanics.picture);
     element.classList.toggle("stale", Boolean(failure) || app.mechanics.busy);
     if (!picture) return;
     const texts = words(picture);

@@ -4,7 +4,7 @@ import { button, h, numberField, setText } from "../dom.js";
 import { counted, digits } from "../format.js";
 import { roundUp } from "../charts/scale.js";
 import { readPoses } from "../trajectory/table.js";
-import { duration, timed } from "../trajectory/track.js";
+import { duration, timed, withoutTensions } from "../trajectory/track.js";
 import { panel } from "./panel.js";
 
 /** @param {object} app */
@@ -71,12 +71,18 @@ export function trajectoryPanel(app) {
   function take(content, name) {
     said = "";
     if (content.trim() === "") return app.refresh();
-    const { rows, hasTime, further, problem } = readPoses(content);
+    const { rows, hasTime, cables, further, problem } = readPoses(content);
     if (problem) said = `${name}: ${problem}`;
     else {
       app.speedCounts = !hasTime;
-      if (further.length > 0) said = `Not read: ${further.join(", ")}.`;
-      set(hasTime ? rows : timed(rows, app.speed, app.arm));
+      const isMotion = cables === app.robot.exits.length;
+      if (cables > 0)
+        said = isMotion
+          ? "With its tensions in motion. "
+          : `It has tensions of ${counted(cables, "cable")}, not read. `;
+      if (further.length > 0) said += `Not read: ${further.join(", ")}.`;
+      const known = isMotion ? rows : withoutTensions(rows);
+      set(hasTime ? known : timed(known, app.speed, app.arm));
     }
     note.classList.toggle("warns", Boolean(problem));
     app.refresh();

@@ -186,6 +186,7 @@ export class Live {
         failed: {},
         scalar: { count: 0, why: null },
         nominal_mm: 5 + pose.position[0],
+        sentences: ["Mean deflection 5 mm."],
         effects: { replicate },
       },
     };

@@ -6,7 +6,8 @@ import { LIGHT } from "../palette.js";
 import { angles, quaternion, vectorBetween } from "../rotation.js";
 import { decode, encode, initial, restore } from "../state.js";
 import { readPoses } from "../trajectory/table.js";
-import { areRows, duration, poseAt, sampleTimes, timed } from "../trajectory/track.js";
+import { Player } from "../trajectory/player.js";
+import { areRows, drawnRows, duration, poseAt, sampleTimes, tensionsAt, timed } from "../trajectory/track.js";
 
 const close = (found, expected) =>
   found.forEach((row, k) =>
@@ -45,14 +46,71 @@ test("a series of simulate is read with the orientation of the platform, not wit
     `0.0,0.1,0.0,2.0,0.0,0.0,0.0,900.5,880.2,${half},0.0,0.0,${half}`,
     `0.01,0.1,0.0,1.5,0.0,0.0,1e-17,0.0,0.0,${half},0.0,0.0,${half}`,
   ].join("\n");
-  const { rows, hasTime, further, problem } = readPoses(series);
+  const { rows, hasTime, cables, further, problem } = readPoses(series);
   assert.equal(problem, undefined);
   assert.equal(hasTime, true);
-  assert.deepEqual(further, ["t_exit_1_n", "t_anchor_1_n"]);
+  assert.equal(cables, 1);
+  assert.deepEqual(further, ["t_exit_1_n"]);
   close(rows, [
-    [0, 0.1, 0, 2, 0, 0, 90],
-    [0.01, 0.1, 0, 1.5, 0, 0, 90],
+    [0, 0.1, 0, 2, 0, 0, 90, 880.2],
+    [0.01, 0.1, 0, 1.5, 0, 0, 90, 0],
   ]);
+  assert.deepEqual(tensionsAt(rows, 0.005), [440.1]);
+});
+
+test("tensions of a series are read in the order of the cables, if all are there and have a time", () => {
+  const columns = (names) => readPoses(`${names}\n0,0,0,1,7,5\n1,0,0,1,8,6`);
+  assert.deepEqual(columns("t_s,x,y,z,t_anchor_2_n,t_anchor_1_n").rows[0].slice(7), [5, 7]);
+  for (const names of ["t_s,x,y,z,t_anchor_3_n,t_anchor_1_n", "w,x,y,z,t_anchor_2_n,t_anchor_1_n"]) {
+    const { rows, cables, further } = columns(names);
+    assert.deepEqual([cables, rows[0].length], [0, 7]);
+    assert.ok(further.includes("t_anchor_1_n"));
+  }
+});
+
+test("a motion that plays has the tensions of its table, and nothing is asked for", () => {
+  const rows = [
+    [0, 0, 0, 1, 0, 0, 0, 100, 20],
+    [1, 1, 0, 1, 0, 0, 0, 300, 40],
+  ];
+  const changes = { least: null, greatest: null };
+  const state = { trajectory: rows, free: [], changes, payload: 0, force: [0, 0, 0], moment: [0, 0, 0] };
+  const asked = [];
+  const app = {
+    robot: { exits: [1, 2], limits: [{ min: 1, max: 150 }, { min: 25, max: 900 }] },
+    store: { state: { ...state, ...poseAt(rows, 0) }, set() {}, commit() {} },
+    engine: { drop() {}, ask: (...question) => asked.push(question) },
+  };
+  const player = new Player(app, () => {});
+  player.update(app.store.state, 1);
+  assert.deepEqual(asked, []);
+  assert.deepEqual(player.track.times, [0, 1]);
+  assert.deepEqual(player.track.found[0].limits, [null, "below"]);
+  assert.match(trackWords(player.track), /^2 poses; tensions 20.0 to 300 N in motion, as the table has/);
+  const cables = [1, 2].map((tension) => ({ tension, exit_tension: tension, slack: false, limit: null }));
+  const picture = { loaded: { cables }, rms: 1 };
+  player.time = 0.5;
+  assert.equal(player.inMotion(picture), picture);
+  player.playing = true;
+  const shown = player.inMotion(picture);
+  assert.deepEqual(
+    shown.loaded.cables.map(({ tension, limit }) => [tension, limit]),
+    [
+      [200, "above"],
+      [30, null],
+    ],
+  );
+  assert.equal(shown.isInMotion, true);
+});
+
+test("of very many rows those with the extreme tensions are drawn", () => {
+  const tension = (k) => (k === 4321 ? 999 : 10 + (k % 7));
+  const rows = Array.from({ length: 9000 }, (_, k) => [k, 0, 0, 1, 0, 0, 0, tension(k), 50]);
+  const drawn = drawnRows(rows);
+  assert.ok(drawn.length <= 2000);
+  assert.ok(drawn.some((row) => row[7] === 999));
+  assert.ok(drawn.every((row, k) => k === 0 || row[0] > drawn[k - 1][0]));
+  assert.equal(drawnRows(rows.slice(0, 50)).length, 50);
 });
 
 test("a rotation vector alone is the orientation", () => {
@@ -172,6 +230,10 @@ test("a short trajectory is in the link, a long one only in the saved state", ()
     ],
     "rows",
     [[0, 0, 0, null, 0, 0, 0]],
+    [
+      [0, 0, 0, 1, 0, 0, 0, 5],
+      [1, 0, 0, 1, 0, 0, 0],
+    ],
   ])
     assert.equal(areRows(wrong), false);
 });

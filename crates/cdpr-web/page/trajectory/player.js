@@ -1,9 +1,9 @@
-// Tensions along the trajectory, pose by pose, and the time on screen.
+// Tensions along the trajectory, at rest pose by pose or those in motion of the table, and the time on screen.
 
 import { STALE } from "../engine.js";
 import { loadOf } from "../mechanics.js";
 import { quaternion } from "../rotation.js";
-import { duration, poseAt, sampleTimes } from "./track.js";
+import { cablesInMotion, drawnRows, duration, poseAt, sampleTimes, tensionsAt } from "./track.js";
 
 // Poses of a question: few, so that all workers take part.
 const BATCH = 6;
@@ -14,7 +14,8 @@ export class Player {
   playing = false;
   /** How much faster than the trajectory it plays. */
   factor = 1;
-  /** {times, every, found, done}; `found`: {tensions, limits, deflection} or {failure} at each time. */
+  /** {times, every, found, done}, of a motion {count, areInMotion} too; `found`: {tensions, limits, deflection} or
+   * {failure} at each time. */
   track = null;
   /** The positions of the trajectory [m], one after the other, as many as the view draws. */
   line = [];
@@ -48,12 +49,12 @@ export class Player {
       this.pause();
       this.time = rows.length > 0 ? Math.min(Math.max(this.time, rows[0][0]), duration(rows)) : 0;
     }
-    this.track = key ? { ...sampleTimes(rows), found: [], done: 0 } : null;
+    this.track = key ? this.#begun(rows) : null;
     if (isOther) {
       const every = this.track?.every ?? 1;
       this.line = rows.filter((_, k) => k % every === 0).flatMap((row) => row.slice(1, 4));
     }
-    if (this.track) this.#ask(state);
+    if (this.track && !this.track.areInMotion) this.#ask(state);
     this.told();
   }
 
@@ -62,6 +63,20 @@ export class Player {
     if (this.rows.length === 0) return false;
     const { position, rpy_deg } = this.app.store.state;
     return JSON.stringify(poseAt(this.rows, this.time)) === JSON.stringify({ position, rpy_deg });
+  }
+
+  /** A picture with the tensions in motion at the time on screen, where the trajectory has them. */
+  inMotion(picture) {
+    if (!picture || !this.track?.areInMotion || !(this.playing || this.isOnPath)) return picture;
+    const tensions = tensionsAt(this.rows, this.time);
+    const cables = picture.loaded.cables.map((cable, k) => ({
+      ...cable,
+      tension: tensions[k],
+      exit_tension: null,
+      limit: this.#limit(tensions[k], k),
+      slack: tensions[k] <= 0,
+    }));
+    return { ...picture, isInMotion: true, loaded: { ...picture.loaded, cables } };
   }
 
   /** Goes to a time; `commit` makes a step of undo of it. */
@@ -100,6 +115,28 @@ export class Player {
 
   dispose() {
     cancelAnimationFrame(this.#frame);
+  }
+
+  // A track of which nothing is computed yet, or that of a motion.
+  #begun(rows) {
+    const isMotion = cablesInMotion(rows) === this.app.robot.exits.length;
+    if (!isMotion) return { ...sampleTimes(rows), found: [], done: 0 };
+    const drawn = drawnRows(rows);
+    const found = drawn.map((row) => {
+      const tensions = row.slice(7);
+      return { tensions, limits: tensions.map((tension, k) => this.#limit(tension, k)) };
+    });
+    const every = Math.ceil(rows.length / drawn.length);
+    const times = drawn.map(([time]) => time);
+    return { times, every, found, done: times.length, count: rows.length, areInMotion: true };
+  }
+
+  // The limit that a tension of a cable passes.
+  #limit(tension, k) {
+    const { robot, store } = this.app;
+    const { least, greatest } = store.state.changes;
+    if (tension < (least ?? robot.limits[k].min)) return "below";
+    return tension > (greatest ?? robot.limits[k].max) ? "above" : null;
   }
 
   #ask({ trajectory: rows, free, ...state }) {

@@ -15,6 +15,9 @@ const EXPECTED =
   "expected x_m,y_m,z_m, then none, qw,qx,qy,qz, roll_deg,pitch_deg,yaw_deg or rx_rad,ry_rad,rz_rad, " +
   "and perhaps t_s";
 
+// The tension of a cable at the platform in a series of `cdpr simulate` [N].
+const TENSION = /^t_anchor_(\d+)_n$/i;
+
 // What a unit is in those of the page: metres, degrees, seconds.
 const LENGTHS = { m: 1, cm: 1e-2, mm: 1e-3, um: 1e-6, µm: 1e-6, km: 1e3 };
 const TURNS = { deg: 1, "°": 1, rad: 180 / Math.PI, mrad: 0.18 / Math.PI };
@@ -24,8 +27,9 @@ const TIMES = { s: 1, ms: 1e-3, min: 60 };
 /**
  * The rows of a trajectory.
  * @param {string} text a table, with commas, semicolons, tabs or blanks between its cells
- * @returns {{rows: number[][], hasTime: boolean, further: string[]}|{problem: string}} rows of t [s], x, y, z
- *   [m], roll, pitch, yaw [degrees]; without times, t is zero; names of columns that are not read
+ * @returns {{rows: number[][], hasTime: boolean, cables: number, further: string[]}|{problem: string}} rows of
+ *   t [s], x, y, z [m], roll, pitch, yaw [degrees], and the tensions in motion [N] of `cables` cables, 0 without
+ *   times or tensions; without times, t is zero; names of columns that are not read
  */
 export function readPoses(text) {
   try {
@@ -60,7 +64,8 @@ function read(text) {
     if (k > 0 && time < rows[k - 1][0])
       throw new Refusal(`Line ${body[k].number}: the time ${time} s is before that of the line above.`);
   });
-  return { rows, hasTime: columns.has("t"), further: columns.get("further") ?? [] };
+  const cables = columns.get("tensions")?.length ?? 0;
+  return { rows, hasTime: columns.has("t"), cables, further: columns.get("further") ?? [] };
 }
 
 // The character that separates cells: the first of these that all lines have.
@@ -115,8 +120,24 @@ function named(names, line) {
     [0, 3].includes(has(VECTOR)) &&
     (has(QUATERNION) + has(VECTOR)) * has(ANGLES) === 0;
   if (!isWhole) throw new Refusal(`Line ${line}: the columns are ${names.join(", ")}: ${EXPECTED}.`);
-  columns.set("further", further);
+  const tensions = tensionsOf(names, columns.has("t"));
+  columns.set("tensions", tensions);
+  const read = tensions.map((index) => names[index]);
+  columns.set(
+    "further",
+    further.filter((name) => !read.includes(name)),
+  );
   return columns;
+}
+
+// The columns of the tensions of all cables, in their order; none where one is missing.
+function tensionsOf(names, hasTime) {
+  const indices = [];
+  names.forEach((name, index) => {
+    const number = name.match(TENSION)?.[1];
+    if (hasTime && number > 0) indices[number - 1] = index;
+  });
+  return indices.includes(undefined) ? [] : indices;
 }
 
 function unitsOf(quantity) {
@@ -136,14 +157,16 @@ function plain(cells, line) {
 }
 
 function row(cells, columns, line) {
-  const value = (name) => {
-    const column = columns.get(name);
-    if (!column) return 0;
-    const cell = cells[column.index] ?? "";
+  const numberAt = (index, name) => {
+    const cell = cells[index] ?? "";
     const number = numeral(cell);
     if (!Number.isFinite(number))
       throw new Refusal(`Line ${line}: ${name} is “${cell}”, which is not a number.`);
-    return number * column.factor;
+    return number;
+  };
+  const value = (name) => {
+    const column = columns.get(name);
+    return column ? numberAt(column.index, name) * column.factor : 0;
   };
   let turn = columns.has("rx") ? angles(fromVector(VECTOR.map(value))) : ANGLES.map(value);
   if (columns.has("qw")) {
@@ -155,5 +178,6 @@ function row(cells, columns, line) {
       );
     turn = angles(quaternion.map((part) => part / size));
   }
-  return [value("t"), ...POSITION.map(value), ...turn];
+  const tensions = (columns.get("tensions") ?? []).map((index, k) => numberAt(index, `tension ${k + 1}`));
+  return [value("t"), ...POSITION.map(value), ...turn, ...tensions];
 }

@@ -5,8 +5,8 @@ use crate::question::ObserveReplicate;
 use cdpr_robot::Robot;
 use cdpr_sensitivity::{Effects, SampleDesign};
 use cdpr_study::{
-    Measured, Part, STUDY_NAME, ScalarCount, Session, Study, StudyFile, ValueSummary, effects_of_replicates,
-    observe as observe_sampling, observe_into, observe_replicate,
+    Measured, Part, PartVerdict, STUDY_NAME, ScalarCount, Session, Study, StudyFile, ValueSummary,
+    effects_of_replicates, observe as observe_sampling, observe_into, observe_replicate,
 };
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -31,6 +31,8 @@ pub(crate) struct Observed {
     values_mm: Vec<Option<f64>>,
     /// Their summary; absent if fewer than two exist.
     summary: Option<ValueSummary>,
+    /// What comes out, in the words of the program and the report.
+    sentences: Vec<String>,
     /// Failures by kind.
     failed: BTreeMap<String, usize>,
     scalar: ScalarCount,
@@ -108,8 +110,10 @@ pub(crate) fn observe(study: &Study, given: ObserveReplicate) -> Result<Observed
         0 => observe_sampling(&sampling, &session)?,
         number => observe_replicate(&sampling, number, &session)?,
     };
+    let summary = ValueSummary::of(&sampling, &tally);
     Ok(Observed {
-        summary: ValueSummary::of(&sampling, &tally),
+        sentences: PartVerdict::outcome(&sampling, &tally, summary.as_ref()),
+        summary,
         nominal_mm: sampling.nominal_value,
         effects: tally.sums.effects(sampling.design.inputs()).ok(),
         values_mm: tally.first_values,
