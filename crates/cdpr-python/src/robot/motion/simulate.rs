@@ -375,7 +375,7 @@ impl MotionSummary {
             all.numbers(&[lengths.len()], |_, out| (0..out.len()).for_each(|i| out[i] = of(i)))
         };
         let counts = |of: &dyn Fn(usize) -> usize| {
-            let fill = |_: &Series, out: &mut [i64]| (0..out.len()).for_each(|i| out[i] = of(i) as i64);
+            let fill = |_: &&Series, out: &mut [i64]| (0..out.len()).for_each(|i| out[i] = of(i) as i64);
             all.array(0, &[lengths.len()], fill)
         };
         let (difference, energy) = (&series.difference, &series.energy);
