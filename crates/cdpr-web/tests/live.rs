@@ -95,6 +95,8 @@ fn a_table_has_the_inputs_and_outputs_of_every_observation() {
     assert!(inputs.contains(&json!({"name": "mass", "unit": "kg"})), "{inputs:?}");
     let rows = table["rows"].as_array().unwrap();
     assert_eq!(rows.len(), 64);
+    let sentence = observed["sentences"][0].as_str().unwrap();
+    assert!(sentence.starts_with("Mean deflection ") && sentence.contains(" mm, range "), "{sentence}");
     for (row, value) in rows.iter().zip(observed["values_mm"].as_array().unwrap()) {
         assert_eq!(row["inputs"].as_array().unwrap().len(), inputs.len());
         assert_eq!(row["outputs_mm"][3], *value);

@@ -13,9 +13,8 @@ use serde_json::{Value, json};
 use std::io::Write;
 use std::process::{Command, Stdio};
 
-/// Answers differ by rounding: `libm` of the browser's module rounds sines and logarithms otherwise, and a step of
-/// Newton's method may end with other last digits.
-const ROUNDING: f64 = 1e-11;
+/// Answers differ by rounding: `libm` of the browser's module rounds sines and logarithms otherwise.
+const ROUNDING: f64 = 1e-12;
 
 /// The answers of the stored module, in Node.
 fn in_node(robot: &str, questions: &[Value]) -> Vec<Value> {
