@@ -39,7 +39,7 @@ pub use robustness::{
     Refusal, RefusedPose, RobustnessResult, RobustnessRow, RobustnessSummary, Solve, Spread, StartOffset,
     anchor_distance, protocols, run_robustness,
 };
-pub use safety::{Broken, BrokenRest, Safety, safety_at};
+pub use safety::{Breaks, Broken, BrokenRest, Safety, Swing, safety_at};
 pub use tilt::{Tilt, TiltTowards, tilt_at};
 pub use tolerance::{Limit, Limited, Reached, Tolerance, ToleranceBudget, tolerance_budget};
 pub use vibration::{Compared, DrawnRobots, ratio_of_best};

@@ -3,13 +3,26 @@
 //! The winches do not move: the other cables keep the unstrained lengths that held the pose. The platform is
 //! released there, and comes to rest at the minimum of the potential that lies downhill
 //! ([`DirectStart::Released`]). This is where a strongly damped platform ends. On the way it swings, its tensions
-//! exceed those of the rest, and with little damping it may pass a ridge and rest elsewhere: `cdpr-dynamics`
-//! follows that motion.
+//! exceed those of the rest, and with little damping it may pass a ridge and rest elsewhere: the motion without
+//! damping is followed if asked for.
 
 use crate::inspection::is_below_floor;
+use cdpr_dynamics::DynamicsError;
+use cdpr_dynamics::simulate::{Change, CutAt, Difference, Event, Settings, simulate};
 use cdpr_robot::{Pose, Robot, UnitQuaternion};
 use cdpr_statics::limits::{OutOfLimits, tensions_out_of_limits};
-use cdpr_statics::{DirectProblem, DirectStart, Load, Residual, StaticsError, WantedPose, inverse};
+use cdpr_statics::{
+    DirectProblem, DirectStart, InverseSolution, Load, Residual, StaticsError, WantedPose, inverse,
+};
+
+/// Which breaks are looked at, and how.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Breaks {
+    /// Whether every pair of cables breaks, too.
+    pub pairs: bool,
+    /// For how long the motion after each break is followed [s]; `None` for the rests alone.
+    pub follow: Option<f64>,
+}
 
 /// A robot at a pose, whole and with broken cables.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,6 +44,33 @@ pub struct Broken {
     pub cables: Vec<usize>,
     /// Where it comes to rest, or why no rest was found.
     pub rest: Result<BrokenRest, StaticsError>,
+    /// How it swings, if that is followed, or why it could not be.
+    pub swing: Option<Result<Swing, DynamicsError>>,
+}
+
+/// How a platform swings when cables part at their anchor points, without damping.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Swing {
+    /// Greatest tension of the other cables at either end [N], the index of that cable, and when [s].
+    pub greatest: (f64, usize, f64),
+    /// Greatest distance of P from where it was [m].
+    pub moved: f64,
+    /// Greatest tensions of the other cables that are out of limits.
+    pub out_of_limits: Vec<OutOfLimits>,
+    /// Least breaking force over greatest tension of the other cables, and the index of that cable; `None` where
+    /// no breaking force is known.
+    pub safety_factor: Option<(f64, usize)>,
+    /// Whether P or an anchor point comes below the ground, as in [`BrokenRest::below_ground`].
+    pub below_ground: bool,
+    /// Differences between two computations of the motion.
+    pub difference: Difference,
+}
+
+impl Swing {
+    /// Whether another cable is loaded beyond its greatest tension or its breaking force.
+    pub fn is_overloaded(&self) -> bool {
+        self.out_of_limits.iter().any(|one| one.is_too_much())
+    }
 }
 
 /// Where a platform comes to rest without some of its cables.
@@ -71,25 +111,29 @@ impl BrokenRest {
     }
 }
 
-/// The robot at a pose under a load with each cable broken alone, and with each pair of cables if `pairs`.
+/// The robot at a pose under a load with each cable broken alone, and with each pair of cables if asked for.
+///
+/// A motion needs the inertia of the platform.
 ///
 /// # Errors
-/// Those of [`inverse`] at the pose. A break after which no rest is found has the reason in its place.
+/// Those of [`inverse`] at the pose. A break after which no rest is found, or whose motion cannot be followed,
+/// has the reason in its place.
 pub fn safety_at(
     robot: &Robot,
     wanted: WantedPose,
     load: &Load,
-    pairs: bool,
+    breaks: Breaks,
 ) -> Result<Safety, StaticsError> {
     let held = inverse(robot, wanted, load)?;
     let (pose, count) = (held.equilibrium.pose, robot.cables.len());
     let mut sets: Vec<Vec<usize>> = (0..count).map(|i| vec![i]).collect();
-    if pairs {
+    if breaks.pairs {
         sets.extend((0..count).flat_map(|i| (i + 1..count).map(move |j| vec![i, j])));
     }
     let break_these = |cables: Vec<usize>| {
         let rest = rest_without(robot, &cables, &held.lengths, load, &pose);
-        Broken { cables, rest }
+        let swing = breaks.follow.map(|until| swing_without(robot, &cables, &held, load, until));
+        Broken { cables, rest, swing }
     };
     let broken = sets.into_iter().map(break_these).collect();
     Ok(Safety { pose, lengths: held.lengths, tensions: held.tensions, broken })
@@ -120,20 +164,63 @@ fn rest_without(
         tensions[*i] = ends.into();
     }
     let [before, after] = [from, &at.pose].map(|pose| UnitQuaternion::from_rotation_matrix(&pose.rotation));
-    let out_of_limits = tensions_out_of_limits(robot, std::slice::from_ref(&tensions));
-    let factor = |i: &usize| {
-        let force = robot.cables[*i].properties.breaking_force?;
-        Some((force / tensions[*i][0].max(tensions[*i][1]), *i))
-    };
     Ok(BrokenRest {
         pose: at.pose,
         moved: (at.pose.position - from.position).norm(),
         turned: before.angle_to(&after),
         slack: found.report.slack.iter().map(|i| kept[*i]).collect(),
-        out_of_limits: out_of_limits.into_iter().filter(|one| !broken.contains(&one.cable)).collect(),
-        safety_factor: kept.iter().filter_map(factor).min_by(|a, b| a.0.total_cmp(&b.0)),
+        out_of_limits: beyond(robot, broken, &tensions),
+        safety_factor: safety_factor(robot, &kept, &tensions),
         below_ground: is_below_floor(robot, &at.pose),
         residual: found.report.residual,
         tensions,
+    })
+}
+
+/// Tensions of the cables that are not broken beyond their limits.
+fn beyond(robot: &Robot, broken: &[usize], tensions: &Vec<[f64; 2]>) -> Vec<OutOfLimits> {
+    let found = tensions_out_of_limits(robot, std::slice::from_ref(tensions));
+    found.into_iter().filter(|one| !broken.contains(&one.cable)).collect()
+}
+
+/// Least breaking force over greatest tension of the cables that are kept.
+fn safety_factor(robot: &Robot, kept: &[usize], tensions: &[[f64; 2]]) -> Option<(f64, usize)> {
+    let factor = |i: &usize| {
+        let force = robot.cables[*i].properties.breaking_force?;
+        Some((force / tensions[*i][0].max(tensions[*i][1]), *i))
+    };
+    kept.iter().filter_map(factor).min_by(|a, b| a.0.total_cmp(&b.0))
+}
+
+/// How the platform swings for some time [s] after these cables part.
+fn swing_without(
+    robot: &Robot,
+    broken: &[usize],
+    held: &InverseSolution,
+    load: &Load,
+    until: f64,
+) -> Result<Swing, DynamicsError> {
+    let cut = |cable: &usize| Event { time: 0.0, change: Change::Cut { cable: *cable, at: CutAt::Anchor } };
+    let events: Vec<Event> = broken.iter().map(cut).collect();
+    let problem = DirectProblem::new(robot, &held.lengths, load)?;
+    let series = simulate(&problem, &held.equilibrium, &events, &Settings::until(until))?;
+    let kept: Vec<usize> = (0..robot.cables.len()).filter(|i| !broken.contains(i)).collect();
+    let mut tensions = vec![[0.0; 2]; robot.cables.len()];
+    for i in &kept {
+        let at_samples = |end: usize| series.samples.iter().map(move |sample| sample.tensions[*i][end]);
+        // Exit and anchor point; between samples the greater one may be greater still.
+        let [exit, anchor] = [0, 1].map(|end| at_samples(end).fold(0.0, f64::max));
+        let peak = series.peaks[*i].0;
+        tensions[*i] = if exit >= anchor { [anchor, peak] } else { [peak, exit] };
+    }
+    let from = held.equilibrium.pose.position;
+    let greatest = kept.iter().max_by(|a, b| series.peaks[**a].0.total_cmp(&series.peaks[**b].0));
+    Ok(Swing {
+        greatest: greatest.map_or((0.0, 0, 0.0), |i| (series.peaks[*i].0, *i, series.peaks[*i].1)),
+        moved: series.samples.iter().map(|sample| (sample.pose.position - from).norm()).fold(0.0, f64::max),
+        out_of_limits: beyond(robot, broken, &tensions),
+        safety_factor: safety_factor(robot, &kept, &tensions),
+        below_ground: series.samples.iter().any(|sample| is_below_floor(robot, &sample.pose)),
+        difference: series.difference,
     })
 }

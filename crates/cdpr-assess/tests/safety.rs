@@ -1,9 +1,12 @@
 //! Where the platform comes to rest when cables break: against the model of the robot that lacks them, and against
 //! a motion with damping.
 
-use cdpr_assess::safety_at;
-use cdpr_robot::{Coordinate, Pose, Robot};
-use cdpr_statics::{DirectProblem, DirectStart, Load, StaticsError, WantedPose};
+use cdpr_assess::{Breaks, safety_at};
+use cdpr_dynamics::simulate::{Change, CutAt, Event, Settings, simulate};
+use cdpr_robot::{Coordinate, Platform, Pose, Robot};
+use cdpr_statics::{DirectProblem, DirectStart, Load, StaticsError, WantedPose, inverse};
+
+const PAIRS: Breaks = Breaks { pairs: true, follow: None };
 
 fn robot(name: &str) -> Robot {
     let folder = if name == "stadium" { "docs/how-to/broken-cable" } else { "data/robots" };
@@ -27,7 +30,7 @@ fn robots() -> Vec<(Robot, Pose)> {
 fn every_rest_is_a_stable_equilibrium_of_the_robot_without_the_cable() {
     let mut rests = 0;
     for (robot, pose) in robots() {
-        let found = safety_at(&robot, WantedPose::at(&pose), &Load::none(), false).unwrap();
+        let found = safety_at(&robot, WantedPose::at(&pose), &Load::none(), Breaks::default()).unwrap();
         assert_eq!(found.broken.len(), robot.cables.len());
         for broken in &found.broken {
             let (Ok(rest), [gone]) = (&broken.rest, &broken.cables[..]) else { continue };
@@ -55,7 +58,7 @@ fn every_rest_is_a_stable_equilibrium_of_the_robot_without_the_cable() {
 fn the_potential_falls_from_the_pose_to_each_rest() {
     // The path of a strongly damped platform leads downhill: the rest of the whole robot, released, is its pose.
     for (robot, pose) in robots() {
-        let found = safety_at(&robot, WantedPose::at(&pose), &Load::none(), false).unwrap();
+        let found = safety_at(&robot, WantedPose::at(&pose), &Load::none(), Breaks::default()).unwrap();
         let problem = DirectProblem::new(&robot, &found.lengths, &Load::none()).unwrap();
         let whole = problem.direct(DirectStart::Released(&pose)).unwrap();
         let apart = (whole.equilibrium.pose.position - pose.position).norm();
@@ -67,7 +70,7 @@ fn the_potential_falls_from_the_pose_to_each_rest() {
 fn pairs_come_after_single_cables_and_the_ground_is_noticed() {
     let robot = robot("stadium");
     let pose = Pose::at(5.0, 3.0, 12.0);
-    let found = safety_at(&robot, WantedPose::at(&pose), &Load::none(), true).unwrap();
+    let found = safety_at(&robot, WantedPose::at(&pose), &Load::none(), PAIRS).unwrap();
     let sets: Vec<_> = found.broken.iter().map(|broken| broken.cables.clone()).collect();
     assert_eq!(sets[..5], [vec![0], vec![1], vec![2], vec![3], vec![0, 1]]);
     assert_eq!(sets.len(), 10);
@@ -75,10 +78,10 @@ fn pairs_come_after_single_cables_and_the_ground_is_noticed() {
         found.broken.iter().filter(|one| one.rest.as_ref().is_ok_and(|rest| rest.below_ground)).count()
     };
     let high = Robot { ground_z: Some(11.9), ..robot.clone() };
-    let above = safety_at(&high, WantedPose::at(&pose), &Load::none(), false).unwrap();
+    let above = safety_at(&high, WantedPose::at(&pose), &Load::none(), Breaks::default()).unwrap();
     assert!(below(&above) > 0);
     let deep = Robot { ground_z: Some(-1000.0), ..robot };
-    assert_eq!(below(&safety_at(&deep, WantedPose::at(&pose), &Load::none(), true).unwrap()), 0);
+    assert_eq!(below(&safety_at(&deep, WantedPose::at(&pose), &Load::none(), PAIRS).unwrap()), 0);
 }
 
 #[test]
@@ -86,12 +89,50 @@ fn a_robot_with_few_cables_rests_and_an_unheld_pose_is_refused() {
     let few = robot("four-cables");
     let pose = Pose::at(0.5, 0.3, 2.0);
     let wanted = WantedPose::at(&pose).free(&[Coordinate::Roll, Coordinate::Pitch]);
-    let found = safety_at(&few, wanted, &Load::none(), false).unwrap();
+    let found = safety_at(&few, wanted, &Load::none(), Breaks::default()).unwrap();
     assert_eq!(found.broken.len(), 4);
     assert!(found.broken.iter().all(|broken| broken.rest.is_ok()), "{found:?}");
-    let refused = safety_at(&few, WantedPose::at(&pose), &Load::none(), false);
+    let refused = safety_at(&few, WantedPose::at(&pose), &Load::none(), Breaks::default());
     assert!(matches!(refused, Err(StaticsError::FreeCoordinates { .. })), "{refused:?}");
-    let heavy =
-        safety_at(&robot("cogiro"), WantedPose::at(&Pose::at(0.0, 0.0, 2.0)), &Load::payload(1e7), false);
+    let heavy = safety_at(
+        &robot("cogiro"),
+        WantedPose::at(&Pose::at(0.0, 0.0, 2.0)),
+        &Load::payload(1e7),
+        Breaks::default(),
+    );
     assert!(matches!(heavy, Err(StaticsError::NoTensions { .. })), "{heavy:?}");
+}
+
+#[test]
+fn the_swing_exceeds_the_rest_and_is_that_of_the_simulation() {
+    for (robot, pose) in robots() {
+        let platform = Platform { inertia: Some(robot.assumed_inertia()), ..robot.platform };
+        let robot = Robot { platform, ..robot };
+        let breaks = Breaks { pairs: false, follow: Some(0.4) };
+        let found = safety_at(&robot, WantedPose::at(&pose), &Load::none(), breaks).unwrap();
+        let held = inverse(&robot, WantedPose::at(&pose), &Load::none()).unwrap();
+        let problem = DirectProblem::new(&robot, &held.lengths, &Load::none()).unwrap();
+        let first = found.broken[0].swing.as_ref().unwrap().as_ref().unwrap();
+        let cut = Event { time: 0.0, change: Change::Cut { cable: 0, at: CutAt::Anchor } };
+        let series = simulate(&problem, &held.equilibrium, &[cut], &Settings::until(0.4)).unwrap();
+        let peak = series.peaks[1..].iter().map(|peak| peak.0).fold(0.0, f64::max);
+        assert_eq!(first.greatest.0, peak, "{}", robot.name);
+        let last = series.samples.last().unwrap();
+        assert!(first.moved >= (last.pose.position - pose.position).norm() - 1e-9, "{}", robot.name);
+        assert_ne!(first.greatest.1, 0);
+    }
+}
+
+#[test]
+fn without_inertia_the_rest_is_there_and_the_swing_has_its_reason() {
+    let robot = robot("caroca");
+    let breaks = Breaks { pairs: false, follow: Some(0.1) };
+    let found = safety_at(&robot, WantedPose::at(&Pose::at(0.0, 0.0, 1.75)), &Load::none(), breaks).unwrap();
+    for broken in &found.broken {
+        assert!(broken.rest.is_ok());
+        assert!(
+            matches!(&broken.swing, Some(Err(error)) if error.to_string().contains("inertia")),
+            "{broken:?}"
+        );
+    }
 }

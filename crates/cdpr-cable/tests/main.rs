@@ -7,6 +7,7 @@ mod dual;
 mod guide_terms;
 mod guided;
 mod held;
+mod in_wind;
 mod longest_taut;
 mod piecewise;
 mod properties;

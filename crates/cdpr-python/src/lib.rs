@@ -43,6 +43,8 @@ mod _core {
     #[pymodule_export]
     use crate::robot::bearing::safety::Safety;
     #[pymodule_export]
+    use crate::robot::bearing::wind::RestInWind;
+    #[pymodule_export]
     use crate::robot::boundary::Boundary;
     #[pymodule_export]
     use crate::robot::certify::Certificate;

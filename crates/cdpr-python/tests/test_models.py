@@ -658,6 +658,18 @@ def test_answers_can_be_drawn(name):
         pyplot.close(figure)
 
 
+def test_the_wind_blows_on_cables():
+    robot = cdpr.Robot.from_file("cogiro")
+    one = robot.in_wind([0, 0, 2], [15, 0, 0])
+    assert one.drags.shape == (8, 3) and (one.drags[:, 0] > 0).all() and one.displacement[0] > 0
+    assert one.force_residual < 1e-6 and one.reasons is None
+    several = robot.in_wind([0, 0, 2], [[0, 0, 0], [15, 0, 0], [-15, 0, 0]], payload=[0, 0, 50])
+    assert several.magnitude.shape == (3,) and several.magnitude[0] < 1e-8
+    assert several.magnitude[1] == one.magnitude and several.magnitude[2] > several.magnitude[1]
+    with pytest.raises(cdpr.InputError, match="at most 120 m/s"):
+        robot.in_wind([0, 0, 2], [500, 0, 0])
+
+
 def test_the_platform_rests_when_a_cable_breaks(caroca):
     one = caroca.safety(POSE)
     assert one.broken == [str(i) for i in range(1, 9)] and set(one.endings) == {"held"}
@@ -669,3 +681,14 @@ def test_the_platform_rests_when_a_cable_breaks(caroca):
     assert several.kinds[0] is None and several.kinds[1] is not None and numpy.isnan(several.moved[1]).all()
     with pytest.raises(cdpr.NoSolutionError):
         caroca.safety([0, 0, 1e3])
+    with pytest.raises(cdpr.InputError, match="inertia"):
+        caroca.safety(POSE, swing=0.1)
+
+
+def test_the_platform_swings_when_a_cable_breaks():
+    robot = cdpr.Robot.from_file("cogiro")
+    found = robot.safety([0, 0, 2], swing=0.3)
+    assert (found.peak_tension >= found.tensions.max(axis=1) * 0.2).all() and (found.swing_moved > 0).all()
+    assert numpy.isnan(robot.safety([0, 0, 2]).peak_tension).all()
+    with pytest.raises(cdpr.InputError, match="above 0, up to 60 s"):
+        robot.safety([0, 0, 2], swing=-1)

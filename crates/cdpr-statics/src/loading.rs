@@ -6,6 +6,7 @@ mod hysteresis;
 mod modes;
 mod small_motions;
 mod stiffness;
+mod wind;
 
 pub use deflection::{Deflection, deflection, deflection_from, set_point_lengths};
 pub(crate) use deflection::{SetPointLengths, lengths_at_rest, lengths_with_free};
@@ -14,3 +15,4 @@ pub use hysteresis::{CycleStep, HysteresisLaw, LoadCycle, Unloading, load_cycle}
 pub use modes::{CableFrequency, NaturalMode, PoseModes, modes_at};
 pub use small_motions::{CableAtRest, SmallMotions};
 pub use stiffness::{PoseStiffness, stiffness_at};
+pub use wind::{RestInWind, Wind};

@@ -23,6 +23,7 @@ mod grab;
 mod gravity;
 mod greatest;
 mod hysteresis;
+mod in_wind;
 mod inverse;
 mod model_properties;
 mod models;

@@ -27,5 +27,10 @@ fn peak_memory(observations: usize) -> u64 {
 #[test]
 fn memory_does_not_grow_with_the_number_of_observations() {
     let (few, many) = (peak_memory(KEPT + 8_192), peak_memory(2 * KEPT));
-    assert!(many as f64 <= 1.1 * few as f64, "{few} bytes of {} observations, {many} of {}", KEPT + 8_192, 2 * KEPT);
+    assert!(
+        many as f64 <= 1.1 * few as f64,
+        "{few} bytes of {} observations, {many} of {}",
+        KEPT + 8_192,
+        2 * KEPT
+    );
 }

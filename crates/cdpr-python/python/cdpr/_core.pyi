@@ -1249,13 +1249,14 @@ class Robot:
         force: _Row | None = None,
         moment: _Row | None = None,
         pairs: bool = False,
+        swing: float | None = None,
         free: Sequence[str] | None = None,
     ) -> Safety[None]:
         """Finds where the platform comes to rest when a cable breaks, and whether the others bear that.
 
         The winches keep the lengths that hold the pose. The rest is the equilibrium downhill of the pose; on the
-        way there the platform swings and tensions are greater: `Robot.simulate` follows it. Arguments are of one
-        case, or have a first axis of m cases.
+        way there the platform swings and tensions are greater; with `swing` that motion is followed, without
+        damping. Arguments are of one case, or have a first axis of m cases.
 
         Parameters
         ----------
@@ -1267,6 +1268,8 @@ class Robot:
             On the platform in the base frame, about P [N, N m], (3,).
         pairs : bool, default False
             Whether every pair of cables breaks, too.
+        swing : float, optional
+            For how long the motion after each break is followed [s], up to 60.
         free : sequence of str, optional
             Names of the coordinates of the pose that are found, for a robot with fewer cables than free
             motions, as `Robot.inverse` takes them.
@@ -1299,8 +1302,71 @@ class Robot:
         force: ArrayLike | None = None,
         moment: ArrayLike | None = None,
         pairs: bool = False,
+        swing: float | None = None,
         free: Sequence[str] | None = None,
     ) -> Safety[_Words]: ...
+    @overload
+    def in_wind(  # type: ignore[overload-overlap]
+        self,
+        pose: _Row,
+        wind: _Row,
+        *,
+        payload: float | None = None,
+        force: _Row | None = None,
+        moment: _Row | None = None,
+        free: Sequence[str] | None = None,
+    ) -> RestInWind[float, None]:
+        """Finds where the platform rests when the wind blows on its cables, with the lengths kept.
+
+        The cables are wound so that the platform rests at the pose under its own weight, without wind. The drag is
+        that of round ropes with a coefficient of 1.2 in air of 1.225 kg/m³; with others, take the wind that is
+        sqrt(density coefficient/1.47) times as fast. Wind on the platform itself is a `force`. Arguments are of one
+        case, or have a first axis of m cases.
+
+        Parameters
+        ----------
+        pose : array_like
+            Wanted pose under the platform's own weight, (3,) or (7,).
+        wind : array_like
+            Velocity of the wind in the base frame [m/s], (3,).
+        payload : array_like, optional
+            Mass added at the platform's centre of mass [kg].
+        force, moment : array_like, optional
+            On the platform in the base frame, about P [N, N m], (3,).
+        free : sequence of str, optional
+            Names of the coordinates of the pose that are found, for a robot with fewer cables than free
+            motions, as `Robot.inverse` takes them.
+
+        Returns
+        -------
+        RestInWind
+            Displacements, tensions and the force of the wind on each cable.
+
+        Raises
+        ------
+        InputError
+            For an invalid value; the message names it and what would be right.
+        NoSolutionError
+            For one case without an answer; of several, its row has NaN and a reason.
+
+        Examples
+        --------
+        >>> import cdpr
+        >>> robot = cdpr.Robot.from_file("cogiro")
+        >>> robot.in_wind([0, 0, 2], [15, 0, 0]).drags.shape  # [N]
+        (8, 3)
+        """
+    @overload
+    def in_wind(
+        self,
+        pose: ArrayLike,
+        wind: ArrayLike,
+        *,
+        payload: ArrayLike | None = None,
+        force: ArrayLike | None = None,
+        moment: ArrayLike | None = None,
+        free: Sequence[str] | None = None,
+    ) -> RestInWind[_Floats, _Words]: ...
     @overload
     def certify(  # type: ignore[overload-overlap]
         self,
@@ -2243,6 +2309,78 @@ class Capacity(Generic[_N, _R]):
         """The kind of each failure, in the same form: `infeasible_tension`, ..."""
 
 @final
+class RestInWind(Generic[_N, _R]):
+    """A platform at rest whose cables hang in the wind.
+
+    The answer is of one case, or of m: then every field has a first axis of m, with NaN where there is no
+    answer, and `reasons` says why.
+    """
+
+    def __new__(cls, *fields: Any) -> RestInWind: ...
+    def __class_getitem__(cls, number: Any) -> GenericAlias: ...
+    def plot(self) -> Any:
+        """Draws the answer: of one case a bar for each element, of several a line over the cases.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            The figure.
+        """
+    def to_dataframe(self) -> Any:
+        """Makes a frame with a row for each case and columns of numbers and words.
+
+        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
+        name: `magnitude/a1.x`.
+
+        Returns
+        -------
+        pandas.DataFrame
+            The frame.
+        """
+    @property
+    def displacement(self) -> _Floats:
+        """Displacement of P from the pose without load and wind [m], (3,)."""
+    @property
+    def magnitude(self) -> _N:
+        """Its norm [m]."""
+    @property
+    def rotation(self) -> _Floats:
+        """Rotation vector from the platform without load and wind, in the base frame [rad], (3,)."""
+    @property
+    def pose(self) -> _Floats:
+        """Pose: x, y, z [m], qw, qx, qy, qz, (7,)."""
+    @property
+    def lengths(self) -> _Floats:
+        """Unstrained lengths of the cables [m], (n,)."""
+    @property
+    def tensions(self) -> _Floats:
+        """Tensions at the platform [N], (n,)."""
+    @property
+    def exit_tensions(self) -> _Floats:
+        """Tensions at the exit points [N], (n,)."""
+    @property
+    def drags(self) -> _Floats:
+        """Force of the wind on each cable [N], (n, 3)."""
+    @property
+    def force_residual(self) -> _N:
+        """Unbalanced force on the platform [N]."""
+    @property
+    def moment_residual(self) -> _N:
+        """Unbalanced moment about P [N m]."""
+    @property
+    def closure_residual(self) -> _N:
+        """Largest distance between the end of a cable and its anchor point [m]."""
+    @property
+    def integration(self) -> _N:
+        """Largest error of the integration along a cable [m]."""
+    @property
+    def reasons(self) -> _R:
+        """Why there is no answer, None where there is one; None for one case."""
+    @property
+    def kinds(self) -> _R:
+        """The kind of each failure, in the same form: `infeasible_tension`, ..."""
+
+@final
 class Safety(Generic[_R]):
     """What becomes of the platform when cables break, while the winches stand still.
 
@@ -2298,6 +2436,14 @@ class Safety(Generic[_R]):
     @property
     def safety_factor(self) -> _Floats:
         """Least breaking force over greatest tension, (k,); NaN where no breaking force is known."""
+    @property
+    def swing_moved(self) -> _Floats:
+        """Greatest distance of the platform from the pose in the motion that follows [m], (k,); NaN unless
+        `swing` is given.
+        """
+    @property
+    def peak_tension(self) -> _Floats:
+        """Greatest tension of the other cables in that motion, at either end [N], (k,)."""
     @property
     def reasons(self) -> _R:
         """Why there is no answer, None where there is one; None for one pose."""

@@ -1,4 +1,5 @@
-//! What the cables bear: loads, and each other's break.
+//! What the cables bear: loads, each other's break, and wind.
 
 pub(crate) mod capacity;
 pub(crate) mod safety;
+pub(crate) mod wind;

@@ -1,9 +1,9 @@
 //! `Robot.safety`: what becomes of the platform when a cable breaks.
 
-use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each, plotted};
+use crate::convert::{Answer, Columns, Loads, Numbers, Raised, Rows, answer, each, plotted};
 use crate::robot::Robot;
 use crate::robot::inverse::coordinates;
-use cdpr_assess::{Broken, BrokenRest, Safety as Found, safety_at};
+use cdpr_assess::{Breaks, Broken, BrokenRest, Safety as Found, Swing, safety_at};
 use cdpr_statics::WantedPose;
 use pyo3::prelude::*;
 
@@ -32,6 +32,11 @@ answer! {
         exit_tensions: Py<PyAny>,
         /// Least breaking force over greatest tension, (k,); NaN where no breaking force is known.
         safety_factor: Py<PyAny>,
+        /// Greatest distance of the platform from the pose in the motion that follows [m], (k,); NaN unless
+        /// `swing` is given.
+        swing_moved: Py<PyAny>,
+        /// Greatest tension of the other cables in that motion, at either end [N], (k,).
+        peak_tension: Py<PyAny>,
         /// Why there is no answer, None where there is one; None for one pose.
         reasons: Py<PyAny>,
         /// The kind of each failure, in the same form: `infeasible_tension`, ...
@@ -43,13 +48,19 @@ plotted!(Safety);
 
 /// How a break ends, in one word.
 fn ending(broken: &Broken) -> String {
+    let swing = followed(broken);
     let word = match &broken.rest {
         Err(error) => error.kind(),
-        Ok(rest) if rest.is_overloaded() => "overloaded",
-        Ok(rest) if rest.below_ground => "below_ground",
+        Ok(rest) if rest.is_overloaded() || swing.is_some_and(Swing::is_overloaded) => "overloaded",
+        Ok(rest) if rest.below_ground || swing.is_some_and(|swing| swing.below_ground) => "below_ground",
         Ok(_) => "held",
     };
     word.to_owned()
+}
+
+/// The motion, where it is known.
+fn followed(broken: &Broken) -> Option<&Swing> {
+    broken.swing.as_ref()?.as_ref().ok()
 }
 
 fn name(broken: &Broken) -> String {
@@ -61,8 +72,8 @@ impl Robot {
     /// Finds where the platform comes to rest when a cable breaks, and whether the others bear that.
     ///
     /// The winches keep the lengths that hold the pose. The rest is the equilibrium downhill of the pose; on the
-    /// way there the platform swings and tensions are greater: `Robot.simulate` follows it. Arguments are of one
-    /// case, or have a first axis of m cases.
+    /// way there the platform swings and tensions are greater; with `swing` that motion is followed, without
+    /// damping. Arguments are of one case, or have a first axis of m cases.
     ///
     /// Parameters
     /// ----------
@@ -74,6 +85,8 @@ impl Robot {
     ///     On the platform in the base frame, about P [N, N m], (3,).
     /// pairs : bool, default False
     ///     Whether every pair of cables breaks, too.
+    /// swing : float, optional
+    ///     For how long the motion after each break is followed [s], up to 60.
     /// free : sequence of str, optional
     ///     Names of the coordinates of the pose that are found, for a robot with fewer cables than free
     ///     motions, as `Robot.inverse` takes them.
@@ -96,7 +109,7 @@ impl Robot {
     /// >>> robot = cdpr.Robot.from_file("cogiro")
     /// >>> robot.safety([0, 0, 2]).moved.shape  # [m]
     /// (8,)
-    #[pyo3(signature = (pose, *, payload=None, force=None, moment=None, pairs=false, free=None))]
+    #[pyo3(signature = (pose, *, payload=None, force=None, moment=None, pairs=false, swing=None, free=None))]
     #[allow(clippy::too_many_arguments)]
     fn safety(
         &self,
@@ -106,14 +119,24 @@ impl Robot {
         force: Option<Numbers>,
         moment: Option<Numbers>,
         pairs: bool,
+        swing: Option<f64>,
         free: Option<Vec<String>>,
     ) -> Answer<Safety> {
         let free = coordinates(free)?;
         let poses = Rows::poses("pose", &pose, &self.robot)?;
         let loads = Loads::new(force.as_ref(), moment.as_ref(), payload.as_ref(), &self.robot)?;
         let cases = loads.cases([&poses])?;
+        if swing.is_some_and(|time| !(time > 0.0 && time <= 60.0)) {
+            let given = swing.unwrap_or_default();
+            return Err(Raised::Input(format!("swing is {given}: expected a time above 0, up to 60 s")));
+        }
+        if swing.is_some() && self.robot.lacks_inertia() {
+            let message = "platform.inertia is not given: a motion, `swing`, needs it";
+            return Err(Raised::Input(message.to_owned()));
+        }
+        let breaks = Breaks { pairs, follow: swing };
         let outcomes = each(py, cases.count, |case| {
-            safety_at(&self.robot, WantedPose::at(&poses.pose(case)?).free(&free), &loads.load(case)?, pairs)
+            safety_at(&self.robot, WantedPose::at(&poses.pose(case)?).free(&free), &loads.load(case)?, breaks)
         })?;
         let all = Columns::new(py, cases, &outcomes)?;
         let cables = self.robot.cables.len();
@@ -133,6 +156,13 @@ impl Robot {
                 out.iter_mut().zip(&rest.tensions).for_each(|(out, ends)| *out = ends[end]);
             })
         };
+        let of_swing = |of: &dyn Fn(&Swing) -> f64| {
+            all.numbers(&[count], |found: &Found, out| {
+                for (out, broken) in out.iter_mut().zip(&found.broken) {
+                    *out = followed(broken).map_or(f64::NAN, of);
+                }
+            })
+        };
         Ok(Safety {
             broken: all.lists(|found| found.broken.iter().map(name).collect())?,
             endings: all.lists(|found| found.broken.iter().map(ending).collect())?,
@@ -147,6 +177,8 @@ impl Robot {
             safety_factor: numbers(1, &|rest, out| {
                 out[0] = rest.safety_factor.map_or(f64::NAN, |(factor, _)| factor);
             })?,
+            swing_moved: of_swing(&|swing| swing.moved)?,
+            peak_tension: of_swing(&|swing| swing.greatest.0)?,
             reasons: all.reasons(),
             kinds: all.kinds(),
         })

@@ -1,14 +1,16 @@
 //! `cdpr safety`: what becomes of the platform when a cable breaks.
 
 use crate::program::answer::{OutOfLimits, Residual, decimal, numbers};
-use crate::program::arguments::{FreeArguments, With, with};
+use crate::program::arguments::{FreeArguments, With, number, with};
 use crate::program::error::ProgramError;
 use crate::program::output::{Ending, print_sentence, table};
 use crate::program::pose::at_pose::{Failure, RobotAtPose, Row};
-use cdpr_assess::{Broken, BrokenRest, Safety, safety_at};
+use crate::program::pose::modes::with_inertia;
+use cdpr_assess::{Breaks, Broken, BrokenRest, Safety, Swing, safety_at};
 use cdpr_robot::{Pose, Robot, significant};
 use cdpr_statics::WantedPose;
 use serde::Serialize;
+use std::borrow::Cow;
 
 /// The robot, its poses, and what breaks.
 #[derive(clap::Args)]
@@ -17,21 +19,37 @@ pub(crate) struct Settings {
     at: RobotAtPose,
     #[command(flatten)]
     free: FreeArguments,
-    /// pairs: break every pair of cables, too.
+    /// pairs: break every pair of cables, too. swing=SECONDS: follow the motion after each break for so long,
+    /// without damping.
     #[arg(long, value_name = "NAMES", value_parser = with)]
     with: Option<With>,
 }
 
 pub(crate) fn run(Settings { at, free, with }: &Settings) -> Result<Ending, ProgramError> {
     let with = with.clone().unwrap_or_default();
-    with.check(&["pairs"])?;
-    let (load, pairs) = (at.load.load(), with.has("pairs")?);
+    with.check(&["pairs", "swing"])?;
+    let load = at.load.load();
+    let breaks = Breaks { pairs: with.has("pairs")?, follow: with.value("swing", None, time)? };
     let solve = |robot: &Robot, pose: &Pose| {
-        let found = safety_at(robot, WantedPose::at(pose).free(&free.free), &load, pairs)?;
+        let robot = if breaks.follow.is_some() { with_inertia(robot) } else { Cow::Borrowed(robot) };
+        let found = safety_at(&robot, WantedPose::at(pose).free(&free.free), &load, breaks)?;
         Ok(Answer::from(found))
     };
     at.answer(solve, Answer::print)
 }
+
+/// A time [s] for which a motion is followed.
+fn time(text: &str) -> Result<f64, String> {
+    let time = number(text)?;
+    if time > 0.0 && time <= LONGEST {
+        Ok(time)
+    } else {
+        Err(format!("expected a time above 0, up to {LONGEST} s"))
+    }
+}
+
+/// Longest time for which the motion after a break is followed [s].
+const LONGEST: f64 = 60.0;
 
 /// The robot with each cable broken.
 #[derive(Serialize)]
@@ -52,6 +70,35 @@ struct Case {
     rest: Option<Rest>,
     #[serde(skip_serializing_if = "Option::is_none")]
     error: Option<Failure>,
+    /// The motion after the break, if it is followed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    swing: Option<Motion>,
+}
+
+/// How the platform swings, or why that is not known.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Motion {
+    Followed(Swinging),
+    Failed { error: String },
+}
+
+/// How the platform swings.
+#[derive(Serialize)]
+struct Swinging {
+    /// Greatest distance from where it was [m].
+    moved: f64,
+    greatest_tension: Greatest,
+    /// When that is [s].
+    time: f64,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    out_of_limits: Vec<OutOfLimits>,
+    safety_factor: Option<f64>,
+    below_ground: bool,
+    /// Difference of two computations in the tensions [N].
+    tension_difference: f64,
+    #[serde(skip)]
+    overloaded: bool,
 }
 
 /// Where the platform comes to rest.
@@ -106,12 +153,32 @@ impl From<BrokenRest> for Rest {
     }
 }
 
+impl From<Swing> for Swinging {
+    fn from(swing: Swing) -> Self {
+        let (tension, cable, time) = swing.greatest;
+        Self {
+            moved: swing.moved,
+            greatest_tension: Greatest { cable: cable + 1, tension },
+            time,
+            overloaded: swing.is_overloaded(),
+            out_of_limits: swing.out_of_limits.into_iter().map(OutOfLimits::new).collect(),
+            safety_factor: swing.safety_factor.map(|(factor, _)| factor),
+            below_ground: swing.below_ground,
+            tension_difference: swing.difference.tension,
+        }
+    }
+}
+
 impl From<Broken> for Case {
-    fn from(Broken { cables, rest }: Broken) -> Self {
+    fn from(Broken { cables, rest, swing }: Broken) -> Self {
         let cables = cables.into_iter().map(|i| i + 1).collect();
+        let swing = swing.map(|swing| match swing {
+            Ok(swing) => Motion::Followed(swing.into()),
+            Err(error) => Motion::Failed { error: error.to_string() },
+        });
         match rest {
-            Ok(rest) => Self { cables, rest: Some(rest.into()), error: None },
-            Err(error) => Self { cables, rest: None, error: Some(error.into()) },
+            Ok(rest) => Self { cables, rest: Some(rest.into()), error: None, swing },
+            Err(error) => Self { cables, rest: None, error: Some(error.into()), swing },
         }
     }
 }
@@ -128,15 +195,30 @@ impl Case {
         format!("cable{} {}", if self.cables.len() > 1 { "s" } else { "" }, numbers(&self.cables))
     }
 
-    /// What is wrong without these cables.
+    /// The motion, where it is known.
+    fn swinging(&self) -> Option<&Swinging> {
+        match &self.swing {
+            Some(Motion::Followed(swing)) => Some(swing),
+            _ => None,
+        }
+    }
+
+    /// What is wrong without these cables, at rest or on the way there.
     fn wrong(&self) -> Option<String> {
         let Some(rest) = &self.rest else { return Some("no rest was found".to_owned()) };
-        let beyond = rest.out_of_limits.iter().filter(|_| rest.overloaded);
-        let beyond = beyond.min_by_key(|one| one.limit != "breaking_force").map(|one| match one.limit {
-            "breaking_force" => format!("cable {} breaks, too", one.cable),
-            _ => format!("cable {} is above its greatest tension", one.cable),
+        let swing = self.swinging();
+        let at_rest = rest.out_of_limits.iter().filter(|_| rest.overloaded).map(|one| (one, ""));
+        let swinging = swing.filter(|swing| swing.overloaded).map_or(&[][..], |swing| &swing.out_of_limits);
+        let beyond = at_rest.chain(swinging.iter().map(|one| (one, " on the way")));
+        let beyond = beyond.min_by_key(|(one, _)| one.limit != "breaking_force");
+        let beyond = beyond.map(|(one, when)| match one.limit {
+            "breaking_force" => format!("cable {} breaks, too{when}", one.cable),
+            _ => format!("cable {} is above its greatest tension{when}", one.cable),
         });
-        beyond.or_else(|| rest.below_ground.then(|| "the platform comes below the ground".to_owned()))
+        let below = rest.below_ground || swing.is_some_and(|swing| swing.below_ground);
+        beyond.or_else(|| below.then(|| "the platform comes below the ground".to_owned())).or_else(|| {
+            matches!(self.swing, Some(Motion::Failed { .. })).then(|| "its motion is not known".to_owned())
+        })
     }
 
     /// What is to be said of it in a table.
@@ -199,15 +281,24 @@ impl Answer {
             let tension = significant(tension, 4);
             format!("Tensions at rest reach {tension} N, in cable {cable} without {}.", case.name())
         });
-        [Some(first), moved, tension].into_iter().flatten().collect()
+        let peaks = self.broken.iter().filter_map(|case| Some((case.swinging()?.greatest_tension, case)));
+        let peak = peaks.max_by(|a, b| a.0.tension.total_cmp(&b.0.tension)).map(|(peak, case)| {
+            let tension = significant(peak.tension, 4);
+            format!("On the way they reach {tension} N, in cable {} without {}.", peak.cable, case.name())
+        });
+        [Some(first), moved, tension, peak].into_iter().flatten().collect()
     }
 
     fn print(&self, heading: &str) {
         for sentence in self.sentences(heading) {
             print_sentence(&sentence);
         }
-        let mut rows =
-            table(&["broken", "moves [m]", "turns [deg]", "greatest [N]", "in cable", "factor", ""]);
+        let followed = self.broken.iter().any(|case| case.swing.is_some());
+        let mut names = vec!["broken", "moves [m]", "turns [deg]", "greatest [N]", "in cable", "factor", ""];
+        if followed {
+            names.splice(6..6, ["swings [m]", "peak [N]"]);
+        }
+        let mut rows = table(&names);
         for case in &self.broken {
             let figures = case.rest.as_ref().map(|rest| {
                 let Greatest { cable, tension } = rest.greatest_tension;
@@ -221,13 +312,20 @@ impl Answer {
                 ]
             });
             let figures = figures.unwrap_or_default();
-            rows.add_row([numbers(&case.cables)].into_iter().chain(figures).chain([case.remark()]));
+            let swing = case
+                .swinging()
+                .map(|swing| [significant(swing.moved, 4), significant(swing.greatest_tension.tension, 4)]);
+            let swing = swing.unwrap_or_default().into_iter().filter(|_| followed);
+            let cells = [numbers(&case.cables)].into_iter().chain(figures).chain(swing);
+            rows.add_row(cells.chain([case.remark()]));
         }
         println!("{rows}");
-        print_sentence(
+        print_sentence(if followed {
+            "The winches stand still. Swings and peaks are those of the time that was followed, without damping."
+        } else {
             "These are rests while the winches stand still. On the way there the platform swings and tensions \
-             are greater: `cdpr simulate` follows it.",
-        );
+             are greater: --with swing=SECONDS follows it."
+        });
     }
 }
 
@@ -245,6 +343,10 @@ impl Row for Answer {
             "overloaded_without",
             "below_ground_without",
             "no_rest_without",
+            "swing_moved_m",
+            "peak_tension_n",
+            "peak_tension_cable",
+            "peak_tension_without",
         ]
         .map(str::to_owned)
         .into()
@@ -271,7 +373,15 @@ impl Row for Answer {
             self.names(|case| case.rest.is_none()),
         ];
         let [moved, turned] = [self.greatest(|rest| rest.moved), self.greatest(|rest| rest.turned_deg)];
-        without(moved).into_iter().chain(without(turned)).chain(last).collect()
+        let swings: Vec<_> = self.broken.iter().filter_map(|case| Some((case.swinging()?, case))).collect();
+        let far = swings.iter().map(|(swing, _)| swing.moved).max_by(f64::total_cmp);
+        let tension = |swing: &Swinging| swing.greatest_tension.tension;
+        let peak = swings.iter().max_by(|a, b| tension(a.0).total_cmp(&tension(b.0)));
+        let [value, case] = without(peak.map(|(swing, case)| (tension(swing), *case)));
+        let far = far.map_or_else(String::new, |far| format!("{far:?}"));
+        let cable = peak.map_or_else(String::new, |(swing, _)| swing.greatest_tension.cable.to_string());
+        let swing = [far, value, cable, case];
+        without(moved).into_iter().chain(without(turned)).chain(last).chain(swing).collect()
     }
 
     fn out_of_limits(&self) -> Vec<&[OutOfLimits]> {

@@ -1,0 +1,92 @@
+//! Cables in wind.
+
+use cdpr_cable::{Cable, CableError, CableInWind, Matrix3, Vector3, spatial_end_force};
+use cdpr_evidence::accept;
+use serde_json::Value;
+
+struct Case {
+    kind: String,
+    weight_per_length: f64,
+    length: f64,
+    end: Vector3<f64>,
+    cable: CableInWind<'static>,
+    exit_force: Vector3<f64>,
+    anchor_force: Vector3<f64>,
+}
+
+fn cases() -> Vec<Case> {
+    let reference: Value = serde_json::from_str(include_str!("../../../data/reference/wind.json")).unwrap();
+    let cables = reference["cables"].as_array().unwrap();
+    assert_eq!(cables.len(), 7);
+    let case = |of: &Value| {
+        let number = |key: &str| of[key].as_f64().unwrap();
+        let vector = |key: &str| Vector3::from(serde_json::from_value::<[f64; 3]>(of[key].clone()).unwrap());
+        let (weight_per_length, length) = (number("weight_per_length"), number("length"));
+        let cable = CableInWind {
+            cable: Cable::linear(weight_per_length, number("axial_stiffness")),
+            weight: Vector3::new(0.0, 0.0, -weight_per_length),
+            velocity: vector("wind"),
+            drag: 0.5 * 1.225 * 1.2 * number("diameter"),
+            unstrained_length: length,
+            guided: 0.0,
+        };
+        let [end, exit_force, anchor_force] = ["end", "exit_force", "anchor_force"].map(vector);
+        let kind = of["kind"].as_str().unwrap().to_owned();
+        Case { kind, weight_per_length, length, end, cable, exit_force, anchor_force }
+    };
+    cables.iter().map(case).collect()
+}
+
+impl Case {
+    /// The force at the exit point without wind.
+    fn still(&self) -> Vector3<f64> {
+        let force = spatial_end_force(&self.cable.cable, self.length, self.end, None).unwrap().force;
+        force - Vector3::new(0.0, 0.0, self.weight_per_length * self.length)
+    }
+}
+
+#[test]
+fn forces_are_those_of_an_independent_integration() {
+    for case in cases() {
+        let held = case.cable.held_at(case.end, case.still()).unwrap();
+        assert!(held.closure < 1e-10 && held.error < 1e-10 * case.length, "{}: {held:?}", case.kind);
+        let apart = [held.exit_force - case.exit_force, held.anchor_force - case.anchor_force];
+        let error = apart.map(|apart| apart.norm()).into_iter().fold(0.0, f64::max);
+        accept("V-CABLE-010", error / case.anchor_force.norm());
+    }
+}
+
+#[test]
+fn without_wind_it_is_the_catenary() {
+    for case in cases() {
+        let cable = CableInWind { velocity: Vector3::zeros(), ..case.cable };
+        let held = cable.held_at(case.end, 1.3 * case.still()).unwrap();
+        assert!((held.exit_force - case.still()).norm() < 1e-8 * case.still().norm(), "{}", case.kind);
+        assert!(held.drag.norm() < 1e-9 * case.still().norm(), "{}", case.kind);
+    }
+}
+
+#[test]
+fn the_stiffness_is_the_derivative_of_the_force() {
+    for case in cases() {
+        let at = |end| case.cable.held_at(end, case.exit_force).unwrap();
+        let stiffness = at(case.end).stiffness;
+        let step = 1e-5 * case.length;
+        let column = |k: usize| {
+            let aside = Vector3::ith(k, step);
+            (at(case.end + aside).anchor_force - at(case.end - aside).anchor_force) / (2.0 * step)
+        };
+        let differences = Matrix3::from_columns(&[column(0), column(1), column(2)]);
+        assert!((stiffness - differences).norm() < 1e-4 * stiffness.norm(), "{}", case.kind);
+    }
+}
+
+#[test]
+fn what_has_no_answer_says_so() {
+    let case = &cases()[0];
+    let cable = CableInWind { unstrained_length: 7.0, ..case.cable };
+    let error = cable.held_at(case.end, case.still()).unwrap_err();
+    assert!(matches!(error, CableError::Overstrained { .. }), "{error}");
+    let error = case.cable.held_at(case.end, Vector3::repeat(f64::NAN)).unwrap_err();
+    assert!(matches!(error, CableError::NotConverged { .. }), "{error}");
+}

@@ -1,0 +1,149 @@
+//! `Robot.in_wind`: where the platform rests when the wind blows on its cables.
+
+use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each, plotted};
+use crate::robot::Robot;
+use crate::robot::inverse::coordinates;
+use cdpr_robot::{Vector3, Vector6};
+use cdpr_statics::wind::{RestInWind as Rest, Wind};
+use cdpr_statics::{DirectProblem, StaticsError, WantedPose, deflection};
+use pyo3::prelude::*;
+
+answer! {
+    /// A platform at rest whose cables hang in the wind.
+    ///
+    /// The answer is of one case, or of m: then every field has a first axis of m, with NaN where there is no
+    /// answer, and `reasons` says why.
+    #[pyclass(frozen, get_all, module = "cdpr")]
+    pub(crate) struct RestInWind {
+        /// Displacement of P from the pose without load and wind [m], (3,).
+        displacement: Py<PyAny>,
+        /// Its norm [m].
+        magnitude: Py<PyAny>,
+        /// Rotation vector from the platform without load and wind, in the base frame [rad], (3,).
+        rotation: Py<PyAny>,
+        /// Pose: x, y, z [m], qw, qx, qy, qz, (7,).
+        pose: Py<PyAny>,
+        /// Unstrained lengths of the cables [m], (n,).
+        lengths: Py<PyAny>,
+        /// Tensions at the platform [N], (n,).
+        tensions: Py<PyAny>,
+        /// Tensions at the exit points [N], (n,).
+        exit_tensions: Py<PyAny>,
+        /// Force of the wind on each cable [N], (n, 3).
+        drags: Py<PyAny>,
+        /// Unbalanced force on the platform [N].
+        force_residual: Py<PyAny>,
+        /// Unbalanced moment about P [N m].
+        moment_residual: Py<PyAny>,
+        /// Largest distance between the end of a cable and its anchor point [m].
+        closure_residual: Py<PyAny>,
+        /// Largest error of the integration along a cable [m].
+        integration: Py<PyAny>,
+        /// Why there is no answer, None where there is one; None for one case.
+        reasons: Py<PyAny>,
+        /// The kind of each failure, in the same form: `infeasible_tension`, ...
+        kinds: Py<PyAny>,
+    }
+}
+
+plotted!(RestInWind);
+
+struct Found {
+    motion: Vector6<f64>,
+    lengths: Vec<f64>,
+    rest: Rest,
+}
+
+#[pymethods]
+impl Robot {
+    /// Finds where the platform rests when the wind blows on its cables, with the lengths kept.
+    ///
+    /// The cables are wound so that the platform rests at the pose under its own weight, without wind. The drag is
+    /// that of round ropes with a coefficient of 1.2 in air of 1.225 kg/m³; with others, take the wind that is
+    /// sqrt(density coefficient/1.47) times as fast. Wind on the platform itself is a `force`. Arguments are of one
+    /// case, or have a first axis of m cases.
+    ///
+    /// Parameters
+    /// ----------
+    /// pose : array_like
+    ///     Wanted pose under the platform's own weight, (3,) or (7,).
+    /// wind : array_like
+    ///     Velocity of the wind in the base frame [m/s], (3,).
+    /// payload : array_like, optional
+    ///     Mass added at the platform's centre of mass [kg].
+    /// force, moment : array_like, optional
+    ///     On the platform in the base frame, about P [N, N m], (3,).
+    /// free : sequence of str, optional
+    ///     Names of the coordinates of the pose that are found, for a robot with fewer cables than free
+    ///     motions, as `Robot.inverse` takes them.
+    ///
+    /// Returns
+    /// -------
+    /// RestInWind
+    ///     Displacements, tensions and the force of the wind on each cable.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     For an invalid value; the message names it and what would be right.
+    /// NoSolutionError
+    ///     For one case without an answer; of several, its row has NaN and a reason.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import cdpr
+    /// >>> robot = cdpr.Robot.from_file("cogiro")
+    /// >>> robot.in_wind([0, 0, 2], [15, 0, 0]).drags.shape  # [N]
+    /// (8, 3)
+    #[pyo3(signature = (pose, wind, *, payload=None, force=None, moment=None, free=None))]
+    #[allow(clippy::too_many_arguments)]
+    fn in_wind(
+        &self,
+        py: Python,
+        pose: Numbers,
+        wind: Numbers,
+        payload: Option<Numbers>,
+        force: Option<Numbers>,
+        moment: Option<Numbers>,
+        free: Option<Vec<String>>,
+    ) -> Answer<RestInWind> {
+        let (robot, free) = (&self.robot, coordinates(free)?);
+        let poses = Rows::poses("pose", &pose, robot)?;
+        let winds = Rows::components::<3>("wind", Some(&wind))?.finite()?;
+        let loads = Loads::new(force.as_ref(), moment.as_ref(), payload.as_ref(), robot)?;
+        let cases = loads.cases([&poses, &winds])?;
+        let outcomes: Vec<Result<Found, StaticsError>> = each(py, cases.count, |case| {
+            let (wind, load) = (Wind::new(Vector3::from_row_slice(winds.row(case)))?, loads.load(case)?);
+            let still = deflection(robot, WantedPose::at(&poses.pose(case)?).free(&free), &load)?;
+            let rest = DirectProblem::new(robot, &still.lengths, &load)?.in_wind(&wind, &still.loaded)?;
+            let motion = still.unloaded.equilibrium.pose.motion_to(&rest.pose);
+            Ok(Found { motion, lengths: still.lengths, rest })
+        })?;
+        let all = Columns::new(py, cases, &outcomes)?;
+        let of_cables = |of: &dyn Fn(&Found) -> Vec<f64>| {
+            all.numbers(&[robot.cables.len()], |found, out| out.copy_from_slice(&of(found)))
+        };
+        Ok(RestInWind {
+            displacement: all.vector(|found| [0, 1, 2].map(|row| found.motion[row]))?,
+            magnitude: all.number(|found| found.motion.fixed_rows::<3>(0).norm())?,
+            rotation: all.vector(|found| [3, 4, 5].map(|row| found.motion[row]))?,
+            pose: all.numbers(&[7], |found, out| {
+                out[..3].copy_from_slice(found.rest.pose.position.as_slice());
+                out[3..].copy_from_slice(&found.rest.pose.quaternion());
+            })?,
+            lengths: of_cables(&|found| found.lengths.clone())?,
+            tensions: of_cables(&|found| found.rest.tensions())?,
+            exit_tensions: of_cables(&|found| found.rest.exit_tensions.clone())?,
+            drags: all.numbers(&[robot.cables.len(), 3], |found, out| {
+                let each = out.chunks_exact_mut(3).zip(&found.rest.drags);
+                each.for_each(|(out, drag)| out.copy_from_slice(drag.as_slice()));
+            })?,
+            force_residual: all.number(|found| found.rest.residual.force)?,
+            moment_residual: all.number(|found| found.rest.residual.moment)?,
+            closure_residual: all.number(|found| found.rest.residual.closure)?,
+            integration: all.number(|found| found.rest.integration)?,
+            reasons: all.reasons(),
+            kinds: all.kinds(),
+        })
+    }
+}

@@ -1,0 +1,263 @@
+//! A platform whose cables hang in the wind.
+//!
+//! The drag of each cable is that of (C39), so that a cable hangs in no plane. With the unstrained lengths
+//! kept, Newton's method finds the pose at which cables, weight and load balance, Eq. (3), while the drag is
+//! raised from zero. The point where a cable leaves its pulley stays where it is without wind.
+
+use crate::direct::DirectSolution;
+use crate::equations::{Balance, FORCES, Pins, SpannedCable, in_its_plane, to_base};
+use crate::error::StaticsError;
+use crate::problem::DirectProblem;
+use crate::state::Residual;
+use cdpr_cable::{CableInWind, HeldInWind, SpatialCable};
+use cdpr_robot::{Pose, Vector3, Vector6};
+
+/// Density of the air at sea level [kg/m³] (ISO 2533:1975, standard atmosphere).
+const AIR_DENSITY: f64 = 1.225;
+
+/// Drag coefficient of a rope across the flow below the critical Reynolds number (EN 1991-1-4:2005, 7.9.2 for
+/// wires and cables).
+const DRAG_COEFFICIENT: f64 = 1.2;
+
+/// Faster winds are in another unit.
+const FASTEST: f64 = 120.0;
+
+/// Shares of the drag that are solved one after the other.
+const SHARES: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
+
+/// A steady wind, the same everywhere.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wind {
+    velocity: Vector3<f64>,
+}
+
+impl Wind {
+    /// Wind of this velocity in the base frame [m/s].
+    ///
+    /// Air of another density ρ or cables with another drag coefficient c are as in a wind that is
+    /// `sqrt(ρ c/(1.225 · 1.2))` times as fast.
+    ///
+    /// # Errors
+    /// [`StaticsError::Invalid`] unless it is finite and at most 120 m/s.
+    pub fn new(velocity: Vector3<f64>) -> Result<Self, StaticsError> {
+        if velocity.norm() <= FASTEST {
+            return Ok(Self { velocity });
+        }
+        let expected = format!("a velocity of at most {FASTEST} m/s");
+        Err(StaticsError::invalid("wind".to_owned(), format!("{:?}", velocity.as_slice()), expected))
+    }
+
+    /// Its velocity in the base frame [m/s].
+    pub fn velocity(&self) -> Vector3<f64> {
+        self.velocity
+    }
+}
+
+/// A platform at rest whose cables hang in the wind.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RestInWind {
+    /// Pose of the platform.
+    pub pose: Pose,
+    /// Force of each cable on the platform [N].
+    pub forces: Vec<Vector3<f64>>,
+    /// Tension of each cable at its exit point, or where it leaves its pulley [N].
+    pub exit_tensions: Vec<f64>,
+    /// Force of the wind on each cable beyond that point [N].
+    pub drags: Vec<Vector3<f64>>,
+    /// Residual of the equations of this wind.
+    pub residual: Residual,
+    /// Largest error of the integration along a cable [m].
+    pub integration: f64,
+    /// Iterations of Newton's method.
+    pub iterations: usize,
+}
+
+impl RestInWind {
+    /// Tension of each cable at the platform [N].
+    pub fn tensions(&self) -> Vec<f64> {
+        self.forces.iter().map(Vector3::norm).collect()
+    }
+}
+
+/// A cable beyond its leave point.
+struct Hung<'a> {
+    cable: CableInWind<'a>,
+    /// Where it leaves its exit point or pulley [m].
+    leave: Vector3<f64>,
+    /// The force there as it was solved last [N].
+    force: Vector3<f64>,
+}
+
+/// The cables at a pose, each in equilibrium, and the platform.
+struct Blown {
+    pose: Pose,
+    cables: Vec<HeldInWind>,
+    balance: Balance,
+}
+
+impl DirectProblem<'_> {
+    /// Where the platform rests when the wind blows on its cables, with the lengths kept: the equilibrium
+    /// that `still`, the one without wind, becomes while the drag is raised.
+    ///
+    /// Wind on the platform itself is a load.
+    ///
+    /// # Errors
+    /// [`StaticsError::Invalid`] for a cable without diameter; [`StaticsError::Cable`] where the iteration
+    /// finds no equilibrium of a cable; [`StaticsError::Unstable`] where the platform would leave the pose,
+    /// and [`StaticsError::DirectNotConverged`].
+    pub fn in_wind(&self, wind: &Wind, still: &DirectSolution) -> Result<RestInWind, StaticsError> {
+        self.check("still", &still.equilibrium)?;
+        let symmetric = self.linearize(&still.equilibrium)?.symmetric_stiffness();
+        let pins = Pins::new(self, &still.equilibrium, &symmetric);
+        let mut hung: Vec<_> = (0..self.cables()).map(|i| self.hung(still, i)).collect::<Result<_, _>>()?;
+        let mut at = Blown::at(self, &mut hung, still.equilibrium.pose)?;
+        let mut iterations = 0;
+        for share in SHARES {
+            // The drag is that of the velocity's square.
+            let velocity = wind.velocity * share.sqrt();
+            hung.iter_mut().for_each(|hung| hung.cable.velocity = velocity);
+            let made;
+            (at, made) = self.balanced(&mut hung, at.pose, &pins)?;
+            iterations += made;
+        }
+        if pins.pinned(&at.balance.symmetric_hessian(self.robot.freedoms()), 1.0).cholesky().is_none() {
+            let least = at.balance.symmetric_hessian(self.robot.freedoms()).symmetric_eigenvalues().min();
+            return Err(StaticsError::Unstable { pose: Box::new(at.pose), least_stiffness: least });
+        }
+        Ok(RestInWind {
+            residual: at.residual(self),
+            forces: at.cables.iter().map(|held| -held.anchor_force).collect(),
+            exit_tensions: at.cables.iter().map(|held| held.exit_force.norm()).collect(),
+            drags: at.cables.iter().map(|held| held.drag).collect(),
+            integration: at.cables.iter().map(|held| held.error).fold(0.0, f64::max),
+            pose: at.pose,
+            iterations,
+        })
+    }
+
+    /// Cable i as it hangs without wind.
+    fn hung(&self, still: &DirectSolution, i: usize) -> Result<Hung<'_>, StaticsError> {
+        let (robot, at) = (self.robot, &still.equilibrium);
+        let Some(diameter) = robot.cables[i].properties.diameter else {
+            let expected = "a diameter [m], on which the drag of the wind depends";
+            return Err(StaticsError::invalid(format!("cables[{i}].diameter"), "not given", expected));
+        };
+        let catenary = self.catenary(i, at.cable_forces[i]);
+        let plane = SpannedCable::of(robot, &at.pose, i, &catenary).span.plane;
+        let level = robot.gravity.level();
+        let in_base = |v: Vector3<f64>| Vector3::from(to_base(level, v.into()));
+        let cable = self.cable(i);
+        let in_plane = in_its_plane(robot, &at.pose, i, catenary);
+        let [fx, fz] = catenary.force.into();
+        let leave = match cable.guide {
+            None => Vector3::zeros(),
+            Some(_) => {
+                let force = plane.lift([fx, fz]).into();
+                SpatialCable { cable, unstrained_length: self.lengths[i], force }.response().leave
+            }
+        };
+        let stretch = 1.0 + cable.strain(in_plane.exit_tension());
+        Ok(Hung {
+            cable: CableInWind {
+                cable,
+                weight: in_base(Vector3::new(0.0, 0.0, -cable.weight_per_length)),
+                velocity: Vector3::zeros(),
+                drag: 0.5 * AIR_DENSITY * DRAG_COEFFICIENT * diameter,
+                unstrained_length: self.lengths[i],
+                guided: (self.lengths[i] - in_plane.free_length()) * stretch,
+            },
+            leave: robot.cables[i].exit_point + in_base(leave),
+            force: in_base(plane.lift([fx, in_plane.exit_vertical_force()]).into()),
+        })
+    }
+
+    /// The balance next to a pose, by Newton's method, and the iterations made.
+    fn balanced(&self, hung: &mut [Hung], pose: Pose, pins: &Pins) -> Result<(Blown, usize), StaticsError> {
+        const MAX_ITERATIONS: usize = 50;
+        let freedoms = self.robot.freedoms();
+        let (mut at, mut iterations) = (Blown::at(self, hung, pose)?, 0);
+        while iterations < MAX_ITERATIONS {
+            let opposing = pins.rest(&-at.balance.gradient);
+            let step = pins.pinned(&at.balance.hessian(freedoms), 1.0).lu().solve(&opposing);
+            let Some(step) = step else { break };
+            let before = at.unbalanced(self);
+            let Some(next) = at.nearer(self, hung, &step)? else { break };
+            (at, iterations) = (next, iterations + 1);
+            let after = at.unbalanced(self);
+            let is_rounding = after <= BALANCED * at.forces() && after > 0.5 * before;
+            if is_rounding || after <= FORCES * at.forces() {
+                break;
+            }
+        }
+        if at.unbalanced(self) <= BALANCED * at.forces() {
+            return Ok((at, iterations));
+        }
+        let residual = at.residual(self);
+        Err(StaticsError::DirectNotConverged { iterations, pose: Box::new(at.pose), residual })
+    }
+}
+
+/// Unbalanced wrench, relative to all forces, which is rounding where no step lowers it: the integration along
+/// the cables leaves as much.
+const BALANCED: f64 = 1e-9;
+
+impl Blown {
+    /// Each cable in equilibrium at a pose.
+    fn at(problem: &DirectProblem, hung: &mut [Hung], pose: Pose) -> Result<Self, StaticsError> {
+        let mut balance = Balance::of_load(problem, &pose);
+        let mut cables = Vec::with_capacity(hung.len());
+        for (i, hung) in hung.iter_mut().enumerate() {
+            let arm = problem.robot.anchor_arm(&pose, i);
+            let end = pose.position + arm - hung.leave;
+            let held = hung.cable.held_at(end, hung.force).map_err(StaticsError::cable(i))?;
+            hung.force = held.exit_force;
+            // The skew part, which the drag makes, is small: without it there are a few more steps.
+            let stiffness = 0.5 * (held.stiffness + held.stiffness.transpose());
+            balance.add_cable(&arm.into(), &(-held.anchor_force).into(), &stiffness.into());
+            cables.push(held);
+        }
+        Ok(Self { pose, cables, balance })
+    }
+
+    /// The cables after a step (dp, dφ) of the platform, or after the longest half, quarter, .. of it that
+    /// lowers the unbalanced wrench; `None` if there is none.
+    fn nearer(
+        &self,
+        problem: &DirectProblem,
+        hung: &mut [Hung],
+        step: &Vector6<f64>,
+    ) -> Result<Option<Self>, StaticsError> {
+        let before = self.unbalanced(problem);
+        let mut failure = None;
+        for halvings in 0..12 {
+            let part = step * 0.5_f64.powi(halvings);
+            let [dp, turn] = [0, 3].map(|row| part.fixed_rows::<3>(row).into_owned());
+            hung.iter_mut().zip(&self.cables).for_each(|(hung, held)| hung.force = held.exit_force);
+            match Self::at(problem, hung, self.pose.moved(dp, turn)) {
+                Ok(next) if next.unbalanced(problem) < before => return Ok(Some(next)),
+                Ok(_) => failure = None,
+                Err(error) => failure = Some(error),
+            }
+        }
+        failure.map_or(Ok(None), Err)
+    }
+
+    /// Norm of the unbalanced wrench [N], moments over the characteristic length.
+    fn unbalanced(&self, problem: &DirectProblem) -> f64 {
+        let Residual { force, moment, .. } = self.residual(problem);
+        force + moment / problem.characteristic_length()
+    }
+
+    fn residual(&self, problem: &DirectProblem) -> Residual {
+        let gradient = self.balance.free_gradient(problem.robot.freedoms());
+        Residual {
+            closure: self.cables.iter().map(|held| held.closure).fold(0.0, f64::max),
+            force: gradient.fixed_rows::<3>(0).norm(),
+            moment: gradient.fixed_rows::<3>(3).norm(),
+        }
+    }
+
+    fn forces(&self) -> f64 {
+        self.cables.iter().map(|held| held.anchor_force.norm()).sum()
+    }
+}

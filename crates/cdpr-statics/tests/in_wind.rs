@@ -1,0 +1,153 @@
+//! Platforms whose cables hang in the wind.
+
+use crate::common::{caroca, robots};
+use crate::equilibria::{self, number, vector};
+use cdpr_evidence::accept;
+use cdpr_robot::{Matrix3, Pose, Robot, Rotation3, Vector3, Vector6, Wrench};
+use cdpr_statics::wind::{RestInWind, Wind};
+use cdpr_statics::{Deflection, DirectProblem, DirectStart, Load, StaticsError, deflection, direct};
+use serde_json::Value;
+
+fn named(name: &str) -> Robot {
+    let path = format!("{}/../../data/robots/{name}.json", env!("CARGO_MANIFEST_DIR"));
+    Robot::from_json(&std::fs::read_to_string(path).unwrap()).unwrap()
+}
+
+/// [`robots`], whose cables have the diameters of full circles where they have none.
+fn robots_with_diameters() -> [(Robot, Pose); 5] {
+    let mut all = robots();
+    for cable in all.iter_mut().flat_map(|(robot, _)| &mut robot.cables) {
+        let full = (4.0 * cable.properties.section / std::f64::consts::PI).sqrt();
+        cable.properties.diameter.get_or_insert(full);
+    }
+    all
+}
+
+/// The rest without wind and under `load`, and the one in the wind.
+fn blown(robot: &Robot, pose: &Pose, load: &Load, velocity: Vector3<f64>) -> (Deflection, RestInWind) {
+    let still = deflection(robot, pose, load).unwrap();
+    let problem = DirectProblem::new(robot, &still.lengths, load).unwrap();
+    let rest = problem.in_wind(&Wind::new(velocity).unwrap(), &still.loaded).unwrap();
+    (still, rest)
+}
+
+#[test]
+fn platforms_rest_where_an_independent_integration_has_them() {
+    let reference: Value = serde_json::from_str(include_str!("../../../data/reference/wind.json")).unwrap();
+    let cases = reference["robots"].as_array().unwrap();
+    assert_eq!(cases.len(), 4);
+    for case in cases {
+        let mut robot = equilibria::robot(case);
+        robot.platform.point = case["point"].as_bool().unwrap();
+        for cable in &mut robot.cables {
+            cable.properties.diameter = Some(number(&case["diameter"]));
+        }
+        let numbers = |key: &str| serde_json::from_value::<Vec<f64>>(case[key].clone()).unwrap();
+        let rotation = |key: &str| {
+            let rows: [[f64; 3]; 3] = serde_json::from_value(case[key].clone()).unwrap();
+            Rotation3::from_matrix(&Matrix3::from(rows).transpose())
+        };
+        let lengths = numbers("unstrained_lengths");
+        let near = Pose { position: vector(&case["start_position"]), rotation: rotation("start_rotation") };
+        let still = direct(&robot, &lengths, &Load::none(), DirectStart::Pose(&near)).unwrap();
+        let problem = DirectProblem::new(&robot, &lengths, &Load::none()).unwrap();
+        let rest = problem.in_wind(&Wind::new(vector(&case["wind"])).unwrap(), &still).unwrap();
+        accept("V-DIRECT-014", (rest.pose.position - vector(&case["position"])).norm());
+        let turned = rest.pose.rotation.rotation_to(&rotation("rotation")).angle();
+        assert!(turned < 1e-7, "{}: {turned}", robot.name);
+        for (tension, known) in rest.tensions().iter().zip(numbers("tensions")) {
+            assert!((tension - known).abs() < 1e-5 * known, "{}: {tension}, {known}", robot.name);
+        }
+    }
+}
+
+#[test]
+fn no_wind_moves_nothing() {
+    for (robot, pose) in robots_with_diameters() {
+        let (still, rest) = blown(&robot, &pose, &Load::none(), Vector3::zeros());
+        let moved = still.loaded.equilibrium.pose.motion_to(&rest.pose).norm();
+        assert!(moved < 1e-9, "{}: {moved}", robot.name);
+        assert!(rest.drags.iter().all(|drag| drag.norm() < 1e-6), "{}", robot.name);
+    }
+}
+
+/// The balance of platform and cables as one body: what the exit points bear is all weight and drag.
+#[test]
+fn residuals_are_small_and_forces_in_balance() {
+    let load =
+        Load { payload: 5.0, wrench: Wrench { force: [3.0, -2.0, 1.0].into(), moment: Vector3::zeros() } };
+    for (robot, pose) in robots_with_diameters() {
+        for velocity in [[15.0, 0.0, 0.0], [-9.0, 12.0, 4.0]] {
+            let (_, rest) = blown(&robot, &pose, &load, velocity.into());
+            let tensions: f64 = rest.tensions().iter().sum();
+            assert!(rest.residual.force < 1e-8 * tensions, "{}: {:?}", robot.name, rest.residual);
+            assert!(rest.residual.closure < 1e-9 && rest.integration < 1e-8, "{}", robot.name);
+            let weight = robot.weight(&rest.pose, load.payload).force + load.wrench.force;
+            let open = rest.forces.iter().sum::<Vector3<f64>>() + weight;
+            assert!(open.norm() < 1e-8 * tensions, "{}: {open}", robot.name);
+        }
+    }
+}
+
+/// In a light wind the platform moves as the stiffness says under about half of the drag of taut cables.
+#[test]
+fn light_wind_moves_a_taut_robot_as_half_of_the_drag_does() {
+    let robot = caroca();
+    let (still, rest) = blown(&robot, &Pose::at(0.4, -0.3, 1.6), &Load::none(), Vector3::new(3.0, 0.0, 0.0));
+    let problem = DirectProblem::new(&robot, &still.lengths, &Load::none()).unwrap();
+    let at = &still.unloaded.equilibrium;
+    let halves = rest.drags.iter().enumerate().map(|(i, drag)| {
+        let (force, arm) = (0.5 * drag, robot.anchor_arm(&at.pose, i));
+        let moment = arm.cross(&force);
+        Vector6::new(force.x, force.y, force.z, moment.x, moment.y, moment.z)
+    });
+    let wrench = Wrench::from_vector(&halves.sum::<Vector6<f64>>());
+    let predicted = problem.linearize(at).unwrap().displacement(&wrench);
+    let moved = at.pose.motion_to(&rest.pose);
+    assert!(moved.norm() > 1e-7, "{moved}");
+    assert!((moved - predicted).norm() < 0.1 * moved.norm(), "{moved} {predicted}");
+}
+
+#[test]
+fn a_robot_that_is_turned_with_its_wind_rests_in_the_same_way() {
+    let robot = named("cogiro");
+    let pose = Pose::at(1.0, -0.5, 2.0);
+    let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), 0.7);
+    let mut turned = robot.clone();
+    turned.cables.iter_mut().for_each(|cable| cable.exit_point = turn * cable.exit_point);
+    let velocity = Vector3::new(12.0, 5.0, 1.0);
+    let (_, rest) = blown(&robot, &pose, &Load::payload(20.0), velocity);
+    let pose = Pose { position: turn * pose.position, rotation: turn * pose.rotation };
+    let (_, other) = blown(&turned, &pose, &Load::payload(20.0), turn * velocity);
+    assert!((turn * rest.pose.position - other.pose.position).norm() < 1e-8);
+    assert!((turn * rest.pose.rotation).rotation_to(&other.pose.rotation).angle() < 1e-8);
+}
+
+#[test]
+fn cables_over_pulleys_keep_the_length_that_is_wound_on_them() {
+    let robot = named("ipanema-3");
+    let pose = Pose::at(0.0, 0.0, 1.0);
+    let (still, rest) = blown(&robot, &pose, &Load::none(), Vector3::zeros());
+    let moved = still.unloaded.equilibrium.pose.motion_to(&rest.pose).norm();
+    assert!(moved < 1e-9, "{moved}");
+    let (_, rest) = blown(&robot, &pose, &Load::none(), Vector3::new(10.0, 0.0, 0.0));
+    let moved = still.unloaded.equilibrium.pose.motion_to(&rest.pose);
+    assert!(moved[0] > 0.0 && moved.norm() < 0.05, "{moved}");
+}
+
+#[test]
+fn what_is_missing_or_impossible_is_named() {
+    let error = Wind::new(Vector3::new(0.0, 300.0, 0.0)).unwrap_err().to_string();
+    assert!(error.contains("wind is [0.0, 300.0, 0.0]: expected a velocity of at most 120 m/s"), "{error}");
+    assert!(Wind::new(Vector3::repeat(f64::NAN)).is_err());
+    let mut robot = caroca();
+    robot.cables[2].properties.diameter = None;
+    let still = deflection(&robot, &Pose::at(0.0, 0.0, 1.75), &Load::none()).unwrap();
+    let problem = DirectProblem::new(&robot, &still.lengths, &Load::none()).unwrap();
+    let wind = Wind::new(Vector3::new(10.0, 0.0, 0.0)).unwrap();
+    let error = problem.in_wind(&wind, &still.loaded).unwrap_err();
+    assert!(
+        matches!(&error, StaticsError::Invalid { field, .. } if field == "cables[2].diameter"),
+        "{error}"
+    );
+}
