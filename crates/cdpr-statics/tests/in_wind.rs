@@ -3,7 +3,7 @@
 use crate::common::{caroca, robots};
 use crate::equilibria::{self, number, vector};
 use cdpr_evidence::accept;
-use cdpr_robot::{Matrix3, Pose, Robot, Rotation3, Vector3, Vector6, Wrench};
+use cdpr_robot::{Matrix3, Pose, Robot, Rotation3, Vector3, Wrench};
 use cdpr_statics::wind::{RestInWind, Wind};
 use cdpr_statics::{Deflection, DirectProblem, DirectStart, Load, StaticsError, deflection, direct};
 use serde_json::Value;
@@ -89,23 +89,18 @@ fn residuals_are_small_and_forces_in_balance() {
     }
 }
 
-/// In a light wind the platform moves as the stiffness says under about half of the drag of taut cables.
+/// The drag of twice the wind is four times as great, and little of it moves a taut robot in proportion: by the part
+/// that the platform bears, and by what it adds to the sag.
 #[test]
-fn light_wind_moves_a_taut_robot_as_half_of_the_drag_does() {
-    let robot = caroca();
-    let (still, rest) = blown(&robot, &Pose::at(0.4, -0.3, 1.6), &Load::none(), Vector3::new(3.0, 0.0, 0.0));
-    let problem = DirectProblem::new(&robot, &still.lengths, &Load::none()).unwrap();
-    let at = &still.unloaded.equilibrium;
-    let halves = rest.drags.iter().enumerate().map(|(i, drag)| {
-        let (force, arm) = (0.5 * drag, robot.anchor_arm(&at.pose, i));
-        let moment = arm.cross(&force);
-        Vector6::new(force.x, force.y, force.z, moment.x, moment.y, moment.z)
-    });
-    let wrench = Wrench::from_vector(&halves.sum::<Vector6<f64>>());
-    let predicted = problem.linearize(at).unwrap().displacement(&wrench);
-    let moved = at.pose.motion_to(&rest.pose);
-    assert!(moved.norm() > 1e-7, "{moved}");
-    assert!((moved - predicted).norm() < 0.1 * moved.norm(), "{moved} {predicted}");
+fn light_wind_moves_a_taut_robot_in_proportion_to_the_drag() {
+    let (robot, pose) = (caroca(), Pose::at(0.4, -0.3, 1.6));
+    let moved = |speed: f64| {
+        let (still, rest) = blown(&robot, &pose, &Load::none(), Vector3::new(speed, 0.0, 0.0));
+        still.unloaded.equilibrium.pose.motion_to(&rest.pose)
+    };
+    let (light, double) = (moved(1.5), moved(3.0));
+    assert!(light[0] > 1e-8, "{light}");
+    assert!((double - 4.0 * light).norm() < 0.02 * double.norm(), "{light} {double}");
 }
 
 #[test]
@@ -125,7 +120,7 @@ fn a_robot_that_is_turned_with_its_wind_rests_in_the_same_way() {
 
 #[test]
 fn cables_over_pulleys_keep_the_length_that_is_wound_on_them() {
-    let robot = named("ipanema-3");
+    let robot = named("expo2015-lucia");
     let pose = Pose::at(0.0, 0.0, 1.0);
     let (still, rest) = blown(&robot, &pose, &Load::none(), Vector3::zeros());
     let moved = still.unloaded.equilibrium.pose.motion_to(&rest.pose).norm();

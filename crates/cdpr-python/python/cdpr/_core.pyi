@@ -1269,7 +1269,7 @@ class Robot:
         pairs : bool, default False
             Whether every pair of cables breaks, too.
         swing : float, optional
-            For how long the motion after each break is followed [s], up to 60.
+            For how long the motion after each break is followed [s].
         free : sequence of str, optional
             Names of the coordinates of the pose that are found, for a robot with fewer cables than free
             motions, as `Robot.inverse` takes them.

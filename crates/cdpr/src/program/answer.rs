@@ -76,9 +76,14 @@ impl OutOfLimits {
         list.iter().map(|one| one.found.to_string()).collect::<Vec<_>>().join("; ")
     }
 
+    /// Whether the cable breaks or may not be strained so.
+    pub(crate) fn is_too_much(&self) -> bool {
+        self.found.is_too_much()
+    }
+
     /// A cable that is slack answers the question; one that breaks or may not be strained so does not.
     pub(crate) fn ending(list: &[Self]) -> Ending {
-        if list.iter().any(|one| one.found.is_too_much()) { Ending::SomethingWrong } else { Ending::Well }
+        if list.iter().any(Self::is_too_much) { Ending::SomethingWrong } else { Ending::Well }
     }
 }
 

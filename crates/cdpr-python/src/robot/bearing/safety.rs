@@ -86,7 +86,7 @@ impl Robot {
     /// pairs : bool, default False
     ///     Whether every pair of cables breaks, too.
     /// swing : float, optional
-    ///     For how long the motion after each break is followed [s], up to 60.
+    ///     For how long the motion after each break is followed [s].
     /// free : sequence of str, optional
     ///     Names of the coordinates of the pose that are found, for a robot with fewer cables than free
     ///     motions, as `Robot.inverse` takes them.
@@ -126,9 +126,9 @@ impl Robot {
         let poses = Rows::poses("pose", &pose, &self.robot)?;
         let loads = Loads::new(force.as_ref(), moment.as_ref(), payload.as_ref(), &self.robot)?;
         let cases = loads.cases([&poses])?;
-        if swing.is_some_and(|time| !(time > 0.0 && time <= 60.0)) {
+        if swing.is_some_and(|time| !(time > 0.0)) {
             let given = swing.unwrap_or_default();
-            return Err(Raised::Input(format!("swing is {given}: expected a time above 0, up to 60 s")));
+            return Err(Raised::Input(format!("swing is {given}: expected a time above 0 s")));
         }
         if swing.is_some() && self.robot.lacks_inertia() {
             let message = "platform.inertia is not given: a motion, `swing`, needs it";

@@ -29,7 +29,7 @@ pub(crate) fn run(Settings { at, free, with }: &Settings) -> Result<Ending, Prog
     let with = with.clone().unwrap_or_default();
     with.check(&["pairs", "swing"])?;
     let load = at.load.load();
-    let breaks = Breaks { pairs: with.has("pairs")?, follow: with.value("swing", None, time)? };
+    let breaks = Breaks { pairs: with.has("pairs")?, follow: with.value("swing", None, above_zero)? };
     let solve = |robot: &Robot, pose: &Pose| {
         let robot = if breaks.follow.is_some() { with_inertia(robot) } else { Cow::Borrowed(robot) };
         let found = safety_at(&robot, WantedPose::at(pose).free(&free.free), &load, breaks)?;
@@ -38,18 +38,11 @@ pub(crate) fn run(Settings { at, free, with }: &Settings) -> Result<Ending, Prog
     at.answer(solve, Answer::print)
 }
 
-/// A time [s] for which a motion is followed.
-fn time(text: &str) -> Result<f64, String> {
-    let time = number(text)?;
-    if time > 0.0 && time <= LONGEST {
-        Ok(time)
-    } else {
-        Err(format!("expected a time above 0, up to {LONGEST} s"))
-    }
+/// A time [s].
+fn above_zero(text: &str) -> Result<f64, String> {
+    number(text)
+        .and_then(|time| if time > 0.0 { Ok(time) } else { Err("expected a time above 0 s".to_owned()) })
 }
-
-/// Longest time for which the motion after a break is followed [s].
-const LONGEST: f64 = 60.0;
 
 /// The robot with each cable broken.
 #[derive(Serialize)]
@@ -97,8 +90,6 @@ struct Swinging {
     below_ground: bool,
     /// Difference of two computations in the tensions [N].
     tension_difference: f64,
-    #[serde(skip)]
-    overloaded: bool,
 }
 
 /// Where the platform comes to rest.
@@ -120,8 +111,6 @@ struct Rest {
     safety_factor: Option<f64>,
     below_ground: bool,
     residual: Residual,
-    #[serde(skip)]
-    overloaded: bool,
 }
 
 /// A tension at either end of a cable [N].
@@ -144,7 +133,6 @@ impl From<BrokenRest> for Rest {
             exit_tensions: rest.tensions.iter().map(|ends| ends[1]).collect(),
             greatest_tension: Greatest { cable: cable + 1, tension },
             slack_cables: rest.slack.iter().map(|i| i + 1).collect(),
-            overloaded: rest.is_overloaded(),
             out_of_limits: rest.out_of_limits.into_iter().map(OutOfLimits::new).collect(),
             safety_factor: rest.safety_factor.map(|(factor, _)| factor),
             below_ground: rest.below_ground,
@@ -160,7 +148,6 @@ impl From<Swing> for Swinging {
             moved: swing.moved,
             greatest_tension: Greatest { cable: cable + 1, tension },
             time,
-            overloaded: swing.is_overloaded(),
             out_of_limits: swing.out_of_limits.into_iter().map(OutOfLimits::new).collect(),
             safety_factor: swing.safety_factor.map(|(factor, _)| factor),
             below_ground: swing.below_ground,
@@ -207,9 +194,10 @@ impl Case {
     fn wrong(&self) -> Option<String> {
         let Some(rest) = &self.rest else { return Some("no rest was found".to_owned()) };
         let swing = self.swinging();
-        let at_rest = rest.out_of_limits.iter().filter(|_| rest.overloaded).map(|one| (one, ""));
-        let swinging = swing.filter(|swing| swing.overloaded).map_or(&[][..], |swing| &swing.out_of_limits);
+        let swinging = swing.map_or(&[][..], |swing| &swing.out_of_limits);
+        let at_rest = rest.out_of_limits.iter().map(|one| (one, ""));
         let beyond = at_rest.chain(swinging.iter().map(|one| (one, " on the way")));
+        let beyond = beyond.filter(|(one, _)| one.is_too_much());
         let beyond = beyond.min_by_key(|(one, _)| one.limit != "breaking_force");
         let beyond = beyond.map(|(one, when)| match one.limit {
             "breaking_force" => format!("cable {} breaks, too{when}", one.cable),
@@ -221,16 +209,43 @@ impl Case {
         })
     }
 
+    /// How far the platform moves and turns, the greatest tension at rest, its cable, and the factor.
+    fn at_rest(&self) -> Vec<String> {
+        let Some(rest) = &self.rest else { return vec![String::new(); 5] };
+        let Greatest { cable, tension } = rest.greatest_tension;
+        let (moved, turned) = (significant(rest.moved, 4), decimal(rest.turned_deg, 2));
+        vec![moved, turned, significant(tension, 4), cable.to_string(), factor(rest.safety_factor)]
+    }
+
+    /// How far the platform moves, the greatest tension at rest; how far it swings, the greatest tension then, its
+    /// cable, and the factor.
+    fn with_swing(&self) -> Vec<String> {
+        let rest = self
+            .rest
+            .as_ref()
+            .map(|rest| [significant(rest.moved, 4), significant(rest.greatest_tension.tension, 4)]);
+        let swing = self.swinging().map(|swing| {
+            let Greatest { cable, tension } = swing.greatest_tension;
+            let (moved, tension) = (significant(swing.moved, 4), significant(tension, 4));
+            [moved, tension, cable.to_string(), factor(swing.safety_factor)]
+        });
+        rest.unwrap_or_default().into_iter().chain(swing.unwrap_or_default()).collect()
+    }
+
     /// What is to be said of it in a table.
     fn remark(&self) -> String {
-        let (Some(rest), error) = (&self.rest, &self.error) else {
+        let Some(rest) = &self.rest else {
             return self.error.as_ref().map_or_else(String::new, |error| error.message.clone());
         };
-        debug_assert!(error.is_none());
         let slack =
             (!rest.slack_cables.is_empty()).then(|| format!("slack: {}", numbers(&rest.slack_cables)));
         self.wrong().into_iter().chain(slack).collect::<Vec<_>>().join("; ")
     }
+}
+
+/// A safety factor in a table; empty where it is not known.
+fn factor(factor: Option<f64>) -> String {
+    factor.map_or_else(String::new, |factor| significant(factor, 3))
 }
 
 impl Answer {
@@ -294,30 +309,15 @@ impl Answer {
             print_sentence(&sentence);
         }
         let followed = self.broken.iter().any(|case| case.swing.is_some());
-        let mut names = vec!["broken", "moves [m]", "turns [deg]", "greatest [N]", "in cable", "factor", ""];
-        if followed {
-            names.splice(6..6, ["swings [m]", "peak [N]"]);
-        }
-        let mut rows = table(&names);
+        let mut rows = table(match followed {
+            true => {
+                &["broken", "moves [m]", "at rest [N]", "swings [m]", "peak [N]", "in cable", "factor", ""]
+            }
+            false => &["broken", "moves [m]", "turns [deg]", "greatest [N]", "in cable", "factor", ""],
+        });
         for case in &self.broken {
-            let figures = case.rest.as_ref().map(|rest| {
-                let Greatest { cable, tension } = rest.greatest_tension;
-                let factor = rest.safety_factor.map_or_else(String::new, |factor| significant(factor, 3));
-                [
-                    significant(rest.moved, 4),
-                    decimal(rest.turned_deg, 2),
-                    significant(tension, 4),
-                    cable.to_string(),
-                    factor,
-                ]
-            });
-            let figures = figures.unwrap_or_default();
-            let swing = case
-                .swinging()
-                .map(|swing| [significant(swing.moved, 4), significant(swing.greatest_tension.tension, 4)]);
-            let swing = swing.unwrap_or_default().into_iter().filter(|_| followed);
-            let cells = [numbers(&case.cables)].into_iter().chain(figures).chain(swing);
-            rows.add_row(cells.chain([case.remark()]));
+            let cells = if followed { case.with_swing() } else { case.at_rest() };
+            rows.add_row([numbers(&case.cables)].into_iter().chain(cells).chain([case.remark()]));
         }
         println!("{rows}");
         print_sentence(if followed {
@@ -368,7 +368,7 @@ impl Row for Answer {
             cable.map_or_else(String::new, |cable| cable.to_string()),
             case,
             factor.map_or_else(String::new, |factor| format!("{factor:?}")),
-            self.names(|case| is(case, |rest| rest.overloaded)),
+            self.names(|case| is(case, |rest| rest.out_of_limits.iter().any(OutOfLimits::is_too_much))),
             self.names(|case| is(case, |rest| rest.below_ground)),
             self.names(|case| case.rest.is_none()),
         ];
