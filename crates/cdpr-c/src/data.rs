@@ -79,8 +79,8 @@ pub struct CdprStiffness {
 /// Where derivatives are written, row by row with a column for each input, per SI unit of the input.
 ///
 /// The inputs are the parameters of the robot, the payload and the six coordinates of the pose. A matrix
-/// whose pointer is null is not written. Where an input has two derivatives, because a tension leaves its
-/// limit, it is the one as the input falls.
+/// whose pointer is null is not written. Where the derivatives on both sides differ, because a tension is at
+/// its limit, it is that for a decreasing input.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct CdprDerivatives {

@@ -38,7 +38,7 @@ fn a_text_that_is_no_robot_is_refused() {
         status
     };
     fails(read(b"{"), CdprStatus::Robot, "line 1");
-    fails(read(b""), CdprStatus::Robot, "EOF");
+    fails(read(b""), CdprStatus::Robot, "the text ends");
     fails(read(b"\xff\xfe"), CdprStatus::Robot, "utf-8");
     fails(read(b"{\"format\": \"cdpr-robot/2\"}"), CdprStatus::Robot, "");
     let long = format!("{{\"{}\": 1}}", "é".repeat(5000));
@@ -245,7 +245,7 @@ fn extreme_values_do_not_panic() {
 
 #[test]
 fn each_thread_has_its_own_message() {
-    unsafe { fails(cdpr_path_new(null(), null_mut()), CdprStatus::Pointer, "robot") };
+    unsafe { fails(cdpr_path_new(null(), null_mut()), CdprStatus::Pointer, "path") };
     std::thread::spawn(|| assert_eq!(message(), "")).join().unwrap();
-    assert!(message().contains("robot"));
+    assert!(message().contains("path"));
 }
