@@ -1,6 +1,6 @@
 //! `cargo xtask c`: `libcdpr` installed into a folder, for programs in C, C++, MATLAB and Octave.
 
-use crate::cargo::{cargo_command, done, root, write};
+use crate::cargo::{cargo, root, write};
 use std::path::{Path, PathBuf};
 
 /// What the static library needs of the system.
@@ -22,8 +22,7 @@ pub(crate) fn run(rest: &[String]) -> Result<(), String> {
         return Err(format!("expected `--prefix FOLDER`, not `{option}`"));
     }
     let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), PathBuf::from);
-    let mut build = cargo_command(&["build", "--release", "--locked", "--package", "cdpr-c"]);
-    done(&mut build).map_err(|error| error.to_string())?;
+    cargo(&["build", "--release", "--locked", "--package", "cdpr-c"])?;
     install(&target.join("release"), Path::new(prefix))?;
     eprintln!("installed: PKG_CONFIG_PATH is {prefix}/lib/pkgconfig, CMAKE_PREFIX_PATH {prefix}");
     Ok(())

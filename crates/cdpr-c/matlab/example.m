@@ -5,9 +5,9 @@ pose = [0 0 1.75];
 fprintf('l1 = %.6f m, t1 = %.3f N\n', lengths(1), tensions(1));
 displacement = robot.deflection(pose, 50);
 fprintf('%.5f mm under 50 kg\n', 1e3 * norm(displacement));
-slopes = robot.derivatives(pose, 50);
+found = robot.derivatives(pose, 50);
 names = robot.inputs();
-fprintf('%.5f mm per GPa\n', 1e12 * slopes.magnitude(strcmp(names, 'youngs_modulus')));
+fprintf('%.5f mm per GPa\n', 1e12 * found.magnitude(strcmp(names, 'youngs_modulus')));
 tracker = cdpr.Tracker(robot, lengths, pose, 50);
 for k = 1:100
     lengths(1) = lengths(1) - 1e-5; % a winch that reels in

@@ -10,7 +10,8 @@
 #![allow(unsafe_code, clippy::missing_safety_doc)]
 
 use crate::data::{
-    CdprCables, CdprDerivatives, CdprLoad, CdprMotion, CdprPose, CdprReport, CdprStiffness, finite,
+    CdprCables, CdprDerivatives, CdprLoad, CdprMotion, CdprPose, CdprReport, CdprStiffness, LENGTHS, checked,
+    sized,
 };
 use crate::failure::{CdprStatus, Failure, guarded, message};
 use crate::follow::{CdprPath, CdprTracker};
@@ -20,7 +21,7 @@ use cdpr_robot::Pose;
 use cdpr_statics::{DirectStart, Load, deflection, derivatives, direct, inverse};
 use std::ffi::{CStr, c_char};
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::ptr::null;
+use std::ptr::{null, null_mut};
 
 /// The version of the library.
 #[unsafe(no_mangle)]
@@ -36,10 +37,13 @@ pub extern "C" fn cdpr_message() -> *const c_char {
 }
 
 /// Creates the robot of the library with this name, such as "caroca".
+///
+/// Where a function that creates a handle fails, the handle is null.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cdpr_robot_named(name: *const c_char, robot: *mut *mut CdprRobot) -> CdprStatus {
     guarded(|| unsafe {
-        let (name, robot) = (given(name, "name")?, place(robot, "robot")?);
+        let robot = empty(robot, "robot")?;
+        valid(name, "name")?;
         create(robot, CdprRobot::named(CStr::from_ptr(name)))
     })
 }
@@ -52,7 +56,8 @@ pub unsafe extern "C" fn cdpr_robot_from_json(
     robot: *mut *mut CdprRobot,
 ) -> CdprStatus {
     guarded(|| unsafe {
-        let (text, robot) = (given(text, "text")? as *const c_char, place(robot, "robot")?);
+        let robot = empty(robot, "robot")?;
+        valid(text, "text")?;
         if isize::try_from(size).is_err() {
             return Err(Failure::Size { field: "text", given: size, expected: isize::MAX.unsigned_abs() });
         }
@@ -69,21 +74,22 @@ pub unsafe extern "C" fn cdpr_robot_free(robot: *mut CdprRobot) {
 /// The number of cables; 0 for null.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cdpr_robot_cables(robot: *const CdprRobot) -> usize {
-    unsafe { robot.as_ref() }.map_or(0, CdprRobot::cables)
+    unsafe { given(robot, "robot") }.map_or(0, CdprRobot::cables)
 }
 
 /// The number of inputs by which derivatives are taken: the parameters, the payload and the six coordinates
 /// of the pose; 0 for null.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cdpr_robot_inputs(robot: *const CdprRobot) -> usize {
-    unsafe { robot.as_ref() }.map_or(0, |robot| robot.inputs().len())
+    unsafe { given(robot, "robot") }.map_or(0, |robot| robot.inputs().len())
 }
 
 /// The name of an input, from 0, such as "mass" or "b1.z"; null beyond the last one. It is valid until the
 /// robot is freed.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cdpr_robot_input(robot: *const CdprRobot, index: usize) -> *const c_char {
-    unsafe { robot.as_ref() }.and_then(|robot| robot.inputs().get(index)).map_or(null(), |name| name.as_ptr())
+    let name = unsafe { given(robot, "robot") }.map(|robot| robot.inputs().get(index));
+    name.ok().flatten().map_or(null(), |name| name.as_ptr())
 }
 
 /// Writes the unstrained lengths and the tensions that hold a pose under the platform's weight and `load`.
@@ -108,9 +114,8 @@ pub unsafe extern "C" fn cdpr_inverse(
     })
 }
 
-/// Writes the pose and the tensions of the equilibrium for `cables.lengths`, next to or downhill of `pose`.
-///
-/// `pose` is where the search starts, and is overwritten by the result.
+/// Writes the pose and the tensions of the equilibrium for `cables.lengths` near `pose`, or to which the
+/// platform descends from it: the result overwrites `pose`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cdpr_direct(
     robot: *const CdprRobot,
@@ -197,7 +202,8 @@ pub unsafe extern "C" fn cdpr_derivatives(
     })
 }
 
-/// Creates a tracker at the equilibrium for these lengths and this load, next to or downhill of `start`.
+/// Creates a tracker at the equilibrium for these lengths and this load near `start`, or to which the platform
+/// descends from it.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cdpr_tracker_new(
     robot: *const CdprRobot,
@@ -208,16 +214,18 @@ pub unsafe extern "C" fn cdpr_tracker_new(
     tracker: *mut *mut CdprTracker,
 ) -> CdprStatus {
     guarded(|| unsafe {
+        let tracker = empty(tracker, "tracker")?;
         let (robot, start, load) = (given(robot, "robot")?, pose_of(start)?, load_of(load)?);
-        let (lengths, tracker) = (list(lengths, count, robot.cables())?, place(tracker, "tracker")?);
+        let lengths = list(lengths, count, robot.cables())?;
         create(tracker, CdprTracker::new(&robot.robot, lengths, &load, &start))
     })
 }
 
 /// Goes to the equilibrium for other lengths and another load, in at most 12 iterations.
 ///
-/// Nothing is allocated for cables without pulleys and leads. Where the iterations do not converge, the last
-/// state is kept, and `report` has its residuals with the number of iterations made.
+/// Nothing is allocated for up to 16 cables without pulleys and leads (4 on x86-64 without AVX2). Where the
+/// iterations do not converge, the last state is kept, and `report` has its residuals with the number of
+/// iterations made.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cdpr_tracker_step(
     tracker: *mut CdprTracker,
@@ -263,18 +271,18 @@ pub unsafe extern "C" fn cdpr_tracker_free(tracker: *mut CdprTracker) {
     unsafe { free(tracker) }
 }
 
-/// Creates a path, which has yet to begin.
+/// Creates a path, whose first pose is the next one.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cdpr_path_new(robot: *const CdprRobot, path: *mut *mut CdprPath) -> CdprStatus {
     guarded(|| unsafe {
-        let (robot, path) = (given(robot, "robot")?, place(path, "path")?);
-        create(path, Ok(CdprPath::new(&robot.robot)))
+        let path = empty(path, "path")?;
+        create(path, Ok(CdprPath::new(&given(robot, "robot")?.robot)))
     })
 }
 
 /// Writes lengths and tensions at the next pose of a path, on the branch of the last ones.
 ///
-/// Where the branch ends, `report.jump` is 1. After a failure the path goes on from the last pose that has a
+/// Where the branch ends, `report.jump` is 1. After a failure the path continues from the last pose with a
 /// solution.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cdpr_path_next(
@@ -329,10 +337,6 @@ fn optional<T>(pointer: *mut T, field: &'static str) -> Result<*mut T, Failure> 
     if pointer.is_null() { Ok(pointer) } else { place(pointer, field) }
 }
 
-fn sized(field: &'static str, given: usize, expected: usize) -> Result<(), Failure> {
-    if given == expected { Ok(()) } else { Err(Failure::Size { field, given, expected }) }
-}
-
 unsafe fn pose_of(pose: *const CdprPose) -> Result<Pose, Failure> {
     unsafe { given(pose, "pose") }?.checked()
 }
@@ -355,7 +359,7 @@ unsafe fn list<'a>(lengths: *const f64, given: usize, cables: usize) -> Result<&
     valid(lengths, "lengths")?;
     sized("lengths", given, cables)?;
     let lengths = unsafe { std::slice::from_raw_parts(lengths, given) };
-    finite("lengths", lengths)?;
+    checked("lengths", lengths, LENGTHS)?;
     Ok(lengths)
 }
 
@@ -373,9 +377,15 @@ unsafe fn write_all(to: *mut f64, values: &[f64]) {
     }
 }
 
-/// Writes a new handle, or null.
+/// Where a handle is written, which is null until then.
+unsafe fn empty<T>(to: *mut *mut T, field: &'static str) -> Result<*mut *mut T, Failure> {
+    valid(to, field)?;
+    unsafe { to.write(null_mut()) };
+    Ok(to)
+}
+
+/// Writes a new handle.
 unsafe fn create<T>(to: *mut *mut T, handle: Result<T, Failure>) -> Result<(), Failure> {
-    unsafe { to.write(std::ptr::null_mut()) };
     let handle = Box::into_raw(Box::new(handle?));
     unsafe { to.write(handle) };
     Ok(())

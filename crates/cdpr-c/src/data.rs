@@ -79,8 +79,8 @@ pub struct CdprStiffness {
 /// Where derivatives are written, row by row with a column for each input, per SI unit of the input.
 ///
 /// The inputs are the parameters of the robot, the payload and the six coordinates of the pose. A matrix
-/// whose pointer is null is not written. Where an input has two derivatives, because a tension leaves its
-/// limit, it is the one as the input falls.
+/// whose pointer is null is not written. Where the derivatives on both sides differ, because a tension is at
+/// its limit, it is that for a decreasing input.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct CdprDerivatives {
@@ -96,18 +96,32 @@ pub struct CdprDerivatives {
     pub magnitude: *mut f64,
 }
 
-/// Refuses NaN and infinite values.
-pub(crate) fn finite(field: &'static str, values: &[f64]) -> Result<(), Failure> {
-    match values.iter().position(|value| !value.is_finite()) {
+/// A test of values, and what it expects.
+pub(crate) type Range = (fn(f64) -> bool, &'static str);
+
+const FINITE: Range = (f64::is_finite, "a finite number");
+const LOADS: Range = (|value| value.abs() <= Load::LARGEST, "a number from -1e12 to 1e12");
+pub(crate) const LENGTHS: Range =
+    (|value| value.is_finite() && value > 0.0, "a finite, positive unstrained length [m]");
+
+/// Refuses values out of a range, without allocation.
+pub(crate) fn checked(field: &'static str, values: &[f64], range: Range) -> Result<(), Failure> {
+    let (is_valid, expected) = range;
+    match values.iter().position(|value| !is_valid(*value)) {
         None => Ok(()),
-        Some(index) => Err(Failure::NotFinite { field, index }),
+        Some(index) => Err(Failure::Value { field, index, expected }),
     }
+}
+
+/// Refuses another number of values.
+pub(crate) fn sized(field: &'static str, given: usize, expected: usize) -> Result<(), Failure> {
+    if given == expected { Ok(()) } else { Err(Failure::Size { field, given, expected }) }
 }
 
 impl CdprPose {
     pub(crate) fn checked(&self) -> Result<Pose, Failure> {
-        finite("pose.position", &self.position)?;
-        finite("pose.quaternion", &self.quaternion)?;
+        checked("pose.position", &self.position, FINITE)?;
+        checked("pose.quaternion", &self.quaternion, FINITE)?;
         let rotation = rotation_of(self.quaternion)
             .map_err(|error| Failure::Text { status: CdprStatus::Invalid, reason: error.to_string() })?;
         Ok(Pose { position: Vector3::from(self.position), rotation })
@@ -122,9 +136,9 @@ impl From<&Pose> for CdprPose {
 
 impl CdprLoad {
     pub(crate) fn checked(&self) -> Result<Load, Failure> {
-        finite("load.payload", &[self.payload])?;
-        finite("load.force", &self.force)?;
-        finite("load.moment", &self.moment)?;
+        checked("load.payload", &[self.payload], LOADS)?;
+        checked("load.force", &self.force, LOADS)?;
+        checked("load.moment", &self.moment, LOADS)?;
         let wrench = Wrench { force: self.force.into(), moment: self.moment.into() };
         Ok(Load { payload: self.payload, wrench })
     }

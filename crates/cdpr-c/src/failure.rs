@@ -40,8 +40,8 @@ pub(crate) enum Failure {
     Pointer(&'static str),
     /// Another number of values.
     Size { field: &'static str, given: usize, expected: usize },
-    /// A value that is not a finite number.
-    NotFinite { field: &'static str, index: usize },
+    /// A value that is NaN, infinite or out of its range.
+    Value { field: &'static str, index: usize, expected: &'static str },
     /// A text that is not valid.
     Text { status: CdprStatus, reason: String },
     /// A robot that a function does not take.
@@ -78,8 +78,8 @@ impl fmt::Display for Failure {
             Self::Size { field, given, expected } => {
                 write!(f, "{field} has {given} values: expected {expected}")
             }
-            Self::NotFinite { field, index } => {
-                write!(f, "value {index} of {field} is not finite: expected a number")
+            Self::Value { field, index, expected } => {
+                write!(f, "value {index} of {field}, from 0, is invalid: expected {expected}")
             }
             Self::Text { reason, .. } => f.write_str(reason),
             Self::Unsupported(robot) => write!(f, "{robot} is not supported by this function"),
@@ -99,7 +99,7 @@ impl Failure {
         match self {
             Self::Pointer(_) => CdprStatus::Pointer,
             Self::Size { .. } => CdprStatus::Size,
-            Self::NotFinite { .. } => CdprStatus::Invalid,
+            Self::Value { .. } => CdprStatus::Invalid,
             Self::Text { status, .. } => *status,
             Self::Unsupported(_) => CdprStatus::Unsupported,
             Self::NotConverged { .. } => CdprStatus::NotConverged,

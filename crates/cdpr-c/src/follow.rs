@@ -2,7 +2,7 @@
 
 use crate::data::CdprReport;
 use crate::failure::Failure;
-use cdpr_robot::{Pose, Robot};
+use cdpr_robot::{Pose, Robot, Vector2};
 use cdpr_statics::{DirectStart, InversePath, Load, PathSolution, Tracker, direct};
 use std::sync::Arc;
 
@@ -52,7 +52,7 @@ impl CdprTracker {
 
     /// Tensions at the platform [N].
     pub(crate) fn tensions(&self) -> impl Iterator<Item = f64> {
-        self.tracker.equilibrium().cable_forces.iter().map(|force| force.norm())
+        self.tracker.equilibrium().cable_forces.iter().map(Vector2::norm)
     }
 }
 

@@ -9,6 +9,7 @@ use cdpr_c::border::{
 };
 use cdpr_c::{CdprCables, CdprDerivatives, CdprLoad, CdprRobot, CdprStatus};
 use std::ffi::{CStr, CString};
+use std::mem::MaybeUninit;
 use std::ptr::{null, null_mut};
 
 fn message() -> String {
@@ -37,7 +38,7 @@ fn a_text_that_is_no_robot_is_refused() {
         status
     };
     fails(read(b"{"), CdprStatus::Robot, "line 1");
-    fails(read(b""), CdprStatus::Robot, "EOF");
+    fails(read(b""), CdprStatus::Robot, "the text ends");
     fails(read(b"\xff\xfe"), CdprStatus::Robot, "utf-8");
     fails(read(b"{\"format\": \"cdpr-robot/2\"}"), CdprStatus::Robot, "");
     let long = format!("{{\"{}\": 1}}", "é".repeat(5000));
@@ -45,7 +46,10 @@ fn a_text_that_is_no_robot_is_refused() {
     assert!(message().len() < 1024);
     unsafe {
         fails(cdpr_robot_named(c"carroca".as_ptr(), &mut robot), CdprStatus::Robot, "caroca");
+        // A handle that could not be created is null, whatever was there.
+        robot = std::ptr::dangling_mut();
         fails(cdpr_robot_named(null(), &mut robot), CdprStatus::Pointer, "name");
+        assert!(robot.is_null());
         fails(cdpr_robot_named(c"caroca".as_ptr(), null_mut()), CdprStatus::Pointer, "robot");
         fails(cdpr_robot_from_json(null(), 3, &mut robot), CdprStatus::Pointer, "text");
         fails(cdpr_robot_from_json(c"{}".as_ptr(), usize::MAX, &mut robot), CdprStatus::Size, "text");
@@ -85,9 +89,9 @@ fn null_pointers_and_wrong_sizes_are_refused() {
         fails(cdpr_inverse(robot, &pose, null(), null(), null_mut()), pointer, "cables");
         fails(cdpr_inverse(robot, &pose, null(), &no_lengths, null_mut()), pointer, "cables.lengths");
         fails(cdpr_inverse(robot, &pose, null(), &few, null_mut()), size, "7 values: expected 8");
-        let aside = (&raw const pose).cast::<u8>().add(1).cast();
+        let misaligned = (&raw const pose).cast::<u8>().add(1).cast();
         fails(
-            cdpr_inverse(robot, aside, null(), &cables, null_mut()),
+            cdpr_inverse(robot, misaligned, null(), &cables, null_mut()),
             pointer,
             "pose is null or not aligned",
         );
@@ -154,10 +158,10 @@ fn values_that_are_no_numbers_are_refused_and_change_nothing() {
         let created = cdpr_tracker_new(robot, lengths.as_ptr(), 8, null(), &pose, &mut tracker);
         assert_eq!(created, CdprStatus::Ok);
         let step = |lengths: &[f64]| cdpr_tracker_step(tracker, lengths.as_ptr(), 8, null(), null_mut());
-        for (value, words) in [(f64::NAN, "value 2 of lengths"), (0.0, "lengths[2]"), (-1.0, "lengths[2]")] {
+        for value in [f64::NAN, 0.0, -1.0, f64::INFINITY] {
             let mut bad = lengths.clone();
             bad[2] = value;
-            fails(step(&bad), invalid, words);
+            fails(step(&bad), invalid, "value 2 of lengths");
         }
         let mut state = pose;
         let mut tensions = [0.0; 8];
@@ -199,9 +203,49 @@ fn a_robot_with_fewer_cables_than_free_motions_has_a_direct_model_alone() {
     }
 }
 
+/// Values at which sums and squares overflow or vanish have a status, and no call panics.
+#[test]
+fn extreme_values_do_not_panic() {
+    let (robot, mut lengths, mut tracker) = (named("caroca"), [4.0; 8], null_mut());
+    let mut made = level([0.0, 0.0, 1.75]);
+    let cables = CdprCables { count: 8, lengths: lengths.as_mut_ptr(), tensions: null_mut() };
+    let mut seen = [0; 10];
+    unsafe {
+        assert_eq!(cdpr_inverse(robot, &made, null(), &cables, null_mut()), CdprStatus::Ok);
+        let known = lengths;
+        let created = cdpr_tracker_new(robot, known.as_ptr(), 8, null(), &made, &mut tracker);
+        assert_eq!(created, CdprStatus::Ok);
+        for value in [1e300, -1e300, 1e150, 1e12, -1e12, 1e-300, 5e-324, -0.0] {
+            let (at, load) = (level([value, 0.0, 1.75]), CdprLoad { payload: value, ..LOAD });
+            let (mut motion, mut stiffness) = (MaybeUninit::uninit(), MaybeUninit::uninit());
+            let mut extreme = known;
+            extreme[3] = value;
+            made = level([0.0, 0.0, 1.75]);
+            let given = CdprCables { lengths: extreme.as_mut_ptr(), ..cables };
+            for status in [
+                cdpr_inverse(robot, &at, null(), &cables, null_mut()),
+                cdpr_inverse(robot, &made, &load, &cables, null_mut()),
+                cdpr_deflection(robot, &made, &load, motion.as_mut_ptr(), null_mut()),
+                cdpr_stiffness(robot, &at, &load, stiffness.as_mut_ptr(), null_mut()),
+                cdpr_tracker_step(tracker, extreme.as_ptr(), 8, null(), null_mut()),
+                cdpr_tracker_step(tracker, known.as_ptr(), 8, &load, null_mut()),
+                cdpr_direct(robot, &given, null(), &mut made, null_mut()),
+            ] {
+                assert_ne!(status, CdprStatus::Panic, "{value:e}: {}", message());
+                seen[status as usize] += 1;
+            }
+        }
+        assert_eq!(cdpr_tracker_step(tracker, known.as_ptr(), 8, null(), null_mut()), CdprStatus::Ok);
+        cdpr_tracker_free(tracker);
+        cdpr_robot_free(robot);
+    }
+    println!("{seen:?}");
+    assert!(seen[CdprStatus::Ok as usize] > 8 && seen[CdprStatus::Invalid as usize] > 8, "{seen:?}");
+}
+
 #[test]
 fn each_thread_has_its_own_message() {
-    unsafe { fails(cdpr_path_new(null(), null_mut()), CdprStatus::Pointer, "robot") };
+    unsafe { fails(cdpr_path_new(null(), null_mut()), CdprStatus::Pointer, "path") };
     std::thread::spawn(|| assert_eq!(message(), "")).join().unwrap();
-    assert!(message().contains("robot"));
+    assert!(message().contains("path"));
 }

@@ -4,9 +4,8 @@ use crate::common::{ROBOTS_AT, STEPS, expected};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-/// Compilers with the language and the standard that each compiles. The first one has to be there.
-const COMPILERS: [(&str, &[&str]); 4] = [
-    ("cc", &["-x", "c", "-std=c11"]),
+/// Compilers with the language and the standard that each compiles.
+const COMPILERS: [(&str, &[&str]); 3] = [
     ("gcc", &["-x", "c", "-std=c11"]),
     ("clang", &["-x", "c", "-std=c11"]),
     ("g++", &["-x", "c++", "-std=c++17"]),
@@ -34,18 +33,20 @@ fn compile(compiler: (&str, &[&str]), source: &Path, program: &Path) -> Option<O
     command.args(SYSTEM).arg("-o").arg(program).output().ok()
 }
 
-/// The programs of a source by all compilers that are there, by the names of these.
+/// The programs of a source by all compilers that are installed, by the names of these. Programs are those of
+/// Linux.
 fn programs(source: &str) -> Vec<(&'static str, PathBuf)> {
+    if !cfg!(target_os = "linux") {
+        println!("not tested: {source} is compiled on Linux alone");
+        return Vec::new();
+    }
     let (source, temporary) = (folder().join(source), Path::new(env!("CARGO_TARGET_TMPDIR")));
     let name = source.file_stem().unwrap().to_str().unwrap();
     let mut programs = Vec::new();
     for compiler in COMPILERS {
         let program = temporary.join(format!("{name}-{}", compiler.0));
         match compile(compiler, &source, &program) {
-            None => {
-                assert!(compiler.0 != "cc", "the tests of cdpr-c need a C compiler called cc");
-                println!("{} is missing: not tested", compiler.0);
-            }
+            None => println!("not tested: there is no {}", compiler.0),
             Some(output) => {
                 let said = String::from_utf8_lossy(&output.stderr);
                 assert!(output.status.success() && said.is_empty(), "{}: {said}", compiler.0);
@@ -82,12 +83,12 @@ fn programs_in_c_and_cpp_print_the_digits_of_the_rust_interface() {
 }
 
 #[test]
-fn the_control_loop_ends_where_it_started() {
+fn the_control_loop_prints_what_the_page_shows() {
     let page = std::fs::read_to_string(folder().join("../../docs/c.md")).unwrap();
     for (compiler, program) in programs("examples/control_loop.c") {
         let printed = printed(&program, &[]);
         assert!(printed.contains("1000 cycles, 0 without convergence"), "{compiler}: {printed}");
-        assert!(page.contains(&printed), "docs/c.md: {printed}");
+        assert!(page.contains(&printed), "{compiler}, docs/c.md: {printed}");
     }
 }
 

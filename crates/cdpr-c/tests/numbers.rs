@@ -7,7 +7,8 @@ use cdpr_c::border::{
     cdpr_tracker_free, cdpr_tracker_new, cdpr_tracker_state, cdpr_tracker_step,
 };
 use cdpr_c::{
-    CdprCables, CdprDerivatives, CdprMotion, CdprPose, CdprReport, CdprRobot, CdprStatus, CdprStiffness,
+    CdprCables, CdprDerivatives, CdprLoad, CdprMotion, CdprPose, CdprReport, CdprRobot, CdprStatus,
+    CdprStiffness,
 };
 use std::ffi::CString;
 use std::ptr::{null, null_mut};
@@ -136,15 +137,20 @@ fn a_step_allocates_nothing_whether_it_converges_or_not() {
         let short = lengths.map(|length| length - 1.0);
         let mut not_a_number = lengths;
         not_a_number[3] = f64::NAN;
-        let mut ended = [CdprStatus::Panic; 4];
+        let heavy = CdprLoad { payload: 1e13, ..LOAD };
+        let mut ended = [CdprStatus::Panic; 6];
         let allocated = allocation_counter::measure(|| {
             lengths[0] -= 1e-3;
             ended[0] = cdpr_tracker_step(tracker, lengths.as_ptr(), 8, &LOAD, &mut of);
             ended[1] = cdpr_tracker_step(tracker, short.as_ptr(), 8, &LOAD, &mut of);
             ended[2] = cdpr_tracker_step(tracker, not_a_number.as_ptr(), 8, &LOAD, null_mut());
-            ended[3] = cdpr_tracker_state(tracker, &mut pose, tensions.as_mut_ptr(), 8);
+            ended[3] = cdpr_tracker_step(tracker, [0.0; 8].as_ptr(), 8, &LOAD, null_mut());
+            ended[4] = cdpr_tracker_step(tracker, lengths.as_ptr(), 8, &heavy, null_mut());
+            ended[5] = cdpr_tracker_state(tracker, &mut pose, tensions.as_mut_ptr(), 8);
         });
-        assert_eq!(ended, [CdprStatus::Ok, CdprStatus::NotConverged, CdprStatus::Invalid, CdprStatus::Ok]);
+        let invalid = CdprStatus::Invalid;
+        let expected = [CdprStatus::Ok, CdprStatus::NotConverged, invalid, invalid, invalid, CdprStatus::Ok];
+        assert_eq!(ended, expected);
         assert_eq!(allocated.count_total, 0);
         // The report is that of the state before, with the iterations of the step that failed.
         assert!(of.iterations <= 12 && of.force < 1e-8 && tensions[0] > 0.0, "{of:?}");

@@ -168,20 +168,20 @@ pub fn check_lengths(robot: &Robot, lengths: &[f64]) -> Result<(), StaticsError>
     Ok(())
 }
 
-/// The largest payload [kg], force [N] and moment [N m], positive or negative: cables of no material bear
-/// more, and next to it rounding hides all other forces.
-const LARGEST_LOAD: f64 = 1e12;
-
 impl Load {
+    /// The largest payload [kg], force [N] and moment [N m], positive or negative: cables of no material bear
+    /// more, and next to it rounding hides all other forces.
+    pub const LARGEST: f64 = 1e12;
+
     pub(crate) fn validate(&self) -> Result<(), StaticsError> {
-        let is_load = |value: f64| value.abs() <= LARGEST_LOAD;
+        let is_load = |value: f64| value.abs() <= Self::LARGEST;
         if !is_load(self.payload) {
-            let expected = format!("a mass from -{LARGEST_LOAD:e} to {LARGEST_LOAD:e} kg");
+            let expected = format!("a mass from -{0:e} to {0:e} kg", Self::LARGEST);
             return Err(StaticsError::invalid("load.payload".to_owned(), self.payload, expected));
         }
         match self.wrench.to_vector().iter().find(|component| !is_load(**component)) {
             Some(component) => {
-                let expected = format!("components from -{LARGEST_LOAD:e} to {LARGEST_LOAD:e} [N, N m]");
+                let expected = format!("components from -{0:e} to {0:e} [N, N m]", Self::LARGEST);
                 Err(StaticsError::invalid("load.wrench".to_owned(), component, expected))
             }
             None => Ok(()),

@@ -47,9 +47,10 @@ classdef Robot < handle
             if nargin < 3, load = []; end
             [matrix, least, report] = cdpr_mex('stiffness', self.id, pose, load);
         end
-        function [slopes, report] = derivatives(self, pose, load)
-            % Derivatives of lengths, tensions, displacement and its magnitude: a column for each of inputs().
-            [slopes, report] = cdpr_mex('derivatives', self.id, pose, load);
+        function [matrices, report] = derivatives(self, pose, load)
+            % Derivatives of lengths, tensions, displacement and its magnitude: the fields of a struct, each
+            % a matrix with a column for each of inputs().
+            [matrices, report] = cdpr_mex('derivatives', self.id, pose, load);
         end
     end
 end

@@ -78,8 +78,8 @@ impl<R: Borrow<Robot>> Tracker<R> {
     /// change in proportion.
     ///
     /// Nothing is allocated where Newton's method ends near its prediction, at a stable equilibrium without
-    /// folded cables and without guides (up to 32 cables with AVX-512, 16 with AVX2). Otherwise the change is
-    /// made in steps, and where these strain a cable too much on the way or do not end, [`direct`] searches
+    /// folded cables and without guides (up to 16 cables, or 4 on x86-64 without AVX2). Otherwise the change
+    /// is made in steps, and where these strain a cable too much on the way or do not end, [`direct`] searches
     /// near the current equilibrium.
     ///
     /// # Errors
@@ -107,7 +107,7 @@ impl<R: Borrow<Robot>> Tracker<R> {
     ///
     /// Where the iterations do not converge, or not certainly to the equilibrium that the last one becomes,
     /// the tracker keeps the last equilibrium with its lengths and its load. Nothing is allocated for cables
-    /// without guides (up to 32 cables with AVX-512, 16 with AVX2). Where it converges, the digits are those
+    /// without guides (up to 16 cables, or 4 on x86-64 without AVX2). Where it converges, the digits are those
     /// of [`Tracker::update`].
     ///
     /// # Errors

@@ -28,8 +28,9 @@ pub(crate) enum Layout<S: Simd> {
     Cables(Mask<S>),
 }
 
-/// Number of [`LaneCable`]s that are stored without allocation.
-const INLINE: usize = 4;
+/// Number of [`LaneCable`]s that are stored without allocation. Processors other than x86-64 have one or two
+/// lanes, and then more of these.
+const INLINE: usize = if cfg!(target_arch = "x86_64") { 4 } else { 16 };
 
 /// Robots, in an equilibrium or near one.
 #[derive(Clone)]
