@@ -34,7 +34,7 @@ fn install(built: &Path, prefix: &Path) -> Result<(), String> {
     copy(&sources.join("include/cdpr.h"), &prefix.join("include/cdpr.h"))?;
     copy(&built.join("libcdpr_c.a"), &prefix.join("lib/libcdpr.a"))?;
     copy(&built.join(format!("libcdpr_c.{shared}")), &prefix.join(format!("lib/libcdpr.{shared}")))?;
-    for file in ["cdpr_mex.c", "example.m", "+cdpr/Robot.m", "+cdpr/Tracker.m"] {
+    for file in ["cdpr_mex.c", "cdpr_example.m", "+cdpr/Robot.m", "+cdpr/Tracker.m"] {
         copy(&sources.join("matlab").join(file), &prefix.join("share/cdpr/matlab").join(file))?;
     }
     copy(&sources.join("examples/control_loop.c"), &prefix.join("share/cdpr/examples/control_loop.c"))?;
@@ -51,7 +51,8 @@ fn install(built: &Path, prefix: &Path) -> Result<(), String> {
 }
 
 fn made(folder: Option<&Path>) -> Result<(), String> {
-    folder.map_or(Ok(()), std::fs::create_dir_all).map_err(|error| format!("cannot make {folder:?}: {error}"))
+    let Some(folder) = folder else { return Ok(()) };
+    std::fs::create_dir_all(folder).map_err(|error| format!("cannot make {}: {error}", folder.display()))
 }
 
 fn copy(from: &Path, to: &Path) -> Result<(), String> {

@@ -119,7 +119,7 @@ fn octave_gets_the_bits_of_the_rust_interface() {
 
 #[test]
 fn the_example_prints_what_the_page_shows() {
-    let Some(printed) = octave("example") else { return };
+    let Some(printed) = octave("cdpr_example") else { return };
     let page = std::fs::read_to_string(folder().join("../../docs/c.md")).unwrap();
     assert!(page.contains(&printed), "docs/c.md: {printed}");
 }
