@@ -137,10 +137,11 @@ pub fn design(problem: &DesignProblem) -> Result<Design, AssessError> {
     let best = feasible().min_by(|(_, a), (_, b)| a.objective.total_cmp(&b.objective));
     let before = problem.evaluate(&problem.nominal(), false).ok();
     let evaluations = 1 + found.iter().flatten().map(|one| one.evaluations).sum::<usize>();
-    let reason = best.is_none().then(|| match problem.evaluate(&problem.configuration(0), starts.is_some()) {
-        Err(error) => error.to_string(),
-        Ok(at) => format!("a limit is passed by {:.1} %", 100.0 * excess(&at)),
-    });
+    let reason =
+        best.is_none().then(|| match problem.evaluate(&problem.configuration(0), starts.is_some()) {
+            Err(error) => error.to_string(),
+            Ok(at) => format!("a limit is passed by {:.1} %", 100.0 * excess(&at)),
+        });
     let best = best.map(|(number, best)| {
         let others = feasible().filter(|(k, _)| k / each != number / each).map(|(_, one)| one.objective);
         let next = others.min_by(f64::total_cmp).map(|objective| sign * objective);

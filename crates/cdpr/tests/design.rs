@@ -12,7 +12,10 @@ fn a_design_begins_with_its_verdict_and_its_robot_is_a_robot_file() {
     let printed = answered(cdpr(&["design", "caroca", &design, "--out", best.to_str().unwrap()]));
     let first = printed.lines().next().unwrap();
     assert!(first.starts_with("CAROCA: the greatest deflection falls from "), "{first}");
-    assert!(unwrapped(printed.clone().into()).contains("(best of 175 configurations, all evaluated)"), "{printed}");
+    assert!(
+        unwrapped(printed.clone().into()).contains("(best of 175 configurations, all evaluated)"),
+        "{printed}"
+    );
     assert!(printed.lines().all(|line| line.chars().count() <= 80), "{printed}");
     let found: Value =
         serde_json::from_str(&answered(cdpr(&["design", "caroca", &design, "--format", "json"]))).unwrap();

@@ -39,8 +39,11 @@ pub(crate) const OPTIMAL: f64 = 1e-8;
 const AIM: f64 = 1e-10;
 /// Excess of a demand that rounding leaves, as a share of its limit.
 pub(crate) const MET: f64 = 1e-8;
-/// Change of the merit that rounding of the models may hide.
-const ROUNDING: f64 = 1e-12;
+/// Change of the merit that rounding of the models may hide: steps that promise less are taken as far as the
+/// residual falls.
+const ROUNDING: f64 = 1e-9;
+/// Such steps without a smaller residual.
+const PATIENCE: usize = 5;
 /// Distance from a bound within which a coordinate is on it.
 const ON_BOUND: f64 = 1e-9;
 const MOST_STEPS: usize = 200;
@@ -122,8 +125,8 @@ impl Search<'_> {
             search.scale = 1.0;
         }
         let start = first.u.clone();
-        let mut here = search.at(start)?;
-        search.descend(&mut here)
+        let here = search.at(start)?;
+        search.descend(here)
     }
 
     fn values_at(&self, u: &[f64]) -> Vec<f64> {
@@ -163,30 +166,39 @@ impl Search<'_> {
         point.is_finite().then_some(point)
     }
 
-    fn descend(&mut self, here: &mut Point) -> Option<Found> {
+    fn descend(&mut self, mut here: Point) -> Option<Found> {
         let n = here.u.len();
         let mut b = DMatrix::identity(n, n);
-        let (mut is_fresh, mut last) = (true, None);
+        let (mut is_fresh, mut waited) = (true, 0);
+        let mut best: Option<(Point, Step, f64)> = None;
         for _ in 0..MOST_STEPS {
-            let Some(step) = self.step(here, here, &b) else { break };
+            let Some(step) = self.step(&here, &here, &b) else { break };
             let residual = here.residual(&step);
-            let is_end = residual <= AIM;
-            let taken = if is_end { None } else { self.search_along(here, &step, &b) };
-            last = Some((step, residual));
-            match (taken, &last) {
-                (Some(next), Some((step, _))) => {
-                    update(&mut b, here, &next, step, is_fresh);
+            let taken = if residual <= AIM { None } else { self.search_along(&here, &step, &b) };
+            if let Some(next) = &taken {
+                update(&mut b, &here, next, &step, is_fresh);
+            }
+            let is_rounding = step.fall <= ROUNDING;
+            if is_rounding && best.as_ref().is_some_and(|(.., least)| residual >= *least) {
+                waited += 1;
+            } else {
+                waited = 0;
+                best = Some((here.clone(), step, residual));
+            }
+            match taken {
+                _ if residual <= AIM || waited > PATIENCE => break,
+                Some(next) => {
+                    here = next;
                     is_fresh = false;
-                    *here = next;
                 }
-                _ if is_end || is_fresh => break,
-                _ => {
+                None if is_fresh => break,
+                None => {
                     b = DMatrix::identity(n, n);
                     is_fresh = true;
                 }
             }
         }
-        let (step, residual) = last?;
+        let (here, step, residual) = best?;
         let per_value = |(g, (_, [low, high])): (f64, &(usize, [f64; 2]))| self.scale * g / (high - low);
         let mut gradient = vec![0.0; self.values.len()];
         let slopes = here.gradient(&step).into_iter().zip(&self.bounded).map(per_value);
@@ -250,9 +262,9 @@ impl Search<'_> {
         const ENOUGH: f64 = 1e-4;
         let merit = here.merit(self.penalty);
         let penalty = self.penalty;
-        let falls = |next: &Point, share: f64| {
-            next.merit(penalty) <= merit - ENOUGH * share * step.fall + ROUNDING * merit.abs().max(1.0)
-        };
+        let hidden = if step.fall <= ROUNDING { ROUNDING } else { 0.0 };
+        let falls =
+            |next: &Point, share: f64| next.merit(penalty) <= merit - ENOUGH * share * step.fall + hidden;
         let mut share = 1.0;
         for halving in 0..MOST_HALVINGS {
             let u = here.moved(&step.d, share);

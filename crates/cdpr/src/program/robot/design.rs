@@ -99,7 +99,8 @@ fn tried(found: &Design) -> String {
 
 fn none(robot: &Robot, found: &Design) -> String {
     let poses = if found.poses == 1 { "the pose".to_owned() } else { format!("all {} poses", found.poses) };
-    let reason = found.reason.as_ref().map_or_else(String::new, |reason| format!(" The first one: {reason}."));
+    let reason =
+        found.reason.as_ref().map_or_else(String::new, |reason| format!(" The first one: {reason}."));
     let name = shown(&robot.name);
     format!("{name}: no robot was found that holds {poses} within the limits, in {}.{reason}", tried(found))
 }
