@@ -159,6 +159,7 @@ fn the_schemas_in_the_docs_are_those_of_the_code() {
         ("cdpr-study-1", cdpr_study::json_schema()),
         ("cdpr-law-1", cdpr_study::law_schema()),
         ("cdpr-events-1", cdpr_dynamics::simulate::events_schema()),
+        ("cdpr-design-1", cdpr_assess::design_schema()),
     ] {
         let path = root().join(format!("docs/schemas/{file}.schema.json"));
         assert_eq!(std::fs::read_to_string(path).unwrap(), schema, "run: cargo xtask schemas");

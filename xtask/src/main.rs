@@ -204,6 +204,6 @@ fn without<'a>(arguments: &'a [String], option: &str) -> (&'a str, Vec<&'a str>)
 }
 
 fn schemas() -> Result<(), String> {
-    let examples = ["robot_schema", "study_schema", "events_schema"];
+    let examples = ["robot_schema", "study_schema", "events_schema", "design_schema"];
     examples.iter().try_for_each(|example| cargo(&["run", "--quiet", "--example", example]))
 }

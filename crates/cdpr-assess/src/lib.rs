@@ -6,6 +6,7 @@
 //! | Where is the platform held, how far does a load deflect it, how stiff is it? | [`compute_workspace`] |
 //! | What can it carry at a pose, how far are the limits of tension? | [`capacity_at`] |
 //! | Where does it come to rest when a cable breaks, and do the others bear that? | [`safety_at`] |
+//! | Where do the exits go for the least deflection? | [`design`] |
 //! | How near do cables come to each other and to the platform? | [`clearance_at`] |
 //! | How far may it tilt there? | [`tilt_at`] |
 //! | What happens along a path of poses, and how uncertain is it? | [`Path`] |
@@ -17,6 +18,7 @@
 mod boundary;
 mod capacity;
 mod clearance;
+mod design;
 mod error;
 mod inspection;
 mod path;
@@ -31,6 +33,10 @@ mod write;
 pub use boundary::Boundary;
 pub use capacity::{Block, Capacity, Figure, WrenchSet, capacity_at};
 pub use clearance::{CableDistance, Clearance, PlatformDistance, clearance_at, clearance_under};
+pub use design::{
+    ActiveDemand, BestDesign, DESIGN_FORMAT, Design, DesignFile, DesignProblem, DesignedVariable, LimitsSpec,
+    ObjectiveSpec, Over, VariableSpec, design, design_schema,
+};
 pub use error::AssessError;
 pub use inspection::{Finding, Severity, doubtful_rest, inspect};
 pub use path::{Bands, Path, PathPose};

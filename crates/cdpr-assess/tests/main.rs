@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 
 mod capacity;
+mod design;
 mod free_workspaces;
 mod inspection;
 mod maps;

@@ -333,8 +333,9 @@ impl StudyError {
         matches!(self, Self::Setting { .. })
     }
 
-    /// The error with the place of its field in the study file's text, if it has one.
-    pub(crate) fn placed(mut self, text: &str) -> Self {
+    /// The error with the place of its field in the file's text, if it has one.
+    #[must_use]
+    pub fn placed(mut self, text: &str) -> Self {
         let position = match &mut self {
             Self::Format { source, .. } => {
                 if let Some((line, column)) = place_of(text, &source.field) {

@@ -13,6 +13,8 @@ pub enum InputKind {
     Foreign,
     /// A study file, in which poses may be listed one by one.
     Study,
+    /// What a robot is designed for.
+    Design,
     /// An elastic law of cables.
     Law,
     /// Correlated errors of parameters, or an error model.
@@ -47,6 +49,7 @@ impl InputKind {
             * match self {
                 Self::Robot | Self::Cable | Self::Foreign | Self::Law => 4,
                 Self::Study
+                | Self::Design
                 | Self::Poses
                 | Self::Cases
                 | Self::Events
@@ -60,10 +63,11 @@ impl InputKind {
 }
 
 /// Names of the formats that files state, without their versions.
-const FORMATS: [(&str, InputKind); 8] = [
+const FORMATS: [(&str, InputKind); 9] = [
     ("cdpr-robot", InputKind::Robot),
     ("cdpr-cable", InputKind::Cable),
     ("cdpr-study", InputKind::Study),
+    ("cdpr-design", InputKind::Design),
     ("cdpr-law", InputKind::Law),
     ("cdpr-errors", InputKind::Errors),
     ("cdpr-measurements", InputKind::Measurements),
@@ -111,6 +115,7 @@ impl fmt::Display for InputKind {
             Self::Cable => "a cable file",
             Self::Foreign => "a file to import",
             Self::Study => "a study file",
+            Self::Design => "a design file",
             Self::Law => "a law file",
             Self::Errors => "an error model",
             Self::Measurements => "measurements",

@@ -101,6 +101,7 @@ pub use model::grid::{Grid, GridSpan, free_along};
 pub use model::hash::robot_hash;
 pub use model::observed::{Failure, Measured, MeasuredQuantity, Observed, ScalarCount};
 pub use model::observer::OutputObserver;
+pub use model::pose_set::InField;
 pub use model::study::{NominalPose, Sampling, Study, Surface, SurfaceAxis};
 pub use names::{REPORT_NAME, ROBOT_NAME, STUDY_NAME};
 pub use observe::observation::{

@@ -116,13 +116,13 @@ fn program(problem: &Problem, objective: Objective, unit: f64) -> Program {
         (coefficients, -problem.wrench[row] / unit)
     };
     let equations = (0..w.nrows()).map(equation).collect();
-    Program { gradient, curvature, equations, inequalities, bounds }
+    Program { gradient, curvature, equations, inequalities, bounds, ..Program::default() }
 }
 
 /// What Clarabel found, with the digits of the optimality conditions where these determine it.
 fn distribution(problem: &Problem, objective: Objective, unit: f64, solution: Solution) -> Distribution {
     let n = problem.limits.len();
-    let Solution { values, active } = solution;
+    let Solution { values, active, .. } = solution;
     let active = active[..n].to_vec();
     let within = |(t, limits): (&f64, &TensionLimits)| (t * unit).clamp(limits.min, limits.max);
     let mut tensions: Vec<f64> = values.iter().zip(problem.limits).map(within).collect();
@@ -225,7 +225,8 @@ fn nearest(problem: &Problem) -> Result<Vec<f64>, TensionError> {
         coefficients.extend((0..m).map(|component| if component == row { -1.0 } else { 0.0 }));
     }
     let curvature = (0..n + m).map(|i| if i < n { UNIQUE } else { 1.0 }).collect();
-    let least = Program { gradient: vec![0.0; n + m], curvature, equations, inequalities: vec![], bounds };
+    let gradient = vec![0.0; n + m];
+    let least = Program { gradient, curvature, equations, bounds, ..Program::default() };
     match least.solve()? {
         Outcome::Solved(Solution { values, .. }) => {
             let tensions = values.iter().zip(problem.limits);

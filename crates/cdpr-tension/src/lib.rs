@@ -58,14 +58,17 @@
 //! [`BoxProblem`] and [`LinearProgram`] are the programs of single steps towards an equilibrium with sagging
 //! cables. They are solved many times for one pose, in a tenth of Clarabel's
 //! time. [`box_problem`] solves the first for many robots at a time, too, in the lanes of the vector unit.
+//! [`QuadraticProgram`] is that of a step of any optimization with constraints.
 
 pub mod box_problem;
 mod distribution;
 mod linear_program;
 mod problem;
 mod program;
+mod quadratic_program;
 
 pub use box_problem::{BoxProblem, BoxSolution, BoxUnknown};
 pub use distribution::{Distribution, DistributionMethod, distribute, offset};
 pub use linear_program::{LinearProgram, LinearSolution};
 pub use problem::{Bound, Objective, Problem, TensionError};
+pub use quadratic_program::{QuadraticProgram, QuadraticSolution};

@@ -11,13 +11,15 @@ use clarabel::solver::{
     SupportedConeT::{NonnegativeConeT, ZeroConeT},
 };
 
-/// `minimize sum (c_i x_i + h_i x_i²/2)  subject to  A x = b,  B x <= d,  l <= x <= u`.
+/// `minimize ½ xᵀHx + sum (c_i x_i + h_i x_i²/2)  subject to  A x = b,  B x <= d,  l <= x <= u`.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Program {
     /// c.
     pub(crate) gradient: Vec<f64>,
     /// h, zero or more.
     pub(crate) curvature: Vec<f64>,
+    /// Columns of the positive semidefinite H of the first unknowns; their upper triangle is read.
+    pub(crate) hessian: Vec<Vec<f64>>,
     /// Rows of A with b.
     pub(crate) equations: Vec<(Vec<f64>, f64)>,
     /// Rows of B with d.
@@ -39,6 +41,8 @@ pub(crate) struct Solution {
     pub(crate) values: Vec<f64>,
     /// The bound that each unknown rests on: its distance is smaller than its multiplier.
     pub(crate) active: Vec<Option<Bound>>,
+    /// Multiplier of each inequality, zero or more.
+    pub(crate) multipliers: Vec<f64>,
 }
 
 /// Relative and absolute tolerance of residuals and gap.
@@ -67,7 +71,10 @@ impl Program {
             a.push(coefficients.chain(own));
         }
         let mut p = Columns::default();
-        self.curvature.iter().enumerate().for_each(|(j, h)| p.push([(j, *h)].into_iter()));
+        for (j, h) in self.curvature.iter().enumerate() {
+            let (above, own) = self.hessian.get(j).map_or((&[][..], 0.0), |column| (&column[..j], column[j]));
+            p.push(above.iter().copied().enumerate().chain([(j, own + h)]));
+        }
         let (a, p) = (a.matrix(right.len()), p.matrix(n));
         let cones = [ZeroConeT(m), NonnegativeConeT(right.len() - m)];
         let mut solver =
@@ -78,6 +85,7 @@ impl Program {
         match found.status {
             SolverStatus::Solved | SolverStatus::AlmostSolved => Ok(Outcome::Solved(Solution {
                 values: found.x.clone(),
+                multipliers: found.z[m..rows.len()].to_vec(),
                 active: bound_rows
                     .iter()
                     .map(|[low, high]| match (near(low), near(high)) {

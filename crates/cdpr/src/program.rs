@@ -147,6 +147,15 @@ enum Command {
                       --uncertainty a=0.002,b=0.002
   cdpr workspace data/robots/cogiro.json --region z=1.5 --with capacity,distances,tilt,boundary")]
     Workspace(robot::workspace::Settings),
+    /// Find where the exits, the anchors or a mass are best.
+    ///
+    /// For poses and a load: what may change, within bounds or in steps, and what is to be as good as possible, are
+    /// in a file (JSON, `cdpr-design/1`). The search has exact derivatives and several starts; of steps every
+    /// combination is evaluated. The exit code is 3 where no robot was found that holds all poses.
+    #[command(after_help = "Examples:
+  cdpr design caroca data/designs/caroca-pulleys.json
+  cdpr design cogiro data/designs/cogiro-exits.json --out better.json")]
+    Design(robot::design::Settings),
     /// Write a page on which the robot computes in a browser.
     ///
     /// Move it, load it, see which tolerance matters. One HTML file that needs neither an installation nor a
@@ -251,6 +260,7 @@ fn carry_out(command: Command) -> Result<Ending, ProgramError> {
         Command::Hysteresis(settings) => return pose::hysteresis::run(&settings),
         Command::Path(settings) => return pose::path::run(&settings),
         Command::Workspace(settings) => return robot::workspace::run(&settings),
+        Command::Design(settings) => return robot::design::run(&settings),
         Command::Explore(settings) => robot::explore::run(&settings)?,
         Command::Analyse(settings) => return study::analyse::run(&settings),
         Command::Robot { command } => return robot::run(&command),

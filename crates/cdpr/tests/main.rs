@@ -13,6 +13,7 @@ mod changed_folder;
 mod commands;
 mod common;
 mod derivatives;
+mod design;
 #[path = "../../cdpr-statics/tests/equilibria.rs"]
 mod equilibria;
 mod explore;

@@ -11,7 +11,7 @@ use std::process::Command;
 use tempfile::TempDir;
 
 /// Pages with a test each, in the order of the table of contents.
-const PAGES: [&str; 15] = [
+const PAGES: [&str; 16] = [
     "tutorials/cogiro",
     "tutorials/my-robot",
     "tutorials/calibration",
@@ -22,6 +22,7 @@ const PAGES: [&str; 15] = [
     "how-to/planner",
     "how-to/loads",
     "how-to/broken-cable",
+    "how-to/exits",
     "how-to/cluster",
     "how-to/figure",
     "how-to/table",

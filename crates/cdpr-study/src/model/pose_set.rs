@@ -1,5 +1,5 @@
-//! Samplings at several poses. Each pose is a sampling of its own, `NAME/0000`, `NAME/0001`, ..., with blocks
-//! and a table of its own; [`crate::PosesSummary`] summarizes them.
+//! Samplings at several poses. Each pose is a sampling of its own, `NAME/0000`, `NAME/0001`, ..., with
+//! blocks and a table of its own; [`crate::PosesSummary`] summarizes them.
 
 use crate::error::StudyError;
 use crate::file::study_file::{PoseSpec, PosesSpec, SamplingSpec};
@@ -102,7 +102,8 @@ impl Study {
         }
     }
 
-    /// Looks up a sampling in the study file: its name there, its entry, its pose, and the field of the pose.
+    /// Looks up a sampling in the study file: its name there, its entry, its pose, and the field of the
+    /// pose.
     ///
     /// # Errors
     /// [`StudyError::Invalid`] for an unknown name or an invalid pose.
@@ -146,31 +147,64 @@ impl Study {
     }
 
     pub(crate) fn pose(&self, field: &str, spec: &PoseSpec) -> Result<Pose, StudyError> {
+        let wrong = |(of, value, expected): InField| self.invalid(&format!("{field}.{of}"), value, &expected);
+        spec.pose().map_err(wrong)
+    }
+}
+
+/// An invalid value: its field below that of what it is in, the value, and what is expected.
+pub type InField = (String, String, String);
+
+impl PoseSpec {
+    /// The pose.
+    ///
+    /// # Errors
+    /// Field, value and what is expected.
+    pub fn pose(&self) -> Result<Pose, InField> {
+        let wrong = |field: &str, value: String, expected: String| (field.to_owned(), value, expected);
         let finite = |numbers: &[f64]| numbers.iter().all(|number| number.is_finite());
-        if !finite(&spec.position) {
-            let field = format!("{field}.position");
-            return Err(self.invalid(&field, format!("{:?}", spec.position), "finite numbers [m]"));
+        if !finite(&self.position) {
+            return Err(wrong("position", format!("{:?}", self.position), "finite numbers [m]".to_owned()));
         }
-        let rotation = match spec.rpy_deg {
-            Some(angles) if spec.quaternion == PoseSpec::level() && finite(&angles) => {
-                rotation_by_angles(angles)
-            }
+        let rotation = match self.rpy_deg {
+            Some(angles) if self.quaternion == Self::level() && finite(&angles) => rotation_by_angles(angles),
             Some(angles) => {
-                let expected = "finite angles [degrees], and no `quaternion` beside them";
-                return Err(self.invalid(&format!("{field}.rpy_deg"), format!("{angles:?}"), expected));
+                let expected = "finite angles [degrees], and no `quaternion` beside them".to_owned();
+                return Err(wrong("rpy_deg", format!("{angles:?}"), expected));
             }
-            None => rotation_in_order(spec.quaternion).map_err(|error| {
+            None => rotation_in_order(self.quaternion).map_err(|error| {
                 let or_angles =
                     if matches!(error, QuaternionError::Order { .. }) { " in `rpy_deg`" } else { "" };
-                let expected = format!("{}{or_angles}", error.expected());
-                self.invalid(
-                    &format!("{field}.quaternion"),
-                    format!("{}, which {}", error.value(), error.fault()),
-                    &expected,
-                )
+                let value = format!("{}, which {}", error.value(), error.fault());
+                wrong("quaternion", value, format!("{}{or_angles}", error.expected()))
             })?,
         };
-        Ok(Pose { position: Vector3::from(spec.position), rotation })
+        Ok(Pose { position: Vector3::from(self.position), rotation })
+    }
+}
+
+impl PosesSpec {
+    /// The poses, at least one.
+    ///
+    /// # Errors
+    /// Field, value and what is expected.
+    pub fn poses(&self) -> Result<Vec<Pose>, InField> {
+        match self {
+            Self::List(list) if list.is_empty() => {
+                Err(("list".to_owned(), "empty".to_owned(), "at least one pose".to_owned()))
+            }
+            Self::List(list) => {
+                let of = |k, (field, value, expected)| (format!("list[{k}].{field}"), value, expected);
+                list.iter().enumerate().map(|(k, pose)| pose.pose().map_err(|wrong| of(k, wrong))).collect()
+            }
+            Self::Grid(grid) => match Grid::of(grid) {
+                Ok(grid) => Ok(grid.poses()),
+                Err((axis, value, expected)) => {
+                    let axis = axis.map(|axis| format!(".{axis}")).unwrap_or_default();
+                    Err((format!("grid{axis}"), value, expected))
+                }
+            },
+        }
     }
 }
 

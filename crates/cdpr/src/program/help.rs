@@ -34,7 +34,7 @@ const GROUPS: [Group; 8] = [
     },
     Group {
         title: "A robot at many poses",
-        commands: &["path", "workspace", "explore"],
+        commands: &["path", "workspace", "design", "explore"],
         example: "cdpr explore cogiro",
     },
     Group {

@@ -1,6 +1,7 @@
 //! `cdpr robot ...`: robots and their files, and the commands about a robot as a whole.
 
 mod check;
+pub(crate) mod design;
 pub(crate) mod explore;
 mod export;
 mod import;

@@ -9,7 +9,7 @@ use std::path::Path;
 use std::process::Command;
 
 /// A good call of each command in the folder of all cases.
-const CALLS: [&str; 29] = [
+const CALLS: [&str; 30] = [
     "cable catenary weight=1,stiffness=1e6 --length 4.3 --end 4,-1",
     "inverse robot.json --pose 0,0,1.75",
     "direct robot.json --lengths 4.44,4.54,4.36,4.26,4.26,4.36,4.54,4.44",
@@ -19,6 +19,7 @@ const CALLS: [&str; 29] = [
     "safety robot.json --pose 0,0,1.75",
     "path robot.json --poses poses.txt --payload 50",
     "workspace robot.json --region ::3,::3,1.75 --payload 50 --out out",
+    "design robot.json design.json --out out/best.json",
     "explore robot.json --out out/page.html",
     "robot check robot.json",
     "study new robot.json",
@@ -65,6 +66,10 @@ pub(super) fn prepare(folder: &Path) -> io::Result<()> {
     let row = "4.44,4.54,4.36,4.26,4.26,4.36,4.54,4.44";
     let rows: String = (0..6).map(|k| format!("0,0,1.75{k},{row}\n")).collect();
     let header = "x_m,y_m,z_m,l1_m,l2_m,l3_m,l4_m,l5_m,l6_m,l7_m,l8_m\n";
+    let design = r#"{"format": "cdpr-design/1", "variables": [{"parameters": ["b1.x"], "choices": [-3.5, -3]}],
+        "poses": {"list": [{"position": [0, 0, 1.75]}]}, "payload": 50,
+        "objective": {"output": "deflection", "over": "worst"}}"#;
+    fs::write(folder.join("design.json"), design)?;
     fs::write(folder.join("events.json"), "[{\"t\": 0, \"payload\": 1}]")?;
     fs::write(folder.join("measured.csv"), format!("{header}{rows}"))?;
     fs::write(folder.join("points.csv"), "bx,by,bz,ax,ay,az\n1,1,1,0.1,0.1,0\n-1,1,1,-0.1,0.1,0\n")

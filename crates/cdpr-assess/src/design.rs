@@ -1,0 +1,257 @@
+//! Design of a robot: where its exits go, or which of the places of its pulleys are best, for poses and a
+//! load.
+//!
+//! What has bounds is searched from several starts with exact derivatives (`design/search.rs`): the robot
+//! as it is, and points of Sobol's sequence. Of what has choices, every combination is evaluated. A robot
+//! counts if it is held at every pose without the load, by tensions within its limits, if with the load,
+//! the lengths kept, no tension is above its greatest value or breaking force, and if it meets the
+//! demands.
+
+mod evaluation;
+mod file;
+mod problem;
+mod search;
+mod variable;
+
+use crate::error::AssessError;
+use cdpr_robot::Robot;
+use cdpr_sensitivity::Sobol;
+use cdpr_study::{Output, StudyError};
+use evaluation::sense;
+pub use file::{DESIGN_FORMAT, DesignFile, LimitsSpec, ObjectiveSpec, Over, VariableSpec, design_schema};
+pub use problem::DesignProblem;
+use rayon::prelude::*;
+use search::{Found, MET, OPTIMAL, Search, excess, objective};
+use serde::Serialize;
+use variable::{Domain, Variable};
+
+/// The best robot that was found, and how far that can be relied on.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Design {
+    /// What is as good as possible.
+    pub output: Output,
+    /// Over the poses.
+    pub over: Over,
+    /// Number of poses.
+    pub poses: usize,
+    /// The objective of the robot as it is, in the unit of the output; `None` where it is not held at
+    /// every pose.
+    pub before: Option<f64>,
+    /// Whether the robot as it is is held and meets all demands.
+    pub feasible_before: bool,
+    /// Combinations of the choices, all of them evaluated; 1 without choices.
+    pub configurations: usize,
+    /// Starts of the local search in each of them; 0 where nothing has bounds.
+    pub starts: usize,
+    /// Searches, or configurations where nothing has bounds, that led to a robot that counts.
+    pub feasible: usize,
+    /// Evaluations of a robot at all poses.
+    pub evaluations: usize,
+    /// Why the first start leads to no robot that counts, where none does.
+    pub reason: Option<String>,
+    /// The best robot; `None` where no start led to one that counts.
+    pub best: Option<BestDesign>,
+}
+
+/// The best robot that was found.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct BestDesign {
+    /// The objective in the unit of the output.
+    pub objective: f64,
+    /// The output at each pose.
+    pub outputs: Vec<f64>,
+    /// What changed.
+    pub variables: Vec<DesignedVariable>,
+    /// Searches that led to these values.
+    pub same: usize,
+    /// The objective of the best other configuration, where there is one that counts.
+    pub next_configuration: Option<f64>,
+    /// Residual of the optimality conditions, relative to the objective at the start and to the widths
+    /// between the bounds; `None` where nothing has bounds.
+    pub kkt_residual: Option<f64>,
+    /// Whether that residual is small enough for a local optimum; true where nothing has bounds.
+    pub optimal: bool,
+    /// Demands that keep the objective from being better.
+    pub active: Vec<ActiveDemand>,
+    /// The robot.
+    #[serde(skip)]
+    pub robot: Robot,
+}
+
+/// A variable of a design.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct DesignedVariable {
+    /// Its name.
+    pub name: String,
+    /// SI unit.
+    pub unit: &'static str,
+    /// Value of the robot as it is.
+    pub from: f64,
+    /// Value of the best robot.
+    pub to: f64,
+    /// The bound that it is on: "min" or "max"; of choices never.
+    pub bound: Option<&'static str>,
+    /// By how much the objective changes for each unit by which an active bound is moved; zero within
+    /// bounds.
+    pub per_unit: f64,
+}
+
+/// A demand that is met with equality, and costs something.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ActiveDemand {
+    /// Index of the pose, from 0.
+    pub pose: usize,
+    /// The output that is limited; `None` for the tension of a cable.
+    pub output: Option<Output>,
+    /// Index of the cable whose greatest tension is reached, from 0.
+    pub cable: Option<usize>,
+    /// By how much the objective would be better if the limit were 1 % wider, to first order.
+    pub per_percent: f64,
+}
+
+/// Values are the same where they differ by less than this share of the range between the bounds.
+const SAME_VALUE: f64 = 1e-4;
+/// The same of objectives, relative.
+const SAME_OBJECTIVE: f64 = 1e-6;
+
+/// Finds the best values of the variables.
+///
+/// The result does not depend on the number of threads.
+///
+/// # Errors
+/// [`AssessError::Study`] for more variables than Sobol's sequence has dimensions.
+pub fn design(problem: &DesignProblem) -> Result<Design, AssessError> {
+    let sign = sense(problem.output);
+    let (configurations, each) = (problem.configurations().unwrap_or(0), problem.searches_each());
+    let starts = starts(problem)?;
+    let run = |number: usize| {
+        let values = problem.configuration(number / each);
+        match &starts {
+            Some(starts) => Search::run(problem, values, starts[number % each].clone()),
+            None => single(problem, values),
+        }
+    };
+    let found: Vec<Option<Found>> = (0..configurations * each).into_par_iter().map(run).collect();
+    let counts = |found: &&Found| found.excess <= MET;
+    let feasible = || found.iter().enumerate().filter_map(|(k, one)| Some((k, one.as_ref().filter(counts)?)));
+    let best = feasible().min_by(|(_, a), (_, b)| a.objective.total_cmp(&b.objective));
+    let before = problem.evaluate(&problem.nominal(), false).ok();
+    let evaluations = 1 + found.iter().flatten().map(|one| one.evaluations).sum::<usize>();
+    let reason =
+        best.is_none().then(|| match problem.evaluate(&problem.configuration(0), starts.is_some()) {
+            Err(error) => error.to_string(),
+            Ok(at) => format!("a limit is passed by {:.1} %", 100.0 * excess(&at)),
+        });
+    let best = best.map(|(number, best)| {
+        let others = feasible().filter(|(k, _)| k / each != number / each).map(|(_, one)| one.objective);
+        let next = others.min_by(f64::total_cmp).map(|objective| sign * objective);
+        let same = feasible().filter(|(_, one)| is_same(problem, one, best)).count();
+        best_design(problem, best, same, next)
+    });
+    Ok(Design {
+        output: problem.output,
+        over: problem.over,
+        poses: problem.poses.len(),
+        before: before.as_ref().map(|at| sign * objective(problem.over, &at.outputs, sign)),
+        feasible_before: before.as_ref().is_some_and(|at| excess(at) <= MET),
+        configurations,
+        starts: starts.map_or(0, |starts| starts.len()),
+        feasible: feasible().count(),
+        evaluations,
+        reason,
+        best: best.transpose()?,
+    })
+}
+
+/// Starts of the local search in the box between the bounds; `None` where nothing has bounds.
+fn starts(problem: &DesignProblem) -> Result<Option<Vec<Vec<f64>>>, StudyError> {
+    let nominal: Vec<f64> = problem
+        .bounded()
+        .map(|(j, [low, high])| ((problem.variables[j].nominal - low) / (high - low)).clamp(0.0, 1.0))
+        .collect();
+    if nominal.is_empty() {
+        return Ok(None);
+    }
+    let too_many = |_| StudyError::setting("variables", nominal.len(), "at most 2048 with bounds");
+    let sobol = match problem.seed {
+        Some(seed) => Sobol::scrambled(nominal.len(), seed),
+        None => Sobol::new(nominal.len()),
+    };
+    let sobol = sobol.map_err(too_many)?;
+    let point = |index: usize| {
+        let mut point = vec![0.0; nominal.len()];
+        sobol.point(index as u32, &mut point).map(|()| point).map_err(too_many)
+    };
+    let others: Vec<Vec<f64>> = (1..problem.starts).map(point).collect::<Result<_, _>>()?;
+    Ok(Some([nominal].into_iter().chain(others).collect()))
+}
+
+/// A configuration where nothing has bounds.
+fn single(problem: &DesignProblem, values: Vec<f64>) -> Option<Found> {
+    let at = problem.evaluate(&values, false).ok()?;
+    let objective = objective(problem.over, &at.outputs, sense(problem.output));
+    let excess = excess(&at);
+    let (gradient, active) = (Vec::new(), Vec::new());
+    Some(Found { values, objective, excess, residual: 0.0, gradient, active, evaluations: 1 })
+}
+
+fn is_same(problem: &DesignProblem, one: &Found, best: &Found) -> bool {
+    let is_near = |((a, b), variable): ((&f64, &f64), &Variable)| match variable.domain {
+        Domain::Bounds([low, high]) => (a - b).abs() <= SAME_VALUE * (high - low),
+        Domain::Choices(_) => a == b,
+    };
+    (one.objective - best.objective).abs() <= SAME_OBJECTIVE * best.objective.abs()
+        && one.values.iter().zip(&best.values).zip(&problem.variables).all(is_near)
+}
+
+fn best_design(
+    problem: &DesignProblem,
+    best: &Found,
+    same: usize,
+    next_configuration: Option<f64>,
+) -> Result<BestDesign, AssessError> {
+    let sign = sense(problem.output);
+    let invalid =
+        |error: &dyn std::fmt::Display| StudyError::setting("variables", error, "values of a valid robot");
+    let robot = problem.robot_at(&best.values).map_err(|error| invalid(&error))?;
+    let outputs = problem.evaluate(&best.values, false).map_err(|error| invalid(&error))?.outputs;
+    let variable = |(j, variable): (usize, &Variable)| {
+        let to = best.values[j];
+        let bound = match variable.domain {
+            Domain::Bounds([low, _]) if to == low => Some("min"),
+            Domain::Bounds([_, high]) if to == high => Some("max"),
+            _ => None,
+        };
+        DesignedVariable {
+            name: variable.name.clone(),
+            unit: variable.parameters[0].0.unit(),
+            from: variable.nominal,
+            to,
+            per_unit: if bound.is_some() { sign * best.gradient[j] } else { 0.0 },
+            bound,
+        }
+    };
+    let demands: Vec<Output> = problem.limits.each().map(|(output, _)| output).collect();
+    let each = demands.len() + problem.tensions_each();
+    let active = best.active.iter().map(|(k, multiplier)| {
+        let (pose, of) = (k / each, k % each);
+        ActiveDemand {
+            pose,
+            output: demands.get(of).copied(),
+            cable: of.checked_sub(demands.len()),
+            per_percent: 0.01 * multiplier,
+        }
+    });
+    let has_bounds = problem.bounded().next().is_some();
+    Ok(BestDesign {
+        objective: sign * best.objective,
+        outputs: outputs.iter().map(|output| output.value).collect(),
+        variables: problem.variables.iter().enumerate().map(variable).collect(),
+        same,
+        next_configuration,
+        kkt_residual: has_bounds.then_some(best.residual),
+        optimal: best.residual <= OPTIMAL,
+        active: active.collect(),
+        robot,
+    })
+}

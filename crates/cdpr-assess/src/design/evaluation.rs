@@ -1,0 +1,242 @@
+//! What is observed of a robot at the poses of a design, with derivatives by the variables.
+
+use crate::design::problem::DesignProblem;
+use crate::design::variable::Variable;
+use cdpr_dynamics::{FrequencyDerivatives, Modes};
+use cdpr_robot::{CableEnd, Parameter, Robot};
+use cdpr_statics::derivatives::derivatives_from;
+use cdpr_statics::{
+    Deflection, Derivatives, DirectProblem, Load, StaticsError, WantedPose, deflection, deflection_from,
+    derivatives, inverse,
+};
+use cdpr_study::Output;
+
+/// A number with its derivatives by the variables, which are empty where none were wanted.
+#[derive(Clone, Debug)]
+pub(crate) struct Quantity {
+    pub(crate) value: f64,
+    pub(crate) slopes: Vec<f64>,
+}
+
+/// What is observed of a robot.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Evaluation {
+    /// The output at each pose, in its unit.
+    pub(crate) outputs: Vec<Quantity>,
+    /// By how much a demand is passed, as a share of its limit; zero or less where it is met. Of each pose
+    /// the limits of outputs, then, under a load, the greatest tension of each cable.
+    pub(crate) excesses: Vec<Quantity>,
+}
+
+impl DesignProblem {
+    /// What is observed of the robot with these values, with derivatives or without.
+    ///
+    /// # Errors
+    /// Why it is not held at a pose, or has no derivatives there.
+    pub(crate) fn evaluate(&self, values: &[f64], with_slopes: bool) -> Result<Evaluation, StaticsError> {
+        let robot = self.robot_at(values)?;
+        let mut found = Evaluation::default();
+        let none = Load::none();
+        let solved = if self.free.is_empty() { inverse(&robot, &self.poses, &none) } else { Vec::new() };
+        let mut solved = solved.into_iter();
+        for pose in &self.poses {
+            let wanted = WantedPose::at(pose).free(&self.free);
+            let (deflection, slopes) = match (solved.next().transpose()?, with_slopes) {
+                (Some(held), true) => sloped(derivatives_from(&robot, wanted, &self.load, held)?),
+                (None, true) => sloped(derivatives(&robot, wanted, &self.load)?),
+                (Some(held), false) => {
+                    (deflection_from(&robot, held.lengths, &self.load, &held.equilibrium)?, None)
+                }
+                (None, false) => (deflection(&robot, wanted, &self.load)?, None),
+            };
+            let at = AtPose { problem: self, robot: &robot, deflection, slopes };
+            found.outputs.push(at.output(self.output)?);
+            for (of, limit) in self.limits.each() {
+                let sign = sense(of);
+                found.excesses.push(at.output(of)?.scaled(sign / limit, -sign));
+            }
+            if self.tensions_each() > 0 {
+                at.tensions(&mut found.excesses)?;
+            }
+        }
+        Ok(found)
+    }
+}
+
+/// 1 for an output that is to be small, -1 for one that is to be great.
+pub(crate) fn sense(output: Output) -> f64 {
+    match output {
+        Output::Deflection | Output::Position => 1.0,
+        Output::Stiffness | Output::Frequency => -1.0,
+    }
+}
+
+fn sloped(found: Derivatives) -> (Deflection, Option<Derivatives>) {
+    (found.deflection.clone(), Some(found))
+}
+
+/// A robot at a pose, with derivatives or without.
+struct AtPose<'a> {
+    problem: &'a DesignProblem,
+    robot: &'a Robot,
+    deflection: Deflection,
+    slopes: Option<Derivatives>,
+}
+
+impl AtPose<'_> {
+    /// An output in its unit.
+    fn output(&self, of: Output) -> Result<Quantity, StaticsError> {
+        let Self { problem: DesignProblem { load, characteristic_length, .. }, robot, deflection, .. } = self;
+        let at_rest = || DirectProblem::new(robot, &deflection.lengths, load);
+        let rest = &deflection.loaded.equilibrium;
+        Ok(match (of, &self.slopes) {
+            (Output::Deflection | Output::Position, None) => self.quantity(1e3 * deflection.magnitude(), &[]),
+            (Output::Deflection | Output::Position, Some(found)) => {
+                self.quantity(deflection.magnitude(), &found.magnitude()?).scaled(1e3, 0.0)
+            }
+            (Output::Stiffness, None) => {
+                let stability =
+                    at_rest()?.with_characteristic_length(*characteristic_length).stability(rest)?;
+                self.quantity(stability.least_stiffness(), &[])
+            }
+            (Output::Stiffness, Some(found)) => {
+                let (value, slopes) = found.least_stiffness_with(robot, load, *characteristic_length)?;
+                self.quantity(value, &slopes)
+            }
+            (Output::Frequency, None) => {
+                let modes = Modes::slowest(&at_rest()?, rest)?;
+                self.quantity(modes.lowest().map_or(0.0, |mode| mode.frequency), &[])
+            }
+            (Output::Frequency, Some(found)) => {
+                let lowest = FrequencyDerivatives::lowest_of_deflection(robot, load, found)?;
+                self.quantity(lowest.frequency, &lowest.with_lengths(&found.lengths))
+            }
+        })
+    }
+
+    /// Adds by how much the greatest tension of each cable is passed under the load.
+    fn tensions(&self, excesses: &mut Vec<Quantity>) -> Result<(), StaticsError> {
+        let Self { robot, deflection, slopes, problem } = self;
+        let rest = &deflection.loaded.equilibrium;
+        let n = robot.cables.len();
+        let exits = (0..n).any(|i| !robot.max_at(i).is_anchor());
+        let exit_slopes = match slopes {
+            Some(_) if exits => {
+                let at_rest = DirectProblem::new(robot, &deflection.lengths, &problem.load)?;
+                Some(at_rest.force_derivatives(rest, CableEnd::Exit)?)
+            }
+            _ => None,
+        };
+        let ends = [rest.tensions(), rest.exit_tensions(robot, &deflection.lengths)];
+        for i in 0..n {
+            let is_exit = !robot.max_at(i).is_anchor();
+            let limit = robot.cables[i].properties.breaking_force.unwrap_or(f64::INFINITY);
+            let limit = limit.min(robot.limits(i).max);
+            let row: Vec<f64> = match (slopes, exit_slopes.as_ref().filter(|_| is_exit)) {
+                (None, _) => Vec::new(),
+                (Some(found), None) => found.loaded.tensions.row(i).iter().copied().collect(),
+                (Some(found), Some(exits)) => {
+                    // The lengths follow the parameters.
+                    let count = found.inputs.count();
+                    let along = exits.forces[i].normalize().transpose() * exits.per_input.rows(3 * i, 3);
+                    let whole = along.columns(0, count) + along.columns(count, n) * &found.lengths;
+                    whole.iter().copied().collect()
+                }
+            };
+            excesses.push(self.quantity(ends[usize::from(is_exit)][i], &row).scaled(1.0 / limit, -1.0));
+        }
+        Ok(())
+    }
+
+    /// A number with its derivatives by the variables, from those by the inputs.
+    fn quantity(&self, value: f64, per_input: &[f64]) -> Quantity {
+        let Some(Derivatives { inputs, .. }) = &self.slopes else {
+            return Quantity { value, slopes: Vec::new() };
+        };
+        let of_part = |(parameter, sign): &(Parameter, f64)| {
+            inputs.column(*parameter).map_or(0.0, |column| sign * per_input[column])
+        };
+        let of = |variable: &Variable| variable.parameters.iter().map(of_part).sum();
+        Quantity { value, slopes: self.problem.variables.iter().map(of).collect() }
+    }
+}
+
+impl Quantity {
+    /// `factor` times the quantity, plus `shift`.
+    fn scaled(mut self, factor: f64, shift: f64) -> Self {
+        self.value = factor * self.value + shift;
+        self.slopes.iter_mut().for_each(|slope| *slope *= factor);
+        self
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::path::Path;
+
+    /// All derivatives of a design against differences.
+    fn check(robot: &str, design: &str) {
+        let robot = Robot::from_json(robot).unwrap();
+        let problem = DesignProblem::from_json(design, Path::new("design.json"), robot).unwrap();
+        let values = problem.nominal();
+        let all = |values: &[f64], with_slopes| {
+            let Evaluation { outputs, excesses } = problem.evaluate(values, with_slopes).unwrap();
+            [outputs, excesses].concat()
+        };
+        let found = all(&values, true);
+        for (j, value) in values.iter().enumerate() {
+            let step = 1e-4 * value.abs().max(1.0);
+            let moved = |side: f64| {
+                let mut values = values.clone();
+                values[j] += side * step;
+                all(&values, false)
+            };
+            for (k, ((one, low), high)) in found.iter().zip(moved(-1.0)).zip(moved(1.0)).enumerate() {
+                let difference = (high.value - low.value) / (2.0 * step);
+                let error = (one.slopes[j] - difference).abs() * step;
+                assert!(
+                    error < 1e-6 * one.value.abs().max(1e-3),
+                    "{k} by {j}: {} {difference}",
+                    one.slopes[j]
+                );
+                assert!(
+                    ((low.value + high.value) / 2.0 - one.value).abs() < 1e-4 * one.value.abs().max(1e-3)
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn derivatives_of_outputs_and_tensions_are_their_differences() {
+        let caroca = include_str!("../../../../data/robots/caroca.json");
+        let design = |output: &str| {
+            format!(
+                r#"{{"format": "cdpr-design/1", "payload": 50, "limits": {{"deflection": 3, "stiffness": 1e4}},
+                "objective": {{"output": "{output}", "over": "worst"}},
+                "poses": {{"list": [{{"position": [0.3, 0.2, 1.75]}}, {{"position": [-1, 0.4, 1.5]}}]}},
+                "variables": [
+                    {{"parameters": ["b1.x", "b3.x"], "bounds": [-4, -2]}},
+                    {{"parameters": ["b1.z", "b2.z"], "signs": [1, -1], "bounds": [3, 4]}},
+                    {{"parameters": ["a5.y"], "bounds": [0, 1]}}, {{"parameters": ["mass"], "bounds": [100, 200]}}
+                ]}}"#
+            )
+        };
+        check(caroca, &design("deflection"));
+        check(
+            &caroca.replace("\"max\": 10290.0", "\"max\": 10290.0, \"max_at\": \"exit\""),
+            &design("stiffness"),
+        );
+        let inertia = "\"center_of_mass\": [0, 0, 0], \"inertia\": [[9, 0, 0], [0, 8, 0], [0, 0, 7]]";
+        check(&caroca.replace("\"center_of_mass\": [0, 0, 0]", inertia), &design("frequency"));
+    }
+
+    #[test]
+    fn derivatives_with_free_coordinates_are_their_differences() {
+        let design = r#"{"format": "cdpr-design/1", "payload": 5, "free": ["roll", "pitch"],
+            "objective": {"output": "deflection", "over": "mean"},
+            "poses": {"list": [{"position": [0.5, 0.3, 2]}]},
+            "variables": [{"parameters": ["b1.x"], "bounds": [-9, 9]}, {"parameters": ["b2.z"], "bounds": [1, 9]}]}"#;
+        check(include_str!("../../../../data/robots/four-cables.json"), design);
+    }
+}

@@ -1,0 +1,132 @@
+//! The design file, `cdpr-design/1`: what of a robot may change, and for which poses, loads and purpose.
+
+use cdpr_robot::Coordinate;
+use cdpr_study::{Output, PosesSpec};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Name and version of the format.
+pub const DESIGN_FORMAT: &str = "cdpr-design/1";
+
+/// What of a robot may change, and what is to be as good as possible. SI units.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(title = "cdpr-design/1")]
+pub struct DesignFile {
+    /// Always "cdpr-design/1".
+    pub format: String,
+    /// Where its values come from.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub source: Option<String>,
+    /// What may change: lengths, points, masses, each within bounds or among choices.
+    pub variables: Vec<VariableSpec>,
+    /// Poses that the platform takes.
+    pub poses: PosesSpec,
+    /// Coordinates of the poses that are found where the platform rests, for a robot with fewer cables
+    /// than free motions: as many of x, y, z, roll, pitch, yaw as cables are missing.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub free: Vec<Coordinate>,
+    /// Mass added at the platform's centre of mass [kg].
+    #[serde(default)]
+    pub payload: f64,
+    /// Force and moment about P, of constant components in the base frame: fx, fy, fz [N], mx, my, mz [N
+    /// m].
+    #[serde(default)]
+    pub wrench: [f64; 6],
+    /// What is to be as good as possible.
+    pub objective: ObjectiveSpec,
+    /// What is demanded at every pose.
+    #[serde(default, skip_serializing_if = "LimitsSpec::is_empty")]
+    pub limits: LimitsSpec,
+    /// Starts of the local search: the robot as it is, and points of Sobol's sequence.
+    #[serde(default = "DesignFile::usual_starts")]
+    pub starts: usize,
+    /// Seed of a scrambling of these points; without it the sequence is the plain one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub seed: Option<u64>,
+}
+
+impl DesignFile {
+    fn usual_starts() -> usize {
+        16
+    }
+}
+
+/// Something that may change: one number, with `bounds` or `choices`.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct VariableSpec {
+    /// Its name in results; that of the first parameter if left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
+    /// Parameters that change together (`b1.x`, `a3.z`, `mass`). The number is the value of the first; the
+    /// others change by as much from what they are.
+    pub parameters: Vec<String>,
+    /// Sign of the change of each parameter, 1 or -1, for symmetry; 1 for all if left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub signs: Option<Vec<f64>>,
+    /// Least and greatest value of the first parameter, in its SI unit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bounds: Option<[f64; 2]>,
+    /// The only values that the first parameter may have, such as places of a pulley that moves in steps.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub choices: Option<Vec<f64>>,
+}
+
+/// What is to be as good as possible.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ObjectiveSpec {
+    /// "deflection", which is to be small, or "stiffness" or "frequency", which are to be great.
+    pub output: Output,
+    /// Over the poses.
+    pub over: Over,
+}
+
+/// Which number of several poses counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Over {
+    /// The mean of the poses.
+    Mean,
+    /// The pose where it is worst: the greatest deflection, the least stiffness or frequency.
+    Worst,
+}
+
+/// Demands at every pose, on top of the limits of the tensions.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LimitsSpec {
+    /// Greatest deflection [mm].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub deflection: Option<f64>,
+    /// Least stiffness [N/m].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stiffness: Option<f64>,
+    /// Least natural frequency [Hz].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub frequency: Option<f64>,
+}
+
+impl LimitsSpec {
+    fn is_empty(&self) -> bool {
+        *self == Self::default()
+    }
+
+    /// The demands: of what, and its limit.
+    pub(crate) fn each(&self) -> impl Iterator<Item = (Output, f64)> {
+        let of = |output, limit: Option<f64>| limit.map(|limit| (output, limit));
+        [
+            of(Output::Deflection, self.deflection),
+            of(Output::Stiffness, self.stiffness),
+            of(Output::Frequency, self.frequency),
+        ]
+        .into_iter()
+        .flatten()
+    }
+}
+
+/// The JSON Schema of the design file, as pretty-printed text.
+pub fn design_schema() -> String {
+    format!("{:#}\n", schemars::schema_for!(DesignFile).as_value())
+}

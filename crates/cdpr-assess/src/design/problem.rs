@@ -1,0 +1,204 @@
+//! A design file with its robot, checked.
+
+use crate::design::file::{DESIGN_FORMAT, DesignFile, LimitsSpec, Over};
+use crate::design::variable::{Domain, Variable, variables, with, wrong};
+use cdpr_robot::{Coordinate, Pose, Robot, RobotError, Vector6, Wrench, from_json};
+use cdpr_statics::Load;
+use cdpr_study::{InField, InputKind, Output, StudyError, other_kind, read_text};
+use std::collections::BTreeSet;
+use std::path::Path;
+
+/// Poses of a design.
+const MOST_POSES: usize = 10_000;
+/// Configurations of the choices, each with all starts of the local search where something has bounds.
+pub(crate) const MOST_CONFIGURATIONS: usize = 100_000;
+
+/// A robot, what of it may change, and what is to be as good as possible.
+#[derive(Clone, Debug)]
+pub struct DesignProblem {
+    pub(crate) robot: Robot,
+    pub(crate) variables: Vec<Variable>,
+    pub(crate) poses: Vec<Pose>,
+    pub(crate) free: Vec<Coordinate>,
+    pub(crate) load: Load,
+    pub(crate) output: Output,
+    pub(crate) over: Over,
+    pub(crate) limits: LimitsSpec,
+    pub(crate) starts: usize,
+    pub(crate) seed: Option<u64>,
+    /// By which rotations are measured [m]: a constant, that of the robot as it is.
+    pub(crate) characteristic_length: f64,
+}
+
+impl DesignProblem {
+    /// Reads and checks a design file for a robot.
+    ///
+    /// # Errors
+    /// [`StudyError`] naming file, field, value and what would be right.
+    pub fn open(path: &Path, robot: Robot) -> Result<Self, StudyError> {
+        Self::from_json(&read_text(path, InputKind::Design)?, path, robot)
+    }
+
+    /// The same from its text; `path` names it in errors.
+    ///
+    /// # Errors
+    /// As [`DesignProblem::open`].
+    pub fn from_json(text: &str, path: &Path, robot: Robot) -> Result<Self, StudyError> {
+        let file: DesignFile = from_json(text).map_err(|source| {
+            let other = other_kind(path, text, InputKind::Design);
+            other.unwrap_or_else(|| StudyError::Format { path: path.to_owned(), source })
+        })?;
+        Self::new(&file, robot).map_err(|(field, value, expected)| {
+            StudyError::Invalid { path: path.to_owned(), field, value, expected }.placed(text)
+        })
+    }
+
+    /// Checks a design file for a robot.
+    ///
+    /// # Errors
+    /// Field, value and what is expected.
+    pub fn new(file: &DesignFile, robot: Robot) -> Result<Self, InField> {
+        if file.format != DESIGN_FORMAT {
+            return wrong("format", &file.format, DESIGN_FORMAT);
+        }
+        let poses = file.poses.poses().map_err(|(of, value, why)| (format!("poses.{of}"), value, why))?;
+        if poses.len() > MOST_POSES {
+            return wrong("poses", poses.len(), format!("at most {MOST_POSES} poses"));
+        }
+        let size = robot.platform_size();
+        let problem = Self {
+            variables: variables(&file.variables, &robot)?,
+            poses,
+            free: file.free.clone(),
+            load: load(file)?,
+            output: file.objective.output,
+            over: file.objective.over,
+            limits: file.limits,
+            starts: file.starts,
+            seed: file.seed,
+            characteristic_length: if size > 0.0 { size } else { 1.0 },
+            robot,
+        };
+        problem.check()?;
+        Ok(problem)
+    }
+
+    fn check(&self) -> Result<(), InField> {
+        let Self { robot, output, load, .. } = self;
+        if *output == Output::Position {
+            return wrong("objective.output", output, "deflection, stiffness or frequency");
+        }
+        for (of, limit) in self.limits.each() {
+            if !(limit.is_finite() && limit > 0.0) {
+                return wrong(
+                    &format!("limits.{of}"),
+                    limit,
+                    format!("a finite number above zero [{}]", of.unit()),
+                );
+            }
+        }
+        let needs = |what: Output| *output == what || self.limits.each().any(|(of, _)| of == what);
+        if needs(Output::Deflection) && *load == Load::none() {
+            return wrong(
+                "payload",
+                load.payload,
+                "a mass above zero [kg], or a `wrench`: nothing else deflects",
+            );
+        }
+        if needs(Output::Frequency) && robot.lacks_inertia() {
+            let expected = "deflection or stiffness, or a robot with `platform.inertia`";
+            return wrong("objective.output", output, expected);
+        }
+        if self.bounded().next().is_some() && !robot.distribution.is_smooth() {
+            let expected = "choices instead of bounds, or a robot whose `distribution` is nearest or least_2_norm: \
+                            the tensions of other norms jump";
+            return wrong("variables", format!("bounds with {}", robot.distribution.name()), expected);
+        }
+        let missing = robot.freedoms().count().saturating_sub(robot.cables.len());
+        let distinct: BTreeSet<_> = self.free.iter().map(|one| one.component()).collect();
+        let are_free = distinct.iter().all(|component| robot.freedoms().contains(*component));
+        if self.free.len() != missing || distinct.len() != missing || !are_free {
+            let names: Vec<_> = self.free.iter().map(ToString::to_string).collect();
+            let expected = format!(
+                "{missing} different ones of x, y, z, roll, pitch, yaw that are not held, for {} cables and {} free \
+                 motions",
+                robot.cables.len(),
+                robot.freedoms().count()
+            );
+            return wrong("free", format!("[{}]", names.join(", ")), expected);
+        }
+        let searches = self.configurations().and_then(|count| count.checked_mul(self.searches_each()));
+        if self.starts == 0 || searches.is_none_or(|count| count > MOST_CONFIGURATIONS) {
+            let expected = format!(
+                "1 or more, and with the choices at most {MOST_CONFIGURATIONS} configurations (times the starts, \
+                 where something has bounds)"
+            );
+            return wrong("starts", self.starts, expected);
+        }
+        Ok(())
+    }
+
+    /// Indices of the variables with bounds.
+    pub(crate) fn bounded(&self) -> impl Iterator<Item = (usize, [f64; 2])> {
+        let of = |(j, variable): (usize, &Variable)| match variable.domain {
+            Domain::Bounds(bounds) => Some((j, bounds)),
+            Domain::Choices(_) => None,
+        };
+        self.variables.iter().enumerate().filter_map(of)
+    }
+
+    /// Number of combinations of the choices; 1 without any, `None` where it is beyond all bounds.
+    pub(crate) fn configurations(&self) -> Option<usize> {
+        self.variables.iter().try_fold(1_usize, |count, variable| match &variable.domain {
+            Domain::Bounds(_) => Some(count),
+            Domain::Choices(values) => count.checked_mul(values.len()),
+        })
+    }
+
+    /// Local searches, or single evaluations, of each configuration.
+    pub(crate) fn searches_each(&self) -> usize {
+        if self.bounded().next().is_some() { self.starts } else { 1 }
+    }
+
+    /// The values of a configuration; variables with bounds have the value that is nearest to the robot's.
+    pub(crate) fn configuration(&self, mut number: usize) -> Vec<f64> {
+        let of = |variable: &Variable| match &variable.domain {
+            Domain::Bounds([low, high]) => variable.nominal.clamp(*low, *high),
+            Domain::Choices(values) => {
+                let value = values[number % values.len()];
+                number /= values.len();
+                value
+            }
+        };
+        self.variables.iter().map(of).collect()
+    }
+
+    /// The robot with these values of the variables.
+    ///
+    /// # Errors
+    /// Those of [`Robot::with_values`].
+    pub(crate) fn robot_at(&self, values: &[f64]) -> Result<Robot, RobotError> {
+        with(&self.robot, self.variables.iter().zip(values.iter().copied()))
+    }
+
+    /// Excesses of tensions at each pose.
+    pub(crate) fn tensions_each(&self) -> usize {
+        if self.load == Load::none() { 0 } else { self.robot.cables.len() }
+    }
+
+    /// The values of the robot as it is.
+    pub(crate) fn nominal(&self) -> Vec<f64> {
+        self.variables.iter().map(|variable| variable.nominal).collect()
+    }
+}
+
+/// The load of a file.
+fn load(file: &DesignFile) -> Result<Load, InField> {
+    if !(file.payload.is_finite() && file.payload >= 0.0) {
+        return wrong("payload", file.payload, "a finite mass, zero or more [kg]");
+    }
+    if !file.wrench.iter().all(|component| component.is_finite()) {
+        return wrong("wrench", format!("{:?}", file.wrench), "six finite numbers [N, N m]");
+    }
+    Ok(Load { payload: file.payload, wrench: Wrench::from_vector(&Vector6::from(file.wrench)) })
+}

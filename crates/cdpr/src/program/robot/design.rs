@@ -1,0 +1,182 @@
+//! `cdpr design`: values of a robot that make it as good as possible for poses and a load.
+
+use crate::program::arguments::{Format, Overwrite, Preference, RobotArgument, Threads, endings};
+use crate::program::error::ProgramError;
+use crate::program::output::{Ending, patiently, print_sentence, table};
+use cdpr_assess::{ActiveDemand, BestDesign, Design, DesignProblem, DesignedVariable, Over, design};
+use cdpr_robot::{Robot, counted, shown, significant};
+use cdpr_study::Output;
+use std::path::PathBuf;
+
+/// The robot and what may change.
+#[derive(clap::Args)]
+pub(crate) struct Settings {
+    #[command(flatten)]
+    robot: RobotArgument,
+    /// What may change, for which poses and load, and what is to be as good as possible (JSON,
+    /// `cdpr-design/1`).
+    design: PathBuf,
+    #[command(flatten)]
+    preference: Preference,
+    /// Robot file of the best robot.
+    #[arg(short, long, value_parser = endings::json())]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    overwrite: Overwrite,
+    #[command(flatten)]
+    threads: Threads,
+    /// How the results are printed.
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+}
+
+pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
+    settings.threads.start()?;
+    let robot = settings.preference.open_robot(settings.robot.path())?;
+    let problem = DesignProblem::open(&settings.design, robot.clone())?;
+    let found = patiently("looking for the best robot", || design(&problem))?;
+    if let (Some(out), Some(best)) = (&settings.out, &found.best) {
+        settings.overwrite.write(out, format!("{}\n", best.robot.to_json()))?;
+    }
+    settings.format.print(&found, |found| {
+        print(&robot, found);
+        if let (Some(out), Some(best)) = (&settings.out, &found.best) {
+            println!("{}: {}", out.display(), shown(&best.robot.name));
+        }
+    })?;
+    Ok(if found.best.is_some() { Ending::Well } else { Ending::SomethingWrong })
+}
+
+fn print(robot: &Robot, found: &Design) {
+    let Some(best) = &found.best else {
+        print_sentence(&none(robot, found));
+        return;
+    };
+    for sentence in
+        [Some(verdict(robot, found, best)), Some(ends(found, best)), optimum(best), demands(found, best)]
+            .into_iter()
+            .flatten()
+    {
+        print_sentence(&sentence);
+    }
+    let per_unit = format!("{} per unit", found.output.unit());
+    let mut rows = table(&["variable", "from", "to", "bound", &per_unit]);
+    for DesignedVariable { name, unit, from, to, bound, per_unit } in &best.variables {
+        let per_unit = bound.map_or_else(String::new, |_| significant(*per_unit, 3));
+        rows.add_row([
+            format!("{} [{unit}]", shown(name)),
+            significant(*from, 6),
+            significant(*to, 6),
+            bound.unwrap_or_default().to_owned(),
+            per_unit,
+        ]);
+    }
+    println!("{rows}");
+}
+
+/// What is as good as possible, in words.
+fn noun(found: &Design) -> String {
+    let of = match (found.over, found.output) {
+        _ if found.poses == 1 => "",
+        (Over::Mean, _) => "mean ",
+        (Over::Worst, Output::Deflection | Output::Position) => "greatest ",
+        (Over::Worst, Output::Stiffness | Output::Frequency) => "least ",
+    };
+    let noun = if found.output == Output::Stiffness { "lowest stiffness" } else { found.output.noun() };
+    format!("{of}{noun}")
+}
+
+/// `3 starts`, or `3 configurations`, or `3 starts in each of 4 configurations`.
+fn tried(found: &Design) -> String {
+    match (found.starts, found.configurations) {
+        (0, count) => counted(count, "configuration"),
+        (starts, 1) => counted(starts, "start"),
+        (starts, count) => {
+            format!("{} in each of {}", counted(starts, "start"), counted(count, "configuration"))
+        }
+    }
+}
+
+fn none(robot: &Robot, found: &Design) -> String {
+    let poses = if found.poses == 1 { "the pose".to_owned() } else { format!("all {} poses", found.poses) };
+    let reason =
+        found.reason.as_ref().map_or_else(String::new, |reason| format!(" The first one: {reason}."));
+    let name = shown(&robot.name);
+    format!("{name}: no robot was found that holds {poses} within the limits, in {}.{reason}", tried(found))
+}
+
+/// What becomes of the objective, and of how many it is the best.
+fn verdict(robot: &Robot, found: &Design, best: &BestDesign) -> String {
+    /// Changes below this share are none.
+    const NONE: f64 = 1e-9;
+    let (unit, after) = (found.output.unit(), best.objective);
+    let becomes = match found.before {
+        Some(before) if (after - before).abs() <= NONE * before.abs() => {
+            format!("stays at {} {unit}", significant(after, 4))
+        }
+        Some(before) => {
+            let verb = if after < before { "falls" } else { "rises" };
+            format!("{verb} from {} to {} {unit}", significant(before, 4), significant(after, 4))
+        }
+        None => format!("becomes {} {unit}", significant(after, 4)),
+    };
+    let all = if found.starts == 0 { ", all evaluated" } else { "" };
+    format!("{}: the {} {becomes} (best of {}{all}).", shown(&robot.name), noun(found), tried(found))
+}
+
+/// How many starts or configurations lead where, and what the robot as it is lacks.
+fn ends(found: &Design, best: &BestDesign) -> String {
+    let total = found.configurations * found.starts.max(1);
+    let lost = total - found.feasible;
+    let within = "all poses within the limits";
+    let searches = if found.starts == 0 {
+        format!("{} of {total} configurations hold {within}", found.feasible)
+    } else {
+        let elsewhere = found.feasible - best.same;
+        let what = if found.configurations == 1 { "starts" } else { "searches" };
+        let lost =
+            if lost == 0 { String::new() } else { format!(", {lost} at no robot that holds {within}") };
+        format!("{} of {total} {what} end there, {elsewhere} elsewhere{lost}", best.same)
+    };
+    let next = best.next_configuration.map_or_else(String::new, |next| {
+        format!("; the next best configuration has {} {}", significant(next, 4), found.output.unit())
+    });
+    let before = match (found.before, found.feasible_before) {
+        (_, true) => "",
+        (Some(_), false) => " The robot as it is does not keep the limits.",
+        (None, false) => " The robot as it is does not hold all poses.",
+    };
+    format!("{searches}{next}; {}.{before}", counted(found.evaluations, "evaluation"))
+}
+
+/// Whether it is an optimum, by the residual of its conditions.
+fn optimum(best: &BestDesign) -> Option<String> {
+    let residual = best.kkt_residual?;
+    Some(match best.optimal {
+        true => "It is a local optimum: the KKT residual is below 1e-8.".to_owned(),
+        false => format!(
+            "The search ended before an optimum (KKT residual {}): derivatives jump there, where a tension meets \
+             a limit, or no step keeps all poses.",
+            significant(residual, 1)
+        ),
+    })
+}
+
+/// The demands that keep the objective from being better.
+fn demands(found: &Design, best: &BestDesign) -> Option<String> {
+    const MOST: usize = 4;
+    let one = |ActiveDemand { pose, output, cable, per_percent }: &ActiveDemand| {
+        let what = match (output, cable) {
+            (Some(output), _) => format!("the limit of the {}", output.noun()),
+            (None, cable) => format!("the greatest tension of cable {}", cable.unwrap_or(0) + 1),
+        };
+        let gain = significant(*per_percent, 2);
+        format!("{what} at pose {} ({gain} {} for 1 %)", pose + 1, found.output.unit())
+    };
+    let mut active: Vec<&ActiveDemand> = best.active.iter().collect();
+    active.sort_by(|a, b| b.per_percent.total_cmp(&a.per_percent));
+    let named: Vec<String> = active.iter().take(MOST).map(|demand| one(demand)).collect();
+    let more = active.len().saturating_sub(MOST);
+    let more = if more == 0 { String::new() } else { format!(", and {more} more") };
+    (!named.is_empty()).then(|| format!("What keeps it from being better: {}{more}.", named.join(", ")))
+}

@@ -1,0 +1,50 @@
+//! `cdpr design`: the verdict first, the robot of the optimum as a file, and what no robot can do.
+
+use crate::common::{answered, cdpr, cdpr_in, data, data_path, json_file, text, unwrapped};
+use serde_json::{Value, json};
+use tempfile::TempDir;
+
+#[test]
+fn a_design_begins_with_its_verdict_and_its_robot_is_a_robot_file() {
+    let folder = TempDir::new().unwrap();
+    let design = data_path("designs/caroca-pulleys.json");
+    let best = folder.path().join("best.json");
+    let printed = answered(cdpr(&["design", "caroca", &design, "--out", best.to_str().unwrap()]));
+    let first = printed.lines().next().unwrap();
+    assert!(first.starts_with("CAROCA: the greatest deflection falls from "), "{first}");
+    assert!(
+        unwrapped(printed.clone().into()).contains("(best of 175 configurations, all evaluated)"),
+        "{printed}"
+    );
+    assert!(printed.lines().all(|line| line.chars().count() <= 80), "{printed}");
+    let found: Value =
+        serde_json::from_str(&answered(cdpr(&["design", "caroca", &design, "--format", "json"]))).unwrap();
+    let outputs = found["best"]["outputs"].as_array().unwrap();
+    let place = ["deflection", best.to_str().unwrap(), "--pose", "0,0,1.75", "--payload", "50"];
+    let again: Value =
+        serde_json::from_str(&answered(cdpr(&[&place[..], &["--format", "json"]].concat()))).unwrap();
+    let magnitude = again["magnitude"].as_f64().unwrap();
+    assert!((1e3 * magnitude / outputs[0].as_f64().unwrap() - 1.0).abs() < 1e-9, "{magnitude} {outputs:?}");
+}
+
+#[test]
+fn what_no_robot_can_do_ends_with_three_and_a_wrong_field_with_its_line() {
+    let folder = TempDir::new().unwrap();
+    let mut design = json_file(data("designs/caroca-pulleys.json"));
+    let mut run = |field: &str, value: Value| {
+        design[field] = value;
+        std::fs::write(folder.path().join("design.json"), format!("{design:#}")).unwrap();
+        cdpr_in(folder.path(), &["design", "caroca", "design.json"])
+    };
+    let lost = run("limits", json!({"deflection": 0.01}));
+    assert_eq!(lost.status.code(), Some(3));
+    let said = unwrapped(lost.stdout);
+    assert!(said.contains("no robot was found that holds all 4 poses within the limits"), "{said}");
+    assert!(said.contains("a limit is passed by"), "{said}");
+    let refused = run("payload", json!(-2));
+    assert_eq!(refused.status.code(), Some(1));
+    let said = unwrapped(refused.stderr);
+    assert!(said.contains("payload is -2: expected a finite mass, zero or more [kg] (line "), "{said}");
+    let robot = cdpr(&["design", "caroca", &data_path("robots/caroca.json")]);
+    assert!(text(robot.stderr).contains("is a robot file: expected a design file"));
+}
