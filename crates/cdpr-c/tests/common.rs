@@ -87,10 +87,10 @@ pub(crate) fn expected(name: &str, position: [f64; 3]) -> String {
     digits.line("tensions", &found.equilibrium.tensions());
     digits.report(&found.report);
     let deflected = deflection(&robot, &pose, &load).unwrap();
-    digits.line("translation", &deflected.motion().fixed_rows::<3>(0));
-    digits.line("rotation", &deflected.motion().fixed_rows::<3>(3));
+    digits.line("translation", deflected.motion().fixed_rows::<3>(0));
+    digits.line("rotation", deflected.motion().fixed_rows::<3>(3));
     digits.report(&deflected.loaded.report);
-    let stiffness = stiffness_at(&robot, &pose, &load).unwrap();
+    let stiffness = stiffness_at(&robot, pose, &load).unwrap();
     digits.line("stiffness", stiffness.matrix.transpose().as_slice());
     digits.line("least", &[stiffness.stability.least_stiffness()]);
     let problem = DirectProblem::new(&robot, &stiffness.lengths, &load).unwrap();

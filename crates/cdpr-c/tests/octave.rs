@@ -93,8 +93,8 @@ fn octave_gets_the_bits_of_the_rust_interface() {
     let found = direct(&robot, &wanted.lengths, &load, DirectStart::Pose(&pose)).unwrap().equilibrium;
     expected += &(of_pose(&found.pose) + &line(&found.tensions()));
     let motion = deflection(&robot, &pose, &load).unwrap().motion();
-    expected += &(line(&motion.fixed_rows::<3>(0)) + &line(&motion.fixed_rows::<3>(3)));
-    let stiffness = stiffness_at(&robot, &pose, &load).unwrap();
+    expected += &(line(motion.fixed_rows::<3>(0)) + &line(motion.fixed_rows::<3>(3)));
+    let stiffness = stiffness_at(&robot, pose, &load).unwrap();
     expected += &line(stiffness.matrix.transpose().as_slice());
     expected += &line(&[stiffness.stability.least_stiffness()]);
     let matrices = derivatives(&robot, &pose, &load).unwrap();
