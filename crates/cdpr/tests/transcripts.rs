@@ -228,6 +228,12 @@ fn a_camera_hangs_on_three_cables_when_the_fourth_parts() {
 }
 
 #[test]
+fn exits_go_where_the_load_deflects_least() {
+    let page = checked("how-to/exits", |_| {});
+    assert!(page.contains("best of 175\nconfigurations, all evaluated") && page.contains("a local optimum"));
+}
+
+#[test]
 fn shards_make_a_study_together() {
     checked("how-to/cluster", |_| {});
 }

@@ -175,8 +175,8 @@ mod tests {
     use super::*;
     use std::path::Path;
 
-    /// All derivatives of a design against differences.
-    fn check(robot: &str, design: &str) {
+    /// All derivatives of a design against differences over this share of each value.
+    fn check(robot: &str, design: &str, share: f64) {
         let robot = Robot::from_json(robot).unwrap();
         let problem = DesignProblem::from_json(design, Path::new("design.json"), robot).unwrap();
         let values = problem.nominal();
@@ -186,7 +186,7 @@ mod tests {
         };
         let found = all(&values, true);
         for (j, value) in values.iter().enumerate() {
-            let step = 1e-4 * value.abs().max(1.0);
+            let step = share * value.abs().max(1.0);
             let moved = |side: f64| {
                 let mut values = values.clone();
                 values[j] += side * step;
@@ -194,15 +194,10 @@ mod tests {
             };
             for (k, ((one, low), high)) in found.iter().zip(moved(-1.0)).zip(moved(1.0)).enumerate() {
                 let difference = (high.value - low.value) / (2.0 * step);
-                let error = (one.slopes[j] - difference).abs() * step;
-                assert!(
-                    error < 1e-6 * one.value.abs().max(1e-3),
-                    "{k} by {j}: {} {difference}",
-                    one.slopes[j]
-                );
-                assert!(
-                    ((low.value + high.value) / 2.0 - one.value).abs() < 1e-4 * one.value.abs().max(1e-3)
-                );
+                let slope = one.slopes[j];
+                // Values have at least eight digits.
+                let error = 1e-3 * slope.abs() + 1e-8 * one.value.abs().max(1e-3) / step;
+                assert!((slope - difference).abs() < error, "{k} by {j}: {slope} {difference}");
             }
         }
     }
@@ -222,13 +217,14 @@ mod tests {
                 ]}}"#
             )
         };
-        check(caroca, &design("deflection"));
+        check(caroca, &design("deflection"), 1e-4);
         check(
             &caroca.replace("\"max\": 10290.0", "\"max\": 10290.0, \"max_at\": \"exit\""),
             &design("stiffness"),
+            1e-4,
         );
         let inertia = "\"center_of_mass\": [0, 0, 0], \"inertia\": [[9, 0, 0], [0, 8, 0], [0, 0, 7]]";
-        check(&caroca.replace("\"center_of_mass\": [0, 0, 0]", inertia), &design("frequency"));
+        check(&caroca.replace("\"center_of_mass\": [0, 0, 0]", inertia), &design("frequency"), 1e-4);
     }
 
     #[test]
@@ -237,6 +233,7 @@ mod tests {
             "objective": {"output": "deflection", "over": "mean"},
             "poses": {"list": [{"position": [0.5, 0.3, 2]}]},
             "variables": [{"parameters": ["b1.x"], "bounds": [-9, 9]}, {"parameters": ["b2.z"], "bounds": [1, 9]}]}"#;
-        check(include_str!("../../../../data/robots/four-cables.json"), design);
+        // Near the border of the poses that it holds: 1e-2 m farther there is no rest.
+        check(include_str!("../../../../data/robots/four-cables.json"), design, 1e-5);
     }
 }

@@ -60,16 +60,14 @@ fn print(robot: &Robot, found: &Design) {
         print_sentence(&sentence);
     }
     let per_unit = format!("{} per unit", found.output.unit());
-    let mut rows = table(&["variable", "from", "to", "bound", &per_unit]);
+    // Choices have no bounds.
+    let columns = if found.starts == 0 { 3 } else { 5 };
+    let mut rows = table(&["variable", "from", "to", "bound", &per_unit][..columns]);
     for DesignedVariable { name, unit, from, to, bound, per_unit } in &best.variables {
         let per_unit = bound.map_or_else(String::new, |_| significant(*per_unit, 3));
-        rows.add_row([
-            format!("{} [{unit}]", shown(name)),
-            significant(*from, 6),
-            significant(*to, 6),
-            bound.unwrap_or_default().to_owned(),
-            per_unit,
-        ]);
+        let name = format!("{} [{unit}]", shown(name));
+        let cells = [name, value(*from), value(*to), bound.unwrap_or_default().to_owned(), per_unit];
+        rows.add_row(&cells[..columns]);
     }
     println!("{rows}");
 }
@@ -77,13 +75,23 @@ fn print(robot: &Robot, found: &Design) {
 /// What is as good as possible, in words.
 fn noun(found: &Design) -> String {
     let of = match (found.over, found.output) {
+        (_, Output::Stiffness) if found.poses > 1 && found.over == Over::Mean => "mean lowest ",
+        (_, Output::Stiffness) => "lowest ",
         _ if found.poses == 1 => "",
         (Over::Mean, _) => "mean ",
-        (Over::Worst, Output::Deflection | Output::Position) => "greatest ",
-        (Over::Worst, Output::Stiffness | Output::Frequency) => "least ",
+        (Over::Worst, Output::Frequency) => "lowest ",
+        (Over::Worst, _) => "greatest ",
     };
-    let noun = if found.output == Output::Stiffness { "lowest stiffness" } else { found.output.noun() };
-    format!("{of}{noun}")
+    format!("{of}{}", found.output.noun())
+}
+
+/// A value with six digits, without zeros at its end.
+fn value(value: f64) -> String {
+    let text = significant(value, 6);
+    match text.contains('.') && !text.contains('e') {
+        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
+        false => text,
+    }
 }
 
 /// `3 starts`, or `3 configurations`, or `3 starts in each of 4 configurations`.
