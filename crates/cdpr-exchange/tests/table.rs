@@ -141,7 +141,7 @@ fn interpolated_lengths_hold_the_wanted_pose_within_the_bound_that_is_stated() {
         assert!(found.length <= bound.length && found.position <= bound.position, "{name}");
         assert!(found.corrected_length <= bound.corrected_length, "{name}");
         assert!(found.corrected_position <= bound.corrected_position, "{name}");
-        // The bounds are no more than ten times as large as what is found, and corrections are smoother than lengths.
+        // The bounds are no more than ten times what is found, and corrections are smoother than lengths.
         assert!(bound.length < 10.0 * found.length, "{name}");
         assert!(found.corrected_length < 0.5 * found.length, "{name}");
     }
