@@ -89,6 +89,24 @@ pub enum ExchangeError {
         /// Its value.
         value: String,
     },
+    /// The coordinates of a table make no grid, or too large a one.
+    #[error("{field} is {value}: expected {expected}")]
+    Grid {
+        /// What is wrong: `coordinates along x`, or `positions`.
+        field: String,
+        /// Its value.
+        value: String,
+        /// What would be right.
+        expected: String,
+    },
+    /// A robot has no lengths at a position of a table.
+    #[error("at ({}, {}, {}) m: {reason}", .position[0], .position[1], .position[2])]
+    Position {
+        /// The position [m].
+        position: [f64; 3],
+        /// Why it has none.
+        reason: String,
+    },
     /// The pose of the exported file is not held.
     #[error(transparent)]
     Pose(#[from] StaticsError),

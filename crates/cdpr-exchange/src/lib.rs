@@ -5,7 +5,8 @@
 //! what a robot file has no place for are listed ([`Note`]). Nothing is dropped in silence. Reading takes time
 //! and memory in proportion to the files.
 //!
-//! [`export`] writes a robot for MuJoCo, CASPR or MoorPy, with the lengths with which it rests at a pose.
+//! [`export`] writes a robot for MuJoCo, CASPR or MoorPy, with the lengths with which it rests at a pose, and
+//! the points of its lines for firmware. [`correction_table`] writes lengths on a grid of positions.
 //!
 //! The crate does no input or output: it reads and writes text in memory.
 
@@ -19,4 +20,5 @@ pub use draft::{ImportOptions, Imported, Note, NoteKind};
 pub use error::{ExchangeError, FORMATS, Lacking};
 pub use read::{ForeignFile, import};
 pub use write::scene::Exported;
+pub use write::table::{CorrectionTable, TableErrors, correction_table};
 pub use write::{Target, export};

@@ -5,10 +5,12 @@
 mod bounds;
 mod broken;
 mod export;
+mod firmware;
 mod fixtures;
 mod import;
 mod meaning;
 mod mujoco;
 mod round_trip;
 mod simulators;
+mod table;
 mod texts;

@@ -75,7 +75,13 @@ pub(crate) fn export_robot(
         "caspr" => Target::Caspr,
         "moorpy" => Target::Moorpy,
         "moordyn" => Target::Moordyn,
-        _ => return Err(Raised::Input(format!("to is {to:?}: expected mjcf, caspr, moorpy or moordyn"))),
+        "klipper" => Target::Klipper,
+        "rrf" => Target::Rrf,
+        "maslow" => Target::Maslow,
+        _ => {
+            let expected = "expected mjcf, caspr, moorpy, moordyn, klipper, rrf or maslow";
+            return Err(Raised::Input(format!("to is {to:?}: {expected}")));
+        }
     };
     let pose = single(&pose, &robot.robot)?;
     let Exported { files, notes } = run(py, |_| cdpr_exchange::export(&robot.robot, &pose, target))??;

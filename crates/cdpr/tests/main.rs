@@ -47,6 +47,8 @@ mod study_refused;
 mod study_run;
 mod study_together;
 mod tensions;
+#[cfg(target_os = "linux")]
+mod terminal;
 mod tolerances;
 #[cfg(unix)]
 mod transcripts;

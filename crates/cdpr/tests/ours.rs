@@ -40,6 +40,8 @@ fn writers() -> Vec<(Vec<String>, &'static str, &'static str)> {
         (format!("robot export {caroca} --to mjcf --pose 0,0,1.75 --out FILE"), "xml", "<mujoco"),
         (format!("robot export {caroca} --to moorpy --pose 0,0,1.75 --out FILE"), "txt", "LINE TYPES"),
         (format!("robot export {caroca} --to moordyn --pose 0,0,1.75 --out FILE"), "txt", "rk4 tScheme"),
+        (format!("robot export {caroca} --to klipper --pose 0,0,1.75 --out FILE"), "cfg", "[printer]"),
+        (format!("robot export {caroca} --to table --region 0,0,1.75 --out FILE"), "csv", "x_mm,y_mm"),
         (format!("cable modulus {record} {modulus} --law FILE"), "json", "cdpr-law/1"),
         (format!("cable modulus {record} {modulus} --figure FILE"), "svg", "<svg"),
         (format!("path {caroca} --poses poses.csv --payload 50 --figure FILE"), "svg", " along a path of "),

@@ -2,7 +2,7 @@
 
 use crate::common::{cdpr, data_path, data_text, text, unwrapped};
 use serde_json::Value;
-use std::io::{BufRead, BufReader, Read};
+use std::io::{BufRead, BufReader};
 use std::process::{Command, Output, Stdio};
 
 fn tolerances(arguments: &[&str]) -> Output {
@@ -98,29 +98,6 @@ fn a_long_search_writes_a_line_of_progress_to_a_log() {
     child.kill().unwrap();
     child.wait().unwrap();
     assert_eq!(first.unwrap().unwrap(), "looking for the tolerances, 5 s");
-}
-
-#[cfg(target_os = "linux")]
-#[test]
-fn a_long_search_shows_its_time_on_a_terminal_after_a_second() {
-    let study = data_path("studies/caroca.json");
-    let program = env!("CARGO_BIN_EXE_cdpr");
-    let limited = format!("timeout --foreground 20 {program}");
-    let command =
-        format!("exec {limited} study tolerances {study} --sampling mechanical '{}'", LONG.join("' '"));
-    // A terminal that ends with its reader; the program ends by itself.
-    let mut command = {
-        let mut script = Command::new("script");
-        script.args(["--quiet", "--flush", "--return", "--command", &command, "/dev/null"]);
-        script
-    };
-    let mut child = command.stdin(Stdio::null()).stdout(Stdio::piped()).spawn().unwrap();
-    let (mut seen, mut bytes) = (String::new(), BufReader::new(child.stdout.take().unwrap()).bytes());
-    while !seen.contains("looking for the tolerances, 1 s") {
-        seen.push(char::from(bytes.next().unwrap().unwrap()));
-    }
-    child.kill().unwrap();
-    child.wait().unwrap();
 }
 
 #[test]

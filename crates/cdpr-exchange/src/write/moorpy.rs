@@ -5,7 +5,7 @@
 //! end in NaN within six.
 
 use crate::error::ExchangeError;
-use crate::write::scene::{Exported, check_plain, inertia, unplaced, words};
+use crate::write::scene::{Exported, check_plain, check_upright, inertia, unplaced, words};
 use cdpr_robot::{Matrix3, Pose, Robot, RobotCable, Vector3};
 use cdpr_statics::{Load, inverse};
 use std::f64::consts::PI;
@@ -27,11 +27,7 @@ pub(crate) fn write(robot: &Robot, pose: &Pose, reader: Reader) -> Result<Export
         let field = format!("cables[{i}].linear_density");
         return Err(ExchangeError::NoPlace { field, value: "0".to_owned() });
     }
-    let down = robot.gravity.vector();
-    if down.xy().norm() > 1e-9 * down.norm() {
-        let value = format!("{:?}", down.as_slice());
-        return Err(ExchangeError::NoPlace { field: "gravity".to_owned(), value });
-    }
+    check_upright(robot)?;
     let lengths = inverse(robot, pose, &Load::none())?.lengths;
     let mut notes = unplaced(robot);
     if robot.ground_z.is_some() {
@@ -76,7 +72,7 @@ ID LineType AttachA AttachB UnstrLen NumSegs Outputs
         body = body(robot, pose, &inertia, reader),
         points = points(robot),
         lines = lines(&lengths),
-        gravity = down.norm(),
+        gravity = robot.gravity.vector().norm(),
         options = options(robot, &lengths, 1000.0 - lowest, reader),
     );
     Ok(Exported { files: vec![(".txt", text)], notes })

@@ -46,6 +46,16 @@ pub(crate) fn check_plain(robot: &Robot) -> Result<(), ExchangeError> {
     Ok(())
 }
 
+/// Refuses a gravity that is not along -z.
+pub(crate) fn check_upright(robot: &Robot) -> Result<(), ExchangeError> {
+    let down = robot.gravity.vector();
+    if down.xy().norm() > 1e-9 * down.norm() {
+        let value = format!("{:?}", down.as_slice());
+        return Err(ExchangeError::NoPlace { field: "gravity".to_owned(), value });
+    }
+    Ok(())
+}
+
 /// What no other format has a place for.
 pub(crate) fn unplaced(robot: &Robot) -> Vec<String> {
     let mut notes = Vec::new();

@@ -181,7 +181,8 @@ def export(robot: Robot, pose: ArrayLike, to: str) -> Exported:
     pose : array_like
         (3,) or (7,).
     to : str
-        "mjcf" (MuJoCo), "caspr", "moorpy" or "moordyn".
+        "mjcf" (MuJoCo), "caspr", "moorpy" or "moordyn", or firmware: "klipper", "rrf" (RepRapFirmware) or
+        "maslow".
 
     Returns
     -------

@@ -35,9 +35,14 @@ pub(crate) enum Command {
   cdpr robot import EXPO2015_Lucia.wcrfx --tension-limits 10,4000 --out lucia.json
   cdpr robot import caroca.yaml --cable steel-4mm --out caroca.json")]
     Import(import::Settings),
-    /// Write a robot at rest for MuJoCo, CASPR or MoorPy.
+    /// Write a robot at rest for MuJoCo, CASPR or MoorPy, or for firmware.
+    ///
+    /// Klipper, RepRapFirmware and Maslow get the points of straight lines in millimetres. What their
+    /// kinematics cannot say is printed or refused. A table has the lengths with stretch and sag, and its
+    /// notes bound the error of interpolation.
     #[command(after_help = "Examples:
   cdpr robot export cogiro --to mjcf --pose 0,0,2 --out cogiro.xml
+  cdpr robot export cogiro --to table --region -2:2:9,-1:1:5,2:3:3 --out lengths.csv
   cdpr robot export ipanema-3 --to caspr --pose 0,0,1.3 --out IPAnema3")]
     Export(export::Settings),
 }

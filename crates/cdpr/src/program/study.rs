@@ -3,6 +3,7 @@
 pub(crate) mod analyse;
 mod carry_out;
 mod common;
+mod interrupted;
 mod print;
 mod report;
 mod status;

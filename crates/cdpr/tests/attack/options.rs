@@ -44,8 +44,9 @@ const CALLS: [&str; 30] = [
 ];
 
 /// Calls whose commands read other files: their options name files, folders and words.
-const OTHERS: [&str; 8] = [
+const OTHERS: [&str; 9] = [
     "robot export robot.json --to mjcf --pose 0,0,1.75 --out out/robot.xml",
+    "robot export robot.json --to table --region 0:0.1:2,0,1.75 --out out/table.csv",
     "robot import points.csv --cable steel-4mm --mass 100 --tension-limits 1,5000",
     "analyse measured.csv",
     "study report out",

@@ -66,6 +66,15 @@ impl PoseArguments {
         }
     }
 
+    /// The rotation of the platform at the positions of a region.
+    pub(crate) fn rotation_of_region(&self) -> Result<Rotation3<f64>, ProgramError> {
+        if self.pose.is_some() {
+            let expected = "--pose: expected --region alone, and --rpy where the platform is rotated";
+            return Err(ProgramError::Usage(expected.to_owned()));
+        }
+        Ok(self.angles.rotation().unwrap_or_else(Rotation3::identity))
+    }
+
     /// The pose, which the command needs.
     pub(crate) fn needed(&self) -> Result<Pose, ProgramError> {
         self.given()?.ok_or_else(|| ProgramError::Usage("expected --pose x,y,z [m]".to_owned()))

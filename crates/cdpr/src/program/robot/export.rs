@@ -1,16 +1,16 @@
-//! `cdpr robot export`: a robot in the files of another program.
+//! `cdpr robot export`: a robot in the files of another program, or its lengths as a table for firmware.
 
 use crate::program::arguments::endings::check_foreign;
 use crate::program::arguments::poses::{PoseArguments, place};
-use crate::program::arguments::{Overwrite, RobotArgument};
+use crate::program::arguments::{Overwrite, Region, RobotArgument, region};
 use crate::program::error::ProgramError;
 use crate::program::output::patiently;
 use crate::program::questions;
-use cdpr_exchange::{Target, export};
-use cdpr_robot::shown;
+use cdpr_exchange::{Exported, Target, correction_table, export};
+use cdpr_robot::{Axis, counted, shown};
 use std::path::{Path, PathBuf};
 
-/// A robot, a pose and a format.
+/// A robot, a pose or a region, and a format.
 #[derive(clap::Args)]
 pub(crate) struct Settings {
     #[command(flatten)]
@@ -20,6 +20,13 @@ pub(crate) struct Settings {
     to: Format,
     #[command(flatten)]
     pose: PoseArguments,
+    /// Positions of a table: a plane, z=1.75, or x, y and z, each of them a coordinate, min:max or
+    /// min:max:points [m], such as -2:2:9,-1:1:5,1.75.
+    ///
+    /// What is left out, such as in ::11,::7,1.75, is that of the frame of the exit points, and 41 points in
+    /// a plane or 11 in a box.
+    #[arg(long, value_parser = region, allow_hyphen_values = true)]
+    region: Option<Region>,
     /// File to write; with CASPR what both names begin with.
     #[arg(short, long)]
     out: PathBuf,
@@ -38,6 +45,14 @@ enum Format {
     Moorpy,
     /// MoorDyn: lines of straight segments with mass, for motions over time.
     Moordyn,
+    /// Klipper, kinematics `winch`: the points of straight lines.
+    Klipper,
+    /// RepRapFirmware, Hangprinter (`M669`, `M666`): points and flex of straight lines.
+    Rrf,
+    /// Maslow, FluidNC's `MaslowKinematics`: the corners of a planar robot with four cables.
+    Maslow,
+    /// CSV of lengths with stretch and sag at the positions of a --region, to be interpolated.
+    Table,
 }
 
 impl Format {
@@ -47,27 +62,63 @@ impl Format {
             Self::Mjcf => check_foreign(out, "a model of MuJoCo is XML", &["xml", "mjcf"]),
             Self::Moorpy => check_foreign(out, "a system of MoorPy is text", &["txt", "dat"]),
             Self::Moordyn => check_foreign(out, "a system of MoorDyn is text", &["txt", "dat"]),
+            Self::Klipper => check_foreign(out, "a configuration of Klipper is text", &["cfg"]),
+            Self::Rrf => check_foreign(out, "commands of RepRapFirmware are G-code", &["g", "gcode"]),
+            Self::Maslow => check_foreign(out, "a configuration of FluidNC is YAML", &["yaml", "yml"]),
+            Self::Table => check_foreign(out, "the table is CSV", &["csv", "txt"]),
             Self::Caspr => check_foreign(out, "`_bodies.xml` and `_cables.xml` are put behind it", &[]),
         };
         checked.map_err(ProgramError::Usage)
     }
 
-    fn target(self) -> Target {
-        match self {
+    /// The format of another program; `None` for a table.
+    fn target(self) -> Option<Target> {
+        Some(match self {
             Self::Mjcf => Target::Mjcf,
             Self::Caspr => Target::Caspr,
             Self::Moorpy => Target::Moorpy,
             Self::Moordyn => Target::Moordyn,
-        }
+            Self::Klipper => Target::Klipper,
+            Self::Rrf => Target::Rrf,
+            Self::Maslow => Target::Maslow,
+            Self::Table => return None,
+        })
     }
 }
 
 pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
     settings.to.check(&settings.out)?;
+    let Some(target) = settings.to.target() else { return table(settings) };
+    if settings.region.is_some() {
+        return Err(ProgramError::Usage(
+            "--region: expected --to table, whose positions it names".to_owned(),
+        ));
+    }
     let pose = settings.pose.needed()?;
     let robot = questions::open_robot(settings.robot.path())?;
     questions::about_pose(&robot, "--pose", &pose);
-    let exported = patiently("solving", || export(&robot, &pose, settings.to.target()))?;
+    let exported = patiently("solving", || export(&robot, &pose, target))?;
+    write(settings, &exported, &format!("{} at {}", shown(&robot.name), place(&pose)))
+}
+
+/// Writes lengths and corrections at the positions of a region.
+fn table(settings: &Settings) -> Result<(), ProgramError> {
+    let rotation = settings.pose.rotation_of_region()?;
+    let Some(region) = settings.region else {
+        let expected = "--to table: expected --region, the positions, such as -2:2:9,-1:1:5,1.75";
+        return Err(ProgramError::Usage(expected.to_owned()));
+    };
+    let robot = questions::open_robot(settings.robot.path())?;
+    let grid = region.grid(&robot)?;
+    questions::about_poses(&robot, "the table", &grid.corners());
+    let coordinates = Axis::ALL.map(|axis| grid.axis(axis).coordinates());
+    let made = patiently("solving", || correction_table(&robot, &rotation, &coordinates))?;
+    let of = format!("{} at {}", shown(&robot.name), counted(grid.count(), "position"));
+    write(settings, &made.exported, &of)
+}
+
+/// Writes the files and prints what they have no place for.
+fn write(settings: &Settings, exported: &Exported, what: &str) -> Result<(), ProgramError> {
     let single = exported.files.len() == 1;
     for (ending, text) in &exported.files {
         let mut path = settings.out.clone().into_os_string();
@@ -76,7 +127,7 @@ pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
         }
         let path = PathBuf::from(path);
         settings.overwrite.write(&path, text)?;
-        println!("{}: {} at {}", path.display(), shown(&robot.name), place(&pose));
+        println!("{}: {what}", path.display());
     }
     exported.notes.iter().for_each(|note| println!("note: {note}"));
     Ok(())

@@ -3,7 +3,7 @@
 //! A process that ends at any moment loses no more than the block under way, so that Ctrl-C only ends it.
 
 use super::common::Common;
-use super::print;
+use super::{interrupted, print};
 use crate::program::arguments::Format;
 use crate::program::error::ProgramError;
 use crate::program::output::{Ending, progress};
@@ -19,9 +19,6 @@ use indicatif::ProgressBar;
 use std::borrow::Cow;
 use std::path::Path;
 
-/// Exit code of an interrupted run, as shells have it.
-const INTERRUPTED: i32 = 130;
-
 /// Makes the blocks of one shard.
 pub(super) fn shard(
     study: &Study,
@@ -31,7 +28,7 @@ pub(super) fn shard(
     format: Format,
 ) -> Result<(), ProgramError> {
     let progress = progress(Plan::new(study)?.observations(shard), "observations");
-    leave_when_interrupted(&progress, out, "the same command goes on".to_owned())?;
+    interrupted::leave(&progress, out, "the same command goes on".to_owned())?;
     let tick = |done: usize| progress.inc(done as u64);
     let warn = warn(&progress);
     observe_shard(
@@ -58,7 +55,7 @@ pub(super) fn whole(
 ) -> Result<Ending, ProgramError> {
     announce_slow(study)?;
     let progress = progress(study.all_observations()?, "observations");
-    leave_when_interrupted(&progress, out, format!("go on with: {}", resumed(out, common)))?;
+    interrupted::leave(&progress, out, format!("go on with: {}", resumed(out, common)))?;
     let watcher = Watcher {
         begin: &|name| progress.set_message(name.to_owned()),
         tick: &|done| progress.inc(done as u64),
@@ -110,19 +107,6 @@ fn ending(summary: &Summary) -> Ending {
         }
     }
     ending
-}
-
-/// Ends the process on Ctrl-C, or at the end of its time on a cluster, with a message of how to continue.
-///
-/// Nothing has to be put in order: a block is whole or not there.
-fn leave_when_interrupted(progress: &ProgressBar, out: &Path, remedy: String) -> Result<(), ProgramError> {
-    let (progress, out) = (progress.clone(), out.display().to_string());
-    ctrlc::set_handler(move || {
-        progress.abandon();
-        eprintln!("\ninterrupted: what is done is in {out}; {remedy}");
-        std::process::exit(INTERRUPTED);
-    })?;
-    Ok(())
 }
 
 /// The command that continues a run, as a shell takes it.
