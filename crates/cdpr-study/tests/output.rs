@@ -21,8 +21,8 @@ const OBSERVATIONS: usize = 40;
 fn study(robot: &str, position: [f64; 3], output: &str) -> Value {
     json!({
         "format": "cdpr-study/1", "name": "outputs", "robot": format!("../robots/{robot}.json"),
-        "payload": 30.0, "output": output, "seed": 5, "replicates": 2, "confidence": 0.9,
-        "bootstrap_resamples": 5,
+        "payload": 30.0, "output": output, "seed": 5, "replicates": 2, "bootstrap_resamples": 5,
+        "confidence": 0.9,
         "error_models": { "all": {
             "mass": { "law": { "uniform": { "min": -4.0, "max": 4.0 } } },
             "youngs_modulus": { "law": { "uniform": { "min": -3e9, "max": 3e9 } } },
@@ -261,8 +261,9 @@ fn a_study_of_the_position_needs_no_payload_and_its_values_depend_on_none() {
             Some(payload) => study["payload"] = json!(payload),
             None => drop(study.as_object_mut().unwrap().remove("payload")),
         }
-        let study = opened(&study).unwrap();
-        observe(&study.sampling("point").unwrap(), &Session::in_memory()).unwrap().first_values
+        observe(&opened(&study).unwrap().sampling("point").unwrap(), &Session::in_memory())
+            .unwrap()
+            .first_values
     };
     assert_eq!(values(None), values(Some(30.0)));
     let mut none = study("cogiro", [1.0, 0.5, 2.0], "deflection");
@@ -287,17 +288,14 @@ fn a_robot_that_fails_has_no_output_and_a_reason() {
     let study = opened(&study("cogiro", [1.0, 0.5, 2.0], "frequency")).unwrap();
     let sampling = study.sampling("point").unwrap();
     let layout = ParameterLayout::of(&study.robot);
-    let mut deviations = Deviations::zeros(&layout, 2);
-    deviations.rows_mut().next().unwrap()[layout.mass()] = 1e6;
-    let [heavy, nominal] = sampling.observer.observe(&deviations).try_into().unwrap();
-    let [alone] = sampling.observer.observe(&Deviations::zeros(&layout, 1)).try_into().unwrap();
+    let [mut two, one] = [2, 1].map(|rows| Deviations::zeros(&layout, rows));
+    two.rows_mut().next().unwrap()[layout.mass()] = 1e6;
+    let [heavy, nominal] = sampling.observer.observe(&two).try_into().unwrap();
+    let [alone] = sampling.observer.observe(&one).try_into().unwrap();
     assert!(matches!(heavy, Err(StaticsError::NoTensions { .. })), "{heavy:?}");
-    let nominal = nominal.unwrap().value();
-    assert_eq!(nominal.to_bits(), alone.unwrap().value().to_bits());
-    // The nominal robot is solved once for all outputs, by the scalar models.
-    assert!((nominal / sampling.nominal_value - 1.0).abs() < 1e-12);
-    assert_eq!(study.file.output, Output::Frequency);
-    assert_eq!(sampling.pose, Pose::at(1.0, 0.5, 2.0));
+    let (value, bits) = (nominal.unwrap().value(), alone.unwrap().value().to_bits());
+    assert!(value.to_bits() == bits && (value / sampling.nominal_value - 1.0).abs() < 1e-12);
+    assert_eq!((study.file.output, sampling.pose), (Output::Frequency, Pose::at(1.0, 0.5, 2.0)));
 }
 
 /// Studies of GRAB, and of every second cable of CoGiRo, with free coordinates.
