@@ -286,8 +286,7 @@ fn the_hash_of_a_study_depends_on_its_output_and_not_on_naming_the_deflection() 
 #[test]
 fn a_robot_that_fails_has_no_output_and_a_reason() {
     let study = opened(&study("cogiro", [1.0, 0.5, 2.0], "frequency")).unwrap();
-    let sampling = study.sampling("point").unwrap();
-    let layout = ParameterLayout::of(&study.robot);
+    let (sampling, layout) = (study.sampling("point").unwrap(), ParameterLayout::of(&study.robot));
     let [mut two, one] = [2, 1].map(|rows| Deviations::zeros(&layout, rows));
     two.rows_mut().next().unwrap()[layout.mass()] = 1e6;
     let [heavy, nominal] = sampling.observer.observe(&two).try_into().unwrap();
@@ -295,7 +294,7 @@ fn a_robot_that_fails_has_no_output_and_a_reason() {
     assert!(matches!(heavy, Err(StaticsError::NoTensions { .. })), "{heavy:?}");
     let (value, bits) = (nominal.unwrap().value(), alone.unwrap().value().to_bits());
     assert!(value.to_bits() == bits && (value / sampling.nominal_value - 1.0).abs() < 1e-12);
-    assert_eq!((study.file.output, sampling.pose), (Output::Frequency, Pose::at(1.0, 0.5, 2.0)));
+    assert_eq!(study.file.output, Output::Frequency);
 }
 
 /// Studies of GRAB, and of every second cable of CoGiRo, with free coordinates.
