@@ -20,8 +20,8 @@ fn a_design_begins_with_its_verdict_and_its_robot_is_a_robot_file() {
     let place = ["deflection", best.to_str().unwrap(), "--pose", "0,0,1.75", "--payload", "50"];
     let again: Value =
         serde_json::from_str(&answered(cdpr(&[&place[..], &["--format", "json"]].concat()))).unwrap();
-    let magnitude = again["magnitude"].as_f64().unwrap();
-    assert!((1e3 * magnitude / outputs[0].as_f64().unwrap() - 1.0).abs() < 1e-9, "{magnitude} {outputs:?}");
+    let magnitude = again["magnitude_mm"].as_f64().unwrap();
+    assert!((magnitude / outputs[0].as_f64().unwrap() - 1.0).abs() < 1e-9, "{magnitude} {outputs:?}");
 }
 
 #[test]
