@@ -1,6 +1,6 @@
 //! A study keeps sums, and of its observations a number that does not grow.
 
-use cdpr_study::{Session, Study, analyse, observe};
+use cdpr_study::{KEPT, Session, Study, analyse, observe};
 use std::path::Path;
 
 /// Most memory at a time of a sampling with this many observations, on one thread [bytes].

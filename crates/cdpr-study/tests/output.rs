@@ -9,8 +9,8 @@ use cdpr_statics::{
     DirectProblem, DirectStart, Load, StaticsError, WantedPose, deflection, inverse, set_point_lengths,
 };
 use cdpr_study::{
-    InputMeasures, Measured, Output, Sampling, SensitivitySpec, SensitivitySummary, Session, Study,
-    StudyError, analyse, compute_surface, observe, observe_into,
+    InputMeasures, Measured, Sampling, SensitivitySpec, SensitivitySummary, Session, Study, StudyError,
+    analyse, compute_surface, observe, observe_into,
 };
 use serde_json::{Value, json};
 use std::path::Path;
