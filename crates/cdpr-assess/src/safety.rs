@@ -69,7 +69,7 @@ pub struct Swing {
 impl Swing {
     /// Whether another cable is loaded beyond its greatest tension or its breaking force.
     pub fn is_overloaded(&self) -> bool {
-        self.out_of_limits.iter().any(|one| one.is_too_much())
+        self.out_of_limits.iter().any(OutOfLimits::is_too_much)
     }
 }
 

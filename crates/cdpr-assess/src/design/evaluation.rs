@@ -127,8 +127,8 @@ impl AtPose<'_> {
             }
             _ => None,
         };
-        let ends = [rest.tensions(), rest.exit_tensions(robot, &deflection.lengths)];
-        for i in 0..n {
+        let ends = rest.tensions().into_iter().zip(rest.exit_tensions(robot, &deflection.lengths));
+        for (i, (anchor, exit)) in ends.enumerate() {
             let is_exit = !robot.max_at(i).is_anchor();
             let limit = robot.cables[i].properties.breaking_force.unwrap_or(f64::INFINITY);
             let limit = limit.min(robot.limits(i).max);
@@ -143,7 +143,8 @@ impl AtPose<'_> {
                     whole.iter().copied().collect()
                 }
             };
-            excesses.push(self.quantity(ends[usize::from(is_exit)][i], &row).scaled(1.0 / limit, -1.0));
+            let tension = if is_exit { exit } else { anchor };
+            excesses.push(self.quantity(tension, &row).scaled(1.0 / limit, -1.0));
         }
         Ok(())
     }
