@@ -126,7 +126,7 @@ impl Robot {
         let poses = Rows::poses("pose", &pose, &self.robot)?;
         let loads = Loads::new(force.as_ref(), moment.as_ref(), payload.as_ref(), &self.robot)?;
         let cases = loads.cases([&poses])?;
-        if swing.is_some_and(|time| !(time > 0.0)) {
+        if swing.is_some_and(|time| time.is_nan() || time <= 0.0) {
             let given = swing.unwrap_or_default();
             return Err(Raised::Input(format!("swing is {given}: expected a time above 0 s")));
         }
