@@ -247,7 +247,7 @@ fn wrong_columns_limits_and_tables_are_refused_with_what_would_be_right() {
         (vec!["--vector", "z"], 1, "vector is z: expected a column of numbers"),
         (vec!["--limit", "y=3"], 2, "expected COLUMN<VALUE, with <, <=, > or >="),
         (vec!["--output", "status"], 1, "output is status"),
-        (vec!["--confidence", "1.5"], 1, "level = 1.5: expected a number between 0 and 1"),
+        (vec!["--with", "confidence=1.5"], 1, "level = 1.5: expected a number between 0 and 1"),
     ] {
         let output = cdpr(&[&["analyse", table.as_str()], &arguments[..]].concat());
         assert_eq!(output.status.code(), Some(code), "{arguments:?}");

@@ -35,7 +35,7 @@ pub(crate) enum Command {
   cdpr robot import EXPO2015_Lucia.wcrfx --tension-limits 10,4000 --out lucia.json
   cdpr robot import caroca.yaml --cable steel-4mm --out caroca.json")]
     Import(import::Settings),
-    /// Write a robot at rest for MuJoCo, CASPR or MoorPy, or for firmware.
+    /// Write a robot for other programs and for firmware.
     ///
     /// Klipper, RepRapFirmware and Maslow get the points of straight lines in millimetres. What their
     /// kinematics cannot say is printed or refused. A table has the lengths with stretch and sag, and its

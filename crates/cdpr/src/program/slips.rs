@@ -92,7 +92,8 @@ const OPTIONS: [(&str, &str); 56] = [
     ("--starts", "the number of starts is `--with starts=N`"),
     ("--folds", "the number of folds is `--with folds=N`"),
     ("--only-identifiable", "it is `--with only-identifiable`"),
-    ("--level", "the confidence of the intervals is `--confidence 0.95`"),
+    ("--confidence", "the confidence of the intervals is `--with confidence=0.95`"),
+    ("--level", "the confidence of the intervals is `--with confidence=0.95`"),
     ("--workspace", "the folder of the workspace is the second argument, without an option"),
     ("--cable-set", "a cable set of CASPR is `FILE:SET`"),
 ];

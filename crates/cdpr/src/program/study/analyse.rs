@@ -1,6 +1,6 @@
 //! `cdpr analyse`: what a table of inputs and outputs says.
 
-use crate::program::arguments::{self, Format, Overwrite, Threads, With, count, with};
+use crate::program::arguments::{self, Format, Overwrite, Threads, With, count, number, with};
 use crate::program::error::ProgramError;
 use crate::program::output::{Details, Ending, patiently};
 use crate::program::study::print::analysis;
@@ -30,10 +30,8 @@ pub(crate) struct Settings {
     /// which inputs make it fail.
     #[arg(long = "limit", value_name = "COLUMN<VALUE", value_parser = arguments::limit)]
     limits: Vec<(String, OutputLimit)>,
-    /// Confidence of the intervals.
-    #[arg(long, default_value_t = 0.95, allow_negative_numbers = true)]
-    confidence: f64,
-    /// Settings: hsic-rows=N, the rows that HSIC takes at most (2000); its time grows with their square.
+    /// Settings: confidence=SHARE of the intervals (0.95); hsic-rows=N, the rows that HSIC takes at most (2000),
+    /// whose square its time grows with.
     #[arg(long, value_name = "NAMES", value_parser = with)]
     with: Option<With>,
     /// Seed of all that is random.
@@ -56,9 +54,10 @@ pub(crate) struct Settings {
 pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     settings.threads.start()?;
     let with = settings.with.clone().unwrap_or_default();
-    with.check(&["hsic-rows"])?;
+    with.check(&["confidence", "hsic-rows"])?;
     let rows = count::<{ Analyser::LEAST_DEPENDENCE_ROWS }, { Analyser::MOST_DEPENDENCE_ROWS }>;
-    let mut analyser = Analyser { level: settings.confidence, ..Analyser::new(settings.seed) };
+    let mut analyser = Analyser::new(settings.seed);
+    analyser.level = with.value("confidence", None, number)?.unwrap_or(analyser.level);
     analyser.dependence_rows = with.value("hsic-rows", None, rows)?.unwrap_or(analyser.dependence_rows);
     let request = TableRequest {
         inputs: settings.inputs.clone(),
