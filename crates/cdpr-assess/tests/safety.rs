@@ -108,13 +108,13 @@ fn the_swing_exceeds_the_rest_and_is_that_of_the_simulation() {
     for (robot, pose) in robots() {
         let platform = Platform { inertia: Some(robot.assumed_inertia()), ..robot.platform };
         let robot = Robot { platform, ..robot };
-        let breaks = Breaks { pairs: false, follow: Some(0.4) };
+        let breaks = Breaks { pairs: false, follow: Some(0.1) };
         let found = safety_at(&robot, WantedPose::at(&pose), &Load::none(), breaks).unwrap();
         let held = inverse(&robot, WantedPose::at(&pose), &Load::none()).unwrap();
         let problem = DirectProblem::new(&robot, &held.lengths, &Load::none()).unwrap();
         let first = found.broken[0].swing.as_ref().unwrap().as_ref().unwrap();
         let cut = Event { time: 0.0, change: Change::Cut { cable: 0, at: CutAt::Anchor } };
-        let series = simulate(&problem, &held.equilibrium, &[cut], &Settings::until(0.4)).unwrap();
+        let series = simulate(&problem, &held.equilibrium, &[cut], &Settings::until(0.1)).unwrap();
         let peak = series.peaks[1..].iter().map(|peak| peak.0).fold(0.0, f64::max);
         assert_eq!(first.greatest.0, peak, "{}", robot.name);
         let last = series.samples.last().unwrap();
