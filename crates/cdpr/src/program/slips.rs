@@ -35,7 +35,7 @@ const COMMANDS: [(&str, &str); 25] = [
 ];
 
 /// Options that are called otherwise, or that another place gives.
-const OPTIONS: [(&str, &str); 56] = [
+const OPTIONS: [(&str, &str); 57] = [
     ("--robot", "the robot is the first argument, without an option"),
     (
         "--study",
