@@ -210,7 +210,7 @@ fn a_stiffness_is_made_great_and_a_demanded_frequency_kept() {
 }
 
 fn with_inertia(robot: &Robot) -> cdpr_robot::Platform {
-    let mut platform = robot.platform.clone();
+    let mut platform = robot.platform;
     platform.inertia = Some(Matrix3::identity() * 10.0);
     platform
 }
