@@ -29,6 +29,7 @@ __all__ = [
     "Observations",
     "PathStates",
     "Response",
+    "RestInWind",
     "Robot",
     "export_robot",
     "import_robot",
