@@ -2,9 +2,9 @@
 //!
 //! The winches do not move: the other cables keep the unstrained lengths that held the pose. The platform is
 //! released there, and comes to rest at the minimum of the potential that lies downhill
-//! ([`DirectStart::Released`]). This is where a strongly damped platform ends. On the way it swings, its tensions
-//! exceed those of the rest, and with little damping it may pass a ridge and rest elsewhere: the motion without
-//! damping is followed if asked for.
+//! ([`DirectStart::Released`]). This is where a strongly damped platform ends. On the way it swings, its
+//! tensions exceed those of the rest, and with little damping it may pass a ridge and rest elsewhere: the
+//! motion without damping is followed if asked for.
 
 use crate::inspection::is_below_floor;
 use cdpr_dynamics::DynamicsError;
@@ -57,8 +57,8 @@ pub struct Swing {
     pub moved: f64,
     /// Greatest tensions of the other cables that are out of limits.
     pub out_of_limits: Vec<OutOfLimits>,
-    /// Least breaking force over greatest tension of the other cables, and the index of that cable; `None` where
-    /// no breaking force is known.
+    /// Least breaking force over greatest tension of the other cables, and the index of that cable; `None`
+    /// where no breaking force is known.
     pub safety_factor: Option<(f64, usize)>,
     /// Whether P or an anchor point comes below the ground, as in [`BrokenRest::below_ground`].
     pub below_ground: bool,
@@ -88,10 +88,11 @@ pub struct BrokenRest {
     pub slack: Vec<usize>,
     /// Tensions of the other cables that are out of limits.
     pub out_of_limits: Vec<OutOfLimits>,
-    /// Least breaking force over greatest tension of the other cables, and the index of that cable; `None` where
-    /// no breaking force is known.
+    /// Least breaking force over greatest tension of the other cables, and the index of that cable; `None`
+    /// where no breaking force is known.
     pub safety_factor: Option<(f64, usize)>,
-    /// Whether P or an anchor point is below `ground_z`, or, where the file has none, below what robots stand on.
+    /// Whether P or an anchor point is below `ground_z`, or, where the file has none, below what robots stand
+    /// on.
     pub below_ground: bool,
     /// Residuals of the equilibrium.
     pub residual: Residual,
@@ -116,8 +117,8 @@ impl BrokenRest {
 /// A motion needs the inertia of the platform.
 ///
 /// # Errors
-/// Those of [`inverse`] at the pose. A break after which no rest is found, or whose motion cannot be followed,
-/// has the reason in its place.
+/// Those of [`inverse`] at the pose. A break after which no rest is found, or whose motion cannot be
+/// followed, has the reason in its place.
 pub fn safety_at(
     robot: &Robot,
     wanted: WantedPose,

@@ -220,7 +220,7 @@ impl Blown {
     }
 
     /// The cables after a step (dp, dφ) of the platform, or after the longest half, quarter, .. of it that
-    /// lowers the unbalanced wrench; `None` if there is none.
+    /// lowers the unbalanced wrench; `None` where no part does.
     fn nearer(
         &self,
         problem: &DirectProblem,

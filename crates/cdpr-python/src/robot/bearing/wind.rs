@@ -58,7 +58,7 @@ struct Found {
 impl Robot {
     /// Finds where the platform rests when the wind blows on its cables, with the lengths kept.
     ///
-    /// The cables are wound so that the platform rests at the pose under its own weight, without wind. The drag is
+    /// The lengths are those with which it rests at the pose under its own weight, without wind. The drag is
     /// that of round ropes with a coefficient of 1.2 in air of 1.225 kg/m³; with others, take the wind that is
     /// sqrt(density coefficient/1.47) times as fast. Wind on the platform itself is a `force`. Arguments are of one
     /// case, or have a first axis of m cases.

@@ -115,7 +115,7 @@ fn none(robot: &Robot, found: &Design) -> String {
 
 /// What becomes of the objective, and of how many it is the best.
 fn verdict(robot: &Robot, found: &Design, best: &BestDesign) -> String {
-    /// Changes below this share are none.
+    /// A smaller share is rounding, and no change.
     const NONE: f64 = 1e-9;
     let (unit, after) = (found.output.unit(), best.objective);
     let becomes = match found.before {
