@@ -299,7 +299,11 @@ impl Answer {
         let peaks = self.broken.iter().filter_map(|case| Some((case.swinging()?.greatest_tension, case)));
         let peak = peaks.max_by(|a, b| a.0.tension.total_cmp(&b.0.tension)).map(|(peak, case)| {
             let tension = significant(peak.tension, 4);
-            format!("On the way they reach {tension} N, in cable {} without {}.", peak.cable, case.name())
+            format!(
+                "In the time followed they reach {tension} N, in cable {} without {}.",
+                peak.cable,
+                case.name()
+            )
         });
         [Some(first), moved, tension, peak].into_iter().flatten().collect()
     }
@@ -321,7 +325,7 @@ impl Answer {
         }
         println!("{rows}");
         print_sentence(if followed {
-            "The winches stand still. Swings and peaks are those of the time that was followed, without damping."
+            "The winches stand still. Swings and peaks are those of the time followed, without damping."
         } else {
             "These are rests while the winches stand still. On the way there the platform swings and tensions \
              are greater: --with swing=SECONDS follows it."
