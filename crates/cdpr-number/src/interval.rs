@@ -122,26 +122,20 @@ impl Mul<f64> for Interval {
     }
 }
 
-impl AddAssign for Interval {
-    #[inline]
-    fn add_assign(&mut self, other: Self) {
-        *self = *self + other;
-    }
+macro_rules! assigning {
+    ($trait:ident, $function:ident, $operator:tt) => {
+        impl $trait for Interval {
+            #[inline]
+            fn $function(&mut self, other: Self) {
+                *self = *self $operator other;
+            }
+        }
+    };
 }
 
-impl SubAssign for Interval {
-    #[inline]
-    fn sub_assign(&mut self, other: Self) {
-        *self = *self - other;
-    }
-}
-
-impl MulAssign for Interval {
-    #[inline]
-    fn mul_assign(&mut self, other: Self) {
-        *self = *self * other;
-    }
-}
+assigning!(AddAssign, add_assign, +);
+assigning!(SubAssign, sub_assign, -);
+assigning!(MulAssign, mul_assign, *);
 
 impl Zero for Interval {
     #[inline]

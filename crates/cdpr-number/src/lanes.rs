@@ -235,24 +235,6 @@ impl<S: Simd> Mask<S> {
     }
 }
 
-impl<S: Simd> BitAnd for Mask<S> {
-    type Output = Self;
-
-    #[inline(always)]
-    fn bitand(self, other: Self) -> Self {
-        Self { values: self.simd.and_m64s(self.values, other.values), ..self }
-    }
-}
-
-impl<S: Simd> BitOr for Mask<S> {
-    type Output = Self;
-
-    #[inline(always)]
-    fn bitor(self, other: Self) -> Self {
-        Self { values: self.simd.or_m64s(self.values, other.values), ..self }
-    }
-}
-
 impl<S: Simd> Not for Mask<S> {
     type Output = Self;
 
@@ -263,8 +245,8 @@ impl<S: Simd> Not for Mask<S> {
 }
 
 macro_rules! operator {
-    ($trait:ident, $function:ident, $simd:ident) => {
-        impl<S: Simd> $trait for Lanes<S> {
+    ($kind:ident, $trait:ident, $function:ident, $simd:ident) => {
+        impl<S: Simd> $trait for $kind<S> {
             type Output = Self;
 
             #[inline(always)]
@@ -275,10 +257,12 @@ macro_rules! operator {
     };
 }
 
-operator!(Add, add, add_f64s);
-operator!(Sub, sub, sub_f64s);
-operator!(Mul, mul, mul_f64s);
-operator!(Div, div, div_f64s);
+operator!(Lanes, Add, add, add_f64s);
+operator!(Lanes, Sub, sub, sub_f64s);
+operator!(Lanes, Mul, mul, mul_f64s);
+operator!(Lanes, Div, div, div_f64s);
+operator!(Mask, BitAnd, bitand, and_m64s);
+operator!(Mask, BitOr, bitor, or_m64s);
 
 impl<S: Simd> Neg for Lanes<S> {
     type Output = Self;

@@ -61,8 +61,8 @@ mod softest;
 
 pub use crate::equations::Inputs;
 use crate::error::StaticsError;
-use crate::inverse::{InverseSolution, require_smooth};
-use crate::loading::{Deflection, SetPointLengths, deflection_from, lengths_with_free};
+use crate::inverse::{InverseSolution, lengths_at, require_smooth};
+use crate::loading::{Deflection, SetPointLengths, deflection_from, lengths_at_rest};
 use crate::problem::DirectProblem;
 use crate::state::{Load, Wanted, WantedPose, one_by_one};
 use cdpr_robot::Robot;
@@ -186,7 +186,8 @@ fn with_free(
     tension_offsets: &[f64],
     load: &Load,
 ) -> Result<Derivatives, StaticsError> {
-    let (unmoved, offset) = lengths_with_free(robot, wanted, tension_offsets)?;
+    let rest = lengths_at(robot, wanted, &Load::none())?;
+    let (unmoved, offset) = lengths_at_rest(robot, tension_offsets, rest)?;
     let deflection = deflection_from(robot, offset.lengths.clone(), load, &offset.equilibrium)?;
     let inputs = Inputs::of(robot);
     let WantedPose { pose, free, .. } = wanted;

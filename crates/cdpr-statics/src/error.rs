@@ -356,6 +356,15 @@ impl StaticsError {
         }
     }
 
+    /// Refuses a pose that is not finite.
+    pub(crate) fn finite_pose(field: &str, pose: &Pose) -> Result<(), Self> {
+        if pose.is_finite() {
+            return Ok(());
+        }
+        let position = format!("{:?}", pose.position.as_slice());
+        Err(Self::invalid(field.to_owned(), position, "a finite pose"))
+    }
+
     pub(crate) fn cable(index: usize) -> impl Fn(CableError) -> Self {
         move |source| Self::Cable { index, source }
     }

@@ -9,7 +9,7 @@ mod stiffness;
 mod wind;
 
 pub use deflection::{Deflection, deflection, deflection_from, set_point_lengths};
-pub(crate) use deflection::{SetPointLengths, lengths_at_rest, lengths_with_free};
+pub(crate) use deflection::{SetPointLengths, lengths_at_rest};
 pub use follow::follow;
 pub use hysteresis::{CycleStep, HysteresisLaw, LoadCycle, Unloading, load_cycle};
 pub use modes::{CableFrequency, NaturalMode, PoseModes, modes_at};

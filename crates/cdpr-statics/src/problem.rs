@@ -120,10 +120,7 @@ impl<'a> DirectProblem<'a> {
     /// Checks that an equilibrium has a finite pose and one finite force for each cable.
     pub(crate) fn check(&self, field: &str, equilibrium: &Equilibrium) -> Result<(), StaticsError> {
         let Equilibrium { pose, cable_forces } = equilibrium;
-        if !pose.is_finite() {
-            let position = format!("{:?}", pose.position.as_slice());
-            return Err(StaticsError::invalid(field.to_owned(), position, "a finite pose"));
-        }
+        StaticsError::finite_pose(field, pose)?;
         if cable_forces.len() != self.cables() {
             return Err(StaticsError::invalid(
                 format!("{field}.cable_forces"),

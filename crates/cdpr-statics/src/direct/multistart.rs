@@ -61,10 +61,7 @@ impl Starts {
 
     fn validate(&self) -> Result<(), StaticsError> {
         let Self { center, reach, rotation, count } = *self;
-        if !center.is_finite() {
-            let position = format!("{:?}", center.position.as_slice());
-            return Err(StaticsError::invalid("starts.center".to_owned(), position, "a finite pose"));
-        }
+        StaticsError::finite_pose("starts.center", &center)?;
         for (field, value) in [("reach", reach), ("rotation", rotation)] {
             if !(value.is_finite() && value >= 0.0) {
                 let expected = "a finite number, zero or more [m, rad]";

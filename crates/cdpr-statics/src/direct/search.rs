@@ -107,10 +107,9 @@ pub fn rough_pose(robot: &Robot, lengths: &[f64]) -> Pose {
 /// The start as an equilibrium to be found, validated.
 fn checked(problem: &DirectProblem, start: DirectStart) -> Result<Equilibrium, StaticsError> {
     match start {
-        DirectStart::Pose(pose) | DirectStart::Released(pose) if pose.is_finite() => cables_at(problem, pose),
         DirectStart::Pose(pose) | DirectStart::Released(pose) => {
-            let position = format!("{:?}", pose.position.as_slice());
-            Err(StaticsError::invalid("start".to_owned(), position, "a finite pose"))
+            StaticsError::finite_pose("start", pose)?;
+            cables_at(problem, pose)
         }
         DirectStart::Near(equilibrium) => {
             problem.check("start", equilibrium)?;

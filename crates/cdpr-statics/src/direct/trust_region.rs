@@ -23,7 +23,7 @@
 
 use crate::direct::newton::{Converged, newton, pinned_newton};
 use crate::direct::subproblem::subproblem;
-use crate::equations::{Balance, SpannedCable, cables_at};
+use crate::equations::{Balance, SpannedCable, cables_at, per_length};
 use crate::error::StaticsError;
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Residual};
@@ -111,8 +111,7 @@ impl Point {
 
 /// From (dp, l dφ) to (dp, dφ).
 fn scale(problem: &DirectProblem) -> Vector6<f64> {
-    let per_length = 2.0 / problem.size();
-    Vector6::new(1.0, 1.0, 1.0, per_length, per_length, per_length)
+    per_length(0.5 * problem.size())
 }
 
 /// The minimum of the potential that lies downhill of `start`.

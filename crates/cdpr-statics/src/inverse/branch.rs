@@ -141,8 +141,7 @@ impl KnownOptimum {
             }
             greatest = CONTRACTION * change;
             let moved = point.moved(&step)?;
-            let rows = point.rows_of(&moved);
-            point.set(moved, rows);
+            point.set(moved);
             point.multipliers = multipliers;
         }
         // All cables at limits that do not balance have nothing left to change.
@@ -165,20 +164,9 @@ impl Point<'_> {
             let (step, multipliers) = self.newton_step(&hessian, &ways, ELASTICITY)?;
             let mut changed = false;
             for (i, cable) in self.cables.iter_mut().enumerate() {
-                let passed = |cable: &CableAtPose| {
-                    let [low, high] = cable.step_bounds();
-                    let passed = [step[i] < low, step[i] > high];
-                    Bound::BOTH.into_iter().find(|bound| passed[*bound as usize])
-                };
                 match fixed[i] {
                     None => {
-                        // The way to a limit that is not known is an estimate.
-                        if let Some(bound) = passed(cable)
-                            && !cable.limit_known(bound)
-                        {
-                            cable.compute_limit(bound).ok()?;
-                        }
-                        fixed[i] = passed(cable);
+                        fixed[i] = cable.passed_limit(step[i]).ok()?;
                         changed |= fixed[i].is_some();
                     }
                     Some(bound) => {

@@ -145,6 +145,36 @@ impl<'a> CableAtPose<'a> {
         [low, change(Bound::Max, self.limits.max - t).max(low)]
     }
 
+    /// The limit that a change of the chord force [N] passes.
+    pub(super) fn passed(&self, change: f64) -> Option<Bound> {
+        let [low, high] = self.step_bounds();
+        let passed = [change < low, change > high];
+        Bound::BOTH.into_iter().find(|bound| passed[*bound as usize])
+    }
+
+    /// The same, its chord force computed: the way to a limit that is not known is an estimate.
+    ///
+    /// # Errors
+    /// As [`CableAtPose::compute_limit`].
+    pub(super) fn passed_limit(&mut self, change: f64) -> Result<Option<Bound>, CableError> {
+        if let Some(bound) = self.passed(change) {
+            self.know_limit(bound)?;
+        }
+        Ok(self.passed(change))
+    }
+
+    /// Computes the chord force at a limit that is not known; true if there was none.
+    ///
+    /// # Errors
+    /// As [`CableAtPose::compute_limit`].
+    pub(super) fn know_limit(&mut self, bound: Bound) -> Result<bool, CableError> {
+        let is_new = !self.limit_known(bound);
+        if is_new {
+            self.compute_limit(bound)?;
+        }
+        Ok(is_new)
+    }
+
     /// Whether the chord force at a limit is known.
     pub(super) fn limit_known(&self, bound: Bound) -> bool {
         self.chord_forces[bound as usize].is_some()
@@ -263,9 +293,7 @@ impl<'a> CableAtPose<'a> {
     fn grid(&mut self) -> Result<Vec<HeldCable<'a>>, CableError> {
         const INTERVALS: u32 = 12;
         for bound in Bound::BOTH {
-            if !self.limit_known(bound) {
-                self.compute_limit(bound)?;
-            }
+            self.know_limit(bound)?;
         }
         let [low, high] = self.chord_forces.map(Option::unwrap_or_default);
         let mut fixed = self.at(low)?;

@@ -196,15 +196,14 @@ impl<'a> Point<'a> {
                 })
                 .collect();
             let Some(step) = self.least_step(&curvature) else { return false };
-            let moved = self.moved(&step);
-            let next = moved.map(|moved| {
-                let rows = self.rows_of(&moved);
-                (rows.iter().fold(self.external, |sum, row| sum + row.wrench).norm(), moved, rows)
+            let next = self.moved(&step).map(|moved| {
+                let sum = moved.rows.iter().fold(self.external, |sum, row| sum + row.wrench);
+                (sum.norm(), moved)
             });
             match next {
-                Some((next, moved, rows)) if next < residual => {
+                Some((next, moved)) if next < residual => {
                     let gained = residual - next;
-                    self.set(moved, rows);
+                    self.set(moved);
                     residual = next;
                     damping = (0.1 * damping).max(1e-9);
                     if gained <= least_gain * residual {

@@ -305,10 +305,7 @@ impl Maximization {
                 for bound in Bound::BOTH {
                     let way = cable.step_bounds()[bound as usize] / size;
                     let met = [solution.values[i] <= way, solution.values[i] >= way][bound as usize];
-                    if met && !cable.limit_known(bound) {
-                        cable.compute_limit(bound).map_err(StaticsError::cable(i))?;
-                        computed = true;
-                    }
+                    computed |= met && cable.know_limit(bound).map_err(StaticsError::cable(i))?;
                 }
             }
             if !computed {
@@ -387,8 +384,7 @@ impl<'a> Iterate<'a> {
     pub(super) fn moved(&self, changes: &[f64], z: f64) -> Option<Self> {
         let moved = self.point.moved(changes)?;
         let mut next = Self { point: self.point.clone(), z };
-        let rows = next.point.rows_of(&moved);
-        next.point.set(moved, rows);
+        next.point.set(moved);
         Some(next)
     }
 }

@@ -50,6 +50,12 @@ pub(super) struct Point<'a> {
     pub(super) iterations: usize,
 }
 
+/// All cables at other chord forces.
+pub(super) struct Moved<'a> {
+    cables: Vec<HeldCable<'a>>,
+    pub(super) rows: Vec<Row>,
+}
+
 const MAX_ITERATIONS: usize = 60;
 
 /// Elasticity of the equations of a step: small enough that it is below rounding in a few steps, large enough
@@ -114,32 +120,24 @@ impl<'a> Point<'a> {
         each.fold(0.0, f64::max)
     }
 
-    /// Moves every cable by a change of its chord force, within its limits. `None` where a cable cannot be
-    /// closed.
-    pub(super) fn moved(&self, step: &[f64]) -> Option<Vec<HeldCable<'a>>> {
+    /// Every cable after a change of its chord force, within its limits. `None` where a cable cannot be closed.
+    pub(super) fn moved(&self, step: &[f64]) -> Option<Moved<'a>> {
         let moved = self.cables.iter().zip(step).map(|(cable, d)| {
             let to = cable.fixed.chord_force + d;
             // A step to first order towards a limit does not leave the taut branch.
-            cable.at(to.max(0.1 * cable.fixed.chord_force)).ok()
+            let fixed = cable.at(to.max(0.1 * cable.fixed.chord_force)).ok()?;
+            Some((fixed, cable.row(&fixed, self.characteristic_length)))
         });
-        moved.collect()
+        let (cables, rows) = moved.collect::<Option<(Vec<_>, Vec<_>)>>()?;
+        Some(Moved { cables, rows })
     }
 
-    /// The rows of the cables as they would be.
-    pub(super) fn rows_of(&self, moved: &[HeldCable<'a>]) -> Vec<Row> {
-        self.cables
-            .iter()
-            .zip(moved)
-            .map(|(cable, fixed)| cable.row(fixed, self.characteristic_length))
-            .collect()
-    }
-
-    /// Moves the cables, whose rows are those of [`Point::rows_of`].
-    pub(super) fn set(&mut self, moved: Vec<HeldCable<'a>>, rows: Vec<Row>) {
-        for (cable, fixed) in self.cables.iter_mut().zip(moved) {
+    /// Moves the cables.
+    pub(super) fn set(&mut self, moved: Moved<'a>) {
+        for (cable, fixed) in self.cables.iter_mut().zip(moved.cables) {
             cable.fixed = fixed;
         }
-        self.rows = rows;
+        self.rows = moved.rows;
     }
 
     /// The step of (I3) within the limits.
@@ -181,10 +179,7 @@ impl<'a> Point<'a> {
         let mut computed = false;
         for ((cable, d), unknown) in self.cables.iter_mut().zip(values).zip(unknowns) {
             for bound in Bound::BOTH {
-                if *d == unknown.bounds[bound as usize] && !cable.limit_known(bound) {
-                    cable.compute_limit(bound).ok()?;
-                    computed = true;
-                }
+                computed |= *d == unknown.bounds[bound as usize] && cable.know_limit(bound).ok()?;
             }
         }
         Some(computed)
@@ -269,8 +264,7 @@ impl<'a> Point<'a> {
                     (step, multipliers) = newton;
                 }
                 let Some(moved) = self.moved(&step) else { return false };
-                let rows = self.rows_of(&moved);
-                self.set(moved, rows);
+                self.set(moved);
                 self.multipliers = multipliers;
                 continue;
             }
@@ -289,30 +283,30 @@ impl<'a> Point<'a> {
         let merit = Self::merit(&self.rows, self.external, penalty);
         let slope = self.rows.iter().zip(step).map(|(row, d)| row.gradient() * d).sum::<f64>()
             - penalty * residual.norm();
+        let external = self.external;
+        let is_accepted = |moved: &Moved, share: f64| {
+            let accepted = merit + 1e-4 * share * slope.min(0.0);
+            Self::merit(&moved.rows, external, penalty) <= accepted + 1e-14 * merit.abs()
+        };
         let mut share = 1.0;
         while share > 1e-6 {
             let part: Vec<f64> = step.iter().map(|d| share * d).collect();
             if let Some(moved) = self.moved(&part) {
-                let next = self.rows_of(&moved);
-                let accepted = merit + 1e-4 * share * slope.min(0.0);
-                let rounding = 1e-14 * merit.abs();
-                if Self::merit(&next, self.external, penalty) <= accepted + rounding {
-                    self.set(moved, next);
+                if is_accepted(&moved, share) {
+                    self.set(moved);
                     self.multipliers += (multipliers - self.multipliers) * share;
                     return true;
                 }
                 // Second-order correction: the same step with the balance at its end made good.
-                if share == 1.0 {
-                    let end = next.iter().fold(self.external, |sum, row| sum + row.wrench);
-                    if let Some(corrected) = self.corrected(step, end)
-                        && let Some(moved) = self.moved(&corrected)
-                        && let rows = self.rows_of(&moved)
-                        && Self::merit(&rows, self.external, penalty) <= accepted + rounding
-                    {
-                        self.set(moved, rows);
-                        self.multipliers = multipliers;
-                        return true;
-                    }
+                let end = moved.rows.iter().fold(self.external, |sum, row| sum + row.wrench);
+                if share == 1.0
+                    && let Some(corrected) = self.corrected(step, end)
+                    && let Some(moved) = self.moved(&corrected)
+                    && is_accepted(&moved, share)
+                {
+                    self.set(moved);
+                    self.multipliers = multipliers;
+                    return true;
                 }
             }
             share *= 0.5;

@@ -35,16 +35,6 @@ impl<'a> InverseProblem<'a> {
         if cables < freedoms {
             return Err(StaticsError::FreeCoordinates { cables, freedoms, named: 0 });
         }
-        Self::new(robot, pose, load, reference)
-    }
-
-    /// The problem, its inputs checked.
-    pub(super) fn new(
-        robot: &'a Robot,
-        pose: &'a Pose,
-        load: &'a Load,
-        reference: Option<&[f64]>,
-    ) -> Result<Self, StaticsError> {
         let problem = Self::with_platform_limits(robot, pose, load, reference)?;
         Ok(Self { limits: platform_limits(robot, pose)?, ..problem })
     }
@@ -58,10 +48,7 @@ impl<'a> InverseProblem<'a> {
     ) -> Result<Self, StaticsError> {
         let n = robot.cables.len();
         load.validate()?;
-        if !pose.is_finite() {
-            let position = format!("{:?}", pose.position.as_slice());
-            return Err(StaticsError::invalid("pose".to_owned(), position, "a finite pose"));
-        }
+        StaticsError::finite_pose("pose", pose)?;
         if let Some(i) = (0..n).find(|i| robot.span(pose, *i).norm() == 0.0) {
             return Err(StaticsError::invalid(
                 format!("cables[{i}].exit_point"),

@@ -194,10 +194,8 @@ impl<'a> Observer<'a> {
     /// [`StaticsError`] says why this robot has no deflection.
     pub fn deflection(&self, perturbed: &Perturbed) -> Result<Deflection, StaticsError> {
         let Perturbed { robot, tension_offsets } = perturbed;
-        let PoseLengths { lengths, equilibrium } = match &self.wanted {
-            Wanted::Pose(branch) => self.lengths_at_pose(branch.as_ref(), robot, tension_offsets)?,
-            Wanted::Rest(branch) => lengths_at_rest(robot, tension_offsets, branch.nearby(robot)?)?.1,
-        };
+        let rest = |branch: &FreeBranch| branch.nearby(robot);
+        let PoseLengths { lengths, equilibrium } = self.lengths(robot, tension_offsets, rest)?;
         deflection_from(robot, lengths, &self.load, &equilibrium)
     }
 
@@ -207,25 +205,25 @@ impl<'a> Observer<'a> {
     /// # Errors
     /// Those of the inverse model.
     pub fn set_point_lengths(&self, tension_offsets: &[f64]) -> Result<Vec<f64>, StaticsError> {
-        let found = match &self.wanted {
-            Wanted::Pose(branch) => self.lengths_at_pose(branch.as_ref(), self.robot, tension_offsets)?,
-            Wanted::Rest(branch) => lengths_at_rest(self.robot, tension_offsets, branch.rest().clone())?.1,
-        };
-        Ok(found.lengths)
+        let rest = |branch: &FreeBranch| Ok(branch.rest().clone());
+        Ok(self.lengths(self.robot, tension_offsets, rest)?.lengths)
     }
 
-    /// The lengths for the set-points of a robot that deviates from this one, at the whole wanted pose.
-    fn lengths_at_pose(
+    /// The lengths for the set-points of a robot that deviates from this one; with free coordinates at its
+    /// `rest`.
+    fn lengths(
         &self,
-        branch: Option<&Branch>,
         robot: &Robot,
         tension_offsets: &[f64],
+        rest: impl FnOnce(&FreeBranch) -> Result<PoseLengths, StaticsError>,
     ) -> Result<PoseLengths, StaticsError> {
-        let found = match branch {
-            Some(branch) => {
-                SetPointLengths::from(robot, &self.pose, tension_offsets, branch.nearby(robot, &self.pose)?)
+        let pose = &self.pose;
+        let found = match &self.wanted {
+            Wanted::Pose(Some(branch)) => {
+                SetPointLengths::from(robot, pose, tension_offsets, branch.nearby(robot, pose)?)
             }
-            None => SetPointLengths::new(robot, &WantedPose::at(&self.pose), tension_offsets),
+            Wanted::Pose(None) => SetPointLengths::new(robot, &WantedPose::at(pose), tension_offsets),
+            Wanted::Rest(branch) => return Ok(lengths_at_rest(robot, tension_offsets, rest(branch)?)?.1),
         };
         Ok(found?.offset)
     }
@@ -273,22 +271,26 @@ impl<T: InLanes> WithSimd for BatchOf<'_, T> {
         for rows in deviations.chunks(Lanes::<S>::COUNT * parameters) {
             let count = rows.len() / parameters;
             let rows = Rows::new(simd, rows, layout);
-            let mut observed = ByAxes::none();
+            let mut observed = [None; MAX_LANES];
             for axes in nominal.axes() {
                 let (mut start, level, valid) = rows.robots(robot, pose, load, nominal, *axes);
-                if valid[1].any() {
-                    if T::WITH_FRAMES {
-                        start.robots.frame.extend(rows.frame(pose, level.as_ref()));
-                    }
-                    let (outcome, _) = observe(&mut start, &nominal.shared, false);
-                    let of = InRows { level: level.as_ref(), valid, nominal };
-                    observed.assign(valid[1], T::read(&outcome, &of));
+                let own = valid[1].to_array();
+                if !(0..count).any(|lane| own[lane] && observed[lane].is_none()) {
+                    continue;
                 }
-                if observed.are_complete() {
+                if T::WITH_FRAMES {
+                    start.robots.frame.extend(rows.frame(pose, level.as_ref()));
+                }
+                let (outcome, _) = observe(&mut start, &nominal.shared, false);
+                let read = T::read(&outcome, &InRows { level: level.as_ref(), valid, nominal });
+                for lane in (0..count).filter(|lane| own[*lane]) {
+                    observed[lane].get_or_insert(read[lane]);
+                }
+                if observed[..count].iter().all(Option::is_some) {
                     break;
                 }
             }
-            found.extend(observed.take(count));
+            found.extend(observed.into_iter().take(count).flatten());
         }
         found
     }
@@ -300,39 +302,6 @@ impl InLanes for Observation {
     #[inline(always)]
     fn read<S: Simd>(outcome: &Outcome<S>, of: &InRows<'_, S>) -> [Result<Self, ScalarReason>; MAX_LANES] {
         read(outcome, of)
-    }
-}
-
-/// Observations in lanes that are evaluated one kind of axes after the other.
-struct ByAxes<T>([Option<Result<T, ScalarReason>>; MAX_LANES]);
-
-impl<T: Copy> ByAxes<T> {
-    fn none() -> Self {
-        Self([None; MAX_LANES])
-    }
-
-    /// Assigns those of the lanes that have these axes and none yet.
-    #[inline(always)]
-    #[allow(clippy::needless_range_loop)]
-    fn assign<S: Simd>(&mut self, own: Mask<S>, found: [Result<T, ScalarReason>; MAX_LANES]) {
-        let own = own.to_array();
-        for lane in 0..Lanes::<S>::COUNT {
-            if own[lane] && self.0[lane].is_none() {
-                self.0[lane] = Some(found[lane]);
-            }
-        }
-        for lane in Lanes::<S>::COUNT..MAX_LANES {
-            self.0[lane] = Some(found[lane]);
-        }
-    }
-
-    fn are_complete(&self) -> bool {
-        self.0.iter().all(Option::is_some)
-    }
-
-    /// The first of them.
-    fn take(self, count: usize) -> impl Iterator<Item = Result<T, ScalarReason>> {
-        self.0.into_iter().flatten().take(count)
     }
 }
 

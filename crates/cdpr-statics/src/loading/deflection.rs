@@ -97,15 +97,6 @@ pub fn deflection<W: Wanted>(
     })
 }
 
-/// The rest of a platform with free coordinates, without and with the offsets of tension set-points.
-pub(crate) fn lengths_with_free(
-    robot: &Robot,
-    wanted: &WantedPose,
-    tension_offsets: &[f64],
-) -> Result<(PoseLengths, PoseLengths), StaticsError> {
-    lengths_at_rest(robot, tension_offsets, lengths_at(robot, wanted, &Load::none())?)
-}
-
 /// A rest without and with the offsets of tension set-points.
 pub(crate) fn lengths_at_rest(
     robot: &Robot,
@@ -142,7 +133,7 @@ pub fn set_point_lengths<'a>(
 fn set_lengths(robot: &Robot, wanted: &WantedPose) -> Result<PoseLengths, StaticsError> {
     let offsets = wanted.offsets_of(robot);
     if !wanted.free.is_empty() {
-        return Ok(lengths_with_free(robot, wanted, &offsets)?.1);
+        return Ok(lengths_at_rest(robot, &offsets, lengths_at(robot, wanted, &Load::none())?)?.1);
     }
     Ok(SetPointLengths::new(robot, wanted, &offsets)?.offset)
 }

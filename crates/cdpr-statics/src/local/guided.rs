@@ -180,27 +180,6 @@ impl<S: Simd> Guided<S> {
             false => way(&self.guide, free),
         }
     }
-
-    /// Linearizes the whole cable of this guide in the lanes that are `active`, with the end of (L12).
-    #[cold]
-    #[inline(never)]
-    pub(crate) fn linearize(
-        &self,
-        free: &FreeCable<'_, Lanes<S>>,
-        span: &Span<Lanes<S>>,
-        linearized: GuidedLinearization<'_, S>,
-        active: Mask<S>,
-    ) {
-        linearize(self, *free, *span, linearized, active);
-    }
-
-    /// The end of the whole cable of this guide, (L12). A cable that is too short for its guide has a
-    /// slackness of 2.
-    #[cold]
-    #[inline(never)]
-    pub(crate) fn end(&self, free: &FreeCable<'_, Lanes<S>>, span: &Span<Lanes<S>>) -> GuidedEnd<S> {
-        whole_end(self, *free, *span)
-    }
 }
 
 /// The way of a cable over a guide as it is in the plane of the cable.
@@ -230,8 +209,10 @@ apart! {
         way(&guided.in_plane(), &free)
     }
 
-    #[inline(always)]
-    on(free.length) fn linearize<'a, 'b, S: Simd>(
+    /// Linearizes the whole cable of a guide in the lanes that are `active`, with the end of (L12).
+    #[cold]
+    #[inline(never)]
+    on(free.length) pub(crate) fn linearize_guided<'a, 'b, S: Simd>(
         guided: &'a Guided<S>,
         free: FreeCable<'b, Lanes<S>>,
         span: Span<Lanes<S>>,
@@ -271,8 +252,11 @@ apart! {
         beyond.less_or_equal(guided.guide.radius * NEXT_TO_WHEEL)
     }
 
-    #[inline(always)]
-    on(free.length) fn whole_end<'a, 'b, S: Simd>(
+    /// The end of the whole cable of a guide, (L12). A cable that is too short for its guide has a slackness
+    /// of 2.
+    #[cold]
+    #[inline(never)]
+    on(free.length) pub(crate) fn whole_end<'a, 'b, S: Simd>(
         guided: &'a Guided<S>,
         free: FreeCable<'b, Lanes<S>>,
         span: Span<Lanes<S>>,

@@ -5,7 +5,7 @@
 use crate::equations::LinearizedCable;
 use crate::local::cable::FOLDED;
 use crate::local::freedoms::constrain;
-use crate::local::guided::is_next_to_wheel;
+use crate::local::guided::{is_next_to_wheel, whole_end};
 use crate::local::load::PlatformLoad;
 use crate::local::platform::{LaneResidual, LinearizedPlatform, Robots, Scale, Steps};
 use crate::local::skew::{Skew, refine};
@@ -140,7 +140,7 @@ impl<S: Simd> Robots<'_, S> {
         let LaneEnd { end, tension, slackness } = match &cable.guided {
             None => cable.end(),
             Some(guided) => {
-                let found = guided.end(&cable.free(), &span);
+                let found = whole_end(guided, cable.free(), span);
                 (span, across) = (found.span, found.across);
                 platform.free[i].update(found.missing, near);
                 let most = zero.all(LAST_MISSING * scale.size);

@@ -5,7 +5,7 @@
 use crate::equations::{CablePlane, LinearizedCable, add_stiffness};
 use crate::local::cable::LaneCable;
 use crate::local::freedoms::{constrain, constrain_matrix};
-use crate::local::guided::{FreeLength, GuidedLinearization};
+use crate::local::guided::{FreeLength, GuidedLinearization, linearize_guided};
 use crate::local::load::PlatformLoad;
 use crate::local::swivel::Swivel;
 use crate::state::Residual;
@@ -165,7 +165,7 @@ impl<S: Simd> Robots<'_, S> {
             if let Some(guided) = &cable.guided {
                 let (free, swivel) = (&mut platform.free[i], platform.swivels.get_mut(i));
                 let places = GuidedLinearization { cable: linearized, free, swivel };
-                guided.linearize(&cable.free(), &span, places, active);
+                linearize_guided(guided, cable.free(), span, places, active);
                 continue;
             }
             let response = cable.response();

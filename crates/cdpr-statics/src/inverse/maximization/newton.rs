@@ -199,20 +199,8 @@ impl Maximization {
     /// Whether cables between their limits stay there; computes the limits that a step meets.
     fn stays_within(&self, at: &mut Iterate, active: &Active, step: &[f64]) -> Option<bool> {
         for ((cable, d), fixed) in at.point.cables.iter_mut().zip(step).zip(&active.fixed) {
-            if fixed.is_some() {
-                continue;
-            }
-            for bound in Bound::BOTH {
-                let passed = |cable: &CableAtPose| {
-                    let way = cable.step_bounds()[bound as usize];
-                    [*d < way, *d > way][bound as usize]
-                };
-                if passed(cable) && !cable.limit_known(bound) {
-                    cable.compute_limit(bound).ok()?;
-                }
-                if passed(cable) {
-                    return Some(false);
-                }
+            if fixed.is_none() && cable.passed_limit(*d).ok()?.is_some() {
+                return Some(false);
             }
         }
         Some(true)

@@ -24,10 +24,9 @@ impl Point<'_> {
     fn step_on_free_cables(&self, hessian: &[f64], elasticity: f64) -> Option<(Vec<f64>, Vector6<f64>)> {
         let fixed: Vec<_> = self.cables.iter().map(|cable| cable.at_limit().map(|_| 0.0)).collect();
         let (step, multipliers) = self.newton_step(hessian, &fixed, elasticity)?;
-        let within = self.cables.iter().zip(&step).zip(&fixed).all(|((cable, d), fixed)| {
-            let [low, high] = cable.step_bounds();
-            fixed.is_some() || (low..=high).contains(d)
-        });
+        let each = self.cables.iter().zip(&step).zip(&fixed);
+        let within =
+            each.into_iter().all(|((cable, d), fixed)| fixed.is_some() || cable.passed(*d).is_none());
         within.then_some((step, multipliers))
     }
 

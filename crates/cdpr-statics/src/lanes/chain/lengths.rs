@@ -4,7 +4,7 @@ use crate::equations::{LinearizedCable, Span};
 use crate::lanes::chain::shared::Shared;
 use crate::lanes::fixed_ends::FixedEnds;
 use crate::local::cable::FOLDED;
-use crate::local::guided::GuidedLinearization;
+use crate::local::guided::{GuidedLinearization, linearize_guided};
 use crate::local::platform::{LinearizedPlatform, Robots};
 use cdpr_number::lanes::{Lanes, Mask, Simd};
 use cdpr_number::{Number, apart};
@@ -70,7 +70,7 @@ apart! {
                 let everywhere = zero.less_or_equal(zero);
                 let (free, swivel) = (&mut platform.free[i], swivel.as_deref_mut());
                 let places = GuidedLinearization { cable: linearized, free, swivel };
-                guided.linearize(&cable.free(), span, places, everywhere);
+                linearize_guided(guided, cable.free(), *span, places, everywhere);
             }
             // The last change closes the cable to rounding.
             linearized.predicted = cable.force;

@@ -43,9 +43,9 @@ pub fn loaded_poses<T: Loaded>(
     load: &Load,
 ) -> Vec<Result<T, StaticsError>> {
     let found = in_lanes(robot, wanted, load, T::WITH_SLOPES).into_iter();
-    let one = |(wanted, found): (&&InverseSolution, Result<_, _>)| match found {
-        Ok(found) => Ok(T::in_lanes(found)),
-        Err(why) => T::by_scalar_models(robot, wanted, load, why),
+    let one = |(wanted, found): (&&InverseSolution, Result<PoseSlopes, _>)| {
+        let alone = |why| PoseSlopes::by_scalar_models(robot, wanted, load, (why, T::WITH_SLOPES));
+        found.or_else(alone).map(T::part_of)
     };
     wanted.iter().zip(found).map(one).collect()
 }
@@ -109,14 +109,6 @@ struct Settled<S: Simd> {
     tensions: SmallVec<[[Lanes<S>; 2]; 8]>,
 }
 
-/// The stiffness at an equilibrium, in numbers.
-struct Figures<S: Simd> {
-    /// Whether it is positive definite.
-    stable: Mask<S>,
-    /// Its least eigenvalue in (dp, ℓ dφ) [N/m].
-    least_stiffness: Lanes<S>,
-}
-
 impl<S: Simd> InLanes<'_, S> {
     #[inline(always)]
     fn solve(&self, results: &mut Vec<Result<PoseSlopes, ScalarReason>>) {
@@ -156,12 +148,12 @@ impl<S: Simd> InLanes<'_, S> {
             }
             _ => None,
         };
-        let figures = self.figures(&robots, &mut platform, &carried);
+        let stiffness = self.least_stiffness(&robots, &mut platform, &carried);
         self.read(
             &robots,
             &displacement,
             (&unloaded, loaded.as_ref().unwrap_or(&unloaded)),
-            (&figures, slopes),
+            (stiffness, slopes),
             results,
         );
     }
@@ -222,14 +214,15 @@ impl<S: Simd> InLanes<'_, S> {
         Settled { found, residual, tensions }
     }
 
-    /// Stability and softest motions of the equilibrium at hand.
+    /// The lanes in which the stiffness at the equilibrium at hand is positive definite, and its least
+    /// eigenvalue in (dp, ℓ dφ) [N/m].
     #[inline(always)]
-    fn figures(
+    fn least_stiffness(
         &self,
         robots: &Robots<'_, S>,
         platform: &mut LinearizedPlatform<S>,
         carried: &PlatformLoad<S>,
-    ) -> Figures<S> {
+    ) -> (Mask<S>, Lanes<S>) {
         let mut longest = self.all(0.0);
         for cable in &robots.cables {
             longest = longest.max(cable.guided.as_ref().map_or(cable.length, |guided| guided.whole_length));
@@ -243,8 +236,7 @@ impl<S: Simd> InLanes<'_, S> {
                 *element = *element * *per_row * *per_column;
             }
         }
-        let stable = SymmetricFactors::new(scaled).positive;
-        Figures { stable, least_stiffness: least(robots.freedoms, scaled) }
+        (SymmetricFactors::new(scaled).positive, least(robots.freedoms, scaled))
     }
 
     /// The result of each lane, or the first stage that failed; without a load the second equilibrium is the
@@ -255,14 +247,14 @@ impl<S: Simd> InLanes<'_, S> {
         robots: &Robots<'_, S>,
         displacement: &Lanes3<S>,
         (unloaded, loaded): (&Settled<S>, &Settled<S>),
-        (figures, slopes): (&Figures<S>, Option<SlopesOfLanes>),
+        ((stable, least_stiffness), slopes): ((Mask<S>, Lanes<S>), Option<SlopesOfLanes>),
         results: &mut Vec<Result<PoseSlopes, ScalarReason>>,
     ) {
         let Self { placed: PlacedRobot { robot, .. }, wanted, .. } = *self;
         let stands = unloaded.found.to_array();
-        let carries = (loaded.found & figures.stable).to_array();
+        let carries = (loaded.found & stable).to_array();
         let displacement = three!(|k| displacement[k].to_array());
-        let least_stiffness = figures.least_stiffness.to_array();
+        let least_stiffness = least_stiffness.to_array();
         let residuals = [unloaded.residual.norms(), loaded.residual.norms()];
         let tensions = [&unloaded.tensions, &loaded.tensions].map(|settled| {
             let arrays = settled.iter().map(|[one, other]| [one.to_array(), other.to_array()]);

@@ -57,66 +57,48 @@ pub trait Loaded: Sized {
     #[doc(hidden)]
     const WITH_SLOPES: bool;
 
-    /// From what the lanes find.
+    /// Its part of all that is found.
     #[doc(hidden)]
-    fn in_lanes(found: PoseSlopes) -> Self;
-
-    /// By the scalar models.
-    #[doc(hidden)]
-    fn by_scalar_models(
-        robot: &Robot,
-        wanted: &InverseSolution,
-        load: &Load,
-        why: ScalarReason,
-    ) -> Result<Self, StaticsError>;
+    fn part_of(found: PoseSlopes) -> Self;
 }
 
 impl Loaded for LoadedPose {
     const WITH_SLOPES: bool = false;
 
-    fn in_lanes(found: PoseSlopes) -> Self {
+    fn part_of(found: PoseSlopes) -> Self {
         found.loaded
-    }
-
-    fn by_scalar_models(
-        robot: &Robot,
-        wanted: &InverseSolution,
-        load: &Load,
-        why: ScalarReason,
-    ) -> Result<Self, StaticsError> {
-        let deflection = deflection_from(robot, wanted.lengths.clone(), load, &wanted.equilibrium)?;
-        Ok(Self { scalar: Some(why), ..Self::of(robot, &deflection) })
     }
 }
 
 impl Loaded for PoseSlopes {
     const WITH_SLOPES: bool = true;
 
-    fn in_lanes(found: PoseSlopes) -> Self {
+    fn part_of(found: PoseSlopes) -> Self {
         found
     }
+}
 
-    fn by_scalar_models(
+impl PoseSlopes {
+    /// Those of the scalar models, without derivatives unless they are asked for.
+    pub(super) fn by_scalar_models(
         robot: &Robot,
         wanted: &InverseSolution,
         load: &Load,
-        why: ScalarReason,
+        (why, with_slopes): (ScalarReason, bool),
     ) -> Result<Self, StaticsError> {
-        let found = derivatives_from(robot, wanted.equilibrium.pose, load, wanted.clone());
-        let (deflection, magnitude) = match found {
-            Ok(found) => {
+        let derivatives = || derivatives_from(robot, wanted.equilibrium.pose, load, wanted.clone());
+        let (deflection, magnitude) = match with_slopes.then(derivatives) {
+            Some(Ok(found)) => {
                 let parameters = ParameterLayout::of(robot).count();
-                let magnitude =
-                    found.magnitude().ok().map(|slopes| slopes.into_iter().take(parameters).collect());
-                (found.deflection, magnitude)
+                let slopes = found.magnitude().ok();
+                (found.deflection, slopes.map(|slopes| slopes.into_iter().take(parameters).collect()))
             }
             // A pose without a derivative is solved nevertheless.
-            Err(StaticsError::NoDerivative { .. }) => {
+            None | Some(Err(StaticsError::NoDerivative { .. })) => {
                 (deflection_from(robot, wanted.lengths.clone(), load, &wanted.equilibrium)?, None)
             }
-            Err(error) => return Err(error),
+            Some(Err(error)) => return Err(error),
         };
-        let loaded = LoadedPose { scalar: Some(why), ..LoadedPose::of(robot, &deflection) };
-        Ok(Self { loaded, magnitude })
+        Ok(Self { loaded: LoadedPose { scalar: Some(why), ..LoadedPose::of(robot, &deflection) }, magnitude })
     }
 }
