@@ -93,8 +93,29 @@ def platforms():
         case = {key: value for key, value in case.items() if not isinstance(value, str) or key == "kind"}
         for key in ("position", "rotation", "cable_force_horizontal", "cable_force_vertical"):
             case.pop(key, None)
-        yield solved({**case, "point": False, "diameter": DIAMETERS[kind]}, wind)
-    yield solved(STADIUM, [20, 0, 0])
+        yield in_both({**case, "point": False, "diameter": DIAMETERS[kind]}, wind)
+    yield in_both(STADIUM, [20, 0, 0])
+
+
+# Warmer by [K], expansion of cables and frame [1/K], ice [m] and creep.
+WEATHER = {"warmer": 25, "cable_expansion": 1.2e-5, "frame_expansion": 1.05e-5, "ice": 0.003, "creep": 2e-4}
+
+
+def in_both(case, wind):
+    """The rest in the wind alone, and with the cables and the frame of WEATHER."""
+    longer = (1 + WEATHER["cable_expansion"] * WEATHER["warmer"]) * (1 + WEATHER["creep"])
+    ice = 900 * np.pi * WEATHER["ice"] * (case["diameter"] + WEATHER["ice"])
+    frame = 1 + WEATHER["frame_expansion"] * WEATHER["warmer"]
+    changed = {
+        **case,
+        "unstrained_lengths": [length * longer for length in case["unstrained_lengths"]],
+        "exit_points": [[frame * x for x in point] for point in case["exit_points"]],
+        "weight_per_length": case["weight_per_length"] / longer + ice * case["gravity"],
+        "diameter": case["diameter"] + 2 * WEATHER["ice"],
+    }
+    keys = "position", "rotation", "tensions"
+    rest = solved(changed, wind)
+    return {**solved(case, wind), "weather": WEATHER, "in_weather": {key: rest[key] for key in keys}}
 
 
 def solved(case, velocity):

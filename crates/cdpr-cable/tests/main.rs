@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 
+mod code_aster;
 mod common;
 mod dual;
 mod guide_terms;

@@ -8,7 +8,16 @@
 //! A = N⁻¹ J U = sum s_k w_k v_kᵀ                                                                  (K1)
 //! ```
 //!
-//! of all poses, one below the other. The combination `v_k·x` of parameters shows in the measurements with
+//! of all poses, one below the other. Where lengths are measured with the noise σ, the true ones are unknowns of
+//! their pose, `y = y_0 + J U x + σ L l + N e` with l of unit variance, and A is what elimination of l leaves,
+//! by the triangular factor of
+//!
+//! ```text
+//! [ 1        0      ]
+//! [ N⁻¹ σ L  N⁻¹ J U ]                                                                         (K6)
+//! ```
+//!
+//! The combination `v_k·x` of parameters shows in the measurements with
 //! the ratio `s_k` of signal to noise: its standard deviation falls from 1 to `1/sqrt(1 + s_k²)`. Where
 //! `s_k = 0` the combination is not identifiable: no measurement of this kind shows it, however exact. The
 //! uncertainty that remains has the covariance
@@ -33,24 +42,23 @@
 use crate::campaign::{Noise, STD_EXPECTED, is_std};
 use crate::error::CalibrationError;
 use crate::solve::{Svd, triangle};
-use cdpr_robot::{Coordinate, Parameter, Pose, Robot, Vector3};
-use cdpr_statics::{DirectProblem, Load, WantedPose, derivatives};
+use cdpr_robot::{CableEnd, Coordinate, Parameter, Pose, Robot, Vector3};
+use cdpr_statics::{DirectProblem, Load, WantedPose, deflection, derivatives};
 use nalgebra::{DMatrix, DVector};
 
 /// What is measured at every pose, with the standard deviation of its noise.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Measurement {
-    /// The cables have the lengths of the nominal robot; the pose where the platform then stands is measured.
+    /// The pose where the platform stands with the lengths of the nominal robot.
     Pose {
         /// Noise of each coordinate [m].
         position: f64,
         /// Noise of each component of the rotation [rad].
         rotation: f64,
     },
-    /// The same, but the tensions at the platform are measured; noise [N].
+    /// The tensions at the platform there; noise [N].
     Tensions(f64),
-    /// The platform is held at the pose with the set-points of the inverse model; the unstrained lengths are
-    /// measured; noise [m].
+    /// The lengths are not exact, but measured with this noise [m]. Alone they identify nothing.
     Lengths(f64),
 }
 
@@ -58,7 +66,7 @@ impl Measurement {
     /// Measurements by the names of their noise: position and rotation together, tensions, lengths.
     ///
     /// # Errors
-    /// [`CalibrationError::Invalid`] for another name, and for one of position and rotation alone.
+    /// [`CalibrationError::Invalid`] for another name, for one of position and rotation alone, and for length alone.
     pub fn named(named: &[(String, f64)]) -> Result<Vec<Self>, CalibrationError> {
         let noise = Noise::named(named)?;
         const NAMES: [&str; 4] = ["position", "rotation", "tension", "length"];
@@ -72,8 +80,16 @@ impl Measurement {
             (Some(_), None) => return Err(Self::alone("position")),
             (None, Some(_)) => return Err(Self::alone("rotation")),
         };
+        if pose.is_none() && noise.tension.is_none() && noise.length.is_some() {
+            return Err(Self::lengths_alone());
+        }
         let others = [noise.tension.map(Self::Tensions), noise.length.map(Self::Lengths)];
         Ok(pose.into_iter().chain(others.into_iter().flatten()).collect())
+    }
+
+    fn lengths_alone() -> CalibrationError {
+        let expected = "position and rotation, or tension, too: lengths say where the platform is, no more";
+        CalibrationError::invalid("noise", "of length alone", expected)
     }
 
     fn alone(name: &str) -> CalibrationError {
@@ -243,8 +259,8 @@ impl Calibration {
     /// Adds a pose at which `measurements` are made under the platform's weight and `load`.
     ///
     /// # Errors
-    /// Those of [`derivatives`]: the pose is not added; [`CalibrationError::Invalid`] for noise that is not
-    /// positive.
+    /// Those of [`deflection`] and [`DirectProblem::force_derivatives`]: the pose is not added;
+    /// [`CalibrationError::Invalid`] for noise that is not positive, and for lengths alone.
     pub fn add(
         &mut self,
         pose: &Pose,
@@ -252,33 +268,46 @@ impl Calibration {
         measurements: &[Measurement],
     ) -> Result<(), CalibrationError> {
         let n = self.robot.cables.len();
-        let nominal = derivatives(&self.robot, WantedPose::at(pose).free(&self.free), load)?;
-        let lengths = &nominal.deflection.lengths;
-        let problem = DirectProblem::new(&self.robot, lengths, load)?;
-        let held = problem.derivatives(&nominal.deflection.loaded.equilibrium)?;
-        let mut rows = Vec::new();
+        let lengths = deflection(&self.robot, WantedPose::at(pose).free(&self.free), load)?;
+        let problem = DirectProblem::new(&self.robot, &lengths.lengths, load)?;
+        let at = problem.force_derivatives(&lengths.loaded.equilibrium, CableEnd::Anchor)?;
+        let (mut rows, mut of_lengths) = (Vec::new(), 0.0);
         for measurement in measurements {
-            match *measurement {
+            let noises = match *measurement {
                 Measurement::Pose { position, rotation } => {
                     let noise = |row| if row < 3 { position } else { rotation };
-                    rows.extend((0..6).map(|row| (held.pose.row(row).into_owned(), noise(row))));
+                    rows.extend((0..6).map(|row| at.pose.row(row) / noise(row)));
+                    [position, rotation]
                 }
                 Measurement::Tensions(noise) => {
-                    rows.extend((0..n).map(|i| (held.tensions.row(i).into_owned(), noise)));
+                    // A tension changes by what its force changes along itself.
+                    let along = |i: usize| {
+                        let pull = at.forces[i].normalize();
+                        pull.transpose() * at.per_input.fixed_rows::<3>(3 * i) / noise
+                    };
+                    rows.extend((0..n).map(along));
+                    [noise; 2]
                 }
                 Measurement::Lengths(noise) => {
-                    rows.extend((0..n).map(|i| (nominal.lengths.row(i).into_owned(), noise)));
+                    of_lengths = noise;
+                    [noise; 2]
                 }
+            };
+            if let Some(noise) = noises.iter().find(|noise| !is_std(**noise)) {
+                return Err(CalibrationError::invalid("noise", noise, STD_EXPECTED));
             }
         }
-        if let Some((_, noise)) = rows.iter().find(|(_, noise)| !is_std(*noise)) {
-            return Err(CalibrationError::invalid("noise", noise, STD_EXPECTED));
+        if rows.is_empty() {
+            return Err(Measurement::lengths_alone());
         }
-        self.places.push(*pose);
-        self.poses.push(DMatrix::from_fn(rows.len(), self.indices.len(), |row, column| {
+        let inputs = at.pose.ncols() - n;
+        let shown = DMatrix::from_fn(rows.len(), self.indices.len(), |row, column| {
             let index = self.indices[column];
-            rows[row].0[index] * self.uncertainties[index] / rows[row].1
-        }));
+            rows[row][index] * self.uncertainties[index]
+        });
+        let moved = DMatrix::from_fn(rows.len(), n, |row, i| rows[row][inputs + i] * of_lengths);
+        self.places.push(*pose);
+        self.poses.push(if of_lengths == 0.0 { shown } else { without(&moved, &shown) });
         Ok(())
     }
 
@@ -345,6 +374,16 @@ impl Calibration {
         }
         chosen
     }
+}
+
+/// What rows show of the parameters when the unit unknowns of `moved` are eliminated, (K6).
+fn without(moved: &DMatrix<f64>, shown: &DMatrix<f64>) -> DMatrix<f64> {
+    let n = moved.ncols();
+    let mut both = DMatrix::zeros(moved.nrows(), n + shown.ncols());
+    both.columns_mut(0, n).copy_from(moved);
+    both.columns_mut(n, shown.ncols()).copy_from(shown);
+    let factor = triangle(DMatrix::identity(n, n + shown.ncols()), &both);
+    factor.view((n, n), (factor.nrows() - n, shown.ncols())).into_owned()
 }
 
 /// Shares of unit combinations below this are rounding.

@@ -126,15 +126,93 @@ fn a_change_along_a_combination_shows_as_its_signal_says() {
 fn measuring_more_leaves_less() {
     let few = calibration(&[50.0], &[NOISE]).identify(0..5);
     let many = calibration(&[50.0], &[NOISE]).identify(0..27);
-    let all = calibration(&[50.0], &[NOISE, Measurement::Tensions(5.0), Measurement::Lengths(1e-3)])
-        .identify(0..27);
-    print("poses, tensions and lengths", &all);
+    let all = calibration(&[50.0], &[NOISE, Measurement::Tensions(5.0)]).identify(0..27);
+    print("poses and tensions", &all);
     for ((few, many), all) in few.remaining.iter().zip(&many.remaining).zip(&all.remaining) {
         let [few, many, all] = [few, many, all].map(|parameter| parameter.value);
         assert!(many <= few + 1e-9 && all <= many + 1e-9 && few <= 1.0 + 1e-9);
     }
-    assert!(all.unidentifiable.is_empty() && many.unidentifiable.len() == 9);
+    // Offsets of set-points change lengths, which are given here.
+    assert!(all.unidentifiable.len() == 8 && many.unidentifiable.len() == 9);
     assert!(calibration(&[50.0], &[NOISE]).identify([]).identifiable.is_empty());
+}
+
+/// Lengths that are not exact leave more uncertainty the less exact they are, and in the end all of it but for what
+/// six coordinates of a pose and eight tensions say besides eight lengths.
+#[test]
+fn noise_of_lengths_leaves_more() {
+    let left = |measurements: &[Measurement]| calibration(&[50.0], measurements).identify(0..27).remaining;
+    let mean = |found: &[ParameterValue]| {
+        (found.iter().map(|one| one.value.powi(2)).sum::<f64>() / found.len() as f64).sqrt()
+    };
+    let both = [NOISE, Measurement::Tensions(5.0)];
+    for measured in [&both[..1], &both] {
+        let mut before = left(measured);
+        for noise in [1e-9, 1e-5, 2e-4, 1e-2, 1e3] {
+            let after = left(&[measured, &[Measurement::Lengths(noise)]].concat());
+            let all = before.iter().zip(&after);
+            assert!(all.clone().all(|(before, after)| after.value >= before.value - 1e-9));
+            println!("{} with lengths to {noise:e} m: {:.4}", measured.len(), mean(&after));
+            if noise == 1e-9 {
+                assert!(all.clone().all(|(before, after)| after.value - before.value < 1e-6));
+            }
+            before = after;
+        }
+        let nothing = mean(&before) > 0.999;
+        assert_eq!(nothing, measured.len() == 1);
+    }
+}
+
+/// The covariance by differences of the direct model: `S = N² + σ² L Lᵀ`, `C⁻¹ = 1 + Σ U Jᵀ S⁻¹ J U`.
+#[test]
+fn what_is_left_is_that_of_differences() {
+    let (robot, load, sigma) = (caroca(), Load::payload(50.0), 3e-4);
+    let uncertainties = uncertainties();
+    let count = uncertainties.len();
+    let mut information = nalgebra::DMatrix::<f64>::identity(count, count);
+    for pose in &poses()[..6] {
+        let lengths = inverse(&robot, pose, &Load::none()).unwrap().lengths;
+        let nominal = direct(&robot, &lengths, &load, DirectStart::Pose(pose)).unwrap().equilibrium;
+        let shown = |robot: &cdpr_robot::Robot, lengths: &[f64]| {
+            let at = direct(robot, lengths, &load, DirectStart::Near(&nominal)).unwrap().equilibrium;
+            let motion = nominal.pose.motion_to(&at.pose) / 1e-4;
+            nalgebra::DVector::from_iterator(
+                14,
+                motion.iter().copied().chain(at.tensions().iter().map(|tension| tension / 5.0)),
+            )
+        };
+        let central = |of: &dyn Fn(f64) -> nalgebra::DVector<f64>| (of(1e-2) - of(-1e-2)) / 2e-2;
+        let parameters: Vec<_> = (0..count)
+            .map(|j| {
+                central(&|step| {
+                    let mut deviations = vec![0.0; count];
+                    deviations[j] = step * uncertainties[j];
+                    // Set-points are given as lengths.
+                    let moved = robot.perturbed(&deviations).unwrap().robot;
+                    shown(&moved, &lengths)
+                })
+            })
+            .collect();
+        let of_lengths: Vec<_> = (0..8)
+            .map(|i| {
+                central(&|step| {
+                    let mut changed = lengths.clone();
+                    changed[i] += step * sigma;
+                    shown(&robot, &changed)
+                })
+            })
+            .collect();
+        let [shown, moved] = [parameters, of_lengths].map(|of| nalgebra::DMatrix::from_columns(&of));
+        let noise = nalgebra::DMatrix::identity(14, 14) + &moved * moved.transpose();
+        information += shown.transpose() * noise.cholesky().unwrap().solve(&shown);
+    }
+    let covariance = information.cholesky().unwrap().inverse();
+    let measured = [NOISE, Measurement::Tensions(5.0), Measurement::Lengths(sigma)];
+    let found = calibration(&[50.0], &measured).identify(0..6);
+    for (j, ParameterValue { parameter, value }) in found.remaining.iter().enumerate() {
+        let expected = covariance[(j, j)].sqrt();
+        assert!((value / expected - 1.0).abs() < 1e-4, "{parameter}: {value} {expected}");
+    }
 }
 
 #[test]
@@ -158,7 +236,7 @@ fn the_best_poses_identify_more_than_the_first_and_their_information_adds_up() {
 fn measurements_of_any_precision_have_their_information() {
     for noise in [1e-6, 1e-9, 1e-12, 1e-15] {
         let exact = Measurement::Pose { position: noise, rotation: noise };
-        let calibration = calibration(&[50.0], &[exact, Measurement::Lengths(noise)]);
+        let calibration = calibration(&[50.0], &[exact, Measurement::Tensions(noise)]);
         let found = calibration.identify(0..27);
         let values = found.identifiable.iter().map(|combination| combination.signal_to_noise);
         let expected: f64 = values.map(|s| 0.5 * (1.0 + s * s).log2()).sum();
@@ -182,11 +260,14 @@ fn invalid_inputs_are_named() {
     );
     let mut calibration = Calibration::new(&caroca(), &uncertainties()).unwrap();
     let pose = Pose::at(0.0, 0.0, 1.75);
-    let error = calibration.add(&pose, &Load::none(), &[Measurement::Lengths(0.0)]).unwrap_err();
+    let refused = |noise: f64, calibration: &mut Calibration| {
+        calibration.add(&pose, &Load::none(), &[Measurement::Lengths(noise)]).unwrap_err().to_string()
+    };
     assert_eq!(
-        error.to_string(),
+        refused(0.0, &mut calibration),
         "noise is 0: expected a standard deviation from 1e-15 to 1e15, in SI units"
     );
+    assert!(refused(1e-3, &mut calibration).starts_with("noise is of length alone: expected position"));
     assert!(calibration.add(&Pose::at(0.0, 0.0, 9.0), &Load::none(), &[NOISE]).is_err());
     assert!(calibration.best_poses(3).is_empty());
 }

@@ -43,7 +43,7 @@ mod _core {
     #[pymodule_export]
     use crate::robot::bearing::safety::Safety;
     #[pymodule_export]
-    use crate::robot::bearing::wind::RestInWind;
+    use crate::robot::bearing::weather::RestInWeather;
     #[pymodule_export]
     use crate::robot::boundary::Boundary;
     #[pymodule_export]

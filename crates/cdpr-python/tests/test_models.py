@@ -660,14 +660,24 @@ def test_answers_can_be_drawn(name):
 
 def test_the_wind_blows_on_cables():
     robot = cdpr.Robot.from_file("cogiro")
-    one = robot.in_wind([0, 0, 2], [15, 0, 0])
+    one = robot.in_weather([0, 0, 2], [15, 0, 0])
     assert one.drags.shape == (8, 3) and (one.drags[:, 0] > 0).all() and one.displacement[0] > 0
     assert one.force_residual < 1e-6 and one.reasons is None
-    several = robot.in_wind([0, 0, 2], [[0, 0, 0], [15, 0, 0], [-15, 0, 0]], payload=[0, 0, 50])
+    several = robot.in_weather([0, 0, 2], [[0, 0, 0], [15, 0, 0], [-15, 0, 0]], payload=[0, 0, 50])
     assert several.magnitude.shape == (3,) and several.magnitude[0] < 1e-8
     assert several.magnitude[1] == one.magnitude and several.magnitude[2] > several.magnitude[1]
     with pytest.raises(cdpr.InputError, match="at most 120 m/s"):
-        robot.in_wind([0, 0, 2], [500, 0, 0])
+        robot.in_weather([0, 0, 2], [500, 0, 0])
+
+
+def test_heat_lengthens_cables_and_ice_loads_them():
+    robot = cdpr.Robot.from_file("cogiro")
+    hot = robot.in_weather([0, 0, 2], warmer=30, cable_expansion=1.2e-5)
+    creeping = robot.in_weather([0, 0, 2], creep=30 * 1.2e-5)
+    assert hot.displacement[2] < -1e-3 and np.allclose(hot.displacement, creeping.displacement, atol=1e-12)
+    assert (robot.in_weather([0, 0, 2], ice=0.01).exit_tensions > hot.exit_tensions).all()
+    with pytest.raises(cdpr.InputError, match="warmer"):
+        robot.in_weather([0, 0, 2], warmer=30)
 
 
 def test_the_platform_rests_when_a_cable_breaks(caroca):

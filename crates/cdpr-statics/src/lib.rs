@@ -21,7 +21,7 @@
 //! | where does it end after a load cycle, on cables that dissipate energy? | [`hysteresis`] |
 //! | and with a million other values of the parameters, at a million poses? | [`Observer`], [`batch`] |
 //! | which parameter changes lengths, tensions, poses and deflection, and by how much? | [`derivatives()`] |
-//! | and wind on its cables? | [`wind`], [`DirectProblem::in_wind`] |
+//! | and in weather, with wind on its cables? | [`weather`], [`DirectProblem::in_wind`] |
 //! | how stiff is it, how do lengths and loads move it? | [`stiffness`] |
 //! | how does it vibrate? | [`vibration`] |
 //!
@@ -129,9 +129,9 @@ pub mod stiffness {
     pub use crate::loading::{PoseStiffness, stiffness_at};
 }
 
-/// Rest with wind on the cables.
-pub mod wind {
-    pub use crate::loading::{RestInWind, Wind};
+/// Rest in weather: wind on the cables, ice, creep, another temperature.
+pub mod weather {
+    pub use crate::loading::{RestInWeather, Weather, Wind, in_weather};
 }
 
 /// Natural motions of the platform and of the cables.

@@ -6,6 +6,7 @@ mod hysteresis;
 mod modes;
 mod small_motions;
 mod stiffness;
+mod weather;
 mod wind;
 
 pub use deflection::{Deflection, deflection, deflection_from, set_point_lengths};
@@ -15,4 +16,5 @@ pub use hysteresis::{CycleStep, HysteresisLaw, LoadCycle, Unloading, load_cycle}
 pub use modes::{CableFrequency, NaturalMode, PoseModes, modes_at};
 pub use small_motions::{CableAtRest, SmallMotions};
 pub use stiffness::{PoseStiffness, stiffness_at};
-pub use wind::{RestInWind, Wind};
+pub use weather::{Weather, in_weather};
+pub use wind::{RestInWeather, Wind};

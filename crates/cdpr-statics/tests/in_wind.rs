@@ -4,7 +4,7 @@ use crate::common::{caroca, robots};
 use crate::equilibria::{self, number, vector};
 use cdpr_evidence::accept;
 use cdpr_robot::{Matrix3, Pose, Robot, Rotation3, Vector3, Wrench};
-use cdpr_statics::wind::{RestInWind, Wind};
+use cdpr_statics::weather::{RestInWeather, Weather, Wind, in_weather};
 use cdpr_statics::{Deflection, DirectProblem, DirectStart, Load, StaticsError, deflection, direct};
 use serde_json::Value;
 
@@ -24,7 +24,7 @@ fn robots_with_diameters() -> [(Robot, Pose); 5] {
 }
 
 /// The rest without wind and under `load`, and the one in the wind.
-fn blown(robot: &Robot, pose: &Pose, load: &Load, velocity: Vector3<f64>) -> (Deflection, RestInWind) {
+fn blown(robot: &Robot, pose: &Pose, load: &Load, velocity: Vector3<f64>) -> (Deflection, RestInWeather) {
     let still = deflection(robot, pose, load).unwrap();
     let problem = DirectProblem::new(robot, &still.lengths, load).unwrap();
     let rest = problem.in_wind(&Wind::new(velocity).unwrap(), &still.loaded).unwrap();
@@ -43,21 +43,30 @@ fn platforms_rest_where_an_independent_integration_has_them() {
             cable.properties.diameter = Some(number(&case["diameter"]));
         }
         let numbers = |key: &str| serde_json::from_value::<Vec<f64>>(case[key].clone()).unwrap();
-        let rotation = |key: &str| {
-            let rows: [[f64; 3]; 3] = serde_json::from_value(case[key].clone()).unwrap();
-            Rotation3::from_matrix(&Matrix3::from(rows).transpose())
+        let pose = |of: &Value, position: &str, rotation: &str| {
+            let rows: [[f64; 3]; 3] = serde_json::from_value(of[rotation].clone()).unwrap();
+            let rotation = Rotation3::from_matrix(&Matrix3::from(rows).transpose());
+            Pose { position: vector(&of[position]), rotation }
         };
-        let lengths = numbers("unstrained_lengths");
-        let near = Pose { position: vector(&case["start_position"]), rotation: rotation("start_rotation") };
-        let still = direct(&robot, &lengths, &Load::none(), DirectStart::Pose(&near)).unwrap();
-        let problem = DirectProblem::new(&robot, &lengths, &Load::none()).unwrap();
-        let rest = problem.in_wind(&Wind::new(vector(&case["wind"])).unwrap(), &still).unwrap();
-        let known = Pose { position: vector(&case["position"]), rotation: rotation("rotation") };
-        let apart = rest.pose.motion_to(&known);
-        accept("V-DIRECT-014", apart.fixed_rows::<3>(0).norm());
-        assert!(apart.fixed_rows::<3>(3).norm() < 1e-7, "{}: {apart}", robot.name);
-        for (tension, known) in rest.tensions().iter().zip(numbers("tensions")) {
-            assert!((tension - known).abs() < 1e-5 * known, "{}: {tension}, {known}", robot.name);
+        let wind = Wind::new(vector(&case["wind"])).unwrap();
+        let [warmer, cable_expansion, frame_expansion, ice, creep] =
+            ["warmer", "cable_expansion", "frame_expansion", "ice", "creep"]
+                .map(|name| number(&case["weather"][name]));
+        let hot = Weather { wind, warmer, cable_expansion, frame_expansion, ice, creep };
+        let near = pose(case, "start_position", "start_rotation");
+        for (weather, known) in [(Weather { wind, ..Weather::default() }, case), (hot, &case["in_weather"])] {
+            let changed = weather.robot(&robot).unwrap();
+            let lengths = weather.lengths(&numbers("unstrained_lengths"));
+            let still = direct(&changed, &lengths, &Load::none(), DirectStart::Pose(&near)).unwrap();
+            let problem = DirectProblem::new(&changed, &lengths, &Load::none()).unwrap();
+            let rest = problem.in_wind(&wind, &still).unwrap();
+            let apart = rest.pose.motion_to(&pose(known, "position", "rotation"));
+            accept("V-DIRECT-014", apart.fixed_rows::<3>(0).norm());
+            assert!(apart.fixed_rows::<3>(3).norm() < 1e-7, "{}: {apart}", robot.name);
+            let tensions = serde_json::from_value::<Vec<f64>>(known["tensions"].clone()).unwrap();
+            for (tension, known) in rest.tensions().iter().zip(tensions) {
+                assert!((tension - known).abs() < 1e-5 * known, "{}: {tension}, {known}", robot.name);
+            }
         }
     }
 }
@@ -147,4 +156,61 @@ fn what_is_missing_or_impossible_is_named() {
         matches!(&error, StaticsError::Invalid { field, .. } if field == "cables[2].diameter"),
         "{error}"
     );
+}
+
+/// A platform on three cables that hang vertically: each is as long as the weight and its own weight stretch it.
+#[test]
+fn a_hanging_platform_sinks_as_its_cables_lengthen() {
+    let mut robot = named("cogiro");
+    robot.cables.truncate(1);
+    robot.platform.point = true;
+    robot.cables[0].exit_point = Vector3::new(0.0, 0.0, 5.0);
+    robot.cables[0].anchor_point = Vector3::zeros();
+    let properties = robot.cables[0].properties.clone();
+    let (mass, g) = (robot.platform.mass, robot.gravity.magnitude());
+    let long = |length: f64, density: f64| {
+        let weights = mass * g * length + 0.5 * density * g * length * length;
+        length + weights / properties.axial_stiffness()
+    };
+    let height = |weather: &Weather| {
+        let changed = weather.robot(&robot).unwrap();
+        let lengths = weather.lengths(&[3.0]);
+        let start = Pose::at(1e-3, 0.0, 5.0 - long(3.0, properties.linear_density));
+        let rest = direct(&changed, &lengths, &Load::none(), DirectStart::Released(&start)).unwrap();
+        (rest.equilibrium.pose.position.z, changed)
+    };
+    let heat = Weather { warmer: 40.0, cable_expansion: 1.2e-5, frame_expansion: 2e-5, ..Weather::default() };
+    let (z, _) = height(&heat);
+    let factor = 1.0 + 40.0 * 1.2e-5;
+    let expected = 5.0 * (1.0 + 40.0 * 2e-5) - long(3.0 * factor, properties.linear_density / factor);
+    assert!((z - expected).abs() < 1e-9, "{z} {expected}");
+    let (z, changed) = height(&Weather { ice: 0.01, creep: 1e-3, ..Weather::default() });
+    let density = properties.linear_density / 1.001 + 900.0 * std::f64::consts::PI * 0.01 * 0.014;
+    assert!((changed.cables[0].properties.linear_density - density).abs() < 1e-12);
+    assert!((z - (5.0 - long(3.003, density))).abs() < 1e-9, "{z}");
+}
+
+#[test]
+fn weather_that_cannot_be_is_refused() {
+    let robot = caroca();
+    let refused = |weather: Weather| {
+        let pose = Pose::at(0.0, 0.0, 1.75);
+        in_weather(&robot, (&pose).into(), &Load::none(), &weather).unwrap_err().to_string()
+    };
+    let none = Weather::default();
+    assert!(refused(Weather { warmer: 30.0, ..none }).starts_with("warmer is 30: expected"));
+    assert!(refused(Weather { cable_expansion: 1.2e-5, ..none }).starts_with("warmer is 0: expected"));
+    assert!(refused(Weather { ice: -0.01, ..none }).starts_with("ice is -0.01: expected"));
+    assert!(refused(Weather { ice: f64::NAN, ..none }).starts_with("ice is NaN: expected"));
+    assert!(refused(Weather { creep: 12.0, ..none }).starts_with("creep is 12: expected"));
+    let mut bare = caroca();
+    bare.cables.iter_mut().for_each(|cable| cable.properties.diameter = None);
+    let pose = Pose::at(0.0, 0.0, 1.75);
+    let iced = Weather { ice: 0.01, ..none };
+    let refused = in_weather(&bare, (&pose).into(), &Load::none(), &iced).unwrap_err();
+    assert!(refused.to_string().starts_with("cables[0].diameter is not given"), "{refused}");
+    // A robot without diameters has another temperature nevertheless.
+    let creeping = Weather { creep: 1e-4, ..none };
+    let (still, rest) = in_weather(&bare, (&pose).into(), &Load::none(), &creeping).unwrap();
+    assert!(rest.pose.position.z < still.loaded.equilibrium.pose.position.z - 1e-6);
 }

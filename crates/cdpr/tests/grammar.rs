@@ -139,7 +139,7 @@ fn fewer_than_half_of_the_positions_held_are_an_exit_code_of_their_own() {
     assert!(said.contains("warning: fewer than half of the positions are held, 2 of 5"), "{said}");
     assert_eq!(map("0,0,1:3:3", "most").status.code(), Some(0));
     let identify = ["calibrate", "identify", "caroca", "--region", "0,0,1:9:5", "--uncertainty", "a=0.002"];
-    let output = cdpr(&[&identify[..], &["--noise", "length=1e-4"]].concat());
+    let output = cdpr(&[&identify[..], &["--noise", "tension=5"]].concat());
     let said = unwrapped(output.stderr);
     assert!(output.status.code() == Some(3) && said.contains("candidate poses are held, 2 of 5"), "{said}");
 }

@@ -29,7 +29,7 @@ __all__ = [
     "Observations",
     "PathStates",
     "Response",
-    "RestInWind",
+    "RestInWeather",
     "Robot",
     "export_robot",
     "import_robot",
@@ -1307,29 +1307,42 @@ class Robot:
         free: Sequence[str] | None = None,
     ) -> Safety[_Words]: ...
     @overload
-    def in_wind(  # type: ignore[overload-overlap]
+    def in_weather(  # type: ignore[overload-overlap]
         self,
         pose: _Row,
-        wind: _Row,
+        wind: _Row | None = None,
         *,
+        warmer: float = 0.0,
+        cable_expansion: float = 0.0,
+        frame_expansion: float = 0.0,
+        ice: float = 0.0,
+        creep: float = 0.0,
         payload: float | None = None,
         force: _Row | None = None,
         moment: _Row | None = None,
         free: Sequence[str] | None = None,
-    ) -> RestInWind[float, None]:
-        """Finds where the platform rests when the wind blows on its cables, with the lengths kept.
+    ) -> RestInWeather[float, None]:
+        """Finds where the platform rests in wind, in another temperature, with ice or creep, with winches that hold.
 
-        The lengths are those with which it rests at the pose under its own weight, without wind. The drag is
+        The lengths are those with which it rests at the pose under its own weight, without weather. The drag is
         that of round ropes with a coefficient of 1.2 in air of 1.225 kg/m³; with others, take the wind that is
-        sqrt(density coefficient/1.47) times as fast. Wind on the platform itself is a `force`. Arguments are of one
-        case, or have a first axis of m cases.
+        sqrt(density coefficient/1.47) times as fast. Wind on the platform itself is a `force`. `pose`, `wind` and the
+        load are of one case, or have a first axis of m cases.
 
         Parameters
         ----------
         pose : array_like
             Wanted pose under the platform's own weight, (3,) or (7,).
-        wind : array_like
+        wind : array_like, optional
             Velocity of the wind in the base frame [m/s], (3,).
+        warmer : float
+            How much warmer it is [K].
+        cable_expansion, frame_expansion : float
+            Thermal expansion of the cables, and of the frame from the origin of the base frame [1/K].
+        ice : float
+            Thickness of the ice around each cable [m], of 900 kg/m³.
+        creep : float
+            Strain by which each cable has crept.
         payload : array_like, optional
             Mass added at the platform's centre of mass [kg].
         force, moment : array_like, optional
@@ -1340,7 +1353,7 @@ class Robot:
 
         Returns
         -------
-        RestInWind
+        RestInWeather
             Displacements, tensions and the force of the wind on each cable.
 
         Raises
@@ -1354,20 +1367,27 @@ class Robot:
         --------
         >>> import cdpr
         >>> robot = cdpr.Robot.from_file("cogiro")
-        >>> robot.in_wind([0, 0, 2], [15, 0, 0]).drags.shape  # [N]
+        >>> robot.in_weather([0, 0, 2], [15, 0, 0]).drags.shape  # [N]
         (8, 3)
+        >>> bool(robot.in_weather([0, 0, 2], ice=0.005).displacement[2] < 0)
+        True
         """
     @overload
-    def in_wind(
+    def in_weather(
         self,
         pose: ArrayLike,
-        wind: ArrayLike,
+        wind: ArrayLike | None = None,
         *,
+        warmer: float = 0.0,
+        cable_expansion: float = 0.0,
+        frame_expansion: float = 0.0,
+        ice: float = 0.0,
+        creep: float = 0.0,
         payload: ArrayLike | None = None,
         force: ArrayLike | None = None,
         moment: ArrayLike | None = None,
         free: Sequence[str] | None = None,
-    ) -> RestInWind[_Floats, _Words]: ...
+    ) -> RestInWeather[_Floats, _Words]: ...
     @overload
     def certify(  # type: ignore[overload-overlap]
         self,
@@ -2310,14 +2330,14 @@ class Capacity(Generic[_N, _R]):
         """The kind of each failure, in the same form: `infeasible_tension`, ..."""
 
 @final
-class RestInWind(Generic[_N, _R]):
-    """A platform at rest whose cables hang in the wind.
+class RestInWeather(Generic[_N, _R]):
+    """A platform at rest in weather.
 
     The answer is of one case, or of m: then every field has a first axis of m, with NaN where there is no
     answer, and `reasons` says why.
     """
 
-    def __new__(cls, *fields: Any) -> RestInWind: ...
+    def __new__(cls, *fields: Any) -> RestInWeather: ...
     def __class_getitem__(cls, number: Any) -> GenericAlias: ...
     def plot(self) -> Any:
         """Draws the answer: of one case a bar for each element, of several a line over the cases.
@@ -2340,13 +2360,13 @@ class RestInWind(Generic[_N, _R]):
         """
     @property
     def displacement(self) -> _Floats:
-        """Displacement of P from the pose without load and wind [m], (3,)."""
+        """Displacement of P from the pose without load and weather [m], (3,)."""
     @property
     def magnitude(self) -> _N:
         """Its norm [m]."""
     @property
     def rotation(self) -> _Floats:
-        """Rotation vector from the platform without load and wind, in the base frame [rad], (3,)."""
+        """Rotation vector from the platform without load and weather, in the base frame [rad], (3,)."""
     @property
     def pose(self) -> _Floats:
         """Pose: x, y, z [m], qw, qx, qy, qz, (7,)."""

@@ -16,7 +16,7 @@ _DRAWN = {
     "OtherSolution": ("tensions", "tension [N]", "cable"),
     "PathDeviations": ("tensions", "standard deviation of the tension [N]", "cable"),
     "PathStates": ("tensions", "tension [N]", "cable"),
-    "RestInWind": ("magnitude", "displacement |dp| [m]", "case"),
+    "RestInWeather": ("magnitude", "displacement |dp| [m]", "case"),
     "Safety": ("moved", "the platform moves [m]", "break"),
     "Stiffness": ("eigenvalues", "stiffness [N/m]", "motion"),
 }

@@ -1,5 +1,5 @@
-//! What the cables bear: loads, each other's break, and wind.
+//! What the cables bear: loads, each other's break, and weather.
 
 pub(crate) mod capacity;
 pub(crate) mod safety;
-pub(crate) mod wind;
+pub(crate) mod weather;

@@ -26,7 +26,7 @@ const FASTEST: f64 = 120.0;
 const SHARES: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
 
 /// A steady wind, the same everywhere.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Wind {
     velocity: Vector3<f64>,
 }
@@ -53,9 +53,9 @@ impl Wind {
     }
 }
 
-/// A platform at rest whose cables hang in the wind.
+/// A platform at rest whose cables hang in the wind, if there is any.
 #[derive(Clone, Debug, PartialEq)]
-pub struct RestInWind {
+pub struct RestInWeather {
     /// Pose of the platform.
     pub pose: Pose,
     /// Force of each cable on the platform [N].
@@ -72,7 +72,7 @@ pub struct RestInWind {
     pub iterations: usize,
 }
 
-impl RestInWind {
+impl RestInWeather {
     /// Tension of each cable at the platform [N].
     pub fn tensions(&self) -> Vec<f64> {
         self.forces.iter().map(Vector3::norm).collect()
@@ -102,17 +102,19 @@ impl DirectProblem<'_> {
     /// Wind on the platform itself is a load.
     ///
     /// # Errors
-    /// [`StaticsError::Invalid`] for a cable without diameter; [`StaticsError::Cable`] where the iteration
+    /// [`StaticsError::Invalid`] for a cable without diameter in a wind; [`StaticsError::Cable`] where the iteration
     /// finds no equilibrium of a cable; [`StaticsError::Unstable`] where the platform would leave the pose,
     /// and [`StaticsError::DirectNotConverged`].
-    pub fn in_wind(&self, wind: &Wind, still: &DirectSolution) -> Result<RestInWind, StaticsError> {
+    pub fn in_wind(&self, wind: &Wind, still: &DirectSolution) -> Result<RestInWeather, StaticsError> {
         self.check("still", &still.equilibrium)?;
         let symmetric = self.linearize(&still.equilibrium)?.symmetric_stiffness();
         let pins = Pins::new(self, &still.equilibrium, &symmetric);
-        let mut hung: Vec<_> = (0..self.cables()).map(|i| self.hung(still, i)).collect::<Result<_, _>>()?;
+        let hung = (0..self.cables()).map(|i| self.hung(still, i, wind));
+        let mut hung: Vec<_> = hung.collect::<Result<_, _>>()?;
         let mut at = Blown::at(self, &mut hung, still.equilibrium.pose)?;
         let mut iterations = 0;
-        for share in SHARES {
+        let shares = if *wind == Wind::default() { &SHARES[3..] } else { &SHARES };
+        for share in shares {
             // The drag is that of the velocity's square.
             let velocity = wind.velocity * share.sqrt();
             hung.iter_mut().for_each(|hung| hung.cable.velocity = velocity);
@@ -124,7 +126,7 @@ impl DirectProblem<'_> {
             let least = at.balance.symmetric_hessian(self.robot.freedoms()).symmetric_eigenvalues().min();
             return Err(StaticsError::Unstable { pose: Box::new(at.pose), least_stiffness: least });
         }
-        Ok(RestInWind {
+        Ok(RestInWeather {
             residual: at.residual(self),
             forces: at.cables.iter().map(|held| -held.anchor_force).collect(),
             exit_tensions: at.cables.iter().map(|held| held.exit_force.norm()).collect(),
@@ -135,12 +137,16 @@ impl DirectProblem<'_> {
         })
     }
 
-    /// Cable i as it hangs without wind.
-    fn hung(&self, still: &DirectSolution, i: usize) -> Result<Hung<'_>, StaticsError> {
+    /// Cable i as it hangs before the wind.
+    fn hung(&self, still: &DirectSolution, i: usize, wind: &Wind) -> Result<Hung<'_>, StaticsError> {
         let (robot, at) = (self.robot, &still.equilibrium);
-        let Some(diameter) = robot.cables[i].properties.diameter else {
-            let expected = "a diameter [m], on which the drag of the wind depends";
-            return Err(StaticsError::invalid(format!("cables[{i}].diameter"), "not given", expected));
+        let diameter = match robot.cables[i].properties.diameter {
+            Some(diameter) => diameter,
+            None if *wind == Wind::default() => 0.0,
+            None => {
+                let expected = "a diameter [m], on which the drag of the wind depends";
+                return Err(StaticsError::invalid(format!("cables[{i}].diameter"), "not given", expected));
+            }
         };
         let catenary = self.catenary(i, at.cable_forces[i]);
         let plane = SpannedCable::of(robot, &at.pose, i, &catenary).span.plane;

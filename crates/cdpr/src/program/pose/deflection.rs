@@ -1,16 +1,16 @@
-//! `cdpr deflection`: how far a load or the wind displaces and rotates the platform.
+//! `cdpr deflection`: how far a load or the weather displaces and rotates the platform.
 
 use crate::program::answer::{Found, OutOfLimits, Residual, decimal, vector};
-use crate::program::arguments::components;
+use crate::program::arguments::{With, components, number, with};
 use crate::program::error::ProgramError;
 use crate::program::output::{Details, Ending, print_sentence, table};
 use crate::program::pose::at_pose::{RobotAtFreePose, Row, cells, numbered};
 use cdpr_robot::{Pose, Robot, Vector3, Vector6};
-use cdpr_statics::wind::{RestInWind, Wind};
-use cdpr_statics::{Deflection, DirectProblem, WantedPose, deflection};
+use cdpr_statics::weather::{RestInWeather, Weather, Wind, in_weather};
+use cdpr_statics::{Deflection, WantedPose, deflection};
 use serde::Serialize;
 
-/// The robot, its poses, the load and the wind.
+/// The robot, its poses, the load and the weather.
 #[derive(clap::Args)]
 pub(crate) struct Settings {
     #[command(flatten)]
@@ -21,15 +21,18 @@ pub(crate) struct Settings {
     /// sqrt(density coefficient/1.47) times as fast. Wind on the platform itself is a load, as --force.
     #[arg(long, value_name = "VX,VY,VZ", value_parser = components::<3>, allow_hyphen_values = true)]
     wind: Option<[f64; 3]>,
+    /// What else changes while the winches hold: warmer=KELVIN with cable_expansion=, frame_expansion= [1/K];
+    /// ice=METRES around each cable; creep=STRAIN of each cable.
+    #[arg(long, value_name = "NAME=VALUE,..", value_parser = with)]
+    with: Option<With>,
     #[command(flatten)]
     details: Details,
 }
 
-pub(crate) fn run(
-    Settings { at: RobotAtFreePose { at, free }, wind, details }: &Settings,
-) -> Result<Ending, ProgramError> {
-    let details = details.details;
-    let Some(velocity) = wind else {
+pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
+    let RobotAtFreePose { at, free } = &settings.at;
+    let details = settings.details.details;
+    let Some(weather) = settings.weather()? else {
         let load = at.load.some_load()?;
         let solve = |robot: &Robot, pose: &Pose| {
             let found = deflection(robot, WantedPose::at(pose).free(&free.free), &load)?;
@@ -37,13 +40,32 @@ pub(crate) fn run(
         };
         return at.answer(solve, |answer, heading| answer.print(heading, details));
     };
-    let (wind, load) = (Wind::new((*velocity).into())?, at.load.load());
+    let load = at.load.load();
     let solve = |robot: &Robot, pose: &Pose| {
-        let still = deflection(robot, WantedPose::at(pose).free(&free.free), &load)?;
-        let rest = DirectProblem::new(robot, &still.lengths, &load)?.in_wind(&wind, &still.loaded)?;
-        Ok(AnswerInWind::new(robot, &still, &rest))
+        let (still, rest) = in_weather(robot, WantedPose::at(pose).free(&free.free), &load, &weather)?;
+        Ok(AnswerInWeather::new(robot, &still, &rest))
     };
     at.answer(solve, |answer, heading| answer.print(heading, details))
+}
+
+impl Settings {
+    /// The weather, if any is given.
+    fn weather(&self) -> Result<Option<Weather>, ProgramError> {
+        if self.wind.is_none() && self.with.is_none() {
+            return Ok(None);
+        }
+        let with = self.with.clone().unwrap_or_default();
+        with.check(&["warmer", "cable_expansion", "frame_expansion", "ice", "creep"])?;
+        let value = |name| Ok::<_, ProgramError>(with.value(name, None, number)?.unwrap_or_default());
+        Ok(Some(Weather {
+            wind: Wind::new(self.wind.unwrap_or_default().into())?,
+            warmer: value("warmer")?,
+            cable_expansion: value("cable_expansion")?,
+            frame_expansion: value("frame_expansion")?,
+            ice: value("ice")?,
+            creep: value("creep")?,
+        }))
+    }
 }
 
 /// The deflection, in SI units unless the name says otherwise.
@@ -134,18 +156,18 @@ impl Answer {
     }
 }
 
-/// The same with wind on the cables.
+/// The same in weather.
 #[derive(Serialize)]
-struct AnswerInWind {
+struct AnswerInWeather {
     #[serde(flatten)]
     still: Answer,
-    in_wind: InWind,
+    in_weather: InWeather,
 }
 
-/// The platform in the wind and under the load.
+/// The platform in the weather and under the load.
 #[derive(Serialize)]
-struct InWind {
-    /// Displacement of P from the pose without load and wind, its norm and the rotation vector.
+struct InWeather {
+    /// Displacement of P from the pose without load and weather, its norm and the rotation vector.
     deflection_mm: [f64; 3],
     magnitude_mm: f64,
     rotation_deg: [f64; 3],
@@ -160,8 +182,8 @@ struct InWind {
     integration: f64,
 }
 
-impl AnswerInWind {
-    fn new(robot: &Robot, still: &Deflection, rest: &RestInWind) -> Self {
+impl AnswerInWeather {
+    fn new(robot: &Robot, still: &Deflection, rest: &RestInWeather) -> Self {
         let motion: Vector6<f64> = still.unloaded.equilibrium.pose.motion_to(&rest.pose);
         let displacement = Vector3::from(motion.fixed_rows::<3>(0));
         let (tensions, exit_tensions) = (rest.tensions(), rest.exit_tensions.clone());
@@ -169,7 +191,7 @@ impl AnswerInWind {
         let found = cdpr_statics::limits::tensions_out_of_limits(robot, &[ends]);
         Self {
             still: Answer::new(robot, still),
-            in_wind: InWind {
+            in_weather: InWeather {
                 deflection_mm: (1e3 * displacement).into(),
                 magnitude_mm: 1e3 * displacement.norm(),
                 rotation_deg: [3, 4, 5].map(|row| motion[row].to_degrees()),
@@ -184,42 +206,54 @@ impl AnswerInWind {
     }
 
     fn print(&self, heading: &str, details: bool) {
-        let Self { still, in_wind } = self;
-        print_sentence(&format!("{heading} is displaced by {:.5} mm in the wind.", in_wind.magnitude_mm));
-        println!("dp = {} mm", vector(&in_wind.deflection_mm, 5));
-        println!("rotated by {} degrees", vector(&in_wind.rotation_deg, 5));
+        let Self { still, in_weather } = self;
+        print_sentence(&format!(
+            "{heading} is displaced by {:.5} mm in this weather.",
+            in_weather.magnitude_mm
+        ));
+        println!("dp = {} mm", vector(&in_weather.deflection_mm, 5));
+        println!("rotated by {} degrees", vector(&in_weather.rotation_deg, 5));
         if still.magnitude_mm > 0.0 {
-            println!("without wind the load displaces it by {:.5} mm", still.magnitude_mm);
+            println!("without the weather the load displaces it by {:.5} mm", still.magnitude_mm);
         }
-        println!("force of the wind on all cables {} N", vector(&in_wind.drag, 3));
-        let mut rows =
-            table(&["cable", "unstrained length [m]", "tension [N]", "in the wind [N]", "at exit point [N]"]);
-        let tensions = still.unloaded.tensions.iter().zip(&in_wind.tensions).zip(&in_wind.exit_tensions);
+        if in_weather.drag != [0.0; 3] {
+            println!("force of the wind on all cables {} N", vector(&in_weather.drag, 3));
+        }
+        let mut rows = table(&[
+            "cable",
+            "unstrained length [m]",
+            "tension [N]",
+            "in the weather [N]",
+            "at exit point [N]",
+        ]);
+        let tensions =
+            still.unloaded.tensions.iter().zip(&in_weather.tensions).zip(&in_weather.exit_tensions);
         for (i, (length, ((unloaded, blown), exit))) in still.lengths.iter().zip(tensions).enumerate() {
             let numbers = [*unloaded, *blown, *exit].map(|tension| decimal(tension, 3));
             rows.add_row([(i + 1).to_string(), format!("{length:.6}")].into_iter().chain(numbers));
         }
         println!("{rows}");
-        OutOfLimits::print(&in_wind.out_of_limits);
-        in_wind.residual.print();
+        OutOfLimits::print(&in_weather.out_of_limits);
+        in_weather.residual.print();
         if details {
             println!();
-            still.loaded.print("Without wind the platform", &still.lengths);
+            still.loaded.print("Without the weather the platform", &still.lengths);
         }
     }
 }
 
-impl Row for AnswerInWind {
+impl Row for AnswerInWeather {
     fn columns(robot: &Robot) -> Vec<String> {
-        let motion = ["dx", "dy", "dz", "magnitude"].map(|name| format!("wind_{name}_mm"));
-        let rotation = ["rx", "ry", "rz"].map(|name| format!("wind_{name}_deg"));
-        let tensions = ["wind_tension", "wind_exit_tension"].into_iter();
+        let motion = ["dx", "dy", "dz", "magnitude"].map(|name| format!("weather_{name}_mm"));
+        let rotation = ["rx", "ry", "rz"].map(|name| format!("weather_{name}_deg"));
+        let tensions = ["weather_tension", "weather_exit_tension"].into_iter();
         let of_cables = tensions.flat_map(|name| numbered(name, "n", robot.cables.len()));
         Answer::columns(robot).into_iter().chain(motion).chain(rotation).chain(of_cables).collect()
     }
 
     fn cells(&self) -> Vec<String> {
-        let InWind { deflection_mm, magnitude_mm, rotation_deg, tensions, exit_tensions, .. } = &self.in_wind;
+        let InWeather { deflection_mm, magnitude_mm, rotation_deg, tensions, exit_tensions, .. } =
+            &self.in_weather;
         let motion = deflection_mm.iter().chain([magnitude_mm]).chain(rotation_deg);
         let own = cells(motion.chain(tensions).chain(exit_tensions));
         self.still.cells().into_iter().chain(own).collect()
@@ -227,7 +261,7 @@ impl Row for AnswerInWind {
 
     fn out_of_limits(&self) -> Vec<&[OutOfLimits]> {
         let mut lists = self.still.out_of_limits();
-        lists.push(&self.in_wind.out_of_limits);
+        lists.push(&self.in_weather.out_of_limits);
         lists
     }
 }

@@ -1,25 +1,25 @@
-//! `Robot.in_wind`: where the platform rests when the wind blows on its cables.
+//! `Robot.in_weather`: where the platform rests in wind, in another temperature, with ice or creep.
 
 use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each, plotted};
 use crate::robot::Robot;
 use crate::robot::inverse::coordinates;
 use cdpr_robot::{Vector3, Vector6};
-use cdpr_statics::wind::{RestInWind as Rest, Wind};
-use cdpr_statics::{DirectProblem, StaticsError, WantedPose, deflection};
+use cdpr_statics::weather::{RestInWeather as Rest, Weather, Wind, in_weather};
+use cdpr_statics::{StaticsError, WantedPose};
 use pyo3::prelude::*;
 
 answer! {
-    /// A platform at rest whose cables hang in the wind.
+    /// A platform at rest in weather.
     ///
     /// The answer is of one case, or of m: then every field has a first axis of m, with NaN where there is no
     /// answer, and `reasons` says why.
     #[pyclass(frozen, get_all, module = "cdpr")]
-    pub(crate) struct RestInWind {
-        /// Displacement of P from the pose without load and wind [m], (3,).
+    pub(crate) struct RestInWeather {
+        /// Displacement of P from the pose without load and weather [m], (3,).
         displacement: Py<PyAny>,
         /// Its norm [m].
         magnitude: Py<PyAny>,
-        /// Rotation vector from the platform without load and wind, in the base frame [rad], (3,).
+        /// Rotation vector from the platform without load and weather, in the base frame [rad], (3,).
         rotation: Py<PyAny>,
         /// Pose: x, y, z [m], qw, qx, qy, qz, (7,).
         pose: Py<PyAny>,
@@ -46,7 +46,7 @@ answer! {
     }
 }
 
-plotted!(RestInWind);
+plotted!(RestInWeather);
 
 struct Found {
     motion: Vector6<f64>,
@@ -56,19 +56,27 @@ struct Found {
 
 #[pymethods]
 impl Robot {
-    /// Finds where the platform rests when the wind blows on its cables, with the lengths kept.
+    /// Finds where the platform rests in wind, in another temperature, with ice or creep, with winches that hold.
     ///
-    /// The lengths are those with which it rests at the pose under its own weight, without wind. The drag is
+    /// The lengths are those with which it rests at the pose under its own weight, without weather. The drag is
     /// that of round ropes with a coefficient of 1.2 in air of 1.225 kg/m³; with others, take the wind that is
-    /// sqrt(density coefficient/1.47) times as fast. Wind on the platform itself is a `force`. Arguments are of one
-    /// case, or have a first axis of m cases.
+    /// sqrt(density coefficient/1.47) times as fast. Wind on the platform itself is a `force`. `pose`, `wind` and the
+    /// load are of one case, or have a first axis of m cases.
     ///
     /// Parameters
     /// ----------
     /// pose : array_like
     ///     Wanted pose under the platform's own weight, (3,) or (7,).
-    /// wind : array_like
+    /// wind : array_like, optional
     ///     Velocity of the wind in the base frame [m/s], (3,).
+    /// warmer : float
+    ///     How much warmer it is [K].
+    /// cable_expansion, frame_expansion : float
+    ///     Thermal expansion of the cables, and of the frame from the origin of the base frame [1/K].
+    /// ice : float
+    ///     Thickness of the ice around each cable [m], of 900 kg/m³.
+    /// creep : float
+    ///     Strain by which each cable has crept.
     /// payload : array_like, optional
     ///     Mass added at the platform's centre of mass [kg].
     /// force, moment : array_like, optional
@@ -79,7 +87,7 @@ impl Robot {
     ///
     /// Returns
     /// -------
-    /// RestInWind
+    /// RestInWeather
     ///     Displacements, tensions and the force of the wind on each cable.
     ///
     /// Raises
@@ -93,29 +101,39 @@ impl Robot {
     /// --------
     /// >>> import cdpr
     /// >>> robot = cdpr.Robot.from_file("cogiro")
-    /// >>> robot.in_wind([0, 0, 2], [15, 0, 0]).drags.shape  # [N]
+    /// >>> robot.in_weather([0, 0, 2], [15, 0, 0]).drags.shape  # [N]
     /// (8, 3)
-    #[pyo3(signature = (pose, wind, *, payload=None, force=None, moment=None, free=None))]
+    /// >>> bool(robot.in_weather([0, 0, 2], ice=0.005).displacement[2] < 0)
+    /// True
+    #[pyo3(signature = (pose, wind=None, *, warmer=0.0, cable_expansion=0.0, frame_expansion=0.0, ice=0.0,
+        creep=0.0, payload=None, force=None, moment=None, free=None))]
     #[allow(clippy::too_many_arguments)]
-    fn in_wind(
+    fn in_weather(
         &self,
         py: Python,
         pose: Numbers,
-        wind: Numbers,
+        wind: Option<Numbers>,
+        warmer: f64,
+        cable_expansion: f64,
+        frame_expansion: f64,
+        ice: f64,
+        creep: f64,
         payload: Option<Numbers>,
         force: Option<Numbers>,
         moment: Option<Numbers>,
         free: Option<Vec<String>>,
-    ) -> Answer<RestInWind> {
+    ) -> Answer<RestInWeather> {
         let (robot, free) = (&self.robot, coordinates(free)?);
         let poses = Rows::poses("pose", &pose, robot)?;
-        let winds = Rows::components::<3>("wind", Some(&wind))?.finite()?;
+        let winds = Rows::components::<3>("wind", wind.as_ref())?.finite()?;
         let loads = Loads::new(force.as_ref(), moment.as_ref(), payload.as_ref(), robot)?;
         let cases = loads.cases([&poses, &winds])?;
+        let weather = Weather { wind: Wind::default(), warmer, cable_expansion, frame_expansion, ice, creep };
         let outcomes: Vec<Result<Found, StaticsError>> = each(py, cases.count, |case| {
-            let (wind, load) = (Wind::new(Vector3::from_row_slice(winds.row(case)))?, loads.load(case)?);
-            let still = deflection(robot, WantedPose::at(&poses.pose(case)?).free(&free), &load)?;
-            let rest = DirectProblem::new(robot, &still.lengths, &load)?.in_wind(&wind, &still.loaded)?;
+            let wind = Wind::new(Vector3::from_row_slice(winds.row(case)))?;
+            let wanted = poses.pose(case)?;
+            let wanted = WantedPose::at(&wanted).free(&free);
+            let (still, rest) = in_weather(robot, wanted, &loads.load(case)?, &Weather { wind, ..weather })?;
             let motion = still.unloaded.equilibrium.pose.motion_to(&rest.pose);
             Ok(Found { motion, lengths: still.lengths, rest })
         })?;
@@ -123,7 +141,7 @@ impl Robot {
         let of_cables = |of: &dyn Fn(&Found) -> Vec<f64>| {
             all.numbers(&[robot.cables.len()], |found, out| out.copy_from_slice(&of(found)))
         };
-        Ok(RestInWind {
+        Ok(RestInWeather {
             displacement: all.vector(|found| [0, 1, 2].map(|row| found.motion[row]))?,
             magnitude: all.number(|found| found.motion.fixed_rows::<3>(0).norm())?,
             rotation: all.vector(|found| [3, 4, 5].map(|row| found.motion[row]))?,
