@@ -8,7 +8,7 @@ use cdpr_statics::Load;
 use cdpr_study::{ErrorModel, Study, uncertainties};
 use std::path::Path;
 
-/// How many robots are drawn; `data/evidence/moves.txt` has the answers of the program for 100 of each.
+/// How many robots are drawn.
 ///
 /// `CDPR_CASES=100 cargo test -p cdpr-assess --test integration vibration:: -- --nocapture`
 fn count() -> usize {

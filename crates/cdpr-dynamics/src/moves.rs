@@ -11,10 +11,10 @@
 //!
 //! with the lever c of the centre of mass. `M_c` and `W` are the inertia of the cables: the terms in ω² of
 //! their dynamic stiffness and of the force by which a winch moves the platform, (N12), at low frequencies.
-//! The second derivatives L'' are those of the lengths at rest: those of the feed-forward are of fourth order,
-//! and jump where the rate of the acceleration does, as at both ends of a move. Lengths and poses then belong
-//! to each other to second order in ω over the cables' own frequencies; what the cables swing themselves is
-//! left to the shaper.
+//! The second derivatives L'' are those of the lengths at rest: those of the feed-forward are of fourth
+//! order, and jump where the rate of the acceleration does, as at both ends of a move. Lengths and poses then
+//! belong to each other to second order in ω over the cables' own frequencies; what the cables swing
+//! themselves is left to the shaper.
 
 mod excited;
 mod inertia;
@@ -50,7 +50,9 @@ impl FeedForward {
     /// Those that account for inertia, with their names.
     pub const NAMED: [(&str, Self); 2] = [("platform", Self::Platform), ("cables", Self::Cables)];
 
-    /// The profile that is taken where none is given: lengths follow the acceleration only where it does not jump.
+    /// The profile that is taken where none is given.
+    ///
+    /// Lengths follow the acceleration only where it does not jump.
     pub fn usual_profile(self) -> Profile {
         if self == Self::None { Profile::Cosine } else { Profile::Polynomial }
     }

@@ -1,8 +1,7 @@
 //! Tensions of a move whose lengths do not account for the motion.
 //!
-//! The lengths are those of a platform at rest. In motion it is carried by the cables where these are in
-//! balance with the wrench with which it resists, (N17): the equilibrium of the direct model under this wrench,
-//! from which it is off by what the cables stretch. What swings is not in it.
+//! The tensions are those of the direct model under the wrench with which platform and cables resist the
+//! motion, (N17). Vibrations about this equilibrium are not in it.
 
 use super::way::Way;
 use super::{Motion, Move, SetPoint, Wrenches};
