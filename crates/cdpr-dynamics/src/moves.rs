@@ -11,14 +11,16 @@
 //!
 //! with the lever c of the centre of mass. `M_c` and `W` are the inertia of the cables: the terms in ω² of
 //! their dynamic stiffness and of the force by which a winch moves the platform, (N12), at low frequencies.
-//! The second derivatives L'' are those of the lengths without `M_c` and `W`. Lengths and poses then belong
-//! to each other to second order in ω over the cables' own frequencies; what the cables swing themselves is
-//! left to the shaper.
+//! The second derivatives L'' are those of the lengths at rest: those of the feed-forward are of fourth
+//! order, and jump where the rate of the acceleration does, as at both ends of a move. Lengths and poses then
+//! belong to each other to second order in ω over the cables' own frequencies; what the cables swing
+//! themselves is left to the shaper.
 
 mod excited;
 mod inertia;
 mod residual;
 mod shaper;
+mod tensions;
 mod way;
 
 use crate::error::{DynamicsError, positive};
@@ -34,13 +36,26 @@ use way::{Motion, Way};
 /// Which inertia the lengths of a move account for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum FeedForward {
-    /// None: at each time the lengths are those of a platform at rest there.
+    /// None: at each time the lengths are those of a platform at rest there. The tensions are those of the
+    /// motion all the same.
     #[default]
     None,
     /// That of platform and payload, (N16).
     Platform,
     /// That of the cables, too, (N17).
     Cables,
+}
+
+impl FeedForward {
+    /// Those that account for inertia, with their names.
+    pub const NAMED: [(&str, Self); 2] = [("platform", Self::Platform), ("cables", Self::Cables)];
+
+    /// The profile that is taken where none is given.
+    ///
+    /// Lengths follow the acceleration only where it does not jump.
+    pub fn usual_profile(self) -> Profile {
+        if self == Self::None { Profile::Cosine } else { Profile::Polynomial }
+    }
 }
 
 /// A move from rest to rest.
@@ -75,9 +90,9 @@ pub struct SetPoint {
     pub lengths: Vec<f64>,
     /// Their part for the motion: the differences to those at rest there [m].
     pub feed_forward: Vec<f64>,
-    /// Tensions at the platform [N].
+    /// Tensions at the platform in motion [N].
     pub tensions: Vec<f64>,
-    /// Tensions at the exit points [N].
+    /// Tensions at the exit points in motion [N].
     pub exit_tensions: Vec<f64>,
 }
 
@@ -96,9 +111,9 @@ impl Move<'_> {
         let way = self.check()?;
         let at_rest = self.set_points(&way, &|_, _| self.load)?;
         if self.feed_forward == FeedForward::None {
-            return Ok(at_rest);
+            return self.with_tensions(&way, at_rest);
         }
-        let mut found = self.in_motion(&way)?;
+        let mut found = self.in_motion(&way, &at_rest)?;
         for (point, still) in found.iter_mut().zip(&at_rest) {
             let both = point.lengths.iter().zip(&still.lengths);
             point.feed_forward = both.map(|(length, still)| length - still).collect();
@@ -107,22 +122,24 @@ impl Move<'_> {
     }
 
     /// The set points with feed-forward.
-    fn in_motion(&self, way: &Way) -> Result<Vec<SetPoint>, DynamicsError> {
-        let resisted = |motion: &Motion| resistance(self.robot, &self.load, motion);
-        // What it may lack, the inertia, it lacks at all poses.
-        resisted(&way.at([0.0; 3]))?;
-        let of_platform = |motion: &Motion| resisted(motion).unwrap_or_default();
-        let first = self.set_points(way, &|_, motion| self.with(of_platform(motion)))?;
-        if self.feed_forward == FeedForward::Platform {
-            return Ok(first);
+    fn in_motion(&self, way: &Way, at_rest: &[SetPoint]) -> Result<Vec<SetPoint>, DynamicsError> {
+        if self.feed_forward == FeedForward::Cables {
+            let wrenches = Wrenches::new(self, way, at_rest)?;
+            return self.set_points(way, &|time, motion| wrenches.load(time, motion));
         }
-        let table = winch_lengths(&first)?;
-        let inertia = CableInertia::along(self.robot, &self.load, way)?;
-        self.set_points(way, &|time, motion| {
-            let growth = (0..table.cables()).map(|i| table.at(i, time)[2]).collect::<Vec<_>>();
-            let more = inertia.resistance(self.share_at(time)[0], motion, &growth);
-            self.with(of_platform(motion) + more)
-        })
+        self.check_inertia(way)?;
+        self.set_points(way, &|_, motion| self.with(self.of_platform(motion)))
+    }
+
+    /// What a robot may lack, the inertia, it lacks at all poses.
+    fn check_inertia(&self, way: &Way) -> Result<(), DynamicsError> {
+        resistance(self.robot, &self.load, &way.at([0.0; 3]))?;
+        Ok(())
+    }
+
+    /// (N16).
+    fn of_platform(&self, motion: &Motion) -> nalgebra::Vector6<f64> {
+        resistance(self.robot, &self.load, motion).unwrap_or_default()
     }
 
     fn with(&self, wrench: nalgebra::Vector6<f64>) -> Load {
@@ -217,6 +234,30 @@ impl Move<'_> {
             },
             Err(at_rest) => at_rest.into(),
         }
+    }
+}
+
+/// The wrenches with which platform and cables resist a move, (N17).
+struct Wrenches<'a> {
+    of: &'a Move<'a>,
+    /// Those at rest, L of (N17).
+    lengths: WinchLengths,
+    inertia: CableInertia,
+}
+
+impl<'a> Wrenches<'a> {
+    fn new(of: &'a Move, way: &Way, at_rest: &[SetPoint]) -> Result<Self, DynamicsError> {
+        of.check_inertia(way)?;
+        let lengths = winch_lengths(at_rest)?;
+        let inertia = CableInertia::along(of.robot, &of.load, way)?;
+        Ok(Self { of, lengths, inertia })
+    }
+
+    /// The load with the wrench at a time [s].
+    fn load(&self, time: f64, motion: &Motion) -> Load {
+        let growth: Vec<f64> = (0..self.lengths.cables()).map(|i| self.lengths.at(i, time)[2]).collect();
+        let more = self.inertia.resistance(self.of.share_at(time)[0], motion, &growth);
+        self.of.with(self.of.of_platform(motion) + more)
     }
 }
 

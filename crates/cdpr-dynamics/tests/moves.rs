@@ -5,9 +5,9 @@ use cdpr_dynamics::DynamicsError;
 use cdpr_dynamics::moves::{
     FeedForward, Move, Residual, SetPoint, Shaper, ShaperKind, residual, winch_lengths,
 };
-use cdpr_dynamics::simulate::{Discretization, Profile, Settings};
-use cdpr_robot::{Pose, Robot};
-use cdpr_statics::{Load, StaticsError};
+use cdpr_dynamics::simulate::{Change, Discretization, Event, Profile, Settings, simulate};
+use cdpr_robot::{Pose, Robot, Vector3};
+use cdpr_statics::{DirectProblem, DirectStart, Load, StaticsError, inverse};
 
 const CAROCA: &str = include_str!("../../../data/robots/caroca.json");
 const COGIRO: &str = include_str!("../../../data/robots/cogiro.json");
@@ -74,26 +74,71 @@ fn feed_forward_holds_the_platform_on_its_way() {
     }
 }
 
+/// The force of the cables and the weight on the platform, with cables that pull along their chords.
+fn net_force(robot: &Robot, point: &SetPoint) -> Vector3<f64> {
+    let pulls = point.tensions.iter().enumerate();
+    let pull = |(i, tension): (usize, &f64)| robot.span(&point.pose, i).normalize() * *tension;
+    pulls.fold(robot.weight(&point.pose, 0.0).force, |sum, cable| sum - pull(cable))
+}
+
 #[test]
 fn the_platform_is_carried_by_the_force_that_accelerates_it() {
     let (robot, poses) = (robot(CAROCA), poses(1.75));
     let plain = plain(&robot, &poses, Profile::Polynomial);
-    let points = Move { feed_forward: FeedForward::Platform, ..plain }.plan().unwrap();
-    assert_eq!(points.len(), 201);
-    for point in points.iter().step_by(20) {
-        let mut force = robot.weight(&point.pose, 0.0).force;
-        for (i, tension) in point.tensions.iter().enumerate() {
-            // The cables sag little, so that they pull nearly along their chords.
-            force -= robot.span(&point.pose, i).normalize() * *tension;
+    let of = |feed_forward| Move { feed_forward, ..plain.clone() }.plan().unwrap();
+    let points = of(FeedForward::Platform);
+    for points in [&points, &of(FeedForward::None), &of(FeedForward::Cables)] {
+        assert_eq!(points.len(), 201);
+        for point in points.iter().step_by(20) {
+            // The cables sag little, and have 3 kg.
+            let (force, growth) = (net_force(&robot, point), Profile::Polynomial.at(point.time)[2]);
+            let wanted = robot.platform.mass * growth;
+            assert!((force.x - wanted).abs() < 40.0, "{}: {} {wanted}", point.time, force.x);
         }
-        let wanted = robot.platform.mass * Profile::Polynomial.at(point.time)[2];
-        assert!((force.x - wanted).abs() < 40.0, "{}: {} {wanted}", point.time, force.x);
     }
     // It passes through its poses at the times of the profile.
     let middle = &points[100];
     assert!(middle.pose.position.x.abs() < 1e-12 && (middle.time - 0.5).abs() < 1e-12);
     let table = winch_lengths(&points).unwrap();
     assert!((table.at(0, 0.5)[0] - middle.lengths[0]).abs() < 1e-12);
+}
+
+/// How far the tensions of set points are off those of a simulation with damping at any time, and how far
+/// those at rest at the same poses are [N].
+fn off_simulated(robot: &Robot, points: &[SetPoint]) -> [f64; 2] {
+    let load = Load::none();
+    let problem = DirectProblem::new(robot, &points[0].lengths, &load).unwrap();
+    let rest = problem.direct(DirectStart::Pose(&points[0].pose)).unwrap().equilibrium;
+    let follow = Event { time: 0.0, change: Change::Lengths(winch_lengths(points).unwrap()) };
+    let until = points[points.len() - 1].time;
+    let discretization = Some(Discretization { elements: 2, degree: 5 });
+    let settings = Settings { damping: 2e-3, discretization, tolerance: 1e-6, ..Settings::until(until) };
+    let series = simulate(&problem, &rest, &[follow], &settings).unwrap();
+    let mut off = [0.0_f64; 2];
+    // Two set points for each sample.
+    for (sample, point) in series.samples.iter().zip(points.iter().step_by(2)) {
+        assert!((sample.time - point.time).abs() < 1e-9);
+        let still = inverse(robot, &point.pose, &load).unwrap().tensions;
+        for (i, [_, anchor]) in sample.tensions.iter().enumerate() {
+            for (off, tension) in off.iter_mut().zip([point.tensions[i], still[i]]) {
+                *off = off.max((anchor - tension).abs());
+            }
+        }
+    }
+    off
+}
+
+#[test]
+fn tensions_without_feed_forward_are_those_of_the_simulated_motion() {
+    for (file, height) in [(CAROCA, 1.75), (IPANEMA_3, 1.5)] {
+        let (robot, poses) = (robot(file), poses(height));
+        let plain = plain(&robot, &poses, Profile::Polynomial);
+        let points = Move { seconds: 1.5, ..plain }.plan().unwrap();
+        let [off, still] = off_simulated(&robot, &points);
+        println!("{}: {off:.2} N, those at rest {still:.1} N", robot.name);
+        assert!(off < 0.1 * still, "{}: {off} {still}", robot.name);
+        assert!(points.iter().all(|point| point.feed_forward.iter().all(|more| *more == 0.0)));
+    }
 }
 
 #[test]

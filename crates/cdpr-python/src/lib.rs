@@ -59,6 +59,8 @@ mod _core {
     #[pymodule_export]
     use crate::robot::motion::modes::{MasslessModes, Modes};
     #[pymodule_export]
+    use crate::robot::motion::moves::{Move, MoveSummary};
+    #[pymodule_export]
     use crate::robot::motion::response::Response;
     #[pymodule_export]
     use crate::robot::motion::simulate::{Motion, MotionState, MotionSummary};

@@ -182,7 +182,55 @@ def test_motions_and_responses_are_pickled_drawn_and_made_frames(cogiro):
     matplotlib.use("svg")
     from matplotlib import pyplot
 
-    for one, axes in [(motion, 3), (response, 1), (cogiro.response([[0, 0, 2], [1, 0, 2]], [0.0, 1.0]), 1)]:
+    move = cogiro.move([[0, 0, 2], [0.1, 0, 2]], 0.5, rate=20)
+    assert len(move.to_dataframe()) == len(move.times) == 11 and len(move.summary.to_dataframe()) == 1
+    for one, axes in [(motion, 3), (move, 1), (response, 1), (cogiro.response([[0, 0, 2], [1, 0, 2]], [0.0, 1.0]), 1)]:
         figure = one.plot()
         assert len(figure.axes) == axes and all(axis.lines and axis.get_ylabel() for axis in figure.axes)
         pyplot.close(figure)
+
+
+@pytest.mark.parametrize("with_", ["shaper=zvd,residual=0.3", "feed-forward,profile=polynomial"])
+def test_a_move_is_that_of_the_program(cogiro, tmp_path, with_):
+    poses = [[-0.5, 0, 2], [0.5, 0, 2]]
+    (tmp_path / "poses.csv").write_text("x,y,z\n-0.5,0,2\n0.5,0,2\n")
+    (tmp_path / "robot.json").write_text(cogiro.to_json())
+    arguments = ["path", tmp_path / "robot.json", "--poses", tmp_path / "poses.csv"]
+    expected = answer(*arguments, "--with", f"seconds=1.5,rate=100,{with_}")
+    shaped = {"shaper": "zvd", "residual": 0.3}
+    move = cogiro.move(poses, 1.5, rate=100, **(shaped if "zvd" in with_ else {"feed_forward": "cables"}))
+    rows, n = numpy.array(expected["set_points"]), cogiro.n_cables
+    of_cables = [move.lengths, move.feed_forward, move.tensions, move.exit_tensions]
+    numpy.testing.assert_array_equal(numpy.hstack([move.times[:, None], move.poses, *of_cables]), rows)
+    assert rows.shape == (151, 8 + 4 * n)
+    summary = move.summary
+    numpy.testing.assert_array_equal(summary.impulses, expected["impulses"])
+    frequencies = [mode["frequency_hz"] for mode in expected["shaped"]]
+    numpy.testing.assert_array_equal(summary.frequencies_hz, frequencies)
+    if "residual" in expected:
+        assert summary.amplitude == expected["residual"]["amplitude_m"] < summary.unshaped_amplitude
+        assert summary.deviation == expected["residual"]["deviation_m"] and not summary.slack.any()
+    else:
+        assert numpy.isnan(summary.amplitude) and numpy.abs(move.feed_forward).max() > 1e-4
+
+
+def test_a_move_is_an_event_and_what_it_cannot_be_is_refused(cogiro):
+    poses = [[-0.1, 0, 2], [0.1, 0, 2]]
+    move = cogiro.move(poses, 1.0, feed_forward="cables")
+    follow = {"t": 0, "lengths": {"times": move.times, "lengths": move.lengths}}
+    moved = cogiro.simulate(poses[0], until=1, events=[follow], rate=200, damping=2e-4)
+    assert numpy.abs(moved.poses[:, :3] - move.poses[:, :3]).max() < 1e-3
+    assert numpy.abs(moved.tensions - move.tensions).max() < 0.1 * move.tensions.max()
+    again = pickle.loads(pickle.dumps(move))
+    numpy.testing.assert_array_equal(again.lengths, move.lengths)
+    for wrong, words in [
+        ({"profile": "linear"}, "profile is \"linear\": expected trapezoid, cosine, polynomial"),
+        ({"shaper": "zvdd"}, "expected zv, zvd, ei"),
+        ({"feed_forward": "all"}, "expected platform, cables"),
+        ({"rate": -1}, "rate is -1"),
+        ({"payload": [1, 2]}, "expected one load for the whole move"),
+    ]:
+        with pytest.raises(cdpr.InputError, match=words):
+            cogiro.move(poses, 1.0, **wrong)
+    with pytest.raises(cdpr.NoSolutionError, match="too fast"):
+        cogiro.move([[-0.5, 0, 2], [0.5, 0, 2]], 0.3, feed_forward="cables")

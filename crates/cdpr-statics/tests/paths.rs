@@ -98,6 +98,29 @@ fn a_jump_is_reported_where_a_branch_ends_and_is_as_long_in_smaller_steps() {
     assert!(leap > 0.5 * changes_coarse[jump - 1] && greatest(&steady) < 0.1 * leap);
 }
 
+/// Along the way the least tension of cable 6 takes the place of that of cable 8.
+#[test]
+fn a_limit_that_cuts_off_the_corner_of_two_others_is_no_jump() {
+    let robot = robot(include_str!("../../../data/robots/ipanema-3.json"));
+    let wrenches = [[85.209, 0.35, -0.08, -0.84, -0.715, -0.3], [80.482, -0.085, -0.452, 0.097, 1.11, 0.283]];
+    let [from, to] = wrenches.map(cdpr_robot::Vector6::from);
+    for steps in [1, 2, 10, 999] {
+        let mut path = InversePath::new(&robot);
+        let mut last = Vec::new();
+        for k in 0..=steps {
+            let share = f64::from(k) / f64::from(steps);
+            let wrench = cdpr_robot::Wrench::from_vector(&from.lerp(&to, share));
+            let pose = Pose::at(0.4969 + 0.0006 * share, 0.0, 1.5);
+            let found = path.solve(pose, &Load { wrench, ..Load::none() }).unwrap();
+            assert!(!found.jump, "{k} of {steps}");
+            assert!(k == 0 || found.solution.iterations < 12, "{k}: {}", found.solution.iterations);
+            last = found.solution.active;
+        }
+        let bounded: Vec<usize> = (0..8).filter(|i| last[*i].is_some()).collect();
+        assert_eq!(bounded, [4, 5]);
+    }
+}
+
 #[test]
 fn a_path_goes_on_after_a_pose_that_is_not_held() {
     let robot = caroca();

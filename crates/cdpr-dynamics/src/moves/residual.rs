@@ -1,8 +1,8 @@
 //! What swings after a move.
 
-use super::SetPoint;
+use super::{Move, SetPoint};
 use crate::error::DynamicsError;
-use crate::simulate::{Change, Event, Settings, WinchLengths, simulate};
+use crate::simulate::{Change, Discretization, Event, Settings, WinchLengths, simulate};
 use cdpr_robot::Robot;
 use cdpr_statics::{DirectProblem, DirectStart, InversePath, Load, WantedPose, set_point_lengths};
 
@@ -19,6 +19,26 @@ pub struct Residual {
     pub deviation: f64,
     /// Indices of cables that lost their tension, from 0.
     pub slack: Vec<usize>,
+}
+
+impl Move<'_> {
+    /// How [`residual`] simulates the move and this long after it [s], two periods of the slowest motion that
+    /// swings if left out, and no less than half a second. The cables have the damping `damping` [s].
+    ///
+    /// It is fast, and exact to some micrometres for cables that stay taut: two discretizations are compared.
+    ///
+    /// # Errors
+    /// Those of [`Move::excited`], without a time.
+    pub fn watched(&self, seconds: Option<f64>, damping: f64) -> Result<Settings, DynamicsError> {
+        const DISCRETIZATION: Discretization = Discretization { elements: 2, degree: 5 };
+        const LEAST: f64 = 0.5;
+        let seconds = match seconds {
+            Some(seconds) => seconds,
+            None => self.excited(damping)?.iter().map(|one| 2.0 / one.frequency).fold(LEAST, f64::max),
+        };
+        let discretization = Some(DISCRETIZATION);
+        Ok(Settings { rate: self.rate, damping, discretization, tolerance: 1e-6, ..Settings::until(seconds) })
+    }
 }
 
 /// Simulates a robot that makes a move, and goes on until `settings.until` after its end [s].

@@ -20,6 +20,10 @@ pub enum Profile {
 }
 
 impl Profile {
+    /// Those without a jump of the speed, with their names.
+    pub const SMOOTH: [(&str, Self); 3] =
+        [("trapezoid", Self::Trapezoid), ("cosine", Self::Cosine), ("polynomial", Self::Polynomial)];
+
     /// Share of the change at `x = t/T`, and its first and second derivative with respect to x.
     pub fn at(self, x: f64) -> [f64; 3] {
         if !(0.0..=1.0).contains(&x) {

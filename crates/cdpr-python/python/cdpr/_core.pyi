@@ -919,6 +919,73 @@ class Robot:
         moment: ArrayLike | None = None,
         free: Sequence[str] | None = None,
     ) -> Response[_Words]: ...
+    def move(
+        self,
+        poses: ArrayLike,
+        seconds: float,
+        *,
+        profile: str | None = None,
+        shaper: str | None = None,
+        modes: int = 2,
+        feed_forward: str | None = None,
+        rate: float = 200.0,
+        damping: float = 0.0,
+        residual: float | None = None,
+        payload: float | None = None,
+        force: _Row | None = None,
+        moment: _Row | None = None,
+    ) -> Move:
+        """Plans a move along poses from rest to rest, as `cdpr path --with seconds=S` does.
+
+        The way is one smooth curve through all poses, a straight one between two. The platform does not swing
+        where the motion is split by an input shaper, or the lengths account for the inertia.
+
+        Parameters
+        ----------
+        poses : array_like
+            x, y, z [m], or x, y, z, qw, qx, qy, qz, (m, 3) or (m, 7).
+        seconds : float
+            Duration, that of the shaper included [s].
+        profile : {"trapezoid", "cosine", "polynomial"}, optional
+            How the share of the way changes over time; "polynomial" with feed-forward, otherwise "cosine".
+        shaper : {"zv", "zvd", "ei"}, optional
+            Input shaper, from the shortest to the least sensitive one.
+        modes : int, default 2
+            For how many natural motions at most, those that swing most.
+        feed_forward : {"platform", "cables"}, optional
+            Which inertia the lengths account for; "cables" is that of platform and cables.
+        rate : float, default 200
+            Set points for each second [Hz].
+        damping : float, default 0
+            Ratio of the viscous to the elastic modulus of the cables [s].
+        residual : float, optional
+            Simulates the move and this long after it [s].
+        payload : float, optional
+            Mass that the platform carries, at its centre of mass [kg].
+        force, moment : array_like, optional
+            On the platform in the base frame, about P, all the time [N, N m], (3,).
+
+        Returns
+        -------
+        Move
+            Set points over time; `lengths` and `times` are an event of `Robot.simulate`.
+
+        Raises
+        ------
+        InputError
+            For an invalid value; the message names it and what would be right; also where the robot has no
+            inertia.
+        NoSolutionError
+            Where a pose is not held, the lengths jump, or the move is too fast.
+
+        Examples
+        --------
+        >>> import cdpr
+        >>> robot = cdpr.Robot.from_file("cogiro")
+        >>> move = robot.move([[-0.5, 0, 2], [0.5, 0, 2]], 1.0, shaper="zvd", rate=100)
+        >>> move.lengths.shape, len(move.summary.frequencies_hz)  # [m]
+        ((101, 8), 2)
+        """
     def simulate(
         self,
         pose: _Row | None = None,
@@ -2049,6 +2116,101 @@ class Motion:
     @property
     def summary(self) -> MotionSummary:
         """What the motion is as a whole, and how exact it is."""
+
+@final
+class Move:
+    """Set points of the winches for a move of a robot, at m times."""
+
+    def __new__(cls, *fields: Any) -> Move: ...
+    def __class_getitem__(cls, number: Any) -> GenericAlias: ...
+    def plot(self) -> Any:
+        """Draws the answer: of one case a bar for each element, of several a line over the cases.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            The figure.
+        """
+    def to_dataframe(self) -> Any:
+        """Makes a frame with a row for each case and columns of numbers and words.
+
+        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
+        name: `magnitude/a1.x`.
+
+        Returns
+        -------
+        pandas.DataFrame
+            The frame.
+        """
+    @property
+    def times(self) -> _Floats:
+        """Times [s], (m,)."""
+    @property
+    def poses(self) -> _Floats:
+        """Wanted poses, x, y, z, qw, qx, qy, qz, (m, 7)."""
+    @property
+    def lengths(self) -> _Floats:
+        """Unstrained lengths [m], (m, n)."""
+    @property
+    def feed_forward(self) -> _Floats:
+        """Their part for the motion: the differences to those at rest there [m], (m, n)."""
+    @property
+    def tensions(self) -> _Floats:
+        """Tension of each cable at the platform in motion [N], (m, n)."""
+    @property
+    def exit_tensions(self) -> _Floats:
+        """Tension of each cable at its exit point in motion [N], (m, n)."""
+    @property
+    def summary(self) -> MoveSummary:
+        """The shaper, and what swings."""
+
+@final
+class MoveSummary:
+    """The shaper of a move with k impulses for j natural motions, and what swings after the move."""
+
+    def __new__(cls, *fields: Any) -> MoveSummary: ...
+    def __class_getitem__(cls, number: Any) -> GenericAlias: ...
+    def to_dataframe(self) -> Any:
+        """Makes a frame with a row for each case and columns of numbers and words.
+
+        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
+        name: `magnitude/a1.x`.
+
+        Returns
+        -------
+        pandas.DataFrame
+            The frame.
+        """
+    @property
+    def impulses(self) -> _Floats:
+        """Time [s] and amplitude of each impulse of the shaper, (k, 2)."""
+    @property
+    def frequencies_hz(self) -> _Floats:
+        """Natural frequencies that the shaper is for [Hz], (j,)."""
+    @property
+    def damping_ratios(self) -> _Floats:
+        """Share of critical damping of these motions, (j,)."""
+    @property
+    def platform_shares(self) -> _Floats:
+        """Share of the platform in their kinetic energy, (j,)."""
+    @property
+    def amplitude(self) -> float:
+        """Greatest distance of P from its rest after the move [m]; NaN without `residual`, as all below."""
+    @property
+    def unshaped_amplitude(self) -> float:
+        """The same of the move without shaper and feed-forward [m]."""
+    @property
+    def deviation(self) -> float:
+        """Greatest distance of P from the wanted pose on the way [m]."""
+    @property
+    def unshaped_deviation(self) -> float:
+        """The same of the move without shaper and feed-forward [m]."""
+    @property
+    def position_difference(self) -> float:
+        """Greatest difference of the position of P to a coarser computation [m]."""
+    @property
+    def slack(self) -> _Bools:
+        """Whether each cable loses its tension in one of both moves, (n,)."""
 
 @final
 class MotionSummary:

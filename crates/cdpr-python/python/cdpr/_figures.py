@@ -83,13 +83,18 @@ def _motion(answer: Any, figure: Any) -> None:
         place.plot(answer.times, 1e3 * (answer.poses[:, k] - rest[k]), label=name)
     share = numpy.abs(answer.poses[:, 3:] @ rest[3:])
     turn.plot(answer.times, numpy.rad2deg(2 * numpy.arccos(numpy.minimum(share, 1))))
-    for k, tensions in enumerate(answer.tensions.T):
-        pull.plot(answer.times, tensions, label=str(k + 1))
     place.legend(ncols=3)
-    pull.legend(title="cable", ncols=4)
     place.set_ylabel("from the rest [mm]")
     turn.set_ylabel("turn [deg]")
-    pull.set(xlabel="time [s]", ylabel="tension [N]")
+    _pulls(answer, pull)
+
+
+def _pulls(answer: Any, axis: Any) -> None:
+    """The tensions at the platform over the time."""
+    for k, tensions in enumerate(answer.tensions.T):
+        axis.plot(answer.times, tensions, label=str(k + 1))
+    axis.legend(title="cable", ncols=4)
+    axis.set(xlabel="time [s]", ylabel="tension [N]")
 
 
 def _amplitudes(answer: Any, axis: Any) -> None:
@@ -161,6 +166,7 @@ def _surface(answer: Any, axis: Any) -> None:
 _SPECIAL: dict[str, Callable[[Any, Any], None]] = {
     "Boundary": _boundary,
     "Catenary": _shape,
+    "Move": _pulls,
     "Observations": _distribution,
     "Response": _amplitudes,
     "Workspace": _map,

@@ -130,6 +130,8 @@ impl From<DynamicsError> for Raised {
             DynamicsError::Stalled { .. } => "stalled",
             DynamicsError::Folded { .. } => "folded",
             DynamicsError::NotStable { .. } => "not_stable",
+            DynamicsError::TooFast { .. } => "too_fast",
+            DynamicsError::Jump { .. } => "jump",
             _ => return Self::Input(message),
         };
         Self::NoSolution { kind, message }

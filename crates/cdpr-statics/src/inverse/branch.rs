@@ -9,10 +9,14 @@
 //! ```
 //!
 //! A cable enters W where its d_i passes a limit, and leaves it where its multiplier has the wrong sign,
-//! until W is that of the solution. The optimum lies on the branch of the last one if the method converges as
-//! it does near its limit: every change is at most half of that before, and the reduced Hessian is positive
-//! at each. Otherwise the step is halved. A strict minimum with a regular balance can always be followed by
-//! steps that are small enough; where the least step fails, the branch has ended.
+//! until W is that of the solution. All cables do so at once, which may go in circles where a limit cuts off
+//! the corner of two others. Then it is one cable at a time, the first in the order of the robot, which ends
+//! (K. G. Murty, *Note on a Bard-type scheme for solving the complementarity problem*, Opsearch 11, 1974).
+//!
+//! The optimum lies on the branch of the last one if the method converges as it does near its limit: every
+//! change is at most half of that before, and the reduced Hessian is positive at each. Otherwise the step is
+//! halved. A strict minimum with a regular balance can always be followed by steps that are small enough;
+//! where the least step fails, the branch has ended.
 
 use super::cable::CableAtPose;
 use super::optimum::{ELASTICITY, NEARLY_ROUNDING, Optimum, Point, ROUNDING};
@@ -156,7 +160,8 @@ impl Point<'_> {
         let hessian = self.hessian();
         let rounding = ROUNDING * self.size();
         let mut fixed: Vec<Option<Bound>> = self.cables.iter().map(CableAtPose::at_limit).collect();
-        for _ in 0..=2 * fixed.len() {
+        let all_at_once = fixed.len();
+        for pass in 0..=4 * all_at_once {
             let way = |(cable, bound): (&CableAtPose, &Option<Bound>)| {
                 bound.map(|bound| cable.step_bounds()[bound as usize])
             };
@@ -164,6 +169,9 @@ impl Point<'_> {
             let (step, multipliers) = self.newton_step(&hessian, &ways, ELASTICITY)?;
             let mut changed = false;
             for (i, cable) in self.cables.iter_mut().enumerate() {
+                if changed && pass >= all_at_once {
+                    break;
+                }
                 match fixed[i] {
                     None => {
                         fixed[i] = cable.passed_limit(step[i]).ok()?;

@@ -56,6 +56,12 @@ impl OutOfLimits {
         found.into_iter().map(Self::new).collect()
     }
 
+    /// Those of tensions of every cable at the platform and at its exit point [N].
+    pub(crate) fn of_tensions(robot: &Robot, tensions: &[Vec<[f64; 2]>]) -> Vec<Self> {
+        let found = cdpr_statics::limits::tensions_out_of_limits(robot, tensions);
+        found.into_iter().map(Self::new).collect()
+    }
+
     pub(crate) fn new(found: cdpr_statics::limits::OutOfLimits) -> Self {
         Self {
             cable: found.cable + 1,

@@ -319,7 +319,7 @@ fn tensions(sample: &Sample, end: usize) -> impl Iterator<Item = f64> {
     sample.tensions.iter().map(move |both| both[end])
 }
 
-fn seven(pose: &Pose) -> [f64; 7] {
+pub(crate) fn seven(pose: &Pose) -> [f64; 7] {
     let [w, i, j, k] = pose.quaternion();
     let [x, y, z] = pose.position.into();
     [x, y, z, w, i, j, k]

@@ -10,7 +10,7 @@ use crate::program::pose::modes::with_inertia;
 use answer::{After, Answer, Robots};
 use cdpr_assess::DrawnRobots;
 use cdpr_dynamics::moves::{FeedForward, Move, SetPoint, Shaper, ShaperKind, residual};
-use cdpr_dynamics::simulate::{Discretization, Profile};
+use cdpr_dynamics::simulate::Profile;
 
 /// The names of `--with`.
 const NAMES: [&str; 10] = [
@@ -25,12 +25,6 @@ const NAMES: [&str; 10] = [
     "robots",
     "seed",
 ];
-
-const PROFILES: [(&str, Profile); 3] =
-    [("trapezoid", Profile::Trapezoid), ("cosine", Profile::Cosine), ("polynomial", Profile::Polynomial)];
-
-const FEED_FORWARD: [(&str, FeedForward); 2] =
-    [("platform", FeedForward::Platform), ("cables", FeedForward::Cables)];
 
 /// Robots that are drawn where no number is given.
 const ROBOTS: usize = 100;
@@ -57,19 +51,19 @@ impl Wanted {
             |name, usual: f64| with.value(name, None, arguments::number).map(|value| value.unwrap_or(usual));
         let seconds = with.value("seconds", None, arguments::number)?;
         let missing = "--with: expected seconds=S, how long the move takes [s]";
-        let feed_forward =
-            with.value("feed-forward", Some(FeedForward::Cables), |text| one_of(text, &FEED_FORWARD))?;
+        let feed_forward = with
+            .value("feed-forward", Some(FeedForward::Cables), |text| one_of(text, &FeedForward::NAMED))?
+            .unwrap_or_default();
         let seed = with.value("seed", None, |text| {
             text.parse::<u64>().map_err(|_| "expected a whole number, zero or more".to_owned())
         })?;
-        // Lengths follow the acceleration only where it does not jump.
-        let usual = if feed_forward.is_some() { Profile::Polynomial } else { Profile::Cosine };
+        let profile = with.value("profile", None, |text| one_of(text, &Profile::SMOOTH))?;
         Ok(Self {
             seconds: seconds.ok_or_else(|| ProgramError::Usage(missing.to_owned()))?,
-            profile: with.value("profile", None, |text| one_of(text, &PROFILES))?.unwrap_or(usual),
+            profile: profile.unwrap_or_else(|| feed_forward.usual_profile()),
             shaper: with.value("shaper", Some(ShaperKind::Zvd), |text| one_of(text, &ShaperKind::NAMED))?,
             modes: with.value("modes", None, arguments::count::<1, 6>)?.unwrap_or(2),
-            feed_forward: feed_forward.unwrap_or_default(),
+            feed_forward,
             rate: number("rate", 200.0)?,
             damping: number("damping", 0.0)?,
             residual: with.value("residual", Some(None), |text| arguments::number(text).map(Some))?,
@@ -77,32 +71,12 @@ impl Wanted {
             seed,
         })
     }
-
-    /// How moves are simulated, for a time after their end [s].
-    fn simulated(&self, seconds: f64) -> cdpr_dynamics::simulate::Settings {
-        /// Fast, and exact to some micrometres for cables that stay taut: two discretizations are compared.
-        const DISCRETIZATION: Discretization = Discretization { elements: 2, degree: 5 };
-        cdpr_dynamics::simulate::Settings {
-            rate: self.rate,
-            damping: self.damping,
-            discretization: Some(DISCRETIZATION),
-            tolerance: 1e-6,
-            ..cdpr_dynamics::simulate::Settings::until(seconds)
-        }
-    }
 }
 
 fn one_of<T: Copy>(text: &str, named: &[(&str, T)]) -> Result<T, String> {
     let names: Vec<&str> = named.iter().map(|(name, _)| *name).collect();
     let found = named.iter().find(|(name, _)| name.eq_ignore_ascii_case(text));
     found.map(|(_, value)| *value).ok_or_else(|| format!("expected {}", names.join(", ")))
-}
-
-/// Two periods of the slowest motion that swings, and no less than half a second.
-fn two_periods(of: &Move, damping: f64) -> Result<f64, ProgramError> {
-    const LEAST: f64 = 0.5;
-    let excited = of.excited(damping)?;
-    Ok(excited.iter().map(|one| 2.0 / one.frequency).fold(LEAST, f64::max))
 }
 
 /// Plans the move, and simulates it where that is wanted.
@@ -144,14 +118,10 @@ pub(super) fn run(
     let set_points = planned.plan()?;
     let mut answer = Answer::new(&planned, &modes, &set_points);
     if let Some(seconds) = wanted.residual {
-        let seconds = match seconds {
-            Some(seconds) => seconds,
-            None => two_periods(&plain, wanted.damping)?,
-        };
-        let simulated = wanted.simulated(seconds);
+        let simulated = plain.watched(seconds, wanted.damping)?;
         let unshaped = plain.plan()?;
         let after = |points: &[SetPoint]| residual(&robot, &plain.load, points, &[], &simulated);
-        answer.residual = Some(After::new(&after(&set_points)?, &after(&unshaped)?, seconds));
+        answer.residual = Some(After::new(&after(&set_points)?, &after(&unshaped)?, simulated.until));
         if let (Some(model), Some(seed)) = (&model, wanted.seed) {
             let count = wanted.robots.unwrap_or(ROBOTS);
             let drawn = DrawnRobots { nominal: &robot, model, count, seed };

@@ -1,5 +1,6 @@
 //! What is printed of a move.
 
+use crate::program::answer::OutOfLimits;
 use crate::program::arguments::Printing;
 use crate::program::error::ProgramError;
 use crate::program::output::{Ending, print_sentence};
@@ -22,6 +23,9 @@ pub(super) struct Answer {
     greatest_exit_tension_n: f64,
     /// Greatest difference of a length to that at rest.
     feed_forward_m: f64,
+    /// Tensions that leave their limits at a time.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    out_of_limits: Vec<OutOfLimits>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) residual: Option<After>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -192,6 +196,11 @@ impl Answer {
         let of_cables = [("length", "m"), ("feed_forward", "m"), ("tension", "n"), ("exit_tension", "n")];
         let of_cables = of_cables.into_iter().flat_map(|(name, unit)| numbered(name, unit, cables));
         let all = |of: fn(&SetPoint) -> &Vec<f64>| set_points.iter().flat_map(of).copied();
+        let ends = |point: &SetPoint| {
+            let both = point.tensions.iter().zip(&point.exit_tensions);
+            both.map(|(anchor, exit)| [*anchor, *exit]).collect()
+        };
+        let ends: Vec<Vec<[f64; 2]>> = set_points.iter().map(ends).collect();
         let shaped = |mode: &Excited| Shaped {
             frequency_hz: mode.frequency,
             damping_ratio: mode.damping_ratio,
@@ -205,6 +214,7 @@ impl Answer {
             least_tension_n: all(|point| &point.tensions).fold(f64::INFINITY, f64::min),
             greatest_exit_tension_n: all(|point| &point.exit_tensions).fold(0.0, f64::max),
             feed_forward_m: all(|point| &point.feed_forward).fold(0.0, |most: f64, one| most.max(one.abs())),
+            out_of_limits: OutOfLimits::of_tensions(planned.robot, &ends),
             residual: None,
             robots: None,
             columns: own.into_iter().chain(of_cables).collect(),
@@ -213,7 +223,8 @@ impl Answer {
 
     pub(super) fn ending(&self) -> Ending {
         let failed = self.robots.as_ref().is_some_and(|robots| robots.failed > 0);
-        if failed { Ending::SomethingWrong } else { Ending::Well }
+        let ending = if failed { Ending::SomethingWrong } else { Ending::Well };
+        ending.and(OutOfLimits::ending(&self.out_of_limits))
     }
 
     pub(super) fn show(
@@ -242,15 +253,16 @@ impl Answer {
             ));
         }
         let of = if self.feed_forward_m == 0.0 {
-            "those at rest: the motion is not in them without feed-forward".to_owned()
+            "lengths of a platform at rest".to_owned()
         } else {
-            format!("with the motion; feed-forward up to {} mm", mm(self.feed_forward_m))
+            format!("feed-forward up to {} mm", mm(self.feed_forward_m))
         };
         print_lines(&format!(
-            "Tensions {} N at the platform to {} N at the exits, {of}.",
+            "In motion tensions are {} N at the platform to {} N at the exits; {of}.",
             significant(self.least_tension_n, 3),
             significant(self.greatest_exit_tension_n, 4)
         ));
+        OutOfLimits::print(&self.out_of_limits);
     }
 }
 
