@@ -17,6 +17,8 @@
 //! amplitude and phase. The cables are the polynomials of (N3), of which only the ends are kept at every
 //! frequency.
 
+pub(crate) mod band;
+
 use crate::cable::Parts;
 use crate::element::{Beginning, Matrices, assemble};
 use crate::error::{DynamicsError, positive};

@@ -1479,6 +1479,10 @@ class Robot:
         payload: float,
         uncertainty: Mapping[str, float] | None = None,
         free: Sequence[str] | None = None,
+        band: tuple[float, float] | None = None,
+        damping: float = 2e-4,
+        drag: float = 0.0,
+        marker: ArrayLike | None = None,
     ) -> Workspace:
         """Finds where the cables hold the platform under a payload, and how far it gives there.
 
@@ -1499,6 +1503,13 @@ class Robot:
         free : sequence of str, optional
             Names of the coordinates of the pose that are found, for a robot with fewer cables than free
             motions, as `Robot.inverse` takes them.
+        band : (float, float), optional
+            The lowest and the highest frequency of what shakes the platform [Hz], for the largest amplitudes.
+            An inertia that the robot lacks is assumed: that of a ball as large as the platform.
+        damping, drag : float
+            What damps the cables, as in `Robot.response` [s, 1/s].
+        marker : array_like, optional
+            Point of the platform that is shaken and that moves, in its frame [m]; P if left out.
 
         Returns
         -------
@@ -1518,6 +1529,9 @@ class Robot:
         >>> found = robot.workspace(plane=("z", 2), grid=(4, 3), payload=50)
         >>> found.shape, found.magnitude.shape  # [m]
         ((4, 3, 1), (12,))
+        >>> shaken = robot.workspace(plane=("z", 2), grid=(3, 3), payload=0, band=(0, 4), drag=0.5)
+        >>> bool(shaken.amplitude[4] > 0)  # in the middle [m/N]
+        True
         """
 
 @final
@@ -2910,6 +2924,23 @@ class Workspace:
     @property
     def recomputed_greatest_tension(self) -> _Floats:
         """Greatest tension, recomputed [N], (m,)."""
+    @property
+    def amplitude(self) -> _Floats:
+        """Largest amplitude of the point in the band by a force there, of the worst direction [m/N], (m,);
+        NaN without `band`.
+        """
+    @property
+    def amplitude_frequency(self) -> _Floats:
+        """Its frequency [Hz], (m,)."""
+    @property
+    def winch_amplitude(self) -> _Floats:
+        """Largest amplitude of the point in the band by a winch, for the length that it takes in [m/m], (m,)."""
+    @property
+    def winch_frequency(self) -> _Floats:
+        """Its frequency [Hz], (m,)."""
+    @property
+    def amplitude_reasons(self) -> list[str | None]:
+        """Why a position that is held has no amplitude, or None; m of them."""
 
 def pose(
     position: ArrayLike, rotation: ArrayLike | Any | None = None, *, rpy_deg: ArrayLike | None = None
