@@ -117,7 +117,9 @@ impl FrequencyResponse {
             if step <= 0.0 || amplitude <= 0.0 {
                 break;
             }
-            let at = |frequency: f64| Ok(Peak { frequency, amplitude: size(&self.at(frequency)?) });
+            let at = |frequency: f64| -> Result<Peak, DynamicsError> {
+                Ok(Peak { frequency, amplitude: size(&self.at(frequency)?) })
+            };
             let beside = [at(frequency - step)?, at(frequency + step)?];
             // Of 1/a², in units of that in the middle.
             let [left, right] = beside.map(|peak| (amplitude / peak.amplitude).powi(2) - 1.0);
