@@ -12,12 +12,12 @@ type Case = (&'static str, [f64; 3], f64, f64, &'static [Coordinate]);
 const CASES: [Case; 6] = [
     (include_str!("../../../data/robots/caroca.json"), [0.2, 0.1, 1.75], 0.3, 15.0, &[]),
     (include_str!("../../../data/robots/cogiro.json"), [0.0, 0.0, 2.0], 0.5, 6.0, &[]),
-    (include_str!("../../../data/robots/fast.json"), [0.0, 0.0, 140.0], 20.0, 0.5, &[]),
+    (include_str!("../../../data/robots/fast.json"), [5.0, -2.0, 140.0], 1.0, 0.5, &[]),
     (include_str!("../../../data/robots/ipanema-1.json"), [0.2, 0.1, 1.0], 0.2, 15.0, &[]),
     (
         include_str!("../../../data/robots/four-cables.json"),
-        [0.4, 0.3, 2.0],
-        0.1,
+        [0.4, 0.35, 1.8],
+        0.05,
         10.0,
         &[Coordinate::Roll, Coordinate::Pitch],
     ),

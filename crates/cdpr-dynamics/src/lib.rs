@@ -39,6 +39,7 @@ mod response;
 pub mod simulate;
 
 pub use derivatives::FrequencyDerivatives;
+pub use derivatives::amplitude::{AmplitudeAt, AmplitudeDerivatives};
 pub use error::DynamicsError;
 pub use modes::swing::Swing;
 pub use modes::{Mode, Modes, Wanted, modes_at};

@@ -1,8 +1,8 @@
 //! The largest amplitudes of a platform in a band of frequencies.
 //!
-//! Without damping `w·H w` grows with the frequency between two natural ones, whatever the wrench w: its size is
-//! largest at an end of such an interval. Little damping moves the peaks a little and limits them. Next to a peak
-//! 1/a² is nearly a parabola of the frequency, whose lowest point is approached from the natural frequency.
+//! Without damping `w·H w` grows with the frequency between two natural ones, whatever the wrench w: its size
+//! is largest at an end of such an interval. Little damping moves the peaks a little and limits them. Next to a
+//! peak 1/a² is nearly a parabola of the frequency, whose lowest point is approached from the natural frequency.
 
 use crate::error::{DynamicsError, positive};
 use crate::modes::{Modes, Wanted};
@@ -52,12 +52,12 @@ impl Response {
 }
 
 impl LargestInBand {
-    /// Those between two frequencies [Hz], at the equilibrium, of the point `marker` in the frame of the platform
-    /// [m].
+    /// Those between two frequencies [Hz], at the equilibrium, of the point `marker` in the frame of the
+    /// platform [m].
     ///
     /// # Errors
     /// As [`FrequencyResponse::new`] and [`Modes::new`]; [`DynamicsError::Invalid`] for a band whose ends are
-    /// not ascending; [`DynamicsError::Resonance`] where nothing damps and a natural frequency is in the band.
+    /// not ascending; [`DynamicsError::Resonance`] where nothing damps and a natural frequency is in it.
     pub fn new(
         problem: &DirectProblem,
         equilibrium: &Equilibrium,
@@ -91,8 +91,8 @@ impl LargestInBand {
 }
 
 impl FrequencyResponse {
-    /// The largest of amplitudes at the ends of a band and at the natural frequencies between, once those that
-    /// come near the largest one are climbed.
+    /// The largest of amplitudes at the ends of a band and at the natural frequencies between, once those
+    /// that come near the largest one are climbed.
     fn largest(&self, places: &[Peak], size: &dyn Fn(&Response) -> f64) -> Result<Peak, DynamicsError> {
         let higher = |one: Peak, other: Peak| if other.amplitude > one.amplitude { other } else { one };
         let mut best = places.iter().copied().fold(places[0], higher);

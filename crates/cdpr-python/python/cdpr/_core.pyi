@@ -1013,6 +1013,10 @@ class Robot:
         force: _Row | None = None,
         moment: _Row | None = None,
         free: Sequence[str] | None = None,
+        shaken: float | None = None,
+        damping: float = 2e-4,
+        drag: float = 0.0,
+        marker: ArrayLike | None = None,
     ) -> Derivatives[float, bool, int, str, None]:
         """Computes the exact derivatives of lengths, tensions and deflection under a load.
 
@@ -1029,6 +1033,12 @@ class Robot:
         free : sequence of str, optional
             Names of the coordinates of the pose that are found, for a robot with fewer cables than free
             motions, as `Robot.inverse` takes them.
+        shaken : float, optional
+            Frequency of a force that shakes the platform [Hz], for the derivatives of its amplitude.
+        damping, drag : float
+            What damps the cables, as in `Robot.response` [s, 1/s].
+        marker : array_like, optional
+            Point of the platform that is shaken and that moves, in its frame [m]; P if left out.
 
         Returns
         -------
@@ -1050,6 +1060,9 @@ class Robot:
         >>> slopes = robot.derivatives([0, 0, 2], payload=50)
         >>> slopes.inputs[0], len(slopes.magnitude) == len(slopes.inputs)
         ('mass', True)
+        >>> shaken = robot.derivatives([0, 0, 2], payload=50, shaken=3, drag=0.5).amplitude  # [m/N per unit]
+        >>> shaken.shape == slopes.magnitude.shape
+        True
         """
     @overload
     def derivatives(
@@ -1060,6 +1073,10 @@ class Robot:
         force: ArrayLike | None = None,
         moment: ArrayLike | None = None,
         free: Sequence[str] | None = None,
+        shaken: float | None = None,
+        damping: float = 2e-4,
+        drag: float = 0.0,
+        marker: ArrayLike | None = None,
     ) -> Derivatives[_Floats, _Bools, _Ints, _Words, _Words]: ...
     @overload
     def observe(  # type: ignore[overload-overlap]
@@ -2766,6 +2783,12 @@ class Derivatives(Generic[_N, _B, _I, _W, _R]):
         motions have it, and without inertia of the platform.
         """
     @property
+    def amplitude(self) -> _Floats:
+        """Derivatives of the amplitude at the frequency `shaken` with the load, in the worst direction
+        [m/N per unit], (k,). NaN without `shaken`, where two directions are shaken alike, and without inertia
+        of the platform.
+        """
+    @property
     def magnitude_right(self) -> _Floats:
         """Right derivatives of |dp| [m per unit], (k,)."""
     @property
@@ -2786,6 +2809,9 @@ class Derivatives(Generic[_N, _B, _I, _W, _R]):
     @property
     def frequency_right(self) -> _Floats:
         """Right derivatives of the frequency of the platform [Hz per unit], (k,)."""
+    @property
+    def amplitude_right(self) -> _Floats:
+        """Right derivatives of the amplitude [m/N per unit], (k,)."""
     @property
     def deflection(self) -> Deflection[_N, _B, _I, _W, _R]:
         """The deflection itself."""
@@ -2934,7 +2960,7 @@ class Workspace:
         """Its frequency [Hz], (m,)."""
     @property
     def winch_amplitude(self) -> _Floats:
-        """Largest amplitude of the point in the band by a winch, for the length that it takes in [m/m], (m,)."""
+        """Largest amplitude of the point in the band by a winch, per length that it takes in [m/m], (m,)."""
     @property
     def winch_frequency(self) -> _Floats:
         """Its frequency [Hz], (m,)."""

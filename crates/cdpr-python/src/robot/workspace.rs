@@ -65,7 +65,7 @@ answer! {
         amplitude: Py<PyAny>,
         /// Its frequency [Hz], (m,).
         amplitude_frequency: Py<PyAny>,
-        /// Largest amplitude of the point in the band by a winch, for the length that it takes in [m/m], (m,).
+        /// Largest amplitude of the point in the band by a winch, per length that it takes in [m/m], (m,).
         winch_amplitude: Py<PyAny>,
         /// Its frequency [Hz], (m,).
         winch_frequency: Py<PyAny>,

@@ -138,7 +138,7 @@ impl ColorMap {
         Ok(Self { cells, values, least, greatest, color_axis })
     }
 
-    /// The same with colours by the logarithm, if the values are positive and range over a power of ten or more.
+    /// The same with colours by the logarithm, if the values are positive and range over a power of ten.
     pub(crate) fn by_decades(mut self) -> Self {
         if !(self.least > 0.0 && self.greatest >= 10.0 * self.least) {
             return self;
