@@ -35,6 +35,9 @@ const RIVAL: f64 = 0.3;
 /// Distances, relative to the frequency, at which parabolas are drawn, one after the other.
 const STEPS: [f64; 4] = [1e-3, 1e-4, 1e-5, 1e-6];
 
+/// A peak is climbed until the parabola of one that is broader than the distance promises less, relative to 1/a².
+const GAIN: f64 = 1e-9;
+
 impl Response {
     /// Largest amplitude of a point by a force there of any direction [m/N]; `lever` from P in the base frame
     /// [m].
@@ -123,6 +126,10 @@ impl FrequencyResponse {
             let beside = [at(frequency - step)?, at(frequency + step)?];
             // Of 1/a², in units of that in the middle.
             let [left, right] = beside.map(|peak| (amplitude / peak.amplitude).powi(2) - 1.0);
+            let gain = 0.125 * (left - right).powi(2) / (left + right);
+            if left.min(right) > 0.0 && left.max(right) < 1.0 && gain < GAIN {
+                break;
+            }
             let vertex = 0.5 * step * (left - right) / (left + right);
             let vertex = (left + right > 0.0).then(|| (frequency + vertex).clamp(low, high));
             let vertex = vertex.filter(|vertex| vertex.is_finite()).map(at).transpose()?;

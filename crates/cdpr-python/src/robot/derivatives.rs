@@ -117,7 +117,7 @@ impl Slopes {
 }
 
 /// The derivatives of an amplitude; `None` where it has none.
-fn shaken(
+fn amplitude_of(
     robot: &cdpr_robot::Robot,
     load: &Load,
     found: &cdpr_statics::Derivatives,
@@ -205,7 +205,7 @@ impl Robot {
             let (pose, load) = (poses.pose(case)?, loads.load(case)?);
             let found = derivatives(robot, WantedPose::at(&pose).free(&free), &load)?;
             let frequency = FrequencyDerivatives::of_deflection(robot, &load, &found).ok();
-            let amplitude = at.map_or(Ok(None), |at| shaken(robot, &load, &found, &at))?;
+            let amplitude = at.map_or(Ok(None), |at| amplitude_of(robot, &load, &found, &at))?;
             let new = |found: &_| Slopes::new(robot, &load, found, frequency.as_ref(), amplitude.as_ref());
             Ok(Sides {
                 left: new(&found)?,
