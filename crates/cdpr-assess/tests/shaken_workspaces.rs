@@ -21,7 +21,7 @@ const CASES: [Case; 6] = [
         10.0,
         &[Coordinate::Roll, Coordinate::Pitch],
     ),
-    (include_str!("../../../data/robots/expo2015-roberto.json"), [0.0, 0.0, 8.0], 0.5, 3.0, &[]),
+    (include_str!("../../../data/robots/expo2015-roberto.json"), [0.4, 0.0, 3.5], 0.1, 5.0, &[]),
 ];
 
 fn axis(middle: f64, half: f64, points: usize) -> GridAxis {
