@@ -14,10 +14,10 @@ use crate::boundary::{Boundary, boundary};
 use crate::capacity::capacity_of;
 use crate::clearance::clearance_at;
 use crate::tilt::tilt_at;
-use crate::workspace::question::{TiltDirections, Way, Workspace, check};
+use crate::workspace::question::{Shaking, TiltDirections, Way, Workspace, check};
 use crate::workspace::results::{Dominant, Held, Recomputed, WorkspacePose};
-use cdpr_dynamics::Swing;
-use cdpr_robot::{Axis, Pose, Vector3};
+use cdpr_dynamics::{LargestInBand, Swing};
+use cdpr_robot::{Axis, Platform, Pose, Robot, Vector3};
 use cdpr_statics::batch::{LoadedPose, PoseSlopes, loaded_poses};
 use cdpr_statics::{
     Deflection, DirectProblem, DirectStart, InverseSolution, Load, StaticsError, Unstable, WantedPose,
@@ -25,6 +25,7 @@ use cdpr_statics::{
 };
 use cdpr_study::{Grid, StudyError};
 use rayon::prelude::*;
+use std::borrow::Cow;
 
 /// Positions that are computed together are a multiple of this: the poses of a block of [`inverse`].
 const BLOCK: usize = 64;
@@ -76,8 +77,10 @@ pub fn compute_workspace(
             let tilt = further.tilt.map(|TiltDirections { count, accuracy }| {
                 Box::new(tilt_at(robot, pose, &load, count, accuracy))
             });
+            let shaken = further.shaking.filter(|_| outcome.is_ok());
+            let shaken = shaken.map(|shaking| Box::new(shaken_at(workspace, pose, &shaking)));
             tick();
-            Ok(WorkspacePose { pose: *pose, outcome, recomputed, capacity, clearance, tilt })
+            Ok(WorkspacePose { pose: *pose, outcome, recomputed, capacity, clearance, tilt, shaken })
         };
         poses.par_iter().enumerate().zip(outcomes(workspace, poses)).map(one).collect()
     };
@@ -131,6 +134,22 @@ fn outcomes(workspace: &Workspace, poses: &[Pose]) -> Vec<Result<Held, StaticsEr
 fn swing(workspace: &Workspace, Deflection { lengths, loaded, .. }: &Deflection) -> Option<Swing> {
     let problem = DirectProblem::new(workspace.robot, lengths, &workspace.load).ok()?;
     Swing::new(&problem, &loaded.equilibrium).ok()
+}
+
+/// The largest amplitudes of a platform that is shaken with the load, the lengths kept. An inertia that is
+/// missing is assumed.
+fn shaken_at(workspace: &Workspace, pose: &Pose, shaking: &Shaking) -> Result<LargestInBand, StaticsError> {
+    let Workspace { robot, ref load, free, .. } = *workspace;
+    let robot = if robot.lacks_inertia() {
+        let platform = Platform { inertia: Some(robot.assumed_inertia()), ..robot.platform };
+        Cow::Owned(Robot { platform, ..robot.clone() })
+    } else {
+        Cow::Borrowed(robot)
+    };
+    let Deflection { lengths, loaded, .. } = deflection(&robot, WantedPose::at(pose).free(free), load)?;
+    let problem = DirectProblem::new(&robot, &lengths, load)?;
+    let Shaking { band, damping, marker } = shaking;
+    Ok(LargestInBand::new(&problem, &loaded.equilibrium, *band, *damping, marker)?)
 }
 
 /// The results with the lengths kept from answers of the inverse model.

@@ -37,6 +37,8 @@ pub fn begin_workspace(folder: &Path, if_exists: IfExists) -> Result<ResultsFold
             "nearest_cables",
             "nearest_to_platform",
             "tilt",
+            "amplitude",
+            "winch_amplitude",
         ];
         let name = name.strip_suffix(".svg");
         name.is_some_and(|name| maps.contains(&name.split_once("_z").map_or(name, |(map, _)| map)))

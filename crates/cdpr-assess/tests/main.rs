@@ -10,6 +10,7 @@ mod maps;
 mod refused_workspaces;
 mod robustness;
 mod safety;
+mod shaken_workspaces;
 mod tolerance;
 mod vibration;
 mod workspace;

@@ -253,7 +253,7 @@ fn further_columns_are_what_is_said_of_each_pose() {
         load,
         tolerances: None,
         free: &[],
-        further: Further { capacity: Some(&set), distances: true, tilt: Some(tilt) },
+        further: Further { capacity: Some(&set), distances: true, tilt: Some(tilt), shaking: None },
     };
     let poses = compute_workspace(&workspace, &|| (), &|| false).unwrap();
     let summary = WorkspaceSummary::new(&workspace, &poses);
@@ -369,7 +369,7 @@ fn a_payload_that_is_missing_at_a_position_that_is_held_has_its_reason() {
         load: Load::none(),
         tolerances: None,
         free: &[],
-        further: Further { capacity: Some(&set), distances: false, tilt: None },
+        further: Further { capacity: Some(&set), ..Further::default() },
     };
     let poses = compute_workspace(&workspace, &|| (), &|| false).unwrap();
     for row in &WorkspaceSummary::new(&workspace, &poses).rows {

@@ -11,15 +11,19 @@
 //! and payload. Pose and forces of the equilibrium change with every input. The motion comes from inverse
 //! iteration on (N6) with all motions of the cables, which are eliminated.
 
+pub(crate) mod amplitude;
+mod changes;
+
 use crate::cable::Parts;
-use crate::energy::{CableEnergy, Change};
+use crate::derivatives::changes::{Changes, Moved};
+use crate::energy::{CableEnergy, Vibrating, real};
 use crate::error::DynamicsError;
 use crate::modes::{Modes, Wanted};
 use crate::motion::{Motion, end, none};
-use cdpr_robot::{CableEnd, Parameter, Robot};
-use cdpr_statics::derivatives::{ForceDerivatives, Inputs};
+use cdpr_robot::Robot;
+use cdpr_statics::derivatives::Inputs;
 use cdpr_statics::vibration::{CableAtRest, SmallMotions};
-use cdpr_statics::{DMatrix, Deflection, Derivatives, DirectProblem, Equilibrium, Load, Vector3, Vector6};
+use cdpr_statics::{DMatrix, Deflection, Derivatives, DirectProblem, Load, Vector6};
 use std::f64::consts::TAU;
 
 /// Natural frequencies nearer to each other than this, relative to them, are one: neither has a derivative.
@@ -60,7 +64,7 @@ impl FrequencyDerivatives {
         let mode = &modes.modes[number];
         let equilibrium = &modes.equilibrium;
         let at_rest = problem.small_motions(equilibrium)?;
-        check(problem, &at_rest)?;
+        lacking(problem, &at_rest).map_or(Ok(()), |reason| Err(none(reason)))?;
         let parts = at_rest.cables.iter().enumerate().map(|(i, cable)| {
             // A cable without mass and force resists nothing.
             let is_shapeless = cable.linear_density == 0.0 && cable.catenary.is_slack_and_weightless();
@@ -69,16 +73,27 @@ impl FrequencyDerivatives {
         let parts = parts.collect::<Result<Vec<_>, _>>()?;
         let start = Vector6::from_iterator(mode.translation.iter().chain(&mode.rotation).copied());
         let motion = Motion::near(&at_rest, &parts, mode.frequency, start)?;
-        let changes = Changes::new(problem, equilibrium, &at_rest, &parts, &motion)?;
+        let gravity = problem.robot().gravity.vector();
+        let energy = |(number, cable): (usize, &CableAtRest)| {
+            let vibrating = natural((number, cable, parts[number].as_ref()?), &motion);
+            Some(CableEnergy::new(&vibrating, &gravity))
+        };
+        let moved = Moved {
+            square: motion.square,
+            v: motion.v.map(real),
+            forces: motion.forces.iter().map(|force| force.map(real)).collect(),
+            energies: at_rest.cables.iter().enumerate().map(energy).collect(),
+        };
+        let changes = Changes::new(problem, equilibrium, moved)?;
         let frequency = motion.square.sqrt() / TAU;
         let per_square = 1.0 / (2.0 * TAU * TAU * frequency);
-        let slopes = changes.all(&at_rest, &motion).into_iter().map(|slope| per_square * slope);
+        let slopes = changes.all(&at_rest).into_iter().map(|slope| per_square * slope.re);
         let mut per_input: Vec<f64> = slopes.collect();
         let per_length = per_input.split_off(changes.inputs.count());
         if per_input.iter().chain(&per_length).any(|slope| !slope.is_finite()) {
             return Err(none("a cable hangs folded in a plane without width"));
         }
-        let per_inertia = -per_square * motion.square * changes.spin(&motion);
+        let per_inertia = -per_square * motion.square * changes.spin().re;
         let platform_share = (motion.v.transpose() * at_rest.mass * motion.v)[0];
         let inputs = changes.inputs;
         Ok(Self { frequency, platform_share, gap, inputs, per_input, per_length, per_inertia })
@@ -125,11 +140,38 @@ impl FrequencyDerivatives {
     /// # Panics
     /// Never for derivatives of lengths of the same robot.
     pub fn with_lengths(&self, lengths: &DMatrix<f64>) -> Vec<f64> {
-        let of = |(j, slope): (usize, &f64)| {
-            let following = self.per_length.iter().enumerate().map(|(i, per)| per * lengths[(i, j)]);
-            slope + following.sum::<f64>()
-        };
-        self.per_input.iter().enumerate().take(lengths.ncols()).map(of).collect()
+        with_lengths(&self.per_input, &self.per_length, lengths)
+    }
+}
+
+/// Derivatives by inputs that the lengths follow.
+fn with_lengths(per_input: &[f64], per_length: &[f64], lengths: &DMatrix<f64>) -> Vec<f64> {
+    let of = |(j, slope): (usize, &f64)| {
+        let following = per_length.iter().enumerate().map(|(i, per)| per * lengths[(i, j)]);
+        slope + following.sum::<f64>()
+    };
+    per_input.iter().enumerate().take(lengths.ncols()).map(of).collect()
+}
+
+/// How a cable vibrates in a natural motion.
+fn natural<'a>(
+    (number, at_rest, parts): (usize, &'a CableAtRest<'a>, &'a Parts),
+    motion: &Motion,
+) -> Vibrating<'a> {
+    let end = at_rest.axes.tr_mul(&end(at_rest, &motion.v));
+    let amplitudes = &motion.amplitudes[number];
+    let (in_plane, across) = amplitudes.split_at(parts.in_plane.condensed.modes.len());
+    let in_plane = parts.in_plane.condensed.unknowns([end.x, end.z], in_plane);
+    let across = parts.across.condensed.unknowns([end.y], across);
+    let complex = |unknowns: Vec<f64>| unknowns.into_iter().map(real).collect();
+    Vibrating {
+        number,
+        at_rest,
+        elements: &parts.elements,
+        in_plane: (&parts.in_plane.beginning, complex(in_plane)),
+        across: (&parts.across.beginning, complex(across)),
+        square: real(motion.square),
+        viscous: real(0.0),
     }
 }
 
@@ -151,8 +193,8 @@ fn gap(modes: &Modes, number: usize) -> Result<f64, DynamicsError> {
     if gap <= SAME { Err(none("two motions have it")) } else { Ok(gap) }
 }
 
-/// Refuses pulleys whose cables have no derivatives.
-fn check(problem: &DirectProblem, at_rest: &SmallMotions) -> Result<(), DynamicsError> {
+/// Why the pulleys of a robot leave no derivatives.
+fn lacking(problem: &DirectProblem, at_rest: &SmallMotions) -> Option<&'static str> {
     let gravity = problem.robot().gravity.magnitude();
     for cable in &at_rest.cables {
         let of = &cable.catenary.cable;
@@ -160,152 +202,11 @@ fn check(problem: &DirectProblem, at_rest: &SmallMotions) -> Result<(), Dynamics
             continue;
         }
         if of.leaves_its_plane() {
-            return Err(none("the axis of a pulley is tilted"));
+            return Some("the axis of a pulley is tilted");
         }
         if cable.linear_density * gravity == 0.0 {
-            return Err(none("a cable over a pulley has no weight"));
+            return Some("a cable over a pulley has no weight");
         }
     }
-    Ok(())
-}
-
-/// What changes with the inputs: parameters, payload, pose and, after these, the lengths.
-struct Changes<'a> {
-    problem: &'a DirectProblem<'a>,
-    equilibrium: &'a Equilibrium,
-    inputs: Inputs,
-    /// Of the forces at the anchor points and at the exits, and of K3 z where a cable is on a pulley.
-    anchors: ForceDerivatives,
-    exits: ForceDerivatives,
-    resistances: Option<ForceDerivatives>,
-    energies: Vec<Option<CableEnergy>>,
-}
-
-impl<'a> Changes<'a> {
-    fn new(
-        problem: &'a DirectProblem<'a>,
-        equilibrium: &'a Equilibrium,
-        at_rest: &SmallMotions,
-        parts: &[Option<Parts>],
-        motion: &Motion,
-    ) -> Result<Self, DynamicsError> {
-        let gravity = problem.robot().gravity.vector();
-        let energy = |(i, cable): (usize, &CableAtRest)| {
-            let parts = parts[i].as_ref()?;
-            let end = end(cable, &motion.v);
-            Some(CableEnergy::new((i, cable, parts), &end, &motion.amplitudes[i], motion.square, &gravity))
-        };
-        let energies: Vec<_> = at_rest.cables.iter().enumerate().map(energy).collect();
-        let z: Vec<_> =
-            energies.iter().map(|of| of.as_ref().map_or_else(Vector3::zeros, |energy| energy.z)).collect();
-        let on_pulleys = z.iter().any(|z| *z != Vector3::zeros());
-        let resistances = on_pulleys.then(|| problem.resistance_derivatives(equilibrium, &z)).transpose()?;
-        Ok(Self {
-            problem,
-            equilibrium,
-            inputs: Inputs { parameters: Parameter::of(problem.robot()) },
-            anchors: problem.force_derivatives(equilibrium, CableEnd::Anchor)?,
-            exits: problem.force_derivatives(equilibrium, CableEnd::Exit)?,
-            resistances,
-            energies,
-        })
-    }
-
-    /// v_r·R J_c Rᵀ v_r [kg m²/(kg m²)].
-    fn spin(&self, motion: &Motion) -> f64 {
-        let inertia = self.problem.robot().platform.inertia;
-        let turn = self.equilibrium.pose.rotation.inverse() * motion.turn();
-        inertia.map_or(0.0, |inertia| turn.dot(&(inertia * turn)))
-    }
-
-    /// d(ω²) by every input and length, (N11).
-    fn all(&self, at_rest: &SmallMotions, motion: &Motion) -> Vec<f64> {
-        let columns = self.inputs.count() + at_rest.cables.len();
-        (0..columns)
-            .map(|column| {
-                let parameter = self.inputs.parameters.get(column);
-                let turned: Vector3<f64> = self.anchors.pose.fixed_view::<3, 1>(3, column).into();
-                let of_cables = (0..at_rest.cables.len())
-                    .map(|i| self.of_cable((i, &at_rest.cables[i]), motion, column, &turned));
-                of_cables.sum::<f64>() + self.of_platform(parameter, motion, column, &turned)
-            })
-            .collect()
-    }
-
-    fn of_cable(
-        &self,
-        (i, cable): (usize, &CableAtRest),
-        motion: &Motion,
-        column: usize,
-        turned: &Vector3<f64>,
-    ) -> f64 {
-        let Some(energy) = &self.energies[i] else { return 0.0 };
-        let robot = self.problem.robot();
-        let of = |all: &ForceDerivatives| -> Vector3<f64> {
-            all.per_input.fixed_view::<3, 1>(3 * i, column).into()
-        };
-        let force = of(&self.anchors);
-        let mut change = Change {
-            // On the platform the cable pulls with -n, on what leads it with n.
-            anchor: -force,
-            exit: of(&self.exits),
-            // The derivatives are those of -K3 z.
-            resistance: self.resistances.as_ref().map_or_else(Vector3::zeros, |all| -of(all)),
-            ..Change::default()
-        };
-        let mut arm = turned.cross(&cable.lever);
-        match self.inputs.parameters.get(column) {
-            Some(Parameter::LinearDensity) => change.density = 1.0,
-            Some(Parameter::YoungsModulus) => {
-                change.modulus = robot.cables[i].properties.youngs_modulus.recip();
-            }
-            Some(Parameter::AnchorPoint(of, axis)) if *of == i => {
-                arm += self.equilibrium.pose.rotation.matrix().column(axis.index());
-            }
-            Some(Parameter::Lead(of)) if *of == i => change.lead = 1.0,
-            Some(Parameter::Gravity(axis)) => change.gravity[axis.index()] = 1.0,
-            _ => {}
-        }
-        if column == self.inputs.count() + i {
-            change.length = 1.0;
-        }
-        let turn = motion.turn();
-        let twice = |v: &Vector3<f64>| turn.cross(&turn.cross(v));
-        energy.change(&change) + 2.0 * motion.forces[i].dot(&turn.cross(&arm))
-            - force.dot(&twice(&cable.lever))
-            - self.anchors.forces[i].dot(&twice(&arm))
-    }
-
-    /// Of the weight and of the mass of platform and payload.
-    fn of_platform(
-        &self,
-        parameter: Option<&Parameter>,
-        motion: &Motion,
-        column: usize,
-        turned: &Vector3<f64>,
-    ) -> f64 {
-        let robot = self.problem.robot();
-        let (pose, gravity) = (&self.equilibrium.pose, robot.gravity.vector());
-        let mass = robot.platform.mass + self.problem.load().payload;
-        let center = pose.rotation * robot.platform.center_of_mass;
-        let (mut heavier, mut moved, mut pull) = (0.0, turned.cross(&center), Vector3::zeros());
-        match parameter {
-            Some(Parameter::Mass) => heavier = 1.0,
-            Some(Parameter::CenterOfMass(axis)) => moved += pose.rotation.matrix().column(axis.index()),
-            Some(Parameter::Gravity(axis)) => pull[axis.index()] = mass,
-            _ if column == self.inputs.payload() => heavier = 1.0,
-            _ => {}
-        }
-        let turn = motion.turn();
-        let twice = |v: &Vector3<f64>| turn.cross(&turn.cross(v));
-        let of_weight = -(pull + heavier * gravity).dot(&twice(&center)) - mass * gravity.dot(&twice(&moved));
-        let velocity: Vector3<f64> = motion.v.fixed_rows::<3>(0) + turn.cross(&center);
-        let inertia = robot.platform.inertia.map_or_else(Vector3::zeros, |inertia| {
-            pose.rotation * (inertia * (pose.rotation.inverse() * turn))
-        });
-        let of_mass = heavier * velocity.norm_squared()
-            + 2.0 * mass * velocity.dot(&turn.cross(&moved))
-            + 2.0 * turned.dot(&inertia.cross(&turn));
-        of_weight - motion.square * of_mass
-    }
+    None
 }

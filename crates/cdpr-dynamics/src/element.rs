@@ -29,12 +29,14 @@ pub(crate) struct Element {
 
 /// Where the cable begins: motions of that point, each along a direction, with matrices whose first rows are
 /// theirs; further rows are those of unknowns beyond the point. Without directions it is fixed.
+#[derive(Clone, Debug)]
 pub(crate) struct Beginning<const D: usize> {
     pub(crate) directions: Vec<[f64; D]>,
     pub(crate) matrices: Matrices,
 }
 
 /// Stiffness [N/m] and mass [kg] of the unknowns.
+#[derive(Clone, Debug)]
 pub(crate) struct Matrices {
     pub(crate) stiffness: DMatrix<f64>,
     pub(crate) mass: DMatrix<f64>,

@@ -19,8 +19,8 @@
 //!
 //! The cables are those of `cdpr-cable`: sag, elasticity, laws, leads and pulleys. Cable on a pulley and
 //! behind it has no mass here. In natural motions nothing is damped and winches hold; [`FrequencyResponse`] has
-//! damping and winches that move, [`FrequencyDerivatives`] how the frequencies change. [`simulate`] follows large
-//! motions over time.
+//! damping and winches that move, [`LargestInBand`] its largest amplitudes, [`FrequencyDerivatives`] how the
+//! frequencies change. [`simulate`] follows large motions over time.
 
 mod cable;
 mod condensed;
@@ -39,8 +39,10 @@ mod response;
 pub mod simulate;
 
 pub use derivatives::FrequencyDerivatives;
+pub use derivatives::amplitude::{AmplitudeAt, AmplitudeDerivatives};
 pub use error::DynamicsError;
 pub use modes::swing::Swing;
 pub use modes::{Mode, Modes, Wanted, modes_at};
 pub use platform::MovingPlatform;
+pub use response::band::{LargestInBand, Peak};
 pub use response::{Damping, FrequencyResponse, Response};

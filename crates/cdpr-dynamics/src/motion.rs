@@ -90,11 +90,6 @@ impl Motion {
         let forces = (0..held.len()).map(force).collect();
         Ok(Self { square, v, amplitudes, forces })
     }
-
-    /// Rotation vector of the platform.
-    pub(crate) fn turn(&self) -> Vector3<f64> {
-        self.v.fixed_rows::<3>(3).into()
-    }
 }
 
 /// Motion of the anchor point [m].

@@ -61,7 +61,7 @@ fn derivatives_by_mass_density_stiffness_and_a_length_are_those_of_the_reference
 }
 
 /// Robots, a pose each, and coordinates that are found there.
-fn robots() -> Vec<(&'static str, Robot, Pose, &'static [Coordinate])> {
+pub(crate) fn robots() -> Vec<(&'static str, Robot, Pose, &'static [Coordinate])> {
     let robot = |file: &str| {
         let mut robot = Robot::from_json(file).unwrap();
         robot.platform.inertia = Some(robot.platform.inertia.unwrap_or_else(|| robot.assumed_inertia()));

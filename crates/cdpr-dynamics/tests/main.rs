@@ -9,5 +9,6 @@ mod moves;
 mod reference;
 mod response;
 mod robots;
+mod shaken_derivatives;
 mod simulated;
 mod transients;

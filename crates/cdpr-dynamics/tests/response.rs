@@ -1,7 +1,7 @@
 //! The response of platforms that are shaken.
 
 use crate::reference::{number, numbers, pose, robot};
-use cdpr_dynamics::{Damping, DynamicsError, FrequencyResponse, Modes, Wanted};
+use cdpr_dynamics::{Damping, DynamicsError, FrequencyResponse, LargestInBand, Modes, Wanted};
 use cdpr_evidence::accept;
 use cdpr_robot::{Pose, Robot, Vector3};
 use cdpr_statics::{DirectProblem, DirectStart, Load, Matrix6, inverse};
@@ -142,4 +142,78 @@ fn the_response_is_greatest_at_natural_frequencies_and_a_point_moves_with_the_pl
     let refused = FrequencyResponse::new(&problem, &rest, 10.0, Damping { stretch: -1.0, drag: 0.0 });
     assert!(matches!(refused, Err(DynamicsError::Invalid { field: "damping", .. })));
     assert!(matches!(response.at(11.0), Err(DynamicsError::Invalid { field: "frequency", .. })));
+}
+
+#[test]
+fn the_largest_amplitude_of_an_oscillator_is_that_of_its_formula() {
+    let file: Value = serde_json::from_str(MOTION).unwrap();
+    let cases = file["cases"].as_array().unwrap();
+    let case = cases.iter().find(|case| case["name"] == "hanging cable with a point mass of 5 kg").unwrap();
+    let mut robot = robot(case);
+    robot.cables[0].properties.linear_density = 0.0;
+    let lengths = numbers(&case["unstrained_lengths"]);
+    let problem = DirectProblem::new(&robot, &lengths, &Load::none()).unwrap();
+    let rest = problem.direct(DirectStart::Pose(&pose(case))).unwrap().equilibrium;
+    let stiffness = number(&case["axial_stiffness"][0]) / lengths[0];
+    let (mass, natural) = (robot.platform.mass, (stiffness / robot.platform.mass).sqrt());
+    for share in [1e-4, 0.1, 0.3] {
+        // |k - m ω² + i k ω τ| is least where ω² = k/m - (k τ/m)²/2.
+        let tau = share / natural;
+        let square = natural * natural * (1.0 - 0.5 * share * share);
+        let least = (stiffness - mass * square).hypot(stiffness * tau * square.sqrt());
+        let damping = Damping { stretch: tau, drag: 0.0 };
+        let band = [0.8 * natural / TAU, 1.5 * natural / TAU];
+        let found = LargestInBand::new(&problem, &rest, band, damping, &Vector3::zeros()).unwrap();
+        assert!((found.per_force.amplitude * least - 1.0).abs() < 1e-6, "{share}: {found:?} {least}");
+        assert!((found.per_force.frequency * TAU / square.sqrt() - 1.0).abs() < 1e-3, "{share}: {found:?}");
+        // The winch pulls at the other end of the spring, which is stiff and damped alike.
+        let pull = stiffness * (share * square.sqrt() / natural).hypot(1.0);
+        assert!((found.per_shortening.amplitude * least / pull - 1.0).abs() < 0.3, "{share}: {found:?}");
+    }
+    let undamped = Damping::default();
+    let band = [0.8 * natural / TAU, 1.5 * natural / TAU];
+    let refused = LargestInBand::new(&problem, &rest, band, undamped, &Vector3::zeros());
+    assert!(matches!(refused, Err(DynamicsError::Resonance { .. })), "{refused:?}");
+    let below = [0.5 * natural / TAU, 0.8 * natural / TAU];
+    let found = LargestInBand::new(&problem, &rest, below, undamped, &Vector3::zeros()).unwrap();
+    assert!(found.per_force.amplitude > 0.0);
+    for band in [[2.0, 1.0], [-1.0, 1.0], [0.0, f64::NAN], [f64::NAN, 1.0]] {
+        let refused = LargestInBand::new(&problem, &rest, band, undamped, &Vector3::zeros());
+        assert!(matches!(refused, Err(DynamicsError::Invalid { .. })), "{band:?}: {refused:?}");
+    }
+}
+
+#[test]
+fn no_frequency_of_a_fine_grid_shakes_a_platform_more_than_the_largest_amplitude() {
+    for (file, [x, y, z], highest) in ROBOTS {
+        let mut robot = Robot::from_json(file).unwrap();
+        robot.platform.inertia = Some(robot.platform.inertia.unwrap_or_else(|| robot.assumed_inertia()));
+        let held = inverse(&robot, &Pose::at(x, y, z), &Load::none()).unwrap();
+        let problem = DirectProblem::new(&robot, &held.lengths, &Load::none()).unwrap();
+        let rest = problem.direct(DirectStart::Near(&held.equilibrium)).unwrap().equilibrium;
+        let (damping, marker) = (Damping { stretch: 1e-3, drag: 0.3 }, Vector3::new(0.1, -0.2, 0.3));
+        let band = [0.1 * highest, 0.5 * highest];
+        let found = LargestInBand::new(&problem, &rest, band, damping, &marker).unwrap();
+        let response = FrequencyResponse::new(&problem, &rest, band[1], damping).unwrap();
+        let lever = rest.pose.rotation * marker;
+        let at = |frequency: f64| {
+            let (forces, winches) = response.at(frequency).unwrap().at_point(&lever);
+            let winches = winches.column_iter().map(|column| column.norm()).collect::<Vec<_>>();
+            (forces.singular_values().max(), winches)
+        };
+        let (mut force, mut winch) = (0.0_f64, 0.0_f64);
+        const POINTS: usize = 500;
+        for k in 0..=POINTS {
+            let (by_force, by_winches) = at(band[0] + (band[1] - band[0]) * k as f64 / POINTS as f64);
+            force = force.max(by_force);
+            winch = by_winches.into_iter().fold(winch, f64::max);
+        }
+        let (by_force, _) = at(found.per_force.frequency);
+        let (_, by_winches) = at(found.per_shortening.frequency);
+        println!("{}: {found:?}, of the grid {force} {winch}", robot.name);
+        assert!((found.per_force.amplitude / by_force - 1.0).abs() < 1e-12);
+        assert!((found.per_shortening.amplitude / by_winches[found.winch] - 1.0).abs() < 1e-12);
+        assert!(found.per_force.amplitude >= force * (1.0 - 1e-9), "{}: {force}", robot.name);
+        assert!(found.per_shortening.amplitude >= winch * (1.0 - 1e-9), "{}: {winch}", robot.name);
+    }
 }

@@ -234,3 +234,34 @@ def test_a_move_is_an_event_and_what_it_cannot_be_is_refused(cogiro):
             cogiro.move(poses, 1.0, **wrong)
     with pytest.raises(cdpr.NoSolutionError, match="too fast"):
         cogiro.move([[-0.5, 0, 2], [0.5, 0, 2]], 0.3, feed_forward="cables")
+
+
+def test_the_largest_amplitudes_over_a_plane_are_those_of_the_program(cogiro, tmp_path):
+    settings = {"band": (1.0, 4.0), "damping": 1e-3, "drag": 0.5, "marker": [0.1, 0, -0.3]}
+    found = cogiro.workspace(x=(-1, 1, 2), y=0, z=(1.5, 2, 2), payload=20, **settings)
+    (tmp_path / "robot.json").write_text(cogiro.to_json())
+    columns = answer("workspace", tmp_path / "robot.json", "--region=-1:1:2,0,1.5:2:2", "--payload=20",
+                     "--with=amplitude=1:4,damping=1e-3,drag=0.5", "--marker=0.1,0,-0.3",
+                     "--out", tmp_path / "out")["columns"]
+    numpy.testing.assert_array_equal(1e3 * found.amplitude, columns["amplitude_mm_per_n"])
+    numpy.testing.assert_array_equal(found.amplitude_frequency, columns["amplitude_at_hz"])
+    numpy.testing.assert_array_equal(found.winch_amplitude, columns["winch_mm_per_mm"])
+    numpy.testing.assert_array_equal(found.winch_frequency, columns["winch_at_hz"])
+    assert found.amplitude_reasons == [None] * 4
+    assert numpy.isnan(cogiro.workspace(x=0, y=0, z=2, payload=0).amplitude).all()
+    with pytest.raises(cdpr.InputError, match="band is"):
+        cogiro.workspace(x=0, y=0, z=2, payload=0, band=(4, 1))
+
+
+def test_derivatives_of_an_amplitude_are_those_of_the_program(cogiro, tmp_path):
+    settings = {"shaken": 3.0, "damping": 1e-3, "drag": 0.5, "marker": [0.1, 0, -0.3]}
+    found = cogiro.derivatives([0.5, 0.2, 2], payload=20, **settings)
+    (tmp_path / "robot.json").write_text(cogiro.to_json())
+    expected = answer("derivatives", tmp_path / "robot.json", "--pose=0.5,0.2,2", "--payload=20",
+                      "--with=amplitude=3,damping=1e-3,drag=0.5", "--marker=0.1,0,-0.3")
+    theirs = expected["amplitude"]["derivatives_m_per_n"]
+    assert found.inputs[: len(theirs)] == expected["parameters"]
+    numpy.testing.assert_array_equal(found.amplitude[: len(theirs)], theirs)
+    assert numpy.isnan(cogiro.derivatives([0.5, 0.2, 2], payload=20).amplitude).all()
+    with pytest.raises(cdpr.InputError, match="frequency is"):
+        cogiro.derivatives([0.5, 0.2, 2], payload=20, shaken=-1)

@@ -1,7 +1,8 @@
 //! Maps of a plane, and workspaces that are not a plane.
 
 use cdpr_assess::{
-    Further, TiltDirections, Workspace, WorkspaceRow, WorkspaceSummary, WrenchSet, compute_workspace,
+    Further, ShakingSummary, TiltDirections, Workspace, WorkspaceRow, WorkspaceSummary, WrenchSet,
+    compute_workspace,
 };
 use cdpr_report::{MapQuantity, ReportError, heat_map, tolerance_map};
 use cdpr_robot::{Axis, Matrix3, Robot, Rotation3, Vector3};
@@ -29,6 +30,15 @@ fn summary_with(robot: &Robot, grid: Grid, further: Further) -> WorkspaceSummary
     WorkspaceSummary::new(&workspace, &compute_workspace(&workspace, &|| (), &|| false).unwrap())
 }
 
+/// What shakes a platform whose amplitudes are given.
+const SHAKING: ShakingSummary = ShakingSummary {
+    band_hz: [0.0, 8.0],
+    damping_s: 1e-3,
+    drag_per_s: 0.5,
+    marker: [0.0; 3],
+    inertia_assumed: false,
+};
+
 fn count(svg: &str, what: &str) -> usize {
     svg.matches(what).count()
 }
@@ -42,8 +52,13 @@ fn a_map_has_every_cell_the_hatching_the_frame_and_the_exit_points() {
         capacity: Some(&WrenchSet::of(Vec::new())),
         distances: true,
         tilt: Some(TiltDirections { count: 4, accuracy: 0.02 }),
+        shaking: None,
     };
-    let summary = summary_with(&robot, Grid::over_frame(&robot, Axis::Z, 1.75, [9, 7]).unwrap(), further);
+    let mut summary = summary_with(&robot, Grid::over_frame(&robot, Axis::Z, 1.75, [9, 7]).unwrap(), further);
+    summary.shaking = Some(SHAKING);
+    for row in &mut summary.rows {
+        (row.amplitude_mm_per_n, row.winch_mm_per_mm) = (row.magnitude_mm, row.magnitude_mm);
+    }
     let count_held = |of: &dyn Fn(&WorkspaceRow) -> bool| summary.rows.iter().filter(|row| of(row)).count();
     let kept = 63 - count_held(&|row| row.status == "held");
     let recomputed = 63 - count_held(&|row| row.recomputed_status == Some("held"));
@@ -64,6 +79,8 @@ fn a_map_has_every_cell_the_hatching_the_frame_and_the_exit_points() {
             MapQuantity::NearestCables => (without(|row| row.nearest_cables_mm), "nearest two cables"),
             MapQuantity::NearestToPlatform => (without(|row| row.nearest_to_platform_mm), "and platform"),
             MapQuantity::Tilt => (without(|row| row.tilt_deg), "worst direction"),
+            MapQuantity::Amplitude => (without(|row| row.amplitude_mm_per_n), "shaken from 0 Hz to 8 Hz"),
+            MapQuantity::WinchAmplitude => (without(|row| row.winch_mm_per_mm), "drag 0.5 1/s"),
             _ => (kept, "lengths kept"),
         };
         assert!(not_held < 63, "{quantity:?}");
@@ -122,4 +139,30 @@ fn a_box_and_a_plane_without_any_held_position_have_no_map() {
     let above = Grid::over_frame(&robot, Axis::Z, 9.0, [3, 3]).unwrap();
     let error = heat_map(&robot, &summary(&robot, above), MapQuantity::Deflection).unwrap_err();
     assert!(matches!(error, ReportError::Empty { .. }), "{error}");
+}
+
+#[test]
+fn amplitudes_over_powers_of_ten_have_colours_by_their_logarithm() {
+    let robot = caroca();
+    let grid = Grid::over_frame(&robot, Axis::Z, 1.75, [9, 7]).unwrap();
+    let mut summary = summary(&robot, grid);
+    summary.shaking = Some(SHAKING);
+    let mut draw = |least: f64| {
+        for (k, row) in summary.rows.iter_mut().enumerate() {
+            row.amplitude_mm_per_n = Some(least.powf(1.0 - k as f64 / 62.0));
+        }
+        heat_map(&robot, &summary, MapQuantity::Amplitude).unwrap()
+    };
+    // One color for each cell: equal ratios are equal steps.
+    let colors = |svg: &str| {
+        let cells = svg.split("<rect").skip(2).take(63);
+        cells.map(|cell| cell.split("fill=").nth(1).unwrap()[1..8].to_owned()).collect::<Vec<_>>()
+    };
+    let (four, two) = (draw(1e-4), draw(1e-2));
+    assert_eq!(colors(&four), colors(&two));
+    let less = draw(0.2);
+    assert_ne!(colors(&two), colors(&less));
+    let has = |svg: &str, text: &str| svg.lines().any(|line| line.trim() == text);
+    assert!(has(&four, "0.001") && has(&four, "0.01") && !has(&four, "0.02"), "{four}");
+    assert!(has(&two, "0.02") && has(&two, "0.5") && has(&less, "0.5"), "{two}");
 }

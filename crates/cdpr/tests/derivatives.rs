@@ -1,8 +1,8 @@
 //! `cdpr derivatives` as a user meets it: the numbers of the library, and every kind of bad input.
 
 use crate::common::{cdpr, data, data_path, data_text, text, unwrapped};
-use cdpr_dynamics::FrequencyDerivatives;
-use cdpr_robot::{Coordinate, Pose, Robot, Vector3};
+use cdpr_dynamics::{AmplitudeAt, AmplitudeDerivatives, Damping, FrequencyDerivatives};
+use cdpr_robot::{Axis, Coordinate, Pose, Robot, Vector3};
 use cdpr_statics::{Load, WantedPose, derivatives};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -67,6 +67,51 @@ fn a_platform_with_inertia_has_derivatives_of_its_frequency() {
         assert_eq!(found.as_f64(), Some(*exact));
     }
     assert!(text(run(&data(name), &[&at[..], &["--details"]].concat()).stdout).contains("d frequency [mHz]"));
+}
+
+#[test]
+fn the_amplitude_of_a_shaken_platform_has_derivatives_where_they_are_asked_for() {
+    let (name, pose, load) = ("robots/cogiro.json", Pose::at(1.0, 0.5, 2.0), Load::payload(50.0));
+    let robot = Robot::from_json(&data_text(name)).unwrap();
+    let found = derivatives(&robot, &pose, &load).unwrap();
+    let at = ["--pose", "1,0.5,2", "--payload", "50", "--marker", "0.1,0,-0.3"];
+    for (along, axis) in [("", None), (",along=z", Some(Axis::Z))] {
+        let shaken = AmplitudeAt {
+            frequency: 3.5,
+            damping: Damping { stretch: 1e-3, drag: 0.5 },
+            marker: Vector3::new(0.1, 0.0, -0.3),
+            along: axis,
+        };
+        let exact = AmplitudeDerivatives::of_deflection(&robot, &load, &found, &shaken).unwrap();
+        let with = format!("amplitude=3.5,damping=1e-3,drag=0.5{along}");
+        let asked = [&at[..], &["--with", &with]].concat();
+        let output = run(&data(name), &[&asked[..], &["--format", "json"]].concat());
+        let json: Value = serde_json::from_slice(&output.stdout).unwrap();
+        let of = &json["amplitude"];
+        assert_eq!(of["amplitude_m_per_n"].as_f64(), Some(exact.amplitude));
+        assert_eq!((&of["inertia_assumed"], of["frequency_hz"].as_f64()), (&Value::from(false), Some(3.5)));
+        let listed = of["derivatives_m_per_n"].as_array().unwrap();
+        assert_eq!(listed.len(), json["parameters"].as_array().unwrap().len());
+        for (found, exact) in listed.iter().zip(exact.with_lengths(&found.lengths)) {
+            assert_eq!(found.as_f64(), Some(exact));
+        }
+        let shown = unwrapped(run(&data(name), &asked).stdout);
+        let direction = axis.map_or("in the worst direction", |_| "along z");
+        assert!(shown.contains(&format!("At 3.5 Hz a force {direction} shakes the point by")), "{shown}");
+        assert!(shown.contains("d amplitude ["), "{shown}");
+    }
+    for wrong in [
+        &["--with", "drag=1"][..],
+        &["--with", "amplitude=0"],
+        &["--with", "amplitude=3,along=w"],
+        &["--with", "amplitude=3,damping=-1"],
+        &["--with", "amplitude=3", "--format", "csv"],
+        &[],
+    ] {
+        let refused = run(&data(name), &[&at[..], wrong].concat());
+        assert!(matches!(refused.status.code(), Some(1 | 2)), "{wrong:?}");
+        assert!(unwrapped(refused.stderr).contains("expected"), "{wrong:?}");
+    }
 }
 
 #[test]

@@ -139,3 +139,46 @@ fn any_load_and_any_orientation_have_a_workspace_and_without_a_load_nothing_is_d
     assert!(!folder.path().join("out/deflection.svg").exists());
     assert_eq!(std::fs::read(folder.path().join("out/mine.svg")).unwrap(), b"mine");
 }
+
+#[test]
+fn amplitudes_of_a_shaken_platform_have_columns_a_map_and_their_conditions() {
+    let folder = TempDir::new().unwrap();
+    let region = ["--region=-2:2:3,-1:1:3,1.75", "--with", "amplitude=0:12,damping=1e-3,drag=0.5"];
+    let run = |more: &[&str]| run(folder.path(), &[&region[..], more].concat());
+    let printed = run(&["--out", "shaken", "--marker", "0.1,0,0"]).replace('\n', " ");
+    for words in [
+        "largest amplitude by a force [mm/N]",
+        "largest amplitude by a winch [mm/mm]",
+        "Amplitudes from 0 Hz to 12 Hz, damping of the cables: stretch 0.001 s, drag 0.5 1/s.",
+        "that of a ball as large as the platform is assumed",
+    ] {
+        assert!(printed.contains(words), "{words}: {printed}");
+    }
+    let file = std::fs::read_to_string(folder.path().join("shaken/workspace.json")).unwrap();
+    let summary: Value = serde_json::from_str(&file).unwrap();
+    assert_eq!(summary["shaking"]["marker"], json!([0.1, 0.0, 0.0]));
+    assert_eq!(summary["shaking"]["band_hz"], json!([0.0, 12.0]));
+    let column = |name: &str| summary["columns"][name].as_array().unwrap().clone();
+    let amplitudes: Vec<f64> = column("amplitude_mm_per_n").iter().filter_map(Value::as_f64).collect();
+    let greatest = summary["amplitude_mm_per_n"]["max"].as_f64().unwrap();
+    assert!(amplitudes.len() >= 3 && amplitudes.contains(&greatest), "{amplitudes:?} {greatest}");
+    assert!(column("amplitude_at_hz").iter().filter_map(Value::as_f64).all(|at| (0.0..=12.0).contains(&at)));
+    for (map, unit) in [("amplitude", "amplitude [mm/N]"), ("winch_amplitude", "amplitude [mm/mm]")] {
+        let map = std::fs::read_to_string(folder.path().join(format!("shaken/{map}.svg"))).unwrap();
+        assert!(map.contains(unit) && map.contains("shaken from 0 Hz to 12 Hz"), "{unit}");
+    }
+    // Another run without amplitudes takes the maps away.
+    answered(cdpr_in(
+        folder.path(),
+        &["workspace", &data_path("robots/caroca.json"), region[0], "--out", "shaken", "--overwrite"],
+    ));
+    assert!(!folder.path().join("shaken/amplitude.svg").exists());
+    for wrong in ["amplitude", "amplitude=5", "amplitude=5:1", "amplitude=x:1", "damping=1e-3", "drag=2"] {
+        let refused = cdpr_in(
+            folder.path(),
+            &["workspace", &data_path("robots/caroca.json"), region[0], "--with", wrong, "--out", "no"],
+        );
+        assert!(matches!(refused.status.code(), Some(1 | 2)), "{wrong}");
+        assert!(text(refused.stderr).contains("expected"), "{wrong}");
+    }
+}

@@ -1,7 +1,8 @@
 //! What is asked about the positions of a grid.
 
 use crate::capacity::WrenchSet;
-use cdpr_robot::{Coordinate, Robot, Rotation3};
+use cdpr_dynamics::Damping;
+use cdpr_robot::{Coordinate, Robot, Rotation3, Vector3};
 use cdpr_statics::Load;
 use cdpr_study::{ErrorModel, Grid, StudyError};
 
@@ -34,6 +35,43 @@ pub struct Further<'a> {
     pub distances: bool,
     /// How far the platform may tilt.
     pub tilt: Option<TiltDirections>,
+    /// The largest amplitudes of a platform that is shaken.
+    pub shaking: Option<Shaking>,
+}
+
+/// What shakes the platform, and what damps its cables.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shaking {
+    /// The lowest and the highest frequency [Hz].
+    pub band: [f64; 2],
+    /// What damps the cables.
+    pub damping: Damping,
+    /// The point of the platform that is shaken and that moves, in its frame [m].
+    pub marker: Vector3<f64>,
+}
+
+impl Shaking {
+    fn check(&self) -> Result<(), StudyError> {
+        let Self { band: [from, to], damping: Damping { stretch, drag }, marker } = *self;
+        if !(from >= 0.0 && from < to && to.is_finite()) {
+            let expected = "two ascending frequencies from 0 on [Hz]";
+            return Err(StudyError::setting("band", format!("{from:?}, {to:?}"), expected));
+        }
+        for (field, value) in [("damping", stretch), ("drag", drag)] {
+            if !(value >= 0.0 && value.is_finite()) {
+                return Err(StudyError::setting(
+                    field,
+                    format!("{value:?}"),
+                    "a finite number, zero or more",
+                ));
+            }
+        }
+        if marker.iter().any(|component| !component.is_finite()) {
+            let value = format!("{:?}", marker.as_slice());
+            return Err(StudyError::setting("marker", value, "finite components [m]"));
+        }
+        Ok(())
+    }
 }
 
 /// In how many directions, and how exactly, the tilt is wanted.
@@ -98,6 +136,7 @@ pub(super) fn check(workspace: &Workspace) -> Result<(), StudyError> {
     if let Some(model) = tolerances {
         model.check(robot)?;
     }
+    further.shaking.as_ref().map_or(Ok(()), Shaking::check)?;
     if further.tilt.is_some() && !free.is_empty() {
         let named = free.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
         let expected = "no tilt, because the platform with free coordinates tilts as it rests";

@@ -3,7 +3,7 @@
 use crate::capacity::Capacity;
 use crate::clearance::Clearance;
 use crate::tilt::Tilt;
-use cdpr_dynamics::Swing;
+use cdpr_dynamics::{LargestInBand, Swing};
 use cdpr_robot::{Pose, Robot, Vector3};
 use cdpr_statics::StaticsError;
 use cdpr_statics::batch::LoadedPose;
@@ -26,6 +26,9 @@ pub struct WorkspacePose {
     pub clearance: Option<Box<Result<Clearance, StaticsError>>>,
     /// How far the platform may tilt under the load, if asked for.
     pub tilt: Option<Box<Result<Tilt, StaticsError>>>,
+    /// Its largest amplitudes where it is shaken, with the lengths kept under the load, if asked for; `None`
+    /// where it is not held.
+    pub shaken: Option<Box<Result<LargestInBand, StaticsError>>>,
 }
 
 /// Tensions within the limits that hold a pose under the load.

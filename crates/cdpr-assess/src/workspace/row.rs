@@ -72,6 +72,16 @@ pub struct WorkspaceRow {
     pub tilt_deg: Option<f64>,
     /// The azimuth of that direction, from x to y.
     pub tilt_azimuth_deg: Option<f64>,
+    /// Largest amplitude of the point in the band by a force there, of the worst direction [mm/N].
+    pub amplitude_mm_per_n: Option<f64>,
+    pub amplitude_at_hz: Option<f64>,
+    /// Largest amplitude of the point in the band by a winch [mm/mm].
+    pub winch_mm_per_mm: Option<f64>,
+    pub winch_at_hz: Option<f64>,
+    /// The number of this winch, from 1.
+    pub winch: Option<usize>,
+    /// Why a position that is held has no amplitude.
+    pub amplitude_reason: Option<String>,
 }
 
 impl WorkspaceRow {
@@ -94,6 +104,8 @@ impl WorkspaceRow {
         let clearance = pose.clearance.as_deref().and_then(|clearance| clearance.as_ref().ok());
         let (cables, platform) = (clearance.and_then(|c| c.cables), clearance.and_then(|c| c.platform));
         let tilt = pose.tilt.as_deref().and_then(|tilt| tilt.as_ref().ok()?.least());
+        let shaken = pose.shaken.as_deref();
+        let shaken_by = shaken.and_then(|shaken| shaken.as_ref().ok());
         let name = |dominant: Dominant| Some(workspace.tolerances?.inputs.get(dominant.input)?.name.clone());
         Self {
             x,
@@ -145,6 +157,12 @@ impl WorkspaceRow {
             nearest_to_platform: platform.map(|near| near.cable + 1),
             tilt_deg: tilt.map(|tilt| tilt.angle.to_degrees()),
             tilt_azimuth_deg: tilt.map(|tilt| tilt.azimuth.to_degrees()),
+            amplitude_mm_per_n: shaken_by.map(|of| 1e3 * of.per_force.amplitude),
+            amplitude_at_hz: shaken_by.map(|of| of.per_force.frequency),
+            winch_mm_per_mm: shaken_by.map(|of| of.per_shortening.amplitude),
+            winch_at_hz: shaken_by.map(|of| of.per_shortening.frequency),
+            winch: shaken_by.map(|of| of.winch + 1),
+            amplitude_reason: shaken.and_then(|of| of.as_ref().err().map(ToString::to_string)),
         }
     }
 }
@@ -226,7 +244,13 @@ pub(super) fn columns<S: Serializer>(rows: &[WorkspaceRow], serializer: S) -> Re
         nearest_to_platform_mm,
         nearest_to_platform,
         tilt_deg,
-        tilt_azimuth_deg
+        tilt_azimuth_deg,
+        amplitude_mm_per_n,
+        amplitude_at_hz,
+        winch_mm_per_mm,
+        winch_at_hz,
+        winch,
+        amplitude_reason
     );
     columns.end()
 }

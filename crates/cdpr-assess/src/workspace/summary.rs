@@ -1,10 +1,10 @@
 //! A workspace in numbers: settings, counts, extremes.
 
 use crate::boundary::Boundary;
-use crate::workspace::question::{Way, Workspace};
+use crate::workspace::question::{Shaking, Way, Workspace};
 use crate::workspace::results::{HELD, WorkspacePose};
 use crate::workspace::row::{self, WorkspaceRow};
-use cdpr_robot::{Pose, Vector3};
+use cdpr_robot::{Pose, Robot, Vector3};
 use cdpr_study::{Extremes, Grid, robot_hash};
 use indexmap::IndexMap;
 use serde::Serialize;
@@ -79,6 +79,12 @@ pub struct WorkspaceSummary {
     pub nearest_to_platform_mm: Option<Extremes>,
     /// Tilt in the worst direction [deg].
     pub tilt_deg: Option<Extremes>,
+    /// Largest amplitude by a force [mm/N].
+    pub amplitude_mm_per_n: Option<Extremes>,
+    /// Largest amplitude by a winch [mm/mm].
+    pub winch_mm_per_mm: Option<Extremes>,
+    /// What shakes the platform, if asked for.
+    pub shaking: Option<ShakingSummary>,
     /// The boundary of the positions that are held, if asked for.
     pub boundary: Option<BoundarySummary>,
     /// Every position, in the order of the grid; in the file an array for each of their values (`columns`).
@@ -101,6 +107,39 @@ pub struct BoundarySummary {
     pub parts: usize,
     /// Positions that were asked for.
     pub evaluations: usize,
+}
+
+/// What shakes the platform, and what damps its cables.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct ShakingSummary {
+    /// The lowest and the highest frequency [Hz].
+    pub band_hz: [f64; 2],
+    /// Damping of the stretch of cables [s].
+    pub damping_s: f64,
+    /// Drag of the air [1/s].
+    pub drag_per_s: f64,
+    /// The point that is shaken, in the frame of the platform [m].
+    pub marker: [f64; 3],
+    /// Whether the inertia of the platform is assumed.
+    pub inertia_assumed: bool,
+}
+
+impl ShakingSummary {
+    fn new(robot: &Robot, Shaking { band, damping, marker }: &Shaking) -> Self {
+        Self {
+            band_hz: *band,
+            damping_s: damping.stretch,
+            drag_per_s: damping.drag,
+            marker: (*marker).into(),
+            inertia_assumed: robot.lacks_inertia(),
+        }
+    }
+
+    /// Band and damping, as in `0 Hz to 20 Hz, damping of the cables: stretch 0.0002 s, drag 0 1/s`.
+    pub fn conditions(&self) -> String {
+        let Self { band_hz: [from, to], damping_s, drag_per_s, .. } = self;
+        format!("{from} Hz to {to} Hz, damping of the cables: stretch {damping_s} s, drag {drag_per_s} 1/s")
+    }
 }
 
 impl BoundarySummary {
@@ -186,6 +225,9 @@ impl WorkspaceSummary {
             nearest_cables_mm: extremes(rows.iter(), |row| row.nearest_cables_mm),
             nearest_to_platform_mm: extremes(rows.iter(), |row| row.nearest_to_platform_mm),
             tilt_deg: extremes(rows.iter(), |row| row.tilt_deg),
+            amplitude_mm_per_n: extremes(rows.iter(), |row| row.amplitude_mm_per_n),
+            winch_mm_per_mm: extremes(rows.iter(), |row| row.winch_mm_per_mm),
+            shaking: workspace.further.shaking.map(|shaking| ShakingSummary::new(workspace.robot, &shaking)),
             boundary: None,
             rows,
         }

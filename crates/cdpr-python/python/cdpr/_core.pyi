@@ -1080,6 +1080,10 @@ class Robot:
         force: _Row | None = None,
         moment: _Row | None = None,
         free: Sequence[str] | None = None,
+        shaken: float | None = None,
+        damping: float = 2e-4,
+        drag: float = 0.0,
+        marker: ArrayLike | None = None,
     ) -> Derivatives[float, bool, int, str, None]:
         """Computes the exact derivatives of lengths, tensions and deflection under a load.
 
@@ -1096,6 +1100,12 @@ class Robot:
         free : sequence of str, optional
             Names of the coordinates of the pose that are found, for a robot with fewer cables than free
             motions, as `Robot.inverse` takes them.
+        shaken : float, optional
+            Frequency of a force that shakes the platform [Hz], for the derivatives of its amplitude.
+        damping, drag : float
+            What damps the cables, as in `Robot.response` [s, 1/s].
+        marker : array_like, optional
+            Point of the platform that is shaken and that moves, in its frame [m]; P if left out.
 
         Returns
         -------
@@ -1117,6 +1127,9 @@ class Robot:
         >>> slopes = robot.derivatives([0, 0, 2], payload=50)
         >>> slopes.inputs[0], len(slopes.magnitude) == len(slopes.inputs)
         ('mass', True)
+        >>> shaken = robot.derivatives([0, 0, 2], payload=50, shaken=3, drag=0.5).amplitude  # [m/N per unit]
+        >>> shaken.shape == slopes.magnitude.shape
+        True
         """
     @overload
     def derivatives(
@@ -1127,6 +1140,10 @@ class Robot:
         force: ArrayLike | None = None,
         moment: ArrayLike | None = None,
         free: Sequence[str] | None = None,
+        shaken: float | None = None,
+        damping: float = 2e-4,
+        drag: float = 0.0,
+        marker: ArrayLike | None = None,
     ) -> Derivatives[_Floats, _Bools, _Ints, _Words, _Words]: ...
     @overload
     def observe(  # type: ignore[overload-overlap]
@@ -1566,6 +1583,10 @@ class Robot:
         payload: float,
         uncertainty: Mapping[str, float] | None = None,
         free: Sequence[str] | None = None,
+        band: tuple[float, float] | None = None,
+        damping: float = 2e-4,
+        drag: float = 0.0,
+        marker: ArrayLike | None = None,
     ) -> Workspace:
         """Finds where the cables hold the platform under a payload, and how far it gives there.
 
@@ -1586,6 +1607,13 @@ class Robot:
         free : sequence of str, optional
             Names of the coordinates of the pose that are found, for a robot with fewer cables than free
             motions, as `Robot.inverse` takes them.
+        band : (float, float), optional
+            The lowest and the highest frequency of what shakes the platform [Hz], for the largest amplitudes.
+            An inertia that the robot lacks is assumed: that of a ball as large as the platform.
+        damping, drag : float
+            What damps the cables, as in `Robot.response` [s, 1/s].
+        marker : array_like, optional
+            Point of the platform that is shaken and that moves, in its frame [m]; P if left out.
 
         Returns
         -------
@@ -1605,6 +1633,9 @@ class Robot:
         >>> found = robot.workspace(plane=("z", 2), grid=(4, 3), payload=50)
         >>> found.shape, found.magnitude.shape  # [m]
         ((4, 3, 1), (12,))
+        >>> shaken = robot.workspace(plane=("z", 2), grid=(3, 3), payload=0, band=(0, 4), drag=0.5)
+        >>> bool(shaken.amplitude[4] > 0)  # in the middle [m/N]
+        True
         """
 
 @final
@@ -2934,6 +2965,12 @@ class Derivatives(Generic[_N, _B, _I, _W, _R]):
         motions have it, and without inertia of the platform.
         """
     @property
+    def amplitude(self) -> _Floats:
+        """Derivatives of the amplitude at the frequency `shaken` with the load, in the worst direction
+        [m/N per unit], (k,). NaN without `shaken`, where two directions are shaken alike, and without inertia
+        of the platform.
+        """
+    @property
     def magnitude_right(self) -> _Floats:
         """Right derivatives of |dp| [m per unit], (k,)."""
     @property
@@ -2954,6 +2991,9 @@ class Derivatives(Generic[_N, _B, _I, _W, _R]):
     @property
     def frequency_right(self) -> _Floats:
         """Right derivatives of the frequency of the platform [Hz per unit], (k,)."""
+    @property
+    def amplitude_right(self) -> _Floats:
+        """Right derivatives of the amplitude [m/N per unit], (k,)."""
     @property
     def deflection(self) -> Deflection[_N, _B, _I, _W, _R]:
         """The deflection itself."""
@@ -3092,6 +3132,23 @@ class Workspace:
     @property
     def recomputed_greatest_tension(self) -> _Floats:
         """Greatest tension, recomputed [N], (m,)."""
+    @property
+    def amplitude(self) -> _Floats:
+        """Largest amplitude of the point in the band by a force there, of the worst direction [m/N], (m,);
+        NaN without `band`.
+        """
+    @property
+    def amplitude_frequency(self) -> _Floats:
+        """Its frequency [Hz], (m,)."""
+    @property
+    def winch_amplitude(self) -> _Floats:
+        """Largest amplitude of the point in the band by a winch, per length that it takes in [m/m], (m,)."""
+    @property
+    def winch_frequency(self) -> _Floats:
+        """Its frequency [Hz], (m,)."""
+    @property
+    def amplitude_reasons(self) -> list[str | None]:
+        """Why a position that is held has no amplitude, or None; m of them."""
 
 def pose(
     position: ArrayLike, rotation: ArrayLike | Any | None = None, *, rpy_deg: ArrayLike | None = None

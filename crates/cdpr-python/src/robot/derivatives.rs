@@ -1,10 +1,10 @@
 //! `Robot.derivatives`: the derivatives of lengths and deflection with respect to each parameter.
 
-use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each};
+use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, components, each};
 use crate::robot::Robot;
 use crate::robot::deflection::{Deflection, Given};
 use crate::robot::inverse::coordinates;
-use cdpr_dynamics::FrequencyDerivatives;
+use cdpr_dynamics::{AmplitudeAt, AmplitudeDerivatives, Damping, DynamicsError, FrequencyDerivatives};
 use cdpr_robot::{Parameter, Pose};
 use cdpr_statics::{Load, StaticsError, WantedPose, derivatives};
 use pyo3::prelude::*;
@@ -43,6 +43,10 @@ answer! {
         /// with the mass of cables, as long as it changes less than its distance from the next. NaN where two
         /// motions have it, and without inertia of the platform.
         frequency: Py<PyAny>,
+        /// Derivatives of the amplitude at the frequency `shaken` with the load, in the worst direction
+        /// [m/N per unit], (k,). NaN without `shaken`, where two directions are shaken alike, and without inertia
+        /// of the platform.
+        amplitude: Py<PyAny>,
         /// Right derivatives of |dp| [m per unit], (k,).
         magnitude_right: Py<PyAny>,
         /// Right derivatives of dp [m per unit], (3, k).
@@ -57,6 +61,8 @@ answer! {
         least_stiffness_right: Py<PyAny>,
         /// Right derivatives of the frequency of the platform [Hz per unit], (k,).
         frequency_right: Py<PyAny>,
+        /// Right derivatives of the amplitude [m/N per unit], (k,).
+        amplitude_right: Py<PyAny>,
         /// The deflection itself.
         deflection: Py<Deflection>,
         /// Why there is no answer, None where there is one; None for one case.
@@ -83,6 +89,7 @@ struct Slopes {
     tensions: Vec<f64>,
     least_stiffness: Vec<f64>,
     frequency: Vec<f64>,
+    amplitude: Vec<f64>,
 }
 
 impl Slopes {
@@ -91,6 +98,7 @@ impl Slopes {
         load: &Load,
         found: &cdpr_statics::Derivatives,
         frequency: Option<&FrequencyDerivatives>,
+        amplitude: Option<&AmplitudeDerivatives>,
     ) -> Result<Self, StaticsError> {
         let none = || vec![f64::NAN; found.inputs.count()];
         let stiffness = found.least_stiffness(robot, load);
@@ -103,7 +111,21 @@ impl Slopes {
             tensions: found.loaded.tensions.transpose().as_slice().to_vec(),
             least_stiffness: stiffness.map_or_else(|_| none(), |(_, slopes)| slopes),
             frequency: frequency.map_or_else(none, |frequency| frequency.with_lengths(&found.lengths)),
+            amplitude: amplitude.map_or_else(none, |amplitude| amplitude.with_lengths(&found.lengths)),
         })
+    }
+}
+
+/// The derivatives of an amplitude; `None` where it has none.
+fn amplitude_of(
+    robot: &cdpr_robot::Robot,
+    load: &Load,
+    found: &cdpr_statics::Derivatives,
+    at: &AmplitudeAt,
+) -> Result<Option<AmplitudeDerivatives>, StaticsError> {
+    match AmplitudeDerivatives::of_deflection(robot, load, found, at) {
+        Err(error @ DynamicsError::Invalid { .. }) => Err(error.into()),
+        found => Ok(found.ok()),
     }
 }
 
@@ -124,6 +146,12 @@ impl Robot {
     /// free : sequence of str, optional
     ///     Names of the coordinates of the pose that are found, for a robot with fewer cables than free
     ///     motions, as `Robot.inverse` takes them.
+    /// shaken : float, optional
+    ///     Frequency of a force that shakes the platform [Hz], for the derivatives of its amplitude.
+    /// damping, drag : float
+    ///     What damps the cables, as in `Robot.response` [s, 1/s].
+    /// marker : array_like, optional
+    ///     Point of the platform that is shaken and that moves, in its frame [m]; P if left out.
     ///
     /// Returns
     /// -------
@@ -145,7 +173,11 @@ impl Robot {
     /// >>> slopes = robot.derivatives([0, 0, 2], payload=50)
     /// >>> slopes.inputs[0], len(slopes.magnitude) == len(slopes.inputs)
     /// ('mass', True)
-    #[pyo3(signature = (pose, *, payload=None, force=None, moment=None, free=None))]
+    /// >>> shaken = robot.derivatives([0, 0, 2], payload=50, shaken=3, drag=0.5).amplitude  # [m/N per unit]
+    /// >>> shaken.shape == slopes.magnitude.shape
+    /// True
+    #[pyo3(signature = (pose, *, payload=None, force=None, moment=None, free=None, shaken=None, damping=2e-4,
+        drag=0.0, marker=None))]
     #[allow(clippy::too_many_arguments)]
     fn derivatives(
         &self,
@@ -155,6 +187,10 @@ impl Robot {
         force: Option<Numbers>,
         moment: Option<Numbers>,
         free: Option<Vec<String>>,
+        shaken: Option<f64>,
+        damping: f64,
+        drag: f64,
+        marker: Option<Numbers>,
     ) -> Answer<Derivatives> {
         let free = coordinates(free)?;
         let poses = Rows::poses("pose", &pose, &self.robot)?;
@@ -162,13 +198,18 @@ impl Robot {
         let cases = loads.cases([&poses])?;
         let robot = &self.robot;
         let cables = robot.cables.len();
+        let marker = marker.map_or(Ok([0.0; 3]), |marker| components("marker", &marker))?.into();
+        let damping = Damping { stretch: damping, drag };
+        let at = shaken.map(|frequency| AmplitudeAt { frequency, damping, marker, along: None });
         let outcomes: Vec<Result<Sides, StaticsError>> = each(py, cases.count, |case| {
             let (pose, load) = (poses.pose(case)?, loads.load(case)?);
             let found = derivatives(robot, WantedPose::at(&pose).free(&free), &load)?;
             let frequency = FrequencyDerivatives::of_deflection(robot, &load, &found).ok();
+            let amplitude = at.map_or(Ok(None), |at| amplitude_of(robot, &load, &found, &at))?;
+            let new = |found: &_| Slopes::new(robot, &load, found, frequency.as_ref(), amplitude.as_ref());
             Ok(Sides {
-                left: Slopes::new(robot, &load, &found, frequency.as_ref())?,
-                right: Slopes::new(robot, &load, &found.right(), frequency.as_ref())?,
+                left: new(&found)?,
+                right: new(&found.right())?,
                 one_sided: found.one_sided.iter().map(|input| input.column).collect(),
                 given: Given::new(robot, found.deflection),
             })
@@ -189,6 +230,7 @@ impl Robot {
         let tensions = |side| numbers(side, &[cables, count], |slopes| &slopes.tensions);
         let least_stiffness = |side| numbers(side, &[count], |slopes| &slopes.least_stiffness);
         let frequency = |side| numbers(side, &[count], |slopes| &slopes.frequency);
+        let amplitude = |side| numbers(side, &[count], |slopes| &slopes.amplitude);
         let deflection = Deflection::new(py, &all.part(|sides| &sides.given), cables)?;
         Ok(Derivatives {
             one_sided: all.array(false, &[count], |sides, out| {
@@ -201,6 +243,7 @@ impl Robot {
             tensions: tensions(&left)?,
             least_stiffness: least_stiffness(&left)?,
             frequency: frequency(&left)?,
+            amplitude: amplitude(&left)?,
             magnitude_right: magnitude(&right)?,
             displacement_right: displacement(&right)?,
             lengths_right: lengths(&right)?,
@@ -208,6 +251,7 @@ impl Robot {
             tensions_right: tensions(&right)?,
             least_stiffness_right: least_stiffness(&right)?,
             frequency_right: frequency(&right)?,
+            amplitude_right: amplitude(&right)?,
             deflection: Py::new(py, deflection)?,
             reasons: all.reasons(),
             kinds: all.kinds(),

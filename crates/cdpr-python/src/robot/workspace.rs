@@ -1,9 +1,10 @@
 //! `Robot.workspace`: where the cables hold the platform, and how far it gives there, over a plane or a box.
 
-use crate::convert::{Answer, Array, Numbers, Raised, answer, plotted, question, run};
+use crate::convert::{Answer, Array, Numbers, Raised, answer, components, plotted, question, run};
 use crate::robot::Robot;
 use crate::robot::inverse::coordinates;
-use cdpr_assess::{WorkspaceRow, compute_workspace};
+use cdpr_assess::{Shaking, WorkspaceRow, compute_workspace};
+use cdpr_dynamics::Damping;
 use cdpr_robot::{Axis, Rotation3};
 use cdpr_statics::Load;
 use cdpr_study::{ErrorModel, Grid, GridAxis, uncertainties};
@@ -59,6 +60,17 @@ answer! {
         recomputed_least_tension: Py<PyAny>,
         /// Greatest tension, recomputed [N], (m,).
         recomputed_greatest_tension: Py<PyAny>,
+        /// Largest amplitude of the point in the band by a force there, of the worst direction [m/N], (m,);
+        /// NaN without `band`.
+        amplitude: Py<PyAny>,
+        /// Its frequency [Hz], (m,).
+        amplitude_frequency: Py<PyAny>,
+        /// Largest amplitude of the point in the band by a winch, per length that it takes in [m/m], (m,).
+        winch_amplitude: Py<PyAny>,
+        /// Its frequency [Hz], (m,).
+        winch_frequency: Py<PyAny>,
+        /// Why a position that is held has no amplitude, or None; m of them.
+        amplitude_reasons: Vec<Option<String>>,
     }
 }
 
@@ -88,6 +100,13 @@ impl Robot {
     /// free : sequence of str, optional
     ///     Names of the coordinates of the pose that are found, for a robot with fewer cables than free
     ///     motions, as `Robot.inverse` takes them.
+    /// band : (float, float), optional
+    ///     The lowest and the highest frequency of what shakes the platform [Hz], for the largest amplitudes.
+    ///     An inertia that the robot lacks is assumed: that of a ball as large as the platform.
+    /// damping, drag : float
+    ///     What damps the cables, as in `Robot.response` [s, 1/s].
+    /// marker : array_like, optional
+    ///     Point of the platform that is shaken and that moves, in its frame [m]; P if left out.
     ///
     /// Returns
     /// -------
@@ -107,8 +126,11 @@ impl Robot {
     /// >>> found = robot.workspace(plane=("z", 2), grid=(4, 3), payload=50)
     /// >>> found.shape, found.magnitude.shape  # [m]
     /// ((4, 3, 1), (12,))
+    /// >>> shaken = robot.workspace(plane=("z", 2), grid=(3, 3), payload=0, band=(0, 4), drag=0.5)
+    /// >>> bool(shaken.amplitude[4] > 0)  # in the middle [m/N]
+    /// True
     #[pyo3(signature = (*, x=None, y=None, z=None, plane=None, grid=None, payload, uncertainty=None,
-        free=None))]
+        free=None, band=None, damping=2e-4, drag=0.0, marker=None))]
     #[allow(clippy::too_many_arguments)]
     fn workspace(
         &self,
@@ -121,10 +143,17 @@ impl Robot {
         payload: f64,
         uncertainty: Option<&Bound<PyDict>>,
         free: Option<Vec<String>>,
+        band: Option<(f64, f64)>,
+        damping: f64,
+        drag: f64,
+        marker: Option<Numbers>,
     ) -> Answer<Workspace> {
         let free = coordinates(free)?;
         let grid = grid_of(&self.robot, x, y, z, plane, grid)?;
         let tolerances = uncertainty.map(|named| tolerances(&self.robot, named)).transpose()?;
+        let marker = marker.map_or(Ok([0.0; 3]), |marker| components("marker", &marker))?.into();
+        let damping = Damping { stretch: damping, drag };
+        let shaking = band.map(|(from, to)| Shaking { band: [from, to], damping, marker });
         let workspace = cdpr_assess::Workspace {
             robot: &self.robot,
             grid,
@@ -132,7 +161,7 @@ impl Robot {
             load: Load::payload(payload),
             tolerances: tolerances.as_ref(),
             free: &free,
-            further: cdpr_assess::Further::default(),
+            further: cdpr_assess::Further { shaking, ..Default::default() },
         };
         let poses = run(py, |stop| compute_workspace(&workspace, &|| (), &|| stop.load(Ordering::Relaxed)))??;
         let rows: Vec<WorkspaceRow> = poses.iter().map(|pose| WorkspaceRow::new(&workspace, pose)).collect();
@@ -146,6 +175,7 @@ impl Robot {
         };
         let held = |row: usize| poses[row].outcome.as_ref().ok();
         let loaded = |row: usize| held(row).filter(|_| workspace.load != Load::none());
+        let shaken = |row: usize| poses[row].shaken.as_deref()?.as_ref().ok();
         Ok(Workspace {
             shape: Axis::ALL.map(|axis| grid.axis(axis).points).into(),
             positions: vectors(&|row| Some(poses[row].pose.position.into()))?,
@@ -166,6 +196,11 @@ impl Robot {
             recomputed_reasons: rows.iter().map(|row| row.recomputed_reason.clone()).collect(),
             recomputed_least_tension: column(&|row| rows[row].recomputed_least_tension),
             recomputed_greatest_tension: column(&|row| rows[row].recomputed_greatest_tension),
+            amplitude: column(&|row| Some(shaken(row)?.per_force.amplitude)),
+            amplitude_frequency: column(&|row| Some(shaken(row)?.per_force.frequency)),
+            winch_amplitude: column(&|row| Some(shaken(row)?.per_shortening.amplitude)),
+            winch_frequency: column(&|row| Some(shaken(row)?.per_shortening.frequency)),
+            amplitude_reasons: rows.iter().map(|row| row.amplitude_reason.clone()).collect(),
         })
     }
 }

@@ -3,6 +3,7 @@
 use crate::drawing::axis::{Axis, extent};
 use crate::drawing::style::{self, Area, DrawingError, GREY, MARGIN, Pen, X_AXIS, px};
 use crate::error::ReportError;
+use crate::text::digits;
 use plotters::prelude::*;
 use std::ops::Range;
 
@@ -135,6 +136,26 @@ impl ColorMap {
         }
         let color_axis = Axis::numbers(least..greatest, 9, label);
         Ok(Self { cells, values, least, greatest, color_axis })
+    }
+
+    /// The same with colours by the logarithm, if the values are positive and range over a power of ten.
+    pub(crate) fn by_decades(mut self) -> Self {
+        if !(self.least > 0.0 && self.greatest >= 10.0 * self.least) {
+            return self;
+        }
+        self.values.iter_mut().flatten().for_each(|value| *value = value.log10());
+        let range = self.least.log10()..self.greatest.log10();
+        let powers = range.start.floor() as i32..=range.end.ceil() as i32;
+        let steps: &[u8] = if range.end - range.start < 3.0 { &[1, 2, 5] } else { &[1] };
+        let tick = |(power, step): (i32, &u8)| {
+            // Written and read, no rounding shows.
+            let value = format!("{step}e{power}").parse::<f64>().unwrap_or_default();
+            (value.log10(), digits(value, 1))
+        };
+        let ticks = powers.flat_map(|power| steps.iter().map(move |step| (power, step))).map(tick);
+        let ticks = ticks.filter(|(value, _)| range.contains(value)).collect();
+        self.color_axis = Axis { range: range.clone(), ticks, label: self.color_axis.label };
+        self
     }
 
     /// Draws all cells, and contour lines at the ticks of the colour bar. A cell without a value is grey.

@@ -6,7 +6,7 @@ use crate::drawing::name_map::name_map;
 use crate::drawing::plane::{self, Paint, Plane};
 use crate::error::ReportError;
 use crate::figure::pose_map::NamedMap;
-use crate::text::number;
+use crate::text::{digits, number};
 use cdpr_assess::{HELD, WorkspaceRow, WorkspaceSummary};
 use cdpr_robot::Robot;
 use rayon::prelude::*;
@@ -36,11 +36,15 @@ pub enum MapQuantity {
     NearestToPlatform,
     /// Tilt in the worst direction.
     Tilt,
+    /// Largest amplitude by a force in a band of frequencies.
+    Amplitude,
+    /// Largest amplitude by a winch in a band of frequencies.
+    WinchAmplitude,
 }
 
 impl MapQuantity {
     /// All quantities.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 13] = [
         Self::Deflection,
         Self::LeastStiffness,
         Self::PlatformFrequency,
@@ -52,6 +56,8 @@ impl MapQuantity {
         Self::NearestCables,
         Self::NearestToPlatform,
         Self::Tilt,
+        Self::Amplitude,
+        Self::WinchAmplitude,
     ];
 
     /// Name of its figure file.
@@ -68,6 +74,8 @@ impl MapQuantity {
             Self::NearestCables => "nearest_cables",
             Self::NearestToPlatform => "nearest_to_platform",
             Self::Tilt => "tilt",
+            Self::Amplitude => "amplitude",
+            Self::WinchAmplitude => "winch_amplitude",
         }
     }
 
@@ -102,7 +110,11 @@ impl MapQuantity {
                 | Self::PlatformFrequency
                 | Self::GreatestTension
                 | Self::PayloadKept
-        )
+        ) && !self.is_amplitude()
+    }
+
+    fn is_amplitude(self) -> bool {
+        matches!(self, Self::Amplitude | Self::WinchAmplitude)
     }
 
     /// Words for the title, label of the colour bar, and unit.
@@ -120,6 +132,8 @@ impl MapQuantity {
             Self::NearestCables => ("distance of the nearest two cables", "distance", "mm"),
             Self::NearestToPlatform => ("distance of cables and platform", "distance", "mm"),
             Self::Tilt => ("tilt in the worst direction", "tilt", "degrees"),
+            Self::Amplitude => ("largest amplitude by a force", "amplitude", "mm/N"),
+            Self::WinchAmplitude => ("largest amplitude by a winch", "amplitude", "mm/mm"),
         }
     }
 
@@ -137,6 +151,8 @@ impl MapQuantity {
             Self::NearestCables => row.nearest_cables_mm,
             Self::NearestToPlatform => row.nearest_to_platform_mm,
             Self::Tilt => row.tilt_deg,
+            Self::Amplitude => row.amplitude_mm_per_n,
+            Self::WinchAmplitude => row.winch_mm_per_mm,
         }
     }
 }
@@ -166,19 +182,30 @@ fn values(
     let (words, label, unit) = quantity.words();
     let rows: Vec<_> = plane.positions.iter().map(|position| &summary.rows[*position]).collect();
     let values = rows.iter().map(|row| quantity.value(row)).collect();
-    let map = ColorMap::new(plane.cells()?, values, quantity.name(), &format!("{label} [{unit}]"))?;
+    let mut map = ColorMap::new(plane.cells()?, values, quantity.name(), &format!("{label} [{unit}]"))?;
+    let mut lines = Vec::new();
+    let mut shown: fn(f64) -> String = |value| number(value, 3);
+    if let Some(shaking) = summary.shaking.filter(|_| quantity.is_amplitude()) {
+        map = map.by_decades();
+        shown = |value| digits(value, 3);
+        lines.push(format!("shaken from {}", shaking.conditions()));
+    }
     let hatched = |index: usize| !quantity.is_held(rows[index]);
     let held = (0..rows.len()).filter(|index| !hatched(*index)).count();
     let borne = if summary.is_loaded() { format!(", {}", quantity.under_load()) } else { String::new() };
-    let heading = Heading {
-        title: &format!("{}: {words} at {}, {}{borne}", summary.robot, plane.words(), summary.conditions()),
-        lines: &[format!(
+    lines.insert(
+        0,
+        format!(
             "{} {unit} to {} {unit}; {held} of {} positions held with all tensions within limits, the others \
                 are hatched",
-            number(map.least, 3),
-            number(map.greatest, 3),
+            shown(map.least),
+            shown(map.greatest),
             rows.len()
-        )],
+        ),
+    );
+    let heading = Heading {
+        title: &format!("{}: {words} at {}, {}{borne}", summary.robot, plane.words(), summary.conditions()),
+        lines: &lines,
         key: &plane::key(),
     };
     plane.figure(robot, &heading, &Paint::Values(map), hatched)

@@ -1,16 +1,22 @@
 //! `cdpr derivatives`: the derivatives of lengths and deflection with respect to each parameter.
 
+mod amplitude;
+mod leading;
+mod uncertainty;
+
 use crate::program::answer::{OutOfLimits, bound_name, decimal};
-use crate::program::arguments::UncertaintyArgument;
+use crate::program::arguments::{self, Format, UncertaintyArgument, With, with};
 use crate::program::error::ProgramError;
 use crate::program::output::{Details, Ending, print_sentence, table, wide_table};
 use crate::program::pose::at_pose::{RobotAtFreePose, Row, cells};
+use crate::program::pose::derivatives::amplitude::Amplitude;
+use crate::program::pose::derivatives::leading::{LEADING, handy_unit};
+use crate::program::pose::derivatives::uncertainty::Uncertainty;
 use cdpr_dynamics::{DynamicsError, FrequencyDerivatives};
 use cdpr_robot::{Parameter, Robot};
 use cdpr_statics::derivatives::OneSided;
 use cdpr_statics::{Derivatives, Load, Observer, StaticsError, WantedPose, derivatives};
-use cdpr_study::{ErrorModel, explained_deflection, little_explained};
-use indexmap::IndexMap;
+use cdpr_study::explained_deflection;
 use serde::Serialize;
 
 /// The robot, its poses, and what is uncertain.
@@ -20,20 +26,36 @@ pub(crate) struct Settings {
     at: RobotAtFreePose,
     #[command(flatten)]
     errors: UncertaintyArgument,
+    /// amplitude=HZ: derivatives of the amplitude of a platform that is shaken; damping, drag, along.
+    ///
+    /// Of the point --marker with the load, per newton of a force there, in the worst direction or along=x, y
+    /// or z. damping=TAU and drag=RATE damp the cables, as those of `response` (2e-4 s, none).
+    #[arg(long, value_name = "NAMES", value_parser = with)]
+    with: Option<With>,
+    /// Point of the platform that is shaken: x,y,z in its frame [m]; P if left out.
+    #[arg(long, value_parser = arguments::components::<3>, allow_hyphen_values = true)]
+    marker: Option<[f64; 3]>,
     #[command(flatten)]
     details: Details,
 }
 
 pub(crate) fn run(
-    Settings { at: RobotAtFreePose { at, free }, errors, details }: &Settings,
+    Settings { at: RobotAtFreePose { at, free }, errors, with, marker, details }: &Settings,
 ) -> Result<Ending, ProgramError> {
     let load = at.load.some_load()?;
+    let is_table = match at.printing.format() {
+        Format::Csv => true,
+        Format::Text => at.pose()?.is_none(),
+        Format::Json => false,
+    };
+    let shaken = amplitude::asked(&with.clone().unwrap_or_default(), *marker, is_table)?;
     let robot = at.robot()?;
     let model = errors.model(&robot)?;
     model.as_ref().map(|model| model.check(&robot)).transpose()?;
     let solve = |robot: &Robot, pose: &_| {
         let found = derivatives(robot, WantedPose::at(pose).free(&free.free), &load)?;
         let mut slopes = Slopes::new(robot, &load, &found)?;
+        slopes.amplitude = shaken.map(|at| Amplitude::new(robot, &load, &found, &at)).transpose()?;
         slopes.uncertainty = model.as_ref().map(|model| Uncertainty::new(model, &found)).transpose()?;
         // With free coordinates the scalar models search for each robot, which takes too long.
         if let (Some(uncertainty), Some(model), []) = (&mut slopes.uncertainty, &model, &free.free[..]) {
@@ -43,49 +65,6 @@ pub(crate) fn run(
         Ok(slopes)
     };
     at.answer(solve, |slopes, heading| slopes.print(heading, details.details))
-}
-
-/// What an error model makes of |dp|, to first order.
-#[derive(Serialize)]
-struct Uncertainty {
-    /// Standard deviation of |dp|.
-    std_mm: f64,
-    /// The share of each cause in its variance, the largest first.
-    shares: IndexMap<String, f64>,
-    /// Share of the variance that derivatives explain, of robots of the error model.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    explained: Option<f64>,
-}
-
-/// Causes that are named.
-const NAMED: usize = 5;
-
-/// Parameters of the table without `--details`.
-const LEADING: usize = 10;
-
-impl Uncertainty {
-    fn new(model: &ErrorModel, found: &Derivatives) -> Result<Self, StaticsError> {
-        let [left, right] =
-            [found.magnitude()?, found.right().magnitude()?].map(|slopes| model.variances(&slopes));
-        let parts: Vec<f64> = left.iter().zip(&right).map(|(left, right)| 0.5 * (left + right)).collect();
-        let variance: f64 = parts.iter().sum();
-        let share = |part: f64| if variance > 0.0 { part / variance } else { 0.0 };
-        let causes = model.inputs.iter().zip(&parts);
-        let mut shares: IndexMap<_, _> =
-            causes.map(|(input, part)| (input.name.clone(), share(*part))).collect();
-        shares.sort_by(|_, one, _, other| other.total_cmp(one));
-        Ok(Self { std_mm: 1e3 * variance.sqrt(), shares, explained: None })
-    }
-
-    fn print(&self, heading: &str, dp: f64) {
-        let named = self.shares.iter().take(NAMED);
-        let named: Vec<_> = named.map(|(name, share)| format!("{name} {:.1} %", 100.0 * share)).collect();
-        let (std, named) = (self.std_mm, named.join(", "));
-        print_sentence(&format!("{heading}: |dp| = {dp:.5} mm with a standard deviation of {std:.5} mm."));
-        print_sentence(&format!("Shares of the variance: {named}."));
-        let little = little_explained(self.explained);
-        little.iter().for_each(|little| print_sentence(&format!("{little}: these numbers are rough.")));
-    }
 }
 
 /// Derivatives with respect to each parameter; the outer lists are in the order of the parameters.
@@ -121,6 +100,9 @@ struct Slopes {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     one_sided: Vec<TwoSlopes>,
     unit: &'static str,
+    /// Of a platform that is shaken, if asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    amplitude: Option<Amplitude>,
     /// Absent without an error model.
     #[serde(skip_serializing_if = "Option::is_none")]
     uncertainty: Option<Uncertainty>,
@@ -229,6 +211,7 @@ impl Slopes {
             without,
             unstrained_lengths: left.into_iter().map(|slope| slope.unstrained_lengths).collect(),
             unit: "per SI unit of the parameter",
+            amplitude: None,
             uncertainty: None,
             out_of_limits: OutOfLimits::all(robot, &deflection.lengths, &equilibria),
         })
@@ -294,6 +277,7 @@ impl Slopes {
                 decimal(100.0 * frequency_gap, 2)
             ));
         }
+        self.amplitude.iter().for_each(|of| of.print(&self.inputs));
         OutOfLimits::print(&self.out_of_limits);
     }
 
@@ -378,16 +362,5 @@ impl Row for Slopes {
 
     fn out_of_limits(&self) -> Vec<&[OutOfLimits]> {
         vec![&self.out_of_limits]
-    }
-}
-
-/// A unit of the size by which such a parameter is uncertain, and its value in SI units.
-fn handy_unit(parameter: &Parameter) -> (&'static str, f64) {
-    match parameter.unit() {
-        "kg/m" => ("g/m", 1e-3),
-        "Pa" => ("GPa", 1e9),
-        "m" => ("mm", 1e-3),
-        "rad" => ("mrad", 1e-3),
-        unit => (unit, 1.0),
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::program::answer::{OutOfLimits, decimal};
 use crate::program::arguments::{
-    self, FigureArgument, Format, FreeArguments, With, figure, print_record, with,
+    self, FigureArgument, Format, FreeArguments, NO_DRAG, USUAL_DAMPING, With, figure, print_record, with,
 };
 use crate::program::error::ProgramError;
 use crate::program::output::{Ending, print_sentence, table};
@@ -16,9 +16,6 @@ use serde::Serialize;
 
 /// Frequencies at equal distances where no other number is given.
 const NUMBER: usize = 200;
-
-/// Damping of the stretch of cables where none is given [s].
-const STRETCH: f64 = 2e-4;
 
 /// Peaks that are listed.
 const LISTED: usize = 12;
@@ -54,9 +51,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     let Settings { at, figure, .. } = settings;
     let with = settings.with.clone().unwrap_or_default();
     with.check(&["damping", "drag"])?;
-    let stretch = with.value("damping", None, arguments::number)?.unwrap_or(STRETCH);
-    let drag = with.value("drag", None, arguments::number)?.unwrap_or(0.0);
-    let damping = Damping { stretch, drag };
+    let damping = with.damping()?.unwrap_or(USUAL_DAMPING);
     let is_table = matches!(at.printing.format(), Format::Csv) && at.pose()?.is_some();
     if !is_table && figure.is_none() {
         return at.answer(|robot, pose| settings.solve(robot, pose, damping), Answer::print);
@@ -210,9 +205,7 @@ impl Answer {
         println!("{rows}");
         println!("amplitude: of a force in the worst direction; winches: the one that moves the point most");
         if self.drag_per_s == 0.0 {
-            println!(
-                "nothing damps cables across their stretch: such peaks are far above real ones; --with drag=RATE"
-            );
+            println!("{NO_DRAG}");
         }
         OutOfLimits::print(&self.out_of_limits);
     }

@@ -2,8 +2,9 @@
 
 use crate::program::arguments::poses::Angles;
 use crate::program::arguments::{
-    self, FigureArgument, Format, FreeArguments, LoadArguments, Overwrite, Preference, Region, RobotArgument,
-    Threads, UncertaintyArgument, With, count, figure, region, with, write_figures,
+    self, FigureArgument, Format, FreeArguments, LoadArguments, NO_DRAG, Overwrite, Preference, Region,
+    RobotArgument, Threads, USUAL_DAMPING, UncertaintyArgument, With, count, figure, number, region, with,
+    write_figures,
 };
 use crate::program::error::ProgramError;
 use crate::program::output::{
@@ -12,8 +13,8 @@ use crate::program::output::{
 use crate::program::questions;
 use crate::program::wrenches::WrenchArguments;
 use cdpr_assess::{
-    BoundarySummary, Further, HELD, TiltDirections, Way, Workspace, WorkspaceSummary, begin_workspace,
-    compute_workspace, workspace_boundary, write_workspace,
+    BoundarySummary, Further, HELD, Shaking, TiltDirections, Way, Workspace, WorkspaceSummary,
+    begin_workspace, compute_workspace, workspace_boundary, write_workspace,
 };
 use cdpr_report::{MapQuantity, layers, workspace_maps};
 use cdpr_robot::{Axis, Rotation3, counted, listing, shown, significant};
@@ -46,16 +47,20 @@ pub(crate) struct Settings {
     errors: UncertaintyArgument,
     #[command(flatten)]
     set: WrenchArguments,
-    /// Further results, which take longer: capacity, distances, tilt=N, boundary, layers=N.
+    /// Further results, which take longer: capacity, distances, tilt=N, amplitude=HZ:HZ, boundary, layers=N.
     ///
     /// capacity: greatest payload and margins of the tensions, for each --wrench on top of the load.
     /// distances: of the nearest two cables, and of the cable nearest to the platform. tilt: how far the
-    /// platform may tilt, to 0.1 degrees, in the worst of N directions (4). boundary: of the positions that
-    /// are held under the load with the tensions distributed again, or boundary=kept, with the lengths kept:
-    /// polygons in a plane, a mesh in a box (STL). layers: of a box that are drawn, spread evenly (12); 0
-    /// draws nothing.
+    /// platform may tilt, to 0.1 degrees, in the worst of N directions (4). amplitude: the largest one in a band
+    /// of frequencies, by a force at P or --marker and by a winch; damping=TAU and drag=RATE damp the cables, as
+    /// those of `response` (2e-4 s, none). boundary: of the positions that are held under the load with the
+    /// tensions distributed again, or boundary=kept, with the lengths kept: polygons in a plane, a mesh in a box
+    /// (STL). layers: of a box that are drawn, spread evenly (12); 0 draws nothing.
     #[arg(long, value_name = "NAMES", value_parser = with)]
     with: Option<With>,
+    /// Point of the platform whose amplitude is mapped: x,y,z in its frame [m]; P if left out.
+    #[arg(long, value_parser = arguments::components::<3>, allow_hyphen_values = true)]
+    marker: Option<[f64; 3]>,
     /// Folder for the results, made if missing; NAME-workspace in the current folder if left out.
     #[arg(short, long)]
     out: Option<PathBuf>,
@@ -80,14 +85,31 @@ struct Wanted {
     distances: bool,
     /// Directions of the tilt.
     tilt: Option<usize>,
+    shaking: Option<Shaking>,
     boundary: Option<Way>,
     /// Layers of a box that are drawn.
     layers: usize,
 }
 
 impl Wanted {
-    fn new(with: &With) -> Result<Self, ProgramError> {
-        with.check(&["capacity", "distances", "tilt", "boundary", "layers"])?;
+    fn new(with: &With, marker: Option<[f64; 3]>) -> Result<Self, ProgramError> {
+        with.check(&["capacity", "distances", "tilt", "amplitude", "damping", "drag", "boundary", "layers"])?;
+        let band = |text: &str| {
+            let ends =
+                text.split_once(':').and_then(|(from, to)| Some([number(from).ok()?, number(to).ok()?]));
+            ends.ok_or_else(|| "expected two frequencies [Hz], such as amplitude=0:20".to_owned())
+        };
+        let damping = with.damping()?;
+        let band = with.value("amplitude", None, band)?;
+        if band.is_none() && (marker.is_some() || damping.is_some()) {
+            let expected = "expected --with amplitude=HZ:HZ, too, which these settings change";
+            return Err(ProgramError::Usage(format!("--marker, damping, drag: {expected}")));
+        }
+        let shaking = |band| Shaking {
+            band,
+            damping: damping.unwrap_or(USUAL_DAMPING),
+            marker: marker.unwrap_or_default().into(),
+        };
         let way = |text: &str| match text {
             "kept" => Ok(Way::Kept),
             _ => Err("expected boundary or boundary=kept".to_owned()),
@@ -96,6 +118,7 @@ impl Wanted {
             capacity: with.has("capacity")?,
             distances: with.has("distances")?,
             tilt: with.value("tilt", Some(4), count::<1, 360>)?,
+            shaking: band.map(shaking),
             boundary: with.value("boundary", Some(Way::Recomputed), way)?,
             layers: with.value("layers", None, count::<0, 10_000>)?.unwrap_or(12),
         })
@@ -136,7 +159,7 @@ const TILT_ACCURACY: f64 = 0.1;
 
 pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     settings.threads.start()?;
-    let wanted = Wanted::new(&settings.with.clone().unwrap_or_default())?;
+    let wanted = Wanted::new(&settings.with.clone().unwrap_or_default(), settings.marker)?;
     let robot = settings.preference.open_robot(settings.robot.path())?;
     let grid = settings.region.grid(&robot)?;
     questions::about_poses(&robot, "the map", &grid.corners());
@@ -159,6 +182,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
             capacity: wanted.capacity.then_some(&set),
             distances: wanted.distances,
             tilt: wanted.tilt.map(|count| TiltDirections { count, accuracy: TILT_ACCURACY.to_radians() }),
+            shaking: wanted.shaking,
         },
     };
     let progress = progress(grid.poses().len(), "poses");
@@ -221,13 +245,22 @@ fn print(summary: &WorkspaceSummary) {
     if rows.row_count() > 0 {
         println!("{rows}");
     }
+    if let Some(shaking) = &summary.shaking {
+        print_sentence(&format!("Amplitudes from {}.", shaking.conditions()));
+        if shaking.inertia_assumed {
+            print_sentence("The robot has no inertia: that of a ball as large as the platform is assumed.");
+        }
+        if shaking.drag_per_s == 0.0 {
+            print_sentence(NO_DRAG);
+        }
+    }
     if let Some(BoundarySummary { measure, error, unit, .. }) = &summary.boundary {
         print_sentence(&format!("The region held has {measure:.4} {unit}, with an error of {error:.1e}."));
     }
 }
 
 /// What ranges over the positions held.
-fn ranges(summary: &WorkspaceSummary) -> [(&'static str, Option<Extremes>); 14] {
+fn ranges(summary: &WorkspaceSummary) -> [(&'static str, Option<Extremes>); 16] {
     [
         ("|dp| [mm]", summary.magnitude_mm),
         ("least stiffness [N/m]", summary.least_stiffness),
@@ -243,6 +276,8 @@ fn ranges(summary: &WorkspaceSummary) -> [(&'static str, Option<Extremes>); 14] 
         ("distance of the nearest cables [mm]", summary.nearest_cables_mm),
         ("distance of cables and platform [mm]", summary.nearest_to_platform_mm),
         ("tilt in the worst direction [deg]", summary.tilt_deg),
+        ("largest amplitude by a force [mm/N]", summary.amplitude_mm_per_n),
+        ("largest amplitude by a winch [mm/mm]", summary.winch_mm_per_mm),
     ]
 }
 

@@ -1,0 +1,237 @@
+//! A cable whose winch and whose anchor point are shaken, and what damps it, (N13).
+
+use crate::cable::Parts;
+use crate::element::{Beginning, Element, Matrices, assemble};
+use crate::energy::{Number, Vector, Vibrating, real};
+use crate::error::DynamicsError;
+use crate::free::Free;
+use cdpr_statics::vibration::CableAtRest;
+use cdpr_statics::{DMatrix, Vector3};
+use nalgebra::{Complex, Matrix3};
+
+/// Next to a resonance errors of the polynomials grow: they are made for frequencies higher by this factor.
+const MARGIN: f64 = 1.25;
+
+/// What damps the cables. By default nothing does.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Damping {
+    /// τ of (N13) [s]: a cable that is stretched at a rate dε/dt bears EA τ dε/dt more.
+    pub stretch: f64,
+    /// c of (N13) [1/s]: a force of c μ for each m/s on a metre of cable.
+    pub drag: f64,
+}
+
+/// A cable whose ends are shaken.
+#[derive(Clone, Debug)]
+pub(super) struct ShakenCable {
+    axes: Matrix3<f64>,
+    pub(super) lever: Vector3<f64>,
+    elements: Vec<Element>,
+    in_plane: Shaken<2>,
+    across: Shaken<1>,
+}
+
+/// Unknowns of a cable in its plane or across it.
+#[derive(Clone, Debug)]
+struct Shaken<const D: usize> {
+    beginning: Beginning<D>,
+    stiffness: DMatrix<f64>,
+    /// The part of the stiffness that damps.
+    damped: DMatrix<f64>,
+    mass: DMatrix<f64>,
+    winch: Winch,
+}
+
+/// Stiffness of the end of a cable [N/m], and the force on its held end per length that its winch takes in
+/// [N/m].
+type StiffnessAndPull = (Matrix3<Number>, Vector);
+
+/// What a winch does to the unknowns of a cable, per length that it takes in.
+#[derive(Clone, Debug, Default)]
+struct Winch {
+    /// The unknown that it moves, and how far.
+    moved: Option<(usize, f64)>,
+    /// Unknowns that it pulls at through the compliance of a pulley, and the force [N/m].
+    pulled: Vec<(usize, f64)>,
+}
+
+impl ShakenCable {
+    pub(super) fn new(i: usize, cable: &CableAtRest, highest: f64) -> Result<Self, DynamicsError> {
+        let free = Free { cable: i, free: cable.catenary.free() };
+        // Checks that it hangs nowhere without tension.
+        let Parts { elements, across, .. } = Parts::new(i, cable, MARGIN * highest)?;
+        let (beginning, damped, winch) = driven(&free, cable)?;
+        let density = cable.linear_density;
+        let Matrices { stiffness, mass } = assemble(&elements, &beginning, density, |s| free.modulus(s));
+        let stretched = |s: f64| {
+            let tension = free.tension(s);
+            let (t, modulus) = (tension.normalize(), free.free.cable.tangent_stiffness(tension.norm()));
+            [[modulus * t.x * t.x, modulus * t.x * t.y], [modulus * t.x * t.y, modulus * t.y * t.y]]
+        };
+        let damping = Beginning { matrices: damped, directions: beginning.directions.clone() };
+        let damped = assemble(&elements, &damping, 0.0, stretched).stiffness;
+        let in_plane = Shaken { beginning, stiffness, damped, mass, winch };
+        let beginning = across.beginning;
+        let matrices = assemble(&elements, &beginning, density, |s| [[1.0 / free.slenderness(s)]]);
+        let Matrices { stiffness, mass } = matrices;
+        let damped = DMatrix::zeros(stiffness.nrows(), stiffness.nrows());
+        let across = Shaken { beginning, stiffness, damped, mass, winch: Winch::default() };
+        Ok(Self { axes: cable.axes, lever: cable.lever, elements, in_plane, across })
+    }
+
+    /// Stiffness of its end, and the force on its held end by its winch, in the base frame.
+    pub(super) fn at(&self, omega: f64, damping: &Damping) -> Option<StiffnessAndPull> {
+        let (in_plane, winch) = self.in_plane.at(omega, damping)?;
+        let (across, _) = self.across.at(omega, damping)?;
+        let o = real(0.0);
+        let [[xx, xz], [zx, zz]] = in_plane;
+        let local = Matrix3::new(xx, o, xz, o, across[0][0], o, zx, o, zz);
+        let axes = self.axes.map(real);
+        Some((axes * local * axes.transpose(), axes * Vector::new(winch[0], o, winch[1])))
+    }
+
+    /// How cable `number` vibrates while its winch holds and its end moves by `end`.
+    pub(super) fn vibrating<'a>(
+        &'a self,
+        (number, at_rest): (usize, &'a CableAtRest<'a>),
+        end: &Vector,
+        omega: f64,
+        damping: &Damping,
+    ) -> Option<Vibrating<'a>> {
+        let end = self.axes.map(real).tr_mul(end);
+        Some(Vibrating {
+            number,
+            at_rest,
+            elements: &self.elements,
+            in_plane: (&self.in_plane.beginning, self.in_plane.unknowns([end.x, end.z], omega, damping)?),
+            across: (&self.across.beginning, self.across.unknowns([end.y], omega, damping)?),
+            square: Complex::new(omega * omega, -omega * damping.drag),
+            viscous: Complex::new(0.0, omega * damping.stretch),
+        })
+    }
+}
+
+impl<const D: usize> Shaken<D> {
+    /// Its dynamic stiffness.
+    fn value(&self, i: usize, j: usize, omega: f64, damping: &Damping) -> Number {
+        Complex::new(self.stiffness[(i, j)], omega * damping.stretch * self.damped[(i, j)])
+            + Complex::new(-omega * omega, omega * damping.drag) * self.mass[(i, j)]
+    }
+
+    /// The unknowns for unit motions of the end, and in the last column for the winch.
+    fn shapes(&self, omega: f64, damping: &Damping) -> Option<DMatrix<Number>> {
+        let value = |i: usize, j: usize| self.value(i, j, omega, damping);
+        let (moved, size) = (self.winch.moved, self.stiffness.nrows());
+        let mut shapes = DMatrix::zeros(size, D + 1);
+        (0..D).for_each(|k| shapes[(k, k)] = real(1.0));
+        moved.iter().for_each(|(winch, far)| shapes[(*winch, D)] = real(*far));
+        let inside: Vec<usize> = (D..size).filter(|i| moved.is_none_or(|(winch, _)| winch != *i)).collect();
+        let matrix = DMatrix::from_fn(inside.len(), inside.len(), |i, j| value(inside[i], inside[j]));
+        let mut right = DMatrix::from_fn(inside.len(), D + 1, |i, j| match (j < D, moved) {
+            (true, _) => -value(inside[i], j),
+            (false, Some((winch, far))) => -value(inside[i], winch) * far,
+            (false, None) => real(0.0),
+        });
+        for (unknown, force) in &self.winch.pulled {
+            if let Some(i) = inside.iter().position(|i| i == unknown) {
+                right[(i, D)] += real(*force);
+            }
+        }
+        let found = matrix.lu().solve(&right)?;
+        inside.iter().enumerate().for_each(|(i, unknown)| shapes.set_row(*unknown, &found.row(i)));
+        Some(shapes)
+    }
+
+    /// Stiffness of the end, and the force on the held end by the winch.
+    #[allow(clippy::type_complexity)]
+    fn at(&self, omega: f64, damping: &Damping) -> Option<([[Number; D]; D], [Number; D])> {
+        let shapes = self.shapes(omega, damping)?;
+        let force = |k: usize, j: usize| -> Number {
+            (0..shapes.nrows()).map(|i| self.value(k, i, omega, damping) * shapes[(i, j)]).sum()
+        };
+        let stiffness = std::array::from_fn(|k| std::array::from_fn(|j| force(k, j)));
+        Some((stiffness, std::array::from_fn(|k| force(k, D))))
+    }
+
+    /// The unknowns for a motion of the end.
+    fn unknowns(&self, end: [Number; D], omega: f64, damping: &Damping) -> Option<Vec<Number>> {
+        let shapes = self.shapes(omega, damping)?;
+        let of = |i: usize| end.iter().enumerate().map(|(j, end)| shapes[(i, j)] * end).sum();
+        Some((0..shapes.nrows()).map(of).collect())
+    }
+}
+
+/// Where a cable begins with a winch that moves it: its unknowns, their part that damps, and the winch.
+fn driven(free: &Free, cable: &CableAtRest) -> Result<(Beginning<2>, Matrices, Winch), DynamicsError> {
+    let tension = free.tension(0.0);
+    let (along, stretch) = (tension.normalize(), 1.0 + free.free.cable.strain(tension.norm()));
+    let guide = cable.catenary.cable.guide;
+    if guide.is_some_and(|guide| guide.radius == 0.0 && guide.lead > 0.0) {
+        let start = Beginning { directions: vec![[1.0]], matrices: Matrices::zeros(1) };
+        let (beginning, damped) = free.behind_lead(cable, &start);
+        // The first unknown is the exit point, the second one the winch.
+        return Ok((beginning, damped, Winch { moved: Some((2 + 1, -stretch)), pulled: Vec::new() }));
+    }
+    let (mut beginning, _) = free.beginnings(cable)?;
+    let soft = beginning.directions.len();
+    let mut winch = Winch::default();
+    let mut rest = along;
+    // Where cable slides upwards, the tension behind it is smaller by its weight, as in (N7).
+    let slid = free.free.cable.weight_per_length * along.y;
+    for (k, [x, z]) in beginning.directions.iter().enumerate() {
+        let part = along.x * x + along.y * z;
+        rest -= nalgebra::Vector2::new(*x, *z) * part;
+        winch.pulled.push((2 + k, part * (slid - stretch * beginning.matrices.stiffness[(k, k)])));
+    }
+    /// Part of the direction below which a pulley yields along all of it.
+    const ROUNDING: f64 = 1e-9;
+    if rest.norm() > ROUNDING {
+        beginning.directions.push(rest.normalize().into());
+        let Matrices { stiffness, mass } = beginning.matrices;
+        let [stiffness, mass] = [stiffness, mass].map(|matrix| matrix.resize(soft + 1, soft + 1, 0.0));
+        beginning.matrices = Matrices { stiffness, mass };
+        winch.moved = Some((2 + soft, -stretch * rest.norm()));
+    }
+    let damped = Matrices::zeros(beginning.matrices.stiffness.nrows());
+    Ok((beginning, damped, winch))
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use super::*;
+    use crate::cable::tests::of_reference;
+    use serde_json::Value;
+    use std::f64::consts::TAU;
+
+    #[test]
+    fn cables_shaken_at_both_ends_answer_as_transfer_matrices_do() {
+        let file: Value =
+            serde_json::from_str(include_str!("../../../../data/reference/motion.json")).unwrap();
+        let number = |value: &Value| value.as_f64().unwrap();
+        let mut compared = 0;
+        for case in file["cables"].as_array().unwrap() {
+            let Some(references) = case["dynamic_stiffness"].as_array() else { continue };
+            let cable = of_reference(case);
+            let catenary = cable.catenary;
+            let highest = references.iter().map(|at| number(&at["frequency_hz"])).fold(0.1, f64::max);
+            let shaken = ShakenCable::new(0, &cable, highest).unwrap();
+            let free = Free { cable: 0, free: catenary };
+            let tension = free.tension(0.0);
+            let winch = -tension.normalize() * (1.0 + catenary.cable.strain(tension.norm()));
+            for reference in references {
+                let omega = TAU * number(&reference["frequency_hz"]);
+                let (stiffness, pull) = shaken.at(omega, &Damping::default()).unwrap();
+                let of = |i: usize, j: usize| number(&reference["matrix_6x6"][3 + i][j]);
+                let expected = Matrix3::from_fn(|i, j| of(i, 3 + j));
+                let error = (stiffness.map(|value| value.re) - expected).norm() / expected.norm();
+                let by_winch = Vector3::from_fn(|i, _| of(i, 0) * winch.x + of(i, 2) * winch.y);
+                let off = (pull.map(|value| value.re) - by_winch).norm() / expected.norm();
+                assert!(error < 1e-8 && off < 1e-8, "{}: {error:e} {off:e}", case["name"]);
+                compared += 1;
+            }
+        }
+        assert!(compared > 10, "{compared}");
+    }
+}
