@@ -82,6 +82,6 @@ pub fn simulate_controlled(
 /// Elements of the chains that are tried in turn.
 const CHAINS: [usize; 4] = [10, 20, 40, 80];
 
-/// Chains are fine enough where those of half as many elements move the platform otherwise by this share of its
-/// motion, or by this length [m].
+/// Chains are fine enough where those of half as many elements move the platform otherwise by this share of
+/// its motion, or by this length [m].
 const ENOUGH: [f64; 2] = [2e-3, 2e-4];

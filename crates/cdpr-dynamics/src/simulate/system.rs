@@ -290,8 +290,8 @@ pub(super) struct Matrices {
     size: usize,
 }
 
-/// Factors of `σ² M + σ C + K`: L and D of each cable with `L⁻¹` times its coupling to the platform, of the rows
-/// from the first that is coupled; and the platform's.
+/// Factors of `σ² M + σ C + K`: L and D of each cable with `L⁻¹` times its coupling to the platform, of the
+/// rows from the first that is coupled; and the platform's.
 pub(super) struct Factors<T: ComplexField + Copy> {
     shift: T,
     cables: Vec<(Factored<T>, Vec<[T; 6]>)>,
