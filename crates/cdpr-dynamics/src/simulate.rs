@@ -26,7 +26,7 @@ use run::{Wanted, run};
 /// The motion of a robot from rest under events.
 ///
 /// It is computed twice, with [`Settings::discretization`] and with a coarser one: their differences are in
-/// [`Series::difference`].
+/// [`Series::difference`]. Where cables go slack, it is computed with finer ones until two of them agree.
 ///
 /// # Errors
 /// [`DynamicsError::Invalid`] for settings and events that are not possible; [`DynamicsError::Stalled`] where no
@@ -53,19 +53,35 @@ pub fn simulate_controlled(
 ) -> Result<Series, DynamicsError> {
     settings.check()?;
     event::check(problem, events)?;
-    let wanted = Wanted { problem, rest, events, settings, control };
-    let coarse = Settings { tolerance: 4.0 * settings.tolerance, ..*settings };
-    let (taut, slack) = match settings.discretization {
-        Some(discretization) => (discretization, None),
-        None => (Discretization::TAUT, Some(Discretization::SLACK)),
+    let solve = |elements, tolerance| {
+        run(
+            Wanted { problem, rest, events, settings: &Settings { tolerance, ..*settings }, control },
+            elements,
+        )
     };
-    let (fine, coarse) = rayon::join(
-        || run(wanted, (taut, slack)),
-        || {
-            let coarser = (taut.coarser(), slack.map(Discretization::coarser));
-            run(Wanted { settings: &coarse, ..wanted }, coarser)
-        },
-    );
-    let (fine, coarse) = (fine?, coarse?);
-    Ok(Series { difference: fine.difference_to(&coarse), ..fine })
+    let (tolerance, coarse) = (settings.tolerance, 4.0 * settings.tolerance);
+    let chain = |elements| (Discretization::TAUT, Some(Discretization::chain(elements)));
+    let elements = settings.discretization.map_or(chain(CHAINS[1]), |elements| (elements, None));
+    let coarser = (elements.0.coarser(), elements.1.map(|_| Discretization::chain(CHAINS[0])));
+    let (fine, coarse) = rayon::join(|| solve(elements, tolerance), || solve(coarser, coarse));
+    let (mut fine, coarse) = (fine?, coarse?);
+    fine.difference = fine.difference_to(&coarse);
+    let size = problem.robot().platform_size();
+    for elements in &CHAINS[2..] {
+        let [differs, moves] = [&fine.difference, &fine.motion()].map(|by| by.position + size * by.rotation);
+        let has_chain = fine.slack.contains(&true) && settings.discretization.is_none();
+        if !has_chain || differs <= (ENOUGH[0] * moves).max(ENOUGH[1]) {
+            break;
+        }
+        let finer = solve(chain(*elements), tolerance)?;
+        fine = Series { difference: finer.difference_to(&fine), ..finer };
+    }
+    Ok(fine)
 }
+
+/// Elements of the chains that are tried in turn.
+const CHAINS: [usize; 4] = [10, 20, 40, 80];
+
+/// Chains are fine enough where those of half as many elements move the platform otherwise by this share of
+/// its motion, or by this length [m].
+const ENOUGH: [f64; 2] = [2e-3, 2e-4];

@@ -62,20 +62,21 @@ impl<T: ComplexField + Copy> Band<T> {
 
     /// L and D of `L D Lᵀ`, without exchange of rows; `None` for a pivot that is zero.
     pub(super) fn factor(mut self) -> Option<Factored<T>> {
-        let mut inverse_pivots = Vec::with_capacity(self.size);
+        let (width, mut inverse_pivots) = (self.width, Vec::with_capacity(self.size));
         for i in 0..self.size {
+            let first = self.first(i);
+            let (before, row) = self.values.split_at_mut(i * (width + 1));
             // First L D, in the row of L.
-            for j in self.first(i)..i {
-                let mut value = self.values[self.place(i, j)];
-                for k in self.first(i).max(self.first(j))..j {
-                    value -= self.values[self.place(i, k)] * self.values[self.place(j, k)];
+            for j in first..i {
+                let from = first.max(j.saturating_sub(width));
+                let (left, right) = row.split_at_mut(j + width - i);
+                let other = &before[j * (width + 1)..][from + width - j..width];
+                for (one, other) in left[from + width - i..].iter().zip(other) {
+                    right[0] -= *one * *other;
                 }
-                let place = self.place(i, j);
-                self.values[place] = value;
             }
-            let mut pivot = self.values[self.place(i, i)];
-            let (first, left) = (self.first(i), self.left(i));
-            for (value, inverse) in self.values[left].iter_mut().zip(&inverse_pivots[first..]) {
+            let mut pivot = row[width];
+            for (value, inverse) in row[first + width - i..width].iter_mut().zip(&inverse_pivots[first..]) {
                 let scaled = *value * *inverse;
                 pivot -= *value * scaled;
                 *value = scaled;
@@ -97,17 +98,28 @@ pub(super) struct Factored<T> {
 }
 
 impl<T: ComplexField + Copy> Factored<T> {
-    /// Solves for a right side in place.
-    pub(super) fn solve(&self, vector: &mut [T]) {
+    /// `L⁻¹` times a vector in place, whose elements before `from` are zero.
+    pub(super) fn forward(&self, vector: &mut [T], from: usize) {
         let band = &self.lower;
-        for i in 0..band.size {
-            let row = &band.values[band.left(i)];
+        for i in from..band.size {
+            let first = band.first(i).max(from);
+            let row = &band.values[band.place(i, first)..band.place(i, i)];
             let mut sum = vector[i];
-            for (value, known) in row.iter().zip(&vector[band.first(i)..i]) {
+            for (value, known) in row.iter().zip(&vector[first..i]) {
                 sum -= *value * *known;
             }
             vector[i] = sum;
         }
+    }
+
+    /// `D⁻¹`, the elements of its diagonal.
+    pub(super) fn inverse_pivots(&self) -> &[T] {
+        &self.inverse_pivots
+    }
+
+    /// `L⁻ᵀ D⁻¹` times a vector in place.
+    pub(super) fn backward(&self, vector: &mut [T]) {
+        let band = &self.lower;
         for (value, inverse) in vector.iter_mut().zip(&self.inverse_pivots) {
             *value *= *inverse;
         }
@@ -137,7 +149,9 @@ mod tests {
         }
         let right: Vec<_> = (0..size).map(|i| Complex::new(i as f64, 1.0)).collect();
         let mut found = right.clone();
-        band.clone().factor().unwrap().solve(&mut found);
+        let factored = band.clone().factor().unwrap();
+        factored.forward(&mut found, 0);
+        factored.backward(&mut found);
         for (one, other) in band.times(&found, |value, x| value * x).iter().zip(&right) {
             assert!((one - other).norm() < 1e-13, "{one} {other}");
         }

@@ -97,6 +97,11 @@ impl CableInMotion<'_> {
         self.of_start() + self.mesh.as_ref().map_or(0, |mesh| 3 * (mesh.size() - 2))
     }
 
+    /// Whether it is a chain of straight elements.
+    pub(super) fn is_chain(&self) -> bool {
+        self.mesh.as_ref().is_some_and(|mesh| mesh.rule.degree == 1)
+    }
+
     /// The unknowns and their rates on other elements.
     pub(super) fn on(&self, mesh: &Mesh, at: &Instant, own: [&[f64]; 2]) -> [Vec<f64>; 2] {
         let shares = mesh.shares();

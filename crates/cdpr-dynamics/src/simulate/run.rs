@@ -92,8 +92,17 @@ pub struct Series {
 impl Series {
     /// The greatest differences to the same motion computed otherwise.
     pub(super) fn difference_to(&self, other: &Self) -> Difference {
+        Self::difference(self.samples.iter().zip(&other.samples))
+    }
+
+    /// The greatest differences to the begin.
+    pub(super) fn motion(&self) -> Difference {
+        Self::difference(self.samples.iter().zip(self.samples.first().into_iter().cycle()))
+    }
+
+    fn difference<'s>(pairs: impl Iterator<Item = (&'s Sample, &'s Sample)>) -> Difference {
         let mut difference = Difference::default();
-        for (one, other) in self.samples.iter().zip(&other.samples) {
+        for (one, other) in pairs {
             let motion = one.pose.motion_to(&other.pose);
             difference.position = difference.position.max(motion.fixed_rows::<3>(0).norm());
             difference.rotation = difference.rotation.max(motion.fixed_rows::<3>(3).norm());

@@ -290,7 +290,8 @@ pub(super) struct Matrices {
     size: usize,
 }
 
-/// Factors of `σ² M + σ C + K`: those of each cable, their answer to the platform, and the platform's.
+/// Factors of `σ² M + σ C + K`: L and D of each cable with `L⁻¹` times its coupling to the platform, of the
+/// rows from the first that is coupled; and the platform's.
 pub(super) struct Factors<T: ComplexField + Copy> {
     shift: T,
     cables: Vec<(Factored<T>, Vec<[T; 6]>)>,
@@ -311,23 +312,21 @@ impl Linearization for Matrices {
                 band.add(i, i, shift * shift * real(*mass));
             }
             let factored = band.factor()?;
-            let coupling = cable.coupling(shift);
-            let mut answers = vec![[T::zero(); 6]; cable.mass.len()];
+            let mut coupling = cable.coupling(shift);
+            let mut rows = vec![T::zero(); cable.mass.len()];
             for column in 0..6 {
-                let mut answer = vec![T::zero(); cable.mass.len()];
-                let coupled = answer[cable.coupled..].iter_mut().zip(&coupling);
-                coupled.for_each(|(value, row)| *value = row[column]);
-                factored.solve(&mut answer);
-                answer.iter().zip(&mut answers).for_each(|(value, row)| row[column] = *value);
+                coupling.iter().zip(&mut rows[cable.coupled..]).for_each(|(row, value)| *value = row[column]);
+                factored.forward(&mut rows, cable.coupled);
+                coupling.iter_mut().zip(&rows[cable.coupled..]).for_each(|(row, value)| row[column] = *value);
             }
-            for (row, answer) in coupling.iter().zip(&answers[cable.coupled..]) {
+            for (row, inverse) in coupling.iter().zip(&factored.inverse_pivots()[cable.coupled..]) {
                 for i in 0..6 {
                     for j in 0..6 {
-                        platform[(i, j)] -= row[i] * answer[j];
+                        platform[(i, j)] -= row[i] * *inverse * row[j];
                     }
                 }
             }
-            cables.push((factored, answers));
+            cables.push((factored, coupling));
         }
         let platform = platform.lu();
         platform.is_invertible().then_some(Factors { shift, cables, platform })
@@ -341,7 +340,7 @@ impl Linearization for Matrices {
         let mixed = six(accelerations) + six(rates) * shift;
         let mut on_platform = self.mass.map(real) * mixed + self.damping.map(real) * six(rates);
         let mut found = vec![T::zero(); 2 * n];
-        for (cable, (factored, _)) in self.cables.iter().zip(&by.cables) {
+        for (cable, (factored, coupling)) in self.cables.iter().zip(&by.cables) {
             let size = cable.mass.len();
             let own = &rates[cable.first..cable.first + size];
             let mut load = cable.damping.times(own, |c, x| real(c) * x);
@@ -355,18 +354,21 @@ impl Linearization for Matrices {
                     on_platform[k] += damping * own[i];
                 }
             }
-            factored.solve(&mut load);
-            for (value, row) in load[cable.coupled..].iter().zip(cable.coupling(shift)) {
-                (0..6).for_each(|k| on_platform[k] -= row[k] * *value);
+            factored.forward(&mut load, 0);
+            let ends = load.iter().zip(factored.inverse_pivots()).skip(cable.coupled);
+            for ((value, inverse), row) in ends.zip(coupling) {
+                (0..6).for_each(|k| on_platform[k] -= row[k] * *inverse * *value);
             }
             found[cable.first..cable.first + size].copy_from_slice(&load);
         }
         let motion = by.platform.solve(&on_platform).unwrap_or_else(|| on_platform * T::from_real(f64::NAN));
         found[..6].copy_from_slice(motion.as_slice());
-        for (cable, (_, answers)) in self.cables.iter().zip(&by.cables) {
-            for (i, answer) in answers.iter().enumerate() {
-                (0..6).for_each(|k| found[cable.first + i] -= answer[k] * motion[k]);
+        for (cable, (factored, coupling)) in self.cables.iter().zip(&by.cables) {
+            let own = &mut found[cable.first..cable.first + cable.mass.len()];
+            for (value, row) in own[cable.coupled..].iter_mut().zip(coupling) {
+                (0..6).for_each(|k| *value -= row[k] * motion[k]);
             }
+            factored.backward(own);
         }
         for i in 0..n {
             found[n + i] = shift * found[i] - rates[i];
