@@ -106,7 +106,7 @@ fn bad_samples_and_settings_have_a_status_and_a_message() {
         assert!(message().starts_with("payload_std is NaN"), "{}", message());
         cdpr_robot_free(robot);
         let observer = observer(&lengths);
-        let mut take = |count: usize, tensions: *const f64, lengths: *const f64| {
+        let take = |count: usize, tensions: *const f64, lengths: *const f64| {
             cdpr_observer_update(observer, lengths, tensions, count, null_mut())
         };
         assert_eq!(take(7, empty.as_ptr(), lengths.as_ptr()), CdprStatus::Size);
