@@ -106,7 +106,7 @@ def main():
         np.array([0.6 * s, 0.4 * np.sin(3 * s), 1.6 + 0.2 * s, 0.1 * np.sin(2 * s), 0.12 * np.cos(3 * s), 0.2 * s])
         for s in np.linspace(-1, 1, 60)
     ]
-    # Lengths that make each cable pull with some 300 N at the pose, were it not for the balance.
+    # Lengths with which each cable would pull with 500 N at the pose; the platform then finds its rest.
     lengths, starts, readings = [], [], []
     for pose in poses:
         spans = pose[:3] + ANCHORS @ rotation(pose[3:]).T - EXITS

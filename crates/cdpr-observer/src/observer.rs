@@ -229,9 +229,10 @@ impl LoadObserver {
     fn take(&mut self, lengths: &[f64], tensions: &[f64], observed: &mut Observed) -> Option<()> {
         let ObserverSetting { memory, consecutive, .. } = self.setting;
         let normal = self.normal(lengths, tensions)?;
-        let mut any_load = Matrix5::identity();
-        any_load[(MODULUS, MODULUS)] = 1.0 / self.information.try_inverse()?[(MODULUS, MODULUS)];
-        let information = any_load + (1.0 - 1.0 / memory) * (self.information - any_load);
+        let prior = Matrix5::identity();
+        let information = prior + (1.0 - 1.0 / memory) * (self.information - prior);
+        let mut any_load = prior;
+        any_load[(MODULUS, MODULUS)] = 1.0 / information.try_inverse()?[(MODULUS, MODULUS)];
         let (change, factor) = normal.chi_square(&information)?;
         let (mut consistency, _) = normal.chi_square(&any_load)?;
         let follows = change <= self.thresholds.chi_square;

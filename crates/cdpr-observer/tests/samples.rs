@@ -117,6 +117,26 @@ fn a_slack_cable_of_the_model_is_no_alarm_and_a_changed_load_is_one() {
 }
 
 #[test]
+fn a_memory_bounds_what_the_samples_say_of_each_unknown() {
+    let nominal = robot("caroca");
+    let path = follow(&nominal, &nominal, [0.2, -0.1, 1.75], [0.0; 2]);
+    let stds = |memory: f64, samples: usize| {
+        let setting =
+            ObserverSetting { memory, modulus_std: 0.05, ..ObserverSetting::new(8, 5.0, 20.0, 0.1) };
+        let mut observer = LoadObserver::new(&nominal, &path.lengths[0], &path.poses[0], setting).unwrap();
+        for _ in 0..samples {
+            observer.update(&path.lengths[0], &path.tensions[0]).unwrap();
+        }
+        let estimate = observer.estimate();
+        [estimate.payload_std, estimate.modulus_std]
+    };
+    // Geometric weights with the sum `memory`, as of as many samples without forgetting.
+    for (fading, lasting) in stds(200.0, 5000).iter().zip(stds(f64::INFINITY, 200)) {
+        assert!((fading / lasting - 1.0).abs() < 1e-3, "{fading} {lasting}");
+    }
+}
+
+#[test]
 fn what_is_no_input_is_refused_by_name() {
     let nominal = robot("caroca");
     let path = follow(&nominal, &nominal, [0.2, -0.1, 1.75], [0.0; 2]);
