@@ -100,8 +100,8 @@ struct Sample {
 /// >>> found = robot.deflection([0, 0, 1.75], payload=5)
 /// >>> observer = cdpr.Observer(robot, found.lengths, [0, 0, 1.75], tension_std=5, payload_std=20)
 /// >>> samples = observer.update([found.lengths] * 100, [found.loaded.tensions] * 100)
-/// >>> round(samples.payload[-1], 2), samples.alarm[-1]  # [kg]
-/// (5.0, 'none')
+/// >>> f"{samples.payload[-1]:.2f} kg, alarm {samples.alarm[-1]}"
+/// '5.00 kg, alarm none'
 #[pyclass(frozen, module = "cdpr")]
 pub(crate) struct Observer {
     observer: Mutex<LoadObserver>,
