@@ -45,6 +45,8 @@ answer! {
         lost: Py<PyAny>,
         /// Whether the model found a rest for the lengths; if not, the sample changed nothing.
         converged: Py<PyAny>,
+        /// None for each sample: one without a rest has not converged, and the estimate is that before it.
+        reasons: Py<PyAny>,
     }
 }
 
@@ -262,6 +264,7 @@ impl LoadEstimates {
             slack: are(CableState::Slack)?,
             lost: are(CableState::Lost)?,
             converged: all.array(false, &[], |sample, out| out[0] = sample.observed.converged)?,
+            reasons: all.reasons(),
         })
     }
 }

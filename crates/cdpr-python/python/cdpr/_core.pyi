@@ -2616,6 +2616,9 @@ class LoadEstimates:
     @property
     def converged(self) -> Any:
         """Whether the model found a rest for the lengths; if not, the sample changed nothing."""
+    @property
+    def reasons(self) -> Any:
+        """None for each sample: one without a rest has not converged, and the estimate is that before it."""
 
 @final
 class Observer:
