@@ -153,6 +153,7 @@ fn the_lower_layers_do_no_input_or_output() {
         "cdpr-tension",
         "cdpr-statics",
         "cdpr-exchange",
+        "cdpr-observer",
         "cdpr-sensitivity",
     ] {
         for path in rust_files(&crates.join(name).join("src")) {

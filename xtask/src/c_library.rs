@@ -37,7 +37,9 @@ fn install(built: &Path, prefix: &Path) -> Result<(), String> {
     for file in ["cdpr_mex.c", "cdpr_example.m", "+cdpr/Robot.m", "+cdpr/Tracker.m"] {
         copy(&sources.join("matlab").join(file), &prefix.join("share/cdpr/matlab").join(file))?;
     }
-    copy(&sources.join("examples/control_loop.c"), &prefix.join("share/cdpr/examples/control_loop.c"))?;
+    for name in ["control_loop.c", "load_observer.c"] {
+        copy(&sources.join("examples").join(name), &prefix.join("share/cdpr/examples").join(name))?;
+    }
     let version = env!("CARGO_PKG_VERSION");
     let package = format!(
         "prefix=${{pcfiledir}}/../..\nlibdir=${{prefix}}/lib\nincludedir=${{prefix}}/include\n\n\

@@ -1,7 +1,7 @@
 /* libcdpr: elasto-statics of cable-driven parallel robots. SI units throughout; docs/c.md explains the use.
  *
- * Any number of threads at a time may call the functions that take a robot or no handle. A tracker or a path belongs
- * to one thread at a time. */
+ * Any number of threads at a time may call the functions that take a robot or no handle. A tracker, a path or an observer
+ * belongs to one thread at a time. */
 
 #ifndef CDPR_H
 #define CDPR_H
@@ -48,7 +48,7 @@ typedef enum CdprStatus {
      */
     CDPR_STATUS_UNSTABLE = 7,
     /**
-     * The iterations did not converge. A tracker keeps its last state.
+     * The iterations did not converge. A tracker or an observer keeps its last state.
      */
     CDPR_STATUS_NOT_CONVERGED = 8,
     /**
@@ -56,6 +56,40 @@ typedef enum CdprStatus {
      */
     CDPR_STATUS_PANIC = 9,
 } CdprStatus;
+
+/**
+ * What the readings say that the model does not.
+ */
+typedef enum CdprAlarm {
+    /**
+     * Nothing.
+     */
+    CDPR_ALARM_NONE = 0,
+    /**
+     * The load has changed by more than the estimate allowed.
+     */
+    CDPR_ALARM_LOAD_CHANGED = 1,
+    /**
+     * A cable reads no tension although the model has it taut, and no plausible load explains the readings: it is
+     * broken, slack or off its pulley, or its sensor has failed.
+     */
+    CDPR_ALARM_CABLE_LOST = 2,
+    /**
+     * No plausible load explains the readings, and no cable stands out.
+     */
+    CDPR_ALARM_INCONSISTENT = 3,
+    /**
+     * Another load explains the readings, and a cable reads no tension although the model had it taut with the
+     * load before: it has become slack, or it is broken and the robot has too few cables to distinguish these.
+     */
+    CDPR_ALARM_CABLE_SLACK = 4,
+} CdprAlarm;
+
+/**
+ * Observes the load and the cables from lengths and measured tensions: the handle of `cdpr_observer_new`. One
+ * thread at a time may use it.
+ */
+typedef struct CdprObserver CdprObserver;
 
 /**
  * Lengths and tensions along a path of poses: the handle of `cdpr_path_new`. One thread at a time may use
@@ -213,6 +247,111 @@ typedef struct CdprDerivatives {
     double *magnitude;
 } CdprDerivatives;
 
+/**
+ * Noise, prior knowledge and alarms of an observer.
+ */
+typedef struct CdprObserverSetting {
+    /**
+     * Number of cables.
+     */
+    size_t count;
+    /**
+     * Standard deviation of the tension that the sensor of each cable reads [N].
+     */
+    const double *tension_std;
+    /**
+     * Standard deviation of each unstrained length [m]; 0 where lengths count as exact.
+     */
+    double length_std;
+    /**
+     * Standard deviation of the load before the first sample [kg]; its mean is no load.
+     */
+    double payload_std;
+    /**
+     * Standard deviation of the distance between the load's centre and that of the platform along each axis [m].
+     */
+    double center_std;
+    /**
+     * Standard deviation of the modulus as a share of the robot's, 0 to 0.15; 0 where it is known.
+     */
+    double modulus_std;
+    /**
+     * Number of samples after which a sample has lost most of its weight; infinite for none that loses any.
+     */
+    double memory;
+    /**
+     * Probability that an alarm begins at a sample although nothing is wrong, 1e-15 to 0.1, such as 1e-9.
+     */
+    double false_alarm;
+    /**
+     * Number of samples in a row that have to deviate for an alarm, such as 3.
+     */
+    size_t consecutive;
+} CdprObserverSetting;
+
+/**
+ * What a sample says, and what is known after it.
+ */
+typedef struct CdprObserved {
+    /**
+     * Force that the measured tensions hold in addition to the platform's weight, in the base frame [N].
+     */
+    double force[3];
+    /**
+     * Its moment about P [N m].
+     */
+    double moment[3];
+    /**
+     * Mass of the load [kg].
+     */
+    double payload;
+    /**
+     * Standard deviation of the mass [kg].
+     */
+    double payload_std;
+    /**
+     * Centre of the load in the frame of the platform, from P [m]; NaN where the load is below three times its
+     * standard deviation, or where the samples have not halved the uncertainty of its moment.
+     */
+    double center[3];
+    /**
+     * Standard deviation of the centre [m]; NaN where the centre is.
+     */
+    double center_std[3];
+    /**
+     * Modulus of the cables as a multiple of the robot's.
+     */
+    double modulus;
+    /**
+     * Standard deviation of the modulus.
+     */
+    double modulus_std;
+    /**
+     * Chi-square of the readings for the best plausible load; NaN while taring.
+     */
+    double consistency;
+    /**
+     * Chi-square of the readings for the load that was known before; NaN while taring.
+     */
+    double change;
+    /**
+     * The value beyond which a chi-square deviates.
+     */
+    double threshold;
+    /**
+     * The cable of `CDPR_ALARM_CABLE_LOST` or `CDPR_ALARM_CABLE_SLACK`, from 0.
+     */
+    size_t cable;
+    /**
+     * What the last samples in a row say.
+     */
+    enum CdprAlarm alarm;
+    /**
+     * Iterations that were made, at most 12.
+     */
+    uint32_t iterations;
+} CdprObserved;
+
 #ifdef __cplusplus
 extern "C" {
 #endif // __cplusplus
@@ -368,6 +507,50 @@ enum CdprStatus cdpr_path_next(struct CdprPath *path,
  * Frees a path; null is ignored.
  */
 void cdpr_path_free(struct CdprPath *path);
+
+/**
+ * Creates an observer of a robot that rests without load with these lengths near `start`.
+ */
+enum CdprStatus cdpr_observer_new(const struct CdprRobot *robot,
+                                  const double *lengths,
+                                  size_t count,
+                                  const struct CdprPose *start,
+                                  const struct CdprObserverSetting *setting,
+                                  struct CdprObserver **observer);
+
+/**
+ * Takes a sample without load: the mean difference between tensions and model over all such samples is the
+ * constant error of each sensor, which later samples subtract.
+ *
+ * `observed` may be null. Nothing is allocated, here and in `cdpr_observer_update`.
+ */
+enum CdprStatus cdpr_observer_tare(struct CdprObserver *observer,
+                                   const double *lengths,
+                                   const double *tensions,
+                                   size_t count,
+                                   struct CdprObserved *observed);
+
+/**
+ * Takes a sample: unstrained lengths and measured tensions at the platform.
+ *
+ * Where no rest is found for the lengths within 12 iterations of the last one, the sample changes nothing.
+ */
+enum CdprStatus cdpr_observer_update(struct CdprObserver *observer,
+                                     const double *lengths,
+                                     const double *tensions,
+                                     size_t count,
+                                     struct CdprObserved *observed);
+
+/**
+ * Writes what the last samples say about each cable: 0 it is taut, 1 it reads no more than noise and its own
+ * weight as the model allows, 2 it reads no more than that although the model has it taut.
+ */
+enum CdprStatus cdpr_observer_cables(const struct CdprObserver *observer, uint8_t *states, size_t count);
+
+/**
+ * Frees an observer; null is ignored.
+ */
+void cdpr_observer_free(struct CdprObserver *observer);
 
 #ifdef __cplusplus
 }  // extern "C"

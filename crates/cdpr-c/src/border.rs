@@ -1,5 +1,4 @@
 //! The functions of `include/cdpr.h`: pointers become references and values here, and nowhere else.
-//!
 //! # Safety
 //!
 //! A function checks every pointer for null and alignment, every number of values, and every value for NaN.
@@ -8,6 +7,8 @@
 //! responsible for these. Inputs and results may share their memory, because results are written last.
 
 #![allow(unsafe_code, clippy::missing_safety_doc)]
+
+pub mod observer;
 
 use crate::data::{
     CdprCables, CdprDerivatives, CdprLoad, CdprMotion, CdprPose, CdprReport, CdprStiffness, LENGTHS, checked,

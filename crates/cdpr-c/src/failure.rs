@@ -27,7 +27,7 @@ pub enum CdprStatus {
     NoSolution = 6,
     /// The equilibrium is unstable or is lost on the way to the load.
     Unstable = 7,
-    /// The iterations did not converge. A tracker keeps its last state.
+    /// The iterations did not converge. A tracker or an observer keeps its last state.
     NotConverged = 8,
     /// A fault of the library. Free the handle of the call, and report the message.
     Panic = 9,
@@ -46,7 +46,7 @@ pub(crate) enum Failure {
     Text { status: CdprStatus, reason: String },
     /// A robot that a function does not take.
     Unsupported(&'static str),
-    /// Steps of a tracker that did not converge.
+    /// Steps of a tracker, or samples of an observer, that did not converge.
     NotConverged { iterations: usize },
     /// The models have no result.
     Models(StaticsError),
@@ -86,7 +86,7 @@ impl fmt::Display for Failure {
             Self::NotConverged { iterations } => write!(
                 f,
                 "no equilibrium was found within {iterations} iterations of the last one, which is kept: \
-                 make smaller steps, or create the tracker again"
+                 make smaller steps, or create the handle again"
             ),
             Self::Models(error) => error.fmt(f),
             Self::Panic => f.write_str("the library has panicked: free the handle and report this"),

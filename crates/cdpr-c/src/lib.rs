@@ -9,10 +9,12 @@ pub mod border;
 mod data;
 mod failure;
 mod follow;
+mod observer;
 mod pose;
 mod robot;
 
 pub use data::{CdprCables, CdprDerivatives, CdprLoad, CdprMotion, CdprPose, CdprReport, CdprStiffness};
 pub use failure::CdprStatus;
 pub use follow::{CdprPath, CdprTracker};
+pub use observer::{CdprAlarm, CdprObserved, CdprObserver, CdprObserverSetting};
 pub use robot::CdprRobot;

@@ -93,7 +93,18 @@ fn the_control_loop_prints_what_the_page_shows() {
 }
 
 #[test]
-fn the_page_shows_the_example() {
+fn the_load_observer_prints_what_the_page_shows() {
     let page = std::fs::read_to_string(folder().join("../../docs/c.md")).unwrap();
-    assert!(page.contains("{{#include ../crates/cdpr-c/examples/control_loop.c}}"));
+    for (compiler, program) in programs("examples/load_observer.c") {
+        let printed = printed(&program, &[]);
+        assert!(page.contains(&printed), "{compiler}, docs/c.md: {printed}");
+    }
+}
+
+#[test]
+fn the_page_shows_the_examples() {
+    let page = std::fs::read_to_string(folder().join("../../docs/c.md")).unwrap();
+    for name in ["control_loop", "load_observer"] {
+        assert!(page.contains(&format!("{{{{#include ../crates/cdpr-c/examples/{name}.c}}}}")), "{name}");
+    }
 }

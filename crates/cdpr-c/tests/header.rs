@@ -6,7 +6,7 @@ use std::path::Path;
 fn the_header_is_that_of_the_sources() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
     let config = cbindgen::Config::from_file(folder.join("cbindgen.toml")).unwrap();
-    let sources = ["border", "data", "failure", "follow", "robot"];
+    let sources = ["border", "border/observer", "data", "failure", "follow", "observer", "robot"];
     let builder = sources.iter().fold(cbindgen::Builder::new().with_config(config), |builder, source| {
         builder.with_src(folder.join(format!("src/{source}.rs")))
     });

@@ -8,3 +8,4 @@ mod c_programs;
 mod common;
 mod header;
 mod numbers;
+mod observer;

@@ -13,6 +13,7 @@ mod catenary;
 mod convert;
 mod exchange;
 mod explorer;
+mod observer;
 mod program;
 mod robot;
 mod sensitivity;
@@ -34,6 +35,8 @@ mod _core {
     use crate::exchange::{export_robot, import_robot, library};
     #[pymodule_export]
     use crate::explorer::explorer_parts;
+    #[pymodule_export]
+    use crate::observer::{LoadEstimates, Observer};
     #[pymodule_export]
     use crate::program::run_program;
     #[pymodule_export]

@@ -20,6 +20,7 @@ __all__ = [
     "DirectSolution",
     "Expansion",
     "InverseSolution",
+    "LoadEstimates",
     "MasslessModes",
     "Modes",
     "Morris",
@@ -27,6 +28,7 @@ __all__ = [
     "MotionState",
     "MotionSummary",
     "Observations",
+    "Observer",
     "PathStates",
     "Response",
     "RestInWeather",
@@ -2759,6 +2761,185 @@ class Certificate(Generic[_N, _B, _R]):
     @property
     def kinds(self) -> _R:
         """The kind of each failure, in the same form: `not_certified`, ..."""
+
+@final
+class LoadEstimates:
+    """What is known after each sample, and what the sample says.
+
+    The answer is of one sample, or of m: then every field has a first axis of m.
+    """
+
+    def __new__(cls, *fields: Any) -> LoadEstimates: ...
+    def __class_getitem__(cls, number: Any) -> GenericAlias: ...
+    def to_dataframe(self) -> Any:
+        """Makes a frame with a row for each case and columns of numbers and words.
+
+        Elements of arrays are numbered from 1, as cables are: `lengths_1`; those of an input have its
+        name: `magnitude/a1.x`.
+
+        Returns
+        -------
+        pandas.DataFrame
+            The frame.
+        """
+    @property
+    def payload(self) -> Any:
+        """Mass of the load [kg]."""
+    @property
+    def payload_std(self) -> Any:
+        """Its standard deviation [kg]."""
+    @property
+    def center(self) -> _Floats:
+        """Centre of the load in the frame of the platform, from P [m], (3,); NaN where the load is below three
+        times its standard deviation, or where the samples have not halved the uncertainty of its moment.
+        """
+    @property
+    def center_std(self) -> _Floats:
+        """Its standard deviation [m], (3,)."""
+    @property
+    def modulus(self) -> Any:
+        """Modulus of the cables as a multiple of the robot's."""
+    @property
+    def modulus_std(self) -> Any:
+        """Its standard deviation."""
+    @property
+    def force(self) -> _Floats:
+        """Force that the measured tensions hold in addition to the platform's weight, base frame [N], (3,)."""
+    @property
+    def moment(self) -> _Floats:
+        """Its moment about P [N m], (3,)."""
+    @property
+    def consistency(self) -> Any:
+        """Chi-square of the readings for the best plausible load."""
+    @property
+    def change(self) -> Any:
+        """Chi-square of the readings for the load that was known before."""
+    @property
+    def threshold(self) -> Any:
+        """The value beyond which a chi-square deviates."""
+    @property
+    def alarm(self) -> Any:
+        """none, load_changed, cable_slack, cable_lost or inconsistent."""
+    @property
+    def slack(self) -> _Bools:
+        """Cables that read no tension, as the model allows, (n,)."""
+    @property
+    def lost(self) -> _Bools:
+        """Cables that read no tension although the model has them taut, and no plausible load explains it, (n,)."""
+    @property
+    def converged(self) -> Any:
+        """Whether the model found a rest for the lengths; if not, the sample changed nothing."""
+    @property
+    def reasons(self) -> Any:
+        """None for each sample: one without a rest has not converged, and the estimate is that before it."""
+
+@final
+class Observer:
+    """Observes payload, centre of mass, modulus and broken cables from lengths and measured tensions.
+
+    It keeps the rest of the robot at the last sample, and its estimate with the covariance: recursive least squares
+    on the exact derivatives of the direct model. Sensors read the tensions at the platform; their errors are
+    independent from sample to sample but for a constant one, which `tare` removes.
+
+    Parameters
+    ----------
+    robot : Robot
+        The robot.
+    lengths : array_like
+        Unstrained lengths with which it rests without load [m], (n,).
+    pose : array_like
+        The pose of this rest, or near it, (3,) or (7,).
+    tension_std : array_like
+        Standard deviation of what the sensors read [N], one or one for each cable.
+    payload_std : float
+        Standard deviation of the load before the first sample [kg]; its mean is no load.
+    center_std : float, optional
+        Standard deviation of the distance between its centre and that of the platform along each axis [m].
+    length_std : float, optional
+        Standard deviation of each length [m]; 0 where lengths count as exact.
+    modulus_std : float, optional
+        Standard deviation of the modulus as a share of the robot's, 0 to 0.15; 0 where it is known.
+    memory : float, optional
+        Number of samples after which a sample has lost most of its weight; if left out, none loses any.
+    false_alarm : float, optional
+        Probability that an alarm begins at a sample although nothing is wrong.
+    consecutive : int, optional
+        Number of samples in a row that have to deviate for an alarm.
+
+    Raises
+    ------
+    InputError
+        For an invalid value; the message names it and what would be right.
+    NoSolutionError
+        Where the robot does not rest with these lengths.
+
+    Examples
+    --------
+    >>> import cdpr
+    >>> robot = cdpr.Robot.from_file("caroca")
+    >>> found = robot.deflection([0, 0, 1.75], payload=5)
+    >>> observer = cdpr.Observer(robot, found.lengths, [0, 0, 1.75], tension_std=5, payload_std=20)
+    >>> samples = observer.update([found.lengths] * 100, [found.loaded.tensions] * 100)
+    >>> f"{samples.payload[-1]:.2f} kg, alarm {samples.alarm[-1]}"
+    '5.00 kg, alarm none'
+    """
+
+    def __new__(
+        cls,
+        robot: Robot,
+        lengths: ArrayLike,
+        pose: ArrayLike,
+        *,
+        tension_std: ArrayLike,
+        payload_std: float,
+        center_std: float = 0.0,
+        length_std: float = 0.0,
+        modulus_std: float = 0.0,
+        memory: float = ...,
+        false_alarm: float = 1e-9,
+        consecutive: int = 3,
+    ) -> Observer: ...
+    def tare(self, lengths: ArrayLike, tensions: ArrayLike) -> LoadEstimates:
+        """Takes samples without load: the mean difference between tensions and model over all such samples is the
+        constant error of each sensor, which later samples subtract.
+
+        Parameters
+        ----------
+        lengths : array_like
+            Unstrained lengths [m], (n,) or (m, n).
+        tensions : array_like
+            Measured tensions at the platform [N], (n,) or (m, n).
+
+        Returns
+        -------
+        LoadEstimates
+            Without chi-squares and alarms.
+
+        Raises
+        ------
+        InputError
+            For an invalid value; the message names it and what would be right.
+        """
+    def update(self, lengths: ArrayLike, tensions: ArrayLike) -> LoadEstimates:
+        """Takes samples, one after the other.
+
+        Parameters
+        ----------
+        lengths : array_like
+            Unstrained lengths [m], (n,) or (m, n).
+        tensions : array_like
+            Measured tensions at the platform [N], (n,) or (m, n).
+
+        Returns
+        -------
+        LoadEstimates
+            What is known after each sample.
+
+        Raises
+        ------
+        InputError
+            For an invalid value; the message names it and what would be right.
+        """
 
 @final
 class PathStates:
