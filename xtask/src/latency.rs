@@ -1,8 +1,13 @@
 //! `cargo xtask latency`: how long a step of a tracker takes, as data, a table and a figure of the book.
 
-use crate::cargo::{cargo_command, number, parsed, printed, root, text_of, write};
+use crate::bench::total;
+use crate::cargo::{cargo_command, number, parsed, printed, read, root, text_of, write};
 use serde_json::{Value, json};
 use std::fmt::Write;
+use std::path::PathBuf;
+use std::process::Command;
+
+const DATA: &str = "data/benchmarks/latency.json";
 
 /// Percentiles of the table, by their names in the data.
 const QUANTILES: [&str; 4] = ["median", "p99.99", "p99.999", "greatest"];
@@ -12,22 +17,54 @@ pub(crate) fn run(rest: &[String]) -> Result<(), String> {
     let example = ["run", "--release", "--quiet", "--package", "cdpr-statics", "--example", "latency", "--"];
     let rest: Vec<&str> = rest.iter().map(String::as_str).collect();
     eprintln!(
-        "building the example (some minutes the first time), then three passes of a course for each robot"
+        "building the example (some minutes the first time), then five passes of a course for each robot"
     );
     let before = load();
     let lines = text_of(&mut cargo_command(&[&example[..], &rest].concat()), &[0])?;
-    let robots = lines.lines().map(parsed).collect::<Result<Vec<Value>, _>>()?;
+    let mut robots = lines.lines().map(parsed).collect::<Result<Vec<Value>, _>>()?;
     let machine = format!("{}, load average {before} before and {} after", machine(), load());
-    let data = json!({ "machine": machine, "robots": robots });
-    let text = serde_json::to_string(&data).map_err(|error| error.to_string())?;
-    write(
-        &root().join("data/benchmarks/latency.json"),
-        &(text.replace("{\"cables\"", "\n{\"cables\"") + "\n"),
-    )?;
+    save(&machine, &robots)?;
+    match printed("valgrind", &["--version"]) {
+        Ok(_) => count(&mut robots)?,
+        Err(_) => eprintln!("no instruction counts: valgrind is not installed (apt install valgrind)"),
+    }
+    save(&machine, &robots)?;
     let table = table(&machine, &robots);
     println!("{table}");
     write(&root().join("data/benchmarks/latency.md"), &table)?;
     write(&root().join("docs/images/latency.svg"), &figure(&robots))
+}
+
+/// Writes the data, a robot in each line.
+fn save(machine: &str, robots: &[Value]) -> Result<(), String> {
+    let lines: Vec<String> = robots.iter().map(ToString::to_string).collect();
+    let text = format!("{{\"machine\": {}, \"robots\": [\n{}\n]}}\n", json!(machine), lines.join(",\n"));
+    write(&root().join(DATA), &text)
+}
+
+/// Adds the instructions of the step of most iterations, which the example makes again under callgrind.
+fn count(robots: &mut [Value]) -> Result<(), String> {
+    let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), PathBuf::from);
+    let folder = target.join("callgrind-latency");
+    // It may not be there.
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).map_err(|error| error.to_string())?;
+    let mut command = Command::new("valgrind");
+    command.args(["--tool=callgrind", "--toggle-collect=latency::counted", "--dump-after=latency::counted"]);
+    command.arg(format!("--callgrind-out-file={}", folder.join("out").display()));
+    command.arg(target.join("release/examples/latency")).arg("count").arg(root().join(DATA));
+    let steps = text_of(&mut command, &[0])?;
+    for (number, step) in steps.lines().enumerate() {
+        let step = parsed(step)?;
+        let counted = total(&read(&folder.join(format!("out.{}", number + 1)))?);
+        let robot =
+            robots.iter_mut().find(|robot| robot["robot"] == step["robot"]).ok_or("an unknown robot")?;
+        // A step that is not the same has no count.
+        if step["iterations"] == robot["most_work"]["iterations"] {
+            robot["most_work"]["instructions"] = json!(counted);
+        }
+    }
+    Ok(())
 }
 
 /// Processes that wanted to run during the last minute.
@@ -76,13 +113,13 @@ fn cause(robot: &Value) -> String {
 fn table(machine: &str, robots: &[Value]) -> String {
     let mut table = format!(
         "{machine}\n\n| robot | cables | median [µs] | 99.99 % [µs] | 99.999 % [µs] | greatest [µs] \
-         | its cause | greatest of one pass [µs] | its cause | iterations at most | with slack cables | not converged |\n\
-         |---|---|---|---|---|---|---|---|---|---|---|---|\n"
+         | its cause | greatest of one pass [µs] | its cause | iterations at most | their instructions \
+         | with slack cables | not converged |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|\n"
     );
     for robot in robots {
         let name = robot["robot"].as_str().unwrap_or_default();
         if let Some(error) = robot["error"].as_str() {
-            let _ = writeln!(table, "| {name} | {error} | | | | | | | | | | |");
+            let _ = writeln!(table, "| {name} | {error} | | | | | | | | | | | |");
             continue;
         }
         let times = QUANTILES.map(|quantile| shown(&robot["us"][quantile])).join(" | ");
@@ -91,10 +128,12 @@ fn table(machine: &str, robots: &[Value]) -> String {
             count => format!("{:.3} %", 100.0 * count / number(&robot["steps"])),
         };
         let [slack, left] = ["with_slack_cables", "not_converged"].map(|count| share(&robot[count]));
+        let instructions = robot["most_work"]["instructions"].as_u64();
+        let instructions = instructions.map_or_else(|| "not counted".to_owned(), |count| count.to_string());
         let guides = if robot["plain"] == true { "" } else { ", guided or with laws" };
         let _ = writeln!(
             table,
-            "| {name} | {}{guides} | {times} | {} | {} | {slack} | {left} |",
+            "| {name} | {}{guides} | {times} | {} | {} | {instructions} | {slack} | {left} |",
             robot["cables"],
             cause(robot),
             most_iterations(robot)
@@ -125,7 +164,7 @@ fn figure(robots: &[Value]) -> String {
     let mut svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {:.0} {:.0}\" font-family=\"sans-serif\" \
          font-size=\"12\">\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n\
-         <text x=\"{LEFT}\" y=\"18\">Steps by their time: one pass (grey), least of three (blue)</text>\n",
+         <text x=\"{LEFT}\" y=\"18\">Steps by their time: one pass (grey), least of all passes (blue)</text>\n",
         LEFT + WIDTH + 40.0,
         bottom + 44.0
     );
@@ -192,7 +231,7 @@ mod tests {
             "robot": "a", "cables": 8, "plain": true, "steps": 1000,
             "not_converged": 0, "with_slack_cables": 1,
             "us": { "median": 2.0, "p99.99": 3.0, "p99.999": 4.0, "greatest": 5.0 },
-            "steps_by_iterations": [0, 0, 990, 10, 0],
+            "steps_by_iterations": [0, 0, 990, 10, 0], "most_work": { "instructions": 1234 },
             "histogram": [0, 999, 1], "histogram_of_first_pass": [0, 1000],
             "worst": {
                 "us": 5.0, "iterations": 3, "converged": true,
@@ -210,9 +249,10 @@ mod tests {
     #[test]
     fn a_row_has_the_greatest_number_of_iterations_and_a_robot_without_steps_its_reason() {
         let table = table("here", &[robot([5.0; 3]), json!({ "robot": "b", "error": "no steps" })]);
-        assert!(table.contains(
-            "| a | 8 | 2.00 | 3.00 | 4.00 | 5.00 | 3 iterations | 5.00 | the step itself | 3 | 0.100 % | 0 |"
-        ));
+        assert!(
+            table.contains("| a | 8 | 2.00 | 3.00 | 4.00 | 5.00 | 3 iterations | 5.00 | the step itself |")
+        );
+        assert!(table.contains(" | 3 | 1234 | 0.100 % | 0 |"));
         assert!(table.contains("| b | no steps |"));
     }
 

@@ -201,7 +201,13 @@ fn the_node_of_ros_has_the_digits_of_the_rust_interface() {
                 assert!((0..3).all(|i| (found[i] - end[i]).abs() < 2e-9), "{name}: {line}, expected {end}");
             }
             let said: Vec<_> = lines.collect();
-            let expected = ["joint cable_1", "a length for each", "positive unstrained length", "nothing.json", "no robot"];
+            let expected = [
+                "joint cable_1",
+                "a length for each",
+                "positive unstrained length",
+                "nothing.json",
+                "no robot",
+            ];
             assert_eq!(said.len(), expected.len(), "{said:?}");
             let refused = |(said, why): (&&str, &&str)| said.starts_with("0 ") && said.contains(*why);
             assert!(said.iter().zip(&expected).all(refused), "{said:?}");

@@ -4,19 +4,24 @@
 //! cargo xtask latency
 //! ```
 //!
-//! prints them as JSON, an object for each robot. The course is followed three times. What the machine does
-//! interrupts a step in one of them at most, so that the least of three times is that of the computation.
+//! prints them as JSON, an object for each robot. The course is followed five times. What the machine does
+//! interrupts no step in all of them, so that the least of its times is that of the computation.
+//!
+//! With `count FILE` the example makes the step of most iterations of each robot in such a list again, for
+//! valgrind to count its instructions.
 
 #![allow(clippy::print_stdout)]
 
 mod course;
 
-use cdpr_robot::Robot;
 use cdpr_robot::library::{ROBOTS, named};
-use cdpr_statics::{DirectStart, StaticsError, Tracker, direct};
+use cdpr_robot::{Pose, Robot, Vector3, Vector6, Wrench};
+use cdpr_statics::{DirectStart, Load, StaticsError, Tracker, direct};
 use course::Course;
 use serde_json::{Value, json};
+use std::cmp::Ordering;
 use std::error::Error;
+use std::hint::black_box;
 use std::time::Instant;
 
 /// Robots that a tracker takes, and the middle of the course of each [m].
@@ -43,7 +48,7 @@ const MIDDLES: [(&str, [f64; 3]); 17] = [
 /// Set-points of a course.
 const POINTS: usize = 20_000;
 /// Times that a course is followed.
-const PASSES: usize = 3;
+const PASSES: usize = 5;
 const SEED: u64 = 51;
 /// A histogram has this number of bins for each power of ten, from 0.1 us on.
 const BINS_PER_DECADE: f64 = 10.0;
@@ -129,6 +134,59 @@ fn worst(times: &[f64], passes: &[Vec<f64>], steps: &[Step]) -> Value {
     })
 }
 
+/// The step of most iterations, the longest of them: what is needed to make it again.
+fn most_work(course: &Course, times: &[f64], steps: &[Step]) -> Value {
+    let work = |k: usize| (steps[k - 1].iterations, times[k - 1]);
+    let most = (1..=steps.len()).max_by(|&a, &b| work(a).partial_cmp(&work(b)).unwrap_or(Ordering::Equal));
+    let at = |k: usize| {
+        let ((pose, lengths), load) = (course.point(k), course.load(k));
+        let wrench = load.wrench.to_vector();
+        json!({
+            "position": pose.position.as_slice(), "quaternion": pose.quaternion(), "lengths": lengths,
+            "payload": load.payload, "wrench": wrench.as_slice(),
+        })
+    };
+    let k = most.unwrap_or(1);
+    json!({ "step": k, "iterations": steps[k - 1].iterations, "before": at(k - 1), "after": at(k) })
+}
+
+/// The same call everywhere, so that valgrind knows where to count.
+#[inline(never)]
+fn counted<T>(call: impl FnOnce() -> T) -> T {
+    call()
+}
+
+/// Makes a step of [`most_work`] again. Returns its iterations.
+fn again(robot: &Robot, step: &Value) -> Result<usize, Box<dyn Error>> {
+    let numbers = |value: &Value| -> Vec<f64> {
+        value.as_array().into_iter().flatten().filter_map(Value::as_f64).collect()
+    };
+    let given = |at: &Value| -> Result<(Pose, Vec<f64>, Load), Box<dyn Error>> {
+        let position = Vector3::from_iterator(numbers(&at["position"]));
+        let quaternion = numbers(&at["quaternion"]).try_into().map_err(|_| "expected a quaternion")?;
+        let wrench = Wrench::from_vector(&Vector6::from_iterator(numbers(&at["wrench"])));
+        let payload = at["payload"].as_f64().ok_or("expected a payload")?;
+        let pose = Pose::with_quaternion(position, quaternion).ok_or("expected a rotation")?;
+        Ok((pose, numbers(&at["lengths"]), Load { payload, wrench }))
+    };
+    let ((pose, lengths, load), (_, lengths_after, load_after)) =
+        (given(&step["before"])?, given(&step["after"])?);
+    let start = direct(robot, &lengths, &load, DirectStart::Pose(&pose))?.equilibrium;
+    let mut tracker = Tracker::new(robot, &lengths, &load, &start)?;
+    Ok(counted(|| black_box(tracker.step(&lengths_after, &load_after)))?.iterations)
+}
+
+/// Prints the iterations of the steps that are made again, one for each robot of a file that has one.
+fn count(file: &str) -> Result<(), Box<dyn Error>> {
+    let data: Value = serde_json::from_str(&std::fs::read_to_string(file)?)?;
+    for of in data["robots"].as_array().into_iter().flatten().filter(|robot| robot["error"].is_null()) {
+        let name = of["robot"].as_str().unwrap_or_default();
+        let robot = Robot::from_json(named(ROBOTS, name).ok_or("a robot of the library")?.text)?;
+        println!("{}", json!({ "robot": name, "iterations": again(&robot, &of["most_work"])? }));
+    }
+    Ok(())
+}
+
 fn measured(name: &str, middle: [f64; 3], steps: usize) -> Result<Value, Box<dyn Error>> {
     let robot = Robot::from_json(named(ROBOTS, name).ok_or("a robot of the library")?.text)?;
     let course = Course::new(&robot, middle.into(), POINTS.min(steps), SEED)?;
@@ -153,6 +211,7 @@ fn measured(name: &str, middle: [f64; 3], steps: usize) -> Result<Value, Box<dyn
         "not_converged": made.iter().filter(|step| !step.converged).count(),
         "without_equilibrium": lost,
         "with_slack_cables": made.iter().filter(|step| step.slack > 0).count(),
+        "most_work": most_work(&course, &times, &made),
         "worst": worst(&times, &passes, &made),
         "histogram": histogram(&times),
         "histogram_of_first_pass": histogram(&passes[0]),
@@ -169,7 +228,10 @@ fn row(name: &str, steps: usize) -> Value {
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let mut arguments = std::env::args().skip(1);
+    let mut arguments = std::env::args().skip(1).peekable();
+    if arguments.next_if_eq("count").is_some() {
+        return count(&arguments.next().ok_or("expected `count FILE`")?);
+    }
     let steps = arguments.next().map_or(Ok(1_000_000), |steps| steps.parse())?;
     if steps == 0 {
         return Err("expected one step at least".into());
