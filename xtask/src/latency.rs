@@ -111,8 +111,11 @@ fn cause(robot: &Value) -> String {
 }
 
 fn table(machine: &str, robots: &[Value]) -> String {
+    let of = robots.iter().find(|robot| robot["error"].is_null()).unwrap_or(&Value::Null);
+    let (steps, profile) = (&of["steps"], of["profile"].as_str().unwrap_or("unknown"));
     let mut table = format!(
-        "{machine}\n\n| robot | cables | median [µs] | 99.99 % [µs] | 99.999 % [µs] | greatest [µs] \
+        "{machine}, profile {profile}; {steps} steps of each robot\n\n\
+         | robot | cables | median [µs] | 99.99 % [µs] | 99.999 % [µs] | greatest [µs] \
          | its cause | greatest of one pass [µs] | its cause | iterations at most | their instructions \
          | with slack cables | not converged |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|\n"
     );
@@ -228,7 +231,7 @@ mod tests {
 
     fn robot(us_in_each_pass: [f64; 3]) -> Value {
         json!({
-            "robot": "a", "cables": 8, "plain": true, "steps": 1000,
+            "robot": "a", "cables": 8, "plain": true, "steps": 1000, "profile": "release",
             "not_converged": 0, "with_slack_cables": 1,
             "us": { "median": 2.0, "p99.99": 3.0, "p99.999": 4.0, "greatest": 5.0 },
             "steps_by_iterations": [0, 0, 990, 10, 0], "most_work": { "instructions": 1234 },

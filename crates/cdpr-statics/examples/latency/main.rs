@@ -205,6 +205,7 @@ fn measured(name: &str, middle: [f64; 3], steps: usize) -> Result<Value, Box<dyn
         "cables": robot.cables.len(),
         "plain": robot.has_plain_cables(),
         "steps": steps,
+        "profile": if cfg!(debug_assertions) { "dev" } else { "release" },
         "us": quantiles(&times),
         "us_of_first_pass": quantiles(&passes[0]),
         "steps_by_iterations": by_iterations,
