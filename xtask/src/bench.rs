@@ -136,7 +136,7 @@ fn counts(arguments: &[String]) -> Result<Vec<(String, u64)>, String> {
 }
 
 /// Number of instructions in a file of callgrind.
-fn total(file: &str) -> Option<u64> {
+pub(crate) fn total(file: &str) -> Option<u64> {
     file.lines().find_map(|line| line.strip_prefix("totals: ")?.trim().parse().ok())
 }
 

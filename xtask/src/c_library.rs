@@ -16,6 +16,26 @@ set_target_properties(cdpr::static PROPERTIES INTERFACE_LINK_LIBRARIES \"SYSTEM\
     IMPORTED_LOCATION \"${_cdpr}/lib/libcdpr.a\" INTERFACE_INCLUDE_DIRECTORIES \"${_cdpr}/include\")
 ";
 
+/// Sources for MATLAB, Octave and Simulink.
+const MATLAB: [&str; 7] = [
+    "+cdpr/Robot.m",
+    "+cdpr/Tracker.m",
+    "cdpr_compare.m",
+    "cdpr_example.m",
+    "cdpr_mex.c",
+    "cdpr_sfun.c",
+    "cdpr_study.m",
+];
+
+/// Sources of the package for ROS 2.
+const ROS: [&str; 5] = [
+    "cdpr_ros/CMakeLists.txt",
+    "cdpr_ros/include/cdpr_ros/logic.hpp",
+    "cdpr_ros/launch/cdpr.launch.py",
+    "cdpr_ros/package.xml",
+    "cdpr_ros/src/node.cpp",
+];
+
 pub(crate) fn run(rest: &[String]) -> Result<(), String> {
     let [option, prefix] = rest else { return Err("expected `cargo xtask c --prefix FOLDER`".to_owned()) };
     if option != "--prefix" {
@@ -34,8 +54,11 @@ fn install(built: &Path, prefix: &Path) -> Result<(), String> {
     copy(&sources.join("include/cdpr.h"), &prefix.join("include/cdpr.h"))?;
     copy(&built.join("libcdpr_c.a"), &prefix.join("lib/libcdpr.a"))?;
     copy(&built.join(format!("libcdpr_c.{shared}")), &prefix.join(format!("lib/libcdpr.{shared}")))?;
-    for file in ["cdpr_mex.c", "cdpr_example.m", "+cdpr/Robot.m", "+cdpr/Tracker.m"] {
+    for file in MATLAB {
         copy(&sources.join("matlab").join(file), &prefix.join("share/cdpr/matlab").join(file))?;
+    }
+    for file in ROS {
+        copy(&sources.join("ros2").join(file), &prefix.join("share/cdpr/ros2").join(file))?;
     }
     for name in ["control_loop.c", "load_observer.c"] {
         copy(&sources.join("examples").join(name), &prefix.join("share/cdpr/examples").join(name))?;

@@ -11,6 +11,7 @@ mod cargo;
 mod dist;
 mod evidence;
 mod gallery;
+mod latency;
 mod led;
 mod release;
 mod web;
@@ -42,6 +43,9 @@ tasks:
                  of criterion), counts their instructions where valgrind is installed, and prints both next to
                  data/benchmarks/baseline.json. It fails where a count has grown by more than 1 %; with --save
                  it writes the baseline
+  latency [STEPS [ROBOT..]]
+                 follows random smooth courses of the robots of the library (1000000 steps of a tracker each), and
+                 writes times, iterations and their causes: data/benchmarks/latency.json, a table and a figure
   statistics TABLE [STUDIES [FUNCTION]]
                  measures how often estimators of cdpr-sensitivity are right; without TABLE it lists the
                  tables, which docs/statistics.md keeps
@@ -77,6 +81,7 @@ fn main() -> ExitCode {
         Some("caroca-study") => caroca_study(rest),
         Some("robustness") => robustness(rest),
         Some("throughput") => throughput(&rest),
+        Some("latency") => latency::run(&rest),
         Some("statistics") => statistics(&rest),
         Some("bench") => bench::run(&rest),
         Some("ci") => {

@@ -15,6 +15,9 @@ const WITH_REPOSITORY: [&str; 6] = [
     "recipe/recipe.yaml",
 ];
 
+/// Manifest of the package for ROS.
+const ROS: &str = "crates/cdpr-c/ros2/cdpr_ros/package.xml";
+
 /// A value that cannot be set.
 #[derive(Debug, PartialEq, thiserror::Error)]
 pub(crate) enum ReleaseError {
@@ -172,6 +175,10 @@ fn changed(
             )
         };
         edit("CITATION.cff", "authors", &|text| set(text, "\nauthors:\n", "license:", &list(&cited, "")))?;
+        edit(ROS, "maintainer", &|text| {
+            let one = |of: &Author| format!(" email=\"{}\">{}</maintainer>", of.mail, full(of));
+            set(text, "\n  <maintainer", "\n  <license>", &list(&one, "\n  <maintainer"))
+        })?;
         let paper = |of: &Author| format!("  - name: {}\n    affiliation: 1\n", full(of));
         edit("docs/joss/paper.md", "authors", &|text| {
             set(text, "\nauthors:\n", "affiliations:", &list(&paper, ""))
@@ -190,6 +197,9 @@ fn changed(
         edit("CITATION.cff", "version", &|text| set(text, "\nversion: ", "\n", new))?;
         edit("CITATION.cff", "date-released", &|text| set(text, "\ndate-released: ", "\n", today))?;
         edit("recipe/recipe.yaml", "version", &|text| set(text, "version: \"", "\"", new))?;
+        // ROS has versions of three numbers alone.
+        let numbers = new.split('-').next().unwrap_or(new);
+        edit(ROS, "version", &|text| set(text, "\n  <version>", "</version>", numbers))?;
         edit("CHANGELOG.md", "the section Unreleased", &|text| {
             let heading = format!("\n## {new} ({today})\n");
             text.contains("\n## Unreleased\n").then(|| text.replacen("\n## Unreleased\n", &heading, 1))
@@ -244,6 +254,8 @@ mod tests {
         has("crates/cdpr-python/pyproject.toml", "{ name = \"Ada King\", email = \"ada@example.net\" }");
         has("docs/joss/paper.md", "  - name: Ada King\n    affiliation: 1\n  - name: Grace");
         has("recipe/recipe.yaml", "version: \"3.1.4-rc.1\"");
+        has(ROS, "<version>3.1.4</version>");
+        has(ROS, "<maintainer email=\"grace@example.net\">Grace Brewster Hopper</maintainer>\n  <license>");
         has("CHANGELOG.md", "\n## 3.1.4-rc.1 (2030-01-02)\n");
         let second = parsed(&["--repository", "https://example.net/b", "--authors", "B C <b@c.de>"]).unwrap();
         let again = changed(&second, "2030-01-03", |file| Ok(files[file].clone())).unwrap();

@@ -5,8 +5,8 @@ use cdpr_robot::library::{ROBOTS, named};
 use cdpr_robot::{Pose, Robot, Vector3, Wrench};
 use cdpr_statics::stiffness::stiffness_at;
 use cdpr_statics::{
-    DirectProblem, DirectReport, DirectStart, InversePath, Load, Residual, Tracker, deflection, derivatives,
-    direct, inverse,
+    DirectProblem, DirectReport, DirectStart, Equilibrium, InversePath, InverseSolution, Load, Residual,
+    Tracker, deflection, derivatives, direct, inverse,
 };
 use std::fmt::Write;
 
@@ -123,4 +123,22 @@ fn along_path(robot: &Robot, position: [f64; 3], digits: &mut Digits) {
         digits.pose(&tracker.equilibrium().pose);
         digits.line("tensions", &tracker.equilibrium().tensions());
     }
+}
+
+/// The solution of the inverse model at a position, and the states of a tracker from its lengths on: first at
+/// rest, then after `still` steps with these lengths, and after [`STEPS`] that reel in the first cable.
+pub(crate) fn followed(name: &str, position: [f64; 3], still: usize) -> (InverseSolution, Vec<Equilibrium>) {
+    let (robot, load) = (robot(name), load());
+    let pose = Pose::with_quaternion(position.into(), [1.0, 0.0, 0.0, 0.0]).unwrap();
+    let wanted = inverse(&robot, &pose, &Load::none()).unwrap();
+    let mut lengths = wanted.lengths.clone();
+    let start = direct(&robot, &lengths, &load, DirectStart::Pose(&pose)).unwrap().equilibrium;
+    let mut tracker = Tracker::new(&robot, &lengths, &load, &start).unwrap();
+    let mut states = vec![tracker.equilibrium().clone()];
+    for k in 0..still + STEPS {
+        lengths[0] -= if k < still { 0.0 } else { 1e-5 };
+        assert!(tracker.step(&lengths, &load).unwrap().converged);
+        states.push(tracker.equilibrium().clone());
+    }
+    (wanted, states)
 }

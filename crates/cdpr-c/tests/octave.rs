@@ -142,3 +142,38 @@ fn octave_gets_errors_and_no_crash() {
         ["robot", "noSolution", "invalid", "invalid", "size", "invalid", "invalid", "invalid", "invalid"];
     assert_eq!(kinds, expected.map(|kind| format!("cdpr:{kind}")), "{printed}");
 }
+
+#[test]
+fn the_study_of_the_paper_prints_what_the_page_shows() {
+    let file = folder().join("../../data/robots/caroca.json");
+    let Some(printed) = octave(&format!("cdpr_study('{}', 2000);", file.display())) else { return };
+    let page = std::fs::read_to_string(folder().join("../../docs/c.md")).unwrap();
+    assert!(page.contains(&printed), "docs/c.md: {printed}");
+    // The figures of the paper, data/reference/published.json, but for the extremes of another sample.
+    assert!(printed.starts_with("1.35 mm, from 1.1"), "{printed}");
+    assert!(printed.contains("largest effects: a4, a2\n") || printed.contains("largest effects: a2, a4\n"));
+    assert!(printed.contains("largest effects: b4, b2\n") || printed.contains("largest effects: b2, b4\n"));
+}
+
+#[test]
+fn the_solvers_of_octave_find_the_same_poses_and_take_longer() {
+    let robots = folder().join("../../data/robots");
+    let rows = "for k = 1:size(rows, 1), printf('row;%s;%s;%g;%g;%g;%d\\n', rows{k, :}); end";
+    let run = format!("rows = cdpr_compare('{}'); {rows}", robots.display());
+    let Some(printed) = octave(&run) else { return };
+    let rows: Vec<Vec<&str>> = printed
+        .lines()
+        .filter(|line| line.starts_with("row;"))
+        .map(|line| line.split(';').collect())
+        .collect();
+    let others: Vec<_> = rows.iter().filter(|row| !row[2].starts_with("libcdpr")).collect();
+    assert!(others.len() >= 4 && rows.len() - others.len() == 8, "{printed}");
+    let mut same = 0;
+    for row in others {
+        let [ratio, apart, pushing] = [4, 5, 6].map(|column| row[column].parse::<f64>().unwrap());
+        // Another root is none of a robot: a cable pushes there.
+        assert!((apart < 1e-5 || pushing > 0.0) && ratio > 10.0, "{row:?}");
+        same += usize::from(apart < 1e-5);
+    }
+    assert!(same >= 4, "{printed}");
+}

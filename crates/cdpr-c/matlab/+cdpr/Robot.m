@@ -3,6 +3,7 @@ classdef Robot < handle
     %
     %   robot = cdpr.Robot('caroca')       a robot of the library
     %   robot = cdpr.Robot('my.json')      a robot file, cdpr-robot/1
+    %   robot = cdpr.Robot(jsonencode(s))  the text of one, here of a struct
     %
     % A pose is [x y z] or [x y z qw qx qy qz]. A load is [], a payload [kg] or
     % [payload fx fy fz mx my mz] [kg, N, N m]. SI units throughout. A report is
@@ -12,7 +13,9 @@ classdef Robot < handle
     end
     methods
         function self = Robot(name)
-            if numel(name) > 5 && strcmp(name(end - 4:end), '.json')
+            if numel(name) > 0 && name(1) == '{'
+                self.id = cdpr_mex('robot_json', name);
+            elseif numel(name) > 5 && strcmp(name(end - 4:end), '.json')
                 self.id = cdpr_mex('robot_json', fileread(name));
             else
                 self.id = cdpr_mex('robot_named', name);
