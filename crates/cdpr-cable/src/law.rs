@@ -36,11 +36,7 @@ impl<'a> ElasticLaw<'a> {
 
 /// A strain that grows with the tension by segments of different stiffness.
 #[derive(Clone, Debug, PartialEq)]
-pub struct PiecewiseLaw {
-    pieces: Vec<Piece>,
-    /// The same, as the equations of a cable take them.
-    terms: Vec<LawSegment>,
-}
+pub struct PiecewiseLaw(Vec<LawSegment>);
 
 /// A range of tensions over which the stiffness of a law is constant.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,16 +45,6 @@ pub struct Segment {
     pub tension: f64,
     /// Its stiffness over the cable's, κ_k = EA_k/EA.
     pub ratio: f64,
-}
-
-/// A segment with the integrals of the law up to its beginning.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Piece {
-    segment: Segment,
-    /// σ_k: strain at its beginning, times EA [N].
-    scaled_strain: f64,
-    /// ∫ σ dT from zero to its beginning [N²].
-    scaled_energy: f64,
 }
 
 impl PiecewiseLaw {
@@ -73,32 +59,30 @@ impl PiecewiseLaw {
     pub fn new(scaled_strain_at_rest: f64, segments: &[Segment]) -> Result<Self, CableError> {
         check("law.segments", segments.len() as f64, !segments.is_empty(), "one segment at least")?;
         check("law.strain_at_rest", scaled_strain_at_rest, true, "a finite strain")?;
-        let mut pieces: Vec<Piece> = Vec::with_capacity(segments.len());
-        for &segment in segments {
-            let Segment { tension, ratio } = segment;
-            let begins = pieces.last().map_or(tension == 0.0, |before| tension > before.segment.tension);
+        let mut law: Vec<LawSegment> = Vec::with_capacity(segments.len());
+        for &Segment { tension, ratio } in segments {
+            let begins = law.last().map_or(tension == 0.0, |before| tension > before.from);
             let expected = "tensions that grow from 0 [N], where each segment begins";
             check("law.segments.tension", tension, begins, expected)?;
             let expected = "a stiffness from 1e-6 to 1e6 of the cable's";
             check("law.segments.ratio", ratio, (1e-6..=1e6).contains(&ratio), expected)?;
-            let (scaled_strain, scaled_energy) =
-                pieces.last().map_or((scaled_strain_at_rest, 0.0), |before| {
-                    (before.strain_at(tension), before.energy_at(tension))
-                });
-            pieces.push(Piece { segment, scaled_strain, scaled_energy });
+            let (strain, energy) = law.last().map_or((scaled_strain_at_rest, 0.0), |before| {
+                (before.strain_at(tension), before.energy_at(tension))
+            });
+            let (offset, flexibility) = (strain - tension / ratio, 1.0 / ratio);
+            law.push(LawSegment { from: tension, ratio, strain, offset, flexibility, energy });
         }
-        let terms = pieces.iter().map(Piece::terms).collect();
-        Ok(Self { pieces, terms })
+        Ok(Self(law))
     }
 
     /// The segments, from zero tension up.
     pub fn segments(&self) -> impl Iterator<Item = Segment> {
-        self.pieces.iter().map(|piece| piece.segment)
+        self.0.iter().map(|segment| Segment { tension: segment.from, ratio: segment.ratio })
     }
 
     /// Strain without tension, times the cable's axial stiffness [N].
     pub fn scaled_strain_at_rest(&self) -> f64 {
-        self.pieces[0].scaled_strain
+        self.0[0].strain
     }
 
     /// Strain at a tension [N], times the cable's axial stiffness [N].
@@ -113,7 +97,7 @@ impl PiecewiseLaw {
 
     /// Stiffness at a tension [N] over the cable's, κ; at a kink it is that of the segment above.
     pub fn ratio(&self, tension: f64) -> f64 {
-        self.at(tension).segment.ratio
+        self.at(tension).ratio
     }
 
     /// Stiffness of the secant between two tensions [N] over the cable's.
@@ -129,40 +113,30 @@ impl PiecewiseLaw {
 
     /// Tension [N] at a strain times the cable's axial stiffness [N]; zero below the strain at rest.
     pub fn tension(&self, scaled_strain: f64) -> f64 {
-        let above = self.pieces.partition_point(|piece| piece.scaled_strain <= scaled_strain);
-        let Piece { segment, scaled_strain: start, .. } = self.pieces[above.max(1) - 1];
-        (segment.tension + (scaled_strain - start) * segment.ratio).max(0.0)
+        let above = self.0.partition_point(|segment| segment.strain <= scaled_strain);
+        let LawSegment { from, ratio, strain, .. } = self.0[above.max(1) - 1];
+        (from + (scaled_strain - strain) * ratio).max(0.0)
     }
 
-    fn at(&self, tension: f64) -> &Piece {
-        let above = self.pieces.partition_point(|piece| piece.segment.tension <= tension);
-        &self.pieces[above.max(1) - 1]
+    fn at(&self, tension: f64) -> &LawSegment {
+        let above = self.0.partition_point(|segment| segment.from <= tension);
+        &self.0[above.max(1) - 1]
     }
 
     /// The segments as [`crate::kernel::Material`] takes them.
     pub fn terms(&self) -> &[LawSegment] {
-        &self.terms
+        &self.0
     }
 }
 
-impl Piece {
-    fn terms(&self) -> LawSegment {
-        let Segment { tension, ratio } = self.segment;
-        LawSegment {
-            from: tension,
-            offset: self.scaled_strain - tension / ratio,
-            flexibility: 1.0 / ratio,
-            energy: self.scaled_energy,
-        }
-    }
-
+impl LawSegment {
     fn strain_at(&self, tension: f64) -> f64 {
-        self.scaled_strain + (tension - self.segment.tension) / self.segment.ratio
+        self.strain + (tension - self.from) / self.ratio
     }
 
     fn energy_at(&self, tension: f64) -> f64 {
-        let more = tension - self.segment.tension;
-        self.scaled_energy + more * (self.scaled_strain + 0.5 * more / self.segment.ratio)
+        let more = tension - self.from;
+        self.energy + more * (self.strain + 0.5 * more / self.ratio)
     }
 }
 

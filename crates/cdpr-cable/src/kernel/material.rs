@@ -34,6 +34,10 @@ use cdpr_number::{Lanewise, Number, Real};
 pub struct LawSegment {
     /// Tension T_k at which it begins [N].
     pub from: f64,
+    /// Its stiffness over the cable's, κ_k = EA_k/EA.
+    pub ratio: f64,
+    /// Strain at its beginning, σ_k, times EA [N].
+    pub strain: f64,
     /// σ_k - T_k/κ_k [N].
     pub offset: f64,
     /// 1/κ_k.
@@ -111,7 +115,7 @@ impl<T: Lanewise> Material<'_, T> {
             return tension * tension * self.axial_flexibility * 0.5;
         }
         let mut scaled = tension * 0.0;
-        for LawSegment { from, offset, flexibility, energy } in self.law {
+        for LawSegment { from, offset, flexibility, energy, .. } in self.law {
             let more = tension + -from;
             let here = more * (more * (0.5 * flexibility) + (offset + flexibility * from)) + *energy;
             scaled = T::select((more * -1.0).at_most(0.0), here, scaled);
@@ -361,10 +365,11 @@ impl Material<'_, f64> {
     /// The sum over the pieces, each with the constant c_k of its complementary energy per length [N]; a
     /// linear cable is one piece.
     fn energy_of_pieces(&self, whole: &Terms<f64>, of: impl Fn(&Piece<f64>, f64) -> f64) -> f64 {
-        let linear = [LawSegment { from: 0.0, offset: 0.0, flexibility: 1.0, energy: 0.0 }];
+        let (from, strain, offset, energy) = (0.0, 0.0, 0.0, 0.0);
+        let linear = [LawSegment { from, ratio: 1.0, strain, offset, flexibility: 1.0, energy }];
         let law = if self.law.is_empty() { &linear } else { self.law };
         let material = Material { law, ..*self };
-        let constant = |&LawSegment { from, offset, flexibility, energy }: &LawSegment| {
+        let constant = |&LawSegment { from, offset, flexibility, energy, .. }: &LawSegment| {
             (energy - from * (offset + 0.5 * flexibility * from)) * self.axial_flexibility
         };
         let pieces = (0..2 * law.len()).map(|number| material.piece(whole, number));

@@ -248,7 +248,7 @@ impl<'a> Point<'a> {
             let near = error <= 1e-3 * size;
             if near
                 && exact.iter().zip(&convex).any(|(a, b)| a != b)
-                && let Some(newton) = self.exact_step(&exact)
+                && let Some(newton) = self.exact_step(&exact, ELASTICITY)
             {
                 (step, multipliers) = newton;
             }

@@ -24,7 +24,7 @@ mod cable;
 mod response;
 mod tensions;
 
-use crate::equations::LinearizedCable;
+use crate::equations::{LinearizedCable, between};
 pub(crate) use crate::lanes::adjoint::cable::GuideSlopes;
 use crate::lanes::adjoint::cable::{CableSlopes, torque};
 use crate::lanes::adjoint::response::CableResponse;
@@ -90,59 +90,49 @@ apart! {
         payload: &'r PlatformLoad<S>,
         shared: &'r Shared,
     ) -> Option<Adjoint<S>> {
-        adjoint_of(record, displacement, payload, shared)
+        let [placed, unloaded, loaded] = record.trace.states.as_slice() else { return None };
+        let zero = placed.weight.all(0.0);
+        let square = dot(displacement, displacement);
+        let least = NO_DEFLECTION * shared.scale.size;
+        let magnitude_inv = square.sqrt().recip();
+        let none = CableAdjoint {
+            exit: [zero; 3],
+            anchor: [zero; 3],
+            weight: zero,
+            flexibility: zero,
+            offset: zero,
+            guide: GuideSlopes::none(zero),
+        };
+        let mut found = Adjoint {
+            cables: vec![none; placed.cables.len()],
+            weight: zero,
+            center: [zero; 3],
+            turn: [zero; 3],
+            heavier: [zero; 3],
+            decided: zero.all(least * least).less_or_equal(square),
+        };
+        let mut lengths = vec![zero; placed.cables.len()];
+        let own = PlatformLoad::weight(unloaded.weight);
+        let load = payload.on(unloaded.weight);
+        let back = three!(|k| -(displacement[k] * magnitude_inv));
+        let arm = shared.scale.characteristic_length;
+        // One body of code for both equilibria.
+        for (robots, load, sign) in [(unloaded, &own, 1.0), (loaded, &load, -1.0)] {
+            found.at_rest(robots, load, &three!(|k| back[k] * sign), &mut lengths, arm);
+        }
+        // From here on the slopes by the set-points.
+        for ((cable, found_cable), slope) in placed.cables.iter().zip(&mut found.cables).zip(&mut lengths) {
+            let span = cable.span(&placed.position);
+            let (slopes, per_tension) = CableResponse::of(cable).of_length(&span.plane, *slope);
+            *slope = per_tension;
+            found_cable.add(&slopes, &placed.frame, &slopes.span);
+            let r = between(&placed.position, &cable.anchor_arm, &cable.exit_point);
+            add(&mut found.turn, &torque(&[zero; 3], &[zero; 3], &r, &slopes.span));
+        }
+        found.of_tensions(record, placed, &lengths, shared);
+        found.turn_axes(placed);
+        Some(found)
     }
-}
-
-#[inline(always)]
-fn adjoint_of<S: Simd>(
-    record: &Record<'_, S>,
-    displacement: &Lanes3<S>,
-    payload: &PlatformLoad<S>,
-    shared: &Shared,
-) -> Option<Adjoint<S>> {
-    let [placed, unloaded, loaded] = record.trace.states.as_slice() else { return None };
-    let zero = placed.weight.all(0.0);
-    let square = dot(displacement, displacement);
-    let least = NO_DEFLECTION * shared.scale.size;
-    let magnitude_inv = square.sqrt().recip();
-    let none = CableAdjoint {
-        exit: [zero; 3],
-        anchor: [zero; 3],
-        weight: zero,
-        flexibility: zero,
-        offset: zero,
-        guide: GuideSlopes::none(zero),
-    };
-    let mut found = Adjoint {
-        cables: vec![none; placed.cables.len()],
-        weight: zero,
-        center: [zero; 3],
-        turn: [zero; 3],
-        heavier: [zero; 3],
-        decided: zero.all(least * least).less_or_equal(square),
-    };
-    let mut lengths = vec![zero; placed.cables.len()];
-    let own = PlatformLoad::weight(unloaded.weight);
-    let load = payload.on(unloaded.weight);
-    let back = three!(|k| -(displacement[k] * magnitude_inv));
-    let arm = shared.scale.characteristic_length;
-    // One body of code for both equilibria.
-    for (robots, load, sign) in [(unloaded, &own, 1.0), (loaded, &load, -1.0)] {
-        found.at_rest(robots, load, &three!(|k| back[k] * sign), &mut lengths, arm);
-    }
-    // From here on the slopes by the set-points.
-    for ((cable, found_cable), slope) in placed.cables.iter().zip(&mut found.cables).zip(&mut lengths) {
-        let span = cable.span(&placed.position);
-        let (slopes, per_tension) = CableResponse::of(cable).of_length(&span.plane, *slope);
-        *slope = per_tension;
-        found_cable.add(&slopes, &placed.frame, &slopes.span);
-        let r = three!(|k| placed.position[k] + cable.anchor_arm[k] - cable.exit_point[k]);
-        add(&mut found.turn, &torque(&[zero; 3], &[zero; 3], &r, &slopes.span));
-    }
-    found.of_tensions(record, placed, &lengths, shared);
-    found.turn_axes(placed);
-    Some(found)
 }
 
 /// What the symmetric part of the transposed stiffness lacks.
@@ -247,7 +237,7 @@ impl<S: Simd> Adjoint<S> {
             // -y_r·(ds x f)
             let swings = cross(&turned, &force);
             found.add(&slopes, &robots.frame, &three!(|k| slopes.span[k] + swings[k]));
-            let r = three!(|k| robots.position[k] + cable.anchor_arm[k] - cable.exit_point[k]);
+            let r = between(&robots.position, &cable.anchor_arm, &cable.exit_point);
             add(&mut self.turn, &torque(&force, &three!(|k| -twisted[k]), &r, &slopes.span));
         }
         self.add_weight(robots, load.weight, &twist);

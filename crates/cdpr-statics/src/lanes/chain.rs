@@ -118,73 +118,64 @@ apart! {
         shared: &'b Shared,
         traced: bool,
     ) -> (Outcome<S>, Trace<'a, S>) {
-        chain(begin, shared, traced)
-    }
-}
-
-#[inline(always)]
-fn chain<'a, S: Simd>(
-    begin: &mut ChainStart<'a, S>,
-    shared: &Shared,
-    traced: bool,
-) -> (Outcome<S>, Trace<'a, S>) {
-    let ChainStart { robots, offsets: set_points, multipliers, payload, free } = begin;
-    let zero = robots.weight.all(0.0);
-    let mut spans = Vec::with_capacity(robots.cables.len());
-    for (cable, choice) in robots.cables.iter_mut().zip(&shared.choices) {
-        let span = cable.span(&robots.position);
-        cable.take(&choice.shape.all(zero), &span);
-        spans.push(span);
-    }
-    let freedoms = robots.freedoms;
-    let weight = PlatformLoad::weight(robots.weight).wrench(&robots.center);
-    let Distributed { converged, sound, cables: tensions } = match free.is_empty() {
-        true => {
-            let (external, spans, offsets) = (&weight, &*spans, &mut **set_points);
-            zero.apart(Distribute { robots, external, multipliers, offsets, spans, shared })
+        let ChainStart { robots, offsets: set_points, multipliers, payload, free } = begin;
+        let zero = robots.weight.all(0.0);
+        let mut spans = Vec::with_capacity(robots.cables.len());
+        for (cable, choice) in robots.cables.iter_mut().zip(&shared.choices) {
+            let span = cable.span(&robots.position);
+            cable.take(&choice.shape.all(zero), &span);
+            spans.push(span);
         }
-        false => {
-            let (converged, sound) = rest(robots, free, set_points, &mut spans, shared);
-            Distributed { converged, sound, cables: Vec::new() }
+        let freedoms = robots.freedoms;
+        let weight = PlatformLoad::weight(robots.weight).wrench(&robots.center);
+        let Distributed { converged, sound, cables: tensions } = match free.is_empty() {
+            true => {
+                let (external, spans, offsets) = (&weight, &*spans, &mut **set_points);
+                zero.apart(Distribute { robots, external, multipliers, offsets, spans, shared })
+            }
+            false => {
+                let (converged, sound) = rest(robots, free, set_points, &mut spans, shared);
+                Distributed { converged, sound, cables: Vec::new() }
+            }
+        };
+        let mut demanded = vec![converged & !converged; spans.len()];
+        for (demanded, found) in demanded.iter_mut().zip(&tensions) {
+            *demanded = found.demanded;
         }
-    };
-    let mut demanded = vec![converged & !converged; spans.len()];
-    for (demanded, found) in demanded.iter_mut().zip(&tensions) {
-        *demanded = found.demanded;
+        let mut platform = LinearizedPlatform::new(zero, spans.len());
+        let with_lengths = find_lengths(robots, &mut platform, set_points, (&spans, &demanded), shared);
+        let mut states = Vec::new();
+        let mut keep = |robots: &Robots<'a, S>| {
+            if traced {
+                states.push(robots.clone());
+            }
+        };
+        keep(robots);
+
+        let own = PlatformLoad::weight(robots.weight);
+        robots.assemble(&own, &mut platform, zero.less_or_equal(zero));
+        let (standing, unloaded) =
+            solve(robots, &own, &mut platform, &shared.scale, converged & sound & with_lengths);
+        let (stood, stiffness) = (robots.position, platform.factored);
+        let frame = robots.frame.clone();
+        keep(robots);
+
+        let load = payload.on(own.weight);
+        // The first step follows the linearization at hand.
+        let added = constrain(freedoms, payload.wrench(&robots.center));
+        platform.gradient = six!(|k| platform.gradient[k] - added[k]);
+        let (standing_loaded, loaded) = solve(robots, &load, &mut platform, &shared.scale, standing);
+        let standing_loaded = robots.on_branch(&load, &platform, &stiffness, &shared.scale, standing_loaded);
+        keep(robots);
+        let mut failures = Failures::none(zero);
+        failures.add(Stage::Tensions, converged);
+        failures.add(Stage::Limits, sound);
+        failures.add(Stage::Lengths, with_lengths);
+        failures.add(Stage::Unloaded, standing);
+        failures.add(Stage::Loaded, standing_loaded);
+        // Eq. (4)
+        let displacement = three!(|k| robots.position[k] - stood[k]);
+        let frames = [frame, robots.frame.clone()];
+        (Outcome { failures, displacement, unloaded, loaded, frames }, Trace { tensions, states })
     }
-    let mut platform = LinearizedPlatform::new(zero, spans.len());
-    let with_lengths = find_lengths(robots, &mut platform, set_points, (&spans, &demanded), shared);
-    let mut states = Vec::new();
-    let mut keep = |robots: &Robots<'a, S>| {
-        if traced {
-            states.push(robots.clone());
-        }
-    };
-    keep(robots);
-
-    let own = PlatformLoad::weight(robots.weight);
-    robots.assemble(&own, &mut platform, zero.less_or_equal(zero));
-    let (standing, unloaded) =
-        solve(robots, &own, &mut platform, &shared.scale, converged & sound & with_lengths);
-    let (stood, stiffness) = (robots.position, platform.factored);
-    let frame = robots.frame.clone();
-    keep(robots);
-
-    let load = payload.on(own.weight);
-    // The first step follows the linearization at hand.
-    let added = constrain(freedoms, payload.wrench(&robots.center));
-    platform.gradient = six!(|k| platform.gradient[k] - added[k]);
-    let (standing_loaded, loaded) = solve(robots, &load, &mut platform, &shared.scale, standing);
-    let standing_loaded = robots.on_branch(&load, &platform, &stiffness, &shared.scale, standing_loaded);
-    keep(robots);
-    let mut failures = Failures::none(zero);
-    failures.add(Stage::Tensions, converged);
-    failures.add(Stage::Limits, sound);
-    failures.add(Stage::Lengths, with_lengths);
-    failures.add(Stage::Unloaded, standing);
-    failures.add(Stage::Loaded, standing_loaded);
-    // Eq. (4)
-    let displacement = three!(|k| robots.position[k] - stood[k]);
-    let frames = [frame, robots.frame.clone()];
-    (Outcome { failures, displacement, unloaded, loaded, frames }, Trace { tensions, states })
 }

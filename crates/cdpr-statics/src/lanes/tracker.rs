@@ -4,7 +4,6 @@ use crate::direct::{DirectSolution, DirectStart, direct, follow_change};
 use crate::error::StaticsError;
 use crate::local::newton::solve;
 use crate::local::one_robot::fits_lanes;
-use crate::local::platform::Robots;
 use crate::problem::DirectProblem;
 use crate::state::{Equilibrium, Load, Residual};
 use cdpr_number::lanes::{Lanes, Simd, WithSimd, dispatch};
@@ -153,7 +152,8 @@ impl<R: Borrow<Robot>> Tracker<R> {
 }
 
 /// Newton's method for cables that fill the lanes. Its output is the number of iterations, and the residual
-/// where it found an equilibrium, which is then assigned.
+/// where it found the equilibrium of `problem` that `equilibrium`, one of the problem `before`, becomes, which
+/// is then assigned.
 struct Update<'a> {
     problem: &'a DirectProblem<'a>,
     before: &'a DirectProblem<'a>,
@@ -166,38 +166,22 @@ impl WithSimd for Update<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
         let Self { problem, before, equilibrium } = self;
-        let (iterations, found) = follow(simd, problem, before, equilibrium);
-        let residual = found.map(|(robots, residual)| {
-            problem.take(&robots, equilibrium);
-            residual
-        });
-        (iterations, residual)
-    }
-}
-
-/// The robot of `problem` in the equilibrium that `now`, one of the problem `before`, becomes, and the number
-/// of iterations.
-#[inline(always)]
-fn follow<'a, S: Simd>(
-    simd: S,
-    problem: &DirectProblem<'a>,
-    before: &DirectProblem,
-    now: &Equilibrium,
-) -> (usize, Option<(Robots<'a, S>, Residual)>) {
-    let zero = Lanes::splat(simd, 0.0);
-    let everywhere = zero.less_or_equal(zero);
-    let (mut robots, mut platform, load) = problem.linearized(simd, now);
-    let scale = problem.scale(now);
-    let (found, left) = solve(&mut robots, &load, &mut platform, &scale, everywhere);
-    let iterations = platform.steps.count;
-    if !found.any() {
-        return (iterations, None);
-    }
-    if !platform.steps.end_near_prediction(&scale).any() {
-        let (_, unloaded, _) = before.linearized(simd, now);
-        if !robots.on_branch(&load, &platform, &unloaded.factored, &scale, everywhere).any() {
+        let zero = Lanes::splat(simd, 0.0);
+        let everywhere = zero.less_or_equal(zero);
+        let (mut robots, mut platform, load) = problem.linearized(simd, equilibrium);
+        let scale = problem.scale(equilibrium);
+        let (found, left) = solve(&mut robots, &load, &mut platform, &scale, everywhere);
+        let iterations = platform.steps.count;
+        if !found.any() {
             return (iterations, None);
         }
+        if !platform.steps.end_near_prediction(&scale).any() {
+            let (_, unloaded, _) = before.linearized(simd, equilibrium);
+            if !robots.on_branch(&load, &platform, &unloaded.factored, &scale, everywhere).any() {
+                return (iterations, None);
+            }
+        }
+        problem.take(&robots, equilibrium);
+        (iterations, Some(left.norms()[0]))
     }
-    (iterations, Some((robots, left.norms()[0])))
 }

@@ -130,24 +130,12 @@ impl<S: Simd> LaneCable<'_, S> {
         self.free().response()
     }
 
-    /// Strain at a tension [N].
-    #[inline(always)]
-    pub(crate) fn strain(&self, tension: Lanes<S>) -> Lanes<S> {
-        self.material().strain(tension)
-    }
-
     /// The lanes in which this tension at the platform [N] may strain the cable beyond [`MAX_STRAIN`] at one
     /// of its ends.
     #[inline(always)]
     pub(crate) fn may_be_overstrained(&self, tension: Lanes<S>) -> Mask<S> {
-        let strain = self.strain(tension + self.weight_per_length * self.length);
+        let strain = self.material().strain(tension + self.weight_per_length * self.length);
         !strain.less_or_equal(tension.all(MAX_STRAIN))
-    }
-
-    /// The integral of the strain over the tension up to `tension`, both in newtons.
-    #[inline(always)]
-    pub(crate) fn energy(&self, tension: Lanes<S>) -> Lanes<S> {
-        self.material().energy(tension)
     }
 
     /// Takes a shape over `span`.
@@ -241,7 +229,7 @@ impl<S: Simd> LaneCable<'_, S> {
         let length = (z * z + h * h * stretch).sqrt();
         let fz = fx * z / h * (square + stretch.recip()).sqrt() + half_weight * length;
         let tension = (fx * fx + fz * fz).sqrt();
-        let unstrained = length / (self.strain(tension) + 1.0);
+        let unstrained = length / (self.material().strain(tension) + 1.0);
         let far = far & u.less_or_equal(u.all(STEEPEST));
         self.force[1].replace(fz, far);
         self.length.replace(unstrained, far);

@@ -40,8 +40,9 @@ pub(crate) struct Guided<S: Simd> {
     pub(crate) guide: GuideTerms<Lanes<S>>,
     /// Unstrained length L, lead and arc included [m].
     pub(crate) whole_length: Lanes<S>,
-    /// Direction e_h of the plane that a cable over a tilted axis hangs in.
-    azimuth: Lanes2<S>,
+    /// Direction e_h of the plane that a cable over a tilted axis hangs in, to go back to with
+    /// [`Guided::return_to`].
+    pub(crate) azimuth: Lanes2<S>,
 }
 
 /// How the length beyond the leave point follows the force, (L12).
@@ -144,12 +145,6 @@ impl<S: Simd> Guided<S> {
         let c = (tangent * tangent + 1.0).sqrt().recip();
         let ([x, y], s) = (self.azimuth, tangent * c);
         replace(&mut self.azimuth, &[c * x - s * y, c * y + s * x], active);
-    }
-
-    /// Its azimuth, to go back to with [`Guided::return_to`].
-    #[inline(always)]
-    pub(crate) fn azimuth(&self) -> Lanes2<S> {
-        self.azimuth
     }
 
     /// Assigns an azimuth in the lanes that are `active`.

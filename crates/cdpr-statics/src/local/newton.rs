@@ -172,58 +172,6 @@ impl<S: Simd> Robots<'_, S> {
         [closure, failed.max((!sound).select(zero.all(1.0), zero))]
     }
 
-    #[inline(always)]
-    fn solve_here(
-        &mut self,
-        load: &PlatformLoad<S>,
-        platform: &mut LinearizedPlatform<S>,
-        scale: &Scale,
-        alive: Mask<S>,
-    ) -> (Mask<S>, LaneResidual<S>) {
-        let zero = self.weight.all(0.0);
-        let (farthest, turned_most) = (zero + (0.3 * scale.size).powi(2), zero + 0.1 * 0.1);
-        let small_step = zero + (SMALL_STEP * scale.size).powi(2);
-        let (mut active, mut found) = (alive, alive & !alive);
-        let mut residual = LaneResidual { closure: small_step, wrench: platform.gradient };
-        platform.steps.count = 0;
-        for _ in 0..MAX_ITERATIONS {
-            let gradient = six!(|k| -platform.gradient[k]);
-            let mut step = platform.factored.solve(&gradient);
-            if load.moment.is_some() {
-                // Where this does not converge, the steps do not either.
-                let skew = Skew { freedoms: self.freedoms, moment: load.moment, guided: Vec::new() };
-                refine(&skew, &platform.factored, &gradient, &mut step, scale.characteristic_length);
-            }
-            let (translation, rotation) = halves(&step);
-            let turned = dot(&rotation, &rotation);
-            let moved = dot(&translation, &translation)
-                + turned * (scale.characteristic_length * scale.characteristic_length);
-            // The linearization is invalid farther away; a comparison with NaN is false, which ends the lane.
-            active = active & moved.less_or_equal(farthest) & turned.less_or_equal(turned_most);
-            platform.steps.add(&step, scale.characteristic_length, active);
-            let [steady, clear] = self.apply(&translation, &rotation, turned, platform, active);
-            let [steady, clear] = [self.of_robot(steady), self.of_robot(clear)];
-            active = active & clear;
-            let near = active & steady & moved.less_or_equal(small_step);
-            if near.any() {
-                let (left, solved) = self.update(load, scale, platform, near);
-                let mut done = near & solved & platform.factored.positive;
-                if !platform.free.is_empty() {
-                    done = done & moved.less_or_equal(small_step * LAST_OF_GUIDED);
-                }
-                residual = left;
-                (found, active) = (found | done, active & !done);
-            }
-            let far = active & !near;
-            if far.any() {
-                self.linearize(load, platform, far);
-            } else if !active.any() {
-                break;
-            }
-        }
-        (found, residual)
-    }
-
     /// Moves the platforms and the forces of their cables where `active`. Returns the lanes in which no cable
     /// changed so much that its stiffness is another one, and those in which none became slack next to
     /// its wheel, from either side of which it may hang.
@@ -302,7 +250,48 @@ apart! {
         scale: &'b Scale,
         alive: Mask<S>,
     ) -> (Mask<S>, LaneResidual<S>) {
-        robots.solve_here(load, platform, scale, alive)
+        let zero = robots.weight.all(0.0);
+        let (farthest, turned_most) = (zero + (0.3 * scale.size).powi(2), zero + 0.1 * 0.1);
+        let small_step = zero + (SMALL_STEP * scale.size).powi(2);
+        let (mut active, mut found) = (alive, alive & !alive);
+        let mut residual = LaneResidual { closure: small_step, wrench: platform.gradient };
+        platform.steps.count = 0;
+        for _ in 0..MAX_ITERATIONS {
+            let gradient = six!(|k| -platform.gradient[k]);
+            let mut step = platform.factored.solve(&gradient);
+            if load.moment.is_some() {
+                // Where this does not converge, the steps do not either.
+                let skew = Skew { freedoms: robots.freedoms, moment: load.moment, guided: Vec::new() };
+                refine(&skew, &platform.factored, &gradient, &mut step, scale.characteristic_length);
+            }
+            let (translation, rotation) = halves(&step);
+            let turned = dot(&rotation, &rotation);
+            let moved = dot(&translation, &translation)
+                + turned * (scale.characteristic_length * scale.characteristic_length);
+            // The linearization is invalid farther away; a comparison with NaN is false, which ends the lane.
+            active = active & moved.less_or_equal(farthest) & turned.less_or_equal(turned_most);
+            platform.steps.add(&step, scale.characteristic_length, active);
+            let [steady, clear] = robots.apply(&translation, &rotation, turned, platform, active);
+            let [steady, clear] = [robots.of_robot(steady), robots.of_robot(clear)];
+            active = active & clear;
+            let near = active & steady & moved.less_or_equal(small_step);
+            if near.any() {
+                let (left, solved) = robots.update(load, scale, platform, near);
+                let mut done = near & solved & platform.factored.positive;
+                if !platform.free.is_empty() {
+                    done = done & moved.less_or_equal(small_step * LAST_OF_GUIDED);
+                }
+                residual = left;
+                (found, active) = (found | done, active & !done);
+            }
+            let far = active & !near;
+            if far.any() {
+                robots.linearize(load, platform, far);
+            } else if !active.any() {
+                break;
+            }
+        }
+        (found, residual)
     }
 }
 

@@ -137,12 +137,6 @@ impl<S: Simd> LinearizedPlatform<S> {
             self.swivels = vec![Swivel::none(zero); cables];
         }
     }
-
-    /// The lanes whose stiffness is positive definite.
-    #[inline(always)]
-    pub(crate) fn is_stable(&self) -> Mask<S> {
-        self.factored.positive
-    }
 }
 
 impl<S: Simd> Robots<'_, S> {

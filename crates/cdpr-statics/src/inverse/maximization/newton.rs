@@ -150,10 +150,7 @@ impl Maximization {
             .iter()
             .zip(&step)
             .fold(point.residual() + self.direction() * at.z, |sum, (row, d)| sum + row.slope * *d);
-        let mut set = |row: usize, column: usize, value: f64| {
-            matrix[(k + 1 + row, column)] = value;
-            matrix[(column, k + 1 + row)] = value;
-        };
+        let mut set = |row: usize, column: usize, value: f64| matrix[(k + 1 + row, column)] = value;
         for (row, &component) in self.components.iter().enumerate() {
             for (column, &i) in free.iter().enumerate() {
                 set(row, column, point.rows[i].slope[component]);

@@ -8,26 +8,21 @@ use nalgebra::{DMatrix, DVector};
 impl Point<'_> {
     /// Newton's step on the free cables with the exact Hessian; `None` unless it leads to a minimum and stays
     /// within the limits.
-    pub(super) fn exact_step(&self, hessian: &[f64]) -> Option<(Vec<f64>, Vector6<f64>)> {
-        self.step_on_free_cables(hessian, ELASTICITY)
+    pub(super) fn exact_step(&self, hessian: &[f64], elasticity: f64) -> Option<(Vec<f64>, Vector6<f64>)> {
+        let fixed: Vec<_> = self.cables.iter().map(|cable| cable.at_limit().map(|_| 0.0)).collect();
+        let (step, multipliers) = self.newton_step(hessian, &fixed, elasticity)?;
+        let mut each = self.cables.iter().zip(&step).zip(&fixed);
+        let within = each.all(|((cable, d), fixed)| fixed.is_some() || cable.passed(*d).is_none());
+        within.then_some((step, multipliers))
     }
 
     /// The same with the balance kept exactly, which needs cables that can pull in all directions.
     pub(super) fn inelastic_step(&self, hessian: &[f64]) -> Option<(Vec<f64>, Vector6<f64>)> {
         let free = self.cables.iter().filter(|cable| cable.at_limit().is_none()).count();
         let balanced = (0..6).filter(|row| !self.is_constrained(*row)).count();
-        let (step, multipliers) = self.step_on_free_cables(hessian, 0.0).filter(|_| free >= balanced)?;
+        let (step, multipliers) = self.exact_step(hessian, 0.0).filter(|_| free >= balanced)?;
         let small = step.iter().zip(&self.cables).all(|(d, cable)| d.abs() <= 1e-3 * cable.fixed.chord_force);
         small.then_some((step, multipliers))
-    }
-
-    fn step_on_free_cables(&self, hessian: &[f64], elasticity: f64) -> Option<(Vec<f64>, Vector6<f64>)> {
-        let fixed: Vec<_> = self.cables.iter().map(|cable| cable.at_limit().map(|_| 0.0)).collect();
-        let (step, multipliers) = self.newton_step(hessian, &fixed, elasticity)?;
-        let each = self.cables.iter().zip(&step).zip(&fixed);
-        let within =
-            each.into_iter().all(|((cable, d), fixed)| fixed.is_some() || cable.passed(*d).is_none());
-        within.then_some((step, multipliers))
     }
 
     /// Whether a row of the balance is of a constrained motion: no cable takes part in it.
@@ -55,7 +50,6 @@ impl Point<'_> {
             right[column] = -self.rows[i].gradient();
             for row in 0..6 {
                 kkt[(k + row, column)] = self.rows[i].slope[row];
-                kkt[(column, k + row)] = self.rows[i].slope[row];
             }
         }
         for row in 0..6 {

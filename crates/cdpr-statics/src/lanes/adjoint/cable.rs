@@ -5,15 +5,15 @@
 //! its tension are those of (L9) along `(f_t, L_t)`, found by tangents.
 
 use crate::equations::{CablePlane, LinearizedCable, Span};
-use crate::lanes::adjoint::response::{AtTension, CableResponse, GuideResponse};
+use crate::lanes::adjoint::response::{AtTension, CableResponse};
 use crate::lanes::chain::limits::at_platform;
 use crate::lanes::chain::shared::Choice;
 use crate::local::cable::LaneCable;
-use cdpr_number::dense::{Lanes2, Lanes3};
+use cdpr_number::dense::Lanes3;
 use cdpr_number::lanes::{Lanes, Simd};
 use cdpr_number::three;
 use cdpr_number::vector::{cross, dot};
-use cdpr_number::{Dual, Number};
+use cdpr_number::{Dual, Lanewise};
 use cdpr_robot::CableEnd;
 
 /// Derivatives of an output by what one cable is, at one equilibrium.
@@ -71,10 +71,11 @@ impl<S: Simd> CableSlopes<S> {
         }
         let greatest = by_bound.all(choice.limits.max);
         let tension = at_platform(cable, greatest, *height);
-        let by_work = by_bound / (cable.strain(tension) + 1.0);
+        let material = cable.material();
+        let by_work = by_bound / (material.strain(tension) + 1.0);
         self.span[2] += by_work * cable.weight_per_length;
         self.weight += by_work * *height;
-        let energy = cable.energy(greatest) - cable.energy(tension);
+        let energy = material.energy(greatest) - material.energy(tension);
         self.flexibility += by_work * energy / cable.axial_flexibility;
     }
 }
@@ -112,32 +113,52 @@ impl<S: Simd> CableResponse<Lanes<S>> {
         let along = [at_tension.length_per_end[0] * share, at_tension.length_per_end[1] * share];
         (self.slopes(plane, along, share.all(0.0)), at_tension.length_per_tension * share)
     }
+}
 
-    /// Slopes of an output that grows by `along`·y and by `across` for each motion across the plane.
+/// What is taken of a number: a number itself, or the slope of a dual one.
+trait Taken<S: Simd>: Lanewise {
+    fn taken(self) -> Lanes<S>;
+}
+
+impl<S: Simd> Taken<S> for Lanes<S> {
     #[inline(always)]
-    fn slopes(&self, plane: &CablePlane<Lanes<S>>, along: Lanes2<S>, across: Lanes<S>) -> CableSlopes<S> {
-        CableSlopes {
-            span: plane.in_space(along, across),
-            weight: -dot(&along, &self.per_weight),
-            flexibility: -dot(&along, &self.per_flexibility),
-            guide: match &self.guide {
-                None => None,
-                Some(guide) => Some(guide.slopes(plane, &along, across)),
-            },
-        }
+    fn taken(self) -> Self {
+        self
     }
 }
 
-impl<S: Simd> GuideResponse<Lanes<S>> {
+impl<S: Simd> Taken<S> for Dual<Lanes<S>, 1> {
+    #[inline(always)]
+    fn taken(self) -> Lanes<S> {
+        self.slopes[0]
+    }
+}
+
+impl<T: Lanewise> CableResponse<T> {
     /// Slopes of an output that grows by `along`·y in the plane and by `across` for each motion across it.
     #[inline(always)]
-    fn slopes(&self, plane: &CablePlane<Lanes<S>>, along: &Lanes2<S>, across: Lanes<S>) -> GuideSlopes<S> {
-        let end = &self.end;
-        let forwards = -dot(along, &end.per_axis);
-        GuideSlopes {
-            lead: -dot(along, &end.per_lead),
-            radius: -dot(along, &end.per_radius),
-            axis: plane.in_space([forwards, across.all(0.0)], -(across * end.across_per_axis)),
+    fn slopes<S: Simd>(&self, plane: &CablePlane<Lanes<S>>, along: [T; 2], across: T) -> CableSlopes<S>
+    where
+        T: Taken<S>,
+    {
+        let guide = match &self.guide {
+            None => None,
+            Some(guide) => {
+                let end = &guide.end;
+                let forwards = -dot(&along, &end.per_axis);
+                let sideways = -(across * end.across_per_axis);
+                Some(GuideSlopes {
+                    lead: -dot(&along, &end.per_lead).taken(),
+                    radius: -dot(&along, &end.per_radius).taken(),
+                    axis: plane.in_space([forwards.taken(), plane.azimuth[0].all(0.0)], sideways.taken()),
+                })
+            }
+        };
+        CableSlopes {
+            span: plane.in_space([along[0].taken(), along[1].taken()], across.taken()),
+            weight: -dot(&along, &self.per_weight).taken(),
+            flexibility: -dot(&along, &self.per_flexibility).taken(),
+            guide,
         }
     }
 }
@@ -172,39 +193,15 @@ impl<S: Simd> TensionSlopes<S> {
     /// constant tension.
     #[inline(always)]
     pub(super) fn slopes(&self, force: &Lanes3<S>, twisted: &Lanes3<S>, share: Lanes<S>) -> CableSlopes<S> {
-        let Self { plane, found, at_tension, .. } = self;
-        // Values of the one and slopes of the other.
+        let Self { plane, found, at_tension: AtTension { normal, turn_per_end, .. }, .. } = self;
+        // Values of what `force` takes and slopes of what `twisted` takes are slopes of these products.
         let (once, twice) = (plane.project(*force), plane.project(*twisted));
-        let normal = &at_tension.normal;
-        let once = normal[0] * Dual::constant(once[0]) + normal[1] * Dual::constant(once[1]);
-        let twice =
-            normal[0] * Dual::constant(twice[0] * share) + normal[1] * Dual::constant(twice[1] * share);
-        let of = |by: [Dual<Lanes<S>, 1>; 2]| {
-            let turn = at_tension.turn_per_end[0] * by[0] + at_tension.turn_per_end[1] * by[1];
-            (once * turn).value + (twice * turn).slopes[0]
-        };
-        let (one, zero) = (Dual::constant(share.all(1.0)), Dual::constant(share.all(0.0)));
-        let lateral = found.response.lateral_flexibility.recip();
-        let [lateral_once, lateral_twice] = [plane.across(*force), plane.across(*twisted) * share];
-        let across = lateral_once * lateral.value + lateral_twice * lateral.slopes[0];
-        let guide = match &found.guide {
-            None => None,
-            Some(guide) => {
-                let swung = lateral * guide.end.across_per_axis;
-                let across = lateral_once * swung.value + lateral_twice * swung.slopes[0];
-                Some(GuideSlopes {
-                    lead: -of(guide.end.per_lead),
-                    radius: -of(guide.end.per_radius),
-                    axis: plane.in_space([-of(guide.end.per_axis), share.all(0.0)], -across),
-                })
-            }
-        };
-        CableSlopes {
-            span: plane.in_space([of([one, zero]), of([zero, one])], across),
-            weight: -of(found.per_weight),
-            flexibility: -of(found.per_flexibility),
-            guide,
-        }
+        let along = Dual { value: twice[0] * share, slopes: [once[0]] };
+        let upwards = Dual { value: twice[1] * share, slopes: [once[1]] };
+        let turned = normal[0] * along + normal[1] * upwards;
+        let aside = Dual { value: plane.across(*twisted) * share, slopes: [plane.across(*force)] };
+        let along = [turned * turn_per_end[0], turned * turn_per_end[1]];
+        found.slopes(plane, along, aside / found.response.lateral_flexibility)
     }
 }
 

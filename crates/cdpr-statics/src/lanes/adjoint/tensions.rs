@@ -1,6 +1,6 @@
 //! Derivatives through the tensions of the inverse model, equation (L11).
 
-use crate::equations::Span;
+use crate::equations::{Span, between};
 use crate::lanes::adjoint::cable::{TensionSlopes, torque};
 use crate::lanes::adjoint::{Adjoint, Record, add};
 use crate::lanes::chain::shared::Shared;
@@ -145,7 +145,7 @@ impl<S: Simd> Adjoint<S> {
         let mut own = slopes.slopes(&twisted, motion, share);
         own.add_bound(cable, &span.end[1], &shared.choices[i], by_bound);
         let force = span.plane.lift(cable.force);
-        let r = three!(|k| placed.position[k] + cable.anchor_arm[k] - cable.exit_point[k]);
+        let r = between(&placed.position, &cable.anchor_arm, &cable.exit_point);
         add(&mut self.turn, &torque(&force, &twisted, &r, &own.span));
         let shared_motion = three!(|k| motion[k] * share);
         add(&mut self.turn, &cross(&slopes.force_per_tension, &shared_motion));

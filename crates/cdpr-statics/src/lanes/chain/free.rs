@@ -284,7 +284,7 @@ impl<S: Simd> Rest<'_, '_, S> {
         platform.follow_guides(robots);
         let own = PlatformLoad::weight(robots.weight);
         robots.linearize(&own, &mut platform, zero.less_or_equal(zero));
-        platform.is_stable()
+        platform.factored.positive
     }
 }
 
