@@ -385,21 +385,3 @@ impl Piece<f64> {
         quantity(&elastic) + quantity(&elastic.with_flexibility(0.0)) * (self.alpha - 1.0)
     }
 }
-
-impl<T: Lanewise> Response<T> {
-    /// One of two responses to the same force for each cable.
-    #[inline(always)]
-    fn select(mask: T::Mask, chosen: &Self, otherwise: &Self) -> Self {
-        let mut one = *otherwise;
-        for k in 0..2 {
-            one.end[k] = T::select(mask, chosen.end[k], otherwise.end[k]);
-            one.end_per_length[k] = T::select(mask, chosen.end_per_length[k], otherwise.end_per_length[k]);
-        }
-        for k in 0..3 {
-            one.flexibility[k] = T::select(mask, chosen.flexibility[k], otherwise.flexibility[k]);
-        }
-        one.determinant = T::select(mask, chosen.determinant, otherwise.determinant);
-        one.lateral_flexibility = T::select(mask, chosen.lateral_flexibility, otherwise.lateral_flexibility);
-        one
-    }
-}

@@ -178,6 +178,24 @@ impl Response<f64> {
     }
 }
 
+impl<T: Lanewise> Response<T> {
+    /// One of two responses to the same force for each cable.
+    #[inline(always)]
+    pub(super) fn select(mask: T::Mask, chosen: &Self, otherwise: &Self) -> Self {
+        let mut one = *otherwise;
+        for k in 0..2 {
+            one.end[k] = T::select(mask, chosen.end[k], otherwise.end[k]);
+            one.end_per_length[k] = T::select(mask, chosen.end_per_length[k], otherwise.end_per_length[k]);
+        }
+        for k in 0..3 {
+            one.flexibility[k] = T::select(mask, chosen.flexibility[k], otherwise.flexibility[k]);
+        }
+        one.determinant = T::select(mask, chosen.determinant, otherwise.determinant);
+        one.lateral_flexibility = T::select(mask, chosen.lateral_flexibility, otherwise.lateral_flexibility);
+        one
+    }
+}
+
 impl<T: Number> Terms<T> {
     #[inline(always)]
     pub(super) fn with_square(w: T, axial_flexibility: T, length: T, fx: T, fz: T, fx2: T) -> Self {
