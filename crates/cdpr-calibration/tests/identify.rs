@@ -236,7 +236,7 @@ fn the_best_poses_identify_more_than_the_first_and_their_information_adds_up() {
 fn measurements_of_any_precision_have_their_information() {
     for noise in [1e-6, 1e-9, 1e-12, 1e-15] {
         let exact = Measurement::Pose { position: noise, rotation: noise };
-        let calibration = calibration(&[50.0], &[exact, Measurement::Tensions(noise)]);
+        let calibration = calibration(&[50.0], &[exact, Measurement::Tensions(5e4 * noise)]);
         let found = calibration.identify(0..27);
         let values = found.identifiable.iter().map(|combination| combination.signal_to_noise);
         let expected: f64 = values.map(|s| 0.5 * (1.0 + s * s).log2()).sum();

@@ -11,8 +11,9 @@
 //!
 //! with the lever c of the centre of mass. `M_c` and `W` are the inertia of the cables: the terms in ω² of
 //! their dynamic stiffness and of the force by which a winch moves the platform, (N12), at low frequencies.
-//! The second derivatives L'' are those of the lengths at rest: those of the feed-forward are of fourth
-//! order, and jump where the rate of the acceleration does, as at both ends of a move. Lengths and poses then
+//! The second derivatives L'' are those of the distances between exit and anchor points: lengths at rest have
+//! kinks where a cable comes to its least tension, and those with feed-forward jump in their rate at both ends
+//! of a move. Lengths and poses then
 //! belong to each other to second order in ω over the cables' own frequencies; what the cables swing
 //! themselves is left to the shaper.
 
@@ -240,22 +241,27 @@ impl Move<'_> {
 /// The wrenches with which platform and cables resist a move, (N17).
 struct Wrenches<'a> {
     of: &'a Move<'a>,
-    /// Those at rest, L of (N17).
-    lengths: WinchLengths,
+    /// Distances of exit and anchor points, which lengths follow but for what cables stretch and sag. Lengths
+    /// themselves have kinks where a cable comes to its least tension.
+    chords: WinchLengths,
     inertia: CableInertia,
 }
 
 impl<'a> Wrenches<'a> {
     fn new(of: &'a Move, way: &Way, at_rest: &[SetPoint]) -> Result<Self, DynamicsError> {
         of.check_inertia(way)?;
-        let lengths = winch_lengths(at_rest)?;
+        let chords = |point: &SetPoint| {
+            (0..of.robot.cables.len()).map(|i| of.robot.span(&point.pose, i).norm()).collect::<Vec<f64>>()
+        };
+        let times: Vec<f64> = at_rest.iter().map(|point| point.time).collect();
+        let chords = WinchLengths::new(&times, &at_rest.iter().map(chords).collect::<Vec<_>>())?;
         let inertia = CableInertia::along(of.robot, &of.load, way)?;
-        Ok(Self { of, lengths, inertia })
+        Ok(Self { of, chords, inertia })
     }
 
     /// The load with the wrench at a time [s].
     fn load(&self, time: f64, motion: &Motion) -> Load {
-        let growth: Vec<f64> = (0..self.lengths.cables()).map(|i| self.lengths.at(i, time)[2]).collect();
+        let growth: Vec<f64> = (0..self.chords.cables()).map(|i| self.chords.at(i, time)[2]).collect();
         let more = self.inertia.resistance(self.of.share_at(time)[0], motion, &growth);
         self.of.with(self.of.of_platform(motion) + more)
     }
