@@ -130,7 +130,7 @@ fn the_control_loop_prints_what_the_page_shows() {
 #[test]
 fn the_load_observer_prints_what_the_page_shows() {
     let page = std::fs::read_to_string(folder().join("../../docs/c.md")).unwrap();
-    for (compiler, program) in programs("examples/load_observer.c") {
+    for (compiler, program) in programs("examples/load_observer.c", &COMPILERS, &[]) {
         let printed = printed(&program, &[]);
         assert!(page.contains(&printed), "{compiler}, docs/c.md: {printed}");
     }

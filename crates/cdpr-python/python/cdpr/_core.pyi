@@ -2383,7 +2383,7 @@ class Modes(Generic[_N, _R]):
     @property
     def swing_shares(self) -> _Floats:
         """Part of it that is the platform's slowest motion on cables without mass, (k,). The platform swings
-        mostly with the motion that has the largest one.
+        with the motion that has the largest one of all, which may lie above those that are found.
         """
     @property
     def cable_shares(self) -> _Floats:

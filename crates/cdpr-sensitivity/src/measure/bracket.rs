@@ -133,10 +133,15 @@ pub fn brackets<D: IndependentSample>(
             upper = if by_slopes.high < upper.high { by_slopes } else { upper };
         }
         let share = |value: f64| value.clamp(0.0, 1.0);
+        let first_lower = below(|of| of.first)?;
+        // Many interactions of a small input are mostly noise: where they exceed the upper bound, the first-order
+        // part is what is known of the total index, too.
+        let total = below(|of| of.total)?;
+        let total_lower = if total.value > upper.value { first_lower } else { total };
         Ok(Bracket {
             input: input.name.clone(),
-            first_lower: below(|of| of.first)?,
-            total_lower: below(|of| of.total)?,
+            first_lower,
+            total_lower,
             total_upper: Estimate { value: share(upper.value), low: upper.low, high: upper.high.min(1.0) },
         })
     };

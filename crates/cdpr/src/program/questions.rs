@@ -159,8 +159,9 @@ pub(crate) fn few_held(summary: &WorkspaceSummary) -> Option<String> {
     let rows = &summary.rows;
     let held = rows.iter().filter(|row| is_held(Some(row.status)) || is_held(row.recomputed_status)).count();
     let all = rows.len();
+    let ways = if summary.is_loaded() { ", with the lengths kept or with tensions for the load" } else { "" };
     (held > 0 && 2 * held < all)
-        .then(|| format!("fewer than half of the positions are held, {held} of {all}"))
+        .then(|| format!("fewer than half of the positions are held, {held} of {all}{ways}"))
 }
 
 /// Asks about where a platform was found to rest with given lengths [m], from a start and under a load.

@@ -53,7 +53,7 @@ answer! {
         /// Share of the platform in the kinetic energy of each motion, (k,).
         platform_shares: Py<PyAny>,
         /// Part of it that is the platform's slowest motion on cables without mass, (k,). The platform swings
-        /// mostly with the motion that has the largest one.
+        /// with the motion that has the largest one of all, which may lie above those that are found.
         swing_shares: Py<PyAny>,
         /// Share of each cable in the kinetic energy of each motion, (k, n).
         cable_shares: Py<PyAny>,

@@ -10,7 +10,7 @@ use crate::program::output::{Ending, table};
 use crate::program::pose::at_pose::{RobotAtPose, Row};
 use crate::program::questions;
 use crate::program::said::note;
-use cdpr_dynamics::{Mode, Modes, Wanted};
+use cdpr_dynamics::{Mode, Modes, Swing, Wanted};
 use cdpr_robot::{Platform, Pose, Robot, shown};
 use cdpr_statics::vibration::PoseModes;
 use cdpr_statics::{
@@ -56,7 +56,8 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     let wanted = settings.below.map_or(Wanted::Number(settings.number.unwrap_or(NUMBER)), Wanted::Below);
     let solve = |robot: &Cow<'_, Robot>, problem: &DirectProblem<'_>, rest| {
         let found = Modes::new(problem, &rest, wanted)?;
-        Ok(Answer::new(robot, matches!(robot, Cow::Owned(_)), &found))
+        let swing = Swing::new(problem, &rest).ok();
+        Ok(Answer::new(robot, matches!(robot, Cow::Owned(_)), &found, swing))
     };
     settings.answer(solve, Answer::print)
 }
@@ -116,6 +117,9 @@ pub(super) fn with_inertia(robot: &Robot) -> Cow<'_, Robot> {
 struct Answer {
     /// The motions, the slowest first.
     modes: Vec<Motion>,
+    /// How the platform swings, whether or not that motion is among them; missing where nothing resists any.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    platform: Option<Swinging>,
     /// How many there are up to this frequency [Hz], by a count that shares no eigenvalues with them.
     counted: usize,
     complete_below_hz: f64,
@@ -123,6 +127,14 @@ struct Answer {
     inertia_assumed: bool,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     out_of_limits: Vec<OutOfLimits>,
+}
+
+/// The motion that contains most of the platform's slowest one on cables without mass.
+#[derive(Serialize)]
+struct Swinging {
+    frequency_hz: f64,
+    /// Share of platform and payload in the kinetic energy.
+    platform_share: f64,
 }
 
 /// A natural motion of unit mass.
@@ -151,7 +163,7 @@ impl Row for Answer {
 
     fn cells(&self) -> Vec<String> {
         let number = |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:?}"));
-        let platform = self.of_platform();
+        let platform = self.platform.as_ref();
         vec![
             number(self.modes.first().map(|mode| mode.frequency_hz)),
             number(platform.map(|mode| mode.frequency_hz)),
@@ -167,7 +179,7 @@ impl Row for Answer {
 }
 
 impl Answer {
-    fn new(robot: &Robot, inertia_assumed: bool, found: &Modes) -> Self {
+    fn new(robot: &Robot, inertia_assumed: bool, found: &Modes, swing: Option<Swing>) -> Self {
         let motion = |mode: &Mode| Motion {
             frequency_hz: mode.frequency,
             within: mode.within,
@@ -179,6 +191,8 @@ impl Answer {
         };
         Self {
             modes: found.modes.iter().map(motion).collect(),
+            platform: swing
+                .map(|swing| Swinging { frequency_hz: swing.platform, platform_share: swing.platform_share }),
             counted: found.counted,
             complete_below_hz: found.complete_below,
             inertia_assumed,
@@ -186,14 +200,9 @@ impl Answer {
         }
     }
 
-    /// How the platform swings.
-    fn of_platform(&self) -> Option<&Motion> {
-        self.modes.iter().max_by(|one, other| one.swing_share.total_cmp(&other.swing_share))
-    }
-
     fn print(&self, heading: &str) {
         println!("{heading}: {} natural motions up to {:.4} Hz.", self.counted, self.complete_below_hz);
-        if let Some(Motion { frequency_hz, platform_share, .. }) = self.of_platform() {
+        if let Some(Swinging { frequency_hz, platform_share }) = &self.platform {
             let share = decimal(100.0 * platform_share, 1);
             println!(
                 "The platform swings at {frequency_hz:.4} Hz, with {share} % of the energy of that motion."

@@ -223,8 +223,13 @@ fn print(summary: &WorkspaceSummary) {
     let all = summary.rows.len();
     let held = summary.status.get(HELD).copied().unwrap_or(0);
     let percent = 100.0 * held as f64 / all.max(1) as f64;
-    let of =
-        format!("{} holds {held} of {} ({percent:.1} %)", shown(&summary.robot), counted(all, "position"));
+    let again = summary.recomputed_status.get(HELD).copied().unwrap_or(0);
+    let ways = match summary.is_loaded() && again != held {
+        true => format!(" with the lengths kept, {again} with tensions for the load"),
+        false => String::new(),
+    };
+    let positions = counted(all, "position");
+    let of = format!("{} holds {held} of {positions} ({percent:.1} %){ways}", shown(&summary.robot));
     print_sentence(&format!("{of}, {}.", summary.conditions()));
     let others = summary.status.iter().filter(|(status, _)| **status != HELD);
     let others: Vec<String> =
