@@ -29,7 +29,7 @@ fn a_grid_of_poses_tells_geometry_but_no_offset_of_a_tension() {
 
     let short = text(run(&arguments).stdout);
     assert!(
-        short.starts_with("CAROCA: 9 poses identify 48 of 58 combinations of the parameters.\n"),
+        short.starts_with("CAROCA: 9 poses identify 48 of 58 combinations of the parameters, "),
         "{short}"
     );
     let text = text(run(&[&arguments[..], &["--details"]].concat()).stdout);

@@ -118,8 +118,10 @@ fn print(robot: &Robot, output: &Output, details: bool) {
     let (known, unknown) = (output.identifiable.len(), output.unidentifiable.len());
     let poses = counted(output.poses, "pose");
     let all = known + unknown;
+    let better = output.identifiable.iter().filter(|part| part.signal_to_noise >= 1.0).count();
     print_sentence(&format!(
-        "{}: {poses} identify {known} of {all} combinations of the parameters.",
+        "{}: {poses} identify {known} of {all} combinations of the parameters, {better} of them better than they \
+         are known.",
         shown(&robot.name)
     ));
     let mut left: Vec<_> = output.remaining.iter().collect();
