@@ -43,7 +43,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     let load = at.load.load();
     let solve = |robot: &Robot, pose: &Pose| {
         let (still, rest) = in_weather(robot, WantedPose::at(pose).free(&free.free), &load, &weather)?;
-        Ok(AnswerInWeather::new(robot, &still, &rest))
+        Ok(AnswerInWeather::new(robot, &still, &rest, &weather))
     };
     at.answer(solve, |answer, heading| answer.print(heading, details))
 }
@@ -174,7 +174,8 @@ struct InWeather {
     tensions: Vec<f64>,
     exit_tensions: Vec<f64>,
     /// Force of the wind on all cables [N], of which the platform bears a part.
-    drag: [f64; 3],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    drag: Option<[f64; 3]>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     out_of_limits: Vec<OutOfLimits>,
     residual: Residual,
@@ -183,7 +184,7 @@ struct InWeather {
 }
 
 impl AnswerInWeather {
-    fn new(robot: &Robot, still: &Deflection, rest: &RestInWeather) -> Self {
+    fn new(robot: &Robot, still: &Deflection, rest: &RestInWeather, weather: &Weather) -> Self {
         let motion: Vector6<f64> = still.unloaded.equilibrium.pose.motion_to(&rest.pose);
         let displacement = Vector3::from(motion.fixed_rows::<3>(0));
         let (tensions, exit_tensions) = (rest.tensions(), rest.exit_tensions.clone());
@@ -197,7 +198,8 @@ impl AnswerInWeather {
                 rotation_deg: [3, 4, 5].map(|row| motion[row].to_degrees()),
                 tensions,
                 exit_tensions,
-                drag: rest.drags.iter().sum::<Vector3<f64>>().into(),
+                drag: (weather.wind != Wind::default())
+                    .then(|| rest.drags.iter().sum::<Vector3<f64>>().into()),
                 out_of_limits: found.into_iter().map(OutOfLimits::new).collect(),
                 residual: Residual::new(&rest.residual),
                 integration: rest.integration,
@@ -216,8 +218,8 @@ impl AnswerInWeather {
         if still.magnitude_mm > 0.0 {
             println!("without the weather the load displaces it by {:.5} mm", still.magnitude_mm);
         }
-        if in_weather.drag != [0.0; 3] {
-            println!("force of the wind on all cables {} N", vector(&in_weather.drag, 3));
+        if let Some(drag) = &in_weather.drag {
+            println!("force of the wind on all cables {} N", vector(drag, 3));
         }
         let mut rows = table(&[
             "cable",

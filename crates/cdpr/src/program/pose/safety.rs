@@ -296,14 +296,13 @@ impl Answer {
             let tension = significant(tension, 4);
             format!("Tensions at rest reach {tension} N, in cable {cable} without {}.", case.name())
         });
-        let peaks = self.broken.iter().filter_map(|case| Some((case.swinging()?.greatest_tension, case)));
-        let peak = peaks.max_by(|a, b| a.0.tension.total_cmp(&b.0.tension)).map(|(peak, case)| {
-            let tension = significant(peak.tension, 4);
-            format!(
-                "In the time followed they reach {tension} N, in cable {} without {}.",
-                peak.cable,
-                case.name()
-            )
+        let swings = || self.broken.iter().filter_map(|case| Some((case.swinging()?, case)));
+        let differ = swings().map(|(swing, _)| swing.tension_difference).fold(0.0, f64::max);
+        let peaks = swings().map(|(swing, case)| (swing.greatest_tension, case.name()));
+        let peak = peaks.max_by(|a, b| a.0.tension.total_cmp(&b.0.tension)).map(|(peak, without)| {
+            let (tension, differ) = (significant(peak.tension, 4), significant(differ, 2));
+            let reached = format!("{tension} N, in cable {} without {without}", peak.cable);
+            format!("In the time followed they reach {reached}; two computations differ by up to {differ} N.")
         });
         [Some(first), moved, tension, peak].into_iter().flatten().collect()
     }
