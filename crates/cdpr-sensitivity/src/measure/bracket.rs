@@ -134,10 +134,10 @@ pub fn brackets<D: IndependentSample>(
         }
         let share = |value: f64| value.clamp(0.0, 1.0);
         let first_lower = below(|of| of.first)?;
-        // Many interactions of a small input are mostly noise: where they exceed the upper bound, the first-order
-        // part is what is known of the total index, too.
+        // Many interactions of a small input are mostly noise: where they contradict the upper bound, the
+        // first-order part is what is known of the total index, too.
         let total = below(|of| of.total)?;
-        let total_lower = if total.value > upper.value { first_lower } else { total };
+        let total_lower = if total.low > upper.high { first_lower } else { total };
         Ok(Bracket {
             input: input.name.clone(),
             first_lower,
