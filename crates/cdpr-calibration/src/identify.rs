@@ -41,7 +41,7 @@
 
 use crate::campaign::{Noise, STD_EXPECTED, is_std};
 use crate::error::CalibrationError;
-use crate::solve::{Svd, triangle};
+use crate::solve::{Svd, own_parameters, triangle};
 use cdpr_robot::{CableEnd, Coordinate, Parameter, Pose, Robot, Vector3};
 use cdpr_statics::{DirectProblem, Load, WantedPose, deflection, derivatives};
 use nalgebra::{DMatrix, DVector};
@@ -384,28 +384,4 @@ fn without(moved: &DMatrix<f64>, shown: &DMatrix<f64>) -> DMatrix<f64> {
     both.columns_mut(n, shown.ncols()).copy_from(shown);
     let factor = triangle(DMatrix::identity(n, n + shown.ncols()), &both);
     factor.view((n, n), (factor.nrows() - n, shown.ncols())).into_owned()
-}
-
-/// Shares of unit combinations below this are rounding.
-const NO_SHARE: f64 = 1e-9;
-
-/// Combines the rows, by Gauss and Jordan with complete pivoting, so that each has a column that is zero in
-/// all others.
-pub(crate) fn own_parameters(rows: &mut DMatrix<f64>) {
-    for k in 0..rows.nrows() {
-        let below = rows.rows(k, rows.nrows() - k).iamax_full();
-        let (pivot, column) = (k + below.0, below.1);
-        // The rows that are left have no share in these columns.
-        if rows[(pivot, column)].abs() < NO_SHARE {
-            break;
-        }
-        rows.swap_rows(k, pivot);
-        let own = rows.row(k) / rows[(k, column)];
-        rows.set_row(k, &own);
-        for other in (0..rows.nrows()).filter(|other| *other != k) {
-            let share = rows[(other, column)];
-            let mut row = rows.row_mut(other);
-            row -= &own * share;
-        }
-    }
 }

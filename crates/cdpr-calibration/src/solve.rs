@@ -197,3 +197,27 @@ impl Decomposed {
         covariance
     }
 }
+
+/// Shares of unit combinations below this are rounding.
+const NO_SHARE: f64 = 1e-9;
+
+/// Combines the rows, by Gauss and Jordan with complete pivoting, so that each has a column that is zero in
+/// all others.
+pub(crate) fn own_parameters(rows: &mut DMatrix<f64>) {
+    for k in 0..rows.nrows() {
+        let below = rows.rows(k, rows.nrows() - k).iamax_full();
+        let (pivot, column) = (k + below.0, below.1);
+        // The rows that are left have no share in these columns.
+        if rows[(pivot, column)].abs() < NO_SHARE {
+            break;
+        }
+        rows.swap_rows(k, pivot);
+        let own = rows.row(k) / rows[(k, column)];
+        rows.set_row(k, &own);
+        for other in (0..rows.nrows()).filter(|other| *other != k) {
+            let share = rows[(other, column)];
+            let mut row = rows.row_mut(other);
+            row -= &own * share;
+        }
+    }
+}

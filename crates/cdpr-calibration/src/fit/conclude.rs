@@ -4,11 +4,10 @@ use crate::error::CalibrationError;
 use crate::fit::problem::{Problem, Seen};
 use crate::fit::search::{Found, Linearized};
 use crate::fitted::{Estimate, Fit, FitStatus, UnidentifiableCombination, is_known};
-use crate::identify::own_parameters;
 use crate::model::Shared;
 use crate::model::read::inverse_of_right;
 use crate::sensor_error::SensorError;
-use crate::solve::Decomposed;
+use crate::solve::{Decomposed, own_parameters};
 use cdpr_robot::{Parameter, UnitQuaternion};
 use nalgebra::{DMatrix, DVector};
 
