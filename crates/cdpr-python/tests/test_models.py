@@ -431,7 +431,7 @@ def test_an_answer_goes_to_another_process_and_is_summed_up(caroca):
         check_same(answer, copy.deepcopy(answer))
         public = type(answer).__module__.removesuffix(".estimates")
         assert repr(answer).startswith(f"<{public}.{type(answer).__name__} ")
-        assert len(repr(answer)) < 420
+        assert len(repr(answer)) < 560
     assert classes == {"Capacity", "Catenary", "InverseSolution", "Deflection", "Stiffness", "Derivatives",
                        "DirectSolution", "Observations", "Workspace", "Effects", "SobolIndices",
                        "MorrisEffects", "Certificate", "PathStates"}
@@ -674,7 +674,7 @@ def test_heat_lengthens_cables_and_ice_loads_them():
     robot = cdpr.Robot.from_file("cogiro")
     hot = robot.in_weather([0, 0, 2], warmer=30, cable_expansion=1.2e-5)
     creeping = robot.in_weather([0, 0, 2], creep=30 * 1.2e-5)
-    assert hot.displacement[2] < -1e-3 and np.allclose(hot.displacement, creeping.displacement, atol=1e-12)
+    assert hot.displacement[2] < -1e-3 and numpy.allclose(hot.displacement, creeping.displacement, atol=1e-12)
     assert (robot.in_weather([0, 0, 2], ice=0.01).exit_tensions > hot.exit_tensions).all()
     with pytest.raises(cdpr.InputError, match="warmer"):
         robot.in_weather([0, 0, 2], warmer=30)

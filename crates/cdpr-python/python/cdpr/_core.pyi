@@ -1455,7 +1455,7 @@ class Robot:
         >>> robot = cdpr.Robot.from_file("cogiro")
         >>> robot.in_weather([0, 0, 2], [15, 0, 0]).drags.shape  # [N]
         (8, 3)
-        >>> bool(robot.in_weather([0, 0, 2], ice=0.005).displacement[2] < 0)
+        >>> bool(robot.in_weather([0, 0, 2], ice=0.005).displacement[2] > 0)  # sag shortens the chords
         True
         """
     @overload

@@ -103,7 +103,7 @@ impl Robot {
     /// >>> robot = cdpr.Robot.from_file("cogiro")
     /// >>> robot.in_weather([0, 0, 2], [15, 0, 0]).drags.shape  # [N]
     /// (8, 3)
-    /// >>> bool(robot.in_weather([0, 0, 2], ice=0.005).displacement[2] < 0)
+    /// >>> bool(robot.in_weather([0, 0, 2], ice=0.005).displacement[2] > 0)  # sag shortens the chords
     /// True
     #[pyo3(signature = (pose, wind=None, *, warmer=0.0, cable_expansion=0.0, frame_expansion=0.0, ice=0.0,
         creep=0.0, payload=None, force=None, moment=None, free=None))]
