@@ -3,7 +3,8 @@
 use cdpr_cable::{Cable, Vector2, end_force};
 use cdpr_evidence::accept;
 
-/// Documents V6.02.114 and V6.05.116: span and length 325 m, and 39.26 K more with an expansion of 2.3e-5 1/K.
+/// Documents V6.02.114 and V6.05.116: span and length 325 m, and 39.26 K more with an expansion of
+/// 2.3e-5 1/K.
 #[test]
 fn a_heavy_cable_sags_as_code_aster_documents_it() {
     const SECTION: f64 = 2.2783e-4;

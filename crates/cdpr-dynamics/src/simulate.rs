@@ -26,7 +26,7 @@ use run::{Wanted, run};
 /// The motion of a robot from rest under events.
 ///
 /// It is computed twice, with [`Settings::discretization`] and with a coarser one: their differences are in
-/// [`Series::difference`]. Where cables go slack, it is computed with finer ones until two of them agree.
+/// `Series::difference`. Where cables go slack, it is computed with finer ones until two of them agree.
 ///
 /// # Errors
 /// [`DynamicsError::Invalid`] for settings and events that are not possible; [`DynamicsError::Stalled`] where no

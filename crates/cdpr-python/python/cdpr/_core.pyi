@@ -27,6 +27,8 @@ __all__ = [
     "Motion",
     "MotionState",
     "MotionSummary",
+    "Move",
+    "MoveSummary",
     "Observations",
     "Observer",
     "PathStates",
