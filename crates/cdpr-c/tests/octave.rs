@@ -156,7 +156,7 @@ fn the_study_of_the_paper_prints_what_the_page_shows() {
 }
 
 #[test]
-fn the_solvers_of_octave_find_the_same_poses_and_take_longer() {
+fn the_solvers_of_octave_find_the_same_poses() {
     let robots = folder().join("../../data/robots");
     let rows = "for k = 1:size(rows, 1), printf('row;%s;%s;%g;%g;%g;%d\\n', rows{k, :}); end";
     let run = format!("rows = cdpr_compare('{}'); {rows}", robots.display());
@@ -170,9 +170,9 @@ fn the_solvers_of_octave_find_the_same_poses_and_take_longer() {
     assert!(others.len() >= 4 && rows.len() - others.len() == 8, "{printed}");
     let mut same = 0;
     for row in others {
-        let [ratio, apart, pushing] = [4, 5, 6].map(|column| row[column].parse::<f64>().unwrap());
+        let [apart, pushing] = [5, 6].map(|column| row[column].parse::<f64>().unwrap());
         // Another root is none of a robot: a cable pushes there.
-        assert!((apart < 1e-5 || pushing > 0.0) && ratio > 10.0, "{row:?}");
+        assert!(apart < 1e-5 || pushing > 0.0, "{row:?}");
         same += usize::from(apart < 1e-5);
     }
     assert!(same >= 4, "{printed}");
