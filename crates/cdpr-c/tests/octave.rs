@@ -171,7 +171,7 @@ fn the_solvers_of_octave_find_the_same_poses() {
     let mut same = 0;
     for row in others {
         let [apart, pushing] = [5, 6].map(|column| row[column].parse::<f64>().unwrap());
-        // Another root is none of a robot: a cable pushes there.
+        // A solver may end at another root, at which a cable would have to push.
         assert!(apart < 1e-5 || pushing > 0.0, "{row:?}");
         same += usize::from(apart < 1e-5);
     }

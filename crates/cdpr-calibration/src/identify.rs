@@ -8,9 +8,9 @@
 //! A = N⁻¹ J U = sum s_k w_k v_kᵀ                                                                  (K1)
 //! ```
 //!
-//! of all poses, one below the other. Where lengths are measured with the noise σ, the true ones are unknowns of
-//! their pose, `y = y_0 + J U x + σ L l + N e` with l of unit variance, and A is what elimination of l leaves,
-//! by the triangular factor of
+//! of all poses, one below the other. Where lengths are measured with the noise σ, the true ones are unknowns
+//! of their pose, `y = y_0 + J U x + σ L l + N e` with l of unit variance, and A is what elimination of l
+//! leaves, by the triangular factor of
 //!
 //! ```text
 //! [ 1        0      ]
@@ -66,7 +66,8 @@ impl Measurement {
     /// Measurements by the names of their noise: position and rotation together, tensions, lengths.
     ///
     /// # Errors
-    /// [`CalibrationError::Invalid`] for another name, for one of position and rotation alone, and for length alone.
+    /// [`CalibrationError::Invalid`] for another name, for one of position and rotation alone, and for length
+    /// alone.
     pub fn named(named: &[(String, f64)]) -> Result<Vec<Self>, CalibrationError> {
         let noise = Noise::named(named)?;
         const NAMES: [&str; 4] = ["position", "rotation", "tension", "length"];

@@ -137,8 +137,8 @@ fn measuring_more_leaves_less() {
     assert!(calibration(&[50.0], &[NOISE]).identify([]).identifiable.is_empty());
 }
 
-/// Lengths that are not exact leave more uncertainty the less exact they are, and in the end all of it but for what
-/// six coordinates of a pose and eight tensions say besides eight lengths.
+/// Lengths that are not exact leave more uncertainty the less exact they are, and in the end all of it but
+/// for what six coordinates of a pose and eight tensions say besides eight lengths.
 #[test]
 fn noise_of_lengths_leaves_more() {
     let left = |measurements: &[Measurement]| calibration(&[50.0], measurements).identify(0..27).remaining;

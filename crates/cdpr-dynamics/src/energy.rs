@@ -8,8 +8,8 @@
 //!
 //! With damping ω² is the complex `σ = ω² - i ω c` here, and A has `i ω τ EA t tᵀ` more, (N13); Q has no
 //! conjugates. As y makes Q stationary, it may be held constant over `ξ = s/L` while the cable changes. The
-//! tension is `n = (1 - ξ) n_0 + ξ n_L`. With `q = A y'`, `N = |n|`, `φ = (1 + ε)/N`, `ψ = φ'/N` and the lengths
-//! of the law's pieces constant,
+//! tension is `n = (1 - ξ) n_0 + ξ n_L`. With `q = A y'`, `N = |n|`, `φ = (1 + ε)/N`, `ψ = φ'/N` and the
+//! lengths of the law's pieces constant,
 //!
 //! ```text
 //! y'ᵀ dA y' = -qᵀ dA⁻¹ q,      A⁻¹ = φ 1 + ψ n nᵀ

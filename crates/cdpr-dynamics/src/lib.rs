@@ -1,4 +1,5 @@
-//! Natural motions and motions over time of cable-driven parallel robots whose sagging, elastic cables have mass.
+//! Natural motions and motions over time of cable-driven parallel robots whose sagging, elastic cables have
+//! mass.
 //!
 //! A platform on cables without mass has six natural frequencies. Cables with mass vibrate themselves, and
 //! where they do so about as fast as the platform, the two move together: CoGiRo has 76 natural motions below
@@ -18,9 +19,9 @@
 //! ```
 //!
 //! The cables are those of `cdpr-cable`: sag, elasticity, laws, leads and pulleys. Cable on a pulley and
-//! behind it has no mass here. In natural motions nothing is damped and winches hold; [`FrequencyResponse`] has
-//! damping and winches that move, [`LargestInBand`] its largest amplitudes, [`FrequencyDerivatives`] how the
-//! frequencies change. [`simulate`] follows large motions over time.
+//! behind it has no mass here. In natural motions nothing is damped and winches hold; [`FrequencyResponse`]
+//! has damping and winches that move, [`LargestInBand`] its largest amplitudes, [`FrequencyDerivatives`] how
+//! the frequencies change. [`simulate`] follows large motions over time.
 
 mod cable;
 mod condensed;

@@ -12,10 +12,9 @@
 //! with the lever c of the centre of mass. `M_c` and `W` are the inertia of the cables: the terms in ω² of
 //! their dynamic stiffness and of the force by which a winch moves the platform, (N12), at low frequencies.
 //! The second derivatives L'' are those of the distances between exit and anchor points: lengths at rest have
-//! kinks where a cable comes to its least tension, and those with feed-forward jump in their rate at both ends
-//! of a move. Lengths and poses then
-//! belong to each other to second order in ω over the cables' own frequencies; what the cables swing
-//! themselves is left to the shaper.
+//! kinks where a cable comes to its least tension, and those with feed-forward jump in their rate at both
+//! ends of a move. Lengths and poses then belong to each other to second order in ω over the cables' own
+//! frequencies; what the cables swing themselves is left to the shaper.
 
 mod excited;
 mod inertia;

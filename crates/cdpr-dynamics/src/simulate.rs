@@ -29,8 +29,8 @@ use run::{Wanted, run};
 /// `Series::difference`. Where cables go slack, it is computed with finer ones until two of them agree.
 ///
 /// # Errors
-/// [`DynamicsError::Invalid`] for settings and events that are not possible; [`DynamicsError::Stalled`] where no
-/// step is short enough; those of [`DirectProblem::small_motions`].
+/// [`DynamicsError::Invalid`] for settings and events that are not possible; [`DynamicsError::Stalled`] where
+/// no step is short enough; those of [`DirectProblem::small_motions`].
 pub fn simulate(
     problem: &DirectProblem,
     rest: &Equilibrium,

@@ -128,8 +128,8 @@ fn off_simulated(robot: &Robot, points: &[SetPoint]) -> [f64; 2] {
     off
 }
 
-/// What swings is not in the tensions of a plan. IPAnema 3 swings more, because its lengths have kinks where cables
-/// come to their least tension.
+/// What swings is not in the tensions of a plan. IPAnema 3 swings more, because its lengths have kinks where
+/// cables come to their least tension.
 #[test]
 fn tensions_without_feed_forward_are_those_of_the_simulated_motion() {
     for (file, height, share) in [(CAROCA, 1.75, 0.1), (IPANEMA_3, 1.5, 0.6)] {

@@ -15,9 +15,9 @@ use statrs::distribution::{ChiSquared, ContinuousCDF, Normal};
 pub enum Alarm {
     /// The load has changed by more than the estimate allowed; the observer searches for it again.
     LoadChanged,
-    /// Another load explains the readings, and this cable, number from 0, reads no tension although the model had
-    /// it taut with the load before: it has become slack, or it is broken and the robot has too few cables to
-    /// distinguish these.
+    /// Another load explains the readings, and this cable, number from 0, reads no tension although the model
+    /// had it taut with the load before: it has become slack, or it is broken and the robot has too few
+    /// cables to distinguish these.
     CableSlack(usize),
     /// No plausible load explains the readings, and this cable, number from 0, reads no tension although the
     /// model has it taut: it is broken, slack or off its pulley, or its sensor has failed.

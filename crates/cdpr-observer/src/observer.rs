@@ -8,14 +8,15 @@
 //! A <- 1 + λ (A - 1) + J̃ᵀ J̃,      ξ <- ξ + A⁻¹ J̃ᵀ ẽ,      λ = 1 - 1/memory                        (O6)
 //! ```
 //!
-//! the extended Kalman filter of constant unknowns in information form (Ljung 1979, "Asymptotic behavior of the
-//! extended Kalman filter as a parameter estimator"), with a memory that never loses the prior.
+//! the extended Kalman filter of constant unknowns in information form (Ljung 1979, "Asymptotic behavior of
+//! the extended Kalman filter as a parameter estimator"), with a memory that never loses the prior.
 //!
-//! **Two statistics** decide about a sample, (O4): χ²(A) is small if the *estimated* load explains it, and χ²(A')
-//! if *some* plausible load does, where A' has the information of the prior about the load and of A about the
-//! modulus. χ²(A') <= χ²(A). Samples of which χ²(A) is beyond its quantile do not change the estimate, and
-//! for them χ²(A') is that of the best load, not of the derivatives at the last one. c of them in a row are a
-//! changed load, whose information begins with A', or, if χ²(A') is beyond the quantile, too, a fault.
+//! **Two statistics** decide about a sample, (O4): χ²(A) is small if the *estimated* load explains it, and
+//! χ²(A') if *some* plausible load does, where A' has the information of the prior about the load and of A
+//! about the modulus. χ²(A') <= χ²(A). Samples of which χ²(A) is beyond its quantile do not change the
+//! estimate, and for them χ²(A') is that of the best load, not of the derivatives at the last one. c of them
+//! in a row are a changed load, whose information begins with A', or, if χ²(A') is beyond the quantile, too,
+//! a fault.
 
 use crate::alarm::{Alarm, CableState, Run, Thresholds};
 use crate::rest::{MODULUS, Rest, Unknowns};
@@ -84,8 +85,8 @@ pub struct Estimate {
     pub payload: f64,
     /// Its standard deviation [kg].
     pub payload_std: f64,
-    /// Centre of the load in the frame of the platform, from P [m]; `None` where the load is below three times
-    /// its standard deviation, or where the samples have not halved the uncertainty of its moment.
+    /// Centre of the load in the frame of the platform, from P [m]; `None` where the load is below three
+    /// times its standard deviation, or where the samples have not halved the uncertainty of its moment.
     pub center: [Option<f64>; 3],
     /// Its standard deviation [m].
     pub center_std: [Option<f64>; 3],
@@ -103,8 +104,8 @@ pub struct Observed {
     pub converged: bool,
     /// Iterations of Newton's method, at most 12.
     pub iterations: usize,
-    /// The wrench about P, in the base frame, that the measured tensions hold besides the platform's weight, at
-    /// the pose and in the directions of the model [N, N m].
+    /// The wrench about P, in the base frame, that the measured tensions hold besides the platform's weight,
+    /// at the pose and in the directions of the model [N, N m].
     pub wrench: Wrench,
     /// Chi-square of the readings for the best load of the prior.
     pub consistency: f64,
@@ -120,8 +121,8 @@ impl LoadObserver {
     /// Starts at the rest without load for `lengths` [m] that the direct model finds from `start`.
     ///
     /// # Errors
-    /// Those of [`direct`]; [`StaticsError::Invalid`] for a setting out of range, and for a robot with motions
-    /// that nothing resists.
+    /// Those of [`direct`]; [`StaticsError::Invalid`] for a setting out of range, and for a robot with
+    /// motions that nothing resists.
     pub fn new(
         robot: &Robot,
         lengths: &[f64],
@@ -179,7 +180,8 @@ impl LoadObserver {
     /// Takes a sample: unstrained lengths [m] and measured tensions at the platform [N].
     ///
     /// # Errors
-    /// [`StaticsError::Invalid`] unless there is a finite, positive length and a finite tension for each cable.
+    /// [`StaticsError::Invalid`] unless there is a finite, positive length and a finite tension for each
+    /// cable.
     pub fn update(&mut self, lengths: &[f64], tensions: &[f64]) -> Result<Observed, StaticsError> {
         let iterations = self.solve(lengths, tensions)?;
         let mut observed = self.nothing(iterations, tensions);
@@ -278,8 +280,9 @@ impl LoadObserver {
         Some(self.sample.normal())
     }
 
-    /// The least chi-square of the readings over the loads near the estimate, with the information `any_load`, its
-    /// unknowns, and the derivatives there; by Gauss and Newton, because cables become slack on the way.
+    /// The least chi-square of the readings over the loads near the estimate, with the information
+    /// `any_load`, its unknowns, and the derivatives there; by Gauss and Newton, because cables become slack
+    /// on the way.
     fn search(
         &mut self,
         lengths: &[f64],
@@ -299,8 +302,8 @@ impl LoadObserver {
         Some((normal.square + away.dot(&(any_load * away)), scaled, normal))
     }
 
-    /// Finds the state of each cable, and of those that read none although the model has them taut the one with
-    /// the greatest tension there.
+    /// Finds the state of each cable, and of those that read none although the model has them taut the one
+    /// with the greatest tension there.
     fn cable_states(&mut self, lengths: &[f64], tensions: &[f64], is_inconsistent: bool) -> Option<usize> {
         let mut greatest = None;
         let mut of_greatest = 0.0;

@@ -1,7 +1,7 @@
 //! The rest of the platform for given lengths, load and modulus, and the derivatives of its tensions.
 //!
-//! The load is a mass m whose first moment about P is q in the platform's frame; gravity is γ. With the wrench
-//! `G` of cables and weight about P and its derivative by the motion (dp, dφ) of the platform,
+//! The load is a mass m whose first moment about P is q in the platform's frame; gravity is γ. With the
+//! wrench `G` of cables and weight about P and its derivative by the motion (dp, dφ) of the platform,
 //!
 //! ```text
 //! G = sum [F_i; s_i x F_i] + [(m0 + m) γ; R (m0 c + q) x γ]                                        (O1)
@@ -11,7 +11,8 @@
 //!
 //! Newton's method takes the steps `H (dp, dφ) = G`. Each cable is solved between its two points, so that no
 //! cable has a residual. It starts where straight cables would move the platform when the lengths change,
-//! `H (dp, dφ) = -sum [K_i u_i; s_i x K_i u_i] dL_i`. At rest an input θ at constant lengths moves the platform by `H⁻¹ ∂G/∂θ`, and
+//! `H (dp, dφ) = -sum [K_i u_i; s_i x K_i u_i] dL_i`. At rest an input θ at constant lengths moves the
+//! platform by `H⁻¹ ∂G/∂θ`, and
 //!
 //! ```text
 //! dt_i/dθ = g_i·H⁻¹ ∂G/∂θ + u_i·∂F_i/∂θ,      g_i = -[K_iᵀ u_i; s_i x K_iᵀ u_i]                    (O2)
@@ -27,8 +28,8 @@ pub(crate) const MOST_ITERATIONS: usize = 12;
 /// Unbalanced force and moment at which a platform rests, as a share of the sum of all forces.
 const BALANCED: f64 = 1e-10;
 
-/// Mass of the load [kg], its first moment about the platform's centre of mass in the platform's frame [kg m],
-/// and the modulus as a multiple of that of the robot.
+/// Mass of the load [kg], its first moment about the platform's centre of mass in the platform's frame
+/// [kg m], and the modulus as a multiple of that of the robot.
 pub(crate) type Unknowns = Vector5<f64>;
 
 pub(crate) const MODULUS: usize = 4;
@@ -94,7 +95,7 @@ impl Rest {
     }
 
     /// The rest for these lengths [m] and unknowns that is reached from the last one, and the number of
-    /// iterations; the state is the last one, and `None` comes back, where there is none nearby.
+    /// iterations. Where no rest is found nearby, `None`, and the state stays the last one.
     pub(crate) fn solve(&mut self, lengths: &[f64], unknowns: &Unknowns) -> Option<usize> {
         for (cable, modulus) in self.robot.cables.iter_mut().zip(&self.moduli) {
             cable.properties.youngs_modulus = modulus * unknowns[MODULUS];

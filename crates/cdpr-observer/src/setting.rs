@@ -27,8 +27,8 @@ pub struct ObserverSetting {
 
 impl ObserverSetting {
     /// Sensors of tension with this standard deviation [N] on each of `cables` cables, exact lengths, a load
-    /// of up to some times `payload_std` [kg] with its centre within some times `center_std` [m] of that of the
-    /// platform, a known modulus, no forgetting, and alarms that are false once in 10^9 samples.
+    /// of up to some times `payload_std` [kg] with its centre within some times `center_std` [m] of that of
+    /// the platform, a known modulus, no forgetting, and alarms that are false once in 10^9 samples.
     pub fn new(cables: usize, tension_std: f64, payload_std: f64, center_std: f64) -> Self {
         Self {
             tension_std: vec![tension_std; cables],

@@ -8,8 +8,8 @@ pub(crate) fn robot(name: &str) -> Robot {
     Robot::from_json(named(ROBOTS, name).unwrap().text).unwrap()
 }
 
-/// The same robot whose platform carries a load with its centre at `center` [m] from that of the platform, and
-/// whose modulus is another one.
+/// The same robot whose platform carries a load with its centre at `center` [m] from that of the platform,
+/// and whose modulus is another one.
 pub(crate) fn loaded(robot: &Robot, mass: f64, center: Vector3<f64>, modulus: f64) -> Robot {
     let mut loaded = robot.clone();
     let platform = &mut loaded.platform;

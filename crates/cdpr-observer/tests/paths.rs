@@ -1,10 +1,10 @@
 //! Whole paths with the noise of load cells: the load is found, a cut cable is seen, nothing else is.
 //!
-//! A load cell has a zero error of up to 0.5 % of its full scale, which taring removes, and noise of which the
-//! standard deviation is taken to be as large again, with 1 N more for cable and amplifier. Data sheets of strain
-//! gauge cells state zero balances of 0.5 to 1 % and repeatabilities of 0.02 to 0.05 % of full scale (Seeed Studio,
-//! "Weight Sensor (Load Cell)": zero balance ±0.5 %, repeatability 0.05 %): the noise here is ten times theirs.
-//! Full scale is twice the greatest tension of the path.
+//! A load cell has a zero error of up to 0.5 % of its full scale, which taring removes, and noise of which
+//! the standard deviation is taken to be as large again, with 1 N more for cable and amplifier. Data sheets
+//! of strain gauge cells state zero balances of 0.5 to 1 % and repeatabilities of 0.02 to 0.05 % of full
+//! scale (Seeed Studio, "Weight Sensor (Load Cell)": zero balance ±0.5 %, repeatability 0.05 %): the noise
+//! here is ten times theirs. Full scale is twice the greatest tension of the path.
 
 use crate::common::{Followed, follow, index, loaded, robot};
 use cdpr_observer::{Alarm, CableState, LoadObserver, ObserverSetting};

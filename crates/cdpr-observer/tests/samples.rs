@@ -33,7 +33,8 @@ fn the_residual_wrench_is_the_weight_of_the_load_at_its_centre() {
         let estimate = observer.estimate();
         assert!((estimate.payload - mass).abs() < 1e-3 * mass, "{name}: {estimate:?}");
         if nominal.cables.len() < 6 {
-            // The tilt of the platform, and with it the arms of the cables, follow from the centre too weakly.
+            // The tilt of the platform, and with it the arms of the cables, follow from the centre too
+            // weakly.
             continue;
         }
         assert!((wrench.moment - lever.cross(&weight)).norm() < 5e-3 * weight.norm(), "{name}: {wrench:?}");

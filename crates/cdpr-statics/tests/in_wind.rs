@@ -99,8 +99,8 @@ fn residuals_are_small_and_forces_in_balance() {
     }
 }
 
-/// The drag of twice the wind is four times as great, and little of it moves a taut robot in proportion: by the part
-/// that the platform bears, and by what it adds to the sag.
+/// The drag of twice the wind is four times as great, and little of it moves a taut robot in proportion: by
+/// the part that the platform bears, and by what it adds to the sag.
 #[test]
 fn light_wind_moves_a_taut_robot_in_proportion_to_the_drag() {
     let (robot, pose) = (caroca(), Pose::at(0.4, -0.3, 1.6));
@@ -158,7 +158,7 @@ fn what_is_missing_or_impossible_is_named() {
     );
 }
 
-/// A platform on three cables that hang vertically: each is as long as the weight and its own weight stretch it.
+/// A point mass on one vertical cable, which the mass and its own weight stretch.
 #[test]
 fn a_hanging_platform_sinks_as_its_cables_lengthen() {
     let mut robot = named("cogiro");

@@ -8,8 +8,8 @@
 //!
 //! as D is symmetric: dH = -H dD H. `xᵀ dD x` is that of (N11), with the damped motions of the cables. In the
 //! worst direction the amplitude is the largest singular value of J H Jᵀ, and w its vector, `J H Jᵀ w = a w*`
-//! (T. Takagi, *On an algebraic problem related to an analytic theorem of Carathéodory and Fejér*, Jpn. J. Math.
-//! 1, 1925).
+//! (T. Takagi, *On an algebraic problem related to an analytic theorem of Carathéodory and Fejér*, Jpn. J.
+//! Math. 1, 1925).
 
 use crate::derivatives::changes::{Changes, Moved};
 use crate::derivatives::{lacking, with_lengths};

@@ -1,8 +1,9 @@
 //! The largest amplitudes of a platform in a band of frequencies.
 //!
 //! Without damping `w·H w` grows with the frequency between two natural ones, whatever the wrench w: its size
-//! is largest at an end of such an interval. Little damping moves the peaks a little and limits them. Next to a
-//! peak 1/a² is nearly a parabola of the frequency, whose lowest point is approached from the natural frequency.
+//! is largest at an end of such an interval. Little damping moves the peaks a little and limits them. Next to
+//! a peak 1/a² is nearly a parabola of the frequency, whose lowest point is approached from the natural
+//! frequency.
 
 use crate::error::{DynamicsError, positive};
 use crate::modes::{Modes, Wanted};
@@ -35,7 +36,8 @@ const RIVAL: f64 = 0.3;
 /// Distances, relative to the frequency, at which parabolas are drawn, one after the other.
 const STEPS: [f64; 4] = [1e-3, 1e-4, 1e-5, 1e-6];
 
-/// A peak is climbed until the parabola of one that is broader than the distance promises less, relative to 1/a².
+/// A peak is climbed until the parabola of one that is broader than the distance promises less, relative to
+/// 1/a².
 const GAIN: f64 = 1e-9;
 
 impl Response {
@@ -101,7 +103,7 @@ impl FrequencyResponse {
         let mut best = places.iter().copied().fold(places[0], higher);
         let rival = RIVAL * best.amplitude;
         for three in places.windows(3).filter(|three| three[1].amplitude >= rival) {
-            let limits = [three[0], three[2]].map(|beside| 0.5 * (beside.frequency + three[1].frequency));
+            let limits = [three[0], three[2]].map(|next| 0.5 * (next.frequency + three[1].frequency));
             best = higher(best, self.climb(three[1], limits, size)?);
         }
         Ok(best)
@@ -123,9 +125,9 @@ impl FrequencyResponse {
             let at = |frequency: f64| -> Result<Peak, DynamicsError> {
                 Ok(Peak { frequency, amplitude: size(&self.at(frequency)?) })
             };
-            let beside = [at(frequency - step)?, at(frequency + step)?];
+            let nearby = [at(frequency - step)?, at(frequency + step)?];
             // Of 1/a², in units of that in the middle.
-            let [left, right] = beside.map(|peak| (amplitude / peak.amplitude).powi(2) - 1.0);
+            let [left, right] = nearby.map(|peak| (amplitude / peak.amplitude).powi(2) - 1.0);
             let gain = 0.125 * (left - right).powi(2) / (left + right);
             if left.min(right) > 0.0 && left.max(right) < 1.0 && gain < GAIN {
                 break;
@@ -133,7 +135,7 @@ impl FrequencyResponse {
             let vertex = 0.5 * step * (left - right) / (left + right);
             let vertex = (left + right > 0.0).then(|| (frequency + vertex).clamp(low, high));
             let vertex = vertex.filter(|vertex| vertex.is_finite()).map(at).transpose()?;
-            for found in beside.into_iter().chain(vertex) {
+            for found in nearby.into_iter().chain(vertex) {
                 best = if found.amplitude > best.amplitude { found } else { best };
             }
         }

@@ -1,15 +1,15 @@
 //! Points of a cable, and the forces on them.
 //!
-//! With the place r of the material at the unstrained length s from the exit, the mass μ per unstrained length
-//! and the ratio τ of the viscous to the elastic modulus,
+//! With the place r of the material at the unstrained length s from the exit, the mass μ per unstrained
+//! length and the ratio τ of the viscous to the elastic modulus,
 //!
 //! ```text
 //! μ r̈ = n' + μ g,    r' = (1 + ε) t,    n = (T(ε) + τ dT/dε dε/dt) t                               (X1)
 //! ```
 //!
-//! with T(ε) zero for a cable that nothing stretches. On elements of the length h, r is the polynomial through
-//! Lobatto's points with the weights w_k, whose derivative at the point j is `2/h Σ D_jk r_k`. Integration with
-//! the same points leaves a mass and a force at each,
+//! with T(ε) zero for a cable that nothing stretches. On elements of the length h, r is the polynomial
+//! through Lobatto's points with the weights w_k, whose derivative at the point j is `2/h Σ D_jk r_k`.
+//! Integration with the same points leaves a mass and a force at each,
 //!
 //! ```text
 //! m_k = μ h w_k/2,    f_k = -Σ_j w_j D_jk n_j                                                      (X2)
@@ -51,8 +51,8 @@ pub(super) struct Material<'a> {
     pub(super) density: f64,
     /// Ratio of viscous to elastic modulus [s].
     pub(super) damping: f64,
-    /// While a rest is searched for: the cable pushes, too, and resists motions across it as with this tension
-    /// at least [N].
+    /// While a rest is searched for: the cable pushes, too, and resists motions across it as with this
+    /// tension at least [N].
     pub(super) relaxing: Option<f64>,
 }
 
@@ -78,10 +78,10 @@ pub(super) struct Pull {
 }
 
 impl Material<'_> {
-    /// Raises the damping to the least one of straight elements of a length [m]. A cable that goes slack and taut
-    /// again has shocks, which no mesh resolves; without damping their waves stay for ever (the artificial
-    /// viscosity of J. von Neumann, R. D. Richtmyer, *A method for the numerical calculation of hydrodynamic
-    /// shocks*, 1950). It vanishes with the length of the elements.
+    /// Raises the damping to the least one of straight elements of a length [m]. A cable that goes slack and
+    /// taut again has shocks, which no mesh resolves; without damping their waves stay for ever (the
+    /// artificial viscosity of J. von Neumann, R. D. Richtmyer, *A method for the numerical calculation of
+    /// hydrodynamic shocks*, 1950). It vanishes with the length of the elements.
     pub(super) fn resist_shocks(&mut self, rule: &Rule, length: f64) {
         if rule.degree == 1 && self.density > 0.0 {
             let passing = length * (self.density / self.cable.axial_stiffness).sqrt();
@@ -187,8 +187,8 @@ impl Mesh {
         (length, points): (f64, &Points),
         tension_at: impl Fn(f64) -> f64,
     ) -> bool {
-        /// Greatest error of a tension, relative to it, of points that are on the static shape. At the rest of
-        /// the discrete cable, which begins the motion, the error is smaller by orders.
+        /// Greatest error of a tension, relative to it, of points that are on the static shape. At the rest
+        /// of the discrete cable, which begins the motion, the error is smaller by orders.
         const ERROR: f64 = 0.1;
         let (shares, degree) = (self.shares(), self.rule.degree);
         let pulls = self.forces(material, (length, 0.0), points).pulls;

@@ -48,10 +48,10 @@ pub struct Settings {
     pub rate: f64,
     /// Ratio τ of the viscous to the elastic modulus of the cables [s].
     pub damping: f64,
-    /// Elements of each cable. Without, a cable has [`Discretization::TAUT`], or more of them where its tension
-    /// at rest needs more, and a chain of straight elements from the step on in which it goes slack. The chain
-    /// has 20 elements; 40 or 80 where half as many move the platform otherwise by more than 0.2 % of its motion
-    /// and more than 0.2 mm.
+    /// Elements of each cable. Without, a cable has [`Discretization::TAUT`], or more of them where its
+    /// tension at rest needs more, and a chain of straight elements from the step on in which it goes slack.
+    /// The chain has 20 elements; 40 or 80 where half as many move the platform otherwise by more than 0.2 %
+    /// of its motion and more than 0.2 mm.
     pub discretization: Option<Discretization>,
     /// Error of a step that is accepted, as a position [m]; 20 times as much with chains, whose own error is
     /// far greater.

@@ -1,14 +1,14 @@
 //! Platform and cables in motion.
 //!
-//! The end of each cable moves with the platform; its mass is a point mass there. With their sum M about P, the
-//! forces F at the levers s, and the angular velocity ω in the base frame,
+//! The end of each cable moves with the platform; its mass is a point mass there. With their sum M about P,
+//! the forces F at the levers s, and the angular velocity ω in the base frame,
 //!
 //! ```text
 //! M (dv/dt, dω/dt) = (Σ F - m ω × (ω × s), Σ s × (F - m ω × (ω × s)) - ω × I ω)                    (X5)
 //! ```
 //!
-//! Newton's method needs `σ² M + σ C + K` for a real and a complex σ. Each cable has a narrow band in it, which is
-//! eliminated; six unknowns are left.
+//! Newton's method needs `σ² M + σ C + K` for a real and a complex σ. Each cable has a narrow band in it,
+//! which is eliminated; six unknowns are left.
 
 use super::band::Factored;
 use super::cable::{CableInMotion, CableMatrices, End, Instant};
@@ -16,8 +16,8 @@ use super::radau::{Equations, Linearization};
 use cdpr_robot::{Matrix3, Rotation3, Vector3, Vector6, Wrench, orthonormalized};
 use nalgebra::{ComplexField, Const, LU, Matrix6, SMatrix};
 
-/// Platform and cables. The state holds the unknowns and then their velocities; the first six unknowns are the
-/// position of P [m] and the rotation vector [rad] since the last step.
+/// Platform and cables. The state holds the unknowns and then their velocities; the first six unknowns are
+/// the position of P [m] and the rotation vector [rad] since the last step.
 #[derive(Clone, Debug)]
 pub(super) struct System<'a> {
     pub(super) cables: Vec<CableInMotion<'a>>,

@@ -10,7 +10,8 @@ use std::sync::Arc;
 pub enum Profile {
     /// At constant speed, with jumps of the speed at both ends.
     Linear,
-    /// A third of the time at constant acceleration, a third at constant speed, a third at constant deceleration.
+    /// A third of the time at constant acceleration, a third at constant speed, a third at constant
+    /// deceleration.
     Trapezoid,
     /// `(1 - cos(π t/T))/2`, with jumps of the acceleration at both ends.
     #[default]
@@ -67,8 +68,8 @@ impl WinchLengths {
     /// A row of lengths [m], one for each cable, at each time [s]; the first time is the begin.
     ///
     /// # Errors
-    /// [`DynamicsError::Invalid`] for fewer than two rows, rows of different lengths, times that do not ascend,
-    /// and lengths that are not above zero.
+    /// [`DynamicsError::Invalid`] for fewer than two rows, rows of different lengths, times that do not
+    /// ascend, and lengths that are not above zero.
     pub fn new(times: &[f64], rows: &[Vec<f64>]) -> Result<Self, DynamicsError> {
         let wrong = |field, value: String, expected: &str| {
             Err(DynamicsError::Invalid { field, value, expected: expected.to_owned() })
@@ -109,7 +110,8 @@ impl WinchLengths {
         self.0.times.last().copied().unwrap_or_default()
     }
 
-    /// The length of a cable [m] at a time since the begin [s], with its rate [m/s] and the rate of that [m/s²].
+    /// The length of a cable [m] at a time since the begin [s], with its rate [m/s] and the rate of that
+    /// [m/s²].
     pub fn at(&self, cable: usize, time: f64) -> [f64; 3] {
         let Table { times, cables } = &*self.0;
         let values = &cables[cable];

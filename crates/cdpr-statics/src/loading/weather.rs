@@ -1,5 +1,5 @@
-//! A platform in weather: on winches that hold, with cables and frame that expand, cables that creep or carry ice, and
-//! wind on the cables.
+//! A platform in weather: on winches that hold, with cables and frame that expand, cables that creep or carry
+//! ice, and wind on the cables.
 //!
 //! ```text
 //! L' = L (1 + α ΔT)(1 + ε)      unstrained length, warmer by ΔT and with the creep strain ε
@@ -19,14 +19,16 @@ use std::f64::consts::PI;
 /// Density of glaze [kg/m³] (ISO 12494:2017, 7.3).
 const ICE_DENSITY: f64 = 900.0;
 
-/// What changes between the pose that was wanted and the one that is asked for. [`Weather::default`] changes nothing.
+/// What changes between the pose that was wanted and the one that is asked for. [`Weather::default`] changes
+/// nothing.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Weather {
     /// Wind on the cables.
     pub wind: Wind,
     /// How much warmer it is [K].
     pub warmer: f64,
-    /// Thermal expansion of the cables [1/K]: about 1.2e-5 of steel; fibres of polyethylene and aramid shrink.
+    /// Thermal expansion of the cables [1/K]: about 1.2e-5 of steel; fibres of polyethylene and aramid
+    /// shrink.
     pub cable_expansion: f64,
     /// Thermal expansion of the frame with its leads [1/K].
     pub frame_expansion: f64,

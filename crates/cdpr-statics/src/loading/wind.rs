@@ -102,9 +102,9 @@ impl DirectProblem<'_> {
     /// Wind on the platform itself is a load.
     ///
     /// # Errors
-    /// [`StaticsError::Invalid`] for a cable without diameter in a wind; [`StaticsError::Cable`] where the iteration
-    /// finds no equilibrium of a cable; [`StaticsError::Unstable`] where the platform would leave the pose,
-    /// and [`StaticsError::DirectNotConverged`].
+    /// [`StaticsError::Invalid`] for a cable without diameter in a wind; [`StaticsError::Cable`] where the
+    /// iteration finds no equilibrium of a cable; [`StaticsError::Unstable`] where the platform would leave
+    /// the pose, and [`StaticsError::DirectNotConverged`].
     pub fn in_wind(&self, wind: &Wind, still: &DirectSolution) -> Result<RestInWeather, StaticsError> {
         self.check("still", &still.equilibrium)?;
         let symmetric = self.linearize(&still.equilibrium)?.symmetric_stiffness();
@@ -203,8 +203,8 @@ impl DirectProblem<'_> {
     }
 }
 
-/// Unbalanced wrench, relative to all forces, which is rounding where no step lowers it: the integration along
-/// the cables leaves as much.
+/// Unbalanced wrench, relative to all forces, which is rounding where no step lowers it: the integration
+/// along the cables leaves as much.
 const BALANCED: f64 = 1e-9;
 
 impl Blown {

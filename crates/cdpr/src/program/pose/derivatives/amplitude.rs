@@ -49,7 +49,7 @@ pub(super) struct Amplitude {
     #[serde(skip_serializing_if = "Option::is_none")]
     along: Option<&'static str>,
     inertia_assumed: bool,
-    /// Absent where there is none.
+    /// Missing where `without` says why.
     #[serde(skip_serializing_if = "Option::is_none")]
     amplitude_m_per_n: Option<f64>,
     /// By each parameter, in their order [m/N per SI unit].
