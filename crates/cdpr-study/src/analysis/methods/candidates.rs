@@ -23,7 +23,8 @@ pub(super) fn of_derivatives(
     let squares = dgsm(design, slopes, level)?.inputs;
     let bounds = together.iter().zip(&squares).map(|(of, square)| TotalBounds {
         low: of.total_lower.low.max(0.0),
-        at_least: of.total_lower.value.max(0.0),
+        // Estimates of the two bounds may cross.
+        at_least: of.total_lower.value.max(0.0).min(of.total_upper.value),
         at_most: of.total_upper.value,
         high: of.total_upper.high.min(1.0),
         few: !square.reliable,
