@@ -1,7 +1,8 @@
 //! Manifests say what registries show, and files that name the version, the repository and the authors agree.
 
 use cargo_metadata::{MetadataCommand, Package};
-use std::path::Path;
+use std::path::{Component, Path, PathBuf};
+use std::process::Command;
 
 /// Slugs of crates.io that these crates use.
 const CATEGORIES: [&str; 7] = [
@@ -99,4 +100,55 @@ fn all_files_name_the_same_version_repository_and_authors() {
         }
     }
     assert!(packages.iter().all(|of| of.version == package.version), "one version for all crates");
+}
+
+/// Files that a source names by their place: in `include_str!`, `include_bytes!` and `#[path]`.
+fn named_files(source: &str) -> impl Iterator<Item = &str> {
+    let begins = ["include_str!(\"", "include_bytes!(\"", "#[path = \""];
+    let rests = begins.into_iter().flat_map(|begin| source.split(begin).skip(1));
+    rests.filter_map(|rest| rest.split('"').next())
+}
+
+/// A path without `..`; `None` outside of the folder that it begins in.
+fn plain(path: &Path) -> Option<PathBuf> {
+    path.components().try_fold(PathBuf::new(), |mut plain, part| {
+        match part {
+            Component::ParentDir => plain.pop().then_some(())?,
+            part => plain.push(part),
+        }
+        Some(plain)
+    })
+}
+
+#[test]
+fn packed_sources_name_files_of_their_package_alone() {
+    let mut lacks = Vec::new();
+    for package in packages().into_iter().filter(|package| package.publish.is_none()) {
+        let mut list = Command::new(env!("CARGO"));
+        list.args([
+            "package",
+            "--list",
+            "--allow-dirty",
+            "--locked",
+            "--exclude-lockfile",
+            "--manifest-path",
+        ]);
+        let list = String::from_utf8(list.arg(&package.manifest_path).output().unwrap().stdout).unwrap();
+        let files: Vec<&Path> = list.lines().map(Path::new).collect();
+        assert!(files.contains(&Path::new("src/lib.rs")), "{}: {list}", package.name);
+        for file in files.iter().filter(|file| file.extension().is_some_and(|end| end == "rs")) {
+            let text =
+                std::fs::read_to_string(package.manifest_path.with_file_name("").as_std_path().join(file))
+                    .unwrap();
+            for named in named_files(&text) {
+                let path = plain(&file.parent().unwrap().join(named));
+                if !path.as_deref().is_some_and(|path| files.contains(&path)) {
+                    lacks.push(format!("{}: {} names {named}", package.name, file.display()));
+                }
+            }
+        }
+    }
+    assert!(lacks.is_empty(), "{lacks:#?}");
+    assert_eq!(plain(Path::new("src/a/../../../data/b.json")), None);
+    assert_eq!(plain(Path::new("src/a/../b.txt")), Some(PathBuf::from("src/b.txt")));
 }

@@ -242,7 +242,7 @@ mod tests {
     use cdpr_robot::CableProperties;
 
     fn robot() -> Robot {
-        Robot::from_json(include_str!("../../../data/robots/cogiro.json")).unwrap()
+        Robot::from_library("cogiro").unwrap()
     }
 
     #[test]

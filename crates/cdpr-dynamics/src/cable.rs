@@ -178,7 +178,7 @@ pub(crate) mod tests {
 
     #[test]
     fn single_cables_answer_as_transfer_matrices_do_and_vibrate_as_often() {
-        let file: Value = serde_json::from_str(include_str!("../../../data/reference/motion.json")).unwrap();
+        let file: Value = serde_json::from_str(include_str!("../data/motion.json")).unwrap();
         let (mut stiffnesses, mut frequencies) = (0, 0);
         for case in file["cables"].as_array().unwrap() {
             let cable = of_reference(case);

@@ -10,7 +10,7 @@
 //! use cdpr_robot::{Pose, Robot};
 //! use cdpr_statics::Load;
 //!
-//! let robot = Robot::from_json(include_str!("../../../data/robots/cogiro.json"))?;
+//! let robot = Robot::from_library("cogiro")?;
 //! let found = modes_at(&robot, &Pose::at(0.0, 0.0, 2.0), &Load::none(), Wanted::Below(6.0))?;
 //! assert_eq!(found.modes.len(), found.counted);
 //! let platform = found.of_platform().map(|mode| mode.frequency);

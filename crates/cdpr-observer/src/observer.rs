@@ -43,7 +43,7 @@ const SEARCHES: usize = 4;
 /// use cdpr_robot::{Pose, Robot};
 /// use cdpr_statics::{Load, deflection};
 ///
-/// let robot = Robot::from_json(include_str!("../../../data/robots/caroca.json"))?;
+/// let robot = Robot::from_library("caroca")?;
 /// let pose = Pose::at(0.0, 0.0, 1.75);
 /// let found = deflection(&robot, &pose, &Load::payload(5.0))?;
 /// let (lengths, tensions) = (&found.lengths, found.loaded.equilibrium.tensions());

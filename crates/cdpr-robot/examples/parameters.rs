@@ -5,7 +5,7 @@
 use cdpr_robot::{Parameter, Robot, RobotError};
 
 fn main() -> Result<(), RobotError> {
-    let robot = Robot::from_json(include_str!("../../../data/robots/caroca.json"))?;
+    let robot = Robot::from_library("caroca")?;
     for parameter in Parameter::of(&robot) {
         println!("{parameter:16} {:>14} {}", parameter.nominal(&robot), parameter.unit());
     }

@@ -189,6 +189,22 @@ impl Robot {
         Ok(robot)
     }
 
+    /// A robot that comes with this crate, by its name in [`library::ROBOTS`].
+    ///
+    /// # Errors
+    /// [`RobotError::Invalid`] for a name that no robot of the library has.
+    pub fn from_library(name: &str) -> Result<Self, RobotError> {
+        let file = library::named(library::ROBOTS, name).ok_or_else(|| RobotError::Invalid {
+            field: "name".to_owned(),
+            value: format!("`{name}`"),
+            expected: format!(
+                "one of {}",
+                library::ROBOTS.iter().map(|file| file.name).collect::<Vec<_>>().join(", ")
+            ),
+        })?;
+        Self::from_json(file.text)
+    }
+
     /// Reads and validates a robot file without questioning its units: for an inspection, which names them
     /// all.
     ///

@@ -10,7 +10,7 @@
 //! ```
 //! use cdpr_robot::{Parameter, Pose, Robot, deviations};
 //!
-//! let robot = Robot::from_json(include_str!("../../../data/robots/caroca.json"))?;
+//! let robot = Robot::from_library("caroca")?;
 //! assert_eq!(robot.cables.len(), 8);
 //! let span = robot.span(&Pose::at(0.0, 0.0, 1.75), 0); // from B_1 to A_1, Eq. (1) of the paper
 //! assert!((span.norm() - 4.4444).abs() < 1e-4);

@@ -66,7 +66,7 @@ fn direct_model(criterion: &mut Criterion) {
             b.iter(|| counted(|| direct(black_box(&robot), black_box(lengths), &load, start)));
         });
     }
-    let lawful = Robot::from_json(include_str!("../../../data/robots/caroca-law.json")).unwrap();
+    let lawful = Robot::from_library("caroca-law").unwrap();
     let wound = inverse(&lawful, &pose, &Load::none()).unwrap();
     let (load, near) = (Load::payload(50.0), DirectStart::Near(&wound.equilibrium));
     assert!(direct(&lawful, &wound.lengths, &load, near).unwrap().report.residual.force < 1e-8);

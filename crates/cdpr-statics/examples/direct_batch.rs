@@ -12,7 +12,7 @@ use rayon::prelude::*;
 use std::time::Instant;
 
 fn main() -> Result<(), StaticsError> {
-    let robot = Robot::from_json(include_str!("../../../data/robots/caroca.json"))?;
+    let robot = Robot::from_library("caroca")?;
     let share = |k: u32, step: f64| (f64::from(k) * step).fract() - 0.5;
     let cases: Vec<(Vec<f64>, Pose)> = (0..100_000)
         .into_par_iter()

@@ -7,7 +7,7 @@ use cdpr_robot::{Pose, Robot};
 use cdpr_statics::{DirectStart, Load, direct, inverse};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let robot = Robot::from_json(include_str!("../../../data/robots/caroca.json"))?;
+    let robot = Robot::from_library("caroca")?;
     let pose = Pose::at(0.0, 0.0, 1.75);
     let load = Load::payload(50.0);
     let wanted = inverse(&robot, &pose, &load)?;

@@ -118,7 +118,7 @@ struct Excess {
 /// use cdpr_robot::{Parameter, Pose, Robot};
 /// use cdpr_statics::{Load, derivatives};
 ///
-/// let robot = Robot::from_json(include_str!("../../../data/robots/caroca.json"))?;
+/// let robot = Robot::from_library("caroca")?;
 /// let found = derivatives(&robot, &Pose::at(0.0, 0.0, 1.75), &Load::payload(50.0))?;
 /// let modulus = found.inputs.column(Parameter::YoungsModulus);
 /// let magnitude = found.magnitude()?; // [m per SI unit]

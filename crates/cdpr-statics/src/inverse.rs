@@ -119,7 +119,7 @@ pub(crate) fn inverse_at(
 /// use cdpr_robot::{Pose, Robot};
 /// use cdpr_statics::{InversePath, Load};
 ///
-/// let robot = Robot::from_json(include_str!("../../../data/robots/caroca.json"))?;
+/// let robot = Robot::from_library("caroca")?;
 /// let mut path = InversePath::new(&robot);
 /// for k in 0..=10 {
 ///     let found = path.solve(Pose::at(0.1 * f64::from(k), 0.0, 1.75), &Load::none())?;

@@ -34,7 +34,7 @@
 //! use cdpr_robot::{Pose, Robot};
 //! use cdpr_statics::{DirectProblem, Load, deflection};
 //!
-//! let robot = Robot::from_json(include_str!("../../../data/robots/caroca.json"))?;
+//! let robot = Robot::from_library("caroca")?;
 //! let pose = Pose::at(0.0, 0.0, 1.75);
 //! let deflection = deflection(&robot, &pose, &Load::payload(50.0))?;
 //! assert!((1e3 * deflection.magnitude() - 1.33125).abs() < 1e-4); // [mm]

@@ -11,7 +11,7 @@ use cdpr_robot::{Robot, RobotCable, Vector2};
 /// use cdpr_robot::{Pose, Robot};
 /// use cdpr_statics::{DirectProblem, DirectStart, Load, inverse};
 ///
-/// let robot = Robot::from_json(include_str!("../../../data/robots/caroca.json"))?;
+/// let robot = Robot::from_library("caroca")?;
 /// let wanted = inverse(&robot, &Pose::at(0.0, 0.0, 1.75), &Load::none())?;
 /// let problem = DirectProblem::new(&robot, &wanted.lengths, &Load::payload(50.0))?;
 /// let found = problem.direct(DirectStart::Near(&wanted.equilibrium))?;

@@ -16,7 +16,7 @@ fn counted<T>(task: impl FnOnce() -> T) -> T {
 }
 
 fn tension(criterion: &mut Criterion) {
-    let robot = Robot::from_json(include_str!("../../../data/robots/caroca.json")).unwrap();
+    let robot = Robot::from_library("caroca").unwrap();
     let pose = Pose::at(1.0, 0.5, 2.0);
     let pulls: Vec<_> = (0..8).map(|i| -robot.span(&pose, i).normalize()).collect();
     let wrench_matrix = &DMatrix::from_column_slice(6, 8, robot.wrench_matrix(&pose, &pulls).as_slice());

@@ -39,7 +39,7 @@
 //! use cdpr_tension::{Objective, Problem, distribute};
 //! use nalgebra::{DMatrix, DVector};
 //!
-//! let robot = Robot::from_json(include_str!("../../../data/robots/caroca.json"))?;
+//! let robot = Robot::from_library("caroca")?;
 //! let pose = Pose::at(0.0, 0.0, 1.75);
 //! let pulls: Vec<_> = (0..8).map(|i| -robot.span(&pose, i).normalize()).collect(); // straight cables
 //! let matrix = robot.wrench_matrix(&pose, &pulls);

@@ -6,8 +6,8 @@
 //! the browser and in a native program, except that `libm` rounds a few functions differently there.
 //!
 //! ```
-//! let text = include_str!("../../../data/robots/caroca.json");
-//! let mut live = cdpr_web::Live::new(text)?;
+//! let robot = cdpr_robot::Robot::from_library("caroca")?;
+//! let mut live = cdpr_web::Live::new(&robot.to_json())?;
 //! let answer = live.ask(r#"{"hold": {"pose": [0, 0, 1.75, 1, 0, 0, 0], "load": {"payload": 50}}}"#);
 //! let answer: serde_json::Value = serde_json::from_str(&answer)?;
 //! let rms = answer["ok"]["rms"].as_f64().ok_or("no deflection")?;

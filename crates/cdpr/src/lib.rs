@@ -19,7 +19,7 @@
 //! ```
 //! use cdpr::robot::Robot;
 //!
-//! let robot = Robot::from_json(include_str!("../../../data/robots/caroca.json"))?;
+//! let robot = Robot::from_library("caroca")?;
 //! assert_eq!(robot.cables.len(), 8);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```

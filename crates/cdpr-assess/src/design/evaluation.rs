@@ -174,6 +174,7 @@ impl Quantity {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use cdpr_robot::library::{ROBOTS, named};
     use std::path::Path;
 
     /// All derivatives of a design against differences over this share of each value.
@@ -205,7 +206,7 @@ mod tests {
 
     #[test]
     fn derivatives_of_outputs_and_tensions_are_their_differences() {
-        let caroca = include_str!("../../../../data/robots/caroca.json");
+        let caroca = named(ROBOTS, "caroca").unwrap().text;
         let design = |output: &str| {
             format!(
                 r#"{{"format": "cdpr-design/1", "payload": 50, "limits": {{"deflection": 3, "stiffness": 1e4}},
@@ -235,6 +236,6 @@ mod tests {
             "poses": {"list": [{"position": [0.5, 0.3, 2]}]},
             "variables": [{"parameters": ["b1.x"], "bounds": [-9, 9]}, {"parameters": ["b2.z"], "bounds": [1, 9]}]}"#;
         // Near the border of the poses that it holds: 1e-2 m farther there is no rest.
-        check(include_str!("../../../../data/robots/four-cables.json"), design, 1e-5);
+        check(named(ROBOTS, "four-cables").unwrap().text, design, 1e-5);
     }
 }

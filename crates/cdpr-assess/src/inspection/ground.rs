@@ -40,7 +40,7 @@ mod tests {
 
     /// Severity and field of what is found about the ground at a height [m], with the first exit point at `exit`.
     fn found(ground: f64, exit: f64) -> Vec<(Severity, String)> {
-        let mut robot = Robot::from_json(include_str!("../../../../data/robots/cogiro.json")).unwrap();
+        let mut robot = Robot::from_library("cogiro").unwrap();
         robot.cables[0].exit_point.z = exit;
         let before = inspect(&robot);
         let robot = Robot { ground_z: Some(ground), ..robot };

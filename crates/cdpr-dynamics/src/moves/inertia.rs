@@ -102,7 +102,7 @@ mod tests {
 
     #[test]
     fn slow_motions_feel_the_mass_of_the_static_shapes_of_the_cables() {
-        let mut robot = Robot::from_json(include_str!("../../../../data/robots/cogiro.json")).unwrap();
+        let mut robot = Robot::from_library("cogiro").unwrap();
         let poses = [Pose::at(0.0, 0.0, 2.0), Pose::at(1.0, 0.5, 2.0)];
         for density in [robot.cables[0].properties.linear_density, 0.0] {
             robot.cables.iter_mut().for_each(|cable| cable.properties.linear_density = density);

@@ -207,8 +207,7 @@ mod tests {
 
     #[test]
     fn cables_shaken_at_both_ends_answer_as_transfer_matrices_do() {
-        let file: Value =
-            serde_json::from_str(include_str!("../../../../data/reference/motion.json")).unwrap();
+        let file: Value = serde_json::from_str(include_str!("../../data/motion.json")).unwrap();
         let number = |value: &Value| value.as_f64().unwrap();
         let mut compared = 0;
         for case in file["cables"].as_array().unwrap() {

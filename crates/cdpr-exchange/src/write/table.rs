@@ -68,7 +68,7 @@ const ROUNDING: f64 = 1e-9;
 /// use cdpr_exchange::correction_table;
 /// use cdpr_robot::{Robot, Rotation3};
 ///
-/// let robot = Robot::from_json(include_str!("../../../../data/robots/cogiro.json"))?;
+/// let robot = Robot::from_library("cogiro")?;
 /// let coordinates = [vec![-1.0, 0.0, 1.0], vec![-0.5, 0.5], vec![2.0]];
 /// let table = correction_table(&robot, &Rotation3::identity(), &coordinates)?;
 /// assert_eq!(table.exported.files[0].1.lines().count(), 1 + 3 * 2);

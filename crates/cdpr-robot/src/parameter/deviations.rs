@@ -13,7 +13,7 @@ use std::slice::{ChunksExact, ChunksExactMut};
 /// ```
 /// use cdpr_robot::{Deviations, ParameterLayout, Robot, RobotError};
 ///
-/// let robot = Robot::from_json(include_str!("../../../../data/robots/caroca.json"))?;
+/// let robot = Robot::from_library("caroca")?;
 /// let layout = ParameterLayout::of(&robot);
 /// let two_robots = Deviations::new(&layout, 62, vec![0.001; 124])?;
 /// assert_eq!(two_robots.count(), 2);
@@ -134,7 +134,7 @@ mod tests {
     use crate::Robot;
 
     fn caroca() -> Robot {
-        Robot::from_json(include_str!("../../../../data/robots/caroca.json")).unwrap()
+        Robot::from_library("caroca").unwrap()
     }
 
     /// CAROCA with leads of cables `from` to 2.

@@ -3,10 +3,8 @@ use super::perturbed::{Perturbed, deviations};
 use super::*;
 use crate::robot::Robot;
 
-const CAROCA: &str = include_str!("../../../../data/robots/caroca.json");
-
 fn caroca() -> Robot {
-    Robot::from_json(CAROCA).unwrap()
+    Robot::from_library("caroca").unwrap()
 }
 
 /// CAROCA with so many cables, the first three on pulleys, the second with a lead, its gravity a vector.

@@ -50,7 +50,7 @@ use sound::{Loops, longest};
 /// use cdpr_statics::{Load, WantedPose};
 /// use cdpr_statics::free_coordinates::free_solutions;
 ///
-/// let mut robot = Robot::from_json(include_str!("../../../../data/robots/cogiro.json"))?;
+/// let mut robot = Robot::from_library("cogiro")?;
 /// robot.cables = [1, 3, 5, 7].map(|i| robot.cables[i].clone()).to_vec();
 /// let wanted = WantedPose::at(&Pose::at(1.0, -0.3, 2.0)).free(&[Coordinate::Roll, Coordinate::Yaw]);
 /// let found = free_solutions(&robot, wanted, &Load::none())?.first;

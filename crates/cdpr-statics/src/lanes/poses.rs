@@ -57,7 +57,7 @@ const STATIONARY: f64 = 1e-10;
 /// use cdpr_robot::{Pose, Robot};
 /// use cdpr_statics::{Load, WantedPose, inverse};
 ///
-/// let robot = Robot::from_json(include_str!("../../../../data/robots/caroca.json"))?;
+/// let robot = Robot::from_library("caroca")?;
 /// let pose = Pose::at(0.0, 0.0, 1.75);
 /// let least_norm = inverse(&robot, &pose, &Load::none())?;
 /// let wanted = WantedPose::at(&pose).tension_reference(&[900.0; 8]);

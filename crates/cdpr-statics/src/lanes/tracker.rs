@@ -19,7 +19,7 @@ use std::borrow::Borrow;
 /// use cdpr_robot::{Pose, Robot};
 /// use cdpr_statics::{Load, Tracker, inverse};
 ///
-/// let robot = Robot::from_json(include_str!("../../../../data/robots/caroca.json"))?;
+/// let robot = Robot::from_library("caroca")?;
 /// let wanted = inverse(&robot, &Pose::at(0.0, 0.0, 1.75), &Load::none())?;
 /// let mut tracker = Tracker::new(&robot, &wanted.lengths, &Load::none(), &wanted.equilibrium)?;
 /// let mut lengths = wanted.lengths.clone();

@@ -215,7 +215,7 @@ mod tests {
 
     #[test]
     fn a_plane_covers_the_frame_and_a_suspended_robot_hangs_over_the_floor() {
-        let robot = Robot::from_json(include_str!("../../../../data/robots/caroca.json")).unwrap();
+        let robot = Robot::from_library("caroca").unwrap();
         let level = Grid::over_frame(&robot, Axis::Z, 1.75, [5, 3]).unwrap();
         assert_eq!(
             (level.x, level.y, level.z),
@@ -234,7 +234,7 @@ mod tests {
 
     #[test]
     fn what_is_not_given_of_a_region_is_that_of_the_frame() {
-        let robot = Robot::from_json(include_str!("../../../../data/robots/caroca.json")).unwrap();
+        let robot = Robot::from_library("caroca").unwrap();
         let open = GridSpan::default();
         let at = GridSpan { min: Some(1.75), max: Some(1.75), points: None };
         let plane = Grid::within(&robot, [open, GridSpan { points: Some(7), ..open }, at]).unwrap();

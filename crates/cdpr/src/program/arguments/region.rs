@@ -68,7 +68,7 @@ mod tests {
 
     #[test]
     fn a_region_is_a_plane_or_a_box_and_the_frame_gives_what_is_missing() {
-        let robot = Robot::from_json(include_str!("../../../../../data/robots/caroca.json")).unwrap();
+        let robot = Robot::from_library("caroca").unwrap();
         let poses = |text: &str| region(text).unwrap().grid(&robot).unwrap().poses();
         let exact = poses("-1:1:3,0,2:3:2");
         assert_eq!(exact.len(), 6);
