@@ -64,7 +64,8 @@ fn links_lead_to_pages_and_to_headings() {
             let target = if file.is_empty() { page.clone() } else { page.parent().unwrap().join(file) };
             assert!(target.exists(), "{}: {link}", page.display());
             // mdBook copies nothing from outside of its folder, and calls a page README.md otherwise.
-            let is_of_book = target.canonicalize().unwrap().starts_with(&book) && !target.ends_with("README.md");
+            let is_of_book =
+                target.canonicalize().unwrap().starts_with(&book) && !target.ends_with("README.md");
             assert!(is_of_book || !page.starts_with(&book), "{}: {link} is not in the book", page.display());
             if !heading.is_empty() {
                 let target = std::fs::read_to_string(&target).unwrap();

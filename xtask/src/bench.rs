@@ -4,9 +4,14 @@
 //! counts do not: in criterion's test mode each benchmark calls its function `counted` once, and callgrind
 //! counts the instructions of that call. Valgrind does not support AVX-512, so that lanes are counted on AVX2.
 
-use crate::cargo::{cargo_command, parsed, printed, read, root, write};
+use crate::cargo::{
+    Outcome, cargo_command, done, emptied, machine, printed, read, read_json, root, target, text, text_of,
+    write,
+};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
+use std::collections::HashMap;
+use std::ffi::OsStr;
 use std::fs;
 use std::path::Path;
 use std::process::Command;
@@ -39,58 +44,50 @@ struct Benchmark {
     instructions: Option<u64>,
 }
 
-/// Runs the benchmarks and compares them; `rest` has `--save` or arguments of criterion.
-pub(crate) fn run(rest: &[String]) -> Result<(), String> {
-    let saves = rest == ["--save"];
-    let run = measure(if saves { &[] } else { rest })?;
-    let worse = compare(&run, &serde_json::from_str(&read(&root().join(BASELINE))?).map_err(text)?);
-    if saves {
-        write(&root().join(BASELINE), &(serde_json::to_string_pretty(&run).map_err(text)? + "\n"))?;
+/// Runs the benchmarks, with arguments of criterion, and compares them, or saves them.
+pub(crate) fn run(save: bool, arguments: &[String]) -> Outcome {
+    let run = measure(arguments)?;
+    let worse = compare(&run, &serde_json::from_str(&read(&root().join(BASELINE))?)?);
+    if save {
+        write(&root().join(BASELINE), &(serde_json::to_string_pretty(&run)? + "\n"))?;
         return write(&root().join(BOOK), &table(&run));
     }
-    if worse.is_empty() { Ok(()) } else { Err(format!("more instructions: {}", worse.join(", "))) }
+    if worse.is_empty() { Ok(()) } else { Err(format!("more instructions: {}", worse.join(", ")).into()) }
 }
 
-fn text(error: impl std::fmt::Display) -> String {
-    error.to_string()
-}
-
-fn measure(arguments: &[String]) -> Result<Run, String> {
+fn measure(arguments: &[String]) -> Outcome<Run> {
     let (begin, folder) = (SystemTime::now(), root().join("target/criterion"));
     let mut command = cargo_command(&["bench", "--workspace", "--bench", "*", "--"]);
-    let status = command.args(arguments).env("CRITERION_HOME", &folder).status().map_err(text)?;
+    done(command.args(arguments).env("CRITERION_HOME", &folder))?;
     let mut found = Vec::new();
-    if !status.success() || !folder.exists() {
-        return Err("`cargo bench` has failed, or no benchmark has such a name".to_owned());
-    }
-    medians(&folder, begin, &mut found)?;
+    medians(&folder, begin, &mut found).map_err(|error| format!("no benchmark has such a name: {error}"))?;
     found.sort_by_key(|(written, _)| *written);
     let mut benchmarks: Vec<Benchmark> = found.into_iter().map(|(_, benchmark)| benchmark).collect();
-    if printed("valgrind", &["--version"]).is_ok() {
-        for (name, count) in counts(arguments)? {
-            let counted = benchmarks.iter_mut().find(|benchmark| benchmark.name == name);
-            counted.into_iter().for_each(|benchmark| benchmark.instructions = Some(count));
+    let mut machine = machine();
+    if let Some(valgrind) = valgrind() {
+        let counts = counts(arguments)?;
+        for benchmark in &mut benchmarks {
+            benchmark.instructions = counts.get(&benchmark.name).copied();
         }
-    } else {
-        eprintln!("no instruction counts: valgrind is not installed (apt install valgrind)");
+        machine += &format!(", {valgrind}");
     }
-    Ok(Run { machine: machine(), benchmarks })
+    Ok(Run { machine, benchmarks })
 }
 
 /// Adds what criterion has written below `folder` since `begin`, each with its time of writing.
-fn medians(folder: &Path, begin: SystemTime, found: &mut Vec<(SystemTime, Benchmark)>) -> Result<(), String> {
-    for entry in fs::read_dir(folder).map_err(text)? {
-        let path = entry.map_err(text)?.path();
+fn medians(folder: &Path, begin: SystemTime, found: &mut Vec<(SystemTime, Benchmark)>) -> Outcome {
+    for entry in fs::read_dir(folder)? {
+        let path = entry?.path();
         if path.is_dir() && !path.ends_with("new") {
             medians(&path, begin, found)?;
         }
         let estimates = path.join("estimates.json");
         let Ok(written) = estimates.metadata().and_then(|data| data.modified()) else { continue };
         if path.ends_with("new") && written >= begin {
-            let of = parsed(&read(&path.join("benchmark.json"))?)?;
-            let median_ns = parsed(&read(&estimates)?)?["median"]["point_estimate"].as_f64();
+            let of = read_json(&path.join("benchmark.json"))?;
+            let median_ns = read_json(&estimates)?["median"]["point_estimate"].as_f64();
             let benchmark = Benchmark {
-                name: of["full_id"].as_str().unwrap_or_default().to_owned(),
+                name: text(&of["full_id"]).to_owned(),
                 elements: of["throughput"]["Elements"].as_u64().unwrap_or(1),
                 median_ns: median_ns.ok_or_else(|| format!("{}: no median", estimates.display()))?,
                 instructions: None,
@@ -101,34 +98,50 @@ fn medians(folder: &Path, begin: SystemTime, found: &mut Vec<(SystemTime, Benchm
     Ok(())
 }
 
-/// The instructions of one call of each benchmark, by callgrind.
-fn counts(arguments: &[String]) -> Result<Vec<(String, u64)>, String> {
+/// The version of valgrind; `None`, and a remark, where it is not installed.
+pub(crate) fn valgrind() -> Option<String> {
+    let version = printed("valgrind", &["--version"]).ok();
+    if version.is_none() {
+        eprintln!("no instruction counts: valgrind is not installed (apt install valgrind)");
+    }
+    version
+}
+
+/// A program under callgrind, which counts each call of a function on its own: `name.1` and so on in the folder.
+pub(crate) fn callgrind(folder: &Path, name: &str, function: &str, program: impl AsRef<OsStr>) -> Command {
+    let mut command = Command::new("valgrind");
+    command.args([
+        "--tool=callgrind",
+        &format!("--toggle-collect={function}"),
+        &format!("--dump-after={function}"),
+    ]);
+    command.arg(format!("--callgrind-out-file={}", folder.join(name).display())).arg(program);
+    command
+}
+
+/// The instructions of one call of each benchmark by its name, by callgrind.
+fn counts(arguments: &[String]) -> Outcome<HashMap<String, u64>> {
     let build = ["bench", "--workspace", "--bench", "*", "--no-run", "--quiet", "--message-format", "json"];
-    let messages = cargo_command(&build).output().map_err(text)?.stdout;
-    let folder = root().join("target/callgrind");
-    // It may not be there.
-    let _ = fs::remove_dir_all(&folder);
-    fs::create_dir_all(&folder).map_err(text)?;
-    let mut counts = Vec::new();
-    for line in String::from_utf8_lossy(&messages).lines() {
+    let messages = text_of(&mut cargo_command(&build), &[0])?;
+    let folder = target().join("callgrind");
+    emptied(&folder)?;
+    let mut counts = HashMap::new();
+    for line in messages.lines() {
         let message: Value = serde_json::from_str(line).unwrap_or_default();
         let target = COUNTED.iter().find(|target| message["target"]["name"] == **target);
         let (Some(target), Some(executable)) = (target, message["executable"].as_str()) else { continue };
         eprintln!("counting the instructions of {target}");
-        let mut command = Command::new("valgrind");
-        command.args(["--tool=callgrind", "--toggle-collect=*::counted", "--dump-after=*::counted"]);
-        command.arg(format!("--callgrind-out-file={}", folder.join(target).display()));
+        let mut command = callgrind(&folder, target, "*::counted", executable);
         // The environment lies on the stack and shifts it.
         command.env_clear().env("PATH", "/usr/local/bin:/usr/bin:/bin").env("CRITERION_HOME", &folder);
-        let printed = command.arg(executable).args(arguments).output().map_err(text)?.stdout;
-        let printed = String::from_utf8_lossy(&printed).into_owned();
+        let printed = text_of(command.args(arguments), &[0])?;
         let names: Vec<&str> = printed.lines().filter_map(|line| line.strip_prefix("Testing ")).collect();
         // Each call has a numbered file.
         let parts = (1..).map(|number| read(&folder.join(format!("{target}.{number}"))));
         let parts: Vec<u64> = parts.map_while(Result::ok).filter_map(|part| total(&part)).collect();
         if parts.len() != names.len() {
             let (names, parts) = (names.len(), parts.len());
-            return Err(format!("{target}: {names} benchmarks, but {parts} calls of `counted`"));
+            return Err(format!("{target}: {names} benchmarks, but {parts} calls of `counted`").into());
         }
         counts.extend(names.into_iter().map(str::to_owned).zip(parts));
     }
@@ -138,20 +151,6 @@ fn counts(arguments: &[String]) -> Result<Vec<(String, u64)>, String> {
 /// Number of instructions in a file of callgrind.
 pub(crate) fn total(file: &str) -> Option<u64> {
     file.lines().find_map(|line| line.strip_prefix("totals: ")?.trim().parse().ok())
-}
-
-/// The circumstances that figures depend on besides the program.
-fn machine() -> String {
-    let known = |program, arguments: &[&str]| printed(program, arguments).unwrap_or_else(|error| error);
-    let cpu = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
-    let cpu = cpu.lines().find_map(|line| line.strip_prefix("model name")?.split_once(": "));
-    [
-        known("date", &["-u", "+%F"]),
-        cpu.map_or(std::env::consts::ARCH, |(_, name)| name).to_owned(),
-        known("rustc", &["--version"]),
-        known("valgrind", &["--version"]),
-    ]
-    .join(", ")
 }
 
 /// Prints both runs, and returns the benchmarks whose counts have grown.

@@ -5,9 +5,11 @@
 
 #![allow(clippy::print_stdout)]
 
-use crate::cargo::{answer, cdpr, number, output, read_json, root};
+use crate::cargo::{
+    Outcome, answer, cdpr_command, made, number, read_json, root, study as run_study, text, text_of, write,
+};
 use serde_json::Value;
-use std::fmt::Write;
+use std::fmt::Write as _;
 use std::path::Path;
 
 /// Summary that each row of the table of deflections is read from, and its label.
@@ -19,40 +21,22 @@ const ROWS: [(&str, &str); 3] = [
 const STUDIES: [&str; 2] = ["operating-point", "law"];
 
 /// Adds to the results in `out`; `settings` are options of `cdpr study run` other than its folder.
-pub(crate) fn run(out: &Path, settings: &[&str]) -> Result<(), String> {
+pub(crate) fn run(out: &Path, settings: &[String]) -> Outcome {
     let folder = out.join("cable");
-    std::fs::create_dir_all(&folder).map_err(|error| format!("cannot make {}: {error}", folder.display()))?;
-    let data = |file: &str| root().join("data").join(file).display().to_string();
+    made(&folder)?;
+    let data = |file: &str| root().join("data").join(file);
     let figure = |name: &str| folder.join(name).display().to_string();
-    let (record, table) = (data("cables/caroca-4mm-record.csv"), data("cables/caroca-4mm.json"));
-    let (robot, law) = (data("robots/caroca.json"), data("cables/caroca-4mm-law.json"));
-    let moduli = moduli(&record, &read_json(Path::new(&table))?, &figure("loop.svg"))?;
-    let cycle = [
-        "hysteresis",
-        &robot,
-        "--law",
-        &law,
-        "--pose",
-        "0,0,1.75",
-        "--payload",
-        "50",
-        "--figure",
-        &figure("cycle.svg"),
-    ];
-    let mut text = format!("{moduli}\n{}\n", output(&cycle, &[0])?);
+    let record = data("cables/caroca-4mm-record.csv").display().to_string();
+    let moduli = moduli(&record, &read_json(&data("cables/caroca-4mm.json"))?, &figure("loop.svg"))?;
+    let mut cycle = cdpr_command(&["hysteresis", "caroca", "--pose", "0,0,1.75", "--payload", "50"]);
+    cycle.arg("--law").arg(data("cables/caroca-4mm-law.json")).arg("--figure").arg(folder.join("cycle.svg"));
+    let cycle = text_of(&mut cycle, &[0])?;
     for study in STUDIES {
-        let (file, results) = (data(&format!("studies/caroca-{study}.json")), figure(study));
-        let arguments = [
-            &["--out".to_owned(), results][..],
-            &settings.iter().map(ToString::to_string).collect::<Vec<_>>(),
-        ]
-        .concat();
-        cdpr(&["study", "run", &file], &arguments)?;
+        run_study(&data(&format!("studies/caroca-{study}.json")), &folder.join(study), settings)?;
     }
-    write!(text, "{}", moved(out)?).map_err(|error| error.to_string())?;
+    let text = format!("{moduli}\n{cycle}\n{}", moved(out)?);
     print!("{text}");
-    let path = folder.join("cable.txt");
-    std::fs::write(&path, text).map_err(|error| format!("cannot write {}: {error}", path.display()))?;
+    write(&folder.join("cable.txt"), &text)?;
     println!("\ntables and pictures of the cable in {}", folder.display());
     Ok(())
 }
@@ -60,7 +44,7 @@ pub(crate) fn run(out: &Path, settings: &[&str]) -> Result<(), String> {
 /// Moduli of a published table next to those that follow from its record, with the loop as a figure.
 ///
 /// Those agree whose computed modulus rounds to the published one.
-fn moduli(record: &str, table: &Value, figure: &str) -> Result<String, String> {
+fn moduli(record: &str, table: &Value, figure: &str) -> Outcome<String> {
     let ranges = table["ranges"].as_array().ok_or("the published table has no ranges")?;
     let ranges: Vec<String> = ranges.iter().map(|range| format!("{}-{}", range[0], range[1])).collect();
     let [force, section] = [&table["breaking_force"], &table["section"]].map(ToString::to_string);
@@ -68,7 +52,7 @@ fn moduli(record: &str, table: &Value, figure: &str) -> Result<String, String> {
     command.extend(["--length", "1", "--figure", figure]);
     command.extend(ranges.iter().flat_map(|range| ["--range", range]));
     let found = answer(&command, &[0])?;
-    let mut text = format!("{}\n\n", table["source"].as_str().unwrap_or_default());
+    let mut lines = format!("{}\n\n", text(&table["source"]));
     for (k, range) in ranges.iter().enumerate() {
         for phase in ["loading", "unloading"] {
             let published = &table[format!("{phase}_gpa")][k];
@@ -77,46 +61,36 @@ fn moduli(record: &str, table: &Value, figure: &str) -> Result<String, String> {
             let decimals = published.to_string().split_once('.').map_or(0, |(_, decimals)| decimals.len());
             let off = (computed - number(published)).abs();
             let word = if off <= 0.5 * 0.1_f64.powi(decimals as i32) + 1e-6 { "agrees" } else { "DIFFERS" };
-            writeln!(text, "{range:>6} %  {phase:<9}  published {published:>6} GPa  from the record {computed:7.2}  {word}")
-                .map_err(|error| error.to_string())?;
+            let published = format!("{phase:<9}  published {published:>6} GPa");
+            writeln!(lines, "{range:>6} %  {published}  from the record {computed:7.2}  {word}")?;
         }
     }
-    Ok(text)
+    Ok(lines)
 }
 
 /// Table of the deflections of Fig. 5a, and how far they move.
-fn moved(out: &Path) -> Result<String, String> {
+fn moved(out: &Path) -> Outcome<String> {
     let mut text = format!(
         "static deflection under 50 kg, ranges of Table 4\n{:<50} {:>22} {:>22}\n",
         "", "symmetric pose", "non-symmetric pose"
     );
-    let mut first: Vec<f64> = Vec::new();
+    let mut first = [None; 2];
     for (file, words) in ROWS {
-        let path = out.join(file);
-        let summary = read_json(&path)?;
-        let mut cells = Vec::new();
-        for sampling in ["geometrical", "geometrical_asymmetric"] {
-            cells.push(
-                deflections(&summary, sampling)
-                    .ok_or_else(|| format!("{}: no deflection of {sampling}", path.display()))?,
-            );
+        let summary = read_json(&out.join(file))?;
+        write!(text, "{words:<50}")?;
+        for (sampling, first) in ["geometrical", "geometrical_asymmetric"].iter().zip(&mut first) {
+            let (mean, std) = deflections(&summary, sampling)?;
+            let moved = 100.0 * (mean / *first.get_or_insert(mean) - 1.0);
+            write!(text, " {:>22}", format!("{mean:.3} ± {std:.3} mm {moved:+3.0} %"))?;
         }
-        if first.is_empty() {
-            first = cells.iter().map(|(mean, _)| *mean).collect();
-        }
-        let cell = |((mean, std), first): (&(f64, f64), &f64)| {
-            format!("{mean:.3} ± {std:.3} mm {:+3.0} %", 100.0 * (mean / first - 1.0))
-        };
-        let cells: Vec<String> = cells.iter().zip(&first).map(cell).collect();
-        writeln!(text, "{words:<50} {:>22} {:>22}", cells[0], cells[1]).map_err(|error| error.to_string())?;
+        text += "\n";
     }
     Ok(text + "mean ± standard deviation, and how far the mean moves\n")
 }
 
-/// Mean and standard deviation of a sampling in a summary [mm]; `None` for too few observations.
-pub(crate) fn deflections(summary: &Value, sampling: &str) -> Option<(f64, f64)> {
-    let number = |name: &str| {
-        summary.pointer(&format!("/studies/{sampling}/magnitude_mm/{name}")).and_then(Value::as_f64)
-    };
-    number("mean").zip(number("std"))
+/// Mean and standard deviation of a sampling in a summary [mm].
+pub(crate) fn deflections(summary: &Value, sampling: &str) -> Outcome<(f64, f64)> {
+    let of = &summary["studies"][sampling]["magnitude_mm"];
+    let both = of["mean"].as_f64().zip(of["std"].as_f64());
+    Ok(both.ok_or_else(|| format!("the summary has no deflection of {sampling}: too few observations"))?)
 }

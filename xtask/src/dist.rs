@@ -4,53 +4,42 @@
 //! consist of (SBOM), the book, the notes of the version from CHANGELOG.md, and the checksums of all files. A
 //! part whose tool is not installed is left out, and the last lines say so.
 
-use crate::cargo::{cargo_command, cdpr_command, done, parsed, root, text_of};
+use crate::cargo::{
+    Outcome, cargo_command, cdpr_command, checksum, done, emptied, files, made, printed, read, root, target,
+    text, text_of, write,
+};
 use serde_json::{Value, json};
 use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-type Outcome = Result<(), Box<dyn std::error::Error>>;
-
 /// Makes one part in a folder.
 type Part = fn(&Path) -> Outcome;
 
-pub(crate) fn run(rest: &[String]) -> Result<(), String> {
-    if !rest.is_empty() {
-        return Err("`cargo xtask dist` is followed by nothing".to_owned());
-    }
+pub(crate) fn run() -> Outcome {
     let folder = root().join("target/dist");
-    let parts: [(&str, Part); 6] = [
+    let parts: [(&str, Part); 7] = [
         ("program", program),
         ("notes", notes),
         ("crates", crates),
         ("bill of materials", materials),
         ("wheel", wheel),
         ("book", book),
+        ("checksums", checksums),
     ];
-    let made = fs::remove_dir_all(&folder).or_else(|error| match error.kind() {
-        std::io::ErrorKind::NotFound => Ok(()),
-        _ => Err(error),
-    });
-    let made = made.and_then(|()| fs::create_dir_all(&folder));
-    made.map_err(|error| format!("{}: {error}", folder.display()))?;
+    emptied(&folder)?;
     let mut left_out = Vec::new();
     for (name, make) in parts {
         eprintln!("{name}");
-        if let Err(error) = make(&folder) {
-            left_out.push(format!("{name}: {error}"));
-        }
-    }
-    if let Err(error) = checksums(&folder) {
-        left_out.push(format!("checksums: {error}"));
+        left_out.extend(make(&folder).err().map(|error| format!("{name}: {error}")));
     }
     eprintln!("\n{} holds what could be made", folder.display());
-    if left_out.is_empty() { Ok(()) } else { Err(format!("left out:\n{}", left_out.join("\n"))) }
+    if left_out.is_empty() { Ok(()) } else { Err(format!("left out:\n{}", left_out.join("\n")).into()) }
 }
 
 /// The program, on Linux with everything linked in, so that it runs on any.
 fn program(folder: &Path) -> Outcome {
-    let host = host()?;
+    let host = printed("rustc", &["--print", "host-tuple"])?;
     let features = "cdpr/figures,cdpr/parquet";
     let package = ["--package", "cdpr", "--features", features];
     let mut build =
@@ -63,24 +52,16 @@ fn program(folder: &Path) -> Outcome {
     }
     done(&mut build)?;
     let suffix = std::env::consts::EXE_SUFFIX;
-    let built = root().join("target").join(&host).join("release").join(format!("cdpr{suffix}"));
+    let built = target().join(&host).join("release").join(format!("cdpr{suffix}"));
     fs::copy(built, folder.join(format!("cdpr-{host}{suffix}")))?;
     Ok(())
 }
 
-/// The target of this machine, as the compiler names it.
-fn host() -> Result<String, Box<dyn std::error::Error>> {
-    let found = Command::new("rustc").arg("--version").arg("--verbose").output()?;
-    let text = String::from_utf8(found.stdout)?;
-    let host = text.lines().find_map(|line| line.strip_prefix("host: "));
-    Ok(host.ok_or("`rustc --version --verbose` names no host")?.to_owned())
-}
-
 /// The first section of the changelog.
 fn notes(folder: &Path) -> Outcome {
-    let text = fs::read_to_string(root().join("CHANGELOG.md"))?;
+    let text = read(&root().join("CHANGELOG.md"))?;
     let section = text.split("\n## ").nth(1).ok_or("CHANGELOG.md has no section")?;
-    Ok(fs::write(folder.join("NOTES.md"), format!("## {}\n", section.trim_end()))?)
+    write(&folder.join("NOTES.md"), &format!("## {}\n", section.trim_end()))
 }
 
 /// The crates as a registry takes them. They name each other by versions, so none is built here.
@@ -93,10 +74,10 @@ fn crates(folder: &Path) -> Outcome {
     );
     // A folder without packages of other versions.
     done(package.arg("--target-dir").arg(&into))?;
-    for file in fs::read_dir(into.join("package"))? {
-        let path = file?.path();
-        if let Some(name) = path.file_name().filter(|_| path.extension().is_some_and(|end| end == "crate")) {
-            fs::rename(&path, folder.join(name))?;
+    for entry in fs::read_dir(into.join("package"))? {
+        let packed = entry?.path();
+        if packed.extension().is_some_and(|end| end == "crate") {
+            fs::rename(&packed, folder.join(packed.file_name().unwrap_or_default()))?;
         }
     }
     Ok(fs::remove_dir_all(into)?)
@@ -104,24 +85,25 @@ fn crates(folder: &Path) -> Outcome {
 
 /// All crates of the lock file with their licenses, as a software bill of materials (CycloneDX 1.5).
 fn materials(folder: &Path) -> Outcome {
-    let metadata = text_of(&mut cargo_command(&["metadata", "--locked", "--format-version", "1"]), &[0])?;
-    let metadata = parsed(&metadata)?;
+    let metadata = ["metadata", "--locked", "--all-features", "--format-version", "1"];
+    let metadata: Value = serde_json::from_str(&text_of(&mut cargo_command(&metadata), &[0])?)?;
     let component = |of: &Value| {
-        let (name, version) =
-            (of["name"].as_str().unwrap_or_default(), of["version"].as_str().unwrap_or_default());
+        let (name, version) = (text(&of["name"]), text(&of["version"]));
+        // Manifests of old crates have a slash for OR.
+        let license = text(&of["license"]).replace('/', " OR ");
         json!({
             "type": "library",
             "name": name,
             "version": version,
             "purl": format!("pkg:cargo/{name}@{version}"),
-            "licenses": [{ "expression": of["license"] }],
+            "licenses": [{ "expression": license }],
         })
     };
     let components: Vec<Value> =
         metadata["packages"].as_array().into_iter().flatten().map(component).collect();
     let bill =
         json!({"bomFormat": "CycloneDX", "specVersion": "1.5", "version": 1, "components": components});
-    Ok(fs::write(folder.join("cdpr.cdx.json"), format!("{bill:#}\n"))?)
+    write(&folder.join("cdpr.cdx.json"), &format!("{bill:#}\n"))
 }
 
 /// The wheel, by maturin in an environment of its own: it serves all Pythons from 3.10 on.
@@ -148,33 +130,22 @@ fn book(folder: &Path) -> Outcome {
     let book = folder.join("book");
     done(Command::new("mdbook").arg("build").arg(root().join("docs")).arg("--dest-dir").arg(&book))?;
     // The pages that docs/live.md leads to.
-    let pages = book.join("explorer");
-    fs::create_dir_all(&pages)?;
-    for file in fs::read_dir(root().join("data/robots"))? {
-        let path = file?.path();
-        if let Some(name) = path.file_stem().filter(|_| path.extension().is_some_and(|end| end == "json")) {
-            let page = pages.join(name).with_extension("html");
-            done(cdpr_command(&["explore"]).arg(&path).arg("--out").arg(page))?;
+    made(&book.join("explorer"))?;
+    for robot in files(&root().join("data/robots"), &[])? {
+        if let Some(name) = robot.file_stem().filter(|_| robot.extension().is_some_and(|end| end == "json")) {
+            let page = book.join("explorer").join(name).with_extension("html");
+            done(cdpr_command(&["explore"]).arg(&robot).arg("--out").arg(page))?;
         }
     }
     Ok(())
 }
 
-/// The checksums of all files beside them, as `sha256sum --check` reads them.
+/// The checksums of all files next to them, as `sha256sum --check` reads them.
 fn checksums(folder: &Path) -> Outcome {
-    let mut names = Vec::new();
-    for file in fs::read_dir(folder)? {
-        let file = file?;
-        if file.file_type()?.is_file() {
-            names.push(file.file_name());
-        }
+    let mut sums = String::new();
+    for file in files(folder, &["book"])? {
+        let name = file.strip_prefix(folder)?.display();
+        sums += &format!("{}  {name}\n", checksum(&fs::read(&file)?));
     }
-    names.sort();
-    let (program, before): (_, &[&str]) =
-        if cfg!(target_os = "macos") { ("shasum", &["-a", "256"]) } else { ("sha256sum", &[]) };
-    let found = Command::new(program).args(before).args(names).current_dir(folder).output()?;
-    if !found.status.success() {
-        return Err(format!("`{program}`: {}", String::from_utf8_lossy(&found.stderr)).into());
-    }
-    Ok(fs::write(folder.join("SHA256SUMS"), found.stdout)?)
+    write(&folder.join("SHA256SUMS"), &sums)
 }

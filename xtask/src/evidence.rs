@@ -4,9 +4,8 @@
 //! In a page, `<!-- evidence CABLE -->` stands above the table of the cases `V-CABLE-...`, and
 //! `<!-- figure V-CABLE-001 -->` before a figure in a sentence; `<!-- end -->` follows either.
 
-use crate::cargo::{cargo_command, root};
+use crate::cargo::{Outcome, cargo_command, done, emptied, read as read_page, root, write as write_page};
 use cdpr_evidence::{Acceptance, Case, FOLDER, Level, cases, read, write};
-use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Pages with tables or figures of cases.
@@ -18,26 +17,28 @@ const CHANGED: f64 = 5.0;
 /// Figures below this share of their bound may differ by more.
 const FAR_BELOW: f64 = 1e-3;
 
-/// Runs the cases whose identifiers begin with one of these, or all. With `--check` it runs nothing: it
-/// compares the figures of a folder, which a run of the tests has written, with those that are kept.
-pub(crate) fn run(rest: &[String]) -> Result<(), String> {
+/// Runs the cases whose identifiers begin with one of these, or all. A check runs nothing: it compares the
+/// figures of a folder, which a run of the tests has written, with those that are kept.
+pub(crate) fn run(check: bool, begins: &[String]) -> Outcome {
     let all = cases()?;
-    match rest {
-        [check] if check == "--check" => {
-            let folder = std::env::var_os(FOLDER).ok_or_else(|| format!("expected {FOLDER}, the folder"))?;
-            check_all(&all, Path::new(&folder))
-        }
-        begins => {
-            let is_chosen =
-                |case: &Case| begins.is_empty() || begins.iter().any(|id| case.id.starts_with(id));
-            let chosen: Vec<&Case> = all.iter().filter(|case| is_chosen(case)).collect();
-            if chosen.is_empty() {
-                return Err(format!("no case begins with {}", begins.join(" or ")));
-            }
-            measure(&chosen)?;
-            write_pages(&all)
+    if check {
+        let folder = std::env::var_os(FOLDER).ok_or_else(|| format!("expected {FOLDER}, the folder"))?;
+        return check_all(&all, Path::new(&folder));
+    }
+    let is_chosen = |case: &&Case| begins.is_empty() || begins.iter().any(|id| case.id.starts_with(id));
+    let chosen: Vec<&Case> = all.iter().filter(is_chosen).collect();
+    if chosen.is_empty() {
+        return Err(format!("no case begins with {}", begins.join(" or ")).into());
+    }
+    measure(&chosen)?;
+    for page in PAGES.map(|page| root().join(page)) {
+        let text = read_page(&page)?;
+        let filled = filled(&text, &all)?;
+        if filled != text {
+            write_page(&page, &filled)?;
         }
     }
+    Ok(())
 }
 
 fn kept() -> PathBuf {
@@ -45,24 +46,21 @@ fn kept() -> PathBuf {
 }
 
 /// Runs the tests of cases, and keeps their figures.
-fn measure(chosen: &[&Case]) -> Result<(), String> {
+fn measure(chosen: &[&Case]) -> Outcome {
     let folder = root().join("target/evidence");
-    if folder.exists() {
-        fs::remove_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
-    }
+    emptied(&folder)?;
     let mut tests: Vec<&str> = chosen.iter().map(|case| case.test[1].as_str()).collect();
     tests.sort_unstable();
     tests.dedup();
     let mut command = cargo_command(&["test", "--no-fail-fast", "--test", "integration", "--", "--exact"]);
-    let status = command.args(tests).env(FOLDER, &folder).status();
-    let passed = status.map_err(|error| format!("cannot start cargo: {error}"))?.success();
+    let passed = done(command.args(tests).env(FOLDER, &folder));
     for case in chosen {
         write(&kept(), &case.id, read(&folder, &case.id)?)?;
     }
-    if passed { Ok(()) } else { Err("a test fails".to_owned()) }
+    passed
 }
 
-fn check_all(all: &[Case], folder: &Path) -> Result<(), String> {
+fn check_all(all: &[Case], folder: &Path) -> Outcome {
     let mut wrong: Vec<String> = Vec::new();
     for case in all {
         match (read(folder, &case.id), read(&kept(), &case.id)) {
@@ -74,7 +72,7 @@ fn check_all(all: &[Case], folder: &Path) -> Result<(), String> {
         }
     }
     for page in PAGES {
-        let text = read_page(page)?;
+        let text = read_page(&root().join(page))?;
         if filled(&text, all)? != text {
             wrong.push(format!("{page} has other figures than data/evidence"));
         }
@@ -83,7 +81,7 @@ fn check_all(all: &[Case], folder: &Path) -> Result<(), String> {
         eprintln!("{} cases are as they are kept", all.len());
         return Ok(());
     }
-    Err(format!("{}\nexpected the figures of `cargo xtask evidence`", wrong.join("\n")))
+    Err(format!("{}\nexpected the figures of `cargo xtask evidence`", wrong.join("\n")).into())
 }
 
 fn is_changed(accepted: Acceptance, found: f64, kept: f64) -> bool {
@@ -95,21 +93,6 @@ fn is_changed(accepted: Acceptance, found: f64, kept: f64) -> bool {
         // Shares.
         Acceptance::AtLeast(_) => (found - kept).abs() > 0.01,
     }
-}
-
-fn read_page(page: &str) -> Result<String, String> {
-    fs::read_to_string(root().join(page)).map_err(|error| format!("{page}: {error}"))
-}
-
-fn write_pages(all: &[Case]) -> Result<(), String> {
-    for page in PAGES {
-        let text = read_page(page)?;
-        let filled = filled(&text, all)?;
-        if filled != text {
-            fs::write(root().join(page), filled).map_err(|error| format!("{page}: {error}"))?;
-        }
-    }
-    Ok(())
 }
 
 /// A page with the figures that are kept.

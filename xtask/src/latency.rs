@@ -1,11 +1,11 @@
 //! `cargo xtask latency`: how long a step of a tracker takes, as data, a table and a figure of the book.
 
-use crate::bench::total;
-use crate::cargo::{cargo_command, number, parsed, printed, read, root, text_of, write};
+use crate::bench::{callgrind, total, valgrind};
+use crate::cargo::{
+    Outcome, emptied, machine, number, read, release_example, root, target, text, text_of, write,
+};
 use serde_json::{Value, json};
-use std::fmt::Write;
-use std::path::PathBuf;
-use std::process::Command;
+use std::fmt::Write as _;
 
 const DATA: &str = "data/benchmarks/latency.json";
 
@@ -13,55 +13,50 @@ const DATA: &str = "data/benchmarks/latency.json";
 const QUANTILES: [&str; 4] = ["median", "p99.99", "p99.999", "greatest"];
 
 /// Follows the courses, and writes `data/benchmarks/latency.json`, its table and its figure.
-pub(crate) fn run(rest: &[String]) -> Result<(), String> {
-    let example = ["run", "--release", "--quiet", "--package", "cdpr-statics", "--example", "latency", "--"];
-    let rest: Vec<&str> = rest.iter().map(String::as_str).collect();
+pub(crate) fn run(rest: &[String]) -> Outcome {
     eprintln!(
         "building the example (some minutes the first time), then five passes of a course for each robot"
     );
     let before = load();
-    let lines = text_of(&mut cargo_command(&[&example[..], &rest].concat()), &[0])?;
-    let mut robots = lines.lines().map(parsed).collect::<Result<Vec<Value>, _>>()?;
+    let mut robots = lines(&text_of(&mut release_example("cdpr-statics", "latency", rest), &[0])?)?;
     let machine = format!("{}, load average {before} before and {} after", machine(), load());
     save(&machine, &robots)?;
-    match printed("valgrind", &["--version"]) {
-        Ok(_) => count(&mut robots)?,
-        Err(_) => eprintln!("no instruction counts: valgrind is not installed (apt install valgrind)"),
+    if valgrind().is_some() {
+        count(&mut robots)?;
+        save(&machine, &robots)?;
     }
-    save(&machine, &robots)?;
     let table = table(&machine, &robots);
     println!("{table}");
     write(&root().join("data/benchmarks/latency.md"), &table)?;
     write(&root().join("docs/images/latency.svg"), &figure(&robots))
 }
 
+/// A value of JSON in each line.
+fn lines(text: &str) -> Outcome<Vec<Value>> {
+    Ok(text.lines().map(serde_json::from_str).collect::<Result<_, _>>()?)
+}
+
 /// Writes the data, a robot in each line.
-fn save(machine: &str, robots: &[Value]) -> Result<(), String> {
+fn save(machine: &str, robots: &[Value]) -> Outcome {
     let lines: Vec<String> = robots.iter().map(ToString::to_string).collect();
     let text = format!("{{\"machine\": {}, \"robots\": [\n{}\n]}}\n", json!(machine), lines.join(",\n"));
     write(&root().join(DATA), &text)
 }
 
 /// Adds the instructions of the step of most iterations, which the example makes again under callgrind.
-fn count(robots: &mut [Value]) -> Result<(), String> {
-    let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), PathBuf::from);
-    let folder = target.join("callgrind-latency");
-    // It may not be there.
-    let _ = std::fs::remove_dir_all(&folder);
-    std::fs::create_dir_all(&folder).map_err(|error| error.to_string())?;
-    let mut command = Command::new("valgrind");
-    command.args(["--tool=callgrind", "--toggle-collect=latency::counted", "--dump-after=latency::counted"]);
-    command.arg(format!("--callgrind-out-file={}", folder.join("out").display()));
-    command.arg(target.join("release/examples/latency")).arg("count").arg(root().join(DATA));
-    let steps = text_of(&mut command, &[0])?;
-    for (number, step) in steps.lines().enumerate() {
-        let step = parsed(step)?;
+fn count(robots: &mut [Value]) -> Outcome {
+    let folder = target().join("callgrind-latency");
+    emptied(&folder)?;
+    let example = target().join("release/examples/latency");
+    let mut command = callgrind(&folder, "out", "latency::counted", example);
+    let steps = text_of(command.arg("count").arg(root().join(DATA)), &[0])?;
+    for (number, step) in lines(&steps)?.iter().enumerate() {
         let counted = total(&read(&folder.join(format!("out.{}", number + 1)))?);
-        let robot =
-            robots.iter_mut().find(|robot| robot["robot"] == step["robot"]).ok_or("an unknown robot")?;
+        let robot = robots.iter_mut().find(|robot| robot["robot"] == step["robot"]);
+        let most = &mut robot.ok_or("an unknown robot")?["most_work"];
         // A step that is not the same has no count.
-        if step["iterations"] == robot["most_work"]["iterations"] {
-            robot["most_work"]["instructions"] = json!(counted);
+        if step["iterations"] == most["iterations"] {
+            most["instructions"] = json!(counted);
         }
     }
     Ok(())
@@ -71,15 +66,6 @@ fn count(robots: &mut [Value]) -> Result<(), String> {
 fn load() -> String {
     let file = std::fs::read_to_string("/proc/loadavg").unwrap_or_default();
     file.split(' ').next().filter(|load| !load.is_empty()).unwrap_or("unknown").to_owned()
-}
-
-fn machine() -> String {
-    let cpu = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
-    let cpu = cpu.lines().find_map(|line| line.strip_prefix("model name")?.split_once(": "));
-    let known = |program, arguments: &[&str]| printed(program, arguments).unwrap_or_else(|error| error);
-    let cores = std::thread::available_parallelism().map_or(0, usize::from);
-    let cpu = cpu.map_or(std::env::consts::ARCH, |(_, name)| name);
-    format!("{}, {cpu}, {cores} cores, {}", known("date", &["-u", "+%F"]), known("rustc", &["--version"]))
 }
 
 /// A time [us] with three digits.
@@ -120,7 +106,7 @@ fn table(machine: &str, robots: &[Value]) -> String {
          | with slack cables | not converged |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|\n"
     );
     for robot in robots {
-        let name = robot["robot"].as_str().unwrap_or_default();
+        let name = text(&robot["robot"]);
         if let Some(error) = robot["error"].as_str() {
             let _ = writeln!(table, "| {name} | {error} | | | | | | | | | | | |");
             continue;
@@ -164,21 +150,22 @@ fn across(power: f64) -> f64 {
 fn figure(robots: &[Value]) -> String {
     let robots: Vec<&Value> = robots.iter().filter(|robot| robot["error"].is_null()).collect();
     let bottom = 34.0 + ROW * robots.len() as f64;
+    let words = |x: f64, y: f64, anchor: &str, words: &str| {
+        format!("<text x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"{anchor}\">{words}</text>\n")
+    };
+    let line = |x: f64, foot: f64, top: f64, style: &str| {
+        format!("<path d=\"M {x:.1} {foot:.1} V {top:.1}\" stroke={style}/>\n")
+    };
     let mut svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {:.0} {:.0}\" font-family=\"sans-serif\" \
-         font-size=\"12\">\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n\
-         <text x=\"{LEFT}\" y=\"18\">Steps by their time: one pass (grey), least of all passes (blue)</text>\n",
+         font-size=\"12\">\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n",
         LEFT + WIDTH + 40.0,
         bottom + 44.0
     );
+    svg += &words(LEFT, 18.0, "start", "Steps by their time: one pass (grey), least of all passes (blue)");
     for (power, label) in [(1.0, "1 µs"), (2.0, "10 µs"), (3.0, "100 µs"), (4.0, "1 ms"), (5.0, "10 ms")] {
-        let x = across(power);
-        let _ = writeln!(
-            svg,
-            "<path d=\"M {x:.1} 26 V {bottom:.1}\" stroke=\"#cccccc\"/>\n\
-             <text x=\"{x:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{label}</text>",
-            bottom + 16.0
-        );
+        svg += &line(across(power), bottom, 26.0, "\"#cccccc\"");
+        svg += &words(across(power), bottom + 16.0, "middle", label);
     }
     for (row, robot) in robots.iter().enumerate() {
         let foot = 34.0 + ROW * (row as f64 + 1.0) - 2.0;
@@ -186,28 +173,12 @@ fn figure(robots: &[Value]) -> String {
         svg += &bars(&robot["histogram"], foot, &robot["steps"], "#0072b2");
         for (quantile, dashes) in [("median", "3 2"), ("p99.999", "none")] {
             let x = across((number(&robot["us"][quantile]) / 0.1).log10());
-            let _ = writeln!(
-                svg,
-                "<path d=\"M {x:.1} {foot:.1} v {:.1}\" stroke=\"#d55e00\" stroke-dasharray=\"{dashes}\"/>",
-                4.0 - ROW
-            );
+            svg += &line(x, foot, foot + 4.0 - ROW, &format!("\"#d55e00\" stroke-dasharray=\"{dashes}\""));
         }
-        let name = robot["robot"].as_str().unwrap_or_default();
-        let _ = writeln!(
-            svg,
-            "<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"end\">{name}</text>",
-            LEFT - 8.0,
-            foot - 6.0
-        );
+        svg += &words(LEFT - 8.0, foot - 6.0, "end", text(&robot["robot"]));
     }
-    let _ = writeln!(
-        svg,
-        "<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"middle\">time of a step; heights are logarithms of \
-         the number of steps</text>",
-        LEFT + 0.5 * WIDTH,
-        bottom + 36.0
-    );
-    svg + "</svg>\n"
+    let axis = "time of a step; heights are logarithms of the number of steps";
+    svg + &words(LEFT + 0.5 * WIDTH, bottom + 36.0, "middle", axis) + "</svg>\n"
 }
 
 /// The bars of a histogram that stands on `foot` [pixels].

@@ -6,7 +6,7 @@
 #![allow(clippy::print_stdout)]
 
 use crate::cable::deflections;
-use crate::cargo::{cdpr, read_json, root, write};
+use crate::cargo::{Outcome, number, read_json, root, study as run_study, write};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 use std::path::Path;
@@ -30,9 +30,8 @@ const SAMPLINGS: [&str; 2] = ["geometrical", "geometrical_asymmetric"];
 const LARGEST: usize = 5;
 
 /// Adds to the results in `out`; `settings` are options of `cdpr study run` other than its folder.
-pub(crate) fn run(out: &Path, settings: &[&str]) -> Result<(), String> {
+pub(crate) fn run(out: &Path, settings: &[String]) -> Outcome {
     let folder = out.join("led");
-    std::fs::create_dir_all(&folder).map_err(|error| format!("cannot make {}: {error}", folder.display()))?;
     let data = |file: &str| read_json(&root().join("data").join(file));
     let (robot, study) = (data("robots/caroca.json")?, data("studies/caroca.json")?);
     let mut summaries = vec![("as in the paper", out.join("summary.json"))];
@@ -58,11 +57,8 @@ pub(crate) fn run(out: &Path, settings: &[&str]) -> Result<(), String> {
         for (suffix, value) in [("robot", &robot), ("study", &study)] {
             write(&path(suffix), &format!("{value:#}\n"))?;
         }
-        let (file, results) = (path("study").display().to_string(), folder.join(name));
-        let mut arguments = vec!["--out".to_owned(), results.display().to_string()];
-        arguments.extend(settings.iter().map(ToString::to_string));
-        cdpr(&["study", "run", &file], &arguments)?;
-        summaries.push((words, results.join("summary.json")));
+        run_study(&path("study"), &folder.join(name), settings)?;
+        summaries.push((words, folder.join(name).join("summary.json")));
     }
     let text = compared(&summaries)?;
     print!("{text}");
@@ -70,30 +66,25 @@ pub(crate) fn run(out: &Path, settings: &[&str]) -> Result<(), String> {
 }
 
 /// Deflections and largest parameters of each summary.
-fn compared(summaries: &[(&str, std::path::PathBuf)]) -> Result<String, String> {
+fn compared(summaries: &[(&str, std::path::PathBuf)]) -> Outcome<String> {
     let mut text =
         "static deflection under 50 kg, ranges of Table 4, radii ± 0.5 mm, axes ± 10 mrad, leads ± 50 mm\n"
             .to_owned();
     for sampling in SAMPLINGS {
         let mut first = None;
-        writeln!(text, "\n{sampling}").map_err(|error| error.to_string())?;
+        writeln!(text, "\n{sampling}")?;
         for (words, path) in summaries {
             let summary = read_json(path)?;
-            let (mean, std) = deflections(&summary, sampling)
-                .ok_or_else(|| format!("{}: no deflection of {sampling}", path.display()))?;
+            let (mean, std) = deflections(&summary, sampling)?;
             let moved = 100.0 * (mean / *first.get_or_insert(mean) - 1.0);
-            let effects =
-                summary.pointer(&format!("/studies/{sampling}/t_student")).and_then(Value::as_object);
-            let mut effects: Vec<(&String, f64)> = effects
-                .into_iter()
-                .flatten()
-                .filter_map(|(name, effect)| Some((name, effect.as_f64()?)))
-                .collect();
+            let effects = summary["studies"][sampling]["t_student"].as_object();
+            let mut effects: Vec<_> =
+                effects.into_iter().flatten().map(|(name, t)| (name, number(t))).collect();
+            effects.retain(|(_, t)| t.is_finite());
             effects.sort_by(|one, other| other.1.total_cmp(&one.1));
-            let largest: Vec<String> =
+            let largest: Vec<_> =
                 effects.iter().take(LARGEST).map(|(name, t)| format!("{name} {t:.1}")).collect();
-            writeln!(text, "  {words:<36} {mean:.3} ± {std:.3} mm {moved:+4.0} %   {}", largest.join(", "))
-                .map_err(|error| error.to_string())?;
+            writeln!(text, "  {words:<36} {mean:.3} ± {std:.3} mm {moved:+4.0} %   {}", largest.join(", "))?;
         }
     }
     Ok(text + "mean ± standard deviation, how far the mean moves, and the largest t-Student indices\n")

@@ -16,199 +16,204 @@ mod led;
 mod release;
 mod web;
 
-use cargo::{cargo, cdpr, done, example_command, root, text_of, write};
-use std::path::Path;
+use cargo::{Outcome, cargo_command, done, release_example, root, study, text_of, write};
+use clap::{Args, Parser};
+use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 
-const HELP: &str = "\
-usage: cargo xtask TASK
-
-tasks:
-  caroca-study [--out DIR] [--observations N] [--threads N] [--resume]
-                 runs the study of Baklouti, Caro, Courteille (CableCon 2017) and prints it with their
-                 figures (data/reference/published.json). All measures of its sensitivity go to
-                 DIR/sensitivity, the hysteresis of its cables to DIR/cable, the robot with pulleys and the cable behind them to DIR/led; DIR is
-                 target/caroca-study. With --resume it goes on with an interrupted run;
-                 otherwise it begins again
-  robustness [--poses N] [--modulus E] [--seed N] [--robot FILE] [--out DIR]
-                 counts how often the direct model finds CoGiRo's true pose from a wrong start, by the
-                 protocol of Mahnke and Caverly (N = 10000, E = 35e9 Pa) and on thirty poses; DIR is
-                 target/robustness
-  throughput [--all [NAME] | OBSERVATIONS [THREADS]]
-                 runs a sampling of the paper's study, without tables, and prints time, memory and results in
-                 one line (1000000 observations, all threads); with --all a table of the robots and poses of
-                 data/benchmarks/throughput.json, on one thread
-  bench [--save | ARGS]
-                 runs all criterion benchmarks, or those that ARGS choose (a part of a name and other options
-                 of criterion), counts their instructions where valgrind is installed, and prints both next to
-                 data/benchmarks/baseline.json. It fails where a count has grown by more than 1 %; with --save
-                 it writes the baseline
-  latency [STEPS [ROBOT..]]
-                 follows random smooth courses of the robots of the library (1000000 steps of a tracker each), and
-                 writes times, iterations and their causes: data/benchmarks/latency.json, a table and a figure
-  statistics TABLE [STUDIES [FUNCTION]]
-                 measures how often estimators of cdpr-sensitivity are right; without TABLE it lists the
-                 tables, which docs/statistics.md keeps
-  ci [STEP..]    what a change has to pass: .ci/run
-  attack         runs the program on bad files and arguments: cargo test --test attack
-  evidence [CASE..]
-                 runs the comparisons of data/evidence/cases.json, all or those that begin so, keeps their figures
-                 there and writes the tables of docs/trust.md; --check compares the figures in the folder
-                 CDPR_EVIDENCE, which a run of the tests has written, with those that are kept
-  dist           makes what a release consists of in target/dist: the program, on Linux one that runs on
-                 any, the wheel, the packed crates, the book, notes and checksums
-  release [--repository URL] [--authors \"NAME <MAIL>, ..\"] [--version X.Y.Z]
-                 sets these wherever files name them: manifests, CITATION.cff, recipe, book, README, paper
-                 and, with a version, the heading of CHANGELOG.md
-  c --prefix FOLDER
-                 builds libcdpr and installs it into FOLDER: header, libraries, pkg-config, CMake, MATLAB, see
-                 docs/c.md
-  web [--check]  makes the module and the page of `cdpr explore` in crates/cdpr-web/dist, or says whether these
-                 are of the sources as they are
-  gallery        writes docs/robots.md, a picture and a table for each robot of the library
-  schemas        writes the JSON Schemas of the file formats to docs/schemas
-  help           prints this text";
-
-fn main() -> ExitCode {
-    let mut arguments = std::env::args().skip(1);
-    let task = arguments.next();
-    let rest: Vec<String> = arguments.collect();
-    if rest.iter().any(|argument| argument == "--help" || argument == "-h") {
-        eprintln!("{HELP}");
-        return ExitCode::SUCCESS;
-    }
-    let outcome = match task.as_deref() {
-        Some("caroca-study") => caroca_study(rest),
-        Some("robustness") => robustness(rest),
-        Some("throughput") => throughput(&rest),
-        Some("latency") => latency::run(&rest),
-        Some("statistics") => statistics(&rest),
-        Some("bench") => bench::run(&rest),
-        Some("ci") => {
-            done(Command::new(root().join(".ci/run")).args(&rest)).map_err(|error| error.to_string())
-        }
-        Some("attack") => cargo(&["test", "--test", "attack"]),
-        Some("dist") => dist::run(&rest),
-        Some("release") => release::run(&rest).map_err(|error| error.to_string()),
-        Some("evidence") => evidence::run(&rest),
-        Some("c") => c_library::run(&rest),
-        Some("web") => web::run(&rest).map_err(|error| error.to_string()),
-        Some("gallery") => gallery::run(),
-        Some("schemas") => schemas(),
-        Some(other) if other != "help" => Err(format!("no task is called `{other}`\n\n{HELP}")),
-        _ => {
-            eprintln!("{HELP}");
-            return if task.is_some() { ExitCode::SUCCESS } else { ExitCode::FAILURE };
-        }
-    };
-    match outcome {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("error: {error}");
-            ExitCode::FAILURE
-        }
-    }
+/// Tasks of this repository. `cargo xtask TASK --help` says what a task writes and takes.
+#[derive(Parser)]
+#[command(bin_name = "cargo xtask", subcommand_value_name = "TASK", subcommand_help_heading = "Tasks")]
+enum Task {
+    /// Run the study of Baklouti, Caro, Courteille (CableCon 2017) and print it with their figures
+    ///
+    /// The published figures are in data/reference/published.json. All measures of the study's sensitivity go to
+    /// DIR/sensitivity, the hysteresis of its cables to DIR/cable, the robot with pulleys and the cable behind
+    /// them to DIR/led. It begins again unless it resumes.
+    CarocaStudy(Study),
+    /// Count how often the direct model finds CoGiRo's true pose from a wrong start
+    ///
+    /// [--poses N] [--modulus E] [--seed N] [--robot FILE] [--free NAMES] [--out DIR]: by the protocol of Mahnke
+    /// and Caverly (N = 10000, E = 35e9 Pa) and on thirty poses; DIR is target/robustness.
+    Robustness(Rest),
+    /// Run a sampling of the paper's study, without tables, and print time, memory and results in a line
+    ///
+    /// [OBSERVATIONS [THREADS]]: 1000000 observations on all threads.
+    Throughput {
+        /// A table of the robots and poses of data/benchmarks/throughput.json, or of one, on one thread
+        #[arg(long)]
+        all: bool,
+        #[command(flatten)]
+        rest: Rest,
+    },
+    /// Run all criterion benchmarks, and print times and instructions next to the baseline
+    ///
+    /// Arguments go to criterion: a part of a name, and other options. Instructions are counted where valgrind is
+    /// installed; it fails where a count is by 1 % larger than in data/benchmarks/baseline.json.
+    Bench {
+        /// Write the baseline
+        #[arg(long)]
+        save: bool,
+        #[command(flatten)]
+        rest: Rest,
+    },
+    /// Follow random smooth courses of the robots of the library, and write times and iterations
+    ///
+    /// [STEPS [ROBOT..]]: 1000000 steps of a tracker each; to data/benchmarks/latency.json, a table and a figure.
+    Latency(Rest),
+    /// Measure how often estimators of cdpr-sensitivity are right
+    ///
+    /// TABLE [STUDIES [FUNCTION]]; without TABLE it lists the tables, which docs/statistics.md keeps.
+    Statistics(Rest),
+    /// Run what a change has to pass, or steps of it: .ci/run
+    Ci(Rest),
+    /// Run the program on bad files and arguments: cargo test --test attack
+    Attack,
+    /// Run the comparisons of data/evidence/cases.json, all or those that begin so
+    ///
+    /// It keeps their figures there and writes the tables of docs/trust.md.
+    Evidence {
+        /// Compare the figures in the folder CDPR_EVIDENCE, which tests have written, with those that are kept
+        #[arg(long)]
+        check: bool,
+        /// Beginnings of their names
+        cases: Vec<String>,
+    },
+    /// Make what a release consists of in target/dist
+    ///
+    /// The program, on Linux one that runs on any, the wheel, the packed crates, the book, notes and checksums.
+    Dist,
+    /// Set repository, authors and version wherever files name them
+    ///
+    /// In manifests, CITATION.cff, recipe, book, README, paper and, with a version, the heading of CHANGELOG.md.
+    Release(release::Values),
+    /// Build libcdpr and install it: header, libraries, pkg-config, CMake, MATLAB, see docs/c.md
+    C {
+        /// Where to
+        #[arg(long, value_name = "FOLDER")]
+        prefix: PathBuf,
+    },
+    /// Make the module and the page of `cdpr explore` in crates/cdpr-web/dist
+    Web {
+        /// Say whether these are of the sources as they are
+        #[arg(long)]
+        check: bool,
+    },
+    /// Write docs/robots.md, a picture and a table for each robot of the library
+    Gallery,
+    /// Write the JSON Schemas of the file formats to docs/schemas
+    Schemas,
 }
 
-fn caroca_study(mut rest: Vec<String>) -> Result<(), String> {
-    replaceable(&mut rest, "target/caroca-study");
-    let study = |file: &str| root().join("data/studies").join(file).display().to_string();
-    let (paper, measures) = (study("caroca.json"), study("caroca-sensitivity.json"));
-    eprintln!("building the program (a few minutes the first time), then running {paper} and {measures}");
-    cdpr(&["study", "run", &paper], &rest)?;
-    let mut within_out = rest.clone();
-    within(&mut within_out, "--out", "sensitivity");
-    cdpr(&["study", "run", &measures], &within_out)?;
-    let (out, settings) = without(&rest, "--out");
-    compared(Path::new(out))?;
-    cable::run(Path::new(out), &settings)?;
-    led::run(Path::new(out), &settings)
+/// Arguments of another program.
+#[derive(Args)]
+struct Rest {
+    #[arg(trailing_var_arg = true, allow_hyphen_values = true, value_name = "ARGUMENTS")]
+    rest: Vec<String>,
+}
+
+#[derive(Args)]
+struct Study {
+    /// Folder of the results [default: target/caroca-study]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Observations of each part
+    #[arg(long, value_name = "N")]
+    observations: Option<String>,
+    /// Threads [default: all]
+    #[arg(long, value_name = "N")]
+    threads: Option<String>,
+    /// Go on with an interrupted run
+    #[arg(long)]
+    resume: bool,
+    /// Further options of `cdpr study run`
+    #[command(flatten)]
+    rest: Rest,
+}
+
+fn main() -> ExitCode {
+    let outcome = match Task::parse() {
+        Task::CarocaStudy(settings) => caroca_study(settings),
+        Task::Robustness(rest) => robustness(&rest.rest),
+        Task::Throughput { all, rest } => throughput(all, rest.rest),
+        Task::Latency(rest) => latency::run(&rest.rest),
+        Task::Statistics(rest) => done(&mut release_example("cdpr-sensitivity", "statistics", &rest.rest)),
+        Task::Bench { save, rest } => bench::run(save, &rest.rest),
+        Task::Ci(rest) => done(Command::new(root().join(".ci/run")).args(rest.rest)),
+        Task::Attack => done(&mut cargo_command(&["test", "--test", "attack"])),
+        Task::Dist => dist::run(),
+        Task::Release(values) => release::run(&values),
+        Task::Evidence { check, cases } => evidence::run(check, &cases),
+        Task::C { prefix } => c_library::run(&prefix),
+        Task::Web { check } => web::run(check),
+        Task::Gallery => gallery::run(),
+        Task::Schemas => schemas(),
+    };
+    outcome.map_or_else(
+        |error| {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        },
+        |()| ExitCode::SUCCESS,
+    )
+}
+
+fn caroca_study(settings: Study) -> Outcome {
+    let mut options = settings.rest.rest;
+    // Results of another state of the code are replaced in our folder; a folder of the user's is left to the program.
+    if settings.resume {
+        options.push("--resume".to_owned());
+    } else if settings.out.is_none() && !options.iter().any(|option| option == "--overwrite") {
+        options.push("--overwrite".to_owned());
+    }
+    options.extend(settings.observations.map(|number| format!("--observations={number}")));
+    options.extend(settings.threads.map(|number| format!("--threads={number}")));
+    let out = settings.out.unwrap_or_else(|| root().join("target/caroca-study"));
+    let studies = root().join("data/studies");
+    eprintln!(
+        "building the program (a few minutes the first time), then running the studies of {}",
+        studies.display()
+    );
+    study(&studies.join("caroca.json"), &out, &options)?;
+    study(&studies.join("caroca-sensitivity.json"), &out.join("sensitivity"), &options)?;
+    compared(&out)?;
+    cable::run(&out, &options)?;
+    led::run(&out, &options)
 }
 
 /// Prints the published figures next to those of the study, and writes them to `published.txt`.
-fn compared(out: &Path) -> Result<(), String> {
-    let figures = root().join("data/reference/published.json").display().to_string();
-    let text = text_of(&mut example_command("published", &[&figures, &out.display().to_string()]), &[0])?;
+///
+/// As for the program, cargo chooses the example among all default members: with the features of one package
+/// alone everything would be compiled again.
+fn compared(out: &Path) -> Outcome {
+    let mut published = cargo_command(&["run", "--quiet", "--example", "published", "--"]);
+    let text = text_of(published.arg(root().join("data/reference/published.json")).arg(out), &[0])?;
     println!("\n{text}");
     write(&out.join("published.txt"), &text)
 }
 
-fn robustness(mut rest: Vec<String>) -> Result<(), String> {
-    replaceable(&mut rest, "target/robustness");
-    default(&mut rest, "--robot", "data/robots/cogiro.json");
+fn robustness(rest: &[String]) -> Outcome {
     eprintln!("building the example (a few minutes the first time), then looking for poses");
-    let rest: Vec<&str> = rest.iter().map(String::as_str).collect();
-    cargo(&[&["run", "--example", "robustness", "--"][..], &rest].concat())
+    let mut run = cargo_command(&["run", "--example", "robustness", "--"]);
+    if !rest.iter().any(|argument| argument == "--out") {
+        run.arg("--out").arg(root().join("target/robustness")).arg("--overwrite");
+    }
+    done(run.args(rest))
 }
 
-fn throughput(rest: &[String]) -> Result<(), String> {
+fn throughput(all: bool, rest: Vec<String>) -> Outcome {
     let data = |file: &str| root().join("data").join(file).display().to_string();
-    let rest: Vec<&str> = rest.iter().map(String::as_str).collect();
-    let (list, study) = (data("benchmarks/throughput.json"), data("studies/caroca.json"));
-    // With the profile of what is installed.
-    let example = ["run", "--release", "--quiet", "--package", "cdpr-study", "--example", "throughput", "--"];
-    match &rest[..] {
-        ["--all", name @ ..] => cargo(&[&example[..], &[&list], name].concat()),
-        numbers => cargo(&[&example[..], &[&study, "mechanical"], numbers].concat()),
-    }
+    let mut arguments = match all {
+        true => vec![data("benchmarks/throughput.json")],
+        false => vec![data("studies/caroca.json"), "mechanical".to_owned()],
+    };
+    arguments.extend(rest);
+    done(&mut release_example("cdpr-study", "throughput", &arguments))
 }
 
-fn statistics(rest: &[String]) -> Result<(), String> {
-    let rest: Vec<&str> = rest.iter().map(String::as_str).collect();
-    let example = ["run", "--release", "--quiet", "-p", "cdpr-sensitivity", "--example", "statistics", "--"];
-    cargo(&[&example[..], &rest].concat())
-}
-
-/// Adds `option` with a path in the repository, unless the user gives one.
-///
-/// A path of the user is relative to the current folder.
-fn default(arguments: &mut Vec<String>, option: &str, path: &str) {
-    let given = format!("{option}=");
-    if !arguments.iter().any(|argument| argument == option || argument.starts_with(&given)) {
-        arguments.extend([option.to_owned(), root().join(path).display().to_string()]);
-    }
-}
-
-/// Adds a folder of our own for the results if none is given. Those of another state of the code are replaced
-/// there, unless they are to be continued; what is in a folder of the user's is left to the program.
-fn replaceable(arguments: &mut Vec<String>, path: &str) {
-    let given = arguments.len();
-    default(arguments, "--out", path);
-    let asked = |argument: &String| ["--resume", "--overwrite"].contains(&argument.as_str());
-    if arguments.len() > given && !arguments.iter().any(asked) {
-        arguments.push("--overwrite".to_owned());
-    }
-}
-
-/// Turns the path of `option` into that of a folder within it.
-fn within(arguments: &mut [String], option: &str, folder: &str) {
-    let given = format!("{option}=");
-    let mut is_path = false;
-    for argument in arguments {
-        if is_path || argument.starts_with(&given) {
-            *argument = Path::new(argument).join(folder).display().to_string();
-        }
-        is_path = argument == option;
-    }
-}
-
-/// Returns the value of `option`, empty if it is missing, and the other arguments.
-fn without<'a>(arguments: &'a [String], option: &str) -> (&'a str, Vec<&'a str>) {
-    let given = format!("{option}=");
-    let (mut value, mut rest, mut is_value) = ("", Vec::new(), false);
-    for argument in arguments {
-        match argument.strip_prefix(&given) {
-            _ if is_value => value = argument,
-            Some(joined) => value = joined,
-            None if argument == option => {}
-            None => rest.push(argument.as_str()),
-        }
-        is_value = !is_value && argument == option;
-    }
-    (value, rest)
-}
-
-fn schemas() -> Result<(), String> {
+fn schemas() -> Outcome {
     let examples = ["robot_schema", "study_schema", "events_schema", "design_schema"];
-    examples.iter().try_for_each(|example| cargo(&["run", "--quiet", "--example", example]))
+    examples
+        .iter()
+        .try_for_each(|example| done(&mut cargo_command(&["run", "--quiet", "--example", example])))
 }

@@ -6,14 +6,10 @@
 //! It takes the target `wasm32-unknown-unknown` of the compiler, npm, and wasm-bindgen in the version of
 //! Cargo.lock, which is installed below `target`. The module uses the vector unit of WebAssembly.
 
-use crate::cargo::{cargo_command, done, root};
-use sha2::{Digest, Sha256};
-use std::error::Error;
+use crate::cargo::{self, Outcome, cargo_command, done, files, printed, read, root, write};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-
-type Outcome<T = ()> = Result<T, Box<dyn Error>>;
 
 const TARGET: &str = "wasm32-unknown-unknown";
 
@@ -35,12 +31,8 @@ const SOURCES: [&str; 11] = [
 /// Folders of the page that tools make.
 const MADE: [&str; 2] = ["node_modules", "pkg"];
 
-pub(crate) fn run(rest: &[String]) -> Outcome {
-    match rest {
-        [] => make(),
-        [check] if check == "--check" => check_sources(),
-        _ => Err("`cargo xtask web` is followed by nothing or by --check".into()),
-    }
+pub(crate) fn run(check: bool) -> Outcome {
+    if check { check_sources() } else { make() }
 }
 
 fn make() -> Outcome {
@@ -65,7 +57,7 @@ fn make() -> Outcome {
     let script = dist.join("explorer.js");
     pack(&page, &script, &dist.join("explorer.js.gz"))?;
     fs::remove_file(script)?;
-    fs::write(dist.join("SOURCES"), format!("{sources}\n"))?;
+    write(&dist.join("SOURCES"), &format!("{sources}\n"))?;
     for file in fs::read_dir(&dist)? {
         let file = file?;
         eprintln!("{:>9} bytes  {}", file.metadata()?.len(), file.file_name().display());
@@ -81,8 +73,7 @@ fn pack(page: &Path, file: &Path, packed: &Path) -> Outcome {
 /// Says where the products are not those of the sources: a warning, because the models may agree
 /// nevertheless.
 fn check_sources() -> Outcome {
-    let (known, now) = (fs::read_to_string(web().join("dist/SOURCES"))?, checksum()?);
-    if known.trim() != now {
+    if read(&web().join("dist/SOURCES"))?.trim() != checksum()? {
         eprintln!("warning: crates/cdpr-web/dist was made of other sources: run `cargo xtask web`");
     }
     Ok(())
@@ -94,8 +85,7 @@ fn web() -> PathBuf {
 
 /// Finds the standard library of the target, or has rustup install it.
 fn has_target() -> Outcome {
-    let found = Command::new("rustc").args(["--print", "target-libdir", "--target", TARGET]).output()?;
-    if Path::new(String::from_utf8(found.stdout)?.trim()).is_dir() {
+    if Path::new(&printed("rustc", &["--print", "target-libdir", "--target", TARGET])?).is_dir() {
         return Ok(());
     }
     eprintln!("installing the target {TARGET}");
@@ -106,13 +96,12 @@ fn has_target() -> Outcome {
 
 /// wasm-bindgen in the version of Cargo.lock, below `target`.
 fn wasm_bindgen() -> Outcome<PathBuf> {
-    let lock = fs::read_to_string(root().join("Cargo.lock"))?;
+    let lock = read(&root().join("Cargo.lock"))?;
     let entry = lock.split("name = \"wasm-bindgen\"\nversion = \"").nth(1);
     let version = entry.and_then(|rest| rest.split('"').next()).ok_or("Cargo.lock has no wasm-bindgen")?;
     let tools = root().join("target/web/tools");
     let program = tools.join("bin").join(format!("wasm-bindgen{}", std::env::consts::EXE_SUFFIX));
-    let known = Command::new(&program).arg("--version").output();
-    if !known.is_ok_and(|known| String::from_utf8_lossy(&known.stdout).trim().ends_with(version)) {
+    if !printed(&program, &["--version"]).is_ok_and(|known| known.ends_with(version)) {
         // Without this workspace's manifest, to which the package does not belong.
         let mut install = Command::new(std::env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned()));
         install.args(["install", "wasm-bindgen-cli", "--version", version, "--force", "--root"]);
@@ -123,31 +112,17 @@ fn wasm_bindgen() -> Outcome<PathBuf> {
 
 /// The checksum of all sources, with their names.
 fn checksum() -> Outcome<String> {
-    let mut files = Vec::new();
+    let mut all = Vec::new();
     for source in SOURCES {
-        collect(&root().join(source), &mut files)?;
+        all.extend(files(&root().join(source), &MADE)?);
     }
-    files.sort();
-    let mut hasher = Sha256::new();
-    for file in files {
+    all.sort();
+    let mut bytes = Vec::new();
+    for file in all {
         let name = file.strip_prefix(root())?.to_string_lossy().replace('\\', "/");
         let content = fs::read(&file)?;
-        hasher.update(format!("{name}\n{}\n", content.len()));
-        hasher.update(content);
+        bytes.extend(format!("{name}\n{}\n", content.len()).into_bytes());
+        bytes.extend(content);
     }
-    Ok(hasher.finalize().iter().map(|byte| format!("{byte:02x}")).collect())
-}
-
-fn collect(path: &Path, files: &mut Vec<PathBuf>) -> Outcome {
-    if !path.is_dir() {
-        files.push(path.to_owned());
-        return Ok(());
-    }
-    for entry in fs::read_dir(path)? {
-        let entry = entry?;
-        if !MADE.iter().any(|made| entry.file_name() == *made) {
-            collect(&entry.path(), files)?;
-        }
-    }
-    Ok(())
+    Ok(cargo::checksum(&bytes))
 }

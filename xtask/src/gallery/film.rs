@@ -1,6 +1,6 @@
 //! The film of the README: CoGiRo after one of its cables has parted.
 
-use crate::cargo::{number, output, read, read_json, root, write};
+use crate::cargo::{Outcome, cdpr_command, number, read, read_json, root, text_of, write};
 use serde_json::Value;
 
 /// Where the platform rests at first, and what happens.
@@ -17,16 +17,14 @@ const LONGEST_EDGE: f64 = 1.2;
 type Point = [f64; 3];
 
 /// Writes `docs/images/cable-parts.svg`.
-pub(super) fn run() -> Result<(), String> {
-    let folder = root().join("target/gallery");
-    let series = folder.join("cable-parts.csv").display().to_string();
-    let events = root().join(EVENTS).display().to_string();
+pub(super) fn run() -> Outcome {
+    let series = root().join("target/gallery/cable-parts.csv");
     let (seconds, rate) = (SECONDS.to_string(), RATE.to_string());
-    let motion = ["simulate", "cogiro", "--pose", POSE, "--events", &events, "--until", &seconds];
-    let sampled = ["--rate", &rate, "--damping", "2e-3", "--out", &series, "--overwrite"];
-    output(&[&motion[..], &sampled].concat(), &[0, 3])?;
+    let motion = ["simulate", "cogiro", "--pose", POSE, "--until", &seconds, "--rate", &rate];
+    let mut command = cdpr_command(&[&motion[..], &["--damping", "2e-3", "--overwrite", "--out"]].concat());
+    text_of(command.arg(&series).arg("--events").arg(root().join(EVENTS)), &[0, 3])?;
     let robot = read_json(&root().join("data/robots/cogiro.json"))?;
-    let frames: Vec<[f64; 6]> = read(series.as_ref())?.lines().skip(1).filter_map(frame).collect();
+    let frames: Vec<[f64; 6]> = read(&series)?.lines().skip(1).filter_map(frame).collect();
     write(&root().join("docs/images/cable-parts.svg"), &film(&robot, &frames)?)
 }
 
@@ -36,7 +34,7 @@ fn frame(line: &str) -> Option<[f64; 6]> {
     numbers.try_into().ok()
 }
 
-fn film(robot: &Value, frames: &[[f64; 6]]) -> Result<String, String> {
+fn film(robot: &Value, frames: &[[f64; 6]]) -> Outcome<String> {
     let point = |value: &Value| [0, 1, 2].map(|axis| number(&value[axis]));
     let cables = robot["cables"].as_array().ok_or("no cables")?;
     let exits: Vec<Point> = cables.iter().map(|cable| point(&cable["exit_point"])).collect();
