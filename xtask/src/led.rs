@@ -7,7 +7,7 @@
 
 use crate::cable::deflections;
 use crate::cargo::{Outcome, number, read_json, root, study as run_study, write};
-use serde_json::{Value, json};
+use serde_json::json;
 use std::fmt::Write as _;
 use std::path::Path;
 

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::fs;
 
 use cdpr_sensitivity::{
-    Input, MorrisDesign, SensitivityError, ShapleyDesign, morris_effects, observe, shapley_effects,
+    Estimate, Input, MorrisDesign, SensitivityError, ShapleyDesign, morris_effects, observe, shapley_effects,
 };
 use serde::{Deserialize, Serialize};
 
@@ -20,11 +20,17 @@ const BLOCKS: usize = 1 << 18;
 /// absolute one would call every interval of a smaller index true.
 pub(crate) const NEAR: f64 = 1e-3;
 
+/// Whether an interval holds a value that counts as true.
+pub(crate) fn holds(interval: &Estimate, exact: f64) -> bool {
+    let near = NEAR * exact.abs();
+    interval.low - near <= exact && exact <= interval.high + near
+}
+
 const FOLDER: &str = "target/statistics";
 const FILE: &str = "target/statistics/exact.json";
 
 /// Values of one function that count as true.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Exact {
     inputs: Vec<Input>,
     /// A point, and the output there: other values are of another function.
@@ -47,9 +53,8 @@ impl Exact {
         let (point, output) = check(function);
         let same =
             |exact: &Self| (&exact.inputs, &exact.point, exact.output) == (&function.inputs, &point, output);
-        if let Some(exact) =
-            known().remove(function.name).filter(same).filter(|exact| agrees(function, exact))
-        {
+        let known = known().remove(function.name).filter(same);
+        if let Some(exact) = known.filter(|exact| agrees(function, exact)) {
             return Ok(exact);
         }
         let mut exact = match additive(function) {
@@ -146,16 +151,8 @@ fn additive(function: &Function) -> Option<Exact> {
     let morris: Vec<f64> = (1..=function.inputs.len()).map(|i| 1.0 / i as f64).collect();
     let whole: f64 = morris.iter().map(|slope| slope * slope).sum();
     let shares: Vec<f64> = morris.iter().map(|slope| slope * slope / whole).collect();
-    Some(Exact {
-        inputs: vec![],
-        point: vec![],
-        output: None,
-        first: shares.clone(),
-        total: shares.clone(),
-        shapley: shares,
-        morris,
-        tables: OfTables::default(),
-    })
+    let [first, total] = [(); 2].map(|()| shares.clone());
+    Some(Exact { first, total, shapley: shares, morris, ..Exact::default() })
 }
 
 fn sampled(function: &Function) -> Result<Exact, SensitivityError> {
@@ -165,13 +162,10 @@ fn sampled(function: &Function) -> Result<Exact, SensitivityError> {
     let design = MorrisDesign::trajectories(function.inputs.clone(), BLOCKS / 4, 4, u64::MAX)?;
     let morris = morris_effects(&design, &observe(&design, function.model)?, 0.95)?;
     Ok(Exact {
-        inputs: vec![],
-        point: vec![],
-        output: None,
         first: found.inputs.iter().map(|of| of.first.value).collect(),
         total: found.inputs.iter().map(|of| of.total.value).collect(),
         morris: morris.iter().map(|of| of.mean_absolute.value).collect(),
         shapley: shapley.iter().map(|of| of.effect.value).collect(),
-        tables: OfTables::default(),
+        ..Exact::default()
     })
 }

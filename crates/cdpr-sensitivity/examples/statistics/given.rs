@@ -2,14 +2,12 @@
 //! of noise are passed without an effect.
 
 use cdpr_sensitivity::{
-    Bootstrap, GivenData, Order, RandomDesign, Rows, SaltelliDesign, SensitivityError, delta, dependence,
-    dependence_of_event, observe, pawn, rank_indices, sobol_indices,
+    Estimate, GivenData, Rows, SensitivityError, delta, dependence, dependence_of_event, pawn, rank_indices,
 };
 
+use crate::exact::sobol_values;
 use crate::functions::{Function, all};
-
-/// Blocks behind the values that count as true.
-const TRUE_BLOCKS: usize = 1 << 18;
+use crate::measures::random;
 
 /// Prints, for each function, coverage and errors on independent rows.
 pub(crate) fn table(studies: u64) -> Result<(), SensitivityError> {
@@ -20,7 +18,7 @@ pub(crate) fn table(studies: u64) -> Result<(), SensitivityError> {
     println!("mean error; mean half width over the root mean square error");
     println!("{:22}{:>7}{:>20}{:>10}{:>10}{:>7}", "function", "rows", "held", "error", "bias", "width");
     for function in all() {
-        let exact = exact(&function)?;
+        let exact = sobol_values(&function)?.0;
         for rows in [50, 200, 1000] {
             ranks(&function, &exact, rows, studies)?;
         }
@@ -46,24 +44,12 @@ pub(crate) fn table_of_levels(studies: u64) -> Result<(), SensitivityError> {
     Ok(())
 }
 
-fn exact(function: &Function) -> Result<Vec<f64>, SensitivityError> {
-    let design = SaltelliDesign::scrambled(function.inputs.clone(), TRUE_BLOCKS, Order::First, u64::MAX)?;
-    let outputs = observe(&design, function.model)?;
-    let found = sobol_indices(&design, &outputs, Bootstrap { resamples: 2, seed: 1 }, 0.95)?;
-    Ok(found.inputs.iter().map(|input| input.first.value).collect())
-}
-
-fn data(function: &Function, rows: usize, seed: u64) -> Result<GivenData, SensitivityError> {
-    let design = RandomDesign::new(function.inputs.clone(), rows, seed)?;
-    GivenData::of_design(&design, &observe(&design, function.model)?)
-}
-
 fn ranks(function: &Function, exact: &[f64], rows: usize, studies: u64) -> Result<(), SensitivityError> {
-    let of_study = |seed| rank_indices(&data(function, rows, seed)?, 0.95, seed);
+    let of_study = |seed| rank_indices(&random(function, rows, seed)?, 0.95, seed);
     let found = (0..studies).map(of_study).collect::<Result<Vec<_>, _>>()?;
     let [mut mean, mut least, mut error, mut bias, mut width] = [0.0, 100.0_f64, 0.0, 0.0, 0.0];
     for (i, exact) in exact.iter().enumerate() {
-        let average = |f: &dyn Fn(&cdpr_sensitivity::Estimate) -> f64| {
+        let average = |f: &dyn Fn(&Estimate) -> f64| {
             found.iter().map(|found| f(&found[i])).sum::<f64>() / studies as f64
         };
         let held = 100.0 * average(&|e| f64::from(e.low <= *exact && *exact <= e.high));
@@ -87,9 +73,9 @@ fn levels(function: &Function, rows: usize, studies: u64) -> Result<(), Sensitiv
     let of_delta = ["Ishigami", "step"].contains(&function.name);
     let [mut five, mut one, mut event_five, mut event_one, mut noisy, mut noisy_delta] = [0.0; 6];
     for seed in 0..studies {
-        let table = data(function, rows, seed)?;
+        let table = random(function, rows, seed)?;
         // Outputs of other rows.
-        let other = data(function, rows, seed + (1 << 40))?;
+        let other = random(function, rows, seed + (1 << 40))?;
         let dealt =
             GivenData::new(vec!["x".to_owned()], vec![table.columns()[0].clone()], other.outputs().to_vec())?;
         let share = 100.0 / studies as f64;

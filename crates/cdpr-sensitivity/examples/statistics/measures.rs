@@ -13,23 +13,34 @@ use cdpr_sensitivity::{
 use serde_json::{Value, json};
 
 use crate::brackets::{is_smooth, slopes};
-use crate::exact::{Exact, NEAR};
+use crate::exact::{Exact, holds};
 use crate::functions::{Function, twelve};
 
 const FILE: &str = "target/statistics/measures.json";
 
-/// What a measure says of each input in one study: an estimate, or an interval around a true value.
+/// What a measure says of each input in one study: an interval around a true value, or an estimate alone.
 type Found = Vec<Estimate>;
 
 /// Measures that one study of a seed estimates together.
 struct Study<'a> {
     runs: usize,
-    /// Names and true values.
-    measures: Vec<(&'static str, &'a [f64])>,
-    has_interval: bool,
     /// One study of many inputs takes long: a tenth of them have to do.
     is_dear: bool,
+    /// Names and true values.
+    measures: Vec<(&'static str, &'a [f64])>,
     of_seed: Box<dyn Fn(u64) -> Result<Vec<Found>, SensitivityError> + 'a>,
+}
+
+impl<'a> Study<'a> {
+    fn new<const N: usize>(
+        runs: usize,
+        is_dear: bool,
+        measures: [(&'static str, &'a Vec<f64>); N],
+        of_seed: impl Fn(u64) -> Result<Vec<Found>, SensitivityError> + 'a,
+    ) -> Self {
+        let measures = measures.map(|(name, exact)| (name, exact.as_slice())).into();
+        Self { runs, is_dear, measures, of_seed: Box::new(of_seed) }
+    }
 }
 
 /// Prints a row for each function and measure whose names contain a part, or `FUNCTION/MEASURE`.
@@ -72,10 +83,10 @@ pub(crate) fn table(studies: u64, part: &str) -> Result<(), SensitivityError> {
 
 /// The studies of a function.
 fn plan<'a>(function: &'a Function, exact: &'a Exact) -> Vec<Study<'a>> {
-    [of_blocks(function, exact), of_fits(function, exact), of_tables(function, exact)]
-        .into_iter()
-        .flatten()
-        .collect()
+    let mut all = of_blocks(function, exact);
+    all.extend(of_fits(function, exact));
+    all.extend(of_tables(function, exact));
+    all
 }
 
 /// Measures with designs of their own.
@@ -83,54 +94,34 @@ fn of_blocks<'a>(function: &'a Function, exact: &'a Exact) -> Vec<Study<'a>> {
     let inputs = || function.inputs.clone();
     let k = function.inputs.len();
     let mut all = Vec::new();
-    for (blocks, names) in [(64, ["Sobol' S, 64", "Sobol' T, 64"]), (256, ["Sobol' S, 256", "Sobol' T, 256"])]
+    for (blocks, [first, total]) in
+        [(64, ["Sobol' S, 64", "Sobol' T, 64"]), (256, ["Sobol' S, 256", "Sobol' T, 256"])]
     {
-        all.push(Study {
-            runs: blocks * (k + 2),
-            measures: vec![(names[0], &exact.first), (names[1], &exact.total)],
-            has_interval: true,
-            is_dear: k > 20,
-            of_seed: Box::new(move |seed| {
-                let found = indices(function, blocks, seed)?.inputs;
-                Ok(vec![found.iter().map(|of| of.first).collect(), found.iter().map(|of| of.total).collect()])
-            }),
-        });
+        let measures = [(first, &exact.first), (total, &exact.total)];
+        all.push(Study::new(blocks * (k + 2), k > 20, measures, move |seed| {
+            let found = indices(function, blocks, seed)?.inputs;
+            Ok(vec![found.iter().map(|of| of.first).collect(), found.iter().map(|of| of.total).collect()])
+        }));
     }
-    all.push(Study {
-        runs: 256 * (k + 1),
-        measures: vec![("Shapley", &exact.shapley)],
-        has_interval: true,
-        is_dear: false,
-        of_seed: Box::new(move |seed| {
-            let design = ShapleyDesign::new(inputs(), 256, seed)?;
-            let found = shapley_effects(&design, &observe(&design, function.model)?, 0.95)?;
-            Ok(vec![found.into_iter().map(|of| of.effect).collect()])
-        }),
-    });
-    all.push(Study {
-        runs: 64 * (k + 1),
-        measures: vec![("Morris mu*", &exact.morris)],
-        has_interval: true,
-        is_dear: k > 20,
-        of_seed: Box::new(move |seed| Ok(vec![trajectories(function, 64, seed)?])),
-    });
+    all.push(Study::new(256 * (k + 1), false, [("Shapley", &exact.shapley)], move |seed| {
+        let design = ShapleyDesign::new(inputs(), 256, seed)?;
+        let found = shapley_effects(&design, &observe(&design, function.model)?, 0.95)?;
+        Ok(vec![found.into_iter().map(|of| of.effect).collect()])
+    }));
+    all.push(Study::new(64 * (k + 1), k > 20, [("Morris mu*", &exact.morris)], move |seed| {
+        Ok(vec![trajectories(function, 64, seed)?])
+    }));
     if is_smooth(function) {
-        all.push(Study {
-            runs: 256,
-            measures: vec![("bounds of T", &exact.total)],
-            has_interval: true,
-            is_dear: k > 10,
-            of_seed: Box::new(move |seed| {
-                let design = SobolDesign::scrambled(inputs(), 256, seed)?;
-                let found = brackets(&design, &slopes(&design, function)?, 0.95, seed)?;
-                let between = |of: &Bracket| Estimate {
-                    value: 0.5 * (of.total_lower.value + of.total_upper.value),
-                    low: of.total_lower.low,
-                    high: of.total_upper.high,
-                };
-                Ok(vec![found.iter().map(between).collect()])
-            }),
-        });
+        all.push(Study::new(256, k > 10, [("bounds of T", &exact.total)], move |seed| {
+            let design = SobolDesign::scrambled(inputs(), 256, seed)?;
+            let found = brackets(&design, &slopes(&design, function)?, 0.95, seed)?;
+            let between = |of: &Bracket| Estimate {
+                value: 0.5 * (of.total_lower.value + of.total_upper.value),
+                low: of.total_lower.low,
+                high: of.total_upper.high,
+            };
+            Ok(vec![found.iter().map(between).collect()])
+        }));
     }
     all
 }
@@ -141,79 +132,48 @@ fn of_fits<'a>(function: &'a Function, exact: &'a Exact) -> Vec<Study<'a>> {
     let k = function.inputs.len();
     let mut all = Vec::new();
     if k <= 20 {
-        all.push(Study {
-            runs: 256,
-            measures: vec![("expansion S", &exact.first), ("expansion T", &exact.total)],
-            has_interval: false,
-            is_dear: k > 10,
-            of_seed: Box::new(move |seed| {
-                let design = LatinHypercube::new(inputs(), 256, seed)?;
-                let outputs = observe(&design, function.model)?;
-                let truncation = Truncation { max_degree: 4, norm: 0.75, interactions: 2 };
-                let found = expansion(&design, &outputs, truncation)?.indices();
-                Ok(vec![
-                    found.iter().map(|of| point(of.closed)).collect(),
-                    found.iter().map(|of| point(of.total)).collect(),
-                ])
-            }),
-        });
-    }
-    all.push(Study {
-        runs: 256,
-        measures: vec![("SRC2", &exact.first)],
-        has_interval: false,
-        is_dear: k > 20,
-        of_seed: Box::new(move |seed| {
+        let measures = [("expansion S", &exact.first), ("expansion T", &exact.total)];
+        all.push(Study::new(256, k > 10, measures, move |seed| {
             let design = LatinHypercube::new(inputs(), 256, seed)?;
-            let found = regression(&design, &observe(&design, function.model)?)?;
-            Ok(vec![found.inputs.iter().map(|of| point(of.share)).collect()])
-        }),
-    });
+            let outputs = observe(&design, function.model)?;
+            let truncation = Truncation { max_degree: 4, norm: 0.75, interactions: 2 };
+            let found = expansion(&design, &outputs, truncation)?.indices();
+            let closed = found.iter().map(|of| point(of.closed)).collect();
+            Ok(vec![closed, found.iter().map(|of| point(of.total)).collect()])
+        }));
+    }
+    all.push(Study::new(256, k > 20, [("SRC2", &exact.first)], move |seed| {
+        let design = LatinHypercube::new(inputs(), 256, seed)?;
+        let found = regression(&design, &observe(&design, function.model)?)?;
+        Ok(vec![found.inputs.iter().map(|of| point(of.share)).collect()])
+    }));
     all
 }
 
 /// Measures of a table of independent rows.
 fn of_tables<'a>(function: &'a Function, exact: &'a Exact) -> Vec<Study<'a>> {
-    let mut all = Vec::new();
-    all.push(Study {
-        runs: 256,
-        measures: vec![("S by ranks", &exact.first)],
-        has_interval: true,
-        is_dear: false,
-        of_seed: Box::new(move |seed| Ok(vec![rank_indices(&random(function, 256, seed)?, 0.95, seed)?])),
-    });
+    let mut all = vec![Study::new(256, false, [("S by ranks", &exact.first)], move |seed| {
+        Ok(vec![rank_indices(&random(function, 256, seed)?, 0.95, seed)?])
+    })];
     for (rows, name) in [(256, "delta, 256"), (1024, "delta, 1024"), (4096, "delta, 4096")] {
-        all.push(Study {
-            runs: rows,
-            measures: vec![(name, &exact.tables.delta)],
-            has_interval: true,
-            is_dear: true,
-            of_seed: Box::new(move |seed| {
-                let found = delta(&random(function, rows, seed)?, 0.95, seed)?;
-                let above = |of: &Delta| Estimate { value: of.delta, low: of.at_least, high: 1.0 };
-                Ok(vec![found.iter().map(above).collect()])
-            }),
-        });
+        all.push(Study::new(rows, true, [(name, &exact.tables.delta)], move |seed| {
+            let found = delta(&random(function, rows, seed)?, 0.95, seed)?;
+            let above = |of: &Delta| Estimate { value: of.delta, low: of.at_least, high: 1.0 };
+            Ok(vec![found.iter().map(above).collect()])
+        }));
     }
-    all.push(Study {
-        runs: 256,
-        measures: vec![("PAWN", &exact.tables.pawn), ("HSIC R2", &exact.tables.r_squared)],
-        has_interval: false,
-        is_dear: function.inputs.len() > 10,
-        of_seed: Box::new(move |seed| {
-            let data = random(function, 256, seed)?;
-            let dependent = dependence(&data, Rows { most: 256, seed })?;
-            Ok(vec![
-                pawn(&data, seed)?.iter().map(|of| point(of.median)).collect(),
-                dependent.iter().map(|of| point(of.r_squared)).collect(),
-            ])
-        }),
-    });
+    let measures = [("PAWN", &exact.tables.pawn), ("HSIC R2", &exact.tables.r_squared)];
+    all.push(Study::new(256, function.inputs.len() > 10, measures, move |seed| {
+        let data = random(function, 256, seed)?;
+        let dependent = dependence(&data, Rows { most: 256, seed })?;
+        let medians = pawn(&data, seed)?.iter().map(|of| point(of.median)).collect();
+        Ok(vec![medians, dependent.iter().map(|of| point(of.r_squared)).collect()])
+    }));
     all
 }
 
 /// A table of independent rows.
-fn random(function: &Function, rows: usize, seed: u64) -> Result<GivenData, SensitivityError> {
+pub(crate) fn random(function: &Function, rows: usize, seed: u64) -> Result<GivenData, SensitivityError> {
     let design = RandomDesign::new(function.inputs.clone(), rows, seed)?;
     GivenData::of_design(&design, &observe(&design, function.model)?)
 }
@@ -227,13 +187,13 @@ fn carry_out(function: &Function, study: &Study, studies: u64) -> Result<Vec<Val
     let k = function.inputs.len();
     let clock = Clock::start();
     let mut sums = vec![vec![[0.0; 2]; k]; study.measures.len()];
+    let mut has_interval = false;
     for seed in 0..studies {
         for ((found, (_, exact)), sums) in (study.of_seed)(seed)?.iter().zip(&study.measures).zip(&mut sums) {
             for ((found, exact), [squares, held]) in found.iter().zip(*exact).zip(sums) {
                 *squares += (found.value - exact).powi(2) / studies as f64;
-                let near = NEAR * exact.abs();
-                let holds = found.low - near <= *exact && *exact <= found.high + near;
-                *held += if holds { 100.0 / studies as f64 } else { 0.0 };
+                *held += if holds(found, *exact) { 100.0 / studies as f64 } else { 0.0 };
+                has_interval |= found.low < found.high;
             }
         }
     }
@@ -243,13 +203,13 @@ fn carry_out(function: &Function, study: &Study, studies: u64) -> Result<Vec<Val
         let mean = sums.iter().map(|[_, held]| held).sum::<f64>() / k as f64;
         let least = sums.iter().map(|[_, held]| *held).fold(100.0, f64::min);
         let mark = if least < 93.0 { "*" } else { "" };
-        let held = if study.has_interval { format!("{mean:.1} / {least:.1}{mark}") } else { "-".to_owned() };
+        let held = if has_interval { format!("{mean:.1} / {least:.1}{mark}") } else { "-".to_owned() };
         let Study { runs, .. } = study;
         println!(
             "| {} | {name} | {runs} | {studies} | {error:.5} | {held} | {milliseconds:.2} |",
             function.name
         );
-        let held = study.has_interval.then_some([mean, least]);
+        let held = has_interval.then_some([mean, least]);
         json!({"program": "cdpr", "function": function.name, "measure": name, "runs": runs,
             "studies": studies, "error": error, "held": held, "ms": milliseconds})
     };

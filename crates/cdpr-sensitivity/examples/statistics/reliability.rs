@@ -2,7 +2,7 @@
 
 use cdpr_sensitivity::{MorrisDesign, SensitivityError, morris_effects, observe};
 
-use crate::exact::{Exact, NEAR};
+use crate::exact::{Exact, holds};
 use crate::functions::{Function, twelve};
 
 /// Studies and intervals that hold, of one input.
@@ -45,12 +45,9 @@ fn rows(function: &Function, exact: &[f64], blocks: usize, studies: u64) -> Resu
         let design = MorrisDesign::trajectories(function.inputs.clone(), blocks, 4, seed)?;
         let found = morris_effects(&design, &observe(&design, function.model)?, 0.95)?;
         for ((found, exact), tallies) in found.iter().zip(exact).zip(&mut tallies) {
-            let near = NEAR * exact.abs();
-            let interval = found.mean_absolute;
-            let holds = interval.low - near <= *exact && *exact <= interval.high + near;
             let tally = &mut tallies[usize::from(!found.reliable)];
             tally.studies += 1.0;
-            tally.held += f64::from(u8::from(holds));
+            tally.held += f64::from(u8::from(holds(&found.mean_absolute, *exact)));
         }
     }
     let whole = |[one, other]: [Tally; 2]| Tally {
