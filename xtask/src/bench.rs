@@ -5,14 +5,13 @@
 //! counts the instructions of that call. Valgrind does not support AVX-512, so that lanes are counted on AVX2.
 
 use crate::cargo::{
-    Outcome, cargo_command, done, emptied, machine, printed, read, read_json, root, target, text, text_of,
-    write,
+    Outcome, cargo_command, done, emptied, files, machine, printed, read, read_json, root, target, text,
+    text_of, write,
 };
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::collections::HashMap;
 use std::ffi::OsStr;
-use std::fs;
 use std::path::Path;
 use std::process::Command;
 use std::time::SystemTime;
@@ -59,10 +58,10 @@ fn measure(arguments: &[String]) -> Outcome<Run> {
     let (begin, folder) = (SystemTime::now(), root().join("target/criterion"));
     let mut command = cargo_command(&["bench", "--workspace", "--bench", "*", "--"]);
     done(command.args(arguments).env("CRITERION_HOME", &folder))?;
-    let mut found = Vec::new();
-    medians(&folder, begin, &mut found).map_err(|error| format!("no benchmark has such a name: {error}"))?;
-    found.sort_by_key(|(written, _)| *written);
-    let mut benchmarks: Vec<Benchmark> = found.into_iter().map(|(_, benchmark)| benchmark).collect();
+    let mut benchmarks = medians(&folder, begin)?;
+    if benchmarks.is_empty() {
+        return Err("no benchmark has such a name".into());
+    }
     let mut machine = machine();
     if let Some(valgrind) = valgrind() {
         let counts = counts(arguments)?;
@@ -74,28 +73,23 @@ fn measure(arguments: &[String]) -> Outcome<Run> {
     Ok(Run { machine, benchmarks })
 }
 
-/// Adds what criterion has written below `folder` since `begin`, each with its time of writing.
-fn medians(folder: &Path, begin: SystemTime, found: &mut Vec<(SystemTime, Benchmark)>) -> Outcome {
-    for entry in fs::read_dir(folder)? {
-        let path = entry?.path();
-        if path.is_dir() && !path.ends_with("new") {
-            medians(&path, begin, found)?;
-        }
-        let estimates = path.join("estimates.json");
-        let Ok(written) = estimates.metadata().and_then(|data| data.modified()) else { continue };
-        if path.ends_with("new") && written >= begin {
-            let of = read_json(&path.join("benchmark.json"))?;
-            let median_ns = read_json(&estimates)?["median"]["point_estimate"].as_f64();
-            let benchmark = Benchmark {
-                name: text(&of["full_id"]).to_owned(),
-                elements: of["throughput"]["Elements"].as_u64().unwrap_or(1),
-                median_ns: median_ns.ok_or_else(|| format!("{}: no median", estimates.display()))?,
-                instructions: None,
-            };
-            found.push((written, benchmark));
-        }
+/// What criterion has written below `folder` since `begin`, in this order.
+fn medians(folder: &Path, begin: SystemTime) -> Outcome<Vec<Benchmark>> {
+    let mut found = Vec::new();
+    for file in files(folder, &[])?.iter().filter(|file| file.ends_with("new/estimates.json")) {
+        let of = read_json(&file.with_file_name("benchmark.json"))?;
+        let median_ns = read_json(file)?["median"]["point_estimate"].as_f64();
+        let benchmark = Benchmark {
+            name: text(&of["full_id"]).to_owned(),
+            elements: of["throughput"]["Elements"].as_u64().unwrap_or(1),
+            median_ns: median_ns.ok_or_else(|| format!("{}: no median", file.display()))?,
+            instructions: None,
+        };
+        found.push((file.metadata()?.modified()?, benchmark));
     }
-    Ok(())
+    found.retain(|(written, _)| *written >= begin);
+    found.sort_by_key(|(written, _)| *written);
+    Ok(found.into_iter().map(|(_, benchmark)| benchmark).collect())
 }
 
 /// The version of valgrind; `None`, and a remark, where it is not installed.

@@ -108,6 +108,7 @@ enum Task {
 /// Arguments of another program.
 #[derive(Args)]
 struct Rest {
+    /// What the program takes that the task runs
     #[arg(trailing_var_arg = true, allow_hyphen_values = true, value_name = "ARGUMENTS")]
     rest: Vec<String>,
 }
@@ -126,7 +127,6 @@ struct Study {
     /// Go on with an interrupted run
     #[arg(long)]
     resume: bool,
-    /// Further options of `cdpr study run`
     #[command(flatten)]
     rest: Rest,
 }

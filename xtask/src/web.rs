@@ -13,20 +13,9 @@ use std::process::Command;
 
 const TARGET: &str = "wasm32-unknown-unknown";
 
-/// What the products are made of, in the workspace.
-const SOURCES: [&str; 11] = [
-    "crates/cdpr-number/src",
-    "crates/cdpr-cable/src",
-    "crates/cdpr-robot/src",
-    "crates/cdpr-tension/src",
-    "crates/cdpr-statics/src",
-    "crates/cdpr-sensitivity/src",
-    "crates/cdpr-study/src",
-    "crates/cdpr-web/src",
-    "crates/cdpr-web/page",
-    "crates/cdpr-web/Cargo.toml",
-    "data/robots",
-];
+/// What the products are made of, in the workspace: sources of these crates, and other files.
+const CRATES: [&str; 8] = ["number", "cable", "robot", "tension", "statics", "sensitivity", "study", "web"];
+const FILES: [&str; 3] = ["crates/cdpr-web/page", "crates/cdpr-web/Cargo.toml", "data/robots"];
 
 /// Folders of the page that tools make.
 const MADE: [&str; 2] = ["node_modules", "pkg"];
@@ -113,7 +102,9 @@ fn wasm_bindgen() -> Outcome<PathBuf> {
 /// The checksum of all sources, with their names.
 fn checksum() -> Outcome<String> {
     let mut all = Vec::new();
-    for source in SOURCES {
+    for source in
+        CRATES.map(|name| format!("crates/cdpr-{name}/src")).into_iter().chain(FILES.map(String::from))
+    {
         all.extend(files(&root().join(source), &MADE)?);
     }
     all.sort();

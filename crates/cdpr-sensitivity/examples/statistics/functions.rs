@@ -22,24 +22,17 @@ pub(crate) fn all() -> Vec<Function> {
         Function { name, inputs: laws.into_iter().enumerate().map(named).collect(), model }
     };
     let uniform = |min, max| Law::Uniform { min, max };
-    let ranges = |ranges: &[[f64; 2]]| ranges.iter().map(|&[min, max]| uniform(min, max)).collect::<Vec<_>>();
+    let ranges = |ends: &[f64]| ends.chunks(2).map(|ends| uniform(ends[0], ends[1])).collect::<Vec<_>>();
     let of_borehole = [
         vec![Law::Normal { mean: 0.1, std: 0.016_181_2 }, Law::LogNormal { log_mean: 7.71, log_std: 1.0056 }],
-        ranges(&[[63070.0, 115_600.0], [990.0, 1110.0], [63.1, 116.0]]),
-        ranges(&[[700.0, 820.0], [1120.0, 1680.0], [9855.0, 12045.0]]),
+        ranges(&[
+            63070.0, 115_600.0, 990.0, 1110.0, 63.1, 116.0, 700.0, 820.0, 1120.0, 1680.0, 9855.0, 12045.0,
+        ]),
     ];
-    let otl = [[50.0, 150.0], [25.0, 70.0], [0.5, 3.0], [1.2, 2.5], [0.25, 1.2], [50.0, 300.0]];
+    let otl = [50.0, 150.0, 25.0, 70.0, 0.5, 3.0, 1.2, 2.5, 0.25, 1.2, 50.0, 300.0];
     let wing = [
-        [150.0, 200.0],
-        [220.0, 300.0],
-        [6.0, 10.0],
-        [-10.0, 10.0],
-        [16.0, 45.0],
-        [0.5, 1.0],
-        [0.08, 0.18],
-        [2.5, 6.0],
-        [1700.0, 2500.0],
-        [0.025, 0.08],
+        150.0, 200.0, 220.0, 300.0, 6.0, 10.0, -10.0, 10.0, 16.0, 45.0, 0.5, 1.0, 0.08, 0.18, 2.5, 6.0,
+        1700.0, 2500.0, 0.025, 0.08,
     ];
     vec![
         function("Ishigami", vec![uniform(-PI, PI); 3], ishigami),
@@ -69,12 +62,9 @@ pub(crate) fn all() -> Vec<Function> {
         function("x1 x2", vec![uniform(-1.0, 1.0); 2], |x| Some(x[0] * x[1])),
         function("step", vec![uniform(0.0, 1.0); 3], |x| Some(f64::from(x[0] + 0.2 * x[1] > 0.7))),
         function("additive, 62, 5 % fail", vec![uniform(0.0, 1.0); 62], |x| {
-            let sum = x.iter().enumerate().map(|(i, x)| x / (1.0 + i as f64)).sum();
-            Some(sum).filter(|_| observed(x))
+            additive(x).filter(|_| observed(x))
         }),
-        function("additive, 100", vec![uniform(0.0, 1.0); 100], |x| {
-            Some(x.iter().enumerate().map(|(i, x)| x / (1.0 + i as f64)).sum())
-        }),
+        function("additive, 100", vec![uniform(0.0, 1.0); 100], additive),
     ]
 }
 
@@ -97,6 +87,10 @@ pub(crate) fn borehole(x: &[f64]) -> f64 {
 
 fn ishigami(x: &[f64]) -> Option<f64> {
     Some(x[0].sin() + 7.0 * x[1].sin().powi(2) + 0.1 * x[2].powi(4) * x[0].sin())
+}
+
+fn additive(x: &[f64]) -> Option<f64> {
+    Some(x.iter().enumerate().map(|(i, x)| x / (1.0 + i as f64)).sum())
 }
 
 fn failing(x: &[f64]) -> Option<f64> {

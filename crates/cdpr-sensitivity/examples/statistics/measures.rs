@@ -2,7 +2,7 @@
 //! take. Each row goes to a file as well, from which `peers/run statistics` reads it.
 
 use std::fs;
-use std::time::Instant;
+use std::time::SystemTime;
 
 use cdpr_sensitivity::{
     Bootstrap, Bracket, Delta, Estimate, GivenData, LatinHypercube, MorrisDesign, Order, RandomDesign, Rows,
@@ -185,7 +185,7 @@ fn point(value: f64) -> Estimate {
 /// Prints the rows of a study and returns them.
 fn carry_out(function: &Function, study: &Study, studies: u64) -> Result<Vec<Value>, SensitivityError> {
     let k = function.inputs.len();
-    let clock = Clock::start();
+    let start = seconds();
     let mut sums = vec![vec![[0.0; 2]; k]; study.measures.len()];
     let mut has_interval = false;
     for seed in 0..studies {
@@ -197,7 +197,7 @@ fn carry_out(function: &Function, study: &Study, studies: u64) -> Result<Vec<Val
             }
         }
     }
-    let milliseconds = 1e3 * clock.seconds() / studies as f64;
+    let milliseconds = 1e3 * (seconds() - start) / studies as f64;
     let row = |((name, _), sums): (&(&str, &[f64]), Vec<[f64; 2]>)| {
         let error = sums.iter().fold(0.0_f64, |most, [square, _]| most.max(*square)).sqrt();
         let mean = sums.iter().map(|[_, held]| held).sum::<f64>() / k as f64;
@@ -244,25 +244,14 @@ fn trajectories(function: &Function, blocks: usize, seed: u64) -> Result<Found, 
     Ok(found.iter().map(|of| of.mean_absolute).collect())
 }
 
-/// Measures the CPU time of this process where the system tells it (Linux), elsewhere that of the clock.
-struct Clock(Instant, Option<f64>);
-
-impl Clock {
-    fn start() -> Self {
-        Self(Instant::now(), cpu_seconds())
-    }
-
-    fn seconds(&self) -> f64 {
-        let of_clock = self.0.elapsed().as_secs_f64();
-        self.1.zip(cpu_seconds()).map_or(of_clock, |(start, end)| end - start)
-    }
-}
-
-/// Time of all threads on a processor, from the first of the three numbers of their `schedstat` [ns].
-fn cpu_seconds() -> Option<f64> {
+/// CPU time of this process where the system states it (Linux), elsewhere the time of the clock [s].
+///
+/// The first of the three numbers of a thread's `schedstat` is its time on a processor [ns].
+fn seconds() -> f64 {
     let of_thread = |task: std::io::Result<fs::DirEntry>| {
         let text = fs::read_to_string(task.ok()?.path().join("schedstat")).ok()?;
         Some(1e-9 * text.split(' ').next()?.parse::<f64>().ok()?)
     };
-    fs::read_dir("/proc/self/task").ok()?.map(of_thread).sum()
+    let of_process = fs::read_dir("/proc/self/task").ok().and_then(|tasks| tasks.map(of_thread).sum());
+    of_process.unwrap_or_else(|| SystemTime::UNIX_EPOCH.elapsed().map_or(f64::NAN, |time| time.as_secs_f64()))
 }

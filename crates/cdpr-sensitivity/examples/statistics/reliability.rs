@@ -5,17 +5,11 @@ use cdpr_sensitivity::{MorrisDesign, SensitivityError, morris_effects, observe};
 use crate::exact::{Exact, holds};
 use crate::functions::{Function, twelve};
 
-/// Studies and intervals that hold, of one input.
-#[derive(Clone, Copy, Default)]
-struct Tally {
-    studies: f64,
-    held: f64,
-}
+/// Studies of one input, and those whose interval holds.
+type Tally = [f64; 2];
 
-impl Tally {
-    fn share(self) -> String {
-        if self.studies == 0.0 { "-".to_owned() } else { format!("{:.1}", 100.0 * self.held / self.studies) }
-    }
+fn share([studies, held]: Tally) -> String {
+    if studies == 0.0 { "-".to_owned() } else { format!("{:.1}", 100.0 * held / studies) }
 }
 
 /// Prints, for each function and number of trajectories, the input whose intervals hold least often, and all
@@ -46,27 +40,24 @@ fn rows(function: &Function, exact: &[f64], blocks: usize, studies: u64) -> Resu
         let found = morris_effects(&design, &observe(&design, function.model)?, 0.95)?;
         for ((found, exact), tallies) in found.iter().zip(exact).zip(&mut tallies) {
             let tally = &mut tallies[usize::from(!found.reliable)];
-            tally.studies += 1.0;
-            tally.held += f64::from(u8::from(holds(&found.mean_absolute, *exact)));
+            let held = f64::from(u8::from(holds(&found.mean_absolute, *exact)));
+            *tally = [tally[0] + 1.0, tally[1] + held];
         }
     }
-    let whole = |[one, other]: [Tally; 2]| Tally {
-        studies: one.studies + other.studies,
-        held: one.held + other.held,
-    };
-    let least = (0..exact.len()).min_by(|&i, &j| whole(tallies[i]).held.total_cmp(&whole(tallies[j]).held));
+    let whole = |[one, other]: [Tally; 2]| [0, 1].map(|k| one[k] + other[k]);
+    let least = (0..exact.len()).min_by(|&i, &j| whole(tallies[i])[1].total_cmp(&whole(tallies[j])[1]));
     for (i, of) in tallies.iter().enumerate() {
         // All intervals of too few effects are not reliable.
-        let differs = of[0].studies > 0.0 && of[1].studies >= 0.01 * studies as f64;
+        let differs = of[0][0] > 0.0 && of[1][0] >= 0.01 * studies as f64;
         if Some(i) == least || differs {
             println!(
                 "| {} | {blocks} | {} | {} | {} | {} | {:.1} |",
                 function.name,
                 function.inputs[i].name,
-                whole(*of).share(),
-                of[0].share(),
-                of[1].share(),
-                100.0 * of[1].studies / studies as f64
+                share(whole(*of)),
+                share(of[0]),
+                share(of[1]),
+                100.0 * of[1][0] / studies as f64
             );
         }
     }
