@@ -155,13 +155,9 @@ fn compare(now: &Run, baseline: &Run) -> Vec<String> {
         let then = baseline.benchmarks.iter().find(|then| then.name == *name);
         let (count, before) = (*instructions, then.and_then(|then| then.instructions));
         let shown = |count: Option<u64>| count.map_or_else(|| "-".to_owned(), |count| count.to_string());
-        let median = then.map_or_else(|| "-".to_owned(), |then| duration(then.median_ns));
-        println!(
-            "{name:<44}{:>11}{median:>11}{:>14}{:>14}",
-            duration(*median_ns),
-            shown(count),
-            shown(before)
-        );
+        let baseline = then.map_or_else(|| "-".to_owned(), |then| duration(then.median_ns));
+        let (median, now, then) = (duration(*median_ns), shown(count), shown(before));
+        println!("{name:<44}{median:>11}{baseline:>11}{now:>14}{then:>14}");
         if count.zip(before).is_some_and(|(count, before)| is_worse(count, before)) {
             worse.push(name.clone());
         }

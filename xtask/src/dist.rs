@@ -117,13 +117,9 @@ fn wheel(folder: &Path) -> Outcome {
     done(Command::new(python).args(["-m", "venv", "--clear"]).arg(&environment))?;
     done(program("python").args(["-m", "pip", "install", "--quiet", "maturin>=1.9.4,<2"]))?;
     let manifest = root().join("crates/cdpr-python/Cargo.toml");
-    done(
-        program("maturin")
-            .args(["build", "--locked", "--manifest-path"])
-            .arg(manifest)
-            .arg("--out")
-            .arg(folder),
-    )
+    let mut build = program("maturin");
+    build.args(["build", "--locked", "--manifest-path"]).arg(manifest);
+    done(build.arg("--out").arg(folder))
 }
 
 fn book(folder: &Path) -> Outcome {

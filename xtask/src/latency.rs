@@ -14,9 +14,7 @@ const QUANTILES: [&str; 4] = ["median", "p99.99", "p99.999", "greatest"];
 
 /// Follows the courses, and writes `data/benchmarks/latency.json`, its table and its figure.
 pub(crate) fn run(rest: &[String]) -> Outcome {
-    eprintln!(
-        "building the example (some minutes the first time), then five passes of a course for each robot"
-    );
+    eprintln!("building the example (minutes the first time), then five passes of a course for each robot");
     let before = load();
     let mut robots = lines(&text_of(&mut release_example("cdpr-statics", "latency", rest), &[0])?)?;
     let machine = format!("{}, load average {before} before and {} after", machine(), load());

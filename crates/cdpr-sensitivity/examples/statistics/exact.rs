@@ -51,17 +51,22 @@ impl Exact {
     /// From the file, or computed and written to it; without the measures of tables if these are not known.
     pub(crate) fn of(function: &Function) -> Result<Self, SensitivityError> {
         let (point, output) = check(function);
-        let same =
-            |exact: &Self| (&exact.inputs, &exact.point, exact.output) == (&function.inputs, &point, output);
-        let known = known().remove(function.name).filter(same);
-        if let Some(exact) = known.filter(|exact| agrees(function, exact)) {
+        let formula = by_formula(function);
+        // Those of this function, and of its formula.
+        let same = |exact: &Self| {
+            (&exact.inputs, &exact.point, exact.output) == (&function.inputs, &point, output)
+                && formula
+                    .as_ref()
+                    .is_none_or(|(first, total)| (&exact.first, &exact.total) == (first, total))
+        };
+        if let Some(exact) = known().remove(function.name).filter(same) {
             return Ok(exact);
         }
         let mut exact = match additive(function) {
             Some(exact) => exact,
             None => sampled(function)?,
         };
-        if let Some((first, total)) = by_formula(function) {
+        if let Some((first, total)) = formula {
             (exact.first, exact.total) = (first, total);
         }
         Self { point, output, inputs: function.inputs.clone(), ..exact }.kept(function)
@@ -91,11 +96,6 @@ pub(crate) fn sobol_values(function: &Function) -> Result<(Vec<f64>, Vec<f64>), 
     }
     let found = indices(function, BLOCKS, u64::MAX)?.inputs;
     Ok((found.iter().map(|of| of.first.value).collect(), found.iter().map(|of| of.total.value).collect()))
-}
-
-/// Whether the values of a file are those of the formula.
-fn agrees(function: &Function, exact: &Exact) -> bool {
-    by_formula(function).is_none_or(|(first, total)| exact.first == first && exact.total == total)
 }
 
 /// Indices of Bratley's function, whose last inputs matter where all before are near 1: so rarely that 2^18
