@@ -7,9 +7,7 @@ use crate::functions::{Function, all};
 
 /// Prints, for each function with derivatives, how often the bounds hold T.
 pub(crate) fn table(studies: u64) -> Result<(), SensitivityError> {
-    println!(
-        "{studies} studies each of N outputs with gradients on a scrambled sequence: share of inputs with"
-    );
+    println!("{studies} studies of N outputs with gradients on a scrambled sequence: share of inputs with");
     println!("L <= T <= U, of the estimates and of the outer ends of their intervals of 95 % [%]; mean and");
     println!("greatest U - L of the estimates; the same of the bound C nu / V alone");
     println!("{:22}{:>7}{:>10}{:>10}{:>18}{:>18}", "function", "N", "held", "intervals", "U - L", "C nu / V");

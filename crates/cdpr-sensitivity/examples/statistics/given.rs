@@ -12,9 +12,7 @@ use crate::measures::random;
 /// Prints, for each function, coverage and errors on independent rows.
 pub(crate) fn table(studies: u64) -> Result<(), SensitivityError> {
     println!("{studies} studies each of independent random rows. S by ranks: share of the intervals of 95 %");
-    println!(
-        "that hold the index [%], mean and least over the inputs; largest root mean square error; largest"
-    );
+    println!("that hold the index [%], mean and least over the inputs; largest root mean square and largest");
     println!("mean error; mean half width over the root mean square error");
     println!("{:22}{:>7}{:>20}{:>10}{:>10}{:>7}", "function", "rows", "held", "error", "bias", "width");
     for function in all() {

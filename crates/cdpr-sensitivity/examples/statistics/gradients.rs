@@ -42,10 +42,8 @@ impl Errors {
 /// Prints, for each function with derivatives and number of points, the errors of the indices.
 pub(crate) fn table(studies: u64, part: &str) -> Result<(), SensitivityError> {
     println!("{studies} studies each of N points of a sequence, degree up to 4: root mean square error");
-    println!(
-        "of all indices S and T / of the index where it is largest; of N values, of N values with gradients,"
-    );
-    println!("of {REVERSE} N values (a reverse derivative) and of (k + 1) N values (by differences);");
+    println!("of all indices S and T / of the index where it is largest; by N values, by N with gradients,");
+    println!("by {REVERSE} N values (a reverse derivative) and by (k + 1) N values (by differences);");
     println!("share of the studies in which derivatives took part [%]");
     println!(
         "| function, k | N | values | with gradients | {REVERSE} N values | (k + 1) N values | took part |"

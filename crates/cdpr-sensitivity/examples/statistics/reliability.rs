@@ -16,7 +16,7 @@ fn share([studies, held]: Tally) -> String {
 /// inputs of which some interval is not reliable.
 pub(crate) fn table(studies: u64, part: &str) -> Result<(), SensitivityError> {
     println!(
-        "share of the intervals of 95 % of mu* that hold [%]: all, those called reliable, the others; share"
+        "share of the intervals of 95 % of mu* that hold [%]: all, those called reliable, others; share"
     );
     println!("of the studies whose interval is not called reliable [%]");
     println!("| function | effects | input | all | reliable | others | not reliable |");

@@ -8,7 +8,7 @@ use crate::known_tables::{KINDS, Source};
 /// are certain.
 pub(crate) fn table(studies: u64, part: &str) -> Result<(), SensitivityError> {
     println!(
-        "{studies} tables of each kind: tables with an input called certain that has no effect of its own;"
+        "{studies} tables of each kind: tables with an input called certain without an effect of its own;"
     );
     println!("causes that are not named; causes that are not called certain");
     println!("{:42}{:>10}{:>14}{:>14}", "kind", "false", "missing", "not certain");
