@@ -12,11 +12,9 @@ type Case = (&'static str, Vec<[f64; 3]>, bool);
 /// Prints coverage, error and bias.
 pub(crate) fn table(studies: u64) -> Result<(), SensitivityError> {
     println!(
-        "{studies} studies each: share of the intervals of 95 % that hold the index [%], mean and least over"
+        "{studies} studies each: share of the intervals of 95 % that hold the index [%], mean and least of"
     );
-    println!(
-        "the inputs; largest root mean square error; largest mean error; the same of the part by the means"
-    );
+    println!("the inputs; largest root mean square error; largest mean error; the same of the part by means");
     println!("| model | rows | index: held | error | mean error | means: held | error | mean error |");
     println!("|---|---|---|---|---|---|---|---|");
     let even = vec![[3.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, 0.0]];
