@@ -63,4 +63,4 @@ def refusal(*arguments):
     """What a command says as it fails, with the lines that are wrapped at 80 columns joined."""
     done = command(*arguments)
     assert done.returncode == 1, (done.returncode, done.stdout)
-    return re.sub(r"\n {2}(?! )", " ", done.stderr.removeprefix("error: ").strip())
+    return re.sub(r"\n {2}(?! )", " ", done.stderr.strip()).removeprefix("error: ")
