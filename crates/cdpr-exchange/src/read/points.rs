@@ -5,7 +5,7 @@ mod columns;
 use crate::document::{finite, short};
 use crate::draft::{Draft, DraftCable, Note, NoteKind};
 use crate::error::ExchangeError;
-use crate::read::points::columns::{Column, Meaning, NAMES, harmless, meaning};
+use crate::read::points::columns::{Column, Meaning, NAMES, harmless, is_number, meaning};
 use cdpr_robot::{CableProperties, Pulley, Vector3};
 use std::collections::HashMap;
 
@@ -54,9 +54,22 @@ pub(crate) fn read(file: &str, text: &str) -> Result<Draft, ExchangeError> {
     if let Some(missing) = POINTS.iter().find(|name| !columns.contains_key(*name)) {
         return Err(value(1, missing, "missing", &format!("the columns {}", POINTS.join(", "))));
     }
+    let numbered = header.iter().position(is_number);
+    let mut before: Option<i64> = None;
     for row in table.records() {
         let row = row.map_err(syntax)?;
         let line = row.position().map_or(0, |position| position.line() as usize);
+        let number = numbered.and_then(|index| row.get(index)?.parse::<i64>().ok());
+        if let (Some(before), Some(number), Some(index)) = (before, number, numbered)
+            && number != before.saturating_add(1)
+        {
+            let expected =
+                format!("{}: each cable once and in order, none left out", before.saturating_add(1));
+            let (file, column) = (file.to_owned(), index + 1);
+            let (element, value) = (header[index].to_owned(), number.to_string());
+            return Err(ExchangeError::Value { file, line, column, element, value, expected });
+        }
+        before = number;
         let number = |name: &str| -> Result<Option<f64>, ExchangeError> {
             let Some(column) = columns.get(name) else { return Ok(None) };
             let Some(text) = row.get(column.index).filter(|text| !text.is_empty()) else { return Ok(None) };
