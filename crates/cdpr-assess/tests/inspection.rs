@@ -138,8 +138,9 @@ fn warned(robot: &Robot) -> Vec<String> {
 #[test]
 fn an_inertia_or_a_density_ten_times_off_is_warned_about_and_no_robot_of_the_library_is() {
     let mut with_inertia = 0;
-    for file in cdpr_robot::library::ROBOTS {
-        let robot = Robot::from_json(file.text).unwrap();
+    let tutorial = include_str!("../../../docs/tutorials/my-robot/robot.json");
+    for text in cdpr_robot::library::ROBOTS.iter().map(|file| file.text).chain([tutorial]) {
+        let robot = Robot::from_json(text).unwrap();
         assert_eq!(warned(&robot), [""; 0], "{}", robot.name);
         let Some(inertia) = robot.platform.inertia else { continue };
         with_inertia += 1;
@@ -149,7 +150,7 @@ fn an_inertia_or_a_density_ten_times_off_is_warned_about_and_no_robot_of_the_lib
             assert_eq!(warned(&other), ["platform.inertia"], "{} times {factor}", robot.name);
         }
     }
-    assert_eq!(with_inertia, 5);
+    assert_eq!(with_inertia, 6);
     let field = |section: f64, density: f64| {
         let mut robot = named("cogiro");
         for cable in &mut robot.cables {
@@ -157,7 +158,7 @@ fn an_inertia_or_a_density_ten_times_off_is_warned_about_and_no_robot_of_the_lib
         }
         warned(&robot)
     };
-    // A full circle of 4 mm with few digits, then sections of no circle.
+    // A full circle of 4 mm with few digits, then sections of none.
     for (section, density, expected) in [
         (1.256e-5, 0.064, "cable.section"),
         (1e-5, 0.05, "cable.linear_density"),

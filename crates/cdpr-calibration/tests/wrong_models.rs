@@ -154,8 +154,8 @@ fn constant_errors_of_lengths_are_named_whatever_is_sought() {
     let mut offsets = tolerances.clone();
     offsets.add(&case.robot, SensorError::LengthOffset, None, 0);
     for (noise, unknowns, words) in [
-        (EXTERNAL, &tolerances, "in cable 3: incremental encoders"),
-        (exact, &tolerances, "in cable 3: incremental encoders"),
+        (EXTERNAL, &tolerances, "cable 3"),
+        (exact, &tolerances, "cable 3"),
         (EXTERNAL, &mass, "fit length_offset, too"),
     ] {
         let warnings = with(8e-3, noise, unknowns);

@@ -10,7 +10,7 @@ use cdpr_robot::significant;
 use std::ops::Range;
 
 /// Usual `tr I / tr J`: robots of the library have 0.38 to 1.04. A factor of ten leaves it.
-const USUAL: Range<f64> = 0.11..3.5;
+const USUAL: Range<f64> = 0.11..3.0;
 
 /// Anchor points nearer to the centre of mass than this [m] are in it.
 const TOGETHER: f64 = 1e-6;

@@ -59,17 +59,9 @@ pub(crate) fn read(file: &str, text: &str) -> Result<Draft, ExchangeError> {
     for row in table.records() {
         let row = row.map_err(syntax)?;
         let line = row.position().map_or(0, |position| position.line() as usize);
-        let number = numbered.and_then(|index| row.get(index)?.parse::<i64>().ok());
-        if let (Some(before), Some(number), Some(index)) = (before, number, numbered)
-            && number != before.saturating_add(1)
-        {
-            let expected =
-                format!("{}: each cable once and in order, none left out", before.saturating_add(1));
-            let (file, column) = (file.to_owned(), index + 1);
-            let (element, value) = (header[index].to_owned(), number.to_string());
-            return Err(ExchangeError::Value { file, line, column, element, value, expected });
+        if let Some(index) = numbered {
+            before = next_number(file, (line, index), &header, &row, before)?;
         }
-        before = number;
         let number = |name: &str| -> Result<Option<f64>, ExchangeError> {
             let Some(column) = columns.get(name) else { return Ok(None) };
             let Some(text) = row.get(column.index).filter(|text| !text.is_empty()) else { return Ok(None) };
@@ -109,6 +101,28 @@ pub(crate) fn read(file: &str, text: &str) -> Result<Draft, ExchangeError> {
         });
     }
     Ok(draft)
+}
+
+/// The number of a cable in column `index`, refused where it does not follow that of the row before.
+fn next_number(
+    file: &str,
+    (line, index): (usize, usize),
+    header: &csv::StringRecord,
+    row: &csv::StringRecord,
+    before: Option<i64>,
+) -> Result<Option<i64>, ExchangeError> {
+    let number = row.get(index).and_then(|text| text.parse::<i64>().ok());
+    match (before.map(|before| before.saturating_add(1)), number) {
+        (Some(next), Some(number)) if number != next => Err(ExchangeError::Value {
+            file: file.to_owned(),
+            line,
+            column: index + 1,
+            element: header[index].to_owned(),
+            value: number.to_string(),
+            expected: format!("{next}: each cable once and in order, none left out"),
+        }),
+        _ => Ok(number),
+    }
 }
 
 /// The columns of a header by their names in this program.
