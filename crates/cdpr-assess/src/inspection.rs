@@ -3,6 +3,7 @@
 
 mod equilibrium;
 mod ground;
+mod inertia;
 mod pose;
 mod pulley;
 mod swapped;
@@ -59,6 +60,7 @@ pub fn inspect(robot: &Robot) -> Vec<Finding> {
         return findings.list;
     }
     findings.gravity();
+    findings.inertia();
     findings.limits();
     findings.points();
     let known = findings.list.len();
@@ -139,8 +141,8 @@ impl Findings<'_> {
         }
     }
 
-    /// Greatest tensions beside the strength and stiffness of their cables, once where they are the robot's
-    /// and all cables are the same.
+    /// Greatest tensions compared with the strength and stiffness of their cables, once where they are the
+    /// robot's and all cables are the same.
     fn limits(&mut self) {
         let cables = &self.robot.cables;
         let same = |a: &RobotCable, b: &RobotCable| {

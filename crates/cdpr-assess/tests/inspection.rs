@@ -127,3 +127,47 @@ fn a_platform_that_stays_at_its_start_is_not_turned_from_it() {
         assert!(asked.is_none(), "{asked:?}");
     }
 }
+
+/// Fields of the warnings about the inertia of a robot and the properties of its cables.
+fn warned(robot: &Robot) -> Vec<String> {
+    let warnings = inspect(robot).into_iter().filter(|finding| finding.severity == Severity::Warning);
+    let fields = warnings.map(|finding| finding.field);
+    fields.filter(|field| field == "platform.inertia" || field.starts_with("cable.")).collect()
+}
+
+#[test]
+fn an_inertia_or_a_density_ten_times_off_is_warned_about_and_no_robot_of_the_library_is() {
+    let mut with_inertia = 0;
+    let tutorial = include_str!("../../../docs/tutorials/my-robot/robot.json");
+    for text in cdpr_robot::library::ROBOTS.iter().map(|file| file.text).chain([tutorial]) {
+        let robot = Robot::from_json(text).unwrap();
+        assert_eq!(warned(&robot), [""; 0], "{}", robot.name);
+        let Some(inertia) = robot.platform.inertia else { continue };
+        with_inertia += 1;
+        for factor in [0.001, 0.1, 10.0, 1000.0] {
+            let mut other = robot.clone();
+            other.platform.inertia = Some(factor * inertia);
+            assert_eq!(warned(&other), ["platform.inertia"], "{} times {factor}", robot.name);
+        }
+    }
+    assert_eq!(with_inertia, 6);
+    let field = |section: f64, density: f64| {
+        let mut robot = named("cogiro");
+        for cable in &mut robot.cables {
+            (cable.properties.section, cable.properties.linear_density) = (section, density);
+        }
+        warned(&robot)
+    };
+    // A full circle of 4 mm with few digits, then sections of none.
+    for (section, density, expected) in [
+        (1.256e-5, 0.064, "cable.section"),
+        (1e-5, 0.05, "cable.linear_density"),
+        (8.2051e-6, 0.64, "cable.linear_density"),
+        (8.2051e-6, 0.0034, "cable.linear_density"),
+    ] {
+        assert_eq!(field(section, density), [expected], "{density} kg/m on {section} m2");
+    }
+    for density in [0.0, 0.0057, 0.0082, 0.022, 0.064, 0.075] {
+        assert_eq!(field(8.2051e-6, density), [""; 0], "{density} kg/m");
+    }
+}

@@ -7,6 +7,7 @@
 
 mod conclude;
 mod frame;
+mod offset;
 mod problem;
 mod rows;
 mod search;

@@ -158,6 +158,34 @@ impl FitStatus {
     }
 }
 
+/// Chances below this are named: the model or the noise is wrong.
+pub(crate) const UNLIKELY: f64 = 1e-4;
+
+/// What constant errors of the lengths would explain of a chi-square that is unlikely, by a linearization.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct LengthOffsets {
+    /// What they would take from chi-square.
+    pub(crate) gain: f64,
+    /// The constant error of each cable [m].
+    pub(crate) offsets: Vec<f64>,
+}
+
+impl LengthOffsets {
+    /// The cable with the greatest constant error, and that error [m], where such errors are significant and
+    /// explain most of what a chi-square with these degrees of freedom exceeds its mean by.
+    pub(crate) fn explain(&self, chi_square: f64, degrees: usize) -> Option<(usize, f64)> {
+        let (cables, degrees) = (self.offsets.len() as f64, degrees as f64);
+        let chance = statrs::function::gamma::gamma_ur(0.5 * cables, 0.5 * self.gain.max(f64::MIN_POSITIVE));
+        let (excess, left) = (chi_square - degrees, chi_square - self.gain - (degrees - cables));
+        let greatest =
+            self.offsets.iter().copied().enumerate().max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
+        greatest.filter(|_| chance < UNLIKELY && left < LEFT * excess)
+    }
+}
+
+/// Share of an excess of chi-square that an explanation may leave.
+const LEFT: f64 = 0.25;
+
 /// A combination of unknowns that the data do not tell.
 #[derive(Clone, Debug, PartialEq)]
 pub struct UnidentifiableCombination {
@@ -213,6 +241,8 @@ pub struct Fit {
     pub distance: f64,
     /// Starts that were made, and how many of them ended at the least chi-square.
     pub starts: [usize; 2],
+    /// What offsets of the lengths would explain.
+    pub(crate) length_offsets: Option<LengthOffsets>,
 }
 
 impl Fit {

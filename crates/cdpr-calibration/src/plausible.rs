@@ -157,7 +157,7 @@ impl PlacedRows<'_> {
         if let Some(i) = usual.iter().position(|of| *of > elsewhere) {
             let first = &self.rows[0];
             let expected = format!(
-                "lengths near the distances of its points at the measured poses, {:.4} m in place of {:.4} m \
+                "lengths near the distances of its points at the measured poses, {:.4} m instead of {:.4} m \
                  in line {}: its unit or its cable may be another",
                 distance(first, i),
                 first.lengths[i],

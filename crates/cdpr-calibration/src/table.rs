@@ -24,7 +24,7 @@ use crate::campaign::{Noise, Quantity, Row};
 use crate::error::CalibrationError;
 use crate::table::columns::{Column, Named, columns, covariance_of, is_known};
 use crate::table::row::{Stated, row};
-use cdpr_robot::{Robot, from_json};
+use cdpr_robot::{CableEnd, Robot, from_json};
 use cdpr_study::Table;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -38,6 +38,29 @@ pub struct Measurements {
     pub noise_is_stated: bool,
     /// Markers that are measured.
     pub markers: usize,
+}
+
+impl Measurements {
+    /// Tensions and swivel angles that no row has of a cable, though some have them of another: they count as
+    /// not measured.
+    pub fn not_measured(&self, robot: &Robot) -> Vec<Quantity> {
+        let has = |quantity: &Quantity| self.rows.iter().any(|row| row.value(*quantity).is_some());
+        let has_pulley = |quantity: &Quantity| match quantity {
+            Quantity::Swivel(i) => robot.cables[*i].pulley.is_some(),
+            _ => true,
+        };
+        let kinds: [fn(usize) -> Quantity; 3] = [
+            |i| Quantity::Tension(i, CableEnd::Anchor),
+            |i| Quantity::Tension(i, CableEnd::Exit),
+            Quantity::Swivel,
+        ];
+        let missing = |of: fn(usize) -> Quantity| {
+            let all = (0..robot.cables.len()).map(of).filter(has_pulley);
+            let (there, missing): (Vec<_>, Vec<_>) = all.partition(has);
+            if there.is_empty() { Vec::new() } else { missing }
+        };
+        kinds.into_iter().flat_map(missing).collect()
+    }
 }
 
 /// The numbers of each row, with its line.

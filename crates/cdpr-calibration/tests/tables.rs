@@ -247,3 +247,22 @@ fn only_identifiable_parameters_move_and_the_others_keep_their_laws() {
     // Each of them is told by the data alone.
     assert!(found.estimates.iter().all(cdpr_calibration::Estimate::is_identifiable));
 }
+
+#[test]
+fn cables_without_a_column_of_their_own_count_as_not_measured_and_are_named() {
+    let missing = |header: &str| {
+        let cells = vec!["1"; header.split(',').count()].join(",");
+        let read = read_measurements(format!("{header}\n{cells}\n").as_bytes(), &caroca(), &[]);
+        let columns = read.unwrap().not_measured(&caroca());
+        columns.iter().map(Quantity::to_string).collect::<Vec<_>>().join(",")
+    };
+    assert_eq!(missing("t1_n,t2_n,t4_n,t5_n,t6_n,t7_n,t8_n"), "t3_n");
+    assert_eq!(
+        missing("t1_winch_n,t2_winch_n,t3_winch_n,t4_winch_n,t5_winch_n,t6_winch_n"),
+        "t7_winch_n,t8_winch_n"
+    );
+    assert_eq!(missing("t1_n,t2_n,t3_n,t4_n,t5_n,t6_n,t7_n,t8_n,x_m"), "");
+    assert_eq!(missing("x_m,y_m,z_m"), "");
+    let lengths = read_measurements(b"l1_m,l2_m,l4_m\n1,1,1\n", &caroca(), &[]).unwrap_err().to_string();
+    assert_eq!(lengths, "column l3_m is missing: expected lengths of all cables, or of none");
+}

@@ -169,7 +169,7 @@ impl Draft {
             && of_file != given
         {
             let text = format!(
-                "the centre of mass is {:?} m, in place of {:?} m",
+                "the centre of mass is {:?} m, instead of {:?} m",
                 given.as_slice(),
                 of_file.as_slice()
             );
@@ -274,7 +274,7 @@ impl Draft {
         if let (Some(of_file), Some(given)) = (of_file, given)
             && of_file != given
         {
-            self.assume(format!("the {what} is {given} {unit}, in place of {of_file} {unit}"));
+            self.assume(format!("the {what} is {given} {unit}, instead of {of_file} {unit}"));
         }
         given.or(of_file)
     }

@@ -207,3 +207,22 @@ fn the_ground_of_a_file_is_that_of_the_robot() {
     let found = imported(&[("r.yaml", YAML)], &options()).unwrap();
     assert_eq!(found.robot.ground_z, Some(0.0));
 }
+
+#[test]
+fn a_table_whose_numbers_leave_out_a_cable_is_refused() {
+    let with = |name: &str, numbers: [&str; 2]| {
+        let text = TABLE.replace(",colour", &format!(",{name}")).replace("red", numbers[0]);
+        imported(&[("r.csv", &text.replace("blue", numbers[1]))], &all_options())
+    };
+    for (name, numbers) in [("cable", ["1", "3"]), ("No.", ["2", "1"]), ("Cables", ["0", "0"])] {
+        let message = with(name, numbers).map(drop).unwrap_err().to_string();
+        let next = numbers[0].parse::<i32>().unwrap() + 1;
+        let said = format!("line 3, column 11: {name} is {}: expected {next}: each cable once", numbers[1]);
+        assert!(message.contains(&said), "{message}");
+    }
+    for (name, numbers) in
+        [("cable", ["0", "1"]), ("cable", ["7", "8"]), ("cable", ["A", "C"]), ("id", ["1", "3"])]
+    {
+        assert_eq!(with(name, numbers).unwrap().robot.cables.len(), 2, "{name} {numbers:?}");
+    }
+}

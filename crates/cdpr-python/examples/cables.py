@@ -1,4 +1,4 @@
-"""The shape of a cable as it is wound in: slack, then taut. `python cables.py [figure.svg]`"""
+"""The shape of a cable as it is reeled in: slack, then taut. `python cables.py [figure.svg]`"""
 
 import sys
 

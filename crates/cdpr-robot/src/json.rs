@@ -28,8 +28,12 @@ impl JsonError {
         let message = message.split(" at line ").next().unwrap_or_default();
         // Without a name for the last step, the field is the one that contains it.
         let field = field.trim_end_matches('?').trim_end_matches('.');
-        let (line, column) = (error.line(), error.column());
-        let message = slip(text, line, column, message).unwrap_or_else(|| plain(message, field));
+        let place = (error.line(), error.column());
+        let (place, message) = match missing_comma(text, place, message) {
+            Some(end) => (end, "a comma is missing here".to_owned()),
+            None => (place, slip(text, place, message).unwrap_or_else(|| plain(message, field))),
+        };
+        let (line, column) = place;
         let field = if field.is_empty() { "the whole text" } else { field }.to_owned();
         Self { field, line, column, message }
     }
@@ -90,8 +94,23 @@ fn home(message: &str, field: &str) -> Option<&'static str> {
 /// What counts and seeds are.
 const COUNT: &str = "expected a whole number, 0 to 1.8e19";
 
+/// Line and column behind a value that lacks its comma, if it is the next value that was not expected. The
+/// next value is often on another line.
+fn missing_comma(text: &str, (line, column): (usize, usize), message: &str) -> Option<(usize, usize)> {
+    let start: usize = text.split_inclusive('\n').take(line.checked_sub(1)?).map(str::len).sum();
+    let (before, next) = text.split_at_checked(start + column.checked_sub(1)?)?;
+    let begins_value = next.starts_with(|c: char| c.is_ascii_digit() || "\"[{-".contains(c))
+        || ["true", "false", "null"].iter().any(|word| next.starts_with(word));
+    if !message.starts_with("expected `,` or") || !begins_value {
+        return None;
+    }
+    let before = before.trim_end();
+    let last = before.rsplit('\n').next()?;
+    Some((before.matches('\n').count() + 1, last.len() + 1))
+}
+
 /// A natural slip at a place of a text: a comment, a comma too many, a decimal comma.
-fn slip(text: &str, line: usize, column: usize, message: &str) -> Option<String> {
+fn slip(text: &str, (line, column): (usize, usize), message: &str) -> Option<String> {
     let row = text.lines().nth(line.checked_sub(1)?)?;
     let (before, at) = row.split_at_checked(column.checked_sub(1)?)?;
     let before = before.trim_end();
@@ -277,6 +296,8 @@ mod tests {
             ("{\"a\": [1, 2],}", "a comma before a closing bracket: remove it"),
             ("{\"a\": [-1,5, 2]}", "-1,5 has a decimal comma: expected a point, -1.5"),
             ("{a: [1, 2]}", "expected a name in double quotes"),
+            ("{\"a\": [1 2]}", "a comma is missing here"),
+            ("{\"a\": [1, 2; 3]}", "expected `,` or `]`"),
             ("{\"a\": [1, 2, 3]}", "expected the end of the list here"),
         ] {
             assert_eq!(read(text), words, "{text}");
@@ -304,6 +325,19 @@ mod tests {
             "invalid type: floating point `1.5`, expected a whole number, 0 to 1.8e19"
         );
         assert_eq!(super::numbered("cables[7].lead"), "cable 8, cables[7].lead");
+    }
+
+    #[test]
+    fn a_missing_comma_is_placed_behind_the_value_that_lacks_it() {
+        for (text, place) in [
+            ("{\n  \"a\": [1, 2]\n\n  \"b\": [3, 4]\n}", (2, 14)),
+            ("{\"a\": [1, 2], \"b\": [3 \r\n 4]}", (1, 24)),
+            ("{\"a\": [-1.5e3\n-4]}", (1, 14)),
+        ] {
+            let error = from_json::<BTreeMap<String, Vec<f64>>>(text).unwrap_err();
+            let found = (error.message.as_str(), (error.line, error.column));
+            assert_eq!(found, ("a comma is missing here", place), "{text}");
+        }
     }
 
     #[test]

@@ -261,7 +261,7 @@ pub enum StudyError {
     },
     /// Files in a folder of results belong to different studies.
     #[error(
-        "{path} is of study {found}: expected {expected}, as the files beside it; it was changed, or a run \
+        "{path} is of study {found}: expected {expected}, as the files next to it; it was changed, or a run \
          was \
          interrupted"
     )]

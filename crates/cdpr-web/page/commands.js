@@ -21,7 +21,7 @@ export function commands({ state, file, lengths, pose, slice, hasModes, observed
   const list = [];
   const add = (title, words, more = []) =>
     list.push({ title, text: ["cdpr", ...words].join(" "), needs: [...needs, ...more] });
-  if (state.way === "anew") {
+  if (state.way === "pose") {
     add("Deflection, tensions and residuals", ["deflection", robot, ...wanted, ...load, ...reference]);
     add("Stiffness with tensions that also bear the load", [
       "stiffness",

@@ -134,7 +134,7 @@ export function numberField({ label, unit = "", min, max, why, hint, change }) {
 }
 
 /**
- * A slider with a number beside it. Positions are 0 to 1000, mapped by `scale`.
+ * A slider with a number next to it. Positions are 0 to 1000, mapped by `scale`.
  * @param {{label: string, unit?: string,
  *   scale: {to: function(number): number, from: function(number): number}, digits?: number, min?: number,
  *   max?: number, input: function(number): void, commit: function(): void}} options

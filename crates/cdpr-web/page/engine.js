@@ -55,7 +55,7 @@ export class Engine {
   }
 
   /**
-   * Asks a batch of questions, in place of all earlier ones of the lane.
+   * Asks a batch of questions, instead of all earlier ones of the lane.
    * @param {string} lane
    * @param {object[]} asks
    * @returns {Promise<{answers: object[], milliseconds: number}|typeof STALE>}
@@ -65,7 +65,7 @@ export class Engine {
     return this.ask(lane, asks);
   }
 
-  /** Asks a batch of questions beside the others of the lane. */
+  /** Asks a batch of questions next to the others of the lane. */
   ask(lane, asks) {
     return new Promise((resolve) => {
       const order = ORDER.indexOf(lane);

@@ -54,11 +54,11 @@ export class Mechanics {
     this.store.set({ way: "kept", lengths, ...placeOf(loaded.pose) }, { commit: true });
   }
 
-  /** Distributes the tensions anew from now on, at the pose without the load. */
+  /** Sets the lengths for the pose from now on, without the load. */
   renew() {
     const pose = this.picture?.unloaded?.pose ?? this.picture?.loaded.pose;
     this.jump = null;
-    this.store.set({ way: "anew", lengths: null, ...(pose ? placeOf(pose) : {}) }, { commit: true });
+    this.store.set({ way: "pose", lengths: null, ...(pose ? placeOf(pose) : {}) }, { commit: true });
   }
 
   forgetJump() {
@@ -86,14 +86,14 @@ export class Mechanics {
     } = await this.engine.ask("pose", [{ hold: { pose, load: loadOf(state), free: state.free } }]);
     if (answer.error) return this.#fail(answer.error, pose);
     this.failure = null;
-    this.picture = { ...answer.ok, milliseconds, way: "anew" };
+    this.picture = { ...answer.ok, milliseconds, way: "pose" };
     this.#take(state);
     this.#anchor = null;
   }
 
   // Coordinates that are found are where the next search begins.
   #take({ position, rpy_deg, free }) {
-    if (free.length === 0 || this.store.state.way !== "anew") return;
+    if (free.length === 0 || this.store.state.way !== "pose") return;
     const found = placeOf(this.picture.unloaded.pose);
     const mixed = (now, names, values) =>
       now.map((value, k) => (free.includes(names[k]) ? values[k] : value));

@@ -53,7 +53,7 @@ export class Moves {
     }
   }
 
-  /** Goes to a position, with the tensions distributed anew. */
+  /** Goes to a position, with the lengths set for it. */
   goto(position) {
     const { store, mechanics } = this.app;
     if (store.state.way === "kept") mechanics.renew();
@@ -84,7 +84,7 @@ export class Moves {
     const { store, mechanics } = this.app;
     const { state } = store;
     if (phase === "begin") this.taken = { pose: mechanics.picture?.loaded.pose ?? pose, state };
-    if (state.way === "anew") {
+    if (state.way === "pose") {
       if (phase === "move") store.set(this.#moved(pose, this.taken.state));
       if (phase === "end") store.commit();
       return;

@@ -21,7 +21,7 @@ export function pictureOf(app) {
     rotation: picture.rotation,
     wanted: failure ? failure.wanted : null,
     faded: Boolean(failure),
-    handle: state.way === "anew" ? asked : null,
+    handle: state.way === "pose" ? asked : null,
     sag: state.view.sag,
     range: app.range,
     selected: app.selected,

@@ -77,7 +77,7 @@ export function firstSampling(study) {
 }
 
 /**
- * What a study says in place of the template: itself, and pose, payload and free coordinates to begin with.
+ * What a study says instead of the template: itself, and pose, payload and free coordinates to begin with.
  * @param {object} study study file
  */
 export function ofStudy(study) {
@@ -161,13 +161,13 @@ export function studyOf(study, state, { robot, observations = state.observations
 
 /**
  * Why the study of the state would be of another state, or of nothing; null where it is of this one. Studies
- * wind the cables for the pose, and load the platform with the payload alone.
+ * set the lengths for the pose, and load the platform with the payload alone.
  * @param {object} study the study of the template
  * @param {object} state
  */
 export function unobserved(study, { way, force, moment, payload, tolerances: factors }) {
   if (way === "kept")
-    return "the lengths are kept, but robots are observed with cables for the pose: choose tensions anew";
+    return "the lengths are kept, but robots are observed with lengths for the pose: choose those";
   if ([...force, ...moment].some((value) => value !== 0))
     return "robots are observed under the payload alone: set force and moment to zero";
   if (payload === 0) return "there is no payload, so there is no deflection to observe: set a payload";

@@ -29,7 +29,7 @@ export function initial(robot) {
   return {
     format: FORMAT,
     robot: robot.name,
-    way: "anew",
+    way: "pose",
     ...placeOf(pose),
     lengths: null,
     cables: robot.cables,
@@ -75,7 +75,7 @@ export function restore(saved, first) {
     } else refused.push(field);
   }
   if (state.lengths?.length !== first.cables) state.lengths = null;
-  if (state.lengths === null) state.way = "anew";
+  if (state.lengths === null) state.way = "pose";
   return { state, refused };
 }
 
@@ -191,7 +191,7 @@ function alike(value, first, field) {
   if (field === "lengths") return value === null || numbers(value);
   if (field === "pins")
     return Array.isArray(value) && value.length === 2 && value.every((pin) => !pin || isPin(pin));
-  if (field === "way") return value === "anew" || value === "kept";
+  if (field === "way") return value === "pose" || value === "kept";
   if (field === "free") return Array.isArray(value) && value.every((name) => COORDINATES.includes(name));
   if (field === "trajectory") return areRows(value);
   if (field === "tolerances") return isObject(value) && Object.values(value).every((factor) => factor >= 0);

@@ -131,3 +131,27 @@ fn edited_files_of_results_are_noticed_wherever_they_are_read() {
     bench.done(&["merge", "out"]);
     assert!(!bench.done(&["status", "out"]).contains("not what"));
 }
+
+#[test]
+fn what_a_folder_has_and_what_becomes_of_it_is_said_where_another_number_is_requested() {
+    let bench = bench();
+    bench.run("out", &[]);
+    let there = std::fs::read_to_string(bench.path("out/study.json")).unwrap();
+    let there: serde_json::Value = serde_json::from_str(&there).unwrap();
+    let there = there["samplings"]["mechanical"]["observations"].as_u64().unwrap();
+    let resumed = |observations: u64| {
+        let observations = observations.to_string();
+        let arguments = ["run", "study.json", "--out", "out", "--resume", "--observations", &observations];
+        let output = bench.study(&arguments);
+        assert!(output.status.success());
+        crate::common::unwrapped(output.stderr)
+    };
+    let fewer = resumed(there - 5);
+    let has = format!("note: out has {there} observations of mechanical: ");
+    let words = format!("{has}the results are of the first {}, the others are kept", there - 5);
+    assert!(fewer.contains(&words), "{fewer}");
+    let more = resumed(there + 5);
+    assert!(more.contains(&format!("{has}5 more are made")), "{more}");
+    let same = resumed(there + 5);
+    assert!(!same.contains("observations of mechanical"), "{same}");
+}

@@ -304,3 +304,33 @@ fn numbers_in_messages_can_be_read() {
         contains(&refused(here, &arguments), &[words]);
     }
 }
+
+#[test]
+fn a_missing_comma_and_lengths_too_short_for_a_pose_are_placed_and_measured() {
+    let robot = data_text("robots/cogiro.json");
+    let (before, behind) = robot.split_once("\"gravity\": 9.81,").unwrap();
+    let text = format!("{before}\"gravity\": 9.81{behind}");
+    let line = before.lines().count();
+    let folder = folder(&[("robot.json", text.as_bytes())]);
+    contains(
+        &refused(folder.path(), &["robot", "check", "robot.json"]),
+        &[&format!("line {line}, column 18: the whole text: a comma is missing here")],
+    );
+    // The cables need 9.2 to 9.8 m for this pose.
+    let robot = data_path("robots/cogiro.json");
+    for (pose, lengths, words) in [
+        (
+            "0,0,2",
+            "9.7,5,9.4,9.5,9.8,9.2,9.5,9.6",
+            "length 2 is 5 m: at position (0, 0, 2) m the points of cable 2 are 9.213 m apart, 4.213 m more",
+        ),
+        ("0,0,2", "5,5,5,5,5,5,5,5", "; 8 of 8 cables are too short"),
+    ] {
+        let error = refused(folder.path(), &["direct", &robot, "--lengths", lengths, "--pose", pose]);
+        contains(&error, &[words, "meant? the lengths that the inverse model has for this pose, in m"]);
+    }
+    // A start that is far from where the lengths hold the platform is no fault.
+    let lengths = "9.738847,9.179206,9.421124,9.469644,9.764403,9.192981,9.496613,9.557590";
+    let found = cdpr(&["direct", &robot, "--lengths", lengths, "--pose", "2,1.5,3"]);
+    assert!(found.status.success(), "{}", unwrapped(found.stderr));
+}

@@ -38,9 +38,9 @@ fn what_is_wrong_is_named_and_the_exit_code_is_not_zero() {
             &["--limit", "deflection_mm<1.4", "--costs", "z=2"],
             "costs is z: expected one of the tolerances mass, linear_density",
         ),
-        (&["--limit", "position_mm<far"], "`far` is not a finite number"),
+        (&["--limit", "position_error_mm<far"], "`far` is not a finite number"),
         (&["--limit", "1.4"], "expected COLUMN<VALUE"),
-        (&["--limit", "magnitude_mm<1.4"], "expected deflection_mm or position_mm < a number"),
+        (&["--limit", "magnitude_mm<1.4"], "expected deflection_mm or position_error_mm < a number"),
     ] {
         let output = tolerances(arguments);
         let message = unwrapped(output.stderr);
@@ -61,7 +61,7 @@ fn the_quantity_of_the_limit_decides_whatever_the_output_of_the_study_is() {
             ["study", "tolerances", path.to_str().unwrap(), "--sampling", "geometrical", "--format", "json"];
         cdpr(&[&study, options].concat())
     };
-    let limit = ["--limit", "position_mm<30", "--observations", "500"];
+    let limit = ["--limit", "position_error_mm<30", "--observations", "500"];
     let of_position = run("position", &limit);
     let json: Value = serde_json::from_slice(&of_position.stdout).unwrap();
     assert_eq!(json["of"], "position");

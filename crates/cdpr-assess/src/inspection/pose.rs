@@ -106,7 +106,7 @@ impl Findings<'_> {
             } else {
                 "these cables, as they hang, pass within their thickness"
             },
-            "check the order of the points: each exit_point beside the anchor_point of the same cable",
+            "check the order of the points: each exit_point with the anchor_point of the same cable",
         );
     }
 

@@ -3,7 +3,7 @@
 use crate::error::CalibrationError;
 use crate::fit::problem::{Problem, Seen};
 use crate::fit::search::{Found, Linearized};
-use crate::fitted::{Estimate, Fit, FitStatus, UnidentifiableCombination, is_known};
+use crate::fitted::{Estimate, Fit, FitStatus, UNLIKELY, UnidentifiableCombination, is_known};
 use crate::model::Shared;
 use crate::model::read::inverse_of_right;
 use crate::sensor_error::SensorError;
@@ -52,7 +52,7 @@ impl Problem<'_> {
         let priors = self.priors(&state.shared);
         let of_data = compared.iter().map(|of| of.residuals.norm_squared()).sum::<f64>();
         let chi_square = of_data + priors.iter().map(|(_, r, _)| r * r).sum::<f64>();
-        Ok(Fit {
+        let mut fit = Fit {
             robot,
             estimates,
             frame: state.shared.frame,
@@ -75,7 +75,12 @@ impl Problem<'_> {
             distance,
             starts,
             unknowns: unknowns.clone(),
-        })
+            length_offsets: None,
+        };
+        if fit.p_value().is_some_and(|p| p < UNLIKELY) {
+            fit.length_offsets = self.length_offsets(&state, &fit.robot);
+        }
+        Ok(fit)
     }
 
     /// The combination of unknowns that each number printed depends on, in scales: its own unknown, but for a

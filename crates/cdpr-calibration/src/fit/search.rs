@@ -176,7 +176,7 @@ impl Problem<'_> {
         Some((State { shared, rows }, linearized))
     }
 
-    fn linearized(&self, shared: &Shared, compared: Vec<Compared>) -> Linearized {
+    pub(super) fn linearized(&self, shared: &Shared, compared: Vec<Compared>) -> Linearized {
         let cost = self.cost(&compared, shared);
         let count = self.model.unknowns.all.len();
         let row_of = |mut of: Compared| {

@@ -6,16 +6,21 @@
 //! rows has the variance `σ²/m` if rows do not depend on each other (Allan 1966): the ratio of the two tells
 //! drifts and errors of the model that change slowly from pose to pose.
 //!
+//! Residuals ρ of a length that average to m over n rows have, without a constant error of the length,
+//! `m sqrt(n)/s` by Student's law with n - 1 degrees of freedom (s: their standard deviation). Of all cables
+//! the means that remain significant by Holm's procedure (1979) are named.
+//!
 //! What is left of a wrong model is mostly curved, because the parameters take what is straight. Of the n
 //! residuals of a column, polynomials of second degree in the place explain the share R². By chance alone
 //! `(R²/k)/((1 - R²)/(n - k - 1))` has the law F(k, n - k - 1), with k terms besides the constant.
 
+use crate::campaign::Quantity;
 use crate::fitted::{Difference, Fit};
 use crate::solve::Svd;
 use cdpr_robot::Vector3;
 use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
-use statrs::distribution::{ContinuousCDF, FisherSnedecor, Normal};
+use statrs::distribution::{ContinuousCDF, FisherSnedecor, Normal, StudentsT};
 use std::collections::BTreeMap;
 
 /// A trend of the residuals of a column.
@@ -44,6 +49,9 @@ pub struct Split {
 
 /// A trend is named above so many standard deviations.
 const CLEAR: f64 = 5.0;
+
+/// Probability that right lengths of any cable are named for their mean residual.
+const FALSE_ALARM: f64 = 1e-3;
 
 /// A correlation that leaves nothing.
 const ALL: f64 = 1.0 - 1e-12;
@@ -104,6 +112,21 @@ impl Fit {
         trends
     }
 
+    /// Lengths whose residuals do not average out over the rows, with their means [m], the greatest first.
+    pub(super) fn mean_residuals(&self) -> Vec<(Quantity, f64)> {
+        let columns = self.columns();
+        let lengths = columns.values().filter(|of| matches!(of[0].quantity, Quantity::Length(_)));
+        let mut means: Vec<(f64, Quantity, f64)> = lengths.filter_map(|of| mean_residual(of)).collect();
+        means.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let cables = means.len();
+        let significant =
+            |(k, of): &(usize, (f64, Quantity, f64))| of.0 * ((cables - k) as f64) < FALSE_ALARM;
+        let named = means.into_iter().enumerate().take_while(significant);
+        let mut named: Vec<(Quantity, f64)> = named.map(|(_, of)| (of.1, of.2)).collect();
+        named.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
+        named
+    }
+
     /// Variances of means over 2, 4, 8 ... consecutive rows.
     pub fn splits(&self) -> Vec<Split> {
         let columns = self.columns();
@@ -133,6 +156,16 @@ impl Fit {
         }
         columns
     }
+}
+
+/// The chance of such a mean of the residuals of a length without a constant error, and the mean [m].
+fn mean_residual(of: &[Difference]) -> Option<(f64, Quantity, f64)> {
+    let values: Vec<f64> = of.iter().map(|of| of.difference).collect();
+    let count = values.len() as f64;
+    let law = StudentsT::new(0.0, 1.0, count - 1.0).ok()?;
+    let mean = values.iter().sum::<f64>() / count;
+    let std = (variance(&values) / count).sqrt();
+    (std > 0.0).then(|| (2.0 * law.sf((mean / std).abs()), of[0].quantity, mean))
 }
 
 /// Multiple correlation of residuals with polynomials of second degree in the place, and how unlikely it is.

@@ -1,12 +1,11 @@
 //! What is odd about a calibration.
 
-use crate::fitted::{Fit, FitStatus};
+use crate::fitted::{Fit, FitStatus, UNLIKELY};
 use crate::results::patterns::Trend;
 use crate::results::summary::{CalibrationSummary, Campaign};
+use crate::sensor_error::SensorError;
+use cdpr_robot::{counted, significant};
 use std::collections::BTreeMap;
-
-/// Chances below this are named: the model or the noise is wrong.
-const UNLIKELY: f64 = 1e-4;
 
 impl Fit {
     /// Sentences about what is odd.
@@ -53,6 +52,9 @@ impl Fit {
                  too small: is the noise stated in mm where it is m, or too large?"
             ));
         }
+        if let Some(constant) = self.constant_errors(summary) {
+            warnings.push(constant);
+        }
         if let Some(Trend { column, against, correlation, .. }) = summary.trends.first() {
             warnings.push(format!(
                 "the residuals of {column} follow {against} (correlation {correlation:+.2}): the model \
@@ -72,6 +74,36 @@ impl Fit {
             ));
         }
         warnings
+    }
+
+    /// What shows that lengths have constant errors which are not sought: means of their residuals or, where
+    /// the parameters sought take those, chi-square.
+    fn constant_errors(&self, summary: &CalibrationSummary) -> Option<String> {
+        if self.unknowns.sensor(SensorError::LengthOffset).is_some() {
+            return None;
+        }
+        let remedy = "incremental encoders have constant errors of lengths: fit length_offset, too";
+        let text = |metres: f64| significant(1e3 * metres, 2);
+        if let [(greatest, mean), others @ ..] = &self.mean_residuals()[..] {
+            let others = match others.len() {
+                0 => String::new(),
+                more => format!(" and those of {} significantly", counted(more, "more cable")),
+            };
+            return Some(format!(
+                "residuals of cable {}, {greatest}, average {} mm{others}: {remedy}",
+                greatest.cable()? + 1,
+                text(*mean)
+            ));
+        }
+        let degrees = summary.p_value.map(|_| self.degrees_of_freedom)?;
+        let offsets = self.length_offsets.as_ref()?;
+        let (cable, offset) = offsets.explain(self.chi_square, degrees)?;
+        Some(format!(
+            "constant errors of the lengths explain {:.0} % of chi-square, with {} mm in cable {}: {remedy}",
+            100.0 * offsets.gain / self.chi_square,
+            text(offset),
+            cable + 1
+        ))
     }
 
     /// The line with most of the sum of squares, if that is far more than its share.

@@ -5,7 +5,7 @@ mod columns;
 use crate::document::{finite, short};
 use crate::draft::{Draft, DraftCable, Note, NoteKind};
 use crate::error::ExchangeError;
-use crate::read::points::columns::{Column, Meaning, NAMES, harmless, meaning};
+use crate::read::points::columns::{Column, Meaning, NAMES, harmless, is_number, meaning};
 use cdpr_robot::{CableProperties, Pulley, Vector3};
 use std::collections::HashMap;
 
@@ -54,9 +54,14 @@ pub(crate) fn read(file: &str, text: &str) -> Result<Draft, ExchangeError> {
     if let Some(missing) = POINTS.iter().find(|name| !columns.contains_key(*name)) {
         return Err(value(1, missing, "missing", &format!("the columns {}", POINTS.join(", "))));
     }
+    let numbered = header.iter().position(is_number);
+    let mut before: Option<i64> = None;
     for row in table.records() {
         let row = row.map_err(syntax)?;
         let line = row.position().map_or(0, |position| position.line() as usize);
+        if let Some(index) = numbered {
+            before = next_number(file, (line, index), &header, &row, before)?;
+        }
         let number = |name: &str| -> Result<Option<f64>, ExchangeError> {
             let Some(column) = columns.get(name) else { return Ok(None) };
             let Some(text) = row.get(column.index).filter(|text| !text.is_empty()) else { return Ok(None) };
@@ -96,6 +101,28 @@ pub(crate) fn read(file: &str, text: &str) -> Result<Draft, ExchangeError> {
         });
     }
     Ok(draft)
+}
+
+/// The number of a cable in column `index`, refused where it does not follow that of the row before.
+fn next_number(
+    file: &str,
+    (line, index): (usize, usize),
+    header: &csv::StringRecord,
+    row: &csv::StringRecord,
+    before: Option<i64>,
+) -> Result<Option<i64>, ExchangeError> {
+    let number = row.get(index).and_then(|text| text.parse::<i64>().ok());
+    match (before.map(|before| before.saturating_add(1)), number) {
+        (Some(next), Some(number)) if number != next => Err(ExchangeError::Value {
+            file: file.to_owned(),
+            line,
+            column: index + 1,
+            element: header[index].to_owned(),
+            value: number.to_string(),
+            expected: format!("{next}: each cable once and in order, none left out"),
+        }),
+        _ => Ok(number),
+    }
 }
 
 /// The columns of a header by their names in this program.

@@ -620,7 +620,7 @@ class Robot:
     ) -> Deflection[float, bool, int, str, None]:
         """Computes how far a load displaces and rotates the platform.
 
-        The cables are wound so that the platform rests at the pose under its own weight; then the load is
+        The lengths are set so that the platform rests at the pose under its own weight; then the load is
         added. Arguments are of one case, or have a first axis of m cases.
 
         Parameters
@@ -1162,7 +1162,7 @@ class Robot:
     ) -> Observations[float, None]:
         """Computes the deflections under a load of robots whose k parameters deviate from those of this robot.
 
-        This is what a study observes; each robot has its cables wound for the pose. Several robots go through
+        This is what a study observes; each robot has lengths set for the pose. Several robots go through
         the vector unit at once: the answers agree with `deflection` to rounding, and each depends on its own
         row alone.
 
@@ -1176,7 +1176,7 @@ class Robot:
             One load for all, as in `deflection`.
         free : sequence of str, optional
             Names of the coordinates of the pose that this robot finds, as `Robot.inverse` takes them, for
-            one with fewer cables than free motions; deviating robots are wound for the pose that it finds.
+            one with fewer cables than free motions; deviating robots have lengths for the pose that it finds.
 
         Returns
         -------

@@ -63,7 +63,7 @@ impl Given {
 impl Robot {
     /// Computes how far a load displaces and rotates the platform.
     ///
-    /// The cables are wound so that the platform rests at the pose under its own weight; then the load is
+    /// The lengths are set so that the platform rests at the pose under its own weight; then the load is
     /// added. Arguments are of one case, or have a first axis of m cases.
     ///
     /// Parameters

@@ -34,7 +34,7 @@ const PART: usize = 256;
 impl Robot {
     /// Computes the deflections under a load of robots whose k parameters deviate from those of this robot.
     ///
-    /// This is what a study observes; each robot has its cables wound for the pose. Several robots go through
+    /// This is what a study observes; each robot has lengths set for the pose. Several robots go through
     /// the vector unit at once: the answers agree with `deflection` to rounding, and each depends on its own
     /// row alone.
     ///
@@ -48,7 +48,7 @@ impl Robot {
     ///     One load for all, as in `deflection`.
     /// free : sequence of str, optional
     ///     Names of the coordinates of the pose that this robot finds, as `Robot.inverse` takes them, for
-    ///     one with fewer cables than free motions; deviating robots are wound for the pose that it finds.
+    ///     one with fewer cables than free motions; deviating robots have lengths for the pose that it finds.
     ///
     /// Returns
     /// -------

@@ -203,7 +203,7 @@ fn measures(analysis: &Analysis) -> Markup {
                     (expansion.degree) " and does not predict " (percent(expansion.leave_one_out)) " %. "
             }
             "An effect is the mean of the upper half of an input's values less that of the lower half. Values \
-             below the noise beside them are as large without an effect in one table of twenty."
+             below the noise next to them are as large without an effect in one table of twenty."
         }
     }
 }

@@ -78,7 +78,7 @@ pub(crate) fn again(results: &Results) -> Section {
             dt { "Version" } dd { "cdpr " (summary.version) }
             @if !summary.hash.is_empty() { dt { "Hash of the study" } dd { (summary.hash) } }
             dt { "Seed" } dd { (summary.seed) }
-            dt { "Files" } dd { "study.json, and beside it " (robot) }
+            dt { "Files" } dd { "study.json, and next to it " (robot) }
         }
         (file("study.json", &results.study_json))
         (file(robot, &results.robot_json))

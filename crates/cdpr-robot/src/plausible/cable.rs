@@ -7,10 +7,8 @@ use std::ops::Range;
 
 /// From rubber to carbon fibre [Pa].
 const MODULUS: Range<f64> = 1e8..1e12;
-/// From loose fibre to tungsten, mass per length over section [kg/m³].
-const DENSITY: Range<f64> = 500.0..20_000.0;
-/// Above glass and aluminium, below steel: no cable is a full circle of such a density [kg/m³].
-const NO_MATERIAL: Range<f64> = 3000.0..7000.0;
+/// Mass per length over section [kg/m³]: from loose fibre to glass and aluminium, from steel to tungsten.
+const MATERIALS: [Range<f64>; 2] = [500.0..3000.0, 7000.0..20_000.0];
 /// Steel [kg/m³].
 const STEEL: f64 = 7850.0;
 /// Breaking force over section, from weak to the strongest fibre [Pa].
@@ -19,8 +17,8 @@ const STRENGTH: Range<f64> = 2e7..1e10;
 const STEEL_WIRE: f64 = 1e9;
 /// Metallic section over that of the full circle.
 const FILL: Range<f64> = 0.3..1.001;
-/// A section this near to the full circle was computed from the diameter.
-const FULL: f64 = 1e-6;
+/// A section this near to the full circle was computed from the diameter, with few digits.
+const FULL: f64 = 0.01;
 /// From a fine wire to the ropes of telescopes and bridges [m].
 const DIAMETER: Range<f64> = 2e-5..0.15;
 
@@ -134,10 +132,11 @@ fn diameter(path: &str, properties: &CableProperties) -> Option<Doubt> {
 fn density(path: &str, properties: &CableProperties, full: bool) -> Option<Doubt> {
     let CableProperties { section, linear_density, diameter, .. } = *properties;
     let density = linear_density / section;
-    if linear_density <= 0.0 {
+    if linear_density <= 0.0 || MATERIALS.iter().any(|material| material.contains(&density)) {
         return None;
     }
-    if let Some(diameter) = diameter.filter(|_| full && NO_MATERIAL.contains(&density)) {
+    let is_between = (MATERIALS[0].end..MATERIALS[1].start).contains(&density);
+    if let Some(diameter) = diameter.filter(|_| full && is_between) {
         let metal = linear_density / STEEL;
         return Some(Doubt::new(
             format!("{path}.section"),
@@ -151,16 +150,16 @@ fn density(path: &str, properties: &CableProperties, full: bool) -> Option<Doubt
             ),
         ));
     }
-    (!DENSITY.contains(&density)).then(|| {
-        let fits = |density: f64| (900.0..12_000.0).contains(&(density / section));
-        let meant = in_other_unit(linear_density, "kg/m", &[("g/m", 1e-3), ("kg per 100 m", 1e-2)], fits);
-        Doubt::new(
-            format!("{path}.linear_density"),
-            format!("{linear_density} kg/m on {section:.4e} m\u{b2}"),
-            format!("makes a density of {density:.3e} kg/m\u{b3}; steel has 7850, fibre 970 to 1600"),
-            meant.unwrap_or_else(|| "linear_density in kg/m; section in m\u{b2}, not in mm\u{b2}".to_owned()),
-        )
-    })
+    let fits = |density: f64| (900.0..12_000.0).contains(&(density / section));
+    let meant = in_other_unit(linear_density, "kg/m", &[("g/m", 1e-3), ("kg per 100 m", 1e-2)], fits);
+    Some(Doubt::new(
+        format!("{path}.linear_density"),
+        format!("{linear_density} kg/m on {section:.4e} m\u{b2}"),
+        format!("makes a density of {} kg/m\u{b3}; steel has 7850, fibre 970 to 1600", four_digits(density)),
+        meant.filter(|_| !is_between).unwrap_or_else(|| {
+            "linear_density in kg/m; section in m\u{b2}, not in mm\u{b2}, of what carries alone".to_owned()
+        }),
+    ))
 }
 
 fn section(path: &str, properties: &CableProperties) -> Option<Doubt> {

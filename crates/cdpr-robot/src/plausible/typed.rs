@@ -23,8 +23,9 @@ const TURN: f64 = 360.0;
 const SURVEYED: f64 = 1e-3;
 /// What cables may stretch: beyond it two of them do not reach each other's exit points.
 const STRETCH: f64 = 1.2;
-/// Distance of an angle typed in radians from the exact one: 3.14 for a half turn [rad].
-const TYPED_RADIANS: f64 = 2e-3;
+/// Parts of a half turn, and how near an angle in radians is typed [rad]: 3.14 for a half turn, but 0.5236
+/// for a sixth of it.
+const TYPED_RADIANS: [(f64, f64); 5] = [(1.0, 2e-3), (2.0, 2e-3), (4.0, 2e-3), (3.0, 1e-4), (6.0, 1e-4)];
 /// Units that lengths and positions are typed in by mistake.
 const MILLIMETRES: [(&str, f64); 2] = [("mm", 1e-3), ("cm", 1e-2)];
 
@@ -94,13 +95,14 @@ pub fn in_ground(robot: &Robot, quantity: &str, pose: &Pose) -> Option<Doubt> {
     })
 }
 
-/// Angles [degrees] of more than a turn, or that are a half, a quarter or an eighth of a turn in radians.
+/// Angles [degrees] of more than a turn, or that are 180, 90, 60, 45 or 30 degrees in radians.
 pub fn angles(quantity: &str, angles: [f64; 3]) -> Option<Doubt> {
     let typed = angles.map(four_digits).join(", ");
-    let turns = [1.0, 2.0, 4.0].map(|part| (PI / part, 180.0 / part));
-    let in_radians =
-        |angle: f64| turns.into_iter().find(|(turn, _)| (angle.abs() - turn).abs() < TYPED_RADIANS);
-    if let Some((angle, (_, degrees))) = angles.iter().find_map(|angle| Some((angle, in_radians(*angle)?))) {
+    let in_radians = |angle: f64| {
+        let near = |(part, distance): &(f64, f64)| (angle.abs() - PI / part).abs() < *distance;
+        TYPED_RADIANS.into_iter().find(near).map(|(part, _)| 180.0 / part)
+    };
+    if let Some((angle, degrees)) = angles.iter().find_map(|angle| Some((angle, in_radians(*angle)?))) {
         let why = format!("{} is an angle of {degrees} degrees in radians", four_digits(*angle));
         let meant = format!("angles in degrees, {} for it", degrees.copysign(*angle));
         return Some(Doubt::new(quantity, format!("{typed} degrees"), why, meant));
@@ -200,11 +202,14 @@ pub fn lengths(robot: &Robot, lengths: &[f64]) -> Option<Doubt> {
         })
     };
     let (i, j) = short(&own)?;
+    let apart = (cables[i].exit_point - cables[j].exit_point).norm();
+    let across = (cables[i].anchor_point - cables[j].anchor_point).norm();
     let why = format!(
-        "with length {}, {} m, too short to join exit points {} m apart",
+        "with length {}, {} m, {} m too short to join exit points {} m apart",
         j + 1,
         four_digits(lengths[j]),
-        four_digits((cables[i].exit_point - cables[j].exit_point).norm())
+        four_digits(apart - across - own(i).max(0.0) - own(j).max(0.0)),
+        four_digits(apart)
     );
     let led = cables.iter().any(|cable| cable.lead > 0.0);
     let meant = if led && short(&|i| lengths[i]).is_none() {
@@ -217,4 +222,33 @@ pub fn lengths(robot: &Robot, lengths: &[f64]) -> Option<Doubt> {
         "unstrained lengths in m, leads included, in the order of the file".to_owned()
     };
     Some(doubt(i, why, meant))
+}
+
+/// Unstrained lengths [m] that are too short for the pose at which the platform was expected to rest: of the
+/// cable that lacks most, and how many do.
+pub fn lengths_at(robot: &Robot, lengths: &[f64], pose: &Pose) -> Option<Doubt> {
+    let cables = robot.cables.iter().zip(lengths).enumerate();
+    let short = cables.filter_map(|(i, (cable, length))| {
+        let chord = (pose.position + pose.rotation * cable.anchor_point - cable.exit_point).norm();
+        let own = (length - cable.lead).max(0.0);
+        (STRETCH * own < chord).then_some((i, chord, chord - own))
+    });
+    let short: Vec<_> = short.collect();
+    let (i, chord, lacking) = *short.iter().max_by(|a, b| a.2.total_cmp(&b.2))?;
+    let others = match short.len() {
+        1 => String::new(),
+        count => format!("; {count} of {} cables are too short", robot.cables.len()),
+    };
+    Some(Doubt::new(
+        format!("length {}", i + 1),
+        format!("{} m", four_digits(lengths[i])),
+        format!(
+            "at position ({}) m the points of cable {} are {} m apart, {} m more than its cable has{others}",
+            pose.position.map(four_digits).data.0[0].join(", "),
+            i + 1,
+            four_digits(chord),
+            four_digits(lacking)
+        ),
+        "the lengths that the inverse model has for this pose, in m, leads included, or another pose",
+    ))
 }

@@ -169,7 +169,7 @@ impl PoseSpec {
         let rotation = match self.rpy_deg {
             Some(angles) if self.quaternion == Self::level() && finite(&angles) => rotation_by_angles(angles),
             Some(angles) => {
-                let expected = "finite angles [degrees], and no `quaternion` beside them".to_owned();
+                let expected = "finite angles [degrees], and no `quaternion` with them".to_owned();
                 return Err(wrong("rpy_deg", format!("{angles:?}"), expected));
             }
             None => rotation_in_order(self.quaternion).map_err(|error| {

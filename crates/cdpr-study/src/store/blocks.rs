@@ -11,6 +11,7 @@ use crate::fs::manifest::make_plain_folder;
 use crate::fs::manifest::{Manifest, changed_files, entries, is_plain_file, is_plain_folder};
 use crate::fs::owned::ResultsFolder;
 use crate::kind::InputKind;
+use crate::model::designs::Design;
 use crate::model::observed::{Observed, count_failed, failures};
 use crate::model::study::Study;
 use crate::names::{BLOCKS_NAME, REPORT_NAME, SUMMARY_NAME};
@@ -187,6 +188,20 @@ impl Blocks {
         self.remove_summary()?;
         write_atomic(path, &file)?;
         Ok(())
+    }
+
+    /// Observations of a sampling's own design on disk; of several poses at the one that has most.
+    ///
+    /// # Errors
+    /// [`StudyError::Read`].
+    pub fn observed(&self, sampling: &str) -> Result<usize, StudyError> {
+        let mut most = 0;
+        for path in files(&self.folder.join(sampling))? {
+            let header = header_of(&read_start(&path, InputKind::Block, HEADER)?).and_then(Result::ok);
+            let own = header.filter(|header| header.design == Design::Own.name());
+            most = most.max(own.map_or(0, |header| header.first + header.observations));
+        }
+        Ok(most)
     }
 
     /// Number of blocks on disk, of any study.

@@ -31,7 +31,7 @@ export function cablesPanel(app) {
       wind[k].element,
       ...[-1, 1].map((sign) =>
         button(
-          sign < 0 ? "wind in" : "pay out",
+          sign < 0 ? "reel in" : "pay out",
           () => {
             const lengths = store.state.lengths.map((old, j) =>
               j === k ? Number((old + sign * step).toFixed(9)) : old,
@@ -39,7 +39,7 @@ export function cablesPanel(app) {
             store.set({ lengths }, { commit: true });
           },
           {
-            "aria-label": `${sign < 0 ? "wind in" : "pay out"} cable ${k + 1} by ${short(step)}`,
+            "aria-label": `${sign < 0 ? "reel in" : "pay out"} cable ${k + 1} by ${short(step)}`,
             title: `by ${short(step)}`,
           },
         ),
@@ -47,7 +47,7 @@ export function cablesPanel(app) {
     ),
   );
   winding.append(h("h3", { text: "Unstrained lengths" }), ...nudges);
-  const keep = button("Keep the lengths to wind single cables", () => mechanics.keep());
+  const keep = button("Keep the lengths to change single ones", () => mechanics.keep());
   const note = h("p", { class: "hint" });
   return panel(
     "Cables",

@@ -1,4 +1,4 @@
-// Two poses that are pinned, and their numbers beside those on screen.
+// Two poses that are pinned, and their numbers next to those on screen.
 
 import { button, h } from "../dom.js";
 import { digits, point, short, withUnit } from "../format.js";

@@ -117,7 +117,7 @@ export function posePanel(app) {
       note,
       kept
         ? "The lengths are kept. The platform is where the cables hold it; handles, keys, buttons pull at it."
-        : "The cables are wound for this pose under the platform's own weight; then the load is put on it.",
+        : "The lengths are set for this pose under the platform's own weight; then the load is put on it.",
     );
   }
 }

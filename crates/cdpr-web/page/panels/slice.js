@@ -127,7 +127,7 @@ export function slicePanel(app) {
     const rest = why.length > 0 ? `; ${why.join(", ")}` : "";
     return [
       `${done} of ${held.length} positions computed, ${count} held${rest}.`,
-      "Click or tap on a position to go there. At each position the cables are wound anew under the platform's",
+      "Click or tap on a position to go there. At each position the lengths are set under the platform's",
       "own weight, and the load acts on these lengths.",
     ].join(" ");
   }

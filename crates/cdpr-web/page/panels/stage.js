@@ -20,7 +20,7 @@ export function stagePanel(app) {
   const way = choice(
     "Cables",
     [
-      ["anew", "tensions anew", "The cables are wound so that the platform has the pose that you choose."],
+      ["pose", "lengths for the pose", "The lengths are set so that the platform has the pose you choose."],
       ["kept", "lengths kept", "The lengths stay; the platform goes where the cables hold it."],
     ],
     (value) => (value === "kept" ? mechanics.keep() : mechanics.renew()),

@@ -3,7 +3,7 @@ import { test } from "node:test";
 import { commands, quote, stem, studyName } from "../commands.js";
 
 const state = {
-  way: "anew",
+  way: "pose",
   position: [-1, 0.5, 2],
   rpy_deg: [0, 0, 0],
   payload: 50,

@@ -1,5 +1,5 @@
 // A stand-in for the module while the page is developed without it: straight springs without weight.
-// `dev.mjs --mock` bundles it in place of pkg/cdpr_web.js. Its numbers are for looking at, not for use.
+// `dev.mjs --mock` bundles it instead of pkg/cdpr_web.js. Its numbers are for looking at, not for use.
 
 import { turned } from "../rotation.js";
 

@@ -178,9 +178,9 @@ test("reasons of the models have no more digits than a reader wants", () => {
 });
 
 test("a failure after an equilibrium was found does not say that there is none", () => {
-  const [kept, anew] = [{ way: "kept" }, { way: "anew" }];
+  const [kept, posed] = [{ way: "kept" }, { way: "pose" }];
   assert.equal(notHeld(kept, { kind: "direct_not_converged" }), "No equilibrium found on these lengths");
-  assert.equal(notHeld(anew, { kind: "infeasible_tension" }), "Not held here");
+  assert.equal(notHeld(posed, { kind: "infeasible_tension" }), "Not held here");
   for (const kind of ["cable_overstrained", "overstrained"])
     assert.match(notHeld(kept, { kind }), /^Beyond the strain for which the models hold/);
   for (const kind of [

@@ -280,7 +280,7 @@ test("a state that robots are not observed in says why", () => {
     error_models: { t: { mass: uniform(4), a: uniform(0.002) } },
     samplings: { all: { error_model: "t" } },
   };
-  const state = { way: "anew", force: [0, 0, 0], moment: [0, 0, 0], payload: 9, tolerances: { mass: 0 } };
+  const state = { way: "pose", force: [0, 0, 0], moment: [0, 0, 0], payload: 9, tolerances: { mass: 0 } };
   const why = (change) => unobserved(study, { ...state, ...change });
   assert.equal(why({}), null);
   assert.match(why({ way: "kept" }), /lengths are kept/);
@@ -297,7 +297,7 @@ test("a small motion moves and turns a pose", () => {
   );
 });
 
-test("a study in place of the template gives pose, payload and tolerances", () => {
+test("a study instead of the template gives pose, payload and tolerances", () => {
   const sampling = {
     error_model: "t",
     observations: 256,

@@ -95,7 +95,7 @@ test("listeners hear of changes, and not of what an answer brings", () => {
   ]);
 });
 
-test("a state that would break the page is mended where it is read", () => {
+test("a state that would break the page is corrected where it is read", () => {
   const first = initial(robot);
   const saved = {
     way: "kept",
@@ -108,7 +108,7 @@ test("a state that would break the page is mended where it is read", () => {
   };
   const { state, refused } = restore(saved, first);
   assert.deepEqual(refused.sort(), ["free", "pins", "tolerances"]);
-  assert.deepEqual([state.way, state.lengths], ["anew", null]);
+  assert.deepEqual([state.way, state.lengths], ["pose", null]);
   assert.deepEqual(state.changes, { ...first.changes, least: 5 });
   assert.deepEqual(state.slice, { ...first.slice, shown: true });
 });

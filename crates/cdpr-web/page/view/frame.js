@@ -63,7 +63,7 @@ export class Names {
     container.append(this.element);
   }
 
-  /** Puts each number beside its exit point; those that would cover each other stand together. */
+  /** Puts each number next to its exit point; those that would cover each other stand together. */
   place(camera, scratch, width, height) {
     const shown = [];
     this.exits.forEach((exit, k) => {

@@ -13,7 +13,7 @@ mod uncertainty;
 mod with;
 
 pub(crate) use figure::{FigureArgument, figure, write_figures};
-pub(crate) use limit::{limit, upper};
+pub(crate) use limit::{POSITION, limit, upper};
 pub(crate) use printing::{Format, Overwrite, Printing, print_record};
 pub(crate) use region::{Region, region};
 pub(crate) use robot::{FreeArguments, LoadArguments, Preference, RobotArgument};

@@ -88,6 +88,11 @@ pub(crate) fn harmless(name: &str) -> bool {
     HARMLESS.contains(&plain(name).as_str())
 }
 
+/// Whether a column numbers the cables.
+pub(crate) fn is_number(name: &str) -> bool {
+    ["cable", "cables", "no", "nr", "number", "index"].contains(&plain(name).as_str())
+}
+
 /// Letters and digits alone, in lower case.
 fn plain(name: &str) -> String {
     let digits = name.chars().map(|c| if c == '²' { '2' } else { c });

@@ -1,7 +1,10 @@
 //! What an output is to satisfy.
 
 use crate::program::arguments::number;
-use cdpr_study::OutputLimit;
+use cdpr_study::{Output, OutputLimit};
+
+/// Name of the position error, the same in limits and in tables.
+pub(crate) const POSITION: &str = Output::Position.name();
 
 /// A column and its limit, such as `magnitude_mm<1.4`: the name of the column states the unit.
 pub(crate) fn limit(text: &str) -> Result<(String, OutputLimit), String> {
@@ -44,11 +47,14 @@ mod tests {
         for text in ["", "magnitude", "<1", "magnitude<", "magnitude<x", "magnitude=1"] {
             assert!(limit(text).is_err(), "{text}");
         }
-        let names = ["deflection_mm", "position_mm"];
-        assert_eq!(upper(&limit("position_mm <= 0.9").unwrap(), &names), Ok(("position_mm", 0.9)));
-        for text in ["position<1", "position_mm>1"] {
+        let names = ["deflection_mm", "position_error_mm"];
+        assert_eq!(
+            upper(&limit("position_error_mm <= 0.9").unwrap(), &names),
+            Ok(("position_error_mm", 0.9))
+        );
+        for text in ["position<1", "position_error_mm>1"] {
             let refused = upper(&limit(text).unwrap(), &names).unwrap_err();
-            assert!(refused.contains("expected deflection_mm or position_mm < a number"), "{refused}");
+            assert!(refused.contains("expected deflection_mm or position_error_mm < a number"), "{refused}");
         }
     }
 }

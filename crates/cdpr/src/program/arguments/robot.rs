@@ -79,7 +79,7 @@ pub(crate) struct Preference {
     /// Tensions that those of the inverse model come as near to as they can: one for all cables or t1,..,tn
     /// [N], or `mid`, the middle of the limits.
     ///
-    /// In place of those in the file; without either the tensions have the least norm.
+    /// Instead of those in the file; without either the tensions have the least norm.
     #[arg(long, value_name = "TENSIONS", allow_hyphen_values = true)]
     pub(crate) tension_reference: Option<TensionReference>,
     /// Which tensions the inverse model chooses, instead of that in the file: nearest to the

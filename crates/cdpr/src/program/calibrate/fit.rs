@@ -6,9 +6,10 @@ use crate::program::arguments::{
 use crate::program::calibrate::sensors::{NoiseArgument, SensorArguments};
 use crate::program::error::ProgramError;
 use crate::program::output::{Details, Ending, patiently, print_sentence, table, wide_table};
+use crate::program::said;
 use cdpr_calibration::{
     Calibrated, CalibrationError, CalibrationSummary, Campaign, Fit, FitSettings, Measurements,
-    ParameterSummary, RobustLoss, Unknowns, carry_out, read_measurements,
+    ParameterSummary, Quantity, RobustLoss, Unknowns, carry_out, read_measurements,
 };
 use cdpr_report::calibration_report;
 use cdpr_robot::{Robot, counted, listing, rounded, shown, significant};
@@ -89,6 +90,11 @@ pub(super) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     let bytes = read_bytes(path, InputKind::Measurements)?;
     check_table(path, &bytes, InputKind::Measurements)?;
     let measured = read_measurements(&bytes, &robot, settings.noise.named(&robot)).map_err(&in_file)?;
+    let not_measured: Vec<String> = measured.not_measured(&robot).iter().map(Quantity::to_string).collect();
+    if !not_measured.is_empty() {
+        let columns = listing("not measured, though it is of other cables: ", &not_measured, "");
+        said::note(format_args!("{}: {columns}", path.display()));
+    }
     let unknowns = settings.unknowns(&robot, prior.as_ref(), &measured)?;
     let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
     let campaign = Campaign {

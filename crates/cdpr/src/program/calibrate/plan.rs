@@ -39,7 +39,7 @@ pub(crate) struct Settings {
     /// deflection by the load, is to be exact there.
     #[arg(long, value_name = "REGION", value_parser = region, allow_hyphen_values = true)]
     work: Option<Region>,
-    /// How exact it is to be there, the standard deviation of a coordinate: position_mm<VALUE or
+    /// How exact it is to be there, the standard deviation of a coordinate: position_error_mm<VALUE or
     /// deflection_mm<VALUE [mm]. How many poses does that take?
     #[arg(long, value_name = "COLUMN<VALUE", value_parser = arguments::limit, requires = "work")]
     limit: Option<(String, OutputLimit)>,
@@ -113,8 +113,8 @@ impl Settings {
         let (_, of_criterion) = self.criterion()?.meant();
         let Some(limit) = &self.limit else { return Ok((of_criterion.unwrap_or(AtWork::Position), None)) };
         let (name, most) =
-            arguments::upper(limit, &["position_mm", "deflection_mm"]).map_err(ProgramError::Usage)?;
-        let of = if name == "position_mm" { AtWork::Position } else { AtWork::Deflection };
+            arguments::upper(limit, &[arguments::POSITION, "deflection_mm"]).map_err(ProgramError::Usage)?;
+        let of = if name == arguments::POSITION { AtWork::Position } else { AtWork::Deflection };
         if of_criterion.is_some_and(|criterion| criterion != of) {
             let usage = format!("--limit {name} and --with criterion: expected both of the same quantity");
             return Err(ProgramError::Usage(usage));

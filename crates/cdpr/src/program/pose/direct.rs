@@ -25,7 +25,7 @@ pub(crate) struct Settings {
     /// Unstrained lengths of the cables, in the order of the file: l1,..,ln [m].
     #[arg(long, value_parser = arguments::lengths, allow_hyphen_values = true)]
     lengths: Option<arguments::Lengths>,
-    /// Mass of the platform with all it carries, in place of the file's [kg].
+    /// Mass of the platform with all it carries, instead of the file's [kg].
     #[arg(long, value_parser = arguments::number, allow_hyphen_values = true)]
     mass: Option<f64>,
     /// Force on the platform, in the base frame: fx,fy,fz [N].
@@ -250,7 +250,11 @@ fn solve(robot: &Robot, case: &Case, name: &str, prove: bool) -> Result<Answer, 
     }
     check_lengths(&robot, &case.lengths)?;
     let problem = DirectProblem::new(&robot, &case.lengths, &load)?;
-    let solution = problem.direct(DirectStart::Pose(&start))?;
+    let solution = problem.direct(DirectStart::Pose(&start)).inspect_err(|_| {
+        if case.pose.is_some() {
+            questions::ask(plausible::lengths_at(&robot, &case.lengths, &start));
+        }
+    })?;
     questions::about_rest(&robot, name, (&case.lengths, &load), &solution, &start);
     let certificate = (prove || case.certify).then(|| problem.certify(&solution).into());
     Ok(Answer { found: Found::new(&robot, &case.lengths, &solution), certificate })

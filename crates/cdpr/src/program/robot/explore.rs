@@ -74,10 +74,10 @@ fn read(path: &Path) -> Result<Input, ProgramError> {
         Err(ProgramError::Study(StudyError::OtherKind { found: InputKind::Study, .. })) => {
             let study = questions::open_study(path)?;
             let named = Path::new(&study.file.robot);
-            // Beside the study, or else of the library.
-            let beside = path.with_file_name("").join(named);
-            let file = if beside.exists() {
-                beside
+            // Next to the study, or else of the library.
+            let sibling = path.with_file_name("").join(named);
+            let file = if sibling.exists() {
+                sibling
             } else {
                 PathBuf::from(named.file_stem().unwrap_or(named.as_os_str()))
             };

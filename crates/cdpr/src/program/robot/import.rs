@@ -26,13 +26,13 @@ pub(crate) struct Settings {
     /// Cable of all cables: a cable file (JSON, `cdpr-cable/1`) or a name in the catalogue, `steel-4mm`.
     #[arg(long)]
     cable: Option<PathBuf>,
-    /// Mass of the platform [kg], in place of that in the files.
+    /// Mass of the platform [kg], instead of that in the files.
     #[arg(long, value_parser = arguments::payload, allow_hyphen_values = true)]
     mass: Option<f64>,
-    /// Centre of mass in the platform frame: x,y,z [m], in place of that in the files.
+    /// Centre of mass in the platform frame: x,y,z [m], instead of that in the files.
     #[arg(long, value_parser = components::<3>, allow_hyphen_values = true)]
     center_of_mass: Option<[f64; 3]>,
-    /// Least and greatest tension of every cable: min,max [N], in place of those in the files.
+    /// Least and greatest tension of every cable: min,max [N], instead of those in the files.
     #[arg(long, value_parser = components::<2>, allow_hyphen_values = true)]
     tension_limits: Option<[f64; 2]>,
 }

@@ -3,8 +3,10 @@
 use crate::program::arguments::{self, Format, Preference, Threads};
 use crate::program::error::ProgramError;
 use crate::program::output::{Details, patiently};
+use crate::program::said;
 use cdpr_study::{Blocks, Existing, Shard, Study, StudyError, TableFormat};
 use clap::{Args, ValueEnum};
+use std::cmp::Ordering;
 use std::path::PathBuf;
 
 #[derive(Args)]
@@ -14,7 +16,7 @@ pub(crate) struct RunSettings {
     /// Folder for the results; made if missing.
     #[arg(short, long, default_value = "results")]
     pub(super) out: PathBuf,
-    /// Number of observations of each sampling, in place of the file's.
+    /// Number of observations of each sampling, instead of the file's.
     ///
     /// Fewer than the file's shorten the measures of sensitivity in proportion, but for exact derivatives.
     #[arg(long, value_parser = arguments::count::<3, 10_000_000_000>)]
@@ -22,6 +24,9 @@ pub(crate) struct RunSettings {
     #[command(flatten)]
     preference: Preference,
     /// Continue with the blocks of this study that the folder holds.
+    ///
+    /// Where it has more observations than the study, the results are of the first ones, and the others are
+    /// kept.
     #[arg(long, conflicts_with = "overwrite")]
     resume: bool,
     /// Begin again: remove blocks, tables and figures of the study in the folder, whatever study that is.
@@ -98,7 +103,25 @@ pub(super) fn begun(settings: &RunSettings) -> Result<(Study, Blocks), ProgramEr
         (None, false, false) => Existing::Refuse,
     };
     let blocks = cdpr_study::begin(&settings.out, &study, existing)?;
+    if settings.resume {
+        say_what_is_there(settings, &study, &blocks)?;
+    }
     Ok((study, blocks))
+}
+
+/// Says of each sampling how many observations the folder has, where it has others than the study.
+fn say_what_is_there(settings: &RunSettings, study: &Study, blocks: &Blocks) -> Result<(), StudyError> {
+    for (name, sampling) in &study.file.samplings {
+        let (there, wanted) = (blocks.observed(name)?, sampling.observations);
+        let then = match there.cmp(&wanted) {
+            Ordering::Less if there > 0 => format!("{} more are made", wanted - there),
+            Ordering::Greater => format!("the results are of the first {wanted}, the others are kept"),
+            _ => continue,
+        };
+        let out = settings.out.display();
+        said::note(format_args!("{out} has {there} observations of {name}: {then}"));
+    }
+    Ok(())
 }
 
 impl RunSettings {

@@ -16,8 +16,8 @@ pub(crate) struct Settings {
     /// Name of the sampling: pose, load and error model.
     #[arg(long)]
     sampling: String,
-    /// What is limited: deflection_mm<VALUE, the static deflection under the load, or position_mm<VALUE, the
-    /// distance from the wanted pose without load [mm].
+    /// What is limited: deflection_mm<VALUE, the static deflection under the load, or
+    /// position_error_mm<VALUE, the distance from the wanted pose without load [mm].
     #[arg(long, value_name = "COLUMN<VALUE", value_parser = arguments::limit)]
     limit: (String, OutputLimit),
     /// Share of the robots that are to keep the limit.
@@ -43,10 +43,10 @@ pub(crate) struct Settings {
 
 pub(super) fn run(settings: &Settings) -> Result<(), ProgramError> {
     settings.threads.start()?;
-    let (column, limit_mm) =
-        arguments::upper(&settings.limit, &["deflection_mm", "position_mm"]).map_err(ProgramError::Usage)?;
+    let (column, limit_mm) = arguments::upper(&settings.limit, &["deflection_mm", arguments::POSITION])
+        .map_err(ProgramError::Usage)?;
     let limit = Limit {
-        of: Some(if column == "position_mm" { Limited::Position } else { Limited::Deflection }),
+        of: Some(if column == arguments::POSITION { Limited::Position } else { Limited::Deflection }),
         limit_mm,
         quantile: settings.quantile,
         costs: settings.costs.clone().map(|Named(costs)| costs.into_iter().collect()).unwrap_or_default(),
