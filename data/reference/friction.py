@@ -77,23 +77,26 @@ class Robot:
         return total / self.size
 
     def newton(self, residual, x):
-        for _ in range(40):
+        for _ in range(60):
             f, jacobian = residual(x)
             step = np.linalg.solve(jacobian, -f)
+            # The first steps may go too far.
+            step *= min(1, 0.2 / np.abs(step).max()) if np.abs(f).max() > 1e-3 else 1
             x = x + step
             if np.abs(step).max() < 3e-14 * max(1, np.abs(x).max()):
                 break
         assert np.abs(residual(x)[0]).max() < 1e-11, np.abs(residual(x)[0]).max()
         return x
 
-    def inverse(self, pose, lengths):
+    def inverse(self, pose):
         """Lengths and forces (over the weight) at the leave points that hold six cables at a pose, no slip."""
         n = len(self.wires)
 
         def residual(x):
             def of(i, y):
                 return self.wires[i].ended(self.size * y[:3], 0.0, self.friction, y[3])
-            ends, jacobian, forces = [], np.zeros((4 * n, 4 * n)), []
+
+            ends, jacobian = [], np.zeros((4 * n, 4 * n))
             place = [np.array(pose) + wire.anchor for wire in self.wires]
             balance = lambda all: self.wrench(all, Rotation.identity(), 0.0)
             base = [of(i, x[4 * i : 4 * i + 4]) for i in range(n)]
@@ -101,7 +104,7 @@ class Robot:
             for i in range(n):
                 ends.append(base[i][0] - place[i])
                 for k in range(4):
-                    y = x[4 * i : 4 * i + 4].astype(complex).real.copy()
+                    y = x[4 * i : 4 * i + 4].copy()
                     h = 1e-6
                     y[k] += h
                     end, force, *_ = of(i, y)
@@ -114,7 +117,7 @@ class Robot:
         chords = [np.array(pose) + w.anchor - w.exit for w in self.wires]
         columns = np.array([np.concatenate([c, np.cross(w.anchor, c)]) / np.linalg.norm(c)
                             for c, w in zip(chords, self.wires)]).T
-        pulls = np.linalg.solve(columns, self.wrench([], Rotation.identity(), 0.0) * 1.0)
+        pulls = np.linalg.solve(columns, self.wrench([], Rotation.identity(), 0.0))
         for w, chord, pull in zip(self.wires, chords, pulls):
             distance = np.linalg.norm(chord)
             start += [*(pull * chord / distance), distance + w.lead + 1.5 * w.radius]
@@ -191,7 +194,7 @@ def cycle(case):
     robot = Robot(case["robot"], (case["friction"], case["bearing"]))
     pose, payload, steps = case["pose"], case["payload"], case["steps"]
     if case.get("lengths") is None:
-        rest = robot.inverse(pose, None)
+        rest = robot.inverse(pose)
         lengths, forces = rest[:, 3], rest[:, :3]
     else:
         lengths = np.array(case["lengths"])
@@ -231,17 +234,36 @@ def six(tilt, friction, bearing):
             "payload": 60.0, "steps": 3, "friction": friction, "bearing": bearing}
 
 
+# Unstrained lengths [m] of `cdpr inverse`, and tensions [N] to start from.
+GIVEN = {
+    "ipanema-3": (
+        [12.449557677382241, 12.59179719837937, 13.227996605503218, 13.149298742893455,
+         12.08664183085104, 12.302054084423412, 13.123563819104302, 12.924528370219141],
+        [442, 421, 412, 414, 106, 110, 100, 100],
+    ),
+    "expo2015-lucia": (
+        [7.973589381057534, 7.946855170087909, 7.742159005273069, 7.745655911671793,
+         7.693992776646687, 7.447617280506027, 7.238534258657544, 7.475916096384051],
+        [553, 17, 16, 577, 322, 412, 404, 322],
+    ),
+}
+
+
 def eight(name, pose, payload, lead, friction, bearing):
-    """A robot of the library; its lengths and first tensions from `cdpr inverse`."""
+    """A robot of the library with leads."""
     robot = json.loads((Path(__file__).parent / f"../robots/{name}.json").read_text())
     for cable in robot["cables"]:
         cable["lead"] = lead
-    given = json.loads((Path(__file__).parent / "friction-lengths.json").read_text())[name]
+    lengths, tensions = GIVEN[name]
     return {"kind": name, "robot": robot, "pose": pose, "payload": payload, "steps": 3, "friction": friction,
-            "bearing": bearing, "lengths": given["lengths"], "tensions": given["tensions"]}
+            "bearing": bearing, "lengths": lengths, "tensions": tensions}
 
 
 if __name__ == "__main__":
-    cases = [six(0, 0.08, 0.0), six(0, 0.0, 0.05), six(1, 0.06, 0.02)]
+    cases = [
+        six(0, 0.08, 0.0), six(0, 0.0, 0.05), six(1, 0.06, 0.02),
+        eight("ipanema-3", [0.3, 0.2, 1.5], 10.0, 3.0, 0.03, 0.01),
+        eight("expo2015-lucia", [0.2, 0.1, 2.0], 40.0, 0.0, 0.05, 0.02),
+    ]
     done = ",\n".join(json.dumps(cycle(case)) for case in cases)
     print('{"cases": [\n%s\n]}' % done)
