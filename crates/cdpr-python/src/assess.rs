@@ -201,8 +201,11 @@ pub(crate) fn hysteresis(
             }
         },
     };
-    let wanted = WantedPose::at(&pose).free(&free);
-    let cycle = run(py, |_| load_cycle_over_pulleys(robot, wanted, &laws, payload, steps, friction))??;
+    let cycle = || {
+        let wanted = WantedPose::at(&pose).free(&free);
+        load_cycle_over_pulleys(robot, wanted, &laws, payload, steps, friction)
+    };
+    let cycle = run(py, |_| cycle())??;
     to_json(&followed(&cycle))
 }
 

@@ -41,9 +41,9 @@ fn load_cycles_with_friction_match_the_integration_of_another_program() {
         let robot = Robot::from_json(&case["robot"].to_string()).unwrap();
         let friction =
             PulleyFriction { friction: number(&case["friction"]), bearing: number(&case["bearing"]) };
-        let pose = Pose { position: vector(&case["pose"]), ..Pose::default() };
+        let [x, y, z] = vector(&case["pose"]).into();
         let count = case["steps"].as_u64().unwrap() as usize;
-        let cycle = ran(&robot, pose, number(&case["payload"]), count, friction);
+        let cycle = ran(&robot, Pose::at(x, y, z), number(&case["payload"]), count, friction);
         let found = case["found"].as_array().unwrap();
         assert_eq!(found.len(), steps(&cycle).len());
         let (mut moved, mut tensions, mut slips) = (0.0f64, 0.0f64, 0.0f64);

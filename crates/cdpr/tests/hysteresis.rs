@@ -180,7 +180,10 @@ fn friction_of_pulleys_leaves_a_loop_and_two_tensions() {
     }
     assert!(!found["pulleys"]["slipping"].as_array().unwrap().is_empty());
     let said = unwrapped(cdpr(&[&given[..], &["steps=5,friction=0.05"]].concat()).stdout);
-    assert!(said.contains("N between winch and platform") && said.contains("the rest at the pulleys"), "{said}");
+    assert!(
+        said.contains("N between winch and platform") && said.contains("the rest at the pulleys"),
+        "{said}"
+    );
     // One coefficient of zero is no friction.
     let none = cdpr(&[&given[..], &["friction=0"]].concat());
     assert!(unwrapped(none.stderr).contains("law"));

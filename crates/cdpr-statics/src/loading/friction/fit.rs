@@ -75,7 +75,8 @@ pub fn fit_friction(readings: &[WinchReading]) -> Result<FrictionFit, StaticsErr
         let residuals = DVector::from_iterator(n, readings.iter().map(|reading| reading.residual(at)));
         let slopes = MatrixXx2::from_fn(n, |k, column| readings[k].slope(at, column));
         let svd = slopes.svd(true, true);
-        let (Some(u), Some(v)) = (svd.u, svd.v_t.map(|v| v.transpose())) else { break };
+        let (Some(u), Some(v_t)) = (svd.u, svd.v_t) else { break };
+        let v = Matrix2::from_fn(|i, j| v_t[(j, i)]);
         let singular = svd.singular_values;
         // Without friction the columns are s T0 θ and 2 s T0 sin(θ/2): what the wraps alone can identify.
         let separable = *is_separable.get_or_insert(singular[1] > SEPARABLE * singular[0]);
