@@ -1,8 +1,8 @@
 //! Friction where cables run over pulleys.
 //!
 //! A cable leaves its wheel with the tension T0 after the wrap θ, and enters it at D with the tension T_w of
-//! its winch. With the slip s, from -1 to 1, the coefficient μ of cable on wheel and the friction radius of the
-//! bearing over that of the wheel, c,
+//! its winch. With the slip s, from -1 to 1, the coefficient μ of cable on wheel and the friction radius c of
+//! the bearing over that of the wheel,
 //!
 //! ```text
 //! T(φ) = T0 exp(s μ φ),    T_w = T(θ) + s c |T0 τ - T_w k|                                          (F1)
@@ -13,15 +13,15 @@
 //! l'équilibre*, Mém. Acad. Berlin 18, 1769; J. A. Eytelwein, *Handbuch der Statik fester Körper*, 1808), the
 //! second one that of a bearing with the resultant of both tensions on it (W. Kraus, M. Kessler, A. Pott,
 //! *Pulley friction compensation for winch-integrated cable force measurement and verification on a
-//! cable-driven parallel robot*, ICRA 2015). It acts at D. With E = exp(s μ θ) and κ = s² c², the root of (F1)
-//! on the side of s is
+//! cable-driven parallel robot*, ICRA 2015). It acts at D. With E = exp(s μ θ) and κ = s² c², the root of
+//! (F1) on the side of s is
 //!
 //! ```text
 //! T_w/T0 = [E - κ cos θ + s c √(1 + E² - 2 E cos θ - κ sin² θ)]/(1 - κ)                             (F2)
 //! ```
 //!
 //! A wheel slips with s = 1 while cable runs towards the winch and with s = -1 while it runs towards the
-//! platform. Between these it sticks: no cable passes D, so that the lead keeps its strain, and T_w stays what
+//! platform. Between these it sticks: no cable passes D, so that the lead keeps its strain, and T_w stays as
 //! it is (L. Prandtl, *Ein Gedankenmodell zur kinetischen Theorie der festen Körper*, ZAMM 8, 1928):
 //!
 //! ```text

@@ -7,8 +7,8 @@
 //! min Σ (T_k - T0_k g(θ_k, s_k; μ, c))²,    J = U diag(a1, a2) Vᵀ,    covariance σ² V diag(1/a²) Vᵀ   (F5)
 //! ```
 //!
-//! To second order in μ θ and c, both effects are `g = 1 + s x + x²/2` with `x = μ θ + 2 c sin(θ/2)`. Readings
-//! at one wrap identify x alone; μ and c are identified by how θ/sin(θ/2) differs between wraps.
+//! To second order in μ θ and c, both effects are `g = 1 + s x + x²/2` with `x = μ θ + 2 c sin(θ/2)`.
+//! Readings at one wrap identify x alone; μ and c are identified by how θ/sin(θ/2) differs between wraps.
 
 use super::wheel::PulleyFriction;
 use crate::error::StaticsError;
@@ -55,7 +55,7 @@ pub struct FrictionFit {
 /// one law of friction is as good as the other.
 const SEPARABLE: f64 = 0.01;
 
-/// Standard deviation beyond which a coefficient is not identified: that of a pulley is hardly greater itself.
+/// Standard deviation beyond which a coefficient is not identified: that of a pulley is hardly greater.
 const UNCERTAIN: f64 = 0.1;
 
 const MAX_ITERATIONS: usize = 50;

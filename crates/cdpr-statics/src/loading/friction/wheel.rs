@@ -22,8 +22,8 @@ pub struct PulleyState {
     pub tension: f64,
     /// Tension T_w at the winch [N].
     pub winch_tension: f64,
-    /// Slip s: 1 where cable runs towards the winch, -1 where it runs towards the platform, between them where
-    /// the wheel sticks.
+    /// Slip s: 1 where cable runs towards the winch, -1 where it runs towards the platform, between them
+    /// where the wheel sticks.
     pub slip: f64,
     /// How much longer friction makes the unstrained part beyond the leave point [m], (F4).
     pub longer: f64,

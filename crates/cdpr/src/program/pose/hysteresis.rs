@@ -265,7 +265,7 @@ impl Pulleys {
             _ => format!("the wheels of cables {} slip", slipping.join(", ")),
         };
         print_sentence(&format!(
-            "Friction of the pulleys: up to {:.2} N between winch and platform; the way down and the way up are \
+            "Friction of the pulleys: up to {:.2} N between winch and platform; the ways down and up are \
              up to {:.5} mm apart; {slipping}.",
             self.greatest_difference_n, self.gap_mm
         ));
