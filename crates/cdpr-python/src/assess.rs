@@ -12,7 +12,10 @@ use cdpr_assess::{
 use cdpr_cable::{Measured, Phase, SecantModulus, Specimen};
 use cdpr_robot::Pose;
 use cdpr_statics::WantedPose;
-use cdpr_statics::hysteresis::{CycleStep, HysteresisLaw, LoadCycle, Unloading, load_cycle};
+use cdpr_statics::hysteresis::{
+    CycleStep, HysteresisLaw, LoadCycle, PulleyFriction, PulleyState, Unloading, WinchReading, fit_friction,
+    load_cycle_over_pulleys,
+};
 use cdpr_study::{CableLaw, IfExists, elastic_laws, open_robot_in_any_unit};
 use pyo3::prelude::*;
 use serde_json::{Value, json};
@@ -142,8 +145,11 @@ pub(crate) fn hysteresis(
     unloading: &str,
     steps: Bound<PyAny>,
     free: Option<Vec<String>>,
+    friction: f64,
+    bearing: f64,
 ) -> Answer<String> {
     let (robot, free) = (&robot.robot, coordinates(free)?);
+    let friction = PulleyFriction { friction, bearing };
     let from = match unloading {
         "turning-point" => Unloading::TurningPoint,
         "same-tension" => Unloading::SameTension,
@@ -183,19 +189,44 @@ pub(crate) fn hysteresis(
             };
             robot.cables.iter().enumerate().map(curves).collect::<Answer<Vec<HysteresisLaw>>>()?
         }
-        None => elastic_laws(robot).map_err(|error| Raised::from(&error))?.ok_or_else(|| {
-            let expected = "expected record, law, or a `law` in the robot file";
-            Raised::Input(format!("no cable of the robot has a law: {expected}"))
-        })?,
+        None => match elastic_laws(robot).map_err(|error| Raised::from(&error))? {
+            Some(laws) => laws,
+            None if friction.is_none() => {
+                let expected = "expected record, law, or a `law` in the robot file";
+                return Err(Raised::Input(format!("no cable of the robot has a law: {expected}")));
+            }
+            None => {
+                let linear = HysteresisLaw::linear().map_err(|error| Raised::from(&error))?;
+                vec![linear; robot.cables.len()]
+            }
+        },
     };
-    let cycle = run(py, |_| load_cycle(robot, WantedPose::at(&pose).free(&free), &laws, payload, steps))??;
+    let cycle = || {
+        let wanted = WantedPose::at(&pose).free(&free);
+        load_cycle_over_pulleys(robot, wanted, &laws, payload, steps, friction)
+    };
+    let cycle = run(py, |_| cycle())??;
     to_json(&followed(&cycle))
 }
 
 fn followed(cycle: &LoadCycle) -> Value {
     let steps: Vec<&CycleStep> = cycle.loading.iter().chain(&cycle.unloading).collect();
     let position = |step: &&CycleStep| -> [f64; 3] { step.solution.equilibrium.pose.position.into() };
+    let of_pulleys = |get: fn(&PulleyState) -> f64| -> Vec<Vec<f64>> {
+        steps.iter().map(|step| step.pulleys.iter().map(get).collect()).collect()
+    };
+    let has_friction = cycle.loading.first().is_some_and(|step| !step.pulleys.is_empty());
+    let pulleys = has_friction.then(|| {
+        json!({
+            "wraps": of_pulleys(|pulley| pulley.wrap),
+            "leave_tensions": of_pulleys(|pulley| pulley.tension),
+            "winch_tensions": of_pulleys(|pulley| pulley.winch_tension),
+            "slips": of_pulleys(|pulley| pulley.slip),
+        })
+    });
     json!({
+        "gap": cycle.gap(),
+        "pulleys": pulleys,
         "deflection": <[f64; 3]>::from(cycle.deflection()),
         "residual": <[f64; 3]>::from(cycle.residual()),
         "payload_work": cycle.payload_work,
@@ -207,6 +238,38 @@ fn followed(cycle: &LoadCycle) -> Value {
         "positions": steps.iter().map(position).collect::<Vec<_>>(),
         "tensions": steps.iter().map(|step| step.solution.equilibrium.tensions()).collect::<Vec<_>>(),
     })
+}
+
+/// The friction of pulleys from tensions on both sides of wheels that slip, as JSON.
+#[pyfunction]
+pub(crate) fn pulley_friction(
+    wraps: Vec<f64>,
+    tensions: Vec<f64>,
+    winch_tensions: Vec<f64>,
+    slips: Vec<f64>,
+) -> Answer<String> {
+    for (name, list) in [("tensions", &tensions), ("winch_tensions", &winch_tensions), ("slips", &slips)] {
+        if list.len() != wraps.len() {
+            let (count, expected) = (list.len(), wraps.len());
+            let message = format!("{name} has {count} values: expected {expected}, as many as wraps");
+            return Err(Raised::Input(message));
+        }
+    }
+    let reading = |k: usize| WinchReading {
+        wrap: wraps[k],
+        tension: tensions[k],
+        winch_tension: winch_tensions[k],
+        slip: slips[k],
+    };
+    let fit = guarded(|| fit_friction(&(0..wraps.len()).map(reading).collect::<Vec<_>>()))??;
+    let pair = |estimate: cdpr_statics::hysteresis::Estimate| [estimate.value, estimate.deviation];
+    to_json(&json!({
+        "coefficients": fit.coefficients.map(|both| both.map(pair)),
+        "combination": fit.combination,
+        "combined": pair(fit.combined),
+        "noise": fit.noise,
+        "singular_values": fit.singular_values,
+    }))
 }
 
 /// A pose that stands alone.

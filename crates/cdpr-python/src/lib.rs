@@ -26,7 +26,9 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _core {
     #[pymodule_export]
-    use crate::assess::{check, check_file, hysteresis, linear_density, modulus, robustness, tolerances};
+    use crate::assess::{
+        check, check_file, hysteresis, linear_density, modulus, pulley_friction, robustness, tolerances,
+    };
     #[pymodule_export]
     use crate::calibration::{calibrate, identify, plan, simulate};
     #[pymodule_export]

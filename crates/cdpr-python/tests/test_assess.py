@@ -110,6 +110,40 @@ def test_robustness_is_the_same_again_and_its_counts_add_up(name, free, tmp_path
             call()
 
 
+def test_friction_of_pulleys_is_that_of_the_program_and_is_found_again(data):
+    file = data / "reference" / "robots" / "suspended-leads.json"
+    theirs = answer("hysteresis", file, "--pose", "0,0,1.5", "--payload", "40",
+                    "--with", "steps=10,friction=0.05,bearing=0.01")
+    robot = cdpr.Robot.from_file(file)
+    ours = assess.hysteresis(robot, [0, 0, 1.5], 40, steps=10, friction=0.05, bearing=0.01)
+    numpy.testing.assert_allclose(1e3 * ours.residual, theirs["residual_mm"], rtol=1e-12, atol=1e-15)
+    assert 1e3 * ours.gap == pytest.approx(theirs["pulleys"]["gap_mm"])
+    winches = [at["winch_tension_n"] for at in theirs["pulleys"]["cables"]]
+    numpy.testing.assert_array_equal(ours.winch_tensions[[0, 10, -1]].T, winches)
+    assert ours.slips.shape == ours.wraps.shape == ours.leave_tensions.shape == (22, 8)
+    fit = assess.pulley_friction(ours.wraps, ours.leave_tensions, ours.winch_tensions, ours.slips)
+    if fit.friction is None:
+        assert fit.bearing is None and "is not identifiable" in repr(fit)
+    one, other = fit.combination
+    assert fit.combined[0] == pytest.approx(0.05 * one + 0.01 * other, rel=0.02)
+    wraps = numpy.tile([0.5, 1.5, 2.5], 20)
+    slips = numpy.where(numpy.arange(60) % 2, 1.0, -1.0)
+    sums = slips * (0.05 * wraps + 2 * 0.01 * numpy.sin(wraps / 2))
+    fit = assess.pulley_friction(wraps, 500 + 0 * wraps, 500 * numpy.exp(sums), slips)
+    assert fit.friction[0] == pytest.approx(0.05, abs=1e-3) and fit.bearing[0] == pytest.approx(0.01, abs=1e-3)
+    assert "friction 0.0" in repr(fit)
+    elastic = assess.hysteresis(cdpr.Robot.from_file("caroca-law"), [0, 0, 1.75], 50, steps=2)
+    assert elastic.winch_tensions is None and elastic.gap < 1e-9
+    for call, said in (
+        (lambda: assess.hysteresis(cdpr.Robot.from_file("caroca"), [0, 0, 1.75], 5, friction=0.1), "without pulleys"),
+        (lambda: assess.hysteresis(robot, [0, 0, 1.5], 5, bearing=-1.0), "bearing is -1"),
+        (lambda: assess.pulley_friction([1.0], [1.0, 2.0], [1.0], [1.0]), "tensions has 2 values"),
+        (lambda: assess.pulley_friction([1.0], [1.0], [1.0], [1.0]), "readings"),
+    ):
+        with pytest.raises(cdpr.InputError, match=said):
+            call()
+
+
 def test_a_load_cycle_is_that_of_the_program(caroca, caroca_file, data):
     record = data / "cables" / "caroca-4mm-record.csv"
     theirs = answer("hysteresis", caroca_file, "--law", record, "--length", "1", "--pose", "0,0,1.75",

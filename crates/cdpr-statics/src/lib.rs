@@ -18,7 +18,7 @@
 //! | where else could it rest? | [`multistart`], [`DirectProblem::with_unstable`] |
 //! | where does it go while lengths or loads change, and where does it jump? | [`continuation`] |
 //! | how far does a load displace it, Eq. (4)? | [`deflection`] |
-//! | where does it end after a load cycle, on cables that dissipate energy? | [`hysteresis`] |
+//! | where does it end after a load cycle, with hysteresis or friction at pulleys? | [`hysteresis`] |
 //! | and with a million other values of the parameters, at a million poses? | [`Observer`], [`batch`] |
 //! | which parameter changes lengths, tensions, poses and deflection, and by how much? | [`derivatives()`] |
 //! | and in weather, with wind on its cables? | [`weather`], [`DirectProblem::in_wind`] |
@@ -106,9 +106,14 @@ pub mod free_coordinates {
     pub use crate::inverse::{FreeSolution, FreeSolutions, LONGEST, free_solutions, rest_near};
 }
 
-/// Load cycles on cables that dissipate energy.
+/// Load cycles on cables that dissipate energy, over pulleys with friction.
 pub mod hysteresis {
-    pub use crate::loading::{CycleStep, HysteresisLaw, LoadCycle, Unloading, load_cycle};
+    pub use crate::loading::{
+        CycleStep, HysteresisLaw, LoadCycle, Unloading, load_cycle, load_cycle_over_pulleys,
+    };
+    pub use crate::loading::{
+        Estimate, FrictionFit, PulleyFriction, PulleyState, WinchReading, fit_friction,
+    };
 }
 
 /// Limits of the tensions at a pose, and the tensions that pass them.

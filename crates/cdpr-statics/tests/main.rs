@@ -19,6 +19,7 @@ mod few_cables_drawn;
 mod few_roots;
 mod free_coordinates;
 mod free_derivatives;
+mod friction;
 mod grab;
 mod gravity;
 mod greatest;

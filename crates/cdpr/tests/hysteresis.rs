@@ -159,3 +159,48 @@ fn a_platform_that_falls_in_its_load_cycle_has_an_answer_and_the_exit_code_3() {
     let share = error["share"].as_f64().unwrap();
     assert!(0.0 < share && share < 1.0 && error["falls_from"].is_array(), "{found}");
 }
+
+#[test]
+fn friction_of_pulleys_leaves_a_loop_and_two_tensions() {
+    let robot = data_path("reference/robots/suspended-leads.json");
+    let given = ["hysteresis", &robot, "--pose", "0,0,1.5", "--payload", "40", "--with"];
+    let output = cdpr(&[&given[..], &["steps=5,friction=0.05,bearing=0.01", "--format", "json"]].concat());
+    let found: Value = serde_json::from_str(&answered(output)).unwrap();
+    let number = |path: &str| found.pointer(path).and_then(Value::as_f64).unwrap();
+    assert_eq!([number("/pulleys/friction"), number("/pulleys/bearing")], [0.05, 0.01]);
+    assert!(number("/residual_mm/2") < -0.01 && number("/pulleys/gap_mm") >= -number("/residual_mm/2"));
+    assert!(number("/payload_work_j") > 0.0 && number("/dissipated_j").abs() < 1e-9);
+    let [at_platform, at_winch] = ["platform", "winch"].map(|of| {
+        let tension = |i: usize, k: usize| number(&format!("/pulleys/cables/{i}/{of}_tension_n/{k}"));
+        (0..8).map(|i| [tension(i, 0), tension(i, 1), tension(i, 2)]).collect::<Vec<_>>()
+    });
+    for (platform, winch) in at_platform.iter().zip(&at_winch) {
+        assert_eq!(platform[0], winch[0]);
+        assert!((platform[1] - winch[1]).abs() <= number("/pulleys/greatest_difference_n"));
+    }
+    assert!(!found["pulleys"]["slipping"].as_array().unwrap().is_empty());
+    let said = unwrapped(cdpr(&[&given[..], &["steps=5,friction=0.05"]].concat()).stdout);
+    assert!(
+        said.contains("N between winch and platform") && said.contains("the rest at the pulleys"),
+        "{said}"
+    );
+    // One coefficient of zero is no friction.
+    let none = cdpr(&[&given[..], &["friction=0"]].concat());
+    assert!(unwrapped(none.stderr).contains("law"));
+}
+
+#[test]
+fn friction_without_pulleys_or_out_of_its_range_is_refused() {
+    for (robot, with, said) in [
+        ("ipanema-1", "friction=0.05", "friction is 0.05: expected zero for a robot without pulleys"),
+        ("caroca", "bearing=0.01", "bearing is 0.01: expected zero for a robot without pulleys"),
+        ("ipanema-3", "friction=-1", "friction is -1: expected a coefficient of pulleys from 0 to 1"),
+        ("ipanema-3", "bearing=0.7", "bearing is 0.7: expected a coefficient of pulleys from 0 to 0.5"),
+        ("ipanema-3", "friction", "expected friction=VALUE"),
+    ] {
+        let refused = cdpr(&["hysteresis", robot, "--pose", "0,0,1.5", "--payload", "5", "--with", with]);
+        assert!(!refused.status.success() && refused.stdout.is_empty());
+        let error = unwrapped(refused.stderr);
+        assert!(error.contains(said), "{error}");
+    }
+}

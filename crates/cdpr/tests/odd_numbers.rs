@@ -29,7 +29,7 @@ const ODD: [&str; 19] = [
 ];
 
 /// Commands whose number in braces is replaced.
-const COMMANDS: [&str; 32] = [
+const COMMANDS: [&str; 34] = [
     "inverse caroca --pose 0,0,1.75 --payload {50}",
     "inverse caroca --pose 0,0,{1.75}",
     "inverse caroca --pose 0,0,1.75 --rpy {5},0,0",
@@ -55,6 +55,8 @@ const COMMANDS: [&str; 32] = [
     "hysteresis caroca-law --pose 0,0,1.75 --payload {50} --with steps=3",
     "hysteresis caroca-law --pose 0,0,{1.75} --payload 50 --with steps=3",
     "hysteresis caroca-law --pose 0,0,1.75 --payload 50 --with steps={3}",
+    "hysteresis expo2015-lucia --pose 0,0,2 --payload 50 --with steps=2,friction={0.05}",
+    "hysteresis expo2015-lucia --pose 0,0,2 --payload 50 --with steps=2,bearing={0.01}",
     "cable catenary weight={1},stiffness=1e6 --length 11 --end 10,1",
     "cable catenary weight=1,stiffness={1e6} --length 11 --end 10,1",
     "cable catenary weight=1,stiffness=1e6 --length {11} --end 10,1",

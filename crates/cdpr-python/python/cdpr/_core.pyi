@@ -61,6 +61,7 @@ __all__ = [
     "hysteresis",
     "linear_density",
     "modulus",
+    "pulley_friction",
     "robustness",
     "simulate",
     "tolerances",
@@ -3587,11 +3588,17 @@ def hysteresis(
     unloading: str,
     steps: int,
     free: list[str] | None,
+    friction: float,
+    bearing: float,
 ) -> str:
     """A payload that is put on and taken off, in SI units as JSON.
 
     The cables follow a record (with length and section of its specimen), a law file, or the robot's own laws.
     """
+def pulley_friction(
+    wraps: list[float], tensions: list[float], winch_tensions: list[float], slips: list[float]
+) -> str:
+    """The friction of pulleys from tensions on both sides of wheels that slip, as JSON."""
 def modulus(
     record: _Source,
     length: float,

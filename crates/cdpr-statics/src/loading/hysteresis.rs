@@ -22,10 +22,11 @@
 use crate::direct::{DirectSolution, DirectStart, follow_load};
 use crate::error::StaticsError;
 use crate::inverse::{PoseLengths, lengths_at, refuse_offsets};
+use crate::loading::friction::{PulleyFriction, PulleyState, Wheels};
 use crate::problem::{DirectProblem, Unstable};
 use crate::state::{Equilibrium, Load, WantedPose};
 use cdpr_cable::{CableError, PiecewiseLaw, Segment};
-use cdpr_robot::{Robot, Vector3};
+use cdpr_robot::{Robot, Vector2, Vector3};
 
 /// The loading and unloading curves of a cable, with strains in proportion to the robot's modulus.
 #[derive(Clone, Debug, PartialEq)]
@@ -72,8 +73,20 @@ pub struct LoadCycle {
 pub struct CycleStep {
     /// Payload [kg].
     pub payload: f64,
-    /// The equilibrium.
+    /// The equilibrium, with the lengths of [`CycleStep::lengths`].
     pub solution: DirectSolution,
+    /// The pulley of every cable; empty without friction.
+    pub pulleys: Vec<PulleyState>,
+}
+
+impl CycleStep {
+    /// Unstrained lengths [m] of cables that have the free parts of this step without friction, from those at
+    /// the winches: L + Δ of (F4).
+    pub fn lengths(&self, at_winches: &[f64]) -> Vec<f64> {
+        let mut lengths = at_winches.to_vec();
+        lengths.iter_mut().zip(&self.pulleys).for_each(|(length, pulley)| *length += pulley.longer);
+        lengths
+    }
 }
 
 impl LoadCycle {
@@ -87,6 +100,13 @@ impl LoadCycle {
         self.ends(&self.loading)
     }
 
+    /// Greatest distance between the positions of the two ways at the same payload [m].
+    pub fn gap(&self) -> f64 {
+        let position = |step: &CycleStep| step.solution.equilibrium.pose.position;
+        let pairs = self.loading.iter().zip(self.unloading.iter().rev());
+        pairs.map(|(up, down)| (position(down) - position(up)).norm()).fold(0.0, f64::max)
+    }
+
     fn ends(&self, way: &[CycleStep]) -> Vector3<f64> {
         let position = |at: Option<&CycleStep>| {
             at.map_or_else(Vector3::zeros, |step| step.solution.equilibrium.pose.position)
@@ -96,6 +116,14 @@ impl LoadCycle {
 }
 
 impl HysteresisLaw {
+    /// The law of a cable of constant modulus.
+    ///
+    /// # Errors
+    /// Those of [`PiecewiseLaw::new`].
+    pub fn linear() -> Result<Self, CableError> {
+        Ok(Self::elastic(PiecewiseLaw::new(0.0, &[Segment { tension: 0.0, ratio: 1.0 }])?))
+    }
+
     /// A law that unloads as it loads: a cable that dissipates no energy.
     pub fn elastic(law: PiecewiseLaw) -> Self {
         let unloading = law.clone();
@@ -144,30 +172,37 @@ pub fn load_cycle<'a>(
     payload: f64,
     steps: usize,
 ) -> Result<LoadCycle, StaticsError> {
+    load_cycle_over_pulleys(robot, wanted, laws, payload, steps, PulleyFriction::default())
+}
+
+/// The same with friction at the pulleys, none of which slips before the cycle: tensions are those of the
+/// inverse model on both sides.
+///
+/// # Errors
+/// Those of [`load_cycle`]; [`StaticsError::Invalid`] for coefficients out of their ranges, and for friction
+/// on a robot without pulleys.
+pub fn load_cycle_over_pulleys<'a>(
+    robot: &Robot,
+    wanted: impl Into<WantedPose<'a>>,
+    laws: &[HysteresisLaw],
+    payload: f64,
+    steps: usize,
+    friction: PulleyFriction,
+) -> Result<LoadCycle, StaticsError> {
     let wanted = refuse_offsets(wanted.into())?;
-    let invalid = |field: &str, value: String, expected: &str| {
-        Err(StaticsError::invalid(field.to_owned(), value, expected))
-    };
-    if !(payload.is_finite() && payload > 0.0) {
-        return invalid("payload", payload.to_string(), "a finite, positive mass [kg]");
-    }
-    if !(1..=MOST_STEPS).contains(&steps) {
-        return invalid("steps", steps.to_string(), &format!("1 to {MOST_STEPS} steps"));
-    }
-    let (n, most) = (robot.cables.len(), payload);
-    if laws.len() != n {
-        return invalid("laws", format!("a list of {}", laws.len()), &format!("{n}, one a cable"));
-    }
+    check(robot, laws, payload, steps)?;
     let mut robot = with_laws(robot, laws.iter().map(|law| law.loading.clone()).collect());
+    let mut wheels = Wheels::new(&robot, friction)?;
     let PoseLengths { lengths, equilibrium: start } = lengths_at(&robot, &wanted, &Load::none())?;
-    let mut ways = Vec::with_capacity(2);
-    let mut means = Vec::with_capacity(3);
-    let mut energies = vec![0.0; n];
     let first = DirectProblem::new(&robot, &lengths, &Load::none())?
         .with_unstable(Unstable::Refused)
         .direct(DirectStart::Near(&start))?;
-    let mut here = CycleStep { payload: 0.0, solution: first };
-    means.push(mean_tensions(&robot, &lengths, &here.solution.equilibrium)?);
+    let pulleys = wheels.as_ref().map(|wheels| wheels.begin(&robot, &lengths, &first.equilibrium));
+    let pulleys = pulleys.transpose()?.unwrap_or_default();
+    let mut here = CycleStep { payload: 0.0, solution: first, pulleys };
+    let mut means = vec![mean_tensions(&robot, &lengths, &here)?];
+    let mut energies = vec![0.0; laws.len()];
+    let mut ways = Vec::with_capacity(2);
     for up in [true, false] {
         let from = &means[means.len() - 1];
         let turned = laws
@@ -178,26 +213,24 @@ pub fn load_cycle<'a>(
         let mut way = vec![here];
         for step in 1..=steps {
             let share = step as f64 / steps as f64;
-            let payload = most * if up { share } else { 1.0 - share };
-            let CycleStep { payload: last, solution: from } = &way[way.len() - 1];
-            let [begin, end] = [*last, payload].map(Load::payload);
-            let followed = follow_load(&robot, &lengths, (&begin, from), &end);
-            let of_all = |share: f64| (last + share * (payload - last)) / most;
-            let solution = followed.map_err(|error| error.with_share(of_all))?;
-            way.push(CycleStep { payload, solution });
+            let to = payload * if up { share } else { 1.0 - share };
+            let next = next_step(&robot, &lengths, &way[way.len() - 1], wheels.as_mut(), to);
+            let last = way[way.len() - 1].payload;
+            let of_all = |share: f64| (last + share * (to - last)) / payload;
+            way.push(next.map_err(|error| error.with_share(of_all))?);
         }
         here = way[way.len() - 1].clone();
-        let to = mean_tensions(&robot, &lengths, &here.solution.equilibrium)?;
-        for i in 0..n {
+        let to = mean_tensions(&robot, &lengths, &here)?;
+        for (i, energy) in energies.iter_mut().enumerate() {
             // ∫ T dε = [T ε] - ∫ ε dT, in multiples of 1/EA
             let law = law_of(&robot, i, &laws[i]);
             let [begin, end] = [from[i], to[i]].map(|t| t * law.scaled_strain(t) - law.scaled_energy(t));
-            energies[i] += end - begin;
+            *energy += end - begin;
         }
         means.push(to);
         ways.push(way);
     }
-    let dissipated = (0..n).map(|i| {
+    let dissipated = (0..laws.len()).map(|i| {
         let (begin, end) = (means[0][i], means[2][i]);
         let last = law_of(&robot, i, &laws[i]);
         let strained = laws[i].loading.scaled_strain(begin) - last.scaled_strain(end);
@@ -206,9 +239,43 @@ pub fn load_cycle<'a>(
     });
     let dissipated = dissipated.collect();
     let payload_work = payload_work(&robot, &ways);
-    let tensions = (0..n).map(|i| [means[0][i], means[1][i], means[2][i]]).collect();
+    let tensions = (0..laws.len()).map(|i| [means[0][i], means[1][i], means[2][i]]).collect();
     let (unloading, loading) = (ways.pop().unwrap_or_default(), ways.pop().unwrap_or_default());
     Ok(LoadCycle { lengths, loading, unloading, tensions, dissipated, payload_work })
+}
+
+fn check(robot: &Robot, laws: &[HysteresisLaw], payload: f64, steps: usize) -> Result<(), StaticsError> {
+    let invalid = |field: &str, value: String, expected: &str| {
+        Err(StaticsError::invalid(field.to_owned(), value, expected))
+    };
+    if !(payload.is_finite() && payload > 0.0) {
+        return invalid("payload", payload.to_string(), "a finite, positive mass [kg]");
+    }
+    if !(1..=MOST_STEPS).contains(&steps) {
+        return invalid("steps", steps.to_string(), &format!("1 to {MOST_STEPS} steps"));
+    }
+    let n = robot.cables.len();
+    if laws.len() != n {
+        return invalid("laws", format!("a list of {}", laws.len()), &format!("{n}, one a cable"));
+    }
+    Ok(())
+}
+
+/// The step after `last` with this payload [kg].
+fn next_step(
+    robot: &Robot,
+    lengths: &[f64],
+    last: &CycleStep,
+    wheels: Option<&mut Wheels>,
+    payload: f64,
+) -> Result<CycleStep, StaticsError> {
+    let [begin, end] = [last.payload, payload].map(Load::payload);
+    let solution = follow_load(robot, &last.lengths(lengths), (&begin, &last.solution), &end)?;
+    let (solution, pulleys) = match wheels {
+        None => (solution, Vec::new()),
+        Some(wheels) => wheels.next(robot, lengths, &end, solution, &last.pulleys)?,
+    };
+    Ok(CycleStep { payload, solution, pulleys })
 }
 
 /// Work of gravity on the payload along the ways of a cycle [J], by the trapezoidal rule.
@@ -239,12 +306,15 @@ fn law_of<'a>(robot: &'a Robot, i: usize, law: &'a HysteresisLaw) -> &'a Piecewi
 }
 
 /// Mean tension of each cable [N].
-fn mean_tensions(
-    robot: &Robot,
-    lengths: &[f64],
-    equilibrium: &Equilibrium,
-) -> Result<Vec<f64>, StaticsError> {
-    let problem = DirectProblem::new(robot, lengths, &Load::none())?;
-    let forces = equilibrium.cable_forces.iter().enumerate();
-    Ok(forces.map(|(i, force)| problem.catenary_at(&equilibrium.pose, i, *force).mean_tension()).collect())
+fn mean_tensions(robot: &Robot, lengths: &[f64], step: &CycleStep) -> Result<Vec<f64>, StaticsError> {
+    let (free, Equilibrium { pose, cable_forces }) = (step.lengths(lengths), &step.solution.equilibrium);
+    let problem = DirectProblem::new(robot, &free, &Load::none())?;
+    let forces = cable_forces.iter().enumerate();
+    let mean = |(i, force): (usize, &Vector2<f64>)| {
+        let mean = problem.catenary_at(pose, i, *force).mean_tension();
+        step.pulleys.get(i).map_or(mean, |pulley| {
+            (mean * free[i] - pulley.tension * pulley.longer + pulley.excess) / lengths[i]
+        })
+    };
+    Ok(forces.map(mean).collect())
 }

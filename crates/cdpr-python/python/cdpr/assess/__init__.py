@@ -10,10 +10,12 @@ note cables 4 for 6 free motions
 from __future__ import annotations
 
 from .cables import LoadCycle, Moduli, hysteresis, linear_density, modulus
+from .friction import FrictionFit, pulley_friction
 from .robots import Finding, Robustness, ToleranceBudget, check, robustness, tolerances
 
 __all__ = [
     "Finding",
+    "FrictionFit",
     "LoadCycle",
     "Moduli",
     "Robustness",
@@ -22,6 +24,7 @@ __all__ = [
     "hysteresis",
     "linear_density",
     "modulus",
+    "pulley_friction",
     "robustness",
     "tolerances",
 ]

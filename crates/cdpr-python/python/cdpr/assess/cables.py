@@ -71,6 +71,37 @@ class LoadCycle:
         """Tension of each cable at the platform at each step [N], (steps, n)."""
         return self._array("tensions")
 
+    @property
+    def gap(self) -> float:
+        """Greatest distance of the ways up and down at the same payload [m]."""
+        return float(self.content["gap"])
+
+    def _of_pulleys(self, name: str) -> Optional[NDArray[Any]]:
+        import numpy
+
+        pulleys = self.content["pulleys"]
+        return None if pulleys is None else numpy.array(pulleys[name])
+
+    @property
+    def winch_tensions(self) -> Optional[NDArray[Any]]:
+        """Tension of each cable at its winch at each step [N], (steps, n); None without friction."""
+        return self._of_pulleys("winch_tensions")
+
+    @property
+    def leave_tensions(self) -> Optional[NDArray[Any]]:
+        """Tension of each cable where it leaves its pulley [N], (steps, n); None without friction."""
+        return self._of_pulleys("leave_tensions")
+
+    @property
+    def wraps(self) -> Optional[NDArray[Any]]:
+        """Angle over which each cable lies on its pulley [rad], (steps, n); None without friction."""
+        return self._of_pulleys("wraps")
+
+    @property
+    def slips(self) -> Optional[NDArray[Any]]:
+        """1 where cable runs to the winch, -1 to the platform, between them a wheel sticks, (steps, n)."""
+        return self._of_pulleys("slips")
+
     def to_dataframe(self) -> Any:
         """Returns a pandas.DataFrame with a row for each step: payload, position and tensions.
 
@@ -123,6 +154,8 @@ def hysteresis(
     unloading: str = "turning-point",
     steps: int = 50,
     free: Optional[Sequence[str]] = None,
+    friction: float = 0.0,
+    bearing: float = 0.0,
 ) -> LoadCycle:
     """Puts a payload on the platform and takes it off again, as `cdpr hysteresis` does.
 
@@ -153,6 +186,11 @@ def hysteresis(
         Steps of the payload each way.
     free : sequence of str, optional
         Names of the coordinates that are found, for a robot with fewer cables than free motions.
+    friction : float, default 0.0
+        Coefficient of the cables on the wheels of their pulleys, 0 to 1.
+    bearing : float, default 0.0
+        Friction radius of the bearing of a pulley (its radius times its coefficient) over the radius of
+        the wheel, 0 to 0.5. With friction, cables without a law have a constant modulus.
 
     Returns
     -------
@@ -180,7 +218,7 @@ def hysteresis(
     """
     measured = None if record is None else _inputs.table("record", record)
     known = None if law is None else _inputs.document("law", law)
-    settings = (length, section, known, unloading, steps, _inputs.names(free))
+    settings = (length, section, known, unloading, steps, _inputs.names(free), friction, bearing)
     return LoadCycle(json.loads(_core.hysteresis(robot, pose, payload, measured, *settings)))
 
 

@@ -12,7 +12,9 @@ use crate::program::pose::at_pose::print_fall;
 use crate::program::questions;
 use cdpr_report::{Cycle, CycleBranch, cycle};
 use cdpr_robot::{Robot, Vector3, shown};
-use cdpr_statics::hysteresis::{CycleStep, HysteresisLaw, LoadCycle, Unloading, load_cycle};
+use cdpr_statics::hysteresis::{
+    CycleStep, HysteresisLaw, LoadCycle, PulleyFriction, PulleyState, Unloading, load_cycle_over_pulleys,
+};
 use cdpr_statics::{Load, StaticsError, WantedPose};
 use cdpr_study::{CableLaw, InputKind, StudyError, elastic_laws, open_law, open_record};
 use serde::Serialize;
@@ -43,7 +45,8 @@ pub(crate) struct Settings {
     #[command(flatten)]
     preference: Preference,
     /// How the cycle is followed: steps=N of the payload each way (50); same-tension, where a cable follows
-    /// the part of the unloading curve with the same tensions and not the part from its start.
+    /// the part of the unloading curve with the same tensions and not the part from its start; friction=MU of
+    /// the cables on their pulleys, bearing=C, the friction radius of a bearing over the radius of its wheel.
     #[arg(long, value_name = "NAMES", value_parser = with)]
     with: Option<With>,
     /// File for a figure of payload over height (.svg, .pdf, .png); behind its name: width=MM, untitled.
@@ -60,6 +63,8 @@ struct Found {
     payload_work_j: f64,
     dissipated_j: f64,
     cables: Vec<InCable>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pulleys: Option<Pulleys>,
     /// Tensions at any step of the cycle.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     out_of_limits: Vec<OutOfLimits>,
@@ -76,18 +81,45 @@ struct InCable {
     dissipated_j: f64,
 }
 
+/// Friction at the pulleys.
+#[derive(Serialize)]
+struct Pulleys {
+    friction: f64,
+    bearing: f64,
+    /// Greatest difference of the tensions at winch and platform, at any step.
+    greatest_difference_n: f64,
+    /// Greatest distance of the two ways at the same payload.
+    gap_mm: f64,
+    /// Numbers of the cables whose wheels slip at any step.
+    slipping: Vec<usize>,
+    cables: Vec<AtPulley>,
+}
+
+/// The pulley of a cable, under own weight, with the payload and without it again.
+#[derive(Serialize)]
+struct AtPulley {
+    wrap_deg: [f64; 3],
+    platform_tension_n: [f64; 3],
+    winch_tension_n: [f64; 3],
+    /// 1 where cable runs towards the winch, -1 towards the platform, between them where the wheel sticks.
+    slip: [f64; 3],
+}
+
 pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     let with = settings.with.clone().unwrap_or_default();
-    with.check(&["steps", "same-tension"])?;
+    with.check(&["steps", "same-tension", "friction", "bearing"])?;
+    let [mu, bearing] = ["friction", "bearing"].map(|name| with.value(name, None, number));
+    let friction = PulleyFriction { friction: mu?.unwrap_or(0.0), bearing: bearing?.unwrap_or(0.0) };
     let steps = with.value("steps", None, arguments::count::<1, 100_000>)?.unwrap_or(50);
     let pose = settings.pose.needed()?;
     let robot = settings.preference.open_robot(settings.robot.path())?;
     let unloading = if with.has("same-tension")? { Unloading::SameTension } else { Unloading::TurningPoint };
-    let laws = laws(&robot, settings, unloading)?;
+    let laws = laws(&robot, settings, unloading, friction)?;
     questions::about_pose(&robot, "--pose", &pose);
     questions::about_load(&robot, &Load::payload(settings.payload));
     let cycle = || {
-        load_cycle(&robot, WantedPose::at(&pose).free(&settings.free.free), &laws, settings.payload, steps)
+        let wanted = WantedPose::at(&pose).free(&settings.free.free);
+        load_cycle_over_pulleys(&robot, wanted, &laws, settings.payload, steps, friction)
     };
     let cycle = match patiently("following the load", cycle) {
         Err(error @ StaticsError::BranchEnds(_)) => {
@@ -95,7 +127,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
         }
         cycle => cycle?,
     };
-    let found = Found::new(&robot, &laws, &cycle);
+    let found = Found { pulleys: Pulleys::new(friction, &cycle), ..Found::new(&robot, &laws, &cycle) };
     settings.printing.format().print(&found, |found| print(&robot, found))?;
     // The work of gravity on the payload on its way down, of which 1e-9 is rounding.
     let work =
@@ -118,6 +150,7 @@ fn laws(
     robot: &Robot,
     settings: &Settings,
     unloading: Unloading,
+    friction: PulleyFriction,
 ) -> Result<Vec<HysteresisLaw>, ProgramError> {
     let law = match (&settings.law, settings.length) {
         (Some(record), Some(length)) => of_record(robot, record, length, settings.section)?,
@@ -128,7 +161,13 @@ fn laws(
             )),
             error => error.into(),
         })?,
-        (None, _) => return elastic_laws(robot)?.ok_or(ProgramError::NoLaw),
+        (None, _) => {
+            let constant = || Ok(vec![HysteresisLaw::linear()?; robot.cables.len()]);
+            return match elastic_laws(robot)? {
+                None if friction.is_none() => Err(ProgramError::NoLaw),
+                own => own.map_or_else(constant, Ok),
+            };
+        }
     };
     let cables = robot.cables.iter().enumerate();
     let curves = cables.map(|(i, cable)| {
@@ -172,15 +211,86 @@ impl Found {
             dissipated_j: *dissipated,
         });
         let steps = cycle.loading.iter().chain(&cycle.unloading);
-        let equilibria: Vec<_> = steps.map(|step| &step.solution.equilibrium).collect();
+        let at_both_ends = |step: &CycleStep| {
+            let equilibrium = &step.solution.equilibrium;
+            let exits = equilibrium.exit_tensions(robot, &step.lengths(&cycle.lengths));
+            equilibrium.tensions().into_iter().zip(exits).map(<[f64; 2]>::from).collect()
+        };
+        let tensions: Vec<Vec<[f64; 2]>> = steps.map(at_both_ends).collect();
         Self {
             deflection_mm: (1e3 * cycle.deflection()).into(),
             residual_mm: (1e3 * cycle.residual()).into(),
             payload_work_j: cycle.payload_work,
             dissipated_j: cycle.dissipated.iter().sum(),
             cables: cables.collect(),
-            out_of_limits: OutOfLimits::all(robot, &cycle.lengths, &equilibria),
+            pulleys: None,
+            out_of_limits: OutOfLimits::of_tensions(robot, &tensions),
         }
+    }
+}
+
+impl Pulleys {
+    fn new(friction: PulleyFriction, cycle: &LoadCycle) -> Option<Self> {
+        let corners = [cycle.loading.first()?, cycle.unloading.first()?, cycle.unloading.last()?];
+        let count = corners[0].pulleys.len();
+        let cable = |i: usize| {
+            let of = |get: fn(&PulleyState) -> f64| corners.map(|step| get(&step.pulleys[i]));
+            AtPulley {
+                wrap_deg: of(|pulley| pulley.wrap.to_degrees()),
+                platform_tension_n: of(|pulley| pulley.tension),
+                winch_tension_n: of(|pulley| pulley.winch_tension),
+                slip: of(|pulley| pulley.slip),
+            }
+        };
+        let steps: Vec<&CycleStep> = cycle.loading.iter().chain(&cycle.unloading).collect();
+        let slips = |i: &usize| steps.iter().any(|step| step.pulleys[*i].slip.abs() == 1.0);
+        let differences = steps.iter().flat_map(|step| &step.pulleys);
+        let differences = differences.map(|pulley| (pulley.winch_tension - pulley.tension).abs());
+        (count > 0).then(|| Self {
+            friction: friction.friction,
+            bearing: friction.bearing,
+            greatest_difference_n: differences.fold(0.0, f64::max),
+            gap_mm: 1e3 * cycle.gap(),
+            slipping: (0..count).filter(slips).map(|i| i + 1).collect(),
+            cables: (0..count).map(cable).collect(),
+        })
+    }
+
+    fn print(&self) {
+        let slipping: Vec<_> = self.slipping.iter().map(usize::to_string).collect();
+        let slipping = match slipping.len() {
+            0 => "no wheel slips".to_owned(),
+            all if all == self.cables.len() => "all wheels slip".to_owned(),
+            1 => format!("the wheel of cable {} slips", slipping[0]),
+            _ => format!("the wheels of cables {} slip", slipping.join(", ")),
+        };
+        print_sentence(&format!(
+            "Friction of the pulleys: up to {:.2} N between winch and platform; the ways down and up are \
+             up to {:.5} mm apart; {slipping}.",
+            self.greatest_difference_n, self.gap_mm
+        ));
+        let mut rows = table(&[
+            "cable",
+            "wrap [deg]",
+            "unloaded: platform, winch [N]",
+            "payload [N]",
+            "removed [N]",
+            "slip",
+        ]);
+        for (i, at) in self.cables.iter().enumerate() {
+            let both = |k: usize| format!("{:.2}, {:.2}", at.platform_tension_n[k], at.winch_tension_n[k]);
+            let slips = format!("{:.2}, {:.2}", at.slip[1], at.slip[2]);
+            rows.add_row([
+                (i + 1).to_string(),
+                format!("{:.1}", at.wrap_deg[1]),
+                both(0),
+                both(1),
+                both(2),
+                slips,
+            ]);
+        }
+        println!("{rows}");
+        println!("slip with the payload and without it: 1 runs to the winch, -1 to the platform");
     }
 }
 
@@ -203,10 +313,14 @@ fn print(robot: &Robot, found: &Found) {
     println!("displaced by the payload  {} mm", vector(&found.deflection_mm, 4));
     println!("left when it is gone      {} mm", vector(&found.residual_mm, 5));
     println!(
-        "energy: {} mJ given by the payload, {} mJ in the loops of the cables",
+        "energy: {} mJ given by the payload, {} mJ in the loops of the cables{}",
         millijoules(found.payload_work_j),
-        millijoules(found.dissipated_j)
+        millijoules(found.dissipated_j),
+        if found.pulleys.is_some() { ", the rest at the pulleys" } else { "" }
     );
+    if let Some(pulleys) = &found.pulleys {
+        pulleys.print();
+    }
     OutOfLimits::print(&found.out_of_limits);
 }
 
