@@ -29,7 +29,7 @@ const ODD: [&str; 19] = [
 ];
 
 /// Commands whose number in braces is replaced.
-const COMMANDS: [&str; 32] = [
+const COMMANDS: [&str; 34] = [
     "inverse caroca --pose 0,0,1.75 --payload {50}",
     "inverse caroca --pose 0,0,{1.75}",
     "inverse caroca --pose 0,0,1.75 --rpy {5},0,0",
@@ -47,6 +47,8 @@ const COMMANDS: [&str; 32] = [
     "stiffness caroca --pose 0,0,1.75 --payload {10}",
     "modes cogiro --pose 0,0,2 --payload {10}",
     "modes cogiro --pose 0,0,2 --inertia {10},20,20",
+    "modes cogiro --pose 0,0,2 --number 3 --with servo=1e6,winch={10}",
+    "modes cogiro --pose 0,0,2 --number 3 --with servo={1e6},winch=10",
     "derivatives caroca --pose 0,0,1.75 --payload {10}",
     "capacity cogiro --pose 0,0,2 --payload {10}",
     "capacity cogiro --pose 0,0,2 --force=0,{10},0",
