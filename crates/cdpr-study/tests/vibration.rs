@@ -61,7 +61,7 @@ fn vibrations_of_a_study_are_those_of_a_loop_over_its_robots() {
 
 #[test]
 fn vibrations_have_indices_to_first_order_and_a_verdict() {
-    for mut study in studies() {
+    for mut study in studies().into_iter().take(4) {
         study.file.error_models["all"].shift_remove("b");
         study.file.sensitivity = Some(small_measures());
         let sampling = study.sampling("point").unwrap();
