@@ -85,9 +85,9 @@ fn shapers_leave_less_than_a_third_for_robots_that_differ() {
     }
 }
 
-/// A cosine of one second leaves nothing of motions with n + 1/2 periods in it: its accelerations at the begin and
-/// at the end cancel. IPAnema 3 swings at 10.7 Hz. Some robots hardly swing without a shaper then, and their
-/// ratios say nothing of it: the amplitudes of all robots do.
+/// A cosine of one second leaves nothing of motions with n + 1/2 periods in it: its accelerations at both ends
+/// cancel. IPAnema 3 swings at 10.7 Hz. Some robots hardly swing without a shaper then, and their ratios say
+/// nothing of it: the amplitudes of all robots do.
 #[test]
 fn shaped_robots_swing_less_than_others_where_the_profile_leaves_some_of_them_nearly_still() {
     let robot = robot("ipanema-3");
@@ -98,7 +98,8 @@ fn shaped_robots_swing_less_than_others_where_the_profile_leaves_some_of_them_ne
     shaped.sort_by(f64::total_cmp);
     let (best, middle) = (count() - count() / 20 - 1, count() / 2);
     println!(
-        "IPAnema 3, cosine: 95 of 100 swing by {:.4} mm, by {:.4} mm without shaper; median {:.4}, {:.4}; ratio {:?}",
+        "IPAnema 3, cosine: 95 of 100 swing by {:.4} mm, without shaper by {:.4} mm; \
+         median {:.4}, {:.4} mm; ratio {:?}",
         1e3 * shaped[best],
         1e3 * plain[best],
         1e3 * shaped[middle],

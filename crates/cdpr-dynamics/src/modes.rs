@@ -8,8 +8,7 @@
 //! ```
 //!
 //! The slow ones are taken as they are, a few replace the others, (N5). Counts by Wittrick and Williams with
-//! all motions of the cables bracket every frequency. One that they do not confirm is found by bisection of
-//! the counts.
+//! all motions of the cables bracket every frequency; bisection finds those that they do not confirm.
 
 pub(crate) mod swing;
 
@@ -131,7 +130,7 @@ impl Modes {
         Ok(Self { modes, complete_below, counted, equilibrium, lengths })
     }
 
-    /// Those at a wanted pose under the platform's weight and `load`, on winches with rotors, if there are any.
+    /// Those at a wanted pose under the platform's weight and `load`, on winches with rotors or without.
     ///
     /// # Errors
     /// Those of [`cdpr_statics::inverse`] and of [`Modes::on_winches`].
@@ -210,8 +209,7 @@ impl About<'_> {
         MovingPlatform::on_winches(self.problem, self.equilibrium, bound, self.winches)
     }
 
-    /// A platform, and twice its lowest frequency on cables without mass [Hz], or more where it has no motion
-    /// below but the `neutral` ones.
+    /// A platform, and a bound [Hz] beyond its `neutral` motions: twice the lowest one without cables' mass.
     fn near_platform(
         &self,
         neutral: usize,

@@ -7,8 +7,8 @@ use cdpr_statics::{DirectProblem, DirectStart, Load, Vector3, WantedPose, set_po
 use cdpr_study::{AlongAxis, AmplitudeSpec, InputMeasures, Output, Session, Study, analyse, observe};
 use serde_json::json;
 
-/// What a loop over robots finds of one of them by hand: its lengths, its rest with the payload, its motions or
-/// its response up to a higher frequency.
+/// What a loop over robots finds of one of them by hand: its lengths, its rest with the payload, its motions
+/// or its response up to a higher frequency.
 fn by_hand(study: &Study, deviations: &[f64]) -> f64 {
     let sampling = study.sampling("point").unwrap();
     let deviating = study.robot.perturbed(deviations).unwrap();
@@ -32,7 +32,7 @@ fn by_hand(study: &Study, deviations: &[f64]) -> f64 {
     }
 }
 
-/// Studies of CoGiRo and CAROCA: how they swing, and how far they are shaken in the worst direction and along z.
+/// Studies of CoGiRo and CAROCA: how they swing, how far they are shaken in the worst direction and along z.
 fn studies() -> Vec<Study> {
     let mut along = of_two_robots("amplitude");
     for study in &mut along {

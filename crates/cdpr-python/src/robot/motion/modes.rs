@@ -102,8 +102,8 @@ impl Robot {
     /// servo : float, optional
     ///     Stiffness with which each winch holds its cable at the drum [N/m]; without it winches hold.
     /// winch : float, default 0
-    ///     Inertia of the rotor of each winch by the square of the drum's radius [kg], with `servo`. The share
-    ///     of a cable contains that of its rotor.
+    ///     Inertia of the rotor of each winch by the square of the drum's radius [kg], with `servo`. The
+    ///     share of a cable contains that of its rotor.
     /// payload : array_like, optional
     ///     Mass that the platform carries there, at its centre of mass [kg].
     /// force, moment : array_like, optional
