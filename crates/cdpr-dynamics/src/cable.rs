@@ -3,7 +3,7 @@
 use crate::condensed::{Clamped, Condensed};
 use crate::element::{Beginning, Element, assemble};
 use crate::error::DynamicsError;
-use crate::free::Free;
+use crate::free::{Beginnings, Free, Rotor};
 use cdpr_statics::vibration::CableAtRest;
 use cdpr_statics::{Matrix6, Vector3, Vector6};
 use nalgebra::Matrix3;
@@ -17,6 +17,8 @@ const KEPT: f64 = 2.0;
 pub(crate) struct MovingCable {
     /// Mass of its static shapes [kg, kg m, kg m²].
     pub(crate) mass: Matrix6<f64>,
+    /// By how much a winch that yields makes it softer than the static models say [N/m, N, N m].
+    pub(crate) softer: Matrix6<f64>,
     /// Its natural motions with its end held, the slowest first.
     pub(crate) modes: Vec<HeldMode>,
     /// Fewer, which act as all of them do on motions up to the highest frequency.
@@ -60,25 +62,39 @@ pub(crate) struct Parts {
     pub(crate) elements: Vec<Element>,
     pub(crate) in_plane: Part<2>,
     pub(crate) across: Part<1>,
+    /// The unknown of the plane, behind those of the end, that is the rotor of a winch.
+    rotor: Option<usize>,
 }
 
 impl Parts {
-    /// Cable `i`, for frequencies up to `highest` [Hz].
+    /// Cable `i`, for frequencies up to `highest` [Hz], on a winch that holds or yields.
     ///
     /// # Errors
     /// As [`MovingCable::new`].
-    pub(crate) fn new(i: usize, cable: &CableAtRest, highest: f64) -> Result<Self, DynamicsError> {
+    pub(crate) fn new(
+        i: usize,
+        cable: &CableAtRest,
+        highest: f64,
+        winch: Option<Rotor>,
+    ) -> Result<Self, DynamicsError> {
         let free = Free { cable: i, free: cable.catenary.free() };
         let elements = free.elements(cable.linear_density, highest)?;
-        let (in_plane, across) = free.beginnings(cable)?;
+        let Beginnings { in_plane, across, rotor } = free.beginnings(cable, winch);
         let density = cable.linear_density;
-        let folded = || DynamicsError::Folded { cable: i };
+        let folded = || match winch {
+            None => DynamicsError::Folded { cable: i },
+            Some(Rotor { stiffness, .. }) => DynamicsError::Invalid {
+                field: "stiffness of the winches",
+                value: format!("{stiffness:?} N/m"),
+                expected: format!("more: cable {} hangs folded or runs out by its own weight", i + 1),
+            },
+        };
         let matrices = assemble(&elements, &in_plane, density, |s| free.modulus(s));
         let condensed = Condensed::new(&matrices).ok_or_else(folded)?;
         let in_plane = Part { beginning: in_plane, condensed };
         let matrices = assemble(&elements, &across, density, |s| [[1.0 / free.slenderness(s)]]);
         let condensed = Condensed::new(&matrices).ok_or_else(folded)?;
-        Ok(Self { elements, in_plane, across: Part { beginning: across, condensed } })
+        Ok(Self { elements, in_plane, across: Part { beginning: across, condensed }, rotor })
     }
 
     /// The motions with the end held: those in the plane, then those across it.
@@ -90,16 +106,28 @@ impl Parts {
 }
 
 impl MovingCable {
-    /// Cable `i`, for frequencies up to `highest` [Hz].
+    /// Cable `i`, for frequencies up to `highest` [Hz], on a winch that holds or yields.
     ///
     /// # Errors
     /// [`DynamicsError::Folded`] for a cable without tension at a point; [`DynamicsError::Invalid`] for a
-    /// frequency at which it has too many half waves.
-    pub(crate) fn new(i: usize, cable: &CableAtRest, highest: f64) -> Result<Self, DynamicsError> {
-        if cable.linear_density == 0.0 {
-            return Ok(Self { mass: Matrix6::zeros(), modes: Vec::new(), reduced: Vec::new() });
+    /// frequency at which it has too many half waves, and for a servo that the weight of the cable overcomes.
+    pub(crate) fn new(
+        i: usize,
+        cable: &CableAtRest,
+        highest: f64,
+        winch: Option<Rotor>,
+    ) -> Result<Self, DynamicsError> {
+        let is_shapeless = winch.is_none() || cable.catenary.is_slack_and_weightless();
+        if cable.linear_density == 0.0 && is_shapeless {
+            let [mass, softer] = [Matrix6::zeros(); 2];
+            return Ok(Self { mass, softer, modes: Vec::new(), reduced: Vec::new() });
         }
-        let parts = Parts::new(i, cable, highest)?;
+        let parts = Parts::new(i, cable, highest, winch)?;
+        let softer = parts.rotor.map_or_else(Matrix6::zeros, |rotor| {
+            let ([x, z], flexibility) = parts.in_plane.condensed.yielding(rotor);
+            let yielding = HeldMode::new(cable, 0.0, Vector3::new(x, 0.0, z)).coupling;
+            yielding * yielding.transpose() / flexibility
+        });
         let (in_plane, across) = (&parts.in_plane.condensed, &parts.across.condensed);
         let sorted = |mut modes: Vec<HeldMode>| {
             modes.sort_by(|one, other| one.square.total_cmp(&other.square));
@@ -110,7 +138,7 @@ impl MovingCable {
         let in_plane = slow.0.iter().map(|mode| HeldMode::in_plane(cable, mode));
         let reduced = in_plane.chain(slow.1.iter().map(|mode| HeldMode::across(cable, mode)));
         let reduced = sorted(reduced.collect());
-        Ok(Self { mass: Self::mass(cable, &parts), modes: sorted(parts.held(cable)), reduced })
+        Ok(Self { mass: Self::mass(cable, &parts), softer, modes: sorted(parts.held(cable)), reduced })
     }
 
     /// Mass of the static shapes of a cable [kg, kg m, kg m²].
@@ -185,7 +213,7 @@ pub(crate) mod tests {
             let expected: Vec<f64> = case["frequencies_hz"].as_array().unwrap().iter().map(number).collect();
             let at = case["dynamic_stiffness"].as_array().map_or(&[][..], Vec::as_slice);
             let all = at.iter().map(|at| number(&at["frequency_hz"])).chain(expected.iter().copied());
-            let moving = MovingCable::new(0, &cable, 1.25 * all.fold(0.0, f64::max)).unwrap();
+            let moving = MovingCable::new(0, &cable, 1.25 * all.fold(0.0, f64::max), None).unwrap();
             for (mode, expected) in moving.modes.iter().zip(&expected) {
                 let found = mode.square.sqrt() / TAU;
                 assert!((found / expected - 1.0).abs() < 1e-8, "{}: {found} {expected}", case["name"]);

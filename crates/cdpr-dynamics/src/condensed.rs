@@ -76,6 +76,15 @@ impl<const D: usize> Condensed<D> {
         Some(Self { modes: modes.collect(), mass, shapes, lower, vectors })
     }
 
+    /// How far an unknown moves with the end, its place behind those of the end, and how far by a force on it
+    /// while the end is held [m/N].
+    pub(crate) fn yielding(&self, unknown: usize) -> ([f64; D], f64) {
+        let mut force = DVector::zeros(self.shapes.nrows());
+        force[unknown] = 1.0;
+        self.lower.solve_lower_triangular_mut(&mut force);
+        (std::array::from_fn(|k| self.shapes[(unknown, k)]), force.norm_squared())
+    }
+
     /// All unknowns of a motion of the end with amplitudes of the motions with the end held.
     ///
     /// That with the frequency ω_k is `ω_k L⁻ᵀ w_k`.

@@ -68,7 +68,7 @@ impl FrequencyDerivatives {
         let parts = at_rest.cables.iter().enumerate().map(|(i, cable)| {
             // A cable without mass and force resists nothing.
             let is_shapeless = cable.linear_density == 0.0 && cable.catenary.is_slack_and_weightless();
-            (!is_shapeless).then(|| Parts::new(i, cable, 1.1 * mode.frequency)).transpose()
+            (!is_shapeless).then(|| Parts::new(i, cable, 1.1 * mode.frequency, None)).transpose()
         });
         let parts = parts.collect::<Result<Vec<_>, _>>()?;
         let start = Vector6::from_iterator(mode.translation.iter().chain(&mode.rotation).copied());

@@ -5,6 +5,7 @@ use crate::error::DynamicsError;
 use cdpr_cable::{Catenary, ElasticLaw};
 use cdpr_statics::vibration::CableAtRest;
 use nalgebra::{Matrix2, Vector2};
+use std::f64::consts::TAU;
 
 /// Degree of an element beyond 1.6 for each half wave: Legendre's polynomials need π points a wave.
 const MORE_DEGREES: usize = 12;
@@ -22,6 +23,59 @@ const MOST_HALVINGS: usize = 30;
 
 /// Compliance of a pulley below this share of the cable's is rounding.
 const ROUNDING: f64 = 1e-9;
+
+/// The rotor of a winch, and the servo that holds it. Both are taken at the cable on the drum.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rotor {
+    /// Inertia about its axis by the square of the drum's radius [kg].
+    pub mass: f64,
+    /// Stiffness of the servo [N/m]: a cable that runs out by a metre is pulled back by so much.
+    pub stiffness: f64,
+}
+
+impl Rotor {
+    /// Refuses a mass or a stiffness that is none, and a rotor so slow that motions up to a frequency [Hz]
+    /// are lost by rounding.
+    pub(crate) fn check(&self, highest: f64) -> Result<(), DynamicsError> {
+        /// Greatest square of the highest frequency over that of the rotor on its servo.
+        const SLOWEST: f64 = 1e8;
+        let Self { mass, stiffness } = *self;
+        let invalid = |field, value: f64, expected: &str| {
+            let (value, expected) = (format!("{value:?}"), expected.to_owned());
+            Err(DynamicsError::Invalid { field, value, expected })
+        };
+        if !(mass.is_finite() && mass >= 0.0) {
+            return invalid("mass of the winches", mass, "a finite mass, zero or more [kg]");
+        }
+        if !(stiffness.is_finite() && stiffness > 0.0) {
+            let expected = "a finite stiffness above zero [N/m]: free rotors hold no platform";
+            return invalid("stiffness of the winches", stiffness, expected);
+        }
+        let most = SLOWEST * stiffness / (TAU * highest).powi(2);
+        if mass > most {
+            return invalid(
+                "mass of the winches",
+                mass,
+                &format!("at most {most:.3e} kg with this stiffness"),
+            );
+        }
+        Ok(())
+    }
+
+    /// The beginning of a straight cable at the drum.
+    fn start(&self) -> Beginning<1> {
+        let mut matrices = Matrices::zeros(1);
+        (matrices.stiffness[(0, 0)], matrices.mass[(0, 0)]) = (self.stiffness, self.mass);
+        Beginning { directions: vec![[1.0]], matrices }
+    }
+}
+
+/// How a cable begins in its plane and across it, and which row of the former is the rotor of its winch.
+pub(crate) struct Beginnings {
+    pub(crate) in_plane: Beginning<2>,
+    pub(crate) across: Beginning<1>,
+    pub(crate) rotor: Option<usize>,
+}
 
 /// The free part of a cable, beyond its exit or leave point.
 pub(crate) struct Free<'a> {
@@ -152,20 +206,51 @@ impl Free<'_> {
     ///
     /// Over a pulley it moves as its static compliance says, the difference of the compliances of the whole
     /// cable and of its free part; cable on the wheel and behind it has no mass.
-    pub(crate) fn beginnings(
-        &self,
-        cable: &CableAtRest,
-    ) -> Result<(Beginning<2>, Beginning<1>), DynamicsError> {
-        let Some(guide) = cable.catenary.cable.guide else {
-            return Ok((Beginning::fixed(), Beginning::fixed()));
+    ///
+    /// A winch whose rotor of the mass m is held with the stiffness k feeds x, which moves the point by x t.
+    /// Over a pulley the part t_i of t along a direction that its compliance K_i⁻¹ frees is fed through it:
+    ///
+    /// ```text
+    /// K_xx = k + sum t_i² (K_i - σ) + (1 - sum t_i²) σ,   K_xi = -t_i (K_i - σ),   σ = w t_z/(1 + ε)   (N20)
+    /// ```
+    pub(crate) fn beginnings(&self, cable: &CableAtRest, rotor: Option<Rotor>) -> Beginnings {
+        let guide = cable.catenary.cable.guide;
+        if guide.is_some_and(|guide| guide.radius == 0.0 && guide.lead > 0.0) {
+            let start = rotor.map_or_else(Beginning::fixed, |rotor| rotor.start());
+            let in_plane = self.behind_lead(cable, &start).0;
+            // The first unknown is the exit point.
+            return Beginnings { in_plane, across: Beginning::fixed(), rotor: rotor.map(|_| 1) };
+        }
+        let (mut in_plane, across) = match guide {
+            Some(guide) if guide.radius > 0.0 => self.on_pulley(cable),
+            _ => (Beginning::fixed(), Beginning::fixed()),
         };
-        if guide.radius > 0.0 {
-            return Ok(self.on_pulley(cable));
+        let row = rotor.map(|rotor| self.fed_by(&rotor, &mut in_plane));
+        Beginnings { in_plane, across, rotor: row }
+    }
+
+    /// Adds the rotor of a winch to a beginning, by (N20); its row.
+    fn fed_by(&self, rotor: &Rotor, beginning: &mut Beginning<2>) -> usize {
+        let tension = self.tension(0.0);
+        let along = tension.normalize();
+        let slid =
+            self.free.cable.weight_per_length * along.y / (1.0 + self.free.cable.strain(tension.norm()));
+        let row = beginning.directions.len();
+        let Matrices { stiffness, mass } = &beginning.matrices;
+        let [mut stiffness, mut mass] = [stiffness, mass].map(|of| of.clone().resize(row + 1, row + 1, 0.0));
+        let (mut rest, mut own) = (along, rotor.stiffness);
+        for (k, [x, z]) in beginning.directions.iter().enumerate() {
+            let part = along.x * x + along.y * z;
+            let pull = part * (stiffness[(k, k)] - slid);
+            rest -= Vector2::new(*x, *z) * part;
+            own += part * pull;
+            (stiffness[(k, row)], stiffness[(row, k)]) = (-pull, -pull);
         }
-        if guide.lead == 0.0 {
-            return Ok((Beginning::fixed(), Beginning::fixed()));
-        }
-        Ok((self.behind_lead(cable, &Beginning::fixed()).0, Beginning::fixed()))
+        stiffness[(row, row)] = own + slid * rest.norm_squared();
+        mass[(row, row)] = rotor.mass;
+        beginning.matrices = Matrices { stiffness, mass };
+        beginning.directions.push(rest.into());
+        row
     }
 
     /// How the exit point moves in front of a lead that begins like that, and the stiffness of its stretch

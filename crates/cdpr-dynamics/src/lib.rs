@@ -19,9 +19,9 @@
 //! ```
 //!
 //! The cables are those of `cdpr-cable`: sag, elasticity, laws, leads and pulleys. Cable on a pulley and
-//! behind it has no mass here. In natural motions nothing is damped and winches hold; [`FrequencyResponse`]
-//! has damping and winches that move, [`LargestInBand`] its largest amplitudes, [`FrequencyDerivatives`] how
-//! the frequencies change. [`simulate`] follows large motions over time.
+//! behind it has no mass here. In natural motions nothing is damped, and winches hold or have a [`Rotor`];
+//! [`FrequencyResponse`] has damping and winches that move, [`LargestInBand`] its largest amplitudes,
+//! [`FrequencyDerivatives`] how the frequencies change. [`simulate`] follows large motions over time.
 
 mod cable;
 mod condensed;
@@ -42,6 +42,7 @@ pub mod simulate;
 pub use derivatives::FrequencyDerivatives;
 pub use derivatives::amplitude::{AmplitudeAt, AmplitudeDerivatives};
 pub use error::DynamicsError;
+pub use free::Rotor;
 pub use modes::swing::Swing;
 pub use modes::{Mode, Modes, Wanted, modes_at};
 pub use platform::MovingPlatform;

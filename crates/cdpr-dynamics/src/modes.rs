@@ -8,14 +8,14 @@
 //! ```
 //!
 //! The slow ones are taken as they are, a few replace the others, (N5). Counts by Wittrick and Williams with
-//! all motions of the cables bracket every frequency. One that they do not confirm is found by bisection of
-//! the counts.
+//! all motions of the cables bracket every frequency; bisection finds those that they do not confirm.
 
 pub(crate) mod swing;
 
 use crate::cable::HeldMode;
 use crate::dense::{cholesky, eigenvectors};
 use crate::error::{DynamicsError, positive};
+use crate::free::Rotor;
 use crate::platform::MovingPlatform;
 use cdpr_robot::{Robot, Vector3};
 use cdpr_statics::vibration::NaturalMode;
@@ -75,7 +75,7 @@ const WITHIN: [f64; 3] = [1e-6, 1e-5, 1e-4];
 const ROUNDING: f64 = 1e-13;
 
 impl Modes {
-    /// Natural motions about a stable equilibrium.
+    /// Natural motions about a stable equilibrium, on winches that hold.
     ///
     /// # Errors
     /// [`DynamicsError::Invalid`] for a frequency or number that is not positive and finite;
@@ -87,20 +87,34 @@ impl Modes {
         equilibrium: &Equilibrium,
         wanted: Wanted,
     ) -> Result<Self, DynamicsError> {
+        Self::on_winches(problem, equilibrium, wanted, None)
+    }
+
+    /// The same on winches with rotors, if there are any: the share of a cable contains that of its rotor.
+    ///
+    /// # Errors
+    /// As [`Modes::new`] and [`MovingPlatform::on_winches`].
+    pub fn on_winches(
+        problem: &DirectProblem,
+        equilibrium: &Equilibrium,
+        wanted: Wanted,
+        winches: Option<Rotor>,
+    ) -> Result<Self, DynamicsError> {
+        let about = About { problem, equilibrium, winches };
         // Those on cables without mass refuse unstable equilibria, and show which motions nothing resists.
         let massless = problem.modes(equilibrium)?;
         let neutral = massless.iter().filter(|mode| mode.frequency == 0.0).count();
         let slowest = massless.get(neutral).map(|mode| mode.frequency);
         let swings = swings(&massless[neutral..]);
         let (platform, bound, number) = match wanted {
-            Wanted::Below(bound) => (MovingPlatform::new(problem, equilibrium, bound)?, bound, None),
+            Wanted::Below(bound) => (about.platform(bound)?, bound, None),
             Wanted::OfPlatform => {
-                let (platform, bound) = near_platform(problem, equilibrium, neutral, slowest)?;
+                let (platform, bound) = about.near_platform(neutral, slowest)?;
                 (platform, bound, None)
             }
             Wanted::Number(number) => {
                 positive("number of motions", number as f64, "one at least")?;
-                let (platform, bound) = reach(problem, equilibrium, number, slowest)?;
+                let (platform, bound) = about.reach(number, slowest)?;
                 (platform, bound, Some(number))
             }
         };
@@ -114,6 +128,23 @@ impl Modes {
         }
         let (equilibrium, lengths) = (equilibrium.clone(), problem.lengths().to_vec());
         Ok(Self { modes, complete_below, counted, equilibrium, lengths })
+    }
+
+    /// Those at a wanted pose under the platform's weight and `load`, on winches with rotors or without.
+    ///
+    /// # Errors
+    /// Those of [`cdpr_statics::inverse`] and of [`Modes::on_winches`].
+    pub fn at<'a>(
+        robot: &Robot,
+        pose: impl Into<WantedPose<'a>>,
+        load: &Load,
+        wanted: Wanted,
+        winches: Option<Rotor>,
+    ) -> Result<Self, DynamicsError> {
+        let found = inverse(robot, pose.into(), load)?;
+        let problem = DirectProblem::new(robot, &found.lengths, load)?;
+        let rest = problem.direct(DirectStart::Near(&found.equilibrium))?;
+        Self::on_winches(&problem, &rest.equilibrium, wanted, winches)
     }
 
     /// The slowest motion that something resists.
@@ -153,10 +184,7 @@ pub fn modes_at<'a>(
     load: &Load,
     wanted: Wanted,
 ) -> Result<Modes, DynamicsError> {
-    let found = inverse(robot, pose.into(), load)?;
-    let problem = DirectProblem::new(robot, &found.lengths, load)?;
-    let rest = problem.direct(DirectStart::Near(&found.equilibrium))?;
-    Modes::new(&problem, &rest.equilibrium, wanted)
+    Modes::at(robot, pose, load, wanted, None)
 }
 
 /// The slowest of the motions on cables without mass, and those that are as slow.
@@ -168,57 +196,64 @@ fn swings(massless: &[NaturalMode]) -> Vec<Vector6<f64>> {
     same.map(|mode| Vector6::from_iterator(mode.translation.iter().chain(&mode.rotation).copied())).collect()
 }
 
-/// A platform, and twice its lowest frequency on cables without mass [Hz], or more where it has no motion
-/// below but the `neutral` ones.
-fn near_platform(
-    problem: &DirectProblem,
-    equilibrium: &Equilibrium,
-    neutral: usize,
-    slowest: Option<f64>,
-) -> Result<(MovingPlatform, f64), DynamicsError> {
-    const REACH: f64 = 2.0;
-    let Some(slowest) = slowest else { return reach(problem, equilibrium, neutral + 1, None) };
-    let bound = REACH * slowest;
-    let platform = MovingPlatform::new(problem, equilibrium, bound)?;
-    if platform.count(bound) > neutral {
-        return Ok((platform, bound));
-    }
-    reach(problem, equilibrium, neutral + 1, Some(slowest))
+/// What vibrates: a platform about an equilibrium, and the rotors of its winches.
+struct About<'a> {
+    problem: &'a DirectProblem<'a>,
+    equilibrium: &'a Equilibrium,
+    winches: Option<Rotor>,
 }
 
-/// A platform, and a frequency [Hz] below which it has `number` natural motions at least.
-fn reach(
-    problem: &DirectProblem,
-    equilibrium: &Equilibrium,
-    number: usize,
-    slowest: Option<f64>,
-) -> Result<(MovingPlatform, f64), DynamicsError> {
-    /// Motions beyond the wanted ones that are accepted.
-    const SPARE: usize = 8;
-    let cables = problem.cable_frequencies(equilibrium)?;
-    let first = cables.into_iter().chain([slowest]).flatten().fold(f64::INFINITY, f64::min);
-    let mut bound = if first.is_finite() { 2.0 * first } else { 1.0 };
-    let mut below = 0.0;
-    let mut platform = MovingPlatform::new(problem, equilibrium, bound)?;
-    while platform.count(bound) < number {
-        let faster = platform.cables.iter().any(|cable| !cable.modes.is_empty());
-        if !faster && platform.count(f64::MAX.sqrt() / TAU) < number {
-            bound = platform.above_all();
-            break;
-        }
-        below = bound;
-        bound *= 1.5;
-        platform = MovingPlatform::new(problem, equilibrium, bound)?;
+impl About<'_> {
+    /// Platform and cables for frequencies up to a bound [Hz].
+    fn platform(&self, bound: f64) -> Result<MovingPlatform, DynamicsError> {
+        MovingPlatform::on_winches(self.problem, self.equilibrium, bound, self.winches)
     }
-    // No more than are wanted, and a few.
-    for _ in 0..20 {
-        if platform.count(bound) <= number + SPARE {
-            break;
+
+    /// A platform, and a bound [Hz] beyond its `neutral` motions: twice the lowest one without cables' mass.
+    fn near_platform(
+        &self,
+        neutral: usize,
+        slowest: Option<f64>,
+    ) -> Result<(MovingPlatform, f64), DynamicsError> {
+        const REACH: f64 = 2.0;
+        let Some(slowest) = slowest else { return self.reach(neutral + 1, None) };
+        let bound = REACH * slowest;
+        let platform = self.platform(bound)?;
+        if platform.count(bound) > neutral {
+            return Ok((platform, bound));
         }
-        let middle = 0.5 * (below + bound);
-        if platform.count(middle) > number { bound = middle } else { below = middle }
+        self.reach(neutral + 1, Some(slowest))
     }
-    Ok((platform, bound))
+
+    /// A platform, and a frequency [Hz] below which it has `number` natural motions at least.
+    fn reach(&self, number: usize, slowest: Option<f64>) -> Result<(MovingPlatform, f64), DynamicsError> {
+        /// Motions beyond the wanted ones that are accepted.
+        const SPARE: usize = 8;
+        let cables = self.problem.cable_frequencies(self.equilibrium)?;
+        let first = cables.into_iter().chain([slowest]).flatten().fold(f64::INFINITY, f64::min);
+        let mut bound = if first.is_finite() { 2.0 * first } else { 1.0 };
+        let mut below = 0.0;
+        let mut platform = self.platform(bound)?;
+        while platform.count(bound) < number {
+            let faster = platform.cables.iter().any(|cable| !cable.modes.is_empty());
+            if !faster && platform.count(f64::MAX.sqrt() / TAU) < number {
+                bound = platform.above_all();
+                break;
+            }
+            below = bound;
+            bound *= 1.5;
+            platform = self.platform(bound)?;
+        }
+        // No more than are wanted, and a few.
+        for _ in 0..20 {
+            if platform.count(bound) <= number + SPARE {
+                break;
+            }
+            let middle = 0.5 * (below + bound);
+            if platform.count(middle) > number { bound = middle } else { below = middle }
+        }
+        Ok((platform, bound))
+    }
 }
 
 impl MovingPlatform {

@@ -2,6 +2,7 @@
 
 use crate::cable::{HeldMode, MovingCable};
 use crate::error::{DynamicsError, positive};
+use crate::free::Rotor;
 use cdpr_statics::vibration::SmallMotions;
 use cdpr_statics::{DirectProblem, Equilibrium, Matrix6};
 use std::f64::consts::TAU;
@@ -31,7 +32,7 @@ const FAR: f64 = 4.0;
 const TERMS: usize = 8;
 
 impl MovingPlatform {
-    /// Platform and cables for frequencies up to `highest` [Hz].
+    /// Platform and cables for frequencies up to `highest` [Hz], on winches that hold.
     ///
     /// # Errors
     /// [`DynamicsError::Statics`] for an equilibrium that is not finite, and for a robot that rotates without
@@ -43,11 +44,27 @@ impl MovingPlatform {
         equilibrium: &Equilibrium,
         highest: f64,
     ) -> Result<Self, DynamicsError> {
+        Self::on_winches(problem, equilibrium, highest, None)
+    }
+
+    /// The same on winches with rotors, if there are any.
+    ///
+    /// # Errors
+    /// As [`MovingPlatform::new`]; [`DynamicsError::Invalid`] for a rotor without mass or stiffness that can
+    /// be one, and for a servo that the weight of a cable overcomes.
+    pub fn on_winches(
+        problem: &DirectProblem,
+        equilibrium: &Equilibrium,
+        highest: f64,
+        winches: Option<Rotor>,
+    ) -> Result<Self, DynamicsError> {
         positive("highest frequency", highest, "a frequency [Hz] above zero")?;
+        winches.map_or(Ok(()), |rotor| rotor.check(highest))?;
         let SmallMotions { mass, weight, cables, free } = problem.small_motions(equilibrium)?;
-        let stiffness = cables.iter().fold(weight, |sum, cable| sum + cable.stiffness);
-        let moving = cables.iter().enumerate().map(|(i, cable)| MovingCable::new(i, cable, highest));
+        let mut stiffness = cables.iter().fold(weight, |sum, cable| sum + cable.stiffness);
+        let moving = cables.iter().enumerate().map(|(i, cable)| MovingCable::new(i, cable, highest, winches));
         let cables = moving.collect::<Result<Vec<_>, _>>()?;
+        cables.iter().for_each(|cable: &MovingCable| stiffness -= cable.softer);
         let whole_mass = cables.iter().fold(mass, |sum, cable| sum + cable.mass);
         let last = (FAR * TAU * highest).powi(2);
         let modes = cables.iter().flat_map(|cable: &MovingCable| &cable.modes);

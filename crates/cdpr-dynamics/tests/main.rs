@@ -12,3 +12,4 @@ mod robots;
 mod shaken_derivatives;
 mod simulated;
 mod transients;
+mod winches;

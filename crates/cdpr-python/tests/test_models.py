@@ -106,6 +106,11 @@ def test_the_natural_motions_are_those_of_the_command_line(cogiro, cogiro_file):
         numpy.testing.assert_allclose(getattr(found, field), expected, rtol=1e-5, atol=1e-9)
     assert found.complete_below_hz == printed["complete_below_hz"] == 6
     assert len(found.frequencies_hz) == printed["counted"]
+    printed = answer("modes", cogiro_file, "--below=6", "--pose=0.5,0.2,2", "--with=servo=1e6,winch=40")
+    found = cogiro.modes([0.5, 0.2, 2], below=6, servo=1e6, winch=40)
+    same(found.frequencies_hz, [mode["frequency_hz"] for mode in printed["modes"]])
+    with pytest.raises(cdpr.errors.InputError, match="free rotors"):
+        cogiro.modes([0.5, 0.2, 2], winch=40)
     both = cogiro.modes([[0.5, 0.2, 2], [0, 0, 2]], number=3)
     assert both.frequencies_hz.shape == (2, 3) and both.cable_shares.shape == (2, 3, 8)
 

@@ -13,3 +13,4 @@ mod sensitivity;
 mod sensitivity_settings;
 mod shared_folder;
 mod tables;
+mod vibration;

@@ -69,6 +69,29 @@ fn platform_and_cables_vibrate_together_and_none_of_their_motions_is_missing() {
 }
 
 #[test]
+fn winches_that_yield_make_a_robot_slower_and_stiff_ones_do_not() {
+    let at = ["modes", "cogiro", "--pose", "0.5,0.2,2", "--number", "4"];
+    let with = |winches: &str| answer(&[&at[..], &["--with", winches]].concat());
+    let lowest = |found: &Value| number(&found["modes"][0]["frequency_hz"]);
+    let platform = |found: &Value| number(&found["platform"]["frequency_hz"]);
+    let (fixed, stiff, soft) = (answer(&at), with("servo=1e15"), with("servo=2e5,winch=20"));
+    assert!(fixed.get("winches").is_none() && soft["winches"]["mass_kg"] == 20.0);
+    assert!(close(lowest(&stiff), lowest(&fixed), 2e-6) && close(platform(&stiff), platform(&fixed), 2e-6));
+    assert!(platform(&soft) < 0.95 * platform(&fixed), "{soft}");
+    assert!(printed(&[&at[..], &["--with", "servo=2e5,winch=20"]].concat()).contains("rotors of 20 kg"));
+    for (winches, said) in [
+        ("winch=20", "expected servo=N/m, too: free rotors hold no platform"),
+        ("servo=0", "free rotors hold no platform"),
+        ("servo=1e6,winch=-1", "mass of the winches is -1.0: expected a finite mass"),
+        ("rotor=3", "expected winch, servo"),
+    ] {
+        let refused = cdpr(&[&at[..], &["--with", winches]].concat());
+        let error = unwrapped(refused.stderr);
+        assert!(!refused.status.success() && error.contains(said), "{winches}: {error}");
+    }
+}
+
+#[test]
 fn without_mass_of_cables_an_answer_says_how_slowly_the_cables_themselves_vibrate() {
     let file = data_path("robots/cogiro.json");
     let modes = answer(&["modes", &file, "--massless", "--pose", "0,0,2"]);

@@ -47,6 +47,8 @@ const COMMANDS: [&str; 34] = [
     "stiffness caroca --pose 0,0,1.75 --payload {10}",
     "modes cogiro --pose 0,0,2 --payload {10}",
     "modes cogiro --pose 0,0,2 --inertia {10},20,20",
+    "modes cogiro --pose 0,0,2 --number 3 --with servo=1e6,winch={10}",
+    "modes cogiro --pose 0,0,2 --number 3 --with servo={1e6},winch=10",
     "derivatives caroca --pose 0,0,1.75 --payload {10}",
     "capacity cogiro --pose 0,0,2 --payload {10}",
     "capacity cogiro --pose 0,0,2 --force=0,{10},0",

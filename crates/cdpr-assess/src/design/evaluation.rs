@@ -2,7 +2,7 @@
 
 use crate::design::problem::DesignProblem;
 use crate::design::variable::Variable;
-use cdpr_dynamics::{FrequencyDerivatives, Modes};
+use cdpr_dynamics::{FrequencyDerivatives, Modes, Swing};
 use cdpr_robot::{CableEnd, Parameter, Robot};
 use cdpr_statics::derivatives::derivatives_from;
 use cdpr_statics::{
@@ -66,8 +66,8 @@ impl DesignProblem {
 /// 1 for an output that is to be small, -1 for one that is to be great.
 pub(crate) fn sense(output: Output) -> f64 {
     match output {
-        Output::Deflection | Output::Position => 1.0,
-        Output::Stiffness | Output::Frequency => -1.0,
+        Output::Deflection | Output::Position | Output::Amplitude => 1.0,
+        Output::Stiffness | Output::Frequency | Output::PlatformFrequency => -1.0,
     }
 }
 
@@ -90,8 +90,11 @@ impl AtPose<'_> {
         let at_rest = || DirectProblem::new(robot, &deflection.lengths, load);
         let rest = &deflection.loaded.equilibrium;
         Ok(match (of, &self.slopes) {
-            (Output::Deflection | Output::Position, None) => self.quantity(1e3 * deflection.magnitude(), &[]),
-            (Output::Deflection | Output::Position, Some(found)) => {
+            // An amplitude is no output of designs.
+            (Output::Deflection | Output::Position | Output::Amplitude, None) => {
+                self.quantity(1e3 * deflection.magnitude(), &[])
+            }
+            (Output::Deflection | Output::Position | Output::Amplitude, Some(found)) => {
                 self.quantity(deflection.magnitude(), &found.magnitude()?).scaled(1e3, 0.0)
             }
             (Output::Stiffness, None) => {
@@ -110,6 +113,11 @@ impl AtPose<'_> {
             (Output::Frequency, Some(found)) => {
                 let lowest = FrequencyDerivatives::lowest_of_deflection(robot, load, found)?;
                 self.quantity(lowest.frequency, &lowest.with_lengths(&found.lengths))
+            }
+            (Output::PlatformFrequency, None) => self.quantity(Swing::new(&at_rest()?, rest)?.platform, &[]),
+            (Output::PlatformFrequency, Some(found)) => {
+                let of = FrequencyDerivatives::of_deflection(robot, load, found)?;
+                self.quantity(of.frequency, &of.with_lengths(&found.lengths))
             }
         })
     }

@@ -77,7 +77,8 @@ pub struct VariableSpec {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ObjectiveSpec {
-    /// "deflection", which is to be small, or "stiffness" or "frequency", which are to be great.
+    /// "deflection", which is to be small, or "stiffness", "frequency" or "platform_frequency", which are to
+    /// be great.
     pub output: Output,
     /// Over the poses.
     pub over: Over,

@@ -85,8 +85,9 @@ impl DesignProblem {
 
     fn check(&self) -> Result<(), InField> {
         let Self { robot, output, load, .. } = self;
-        if *output == Output::Position {
-            return wrong("objective.output", output, "deflection, stiffness or frequency");
+        if matches!(output, Output::Position | Output::Amplitude) {
+            let expected = "deflection, stiffness, frequency or platform_frequency";
+            return wrong("objective.output", output, expected);
         }
         for (of, limit) in self.limits.each() {
             if !(limit.is_finite() && limit > 0.0) {
@@ -105,7 +106,7 @@ impl DesignProblem {
                 "a mass above zero [kg], or a `wrench`: nothing else deflects",
             );
         }
-        if needs(Output::Frequency) && robot.lacks_inertia() {
+        if (needs(Output::Frequency) || needs(Output::PlatformFrequency)) && robot.lacks_inertia() {
             let expected = "deflection or stiffness, or a robot with `platform.inertia`";
             return wrong("objective.output", output, expected);
         }

@@ -25,7 +25,7 @@ impl Limited {
             (Some(named), _) => Ok(named),
             (None, Output::Deflection) => Ok(Self::Deflection),
             (None, Output::Position) => Ok(Self::Position),
-            (None, Output::Frequency | Output::Stiffness) => {
+            (None, _) => {
                 let expected = "deflection or position, whose size a budget limits: name one of them";
                 Err(StudyError::setting("the study's output", output, expected))
             }

@@ -42,7 +42,7 @@ pub struct Further<'a> {
 /// What shakes the platform, and what damps its cables.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shaking {
-    /// The lowest and the highest frequency [Hz].
+    /// The lowest and the highest frequency [Hz]; they may be one.
     pub band: [f64; 2],
     /// What damps the cables.
     pub damping: Damping,
@@ -53,8 +53,8 @@ pub struct Shaking {
 impl Shaking {
     fn check(&self) -> Result<(), StudyError> {
         let Self { band: [from, to], damping: Damping { stretch, drag }, marker } = *self;
-        if !(from >= 0.0 && from < to && to.is_finite()) {
-            let expected = "two ascending frequencies from 0 on [Hz]";
+        if !(from >= 0.0 && from <= to && to > 0.0 && to.is_finite()) {
+            let expected = "two ascending frequencies from 0 on, or twice one above 0 [Hz]";
             return Err(StudyError::setting("band", format!("{from:?}, {to:?}"), expected));
         }
         for (field, value) in [("damping", stretch), ("drag", drag)] {

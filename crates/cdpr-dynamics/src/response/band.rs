@@ -57,12 +57,12 @@ impl Response {
 }
 
 impl LargestInBand {
-    /// Those between two frequencies [Hz], at the equilibrium, of the point `marker` in the frame of the
-    /// platform [m].
+    /// Those between two frequencies [Hz], which may be one, at the equilibrium, of the point `marker` in the
+    /// frame of the platform [m].
     ///
     /// # Errors
-    /// As [`FrequencyResponse::new`] and [`Modes::new`]; [`DynamicsError::Invalid`] for a band whose ends are
-    /// not ascending; [`DynamicsError::Resonance`] where nothing damps and a natural frequency is in it.
+    /// As [`FrequencyResponse::new`] and [`Modes::new`]; [`DynamicsError::Invalid`] for a band whose ends
+    /// descend; [`DynamicsError::Resonance`] where nothing damps and a natural frequency is in it.
     pub fn new(
         problem: &DirectProblem,
         equilibrium: &Equilibrium,
@@ -71,8 +71,8 @@ impl LargestInBand {
         marker: &Vector3<f64>,
     ) -> Result<Self, DynamicsError> {
         positive("highest frequency", to, "a frequency [Hz] above zero")?;
-        if !(0.0..to).contains(&from) {
-            let (value, expected) = (format!("{from:?} Hz"), format!("from 0 to less than {to} Hz"));
+        if !(0.0..=to).contains(&from) {
+            let (value, expected) = (format!("{from:?} Hz"), format!("from 0 to {to} Hz"));
             return Err(DynamicsError::Invalid { field: "lowest frequency", value, expected });
         }
         let response = FrequencyResponse::new(problem, equilibrium, to, damping)?;

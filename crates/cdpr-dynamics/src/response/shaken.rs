@@ -21,6 +21,11 @@ pub struct Damping {
     pub drag: f64,
 }
 
+impl Damping {
+    /// Damping where none is given: of the stretch alone.
+    pub const USUAL: Self = Self { stretch: 2e-4, drag: 0.0 };
+}
+
 /// A cable whose ends are shaken.
 #[derive(Clone, Debug)]
 pub(super) struct ShakenCable {
@@ -59,7 +64,7 @@ impl ShakenCable {
     pub(super) fn new(i: usize, cable: &CableAtRest, highest: f64) -> Result<Self, DynamicsError> {
         let free = Free { cable: i, free: cable.catenary.free() };
         // Checks that it hangs nowhere without tension.
-        let Parts { elements, across, .. } = Parts::new(i, cable, MARGIN * highest)?;
+        let Parts { elements, across, .. } = Parts::new(i, cable, MARGIN * highest, None)?;
         let (beginning, damped, winch) = driven(&free, cable)?;
         let density = cable.linear_density;
         let Matrices { stiffness, mass } = assemble(&elements, &beginning, density, |s| free.modulus(s));
@@ -172,7 +177,7 @@ fn driven(free: &Free, cable: &CableAtRest) -> Result<(Beginning<2>, Matrices, W
         // The first unknown is the exit point, the second one the winch.
         return Ok((beginning, damped, Winch { moved: Some((2 + 1, -stretch)), pulled: Vec::new() }));
     }
-    let (mut beginning, _) = free.beginnings(cable)?;
+    let mut beginning = free.beginnings(cable, None).in_plane;
     let soft = beginning.directions.len();
     let mut winch = Winch::default();
     let mut rest = along;

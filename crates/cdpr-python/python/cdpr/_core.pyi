@@ -731,6 +731,8 @@ class Robot:
         *,
         number: int = 12,
         below: float | None = None,
+        servo: float | None = None,
+        winch: float = 0.0,
         payload: float | None = None,
         force: _Row | None = None,
         moment: _Row | None = None,
@@ -750,6 +752,11 @@ class Robot:
             This many motions, the slowest.
         below : float, optional
             All motions up to this frequency [Hz], instead of a number.
+        servo : float, optional
+            Stiffness with which each winch holds its cable at the drum [N/m]; without it winches hold.
+        winch : float, default 0
+            Inertia of the rotor of each winch by the square of the drum's radius [kg], with `servo`. The
+            share of a cable contains that of its rotor.
         payload : array_like, optional
             Mass that the platform carries there, at its centre of mass [kg].
         force, moment : array_like, optional
@@ -785,6 +792,8 @@ class Robot:
         *,
         number: int = 12,
         below: float | None = None,
+        servo: float | None = None,
+        winch: float = 0.0,
         payload: ArrayLike | None = None,
         force: ArrayLike | None = None,
         moment: ArrayLike | None = None,

@@ -59,7 +59,8 @@ fn kicker(output: Output) -> &'static str {
     match output {
         Output::Deflection => "Static deflection",
         Output::Position => "Position error",
-        Output::Frequency => "Natural frequency",
+        Output::Frequency | Output::PlatformFrequency => "Natural frequency",
+        Output::Amplitude => "Amplitude",
         Output::Stiffness => "Stiffness",
     }
 }
@@ -76,7 +77,7 @@ fn question(summary: &Summary, output: Output) -> String {
                 "How far from its place the platform of {robot} stands with the lengths of the nominal robot"
             )
         }
-        Output::Frequency | Output::Stiffness => {
+        Output::Frequency | Output::PlatformFrequency | Output::Amplitude | Output::Stiffness => {
             let loaded =
                 if summary.payload > 0.0 { format!(" with {payload} kg added to it") } else { String::new() };
             format!("The {} of the platform of {robot}{loaded}", output.label())

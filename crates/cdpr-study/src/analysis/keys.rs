@@ -99,7 +99,9 @@ mod tests {
 
     #[test]
     fn names_of_every_output_are_found_again() {
-        for output in [Output::Deflection, Output::Position, Output::Frequency, Output::Stiffness] {
+        let platform = [Output::PlatformFrequency, Output::Amplitude];
+        let others = [Output::Deflection, Output::Position, Output::Frequency, Output::Stiffness];
+        for output in others.into_iter().chain(platform) {
             for name in NAMES.into_iter().chain(["title", "nominal", "displacement_mm"]) {
                 let in_file = To::File.name(output, name);
                 assert!(output != Output::Deflection || in_file == name);

@@ -181,7 +181,7 @@ pub fn analyse(sampling: &Sampling, tally: &Tally, session: &Session) -> Result<
     if sampling.correlation.is_some() {
         notes.push("t_student, signed effects: the inputs are correlated".to_owned());
     }
-    notes.extend(sampling.observer.frequency_note());
+    notes.extend(sampling.observer.vibration_note());
     let mut note = |what: &str, error: SensitivityError| notes.push(format!("{what}: {error}"));
     let moments = tally.sums.outputs().summary().map_err(|error| note(output.name(), error)).ok();
     // An output that is no length has this value for every robot, if at all, where nothing resists.

@@ -1,5 +1,7 @@
 //! The output of a study: which number is observed of every robot, and what it is called.
 
+use cdpr_dynamics::{AmplitudeAt, Damping};
+use cdpr_robot::Axis;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -18,6 +20,12 @@ pub enum Output {
     /// Lowest natural frequency [Hz] of platform and cables with the payload, where the platform stands after
     /// the deflection. Motions that nothing resists do not count.
     Frequency,
+    /// Natural frequency [Hz] with which the platform swings with the payload, where it stands after the
+    /// deflection: of the motion that contains most of the platform's slowest one on cables without mass.
+    PlatformFrequency,
+    /// How far the platform vibrates for each newton [mm/N] of a force that shakes it at one frequency, with
+    /// the payload, where it stands after the deflection. `amplitude` in the study file names the frequency.
+    Amplitude,
     /// Lowest stiffness [N/m] of the platform with the payload, where it stands after the deflection.
     /// Rotations are times the characteristic length, and motions that nothing resists do not count.
     Stiffness,
@@ -64,6 +72,78 @@ impl fmt::Display for VectorOutput {
                 write!(f, "displacement and the rotation times {characteristic_length} m as a vector")
             }
         }
+    }
+}
+
+/// The force that shakes the platform where the output is an amplitude. SI units.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct AmplitudeSpec {
+    /// Frequency of the force [Hz].
+    pub frequency: f64,
+    /// Damping of the stretch of the cables, a time [s]: a cable that is stretched at a rate bears its axial
+    /// stiffness times this time and the rate more. 2e-4 if left out.
+    #[serde(default = "AmplitudeSpec::usual_damping")]
+    pub damping: f64,
+    /// Drag of the air on the cables [1/s]: a force of this number times the mass for each m/s; none if left
+    /// out.
+    #[serde(default)]
+    pub drag: f64,
+    /// Point of the platform at which the force acts and whose motion is measured, in the platform frame [m];
+    /// P if left out.
+    #[serde(default)]
+    pub marker: [f64; 3],
+    /// Axis of the base frame along which the force acts and the motion is measured; without it the worst
+    /// direction.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub along: Option<AlongAxis>,
+}
+
+/// An axis of the base frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum AlongAxis {
+    /// The first axis.
+    X,
+    /// The second axis.
+    Y,
+    /// The third axis.
+    Z,
+}
+
+impl AmplitudeSpec {
+    fn usual_damping() -> f64 {
+        Damping::USUAL.stretch
+    }
+
+    /// The amplitude that it names.
+    pub fn at(&self) -> AmplitudeAt {
+        let axis = |along| match along {
+            AlongAxis::X => Axis::X,
+            AlongAxis::Y => Axis::Y,
+            AlongAxis::Z => Axis::Z,
+        };
+        AmplitudeAt {
+            frequency: self.frequency,
+            damping: Damping { stretch: self.damping, drag: self.drag },
+            marker: self.marker.into(),
+            along: self.along.map(axis),
+        }
+    }
+
+    /// The first invalid field, its value, and what is expected.
+    pub(crate) fn invalid(&self) -> Option<(&'static str, String, &'static str)> {
+        let Self { frequency, damping, drag, marker, .. } = self;
+        if !(frequency.is_finite() && *frequency > 0.0) {
+            return Some(("frequency", format!("{frequency:?}"), "a finite frequency above 0 [Hz]"));
+        }
+        for (field, value) in [("damping", damping), ("drag", drag)] {
+            if !(value.is_finite() && *value >= 0.0) {
+                return Some((field, format!("{value:?}"), "a finite number, zero or more"));
+            }
+        }
+        let is_finite = marker.iter().all(|component| component.is_finite());
+        (!is_finite).then(|| ("marker", format!("{marker:?}"), "finite components [m]"))
     }
 }
 
@@ -122,6 +202,22 @@ impl Output {
                 label: "lowest natural frequency",
                 short: "frequency",
                 fine: ("mHz", 1e3),
+            },
+            Self::PlatformFrequency => Words {
+                columns: &["platform_frequency_hz"],
+                unit: "Hz",
+                ending: "_hz",
+                label: "natural frequency of the platform",
+                short: "platform frequency",
+                fine: ("mHz", 1e3),
+            },
+            Self::Amplitude => Words {
+                columns: &["amplitude_mm_per_n"],
+                unit: "mm/N",
+                ending: "_mm_per_n",
+                label: "amplitude of the shaken platform",
+                short: "amplitude",
+                fine: ("\u{b5}m/N", 1e3),
             },
             Self::Stiffness => Words {
                 columns: &["least_stiffness"],
@@ -196,6 +292,11 @@ impl Output {
         *self == Self::Deflection
     }
 
+    /// Whether it depends on the inertia of the platform.
+    pub(crate) fn needs_inertia(self) -> bool {
+        matches!(self, Self::Frequency | Self::PlatformFrequency | Self::Amplitude)
+    }
+
     /// Whether it is the length of a displacement.
     pub(crate) fn is_length(self) -> bool {
         matches!(self, Self::Deflection | Self::Position)
@@ -208,6 +309,8 @@ impl fmt::Display for Output {
             Self::Deflection => "deflection",
             Self::Position => "position",
             Self::Frequency => "frequency",
+            Self::PlatformFrequency => "platform_frequency",
+            Self::Amplitude => "amplitude",
             Self::Stiffness => "stiffness",
         })
     }

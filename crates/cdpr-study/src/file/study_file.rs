@@ -3,7 +3,7 @@
 
 use crate::file::cable_law::CableLaw;
 use crate::file::grid::GridSpec;
-use crate::file::output::Output;
+use crate::file::output::{AmplitudeSpec, Output};
 use crate::file::sensitivity_spec::SensitivitySpec;
 use cdpr_robot::{Coordinate, TensionDistribution, TensionReference};
 use cdpr_sensitivity::{Law, Steps};
@@ -35,6 +35,9 @@ pub struct StudyFile {
     /// What is observed of every robot: "deflection" unless another output is named.
     #[serde(default, skip_serializing_if = "Output::is_deflection")]
     pub output: Output,
+    /// The force that shakes the platform; only where the output is "amplitude".
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub amplitude: Option<AmplitudeSpec>,
     /// Tensions that those of the inverse model come as near to as they can, in place of the robot's: one for
     /// all cables [N], a list with one for each cable, or "mid", the middle of the limits.
     #[serde(default, skip_serializing_if = "Option::is_none")]

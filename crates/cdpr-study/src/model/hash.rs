@@ -44,6 +44,7 @@ impl Study {
         let content = (spec, model, self.file.payload, self.file.seed);
         match self.file.output {
             Output::Deflection => self.hash_of(&content),
+            Output::Amplitude => self.hash_of(&(content, Output::Amplitude, self.file.amplitude)),
             output => self.hash_of(&(content, output)),
         }
     }

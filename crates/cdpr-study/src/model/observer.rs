@@ -5,7 +5,7 @@
 use crate::file::output::Output;
 use crate::model::error_model::ErrorModel;
 use crate::model::observed::{Measured, MeasuredQuantity};
-use cdpr_dynamics::{FrequencyDerivatives, Modes};
+use cdpr_dynamics::{AmplitudeAt, AmplitudeDerivatives, FrequencyDerivatives, Modes, Swing};
 use cdpr_robot::{Coordinate, Deviations, Perturbed, Pose, Robot, Vector3, Vector6};
 use cdpr_statics::batch::{Observation, ObservationMotion, ObservationSlopes, ScalarReason};
 use cdpr_statics::{
@@ -22,6 +22,8 @@ pub struct OutputObserver<'a> {
     pose: Pose,
     load: Load,
     output: Output,
+    /// Which amplitude, where the output is one.
+    amplitude: Option<AmplitudeAt>,
     free: &'a [Coordinate],
     /// The nominal robot.
     nominal: Deflection,
@@ -35,6 +37,7 @@ pub(crate) struct Observing<'a> {
     pub(crate) pose: Pose,
     pub(crate) load: Load,
     pub(crate) output: Output,
+    pub(crate) amplitude: Option<AmplitudeAt>,
     pub(crate) free: &'a [Coordinate],
 }
 
@@ -42,9 +45,18 @@ impl<'a> OutputObserver<'a> {
     /// # Errors
     /// Those of [`Observer::new`].
     pub(crate) fn new(of: Observing<'a>, nominal: &Deflection) -> Result<Self, StaticsError> {
-        let Observing { robot, pose, load, output, free } = of;
+        let Observing { robot, pose, load, output, amplitude, free } = of;
         let lanes = Observer::new(robot, WantedPose::at(&pose).free(free), &load)?;
-        Ok(Self { robot, pose: *lanes.pose(), load, output, free, nominal: nominal.clone(), lanes })
+        Ok(Self {
+            robot,
+            pose: *lanes.pose(),
+            load,
+            output,
+            amplitude,
+            free,
+            nominal: nominal.clone(),
+            lanes,
+        })
     }
 
     /// The output of the nominal robot in its unit.
@@ -58,20 +70,36 @@ impl<'a> OutputObserver<'a> {
         }
     }
 
-    /// What is to be known of an output that is a frequency: cables take most part in its motion.
-    pub(crate) fn frequency_note(&self) -> Option<String> {
+    /// What is to be known of an output that is a vibration: cables take most part in the motion of a
+    /// frequency, or nothing damps cables across their stretch.
+    pub(crate) fn vibration_note(&self) -> Option<String> {
         /// Share of the platform below which the frequency is one of the cables.
         const SMALL: f64 = 0.5;
-        if self.output != Output::Frequency {
-            return None;
-        }
         let Deflection { lengths, loaded, .. } = &self.nominal;
-        let problem = DirectProblem::new(self.robot, lengths, &self.load).ok()?;
-        let found = Modes::slowest(&problem, &loaded.equilibrium).ok()?;
-        let share = found.lowest()?.platform_share;
+        let problem = || DirectProblem::new(self.robot, lengths, &self.load).ok();
+        let (share, more) = match self.output {
+            Output::Deflection | Output::Position | Output::Stiffness => return None,
+            Output::Amplitude => {
+                let is_sharp = self.amplitude?.damping.drag == 0.0;
+                return is_sharp.then(|| {
+                    "amplitude: without `drag` nothing damps cables across their stretch, and near one of \
+                     their frequencies the amplitude is far above a real one"
+                        .to_owned()
+                });
+            }
+            Output::Frequency => {
+                let found = Modes::slowest(&problem()?, &loaded.equilibrium).ok()?;
+                (found.lowest()?.platform_share, "")
+            }
+            Output::PlatformFrequency => {
+                let found = Swing::new(&problem()?, &loaded.equilibrium).ok()?;
+                (found.platform_share, "; from robot to robot it may be another motion")
+            }
+        };
         (share < SMALL).then(|| {
             format!(
-                "frequency: the platform has {:.1} % of the energy of this motion, cables the rest",
+                "{}: the platform has {:.1} % of the energy of this motion, cables the rest{more}",
+                self.output.short(),
                 100.0 * share
             )
         })
@@ -155,8 +183,26 @@ impl<'a> OutputObserver<'a> {
                 let found = Modes::slowest(&problem, &found.loaded.equilibrium)?;
                 MeasuredQuantity::Number(found.lowest().map_or(0.0, |mode| mode.frequency))
             }
+            Output::PlatformFrequency => {
+                let problem = DirectProblem::new(robot, &found.lengths, &self.load)?;
+                MeasuredQuantity::Number(Swing::new(&problem, &found.loaded.equilibrium)?.platform)
+            }
+            Output::Amplitude => {
+                let problem = DirectProblem::new(robot, &found.lengths, &self.load)?;
+                let amplitude = self.shaken()?.of(&problem, &found.loaded.equilibrium)?;
+                MeasuredQuantity::Number(1e3 * amplitude)
+            }
         };
         Ok(Measured { quantity, scalar: Some(ScalarReason::OneByOne) })
+    }
+
+    /// Which amplitude is observed.
+    fn shaken(&self) -> Result<AmplitudeAt, StaticsError> {
+        self.amplitude.ok_or_else(|| StaticsError::Invalid {
+            field: "amplitude".to_owned(),
+            value: "missing".to_owned(),
+            expected: "the frequency of the force that shakes the platform".to_owned(),
+        })
     }
 
     /// Displacement of P [m] of a robot without the load that is given the nominal robot's lengths, from
@@ -273,6 +319,15 @@ impl<'a> OutputObserver<'a> {
             Output::Frequency => {
                 let of = FrequencyDerivatives::lowest_of_deflection(&perturbed.robot, &self.load, &found)?;
                 ((of.frequency, of.with_lengths(&found.lengths)), 1.0)
+            }
+            Output::PlatformFrequency => {
+                let of = FrequencyDerivatives::of_deflection(&perturbed.robot, &self.load, &found)?;
+                ((of.frequency, of.with_lengths(&found.lengths)), 1.0)
+            }
+            Output::Amplitude => {
+                let (robot, at) = (&perturbed.robot, self.shaken()?);
+                let of = AmplitudeDerivatives::of_deflection(robot, &self.load, &found, &at)?;
+                ((of.amplitude, of.with_lengths(&found.lengths)), 1e3)
             }
             Output::Stiffness => {
                 let length = self.characteristic_length();

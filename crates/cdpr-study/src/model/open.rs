@@ -1,7 +1,7 @@
 //! A study read from its file and checked.
 
 use crate::error::StudyError;
-use crate::file::output::{Output, VectorOutput};
+use crate::file::output::{AmplitudeSpec, Output, VectorOutput};
 use crate::file::sensitivity_spec::SensitivitySpec;
 use crate::file::study_file::{STUDY_FORMAT, SamplingSpec, StudyFile};
 use crate::fs::files::open_robot_from;
@@ -221,10 +221,26 @@ impl Study {
     /// The robot has what the output needs.
     fn check_output(&self) -> Result<(), StudyError> {
         let output = self.file.output;
-        if output == Output::Frequency && self.robot.lacks_inertia() {
+        if output.needs_inertia() && self.robot.lacks_inertia() {
             let expected = "a robot with `platform.inertia`, the inertia about the centre of mass, 3 x 3 in \
-                            the platform frame [kg m²]: frequencies depend on it";
+                            the platform frame [kg m²]: vibrations depend on it";
             return Err(self.invalid("output", output, expected));
+        }
+        match (output, self.file.amplitude) {
+            (Output::Amplitude, None) => {
+                let expected = "`amplitude`, too, such as {\"frequency\": 5}: what shakes the platform [Hz]";
+                return Err(self.invalid("output", output, expected));
+            }
+            (Output::Amplitude, Some(spec)) => {
+                if let Some((field, value, expected)) = spec.invalid() {
+                    return Err(self.invalid(&format!("amplitude.{field}"), value, expected));
+                }
+            }
+            (_, Some(AmplitudeSpec { frequency, .. })) => {
+                let expected = "output amplitude, or a study without this field";
+                return Err(self.invalid("amplitude", format!("{frequency} Hz"), expected));
+            }
+            (_, None) => {}
         }
         let vector = self.file.sensitivity.map_or(VectorOutput::Displacement, |spec| spec.vector);
         if !output.is_length() && vector != VectorOutput::Displacement {

@@ -225,7 +225,8 @@ impl Study {
     ) -> Result<(f64, OutputObserver<'a>), StudyError> {
         let load = Load::payload(self.file.payload);
         let (robot, output) = (&self.robot, self.file.output);
-        let of = Observing { robot, pose: *pose, load, output, free };
+        let amplitude = self.file.amplitude.map(|spec| spec.at());
+        let of = Observing { robot, pose: *pose, load, output, amplitude, free };
         let found = OutputObserver::new(of, nominal).and_then(|found| Ok((found.nominal_value()?, found)));
         found.map_err(|source| self.not_held(field, pose, source))
     }

@@ -18,7 +18,7 @@ pub(crate) use printing::{Format, Overwrite, Printing, print_record};
 pub(crate) use region::{Region, region};
 pub(crate) use robot::{FreeArguments, LoadArguments, Preference, RobotArgument};
 pub(crate) use uncertainty::UncertaintyArgument;
-pub(crate) use with::{NO_DRAG, USUAL_DAMPING, With, with};
+pub(crate) use with::{NO_DRAG, With, with};
 
 use crate::program::error::ProgramError;
 use cdpr_robot::counted;

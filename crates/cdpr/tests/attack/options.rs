@@ -35,7 +35,7 @@ const CALLS: [&str; 30] = [
     "derivatives robot.json --pose 0,0,1.75 --payload 50",
     "hysteresis robot.json --law law.json --pose 0,0,1.75 --payload 50",
     "cable density --mass 0.203 --length 2",
-    "modes robot.json --pose 0,0,1.75",
+    "modes robot.json --pose 0,0,1.75 --with servo=1e6,winch=5",
     "response robot.json --pose 0,0,1.75 --below 10 --number 5",
     "path robot.json --poses poses.txt --with seconds=2,shaper=zvd,modes=2,feed-forward,rate=20",
     "simulate robot.json --pose 0,0,1.75 --events events.json --until 0.02",

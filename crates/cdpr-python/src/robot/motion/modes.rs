@@ -1,9 +1,9 @@
 //! `Robot.modes` and `Robot.massless_modes`: natural frequencies and motions at a pose.
 
-use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each, plotted};
+use crate::convert::{Answer, Columns, Loads, Numbers, Raised, Rows, answer, each, plotted};
 use crate::robot::Robot;
 use crate::robot::inverse::coordinates;
-use cdpr_dynamics::{Mode, Wanted};
+use cdpr_dynamics::{Mode, Rotor, Wanted};
 use cdpr_robot::Vector3;
 use cdpr_statics::vibration::{NaturalMode, PoseModes, modes_at};
 use cdpr_statics::{StaticsError, WantedPose};
@@ -72,6 +72,17 @@ answer! {
 
 plotted!(Modes);
 
+/// The rotor of each winch, if it has a servo.
+fn rotor(servo: Option<f64>, winch: f64) -> Answer<Option<Rotor>> {
+    match servo {
+        None if winch != 0.0 => {
+            let expected = "0, or a servo, too: free rotors hold no platform";
+            Err(Raised::Input(format!("winch is {winch}: expected {expected}")))
+        }
+        stiffness => Ok(stiffness.map(|stiffness| Rotor { mass: winch, stiffness })),
+    }
+}
+
 #[pymethods]
 impl Robot {
     /// Computes the natural motions of platform and cables, the lengths held.
@@ -88,6 +99,11 @@ impl Robot {
     ///     This many motions, the slowest.
     /// below : float, optional
     ///     All motions up to this frequency [Hz], instead of a number.
+    /// servo : float, optional
+    ///     Stiffness with which each winch holds its cable at the drum [N/m]; without it winches hold.
+    /// winch : float, default 0
+    ///     Inertia of the rotor of each winch by the square of the drum's radius [kg], with `servo`. The
+    ///     share of a cable contains that of its rotor.
     /// payload : array_like, optional
     ///     Mass that the platform carries there, at its centre of mass [kg].
     /// force, moment : array_like, optional
@@ -115,7 +131,8 @@ impl Robot {
     /// >>> robot = cdpr.Robot.from_file("cogiro")
     /// >>> robot.modes([0, 0, 2], below=6).frequencies_hz.shape  # [Hz]
     /// (18,)
-    #[pyo3(signature = (pose, *, number=12, below=None, payload=None, force=None, moment=None, free=None))]
+    #[pyo3(signature = (pose, *, number=12, below=None, servo=None, winch=0.0, payload=None, force=None,
+        moment=None, free=None))]
     #[allow(clippy::too_many_arguments)]
     fn modes(
         &self,
@@ -123,6 +140,8 @@ impl Robot {
         pose: Numbers,
         number: usize,
         below: Option<f64>,
+        servo: Option<f64>,
+        winch: f64,
         payload: Option<Numbers>,
         force: Option<Numbers>,
         moment: Option<Numbers>,
@@ -133,9 +152,11 @@ impl Robot {
         let loads = Loads::new(force.as_ref(), moment.as_ref(), payload.as_ref(), &self.robot)?;
         let cases = loads.cases([&poses])?;
         let wanted = below.map_or(Wanted::Number(number), Wanted::Below);
+        let winches = rotor(servo, winch)?;
         let outcomes: Vec<Result<cdpr_dynamics::Modes, StaticsError>> = each(py, cases.count, |case| {
             let (pose, load) = (poses.pose(case)?, loads.load(case)?);
-            Ok(cdpr_dynamics::modes_at(&self.robot, WantedPose::at(&pose).free(&free), &load, wanted)?)
+            let pose = WantedPose::at(&pose).free(&free);
+            Ok(cdpr_dynamics::Modes::at(&self.robot, pose, &load, wanted, winches)?)
         })?;
         let count = outcomes.iter().flatten().map(|found| found.modes.len()).max().unwrap_or(0);
         let all = Columns::new(py, cases, &outcomes)?;

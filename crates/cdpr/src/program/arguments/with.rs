@@ -4,9 +4,6 @@ use crate::program::arguments::number;
 use crate::program::error::ProgramError;
 use cdpr_dynamics::Damping;
 
-/// Damping of the cables of a robot that is shaken where none is given.
-pub(crate) const USUAL_DAMPING: Damping = Damping { stretch: 2e-4, drag: 0.0 };
-
 /// What is said of amplitudes without drag.
 pub(crate) const NO_DRAG: &str =
     "nothing damps cables across their stretch: such peaks are far above real ones; --with drag=RATE";
@@ -71,7 +68,7 @@ impl With {
     /// `damping=TAU` and `drag=RATE`, if one of them is there.
     pub(crate) fn damping(&self) -> Result<Option<Damping>, ProgramError> {
         let [stretch, drag] = ["damping", "drag"].map(|name| self.value(name, None, number));
-        let (stretch, drag, usual) = (stretch?, drag?, USUAL_DAMPING);
+        let (stretch, drag, usual) = (stretch?, drag?, Damping::USUAL);
         let given = Damping { stretch: stretch.unwrap_or(usual.stretch), drag: drag.unwrap_or(usual.drag) };
         Ok((stretch.is_some() || drag.is_some()).then_some(given))
     }

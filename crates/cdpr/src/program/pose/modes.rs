@@ -4,13 +4,13 @@ mod massless;
 
 use crate::program::answer::{OutOfLimits, decimal};
 use crate::program::arguments::poses;
-use crate::program::arguments::{self, FreeArguments};
+use crate::program::arguments::{self, FreeArguments, With, number, with};
 use crate::program::error::ProgramError;
-use crate::program::output::{Ending, table};
+use crate::program::output::{Ending, print_sentence, table};
 use crate::program::pose::at_pose::{RobotAtPose, Row};
 use crate::program::questions;
 use crate::program::said::note;
-use cdpr_dynamics::{Mode, Modes, Swing, Wanted};
+use cdpr_dynamics::{Mode, Modes, Rotor, Swing, Wanted};
 use cdpr_robot::{Platform, Pose, Robot, shown};
 use cdpr_statics::vibration::PoseModes;
 use cdpr_statics::{
@@ -44,6 +44,10 @@ pub(crate) struct Settings {
     /// Cables without mass: the platform alone, with the shares of weight and cables in the energy.
     #[arg(long)]
     massless: bool,
+    /// Winches that yield: servo=N/m, the stiffness with which each holds its cable at the drum, and
+    /// winch=KG, the inertia of its rotor by the square of the drum's radius; none if left out.
+    #[arg(long, value_parser = with, conflicts_with = "massless")]
+    with: Option<With>,
 }
 
 pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
@@ -54,12 +58,28 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
         return settings.answer(solve, Massless::print);
     }
     let wanted = settings.below.map_or(Wanted::Number(settings.number.unwrap_or(NUMBER)), Wanted::Below);
+    let winches = winches(&settings.with.clone().unwrap_or_default())?;
     let solve = |robot: &Cow<'_, Robot>, problem: &DirectProblem<'_>, rest| {
-        let found = Modes::new(problem, &rest, wanted)?;
-        let swing = Swing::new(problem, &rest).ok();
-        Ok(Answer::new(robot, matches!(robot, Cow::Owned(_)), &found, swing))
+        let found = Modes::on_winches(problem, &rest, wanted, winches)?;
+        let swing = Modes::on_winches(problem, &rest, Wanted::OfPlatform, winches);
+        let swing = swing.ok().and_then(|found| Swing::of(&found));
+        Ok(Answer { winches: winches.map(Winches::from), ..Answer::new(robot, &found, swing) })
     };
     settings.answer(solve, Answer::print)
+}
+
+/// `servo=N/m` and `winch=KG`, if one of them is there.
+fn winches(with: &With) -> Result<Option<Rotor>, ProgramError> {
+    with.check(&["winch", "servo"])?;
+    let [mass, stiffness] = ["winch", "servo"].map(|name| with.value(name, None, number));
+    match (mass?, stiffness?) {
+        (mass, Some(stiffness)) => Ok(Some(Rotor { mass: mass.unwrap_or_default(), stiffness })),
+        (None, None) => Ok(None),
+        (Some(_), None) => {
+            let expected = "expected servo=N/m, too: free rotors hold no platform";
+            Err(ProgramError::Usage(format!("--with winch: {expected}")))
+        }
+    }
 }
 
 impl Settings {
@@ -125,8 +145,25 @@ struct Answer {
     complete_below_hz: f64,
     /// Whether the inertia of the platform is assumed.
     inertia_assumed: bool,
+    /// Missing where the winches hold.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    winches: Option<Winches>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     out_of_limits: Vec<OutOfLimits>,
+}
+
+/// The winches where they yield.
+#[derive(Serialize)]
+struct Winches {
+    /// Inertia of a rotor by the square of the drum's radius.
+    mass_kg: f64,
+    stiffness_n_per_m: f64,
+}
+
+impl From<Rotor> for Winches {
+    fn from(Rotor { mass, stiffness }: Rotor) -> Self {
+        Self { mass_kg: mass, stiffness_n_per_m: stiffness }
+    }
 }
 
 /// The motion that contains most of the platform's slowest one on cables without mass.
@@ -179,7 +216,7 @@ impl Row for Answer {
 }
 
 impl Answer {
-    fn new(robot: &Robot, inertia_assumed: bool, found: &Modes, swing: Option<Swing>) -> Self {
+    fn new(robot: &Cow<'_, Robot>, found: &Modes, swing: Option<Swing>) -> Self {
         let motion = |mode: &Mode| Motion {
             frequency_hz: mode.frequency,
             within: mode.within,
@@ -195,7 +232,8 @@ impl Answer {
                 .map(|swing| Swinging { frequency_hz: swing.platform, platform_share: swing.platform_share }),
             counted: found.counted,
             complete_below_hz: found.complete_below,
-            inertia_assumed,
+            inertia_assumed: matches!(robot, Cow::Owned(_)),
+            winches: None,
             out_of_limits: OutOfLimits::all(robot, &found.lengths, &[&found.equilibrium]),
         }
     }
@@ -222,6 +260,12 @@ impl Answer {
         }
         println!("{rows}");
         println!("shares of the kinetic energy, of the cables the two largest by number");
+        if let Some(Winches { mass_kg, stiffness_n_per_m }) = &self.winches {
+            print_sentence(&format!(
+                "winches: rotors of {mass_kg} kg at the drum, held with {stiffness_n_per_m} N/m; the share of a \
+                 cable contains that of its rotor"
+            ));
+        }
         OutOfLimits::print(&self.out_of_limits);
     }
 }

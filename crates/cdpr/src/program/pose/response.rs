@@ -2,7 +2,7 @@
 
 use crate::program::answer::{OutOfLimits, decimal};
 use crate::program::arguments::{
-    self, FigureArgument, Format, FreeArguments, NO_DRAG, USUAL_DAMPING, With, figure, print_record, with,
+    self, FigureArgument, Format, FreeArguments, NO_DRAG, With, figure, print_record, with,
 };
 use crate::program::error::ProgramError;
 use crate::program::output::{Ending, print_sentence, table};
@@ -51,7 +51,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     let Settings { at, figure, .. } = settings;
     let with = settings.with.clone().unwrap_or_default();
     with.check(&["damping", "drag"])?;
-    let damping = with.damping()?.unwrap_or(USUAL_DAMPING);
+    let damping = with.damping()?.unwrap_or(Damping::USUAL);
     let is_table = matches!(at.printing.format(), Format::Csv) && at.pose()?.is_some();
     if !is_table && figure.is_none() {
         return at.answer(|robot, pose| settings.solve(robot, pose, damping), Answer::print);

@@ -79,7 +79,7 @@ fn noun(found: &Design) -> String {
         (_, Output::Stiffness) => "lowest ",
         _ if found.poses == 1 => "",
         (Over::Mean, _) => "mean ",
-        (Over::Worst, Output::Frequency) => "lowest ",
+        (Over::Worst, Output::Frequency | Output::PlatformFrequency) => "lowest ",
         (Over::Worst, _) => "greatest ",
     };
     format!("{of}{}", found.output.noun())

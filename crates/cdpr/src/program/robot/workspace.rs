@@ -3,8 +3,7 @@
 use crate::program::arguments::poses::Angles;
 use crate::program::arguments::{
     self, FigureArgument, Format, FreeArguments, LoadArguments, NO_DRAG, Overwrite, Preference, Region,
-    RobotArgument, Threads, USUAL_DAMPING, UncertaintyArgument, With, count, figure, number, region, with,
-    write_figures,
+    RobotArgument, Threads, UncertaintyArgument, With, count, figure, number, region, with, write_figures,
 };
 use crate::program::error::ProgramError;
 use crate::program::output::{
@@ -16,6 +15,7 @@ use cdpr_assess::{
     BoundarySummary, Further, HELD, Shaking, TiltDirections, Way, Workspace, WorkspaceSummary,
     begin_workspace, compute_workspace, workspace_boundary, write_workspace,
 };
+use cdpr_dynamics::Damping;
 use cdpr_report::{MapQuantity, layers, workspace_maps};
 use cdpr_robot::{Axis, Rotation3, counted, listing, shown, significant};
 use cdpr_study::{Extremes, Grid};
@@ -52,10 +52,11 @@ pub(crate) struct Settings {
     /// capacity: greatest payload and margins of the tensions, for each --wrench on top of the load.
     /// distances: of the nearest two cables, and of the cable nearest to the platform. tilt: how far the
     /// platform may tilt, to 0.1 degrees, in the worst of N directions (4). amplitude: the largest one in a band
-    /// of frequencies, by a force at P or --marker and by a winch; damping=TAU and drag=RATE damp the cables, as
-    /// those of `response` (2e-4 s, none). boundary: of the positions that are held under the load with the
-    /// tensions distributed again, or boundary=kept, with the lengths kept: polygons in a plane, a mesh in a box
-    /// (STL). layers: of a box that are drawn, spread evenly (12); 0 draws nothing.
+    /// of frequencies, or at one (amplitude=HZ), by a force at P or --marker and by a winch; damping=TAU and
+    /// drag=RATE damp the cables, as those of `response` (2e-4 s, none). boundary: of the positions that are
+    /// held under the load with the tensions distributed again, or boundary=kept, with the lengths kept:
+    /// polygons in a plane, a mesh in a box (STL). layers: of a box that are drawn, spread evenly (12); 0 draws
+    /// nothing.
     #[arg(long, value_name = "NAMES", value_parser = with)]
     with: Option<With>,
     /// Point of the platform whose amplitude is mapped: x,y,z in its frame [m]; P if left out.
@@ -95,9 +96,11 @@ impl Wanted {
     fn new(with: &With, marker: Option<[f64; 3]>) -> Result<Self, ProgramError> {
         with.check(&["capacity", "distances", "tilt", "amplitude", "damping", "drag", "boundary", "layers"])?;
         let band = |text: &str| {
-            let ends =
-                text.split_once(':').and_then(|(from, to)| Some([number(from).ok()?, number(to).ok()?]));
-            ends.ok_or_else(|| "expected two frequencies [Hz], such as amplitude=0:20".to_owned())
+            let (from, to) = text.split_once(':').unwrap_or((text, text));
+            let ends = number(from).ok().zip(number(to).ok()).map(<[f64; 2]>::from);
+            ends.ok_or_else(|| {
+                "expected one frequency [Hz] or two, such as amplitude=5 or amplitude=0:20".to_owned()
+            })
         };
         let damping = with.damping()?;
         let band = with.value("amplitude", None, band)?;
@@ -107,7 +110,7 @@ impl Wanted {
         }
         let shaking = |band| Shaking {
             band,
-            damping: damping.unwrap_or(USUAL_DAMPING),
+            damping: damping.unwrap_or(Damping::USUAL),
             marker: marker.unwrap_or_default().into(),
         };
         let way = |text: &str| match text {

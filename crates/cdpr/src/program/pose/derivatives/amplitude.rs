@@ -1,11 +1,11 @@
 //! Derivatives of the amplitude of a platform that is shaken.
 
-use crate::program::arguments::{USUAL_DAMPING, With, number};
+use crate::program::arguments::{With, number};
 use crate::program::error::ProgramError;
 use crate::program::output::{print_sentence, table};
 use crate::program::pose::derivatives::leading::{LEADING, handy_unit};
 use crate::program::pose::modes::with_inertia;
-use cdpr_dynamics::{AmplitudeAt, AmplitudeDerivatives, DynamicsError};
+use cdpr_dynamics::{AmplitudeAt, AmplitudeDerivatives, Damping, DynamicsError};
 use cdpr_robot::{Axis, Parameter, Robot, significant};
 use cdpr_statics::{Derivatives, Load, StaticsError};
 use serde::Serialize;
@@ -35,7 +35,7 @@ pub(super) fn asked(
         let expected = "expected --format json, as the table has no columns for it";
         return Err(ProgramError::Usage(format!("--with amplitude: {expected}")));
     }
-    let (damping, marker) = (damping.unwrap_or(USUAL_DAMPING), marker.unwrap_or_default().into());
+    let (damping, marker) = (damping.unwrap_or(Damping::USUAL), marker.unwrap_or_default().into());
     Ok(Some(AmplitudeAt { frequency, damping, marker, along }))
 }
 
