@@ -92,27 +92,30 @@ fn forces_follow_weight_drag_length_stiffness_lead_and_height() {
         let held = guided.held_at(case.end, case.exit_force).unwrap();
         let slopes = guided.slopes(&held).unwrap();
         let mut compared = 0;
-        let mut compare = |what: &str, slope: Vector3<f64>, step: f64, changed: &dyn Fn(f64) -> CableInWind<'static>| {
-            let at = |by: f64| changed(by).held_at(case.end, held.exit_force).unwrap().anchor_force;
-            let difference = |step: f64| (at(step) - at(-step)) / (2.0 * step);
-            let difference = (4.0 * difference(0.5 * step) - difference(step)) / 3.0;
-            let noise = 1e-10 * held.anchor_force.norm() / step;
-            let apart = (slope - difference).norm();
-            assert!(apart < 1e-6 * slope.norm() + noise, "{}, {what}: {slope} {difference}", case.kind);
-            compared += 1;
-        };
+        let mut compare =
+            |what: &str, slope: Vector3<f64>, step: f64, changed: &dyn Fn(f64) -> CableInWind<'static>| {
+                let at = |by: f64| changed(by).held_at(case.end, held.exit_force).unwrap().anchor_force;
+                let difference = |step: f64| (at(step) - at(-step)) / (2.0 * step);
+                let difference = (4.0 * difference(0.5 * step) - difference(step)) / 3.0;
+                let noise = 1e-10 * held.anchor_force.norm() / step;
+                let apart = (slope - difference).norm();
+                assert!(apart < 1e-6 * slope.norm() + noise, "{}, {what}: {slope} {difference}", case.kind);
+                compared += 1;
+            };
         let CableInWind { cable, weight, drag, unstrained_length, guided: lead, .. } = guided;
         let tension = held.anchor_force.norm();
         for k in 0..3 {
             let step = 1e-3 * weight.norm();
-            compare("weight", slopes.per_weight.column(k).into(), step, &|by| {
-                CableInWind { weight: weight + Vector3::ith(k, by), ..guided }
+            compare("weight", slopes.per_weight.column(k).into(), step, &|by| CableInWind {
+                weight: weight + Vector3::ith(k, by),
+                ..guided
             });
         }
         compare("drag", slopes.per_drag, 1e-3 * drag, &|by| CableInWind { drag: drag + by, ..guided });
         let step = (1e-3 * tension * case.length / cable.axial_stiffness).max(1e-6 * case.length);
-        compare("length", slopes.per_length, step, &|by| {
-            CableInWind { unstrained_length: unstrained_length + by, ..guided }
+        compare("length", slopes.per_length, step, &|by| CableInWind {
+            unstrained_length: unstrained_length + by,
+            ..guided
         });
         let step = 1e-3 * cable.axial_stiffness;
         compare("stiffness", slopes.per_axial_stiffness, step, &|by| {

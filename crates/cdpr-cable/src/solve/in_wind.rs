@@ -215,8 +215,7 @@ impl CableInWind<'_> {
             height: input(own.height, 10),
         };
         let (state, _) = self.extrapolated(&given, held.steps);
-        let [r, n] = state
-            .map(|of| SMatrix::<f64, 3, INPUTS>::from_fn(|row, column| of[row].slopes[column]));
+        let [r, n] = state.map(|of| SMatrix::<f64, 3, INPUTS>::from_fn(|row, column| of[row].slopes[column]));
         let start = |of: &SMatrix<f64, 3, INPUTS>| of.fixed_columns::<3>(0).into_owned();
         let per_end = start(&r).try_inverse().filter(|inverse| inverse.iter().all(|x| x.is_finite()));
         let Some(per_end) = per_end else {

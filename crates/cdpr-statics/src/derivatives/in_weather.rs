@@ -124,7 +124,8 @@ pub fn weather_derivatives(
     let cables = if weather.wind.is_calm() {
         let at = &calm.equilibrium;
         let all = CableDerivatives::all(&problem, &at.pose, &at.cable_forces).into_iter();
-        all.map(|cable| BlownCable { cable, per_drag: Vector3::zeros(), per_height: Vector3::zeros() }).collect()
+        all.map(|cable| BlownCable { cable, per_drag: Vector3::zeros(), per_height: Vector3::zeros() })
+            .collect()
     } else {
         problem.blown_cables(&weather.wind, &calm, &rest)?
     };

@@ -3,8 +3,8 @@
 use crate::program::arguments::poses::Angles;
 use crate::program::arguments::{
     self, FigureArgument, Format, FreeArguments, LoadArguments, NO_DRAG, Overwrite, Preference, Region,
-    RobotArgument, Threads, USUAL_DAMPING, UncertaintyArgument, With, count, figure, number, region, with,
-    write_figures,
+    RobotArgument, Threads, USUAL_DAMPING, UncertaintyArgument, WEATHER, With, any_weather, count, figure,
+    number, region, with, write_figures,
 };
 use crate::program::error::ProgramError;
 use crate::program::output::{
@@ -13,8 +13,8 @@ use crate::program::output::{
 use crate::program::questions;
 use crate::program::wrenches::WrenchArguments;
 use cdpr_assess::{
-    BoundarySummary, Further, HELD, Shaking, TiltDirections, Way, Workspace, WorkspaceSummary,
-    begin_workspace, compute_workspace, workspace_boundary, write_workspace,
+    AnyWeather, BoundarySummary, DIRECTIONS, Further, HELD, Shaking, TiltDirections, Way, Workspace,
+    WorkspaceSummary, begin_workspace, compute_workspace, workspace_boundary, write_workspace,
 };
 use cdpr_report::{MapQuantity, layers, workspace_maps};
 use cdpr_robot::{Axis, Rotation3, counted, listing, shown, significant};
@@ -47,7 +47,7 @@ pub(crate) struct Settings {
     errors: UncertaintyArgument,
     #[command(flatten)]
     set: WrenchArguments,
-    /// Further results, which take longer: capacity, distances, tilt=N, amplitude=HZ:HZ, boundary, layers=N.
+    /// Further results, which take longer: capacity, distances, tilt=N, amplitude=HZ:HZ, boundary, layers=N, wind=SPEED.
     ///
     /// capacity: greatest payload and margins of the tensions, for each --wrench on top of the load.
     /// distances: of the nearest two cables, and of the cable nearest to the platform. tilt: how far the
@@ -55,7 +55,9 @@ pub(crate) struct Settings {
     /// of frequencies, by a force at P or --marker and by a winch; damping=TAU and drag=RATE damp the cables, as
     /// those of `response` (2e-4 s, none). boundary: of the positions that are held under the load with the
     /// tensions distributed again, or boundary=kept, with the lengths kept: polygons in a plane, a mesh in a box
-    /// (STL). layers: of a box that are drawn, spread evenly (12); 0 draws nothing.
+    /// (STL). layers: of a box that are drawn, spread evenly (12); 0 draws nothing. wind=SPEED: how far wind on
+    /// the cables and load displace the platform, the lengths kept, and the worst of all horizontal directions;
+    /// wind=VX:VY:VZ: wind of one velocity; ice, creep and the others as those of `deflection`.
     #[arg(long, value_name = "NAMES", value_parser = with)]
     with: Option<With>,
     /// Point of the platform whose amplitude is mapped: x,y,z in its frame [m]; P if left out.
@@ -86,6 +88,7 @@ struct Wanted {
     /// Directions of the tilt.
     tilt: Option<usize>,
     shaking: Option<Shaking>,
+    weather: Option<AnyWeather>,
     boundary: Option<Way>,
     /// Layers of a box that are drawn.
     layers: usize,
@@ -93,7 +96,9 @@ struct Wanted {
 
 impl Wanted {
     fn new(with: &With, marker: Option<[f64; 3]>) -> Result<Self, ProgramError> {
-        with.check(&["capacity", "distances", "tilt", "amplitude", "damping", "drag", "boundary", "layers"])?;
+        let own =
+            ["capacity", "distances", "tilt", "amplitude", "damping", "drag", "boundary", "layers", "wind"];
+        with.check(&[&own[..], &WEATHER].concat())?;
         let band = |text: &str| {
             let ends =
                 text.split_once(':').and_then(|(from, to)| Some([number(from).ok()?, number(to).ok()?]));
@@ -119,6 +124,7 @@ impl Wanted {
             distances: with.has("distances")?,
             tilt: with.value("tilt", Some(4), count::<1, 360>)?,
             shaking: band.map(shaking),
+            weather: any_weather(with)?,
             boundary: with.value("boundary", Some(Way::Recomputed), way)?,
             layers: with.value("layers", None, count::<0, 10_000>)?.unwrap_or(12),
         })
@@ -183,6 +189,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
             distances: wanted.distances,
             tilt: wanted.tilt.map(|count| TiltDirections { count, accuracy: TILT_ACCURACY.to_radians() }),
             shaking: wanted.shaking,
+            weather: wanted.weather,
         },
     };
     let progress = progress(grid.poses().len(), "poses");
@@ -259,13 +266,24 @@ fn print(summary: &WorkspaceSummary) {
             print_sentence(NO_DRAG);
         }
     }
+    if let Some(weather) = &summary.weather {
+        let wrong = match weather.wrong {
+            0 => "at no position held is a tension out of its limits".to_owned(),
+            count => format!(
+                "at {count} of {held} positions held a tension is out of its limits or no rest was found"
+            ),
+        };
+        let directions =
+            weather.speed.map_or_else(String::new, |_| format!(" ({DIRECTIONS} directions and a search)"));
+        print_sentence(&format!("In the weather, {}{directions}: {wrong}.", weather.conditions()));
+    }
     if let Some(BoundarySummary { measure, error, unit, .. }) = &summary.boundary {
         print_sentence(&format!("The region held has {measure:.4} {unit}, with an error of {error:.1e}."));
     }
 }
 
 /// What ranges over the positions held.
-fn ranges(summary: &WorkspaceSummary) -> [(&'static str, Option<Extremes>); 16] {
+fn ranges(summary: &WorkspaceSummary) -> [(&'static str, Option<Extremes>); 18] {
     [
         ("|dp| [mm]", summary.magnitude_mm),
         ("least stiffness [N/m]", summary.least_stiffness),
@@ -283,6 +301,8 @@ fn ranges(summary: &WorkspaceSummary) -> [(&'static str, Option<Extremes>); 16] 
         ("tilt in the worst direction [deg]", summary.tilt_deg),
         ("largest amplitude by a force [mm/N]", summary.amplitude_mm_per_n),
         ("largest amplitude by a winch [mm/mm]", summary.winch_mm_per_mm),
+        ("displacement in the weather [mm]", summary.weather_mm),
+        ("greatest tension in the weather [N]", summary.weather_greatest_tension),
     ]
 }
 
