@@ -155,7 +155,8 @@ fn shaken_at(workspace: &Workspace, pose: &Pose, shaking: &Shaking) -> Result<La
     Ok(LargestInBand::new(&problem, &loaded.equilibrium, *band, *damping, marker)?)
 }
 
-/// Where the platform rests in weather with the load, the lengths kept, displaced from where it rests without both.
+/// Where the platform rests in weather with the load, the lengths kept, displaced from where it rests without
+/// both.
 fn blown_at(workspace: &Workspace, pose: &Pose, weather: &AnyWeather) -> Result<Winds, StaticsError> {
     let Workspace { robot, ref load, free, .. } = *workspace;
     let Deflection { lengths, unloaded, loaded } = deflection(robot, WantedPose::at(pose).free(free), load)?;

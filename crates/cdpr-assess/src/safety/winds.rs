@@ -1,8 +1,9 @@
 //! A platform in weather, with wind of one velocity or from any direction in the horizontal plane.
 //!
-//! From any direction, the wind blows at [`DIRECTIONS`] azimuths. Around the one that moves the platform farthest a
-//! golden-section search looks for a direction that moves it farther still (R. P. Brent, *Algorithms for
-//! Minimization without Derivatives*, 1973, chapter 5). Between the azimuths nothing is proven.
+//! From any direction, the wind blows at [`DIRECTIONS`] azimuths. Around the one that moves the platform
+//! farthest a golden-section search looks for a direction that moves it farther still (R. P. Brent,
+//! *Algorithms for Minimization without Derivatives*, 1973, chapter 5). Between the azimuths nothing is
+//! proven.
 
 use crate::inspection::is_below_floor;
 use cdpr_robot::{Pose, Robot, UnitQuaternion, Vector3};
@@ -30,7 +31,8 @@ pub struct AnyWeather {
 /// The platform in one wind.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InWind {
-    /// Direction in which the wind blows, from x to y of the base frame [rad]; `None` for a wind of one velocity.
+    /// Direction in which the wind blows, from x to y of the base frame [rad]; `None` for a wind of one
+    /// velocity.
     pub azimuth: Option<f64>,
     /// Where the platform rests.
     pub rest: RestInWeather,
@@ -95,12 +97,12 @@ impl Winds {
     }
 }
 
-/// How a platform that rests at `at` under a load rests in weather, on winches that do not move. Displacements are
-/// those from `from`.
+/// How a platform that rests at `at` under a load rests in weather, on winches that do not move.
+/// Displacements are those from `from`.
 ///
 /// # Errors
-/// [`StaticsError::Invalid`] for weather that cannot be and for a cable without a diameter in wind or ice; those
-/// of the direct model without the wind.
+/// [`StaticsError::Invalid`] for weather that cannot be and for a cable without a diameter in wind or ice;
+/// those of the direct model without the wind.
 pub fn winds(
     robot: &Robot,
     lengths: &[f64],

@@ -30,8 +30,8 @@ pub struct WorkspacePose {
     /// Its largest amplitudes where it is shaken, with the lengths kept under the load, if asked for; `None`
     /// where it is not held.
     pub shaken: Option<Box<Result<LargestInBand, StaticsError>>>,
-    /// Where it rests in the weather and under the load, the lengths kept, if asked for; `None` where it is not
-    /// held.
+    /// Where it rests in the weather and under the load, the lengths kept, if asked for; `None` where it is
+    /// not held.
     pub weather: Option<Box<Result<Winds, StaticsError>>>,
 }
 

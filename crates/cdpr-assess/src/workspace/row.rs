@@ -116,9 +116,7 @@ impl WorkspaceRow {
         let tilt = pose.tilt.as_deref().and_then(|tilt| tilt.as_ref().ok()?.least());
         let shaken = pose.shaken.as_deref();
         let shaken_by = shaken.and_then(|shaken| shaken.as_ref().ok());
-        let weather = pose.weather.as_deref();
-        let winds = weather.and_then(|winds| winds.as_ref().ok());
-        let worst = winds.and_then(Winds::farthest);
+        let [moved, azimuth, least, greatest] = in_weather(pose);
         let name = |dominant: Dominant| Some(workspace.tolerances?.inputs.get(dominant.input)?.name.clone());
         Self {
             x,
@@ -176,11 +174,11 @@ impl WorkspaceRow {
             winch_at_hz: shaken_by.map(|of| of.per_shortening.frequency),
             winch: shaken_by.map(|of| of.winch + 1),
             amplitude_reason: shaken.and_then(|of| of.as_ref().err().map(ToString::to_string)),
-            weather_mm: worst.map(|worst| 1e3 * worst.moved()),
-            weather_azimuth_deg: worst.and_then(|worst| Some(worst.azimuth?.to_degrees().rem_euclid(360.0))),
-            weather_least_tension: winds.and_then(Winds::least_tension),
-            weather_greatest_tension: winds.and_then(|winds| Some(winds.tightest()?.greatest_tension().0)),
-            weather_reason: weather.and_then(wrong_in_weather),
+            weather_mm: moved,
+            weather_azimuth_deg: azimuth,
+            weather_least_tension: least,
+            weather_greatest_tension: greatest,
+            weather_reason: pose.weather.as_deref().and_then(wrong_in_weather),
         }
     }
 }
@@ -200,6 +198,18 @@ fn blocked_by(pose: &WorkspacePose, of: FigureOf) -> Option<String> {
             (!is_said).then(|| error.to_string())
         }
     }
+}
+
+/// Displacement [mm] and azimuth [deg] in the worst wind, least and greatest tension in any.
+fn in_weather(pose: &WorkspacePose) -> [Option<f64>; 4] {
+    let Some(Ok(winds)) = pose.weather.as_deref() else { return [None; 4] };
+    let worst = winds.farthest();
+    [
+        worst.map(|worst| 1e3 * worst.moved()),
+        worst.and_then(|worst| Some(worst.azimuth?.to_degrees().rem_euclid(360.0))),
+        winds.least_tension(),
+        winds.tightest().map(|tightest| tightest.greatest_tension().0),
+    ]
 }
 
 /// What is wrong at a position in weather.

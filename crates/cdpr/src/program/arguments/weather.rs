@@ -27,7 +27,8 @@ impl WindArgument {
     }
 }
 
-/// The weather with a wind of any direction, `wind=SPEED`, or of one velocity, `wind=VX:VY:VZ`; if any is given.
+/// The weather with a wind of any direction, `wind=SPEED`, or of one velocity, `wind=VX:VY:VZ`; if any is
+/// given.
 pub(crate) fn any_weather(with: &With) -> Result<Option<AnyWeather>, ProgramError> {
     let (speed, velocity) = match with.value("wind", None, speed_or_velocity)? {
         None => (None, None),

@@ -18,7 +18,8 @@ pub(crate) struct Settings {
     #[command(flatten)]
     wind: WindArgument,
     /// What else changes while the winches hold: warmer=KELVIN with cable_expansion=, frame_expansion= [1/K];
-    /// ice=METRES around each cable; creep=STRAIN of each cable; wind_profile=Z0:ZREF, a wind that grows with height.
+    /// ice=METRES around each cable; creep=STRAIN of each cable; wind_profile=Z0:ZREF, a wind that grows with
+    /// height.
     #[arg(long, value_name = "NAME=VALUE,..", value_parser = with)]
     with: Option<With>,
     #[command(flatten)]

@@ -28,13 +28,13 @@ pub(crate) struct Settings {
     at: RobotAtFreePose,
     #[command(flatten)]
     errors: UncertaintyArgument,
-    /// amplitude=HZ: derivatives of the amplitude of a platform that is shaken; damping, drag, along. ice= and
-    /// others, with --wind or without: derivatives of the displacement in that weather.
+    /// amplitude=HZ: derivatives of the amplitude of a platform that is shaken; damping, drag, along. ice=
+    /// and others, with --wind or without: derivatives of the displacement in that weather.
     ///
-    /// warmer=KELVIN with cable_expansion=, frame_expansion=, ice=METRES, creep=STRAIN, wind_profile=Z0:ZREF: as
-    /// those of `deflection`.
-    /// Of the point --marker with the load, per newton of a force there, in the worst direction or along=x, y
-    /// or z. damping=TAU and drag=RATE damp the cables, as those of `response` (2e-4 s, none).
+    /// warmer=KELVIN with cable_expansion=, frame_expansion=, ice=METRES, creep=STRAIN, wind_profile=Z0:ZREF:
+    /// as those of `deflection`. Of the point --marker with the load, per newton of a force there, in the
+    /// worst direction or along=x, y or z. damping=TAU and drag=RATE damp the cables, as those of `response`
+    /// (2e-4 s, none).
     #[arg(long, value_name = "NAMES", value_parser = with)]
     with: Option<With>,
     #[command(flatten)]

@@ -28,8 +28,8 @@ pub(crate) struct Settings {
     /// without damping. wind=SPEED: wind on the whole robot from any horizontal direction; ice= and others.
     ///
     /// wind=VX:VY:VZ: wind of one velocity [m/s]. ice=METRES, warmer=KELVIN with cable_expansion=,
-    /// frame_expansion=, creep=STRAIN, wind_profile=Z0:ZREF: as those of `deflection`. All cables are whole in the
-    /// weather.
+    /// frame_expansion=, creep=STRAIN, wind_profile=Z0:ZREF: as those of `deflection`. All cables are whole
+    /// in the weather.
     #[arg(long, value_name = "NAMES", value_parser = with)]
     with: Option<With>,
 }

@@ -163,8 +163,8 @@ impl Case {
         vec![moved, turned, significant(tension, 4), cable.to_string(), factor(rest.safety_factor)]
     }
 
-    /// How far the platform moves, the greatest tension at rest; how far it swings, the greatest tension then, its
-    /// cable, and the factor.
+    /// How far the platform moves, the greatest tension at rest; how far it swings, the greatest tension
+    /// then, its cable, and the factor.
     pub(super) fn with_swing(&self) -> Vec<String> {
         let rest = self
             .rest

@@ -131,7 +131,7 @@ impl InWeather {
     pub(super) fn sentences(&self, heading: &str) -> Vec<String> {
         let winds = match self.speed {
             Some(speed) => format!(
-                "wind of {speed} m/s from each of {DIRECTIONS} directions, and from {} of a search for the worst one",
+                "wind of {speed} m/s from {DIRECTIONS} directions, and from {} of a search for the worst one",
                 self.directions.saturating_sub(DIRECTIONS)
             ),
             None => "the weather".to_owned(),
