@@ -7,20 +7,20 @@
 //! q = ½ ρ c d |v_n| v_n,      v_n = v - (v·t) t                                                (C39)
 //! ```
 //!
-//! with the density ρ of the air, the drag coefficient c, the diameter d of the cable and its direction t. With
-//! the force n that the part beyond exerts on the part before, along t and of the tension T = |n|, weight w and
-//! drag give over the unstrained length s from the leave point
+//! with the density ρ of the air, the drag coefficient c, the diameter d of the cable and its direction t.
+//! With the force n that the part beyond exerts on the part before, along t and of the tension T = |n|,
+//! weight w and drag give over the unstrained length s from the leave point
 //!
 //! ```text
 //! dr/ds = (1 + ε(T)) t,      dn/ds = -w - (1 + ε(T)) q,      t = n/T                           (C40)
 //! ```
 //!
-//! Newton's method finds the n(0) with which the cable ends at A. The integration is the classical Runge-Kutta
-//! method with Richardson's extrapolation; dual numbers carry the derivatives by n(0).
+//! Newton's method finds the n(0) with which the cable ends at A. The integration is the classical
+//! Runge-Kutta method with Richardson's extrapolation; dual numbers carry the derivatives by n(0).
 //!
 //! The wind may grow with the height z above the ground (P. J. Richards, R. P. Hoxey, Appropriate boundary
-//! conditions for computational wind engineering models, J. Wind Eng. Ind. Aerodyn. 46-47, 1993; for heights far
-//! above z0 it is the law of EN 1991-1-4:2005, Eq. (4.4)):
+//! conditions for computational wind engineering models, J. Wind Eng. Ind. Aerodyn. 46-47, 1993; for heights
+//! far above z0 it is the law of EN 1991-1-4:2005, Eq. (4.4)):
 //!
 //! ```text
 //! v(z) = v(z_ref) ln(1 + z/z0)/ln(1 + z_ref/z0),      v = 0 below the ground                    (C41)
@@ -176,8 +176,8 @@ impl CableInWind<'_> {
         Err(CableError::NotConverged { iterations: MAX_ITERATIONS, residual: best.0.closure })
     }
 
-    /// The cable with the force `start` at its leave point, and the change of that force which would end it at
-    /// `end` if the cable were linear.
+    /// The cable with the force `start` at its leave point, and the change of that force which would end it
+    /// at `end` if the cable were linear.
     fn ended(&self, end: Vector3<f64>, start: Vector3<f64>, steps: usize) -> (HeldInWind, Vector3<f64>) {
         let given = Given { force: [0, 1, 2].map(|k| Dual::<f64, 3>::input(start[k], k)), ..self.given() };
         let ([r, n], error) = self.extrapolated(&given, steps);

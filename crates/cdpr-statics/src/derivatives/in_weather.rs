@@ -1,16 +1,17 @@
-//! Derivatives of where a platform rests in weather, by the robot's parameters and by the weather's own numbers.
+//! Derivatives of where a platform rests in weather, by the robot's parameters and by the weather's own
+//! numbers.
 //!
-//! The weather changes lengths, exit points and cables as `loading/weather.rs` has it: L' = k L, b' = f b, ρ', d'.
-//! An input θ therefore changes the balance at the rest in the weather by
+//! The weather changes lengths, exit points and cables as `loading/weather.rs` has it: L' = k L, b' = f b,
+//! ρ', d'. An input θ therefore changes the balance at the rest in the weather by
 //!
 //! ```text
-//! dG = ∂G/∂θ' dθ' + sum [k_L; s x k_L] (k dL_i + L_i dk) + sum [dF_i; s x dF_i]                     (D12)
+//! dG = ∂G/∂θ' dθ' + sum [k_L; s x k_L] (k dL_i + L_i dk) + sum [dF_i; s x dF_i]                     (D14)
 //! dF_i = K3_i b_i df + k_l l_i df + k_ρ dρ'_i + k_q ½ρc dd'_i + k_h dh_i
 //! ```
 //!
-//! with the lead l, the drag q = ½ρc d' and the height h of the exit point. dL_i is (D7), of the robot without
-//! weather. In wind the coefficients of (D1) are those of (C42) of `cdpr_cable`, and K3 is not symmetric. The
-//! drag is that of the square of the speed v of the wind, so that `k_v = 2 k_q q/v`.
+//! with the lead l, the drag q = ½ρc d' and the height h of the exit point. dL_i is (D7), of the robot
+//! without weather. In wind the coefficients of (D1) are those of (C42) of `cdpr_cable`, and K3 is not
+//! symmetric. The drag is that of the square of the speed v of the wind, so that `k_v = 2 k_q q/v`.
 
 use crate::derivatives::{Derivatives, OneSided, derivatives};
 use crate::direct::{DirectSolution, DirectStart};
@@ -96,19 +97,19 @@ impl WeatherDerivatives {
         self.rest.pose.position - self.still.unloaded.equilibrium.pose.position
     }
 
-    /// Derivative of the norm of the displacement by something that it has this derivative by; `None` where the
-    /// displacement is zero.
+    /// Derivative of the norm of the displacement by something that it has this derivative by; `None` where
+    /// the displacement is zero.
     pub fn magnitude(&self, per_unit: &Vector3<f64>) -> Option<f64> {
         Some(self.displaced().try_normalize(f64::MIN_POSITIVE)?.dot(per_unit))
     }
 }
 
-/// The rest in weather with its derivatives by the robot's parameters, payload and wanted pose, and by the numbers
-/// of the weather.
+/// The rest in weather with its derivatives by the robot's parameters, payload and wanted pose, and by the
+/// numbers of the weather.
 ///
 /// # Errors
-/// Those of [`crate::weather::in_weather`] and [`derivatives()`]; [`StaticsError::NoDerivative`] for cables over
-/// pulleys in wind.
+/// Those of [`crate::weather::in_weather`] and [`derivatives()`]; [`StaticsError::NoDerivative`] for cables
+/// over pulleys in wind.
 pub fn weather_derivatives(
     robot: &Robot,
     wanted: WantedPose,
@@ -169,7 +170,7 @@ impl InWeather<'_> {
         self.weather.slopes(self.robot, i)
     }
 
-    /// Derivatives by the inputs from those by what they become, with those of the lengths, (D12).
+    /// Derivatives by the inputs from those by what they become, with those of the lengths, (D14).
     fn through_weather(&self, balance: &mut Matrix6xX<f64>) {
         let (first, inputs) = (self.made(0), &self.found.inputs);
         let (lengthening, frame) = (first.lengthening.value, first.frame.value);
@@ -194,7 +195,7 @@ impl InWeather<'_> {
         of_inputs.gemm(lengthening, &Matrix6xX::from_columns(&per_actuation), &self.found.lengths, 1.0);
     }
 
-    /// Wrenches by the numbers of the weather, (D12), and by which of them there is no derivative.
+    /// Wrenches by the numbers of the weather, (D14), and by which of them there is no derivative.
     fn by_weather(&self) -> ([Vector6<f64>; 6], Vec<(usize, &'static str)>) {
         let mut wrenches = [Vector6::zeros(); 6];
         for (i, BlownCable { cable, per_drag, per_height }) in self.cables.iter().enumerate() {

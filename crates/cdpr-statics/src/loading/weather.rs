@@ -3,7 +3,7 @@
 //!
 //! ```text
 //! L' = L (1 + α ΔT)(1 + ε)      unstrained length, warmer by ΔT and with the creep strain ε
-//! b' = b (1 + α_f ΔT)           exit points, and leads, of a frame that expands from the origin of the base frame
+//! b' = b (1 + α_f ΔT)           exit points, and leads, of a frame that expands from the origin of base
 //! ρ' = ρ L/L' + ρ_ice π t (d + t),  d' = d + 2t      with ice of thickness t around a diameter d
 //! ```
 

@@ -2,8 +2,8 @@
 //!
 //! The drag of each cable is that of (C39), so that a cable hangs in no plane. With the unstrained lengths
 //! kept, Newton's method finds the pose at which cables, weight and load balance, Eq. (3), while the drag is
-//! raised from zero. The point where a cable leaves its pulley stays where it is without wind. A wind that grows
-//! with height follows (C41), over `ground_z` of the robot or z = 0 of the base frame.
+//! raised from zero. The point where a cable leaves its pulley stays where it is without wind. A wind that
+//! grows with height follows (C41), over `ground_z` of the robot or z = 0 of the base frame.
 
 use crate::direct::DirectSolution;
 use crate::equations::{Balance, CableDerivatives, FORCES, Pins, SpannedCable, in_its_plane, to_base};
@@ -201,7 +201,8 @@ impl DirectProblem<'_> {
     /// The cables of a rest in the wind, which is that of `still` without it.
     ///
     /// # Errors
-    /// [`StaticsError::NoDerivative`] for a cable on a pulley: the point where it leaves the pulley would move.
+    /// [`StaticsError::NoDerivative`] for a cable on a pulley: the point where it leaves the pulley would
+    /// move.
     pub(crate) fn blown_cables(
         &self,
         wind: &Wind,

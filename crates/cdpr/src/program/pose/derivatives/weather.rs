@@ -98,7 +98,7 @@ impl InWeather {
 /// Derivatives by the parameters of the robot.
 fn parameters(found: &WeatherDerivatives) -> impl Iterator<Item = Vector3<f64>> {
     let count = found.inputs.parameters.len();
-    found.displacement.column_iter().take(count).map(|column| column.into_owned())
+    found.displacement.column_iter().take(count).map(Into::into)
 }
 
 impl ByWeather {
