@@ -6,6 +6,8 @@ dr/ds = (1 + T/EA) t, dn/ds = w e_z - (1 + T/EA) q, q = rho/2 c d |v_n| v_n, v_n
 from the exit point on, by DOP853. `root` finds the forces at the exit points with which all cables end at their
 anchor points and, of a robot, the pose at which the platform is in balance. A rotation is R = exp(phi) R0, by SciPy's
 rotation vectors. Nothing of the catenary in closed form is used.
+
+Over height, v(z) = v(z_ref) ln(1 + z/z0)/ln(1 + z_ref/z0) (Richards, Hoxey 1993), with z above the ground, z = 0.
 """
 
 import json
@@ -19,15 +21,20 @@ from scipy.spatial.transform import Rotation
 RHO, DRAG = 1.225, 1.2
 
 
-def ended(cable, wind, start):
-    """The end of the cable from the exit point, and the force there."""
+def ended(cable, wind, start, profile=None):
+    """The end of the cable from the exit point, and the force there; `profile`: z0, z_ref and the height of the exit."""
     weight, stiffness, diameter, length = cable
 
     def slope(_, state):
         force = state[3:]
         tension = np.linalg.norm(force)
         t = force / tension
-        across = wind - (wind @ t) * t
+        v = wind
+        if profile:
+            roughness, reference, height = profile
+            z = max(height + state[2], 0.0)
+            v = wind * np.log1p(z / roughness) / np.log1p(reference / roughness)
+        across = v - (v @ t) * t
         q = 0.5 * RHO * DRAG * diameter * np.linalg.norm(across) * across
         stretch = 1 + tension / stiffness
         return np.concatenate([stretch * t, weight - stretch * q])
@@ -45,13 +52,13 @@ def straight(cable, end):
     return tension * end / chord - 0.5 * weight * length
 
 
-def held(cable, wind, end):
+def held(cable, wind, end, profile=None):
     start = straight(cable, end)
     for share in (0, 0.25, 0.5, 0.75, 1):
-        found = root(lambda n: ended(cable, np.sqrt(share) * wind, n)[0] - end, start, tol=1e-13)
+        found = root(lambda n: ended(cable, np.sqrt(share) * wind, n, profile)[0] - end, start, tol=1e-13)
         start = found.x
     assert np.linalg.norm(found.fun) < 1e-10, found
-    return start, ended(cable, wind, start)[1]
+    return start, ended(cable, wind, start, profile)[1]
 
 
 def single():
@@ -64,13 +71,17 @@ def single():
         ("heavy, level", 85, 1e8, 0.046, 151, [150, 0, 0], [0, 30, 0]),
         ("upwards", 0.23, 1e6, 0.006, 12.1, [1, 2, 11], [-15, 15, 3]),
         ("no wind", 0.77, 3e6, 0.012, 60, [50, 20, 10], [0, 0, 0]),
+        # .. and z0, z_ref, height of the exit
+        ("over height", 0.77, 3e6, 0.012, 60, [50, 20, -18], [20, 0, 0], [0.05, 10, 30]),
+        ("from the ground", 0.6, 8e5, 0.004, 9.99, [8, 1, 6], [12, -9, 0], [0.3, 10, 0]),
     ]
-    for kind, w, stiffness, diameter, length, end, wind in cases:
+    for kind, w, stiffness, diameter, length, end, wind, *profile in cases:
         cable = (np.array([0, 0, w]), stiffness, diameter, length)
-        exit_force, anchor_force = held(cable, np.array(wind, float), np.array(end, float))
+        profile = profile[0] if profile else None
+        exit_force, anchor_force = held(cable, np.array(wind, float), np.array(end, float), profile)
         yield {
             "kind": kind, "weight_per_length": w, "axial_stiffness": stiffness, "diameter": diameter,
-            "length": length, "end": end, "wind": wind,
+            "length": length, "end": end, "wind": wind, **({"profile": profile} if profile else {}),
             "exit_force": exit_force.tolist(), "anchor_force": anchor_force.tolist(),
         }
 
@@ -95,6 +106,7 @@ def platforms():
             case.pop(key, None)
         yield in_both({**case, "point": False, "diameter": DIAMETERS[kind]}, wind)
     yield in_both(STADIUM, [20, 0, 0])
+    yield {**solved(STADIUM, [20, 0, 0], [0.3, 10]), "kind": "stadium over height", "profile": [0.3, 10]}
 
 
 # Warmer by [K], expansion of cables and frame [1/K], ice [m] and creep.
@@ -118,7 +130,7 @@ def in_both(case, wind):
     return {**solved(case, wind), "weather": WEATHER, "in_weather": {key: rest[key] for key in keys}}
 
 
-def solved(case, velocity):
+def solved(case, velocity, profile=None):
     wind = np.array(velocity, float)
     exits, anchors = np.array(case["exit_points"], float), np.array(case["anchor_points"], float)
     w = np.array([0, 0, case["weight_per_length"]])
@@ -132,7 +144,8 @@ def solved(case, velocity):
 
     def at_anchors(x, wind):
         forces = scale * x[free:].reshape(n, 3)
-        return [ended(material[i], wind, forces[i]) for i in range(n)]
+        over = [[*profile, exits[i][2]] if profile else None for i in range(n)]
+        return [ended(material[i], wind, forces[i], over[i]) for i in range(n)]
 
     def open_equations(x, wind):
         turn = rotation(x)

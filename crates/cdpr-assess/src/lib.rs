@@ -6,6 +6,7 @@
 //! | Where is the platform held, how far does a load deflect it, how stiff is it? | [`compute_workspace`] |
 //! | What can it carry at a pose, how far are the limits of tension? | [`capacity_at`] |
 //! | Where does it come to rest when a cable breaks, and do the others bear that? | [`safety_at`] |
+//! | Where does it rest in weather, and from which direction is wind worst? | [`winds`] |
 //! | Where do the exits go for the least deflection? | [`design`] |
 //! | How near do cables come to each other and to the platform? | [`clearance_at`] |
 //! | How far may it tilt there? | [`tilt_at`] |
@@ -45,6 +46,7 @@ pub use robustness::{
     Refusal, RefusedPose, RobustnessResult, RobustnessRow, RobustnessSummary, Solve, Spread, StartOffset,
     anchor_distance, protocols, run_robustness,
 };
+pub use safety::winds::{AnyWeather, DIRECTIONS, InWind, Winds, winds};
 pub use safety::{Breaks, Broken, BrokenRest, Safety, Swing, safety_at};
 pub use tilt::{Tilt, TiltTowards, tilt_at};
 pub use tolerance::{Limit, Limited, Reached, Tolerance, ToleranceBudget, tolerance_budget};
@@ -52,7 +54,7 @@ pub use vibration::{Compared, DrawnRobots, ratio_of_best};
 pub use workspace::question::{Further, Shaking, TiltDirections, Way, Workspace};
 pub use workspace::results::{Dominant, HELD, Held, Recomputed, WorkspacePose};
 pub use workspace::row::WorkspaceRow;
-pub use workspace::summary::{BoundarySummary, ShakingSummary, WorkspaceSummary};
+pub use workspace::summary::{BoundarySummary, ShakingSummary, WeatherSummary, WorkspaceSummary};
 pub use workspace::{compute_workspace, workspace_boundary};
 pub use write::{FoundRegion, read_region};
 pub use write::{begin_robustness, begin_workspace, write_robustness, write_workspace};

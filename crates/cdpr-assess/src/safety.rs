@@ -6,7 +6,10 @@
 //! tensions exceed those of the rest, and with little damping it may pass a ridge and rest elsewhere: the
 //! motion without damping is followed if asked for.
 
+pub(crate) mod winds;
+
 use crate::inspection::is_below_floor;
+use crate::safety::winds::safety_factor;
 use cdpr_dynamics::DynamicsError;
 use cdpr_dynamics::simulate::{Change, CutAt, Difference, Event, Settings, simulate};
 use cdpr_robot::{Pose, Robot, UnitQuaternion};
@@ -182,15 +185,6 @@ fn rest_without(
 fn beyond(robot: &Robot, broken: &[usize], tensions: &Vec<[f64; 2]>) -> Vec<OutOfLimits> {
     let found = tensions_out_of_limits(robot, std::slice::from_ref(tensions));
     found.into_iter().filter(|one| !broken.contains(&one.cable)).collect()
-}
-
-/// Least breaking force over greatest tension of the cables that are kept.
-fn safety_factor(robot: &Robot, kept: &[usize], tensions: &[[f64; 2]]) -> Option<(f64, usize)> {
-    let factor = |i: &usize| {
-        let force = robot.cables[*i].properties.breaking_force?;
-        Some((force / tensions[*i][0].max(tensions[*i][1]), *i))
-    };
-    kept.iter().filter_map(factor).min_by(|a, b| a.0.total_cmp(&b.0))
 }
 
 /// How the platform swings for some time [s] after these cables part.

@@ -13,6 +13,7 @@ pub(crate) mod summary;
 use crate::boundary::{Boundary, boundary};
 use crate::capacity::capacity_of;
 use crate::clearance::clearance_at;
+use crate::safety::winds::{AnyWeather, Winds, winds};
 use crate::tilt::tilt_at;
 use crate::workspace::question::{Shaking, TiltDirections, Way, Workspace, check};
 use crate::workspace::results::{Dominant, Held, Recomputed, WorkspacePose};
@@ -79,8 +80,10 @@ pub fn compute_workspace(
             });
             let shaken = further.shaking.filter(|_| outcome.is_ok());
             let shaken = shaken.map(|shaking| Box::new(shaken_at(workspace, pose, &shaking)));
+            let weather = further.weather.filter(|_| outcome.is_ok());
+            let weather = weather.map(|weather| Box::new(blown_at(workspace, pose, &weather)));
             tick();
-            Ok(WorkspacePose { pose: *pose, outcome, recomputed, capacity, clearance, tilt, shaken })
+            Ok(WorkspacePose { pose: *pose, outcome, recomputed, capacity, clearance, tilt, shaken, weather })
         };
         poses.par_iter().enumerate().zip(outcomes(workspace, poses)).map(one).collect()
     };
@@ -150,6 +153,15 @@ fn shaken_at(workspace: &Workspace, pose: &Pose, shaking: &Shaking) -> Result<La
     let problem = DirectProblem::new(&robot, &lengths, load)?;
     let Shaking { band, damping, marker } = shaking;
     Ok(LargestInBand::new(&problem, &loaded.equilibrium, *band, *damping, marker)?)
+}
+
+/// Where the platform rests in weather with the load, the lengths kept, displaced from where it rests without
+/// both.
+fn blown_at(workspace: &Workspace, pose: &Pose, weather: &AnyWeather) -> Result<Winds, StaticsError> {
+    let Workspace { robot, ref load, free, .. } = *workspace;
+    let Deflection { lengths, unloaded, loaded } = deflection(robot, WantedPose::at(pose).free(free), load)?;
+    let [from, at] = [&unloaded, &loaded].map(|found| &found.equilibrium.pose);
+    winds(robot, &lengths, load, [at, from], weather)
 }
 
 /// The results with the lengths kept from answers of the inverse model.

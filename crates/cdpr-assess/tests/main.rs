@@ -13,4 +13,5 @@ mod safety;
 mod shaken_workspaces;
 mod tolerance;
 mod vibration;
+mod winds;
 mod workspace;

@@ -253,7 +253,7 @@ fn further_columns_are_what_is_said_of_each_pose() {
         load,
         tolerances: None,
         free: &[],
-        further: Further { capacity: Some(&set), distances: true, tilt: Some(tilt), shaking: None },
+        further: Further { capacity: Some(&set), distances: true, tilt: Some(tilt), ..Further::default() },
     };
     let poses = compute_workspace(&workspace, &|| (), &|| false).unwrap();
     let summary = WorkspaceSummary::new(&workspace, &poses);

@@ -51,7 +51,7 @@ pub use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 pub use number::{counted, short, shortened};
 pub use record::{Phase, Record, RecordError, Sample, SecantModulus, Specimen, TangentModulus};
 pub use solve::{
-    CableInWind, HeldCable, HeldInWind, Known, Solution, end_force, end_force_near, length_for_tension,
-    spatial_end_force,
+    CableInWind, HeldCable, HeldInWind, InWindSlopes, Known, Solution, WindOverHeight, end_force,
+    end_force_near, length_for_tension, spatial_end_force,
 };
 pub use weighing::{Measured, linear_density};

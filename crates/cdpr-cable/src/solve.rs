@@ -9,7 +9,7 @@ mod spatial;
 
 pub use end_force::{Solution, end_force, end_force_near};
 pub use held::HeldCable;
-pub use in_wind::{CableInWind, HeldInWind};
+pub use in_wind::{CableInWind, HeldInWind, InWindSlopes, WindOverHeight};
 pub use known::Known;
 pub use length_for_tension::length_for_tension;
 pub use spatial::spatial_end_force;

@@ -1,6 +1,6 @@
 //! Cables in wind.
 
-use cdpr_cable::{Cable, CableError, CableInWind, Matrix3, Vector3, spatial_end_force};
+use cdpr_cable::{Cable, CableError, CableInWind, Matrix3, Vector3, WindOverHeight, spatial_end_force};
 use cdpr_evidence::accept;
 use serde_json::Value;
 
@@ -17,7 +17,7 @@ struct Case {
 fn cases() -> Vec<Case> {
     let reference: Value = serde_json::from_str(include_str!("../../../data/reference/wind.json")).unwrap();
     let cables = reference["cables"].as_array().unwrap();
-    assert_eq!(cables.len(), 7);
+    assert_eq!(cables.len(), 9);
     let case = |of: &Value| {
         let number = |key: &str| of[key].as_f64().unwrap();
         let vector = |key: &str| Vector3::from(serde_json::from_value::<[f64; 3]>(of[key].clone()).unwrap());
@@ -29,6 +29,9 @@ fn cases() -> Vec<Case> {
             drag: 0.5 * 1.225 * 1.2 * number("diameter"),
             unstrained_length: length,
             guided: 0.0,
+            profile: serde_json::from_value::<[f64; 3]>(of["profile"].clone())
+                .ok()
+                .map(|[roughness, reference, height]| WindOverHeight { roughness, reference, height }),
         };
         let [end, exit_force, anchor_force] = ["end", "exit_force", "anchor_force"].map(vector);
         let kind = of["kind"].as_str().unwrap().to_owned();
@@ -79,6 +82,67 @@ fn the_stiffness_is_the_derivative_of_the_force() {
         let differences = Matrix3::from_columns(&[column(0), column(1), column(2)]);
         assert!((stiffness - differences).norm() < 1e-4 * stiffness.norm(), "{}", case.kind);
     }
+}
+
+/// Every derivative with the ends fixed, against differences.
+#[test]
+fn forces_follow_weight_drag_length_stiffness_lead_and_height() {
+    for case in cases() {
+        let guided = CableInWind { guided: 0.2, unstrained_length: case.length + 0.2, ..case.cable };
+        let held = guided.held_at(case.end, case.exit_force).unwrap();
+        let slopes = guided.slopes(&held).unwrap();
+        let mut compared = 0;
+        let mut compare =
+            |what: &str, slope: Vector3<f64>, step: f64, changed: &dyn Fn(f64) -> CableInWind<'static>| {
+                let at = |by: f64| changed(by).held_at(case.end, held.exit_force).unwrap().anchor_force;
+                let difference = |step: f64| (at(step) - at(-step)) / (2.0 * step);
+                let difference = (4.0 * difference(0.5 * step) - difference(step)) / 3.0;
+                let noise = 1e-10 * held.anchor_force.norm() / step;
+                let apart = (slope - difference).norm();
+                assert!(apart < 1e-6 * slope.norm() + noise, "{}, {what}: {slope} {difference}", case.kind);
+                compared += 1;
+            };
+        let CableInWind { cable, weight, drag, unstrained_length, guided: lead, .. } = guided;
+        let tension = held.anchor_force.norm();
+        for k in 0..3 {
+            let step = 1e-3 * weight.norm();
+            compare("weight", slopes.per_weight.column(k).into(), step, &|by| CableInWind {
+                weight: weight + Vector3::ith(k, by),
+                ..guided
+            });
+        }
+        compare("drag", slopes.per_drag, 1e-3 * drag, &|by| CableInWind { drag: drag + by, ..guided });
+        let step = (1e-3 * tension * case.length / cable.axial_stiffness).max(1e-6 * case.length);
+        compare("length", slopes.per_length, step, &|by| CableInWind {
+            unstrained_length: unstrained_length + by,
+            ..guided
+        });
+        let step = 1e-3 * cable.axial_stiffness;
+        compare("stiffness", slopes.per_axial_stiffness, step, &|by| {
+            let stiffer = Cable::linear(cable.weight_per_length, cable.axial_stiffness + by);
+            CableInWind { cable: stiffer, ..guided }
+        });
+        compare("lead", slopes.per_guided, 1e-5, &|by| CableInWind { guided: lead + by, ..guided });
+        let raised = |by: f64| guided.profile.map(|over| WindOverHeight { height: over.height + by, ..over });
+        compare("height", slopes.per_height, 1e-3, &|by| CableInWind { profile: raised(by), ..guided });
+        assert_eq!(compared, 8);
+        assert!(guided.profile.is_none() == (slopes.per_height == Vector3::zeros()), "{}", case.kind);
+    }
+}
+
+/// Above a very rough ground and far up, the law is that of the reference height again.
+#[test]
+fn at_its_height_of_reference_a_profile_is_the_wind_itself() {
+    let case = &cases()[1];
+    let level = |height: f64, reference: f64| {
+        let profile = Some(WindOverHeight { roughness: 0.3, reference, height });
+        CableInWind { profile, ..case.cable }.held_at(case.end, case.exit_force).unwrap().drag
+    };
+    let everywhere = case.cable.held_at(case.end, case.exit_force).unwrap().drag;
+    let far = level(1e9, 1e9);
+    assert!((far - everywhere).norm() < 1e-6 * everywhere.norm(), "{far} {everywhere}");
+    assert!(level(-100.0, 10.0).norm() < 1e-9 * everywhere.norm());
+    assert!(level(40.0, 10.0).norm() > 1.5 * everywhere.norm());
 }
 
 #[test]

@@ -673,6 +673,10 @@ def test_the_wind_blows_on_cables():
     assert several.magnitude[1] == one.magnitude and several.magnitude[2] > several.magnitude[1]
     with pytest.raises(cdpr.InputError, match="at most 120 m/s"):
         robot.in_weather([0, 0, 2], [500, 0, 0])
+    low = robot.in_weather([0, 0, 2], [15, 0, 0], wind_profile=(0.3, 10))
+    assert numpy.linalg.norm(low.drags.sum(axis=0)) < numpy.linalg.norm(one.drags.sum(axis=0))
+    with pytest.raises(cdpr.InputError, match="wind_profile.roughness"):
+        robot.in_weather([0, 0, 2], [15, 0, 0], wind_profile=(-1, 10))
 
 
 def test_heat_lengthens_cables_and_ice_loads_them():

@@ -1,8 +1,8 @@
 //! Maps of a plane, and workspaces that are not a plane.
 
 use cdpr_assess::{
-    Further, ShakingSummary, TiltDirections, Workspace, WorkspaceRow, WorkspaceSummary, WrenchSet,
-    compute_workspace,
+    AnyWeather, Further, ShakingSummary, TiltDirections, Workspace, WorkspaceRow, WorkspaceSummary,
+    WrenchSet, compute_workspace,
 };
 use cdpr_report::{MapQuantity, ReportError, heat_map, tolerance_map};
 use cdpr_robot::{Axis, Matrix3, Robot, Rotation3, Vector3};
@@ -53,6 +53,7 @@ fn a_map_has_every_cell_the_hatching_the_frame_and_the_exit_points() {
         distances: true,
         tilt: Some(TiltDirections { count: 4, accuracy: 0.02 }),
         shaking: None,
+        weather: Some(AnyWeather { speed: Some(15.0), ..AnyWeather::default() }),
     };
     let mut summary = summary_with(&robot, Grid::over_frame(&robot, Axis::Z, 1.75, [9, 7]).unwrap(), further);
     summary.shaking = Some(SHAKING);
@@ -81,6 +82,7 @@ fn a_map_has_every_cell_the_hatching_the_frame_and_the_exit_points() {
             MapQuantity::Tilt => (without(|row| row.tilt_deg), "worst direction"),
             MapQuantity::Amplitude => (without(|row| row.amplitude_mm_per_n), "shaken from 0 Hz to 8 Hz"),
             MapQuantity::WinchAmplitude => (without(|row| row.winch_mm_per_mm), "drag 0.5 1/s"),
+            MapQuantity::Weather => (without(|row| row.weather_mm), "wind of 15 m/s from any direction"),
             _ => (kept, "lengths kept"),
         };
         assert!(not_held < 63, "{quantity:?}");

@@ -54,6 +54,7 @@
 //! model.
 
 mod equilibrium;
+mod in_weather;
 mod optimum;
 mod rest;
 mod set_points;
@@ -68,6 +69,7 @@ use crate::state::{Load, Wanted, WantedPose, one_by_one};
 use cdpr_robot::Robot;
 use equilibrium::split_off;
 pub use equilibrium::{EquilibriumDerivatives, ForceDerivatives};
+pub use in_weather::{WeatherDerivatives, WeatherInput, weather_derivatives};
 use nalgebra::{DMatrix, Matrix3xX};
 pub use optimum::AtBound;
 use rest::Rest;

@@ -15,7 +15,7 @@ mod spanned;
 pub(crate) use assembled::{NEAR_VERTICAL, State, closure_row, jacobian, residual, skew};
 pub(crate) use balance::{Balance, add_stiffness};
 pub(crate) use cable::{CablePlane, LinearizedCable, Span, between};
-pub(crate) use cable_derivatives::{CableDerivatives, wrench};
+pub(crate) use cable_derivatives::{CableDerivatives, CableInput, wrench};
 pub(crate) use fixed_ends::{ABOVE_LEAST, Bounds, Ends};
 pub use linearization::Linearization;
 pub(crate) use motions::{Motions, Pins, cables_at, is_definite, per_length};

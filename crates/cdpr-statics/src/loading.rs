@@ -18,5 +18,7 @@ pub use hysteresis::{CycleStep, HysteresisLaw, LoadCycle, Unloading, load_cycle,
 pub use modes::{CableFrequency, NaturalMode, PoseModes, modes_at};
 pub use small_motions::{CableAtRest, SmallMotions};
 pub use stiffness::{PoseStiffness, stiffness_at};
+pub(crate) use weather::CableInWeather;
 pub use weather::{Weather, in_weather};
-pub use wind::{RestInWeather, Wind};
+pub(crate) use wind::{BlownCable, DRAG_PER_DIAMETER};
+pub use wind::{RestInWeather, Wind, WindProfile};

@@ -4,11 +4,11 @@ use crate::common::{caroca, robots};
 use crate::equilibria::{self, number, vector};
 use cdpr_evidence::accept;
 use cdpr_robot::{Matrix3, Pose, Robot, Rotation3, Vector3, Wrench};
-use cdpr_statics::weather::{RestInWeather, Weather, Wind, in_weather};
+use cdpr_statics::weather::{RestInWeather, Weather, Wind, WindProfile, in_weather};
 use cdpr_statics::{Deflection, DirectProblem, DirectStart, Load, StaticsError, deflection, direct};
 use serde_json::Value;
 
-fn named(name: &str) -> Robot {
+pub(crate) fn named(name: &str) -> Robot {
     let path = format!("{}/../../data/robots/{name}.json", env!("CARGO_MANIFEST_DIR"));
     Robot::from_json(&std::fs::read_to_string(path).unwrap()).unwrap()
 }
@@ -35,7 +35,7 @@ fn blown(robot: &Robot, pose: &Pose, load: &Load, velocity: Vector3<f64>) -> (De
 fn platforms_rest_where_an_independent_integration_has_them() {
     let reference: Value = serde_json::from_str(include_str!("../../../data/reference/wind.json")).unwrap();
     let cases = reference["robots"].as_array().unwrap();
-    assert_eq!(cases.len(), 4);
+    assert_eq!(cases.len(), 5);
     for case in cases {
         let mut robot = equilibria::robot(case);
         robot.platform.point = case["point"].as_bool().unwrap();
@@ -48,13 +48,21 @@ fn platforms_rest_where_an_independent_integration_has_them() {
             let rotation = Rotation3::from_matrix(&Matrix3::from(rows).transpose());
             Pose { position: vector(&of[position]), rotation }
         };
-        let wind = Wind::new(vector(&case["wind"])).unwrap();
-        let [warmer, cable_expansion, frame_expansion, ice, creep] =
-            ["warmer", "cable_expansion", "frame_expansion", "ice", "creep"]
-                .map(|name| number(&case["weather"][name]));
-        let hot = Weather { wind, warmer, cable_expansion, frame_expansion, ice, creep };
+        let mut wind = Wind::new(vector(&case["wind"])).unwrap();
+        if let Ok([roughness, reference]) = serde_json::from_value::<[f64; 2]>(case["profile"].clone()) {
+            wind = wind.over_height(WindProfile { roughness, reference }).unwrap();
+        }
+        let windy = Weather { wind, ..Weather::default() };
         let near = pose(case, "start_position", "start_rotation");
-        for (weather, known) in [(Weather { wind, ..Weather::default() }, case), (hot, &case["in_weather"])] {
+        let mut in_both = vec![(windy, case)];
+        if !case["weather"].is_null() {
+            let [warmer, cable_expansion, frame_expansion, ice, creep] =
+                ["warmer", "cable_expansion", "frame_expansion", "ice", "creep"]
+                    .map(|name| number(&case["weather"][name]));
+            let hot = Weather { wind, warmer, cable_expansion, frame_expansion, ice, creep };
+            in_both.push((hot, &case["in_weather"]));
+        }
+        for (weather, known) in in_both {
             let changed = weather.robot(&robot).unwrap();
             let lengths = weather.lengths(&numbers("unstrained_lengths"));
             let still = direct(&changed, &lengths, &Load::none(), DirectStart::Pose(&near)).unwrap();
@@ -146,6 +154,9 @@ fn what_is_missing_or_impossible_is_named() {
     let error = Wind::new(Vector3::new(0.0, 300.0, 0.0)).unwrap_err().to_string();
     assert!(error.contains("wind is [0.0, 300.0, 0.0]: expected a velocity of at most 120 m/s"), "{error}");
     assert!(Wind::new(Vector3::repeat(f64::NAN)).is_err());
+    let smooth = WindProfile { roughness: 0.0, reference: 10.0 };
+    let error = Wind::default().over_height(smooth).unwrap_err().to_string();
+    assert!(error.starts_with("wind_profile.roughness is 0: expected"), "{error}");
     let mut robot = caroca();
     robot.cables[2].properties.diameter = None;
     let still = deflection(&robot, &Pose::at(0.0, 0.0, 1.75), &Load::none()).unwrap();

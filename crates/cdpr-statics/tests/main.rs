@@ -49,3 +49,4 @@ mod tilted_axes;
 mod tracker;
 mod vector_units;
 mod wanted;
+mod weather_derivatives;

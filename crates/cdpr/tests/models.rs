@@ -365,3 +365,31 @@ fn breaks_that_the_others_do_not_bear_end_with_three() {
     assert_eq!(refused.status.code(), Some(2));
     assert!(text(refused.stderr).contains("--with triples: expected pairs"));
 }
+
+#[test]
+fn wind_from_all_directions_has_a_verdict_and_derivatives() {
+    let asked = |more: &[&str]| {
+        let stadium = format!("{}/../../docs/how-to/loads/stadium.json", env!("CARGO_MANIFEST_DIR"));
+        let answer = cdpr(&[&[more[0], &stadium, "--pose", "20,10,12"], &more[1..]].concat());
+        (answer.status.code(), text(answer.stdout), text(answer.stderr))
+    };
+    let json = |text: &str| serde_json::from_str::<Value>(text).unwrap();
+    let (code, windy, _) = asked(&["safety", "--with", "wind=15", "--format", "json"]);
+    assert_eq!(code, Some(0));
+    let farthest = &json(&windy)["in_weather"]["farthest"];
+    let azimuth = number(&farthest["azimuth_deg"]).to_radians();
+    let wind = format!("{},{},0", 15.0 * azimuth.cos(), 15.0 * azimuth.sin());
+    let (_, alone, _) = asked(&["deflection", "--wind", &wind, "--format", "json"]);
+    let alone = 1e-3 * number(&json(&alone)["in_weather"]["magnitude_mm"]);
+    assert!((number(&farthest["moved"]) - alone).abs() < 1e-6 * alone, "{farthest} {alone}");
+    let settings =
+        ["derivatives", "--force", "50,0,0", "--wind", "15,0,0", "--with", "ice=0.003", "--format", "json"];
+    let (_, slopes, said) = asked(&settings);
+    let by_weather = json(&slopes)["in_weather"]["by_weather"].clone();
+    assert_eq!(by_weather.as_array().map(Vec::len), Some(6), "{said}");
+    assert!(number(&by_weather[5]["magnitude_mm"]) > 0.0);
+    let (code, _, said) = asked(&["safety", "--with", "wind=-3"]);
+    assert!(code == Some(2) && said.contains("expected a speed above 0 m/s"), "{said}");
+    let (code, _, said) = asked(&["deflection", "--with", "wind_profile=0.3:10"]);
+    assert!(code == Some(2) && said.contains("expected a wind, too"), "{said}");
+}

@@ -1,6 +1,7 @@
 //! What is asked about the positions of a grid.
 
 use crate::capacity::WrenchSet;
+use crate::safety::winds::AnyWeather;
 use cdpr_dynamics::Damping;
 use cdpr_robot::{Coordinate, Robot, Rotation3, Vector3};
 use cdpr_statics::Load;
@@ -37,6 +38,8 @@ pub struct Further<'a> {
     pub tilt: Option<TiltDirections>,
     /// The largest amplitudes of a platform that is shaken.
     pub shaking: Option<Shaking>,
+    /// How far weather and load displace the platform, the lengths kept.
+    pub weather: Option<AnyWeather>,
 }
 
 /// What shakes the platform, and what damps its cables.

@@ -2,6 +2,7 @@
 
 use crate::capacity::Capacity;
 use crate::clearance::Clearance;
+use crate::safety::winds::Winds;
 use crate::tilt::Tilt;
 use cdpr_dynamics::{LargestInBand, Swing};
 use cdpr_robot::{Pose, Robot, Vector3};
@@ -29,6 +30,9 @@ pub struct WorkspacePose {
     /// Its largest amplitudes where it is shaken, with the lengths kept under the load, if asked for; `None`
     /// where it is not held.
     pub shaken: Option<Box<Result<LargestInBand, StaticsError>>>,
+    /// Where it rests in the weather and under the load, the lengths kept, if asked for; `None` where it is
+    /// not held.
+    pub weather: Option<Box<Result<Winds, StaticsError>>>,
 }
 
 /// Tensions within the limits that hold a pose under the load.

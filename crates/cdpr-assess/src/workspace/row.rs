@@ -2,6 +2,7 @@
 
 use crate::capacity::{Capacity, Figure};
 use crate::clearance::CableDistance;
+use crate::safety::winds::Winds;
 use crate::workspace::question::Workspace;
 use crate::workspace::results::{Dominant, HELD, WorkspacePose};
 use cdpr_statics::limits::OutOfLimits;
@@ -82,6 +83,15 @@ pub struct WorkspaceRow {
     pub winch: Option<usize>,
     /// Why a position that is held has no amplitude.
     pub amplitude_reason: Option<String>,
+    /// Displacement in the weather and under the load, in wind of the worst direction.
+    pub weather_mm: Option<f64>,
+    /// The azimuth in which that wind blows, from x to y; empty for a wind of one velocity.
+    pub weather_azimuth_deg: Option<f64>,
+    /// Least and greatest tension of any cable at the platform or exit point, in wind of any direction.
+    pub weather_least_tension: Option<f64>,
+    pub weather_greatest_tension: Option<f64>,
+    /// What is wrong in the weather, in words: a wind without a rest, tensions out of limits.
+    pub weather_reason: Option<String>,
 }
 
 impl WorkspaceRow {
@@ -106,6 +116,7 @@ impl WorkspaceRow {
         let tilt = pose.tilt.as_deref().and_then(|tilt| tilt.as_ref().ok()?.least());
         let shaken = pose.shaken.as_deref();
         let shaken_by = shaken.and_then(|shaken| shaken.as_ref().ok());
+        let [moved, azimuth, least, greatest] = in_weather(pose);
         let name = |dominant: Dominant| Some(workspace.tolerances?.inputs.get(dominant.input)?.name.clone());
         Self {
             x,
@@ -163,6 +174,11 @@ impl WorkspaceRow {
             winch_at_hz: shaken_by.map(|of| of.per_shortening.frequency),
             winch: shaken_by.map(|of| of.winch + 1),
             amplitude_reason: shaken.and_then(|of| of.as_ref().err().map(ToString::to_string)),
+            weather_mm: moved,
+            weather_azimuth_deg: azimuth,
+            weather_least_tension: least,
+            weather_greatest_tension: greatest,
+            weather_reason: pose.weather.as_deref().and_then(wrong_in_weather),
         }
     }
 }
@@ -182,6 +198,36 @@ fn blocked_by(pose: &WorkspacePose, of: FigureOf) -> Option<String> {
             (!is_said).then(|| error.to_string())
         }
     }
+}
+
+/// Displacement [mm] and azimuth [deg] in the worst wind, least and greatest tension in any.
+fn in_weather(pose: &WorkspacePose) -> [Option<f64>; 4] {
+    let Some(Ok(winds)) = pose.weather.as_deref() else { return [None; 4] };
+    let worst = winds.farthest();
+    [
+        worst.map(|worst| 1e3 * worst.moved()),
+        worst.and_then(|worst| Some(worst.azimuth?.to_degrees().rem_euclid(360.0))),
+        winds.least_tension(),
+        winds.tightest().map(|tightest| tightest.greatest_tension().0),
+    ]
+}
+
+/// What is wrong at a position in weather.
+fn wrong_in_weather(weather: &Result<Winds, StaticsError>) -> Option<String> {
+    let winds = match weather {
+        Err(error) => return Some(error.to_string()),
+        Ok(winds) => winds,
+    };
+    let towards = |azimuth: Option<f64>| match azimuth {
+        Some(azimuth) => format!("wind towards {:.0} degrees: ", azimuth.to_degrees().rem_euclid(360.0)),
+        None => String::new(),
+    };
+    let failed = winds.failures.first().map(|(azimuth, error)| format!("{}{error}", towards(*azimuth)));
+    failed.or_else(|| {
+        let beyond = winds.rests.iter().filter_map(|one| Some((one.azimuth, one.gravest()?)));
+        let (azimuth, gravest) = beyond.min_by_key(|(_, gravest)| gravest.limit)?;
+        Some(format!("{}{gravest}", towards(azimuth)))
+    })
 }
 
 /// Why a position that is held has no standard deviation.
@@ -250,7 +296,12 @@ pub(super) fn columns<S: Serializer>(rows: &[WorkspaceRow], serializer: S) -> Re
         winch_mm_per_mm,
         winch_at_hz,
         winch,
-        amplitude_reason
+        amplitude_reason,
+        weather_mm,
+        weather_azimuth_deg,
+        weather_least_tension,
+        weather_greatest_tension,
+        weather_reason
     );
     columns.end()
 }

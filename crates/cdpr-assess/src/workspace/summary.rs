@@ -1,10 +1,12 @@
 //! A workspace in numbers: settings, counts, extremes.
 
 use crate::boundary::Boundary;
+use crate::safety::winds::AnyWeather;
 use crate::workspace::question::{Shaking, Way, Workspace};
 use crate::workspace::results::{HELD, WorkspacePose};
 use crate::workspace::row::{self, WorkspaceRow};
 use cdpr_robot::{Pose, Robot, Vector3};
+use cdpr_statics::weather::Weather;
 use cdpr_study::{Extremes, Grid, robot_hash};
 use indexmap::IndexMap;
 use serde::Serialize;
@@ -83,6 +85,12 @@ pub struct WorkspaceSummary {
     pub amplitude_mm_per_n: Option<Extremes>,
     /// Largest amplitude by a winch [mm/mm].
     pub winch_mm_per_mm: Option<Extremes>,
+    /// Displacement in the weather [mm], in wind of the worst direction.
+    pub weather_mm: Option<Extremes>,
+    /// Greatest tension in the weather [N], in wind of any direction.
+    pub weather_greatest_tension: Option<Extremes>,
+    /// The weather, if asked for.
+    pub weather: Option<WeatherSummary>,
     /// What shakes the platform, if asked for.
     pub shaking: Option<ShakingSummary>,
     /// The boundary of the positions that are held, if asked for.
@@ -107,6 +115,70 @@ pub struct BoundarySummary {
     pub parts: usize,
     /// Positions that were asked for.
     pub evaluations: usize,
+}
+
+/// The weather of a map.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct WeatherSummary {
+    /// Speed of a horizontal wind from any direction [m/s]; absent for a wind of one velocity.
+    pub speed: Option<f64>,
+    /// Velocity of a wind of one velocity [m/s].
+    pub velocity: Option<[f64; 3]>,
+    /// Roughness length of the ground and height of reference of the wind [m].
+    pub wind_profile: Option<[f64; 2]>,
+    /// How much warmer it is [K].
+    pub warmer: f64,
+    /// Thermal expansion of the cables [1/K].
+    pub cable_expansion: f64,
+    /// Thermal expansion of the frame [1/K].
+    pub frame_expansion: f64,
+    /// Thickness of the ice [m].
+    pub ice: f64,
+    /// Creep of the cables.
+    pub creep: f64,
+    /// Positions that are held without the weather, where in it a tension is out of its limits or no rest was
+    /// found.
+    pub wrong: usize,
+}
+
+impl WeatherSummary {
+    fn new(AnyWeather { weather, speed }: &AnyWeather, rows: &[WorkspaceRow]) -> Self {
+        let Weather { wind, warmer, cable_expansion, frame_expansion, ice, creep } = *weather;
+        let wrong = rows.iter().filter(|row| row.status == HELD && row.weather_reason.is_some());
+        Self {
+            speed: *speed,
+            velocity: (speed.is_none() && !wind.is_calm()).then(|| wind.velocity().into()),
+            wind_profile: wind.profile().map(|profile| [profile.roughness, profile.reference]),
+            warmer,
+            cable_expansion,
+            frame_expansion,
+            ice,
+            creep,
+            wrong: wrong.count(),
+        }
+    }
+
+    /// In words, as in `wind of 20 m/s from any direction, ice of 0.003 m`.
+    pub fn conditions(&self) -> String {
+        let mut words = Vec::new();
+        if let Some(speed) = self.speed {
+            words.push(format!("wind of {speed} m/s from any direction"));
+        }
+        if let Some([x, y, z]) = self.velocity {
+            words.push(format!("wind ({x}, {y}, {z}) m/s"));
+        }
+        if let Some([roughness, reference]) = self.wind_profile {
+            words.push(format!("at {reference} m over ground of roughness {roughness} m"));
+        }
+        for (name, value, unit) in
+            [("warmer by", self.warmer, " K"), ("ice of", self.ice, " m"), ("creep of", self.creep, "")]
+        {
+            if value != 0.0 {
+                words.push(format!("{name} {value}{unit}"));
+            }
+        }
+        words.join(", ")
+    }
 }
 
 /// What shakes the platform, and what damps its cables.
@@ -227,6 +299,9 @@ impl WorkspaceSummary {
             tilt_deg: extremes(rows.iter(), |row| row.tilt_deg),
             amplitude_mm_per_n: extremes(rows.iter(), |row| row.amplitude_mm_per_n),
             winch_mm_per_mm: extremes(rows.iter(), |row| row.winch_mm_per_mm),
+            weather_mm: held_extremes(&rows, |row| row.weather_mm),
+            weather_greatest_tension: held_extremes(&rows, |row| row.weather_greatest_tension),
+            weather: workspace.further.weather.map(|weather| WeatherSummary::new(&weather, &rows)),
             shaking: workspace.further.shaking.map(|shaking| ShakingSummary::new(workspace.robot, &shaking)),
             boundary: None,
             rows,

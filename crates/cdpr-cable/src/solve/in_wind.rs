@@ -7,23 +7,37 @@
 //! q = ½ ρ c d |v_n| v_n,      v_n = v - (v·t) t                                                (C39)
 //! ```
 //!
-//! with the density ρ of the air, the drag coefficient c, the diameter d of the cable and its direction t. With
-//! the force n that the part beyond exerts on the part before, along t and of the tension T = |n|, weight w and
-//! drag give over the unstrained length s from the leave point
+//! with the density ρ of the air, the drag coefficient c, the diameter d of the cable and its direction t.
+//! With the force n that the part beyond exerts on the part before, along t and of the tension T = |n|,
+//! weight w and drag give over the unstrained length s from the leave point
 //!
 //! ```text
 //! dr/ds = (1 + ε(T)) t,      dn/ds = -w - (1 + ε(T)) q,      t = n/T                           (C40)
 //! ```
 //!
-//! Newton's method finds the n(0) with which the cable ends at A. The integration is the classical Runge-Kutta
-//! method with Richardson's extrapolation; dual numbers carry the derivatives by n(0).
+//! Newton's method finds the n(0) with which the cable ends at A. The integration is the classical
+//! Runge-Kutta method with Richardson's extrapolation; dual numbers carry the derivatives by n(0).
+//!
+//! The wind may grow with the height z above the ground (P. J. Richards, R. P. Hoxey, Appropriate boundary
+//! conditions for computational wind engineering models, J. Wind Eng. Ind. Aerodyn. 46-47, 1993; for heights
+//! far above z0 it is the law of EN 1991-1-4:2005, Eq. (4.4)):
+//!
+//! ```text
+//! v(z) = v(z_ref) ln(1 + z/z0)/ln(1 + z_ref/z0),      v = 0 below the ground                    (C41)
+//! ```
+//!
+//! With A fixed, r(n(0), θ) does not change, so that for whatever θ the force depends on
+//!
+//! ```text
+//! dn(A)/dθ = ∂n/∂θ - ∂n/∂n(0) (∂r/∂n(0))⁻¹ ∂r/∂θ                                                 (C42)
+//! ```
 
 use crate::cable::Cable;
 use crate::error::CableError;
 use crate::kernel::Material;
 use cdpr_number::vector::dot;
 use cdpr_number::{Dual, Lanewise, Real};
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, SMatrix, Vector3};
 
 /// Most steps of an integration.
 const MOST_STEPS: usize = 8192;
@@ -49,6 +63,36 @@ pub struct CableInWind<'a> {
     pub unstrained_length: f64,
     /// Stretched length before the leave point, which has the tension there [m].
     pub guided: f64,
+    /// How the wind grows with height; `None` for the same velocity everywhere.
+    pub profile: Option<WindOverHeight>,
+}
+
+/// A wind that grows with the height above the ground, (C41).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WindOverHeight {
+    /// Roughness length z0 of the ground [m].
+    pub roughness: f64,
+    /// Height z_ref at which the wind has its velocity [m].
+    pub reference: f64,
+    /// Height of the leave point [m].
+    pub height: f64,
+}
+
+/// What the force of such a cable on its anchor depends on while both its ends are fixed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct InWindSlopes {
+    /// Derivative of n(A) by the weight per unstrained length as a vector.
+    pub per_weight: Matrix3<f64>,
+    /// By ½ ρ c d.
+    pub per_drag: Vector3<f64>,
+    /// By the unstrained length [N/m].
+    pub per_length: Vector3<f64>,
+    /// By the axial stiffness EA.
+    pub per_axial_stiffness: Vector3<f64>,
+    /// By the stretched length before the leave point [N/m].
+    pub per_guided: Vector3<f64>,
+    /// By the height of the whole cable above the ground [N/m].
+    pub per_height: Vector3<f64>,
 }
 
 /// Such a cable in equilibrium.
@@ -66,10 +110,23 @@ pub struct HeldInWind {
     pub closure: f64,
     /// Error of the integration in the position of the end [m], as two step sizes show it.
     pub error: f64,
+    /// Steps of the coarser one.
+    pub steps: usize,
 }
 
 /// Position r [m] and force n [N] at a point of the cable.
 type State<T> = [[T; 3]; 2];
+
+/// What an integration depends on besides the law of the cable and the velocity of the wind.
+struct Given<T> {
+    force: [T; 3],
+    weight: [T; 3],
+    drag: T,
+    length: T,
+    axial_flexibility: T,
+    guided: T,
+    height: T,
+}
 
 impl CableInWind<'_> {
     /// The cable held at `end` [m], searched from the force `near` at the leave point [N].
@@ -119,15 +176,11 @@ impl CableInWind<'_> {
         Err(CableError::NotConverged { iterations: MAX_ITERATIONS, residual: best.0.closure })
     }
 
-    /// The cable with the force `start` at its leave point, and the change of that force which would end it at
-    /// `end` if the cable were linear.
+    /// The cable with the force `start` at its leave point, and the change of that force which would end it
+    /// at `end` if the cable were linear.
     fn ended(&self, end: Vector3<f64>, start: Vector3<f64>, steps: usize) -> (HeldInWind, Vector3<f64>) {
-        let force = [0, 1, 2].map(|k| Dual::<f64, 3>::input(start[k], k));
-        let (coarse, fine) = (self.integrated(force, steps), self.integrated(force, 2 * steps));
-        let apart = |k: usize| (fine[0][k].value - coarse[0][k].value) / 15.0;
-        let error = Vector3::from([0, 1, 2].map(apart)).norm();
-        let [r, n] =
-            [0, 1].map(|of| [0, 1, 2].map(|k| fine[of][k] + (fine[of][k] - coarse[of][k]) * (1.0 / 15.0)));
+        let given = Given { force: [0, 1, 2].map(|k| Dual::<f64, 3>::input(start[k], k)), ..self.given() };
+        let ([r, n], error) = self.extrapolated(&given, steps);
         let values = |of: [Dual<f64, 3>; 3]| Vector3::from(of.map(|component| component.value));
         let slopes = |of: [Dual<f64, 3>; 3]| Matrix3::from_fn(|row, column| of[row].slopes[column]);
         let open = end - values(r);
@@ -139,32 +192,99 @@ impl CableInWind<'_> {
             stiffness: slopes(n) * per_end,
             closure: open.norm(),
             error,
+            steps,
         };
         (held, per_end * open)
     }
 
+    /// Derivatives of the force of the cable on its anchor with both its ends fixed, (C42).
+    ///
+    /// # Errors
+    /// [`CableError::NotConverged`] where the end does not follow the force at the leave point.
+    pub fn slopes(&self, held: &HeldInWind) -> Result<InWindSlopes, CableError> {
+        const INPUTS: usize = 11;
+        let input = |value: f64, k: usize| Dual::<f64, INPUTS>::input(value, k);
+        let own = self.given::<f64>();
+        let given = Given {
+            force: [0, 1, 2].map(|k| input(held.exit_force[k], k)),
+            weight: [0, 1, 2].map(|k| input(own.weight[k], 3 + k)),
+            drag: input(own.drag, 6),
+            length: input(own.length, 7),
+            axial_flexibility: input(own.axial_flexibility, 8),
+            guided: input(own.guided, 9),
+            height: input(own.height, 10),
+        };
+        let (state, _) = self.extrapolated(&given, held.steps);
+        let [r, n] = state.map(|of| SMatrix::<f64, 3, INPUTS>::from_fn(|row, column| of[row].slopes[column]));
+        let start = |of: &SMatrix<f64, 3, INPUTS>| of.fixed_columns::<3>(0).into_owned();
+        let per_end = start(&r).try_inverse().filter(|inverse| inverse.iter().all(|x| x.is_finite()));
+        let Some(per_end) = per_end else {
+            return Err(CableError::NotConverged { iterations: 0, residual: held.closure });
+        };
+        let all = n - start(&n) * per_end * r;
+        let column = |k: usize| Vector3::from(all.column(k));
+        Ok(InWindSlopes {
+            per_weight: all.fixed_columns::<3>(3).into_owned(),
+            per_drag: column(6),
+            per_length: column(7),
+            per_axial_stiffness: -column(8) * own.axial_flexibility.powi(2),
+            per_guided: column(9),
+            per_height: column(10),
+        })
+    }
+
+    /// The numbers of this cable, with no force at the leave point yet.
+    fn given<T: Real>(&self) -> Given<T> {
+        Given {
+            force: [T::of(0.0); 3],
+            weight: [0, 1, 2].map(|k| T::of(self.weight[k])),
+            drag: T::of(self.drag),
+            length: T::of(self.unstrained_length),
+            axial_flexibility: T::of(1.0 / self.cable.axial_stiffness),
+            guided: T::of(self.guided),
+            height: T::of(self.profile.map_or(0.0, |profile| profile.height)),
+        }
+    }
+
     /// Unstrained length beyond the leave point with this tension there [N].
-    fn free_length<T: Real>(&self, tension: T) -> T {
-        self.material::<T>().stretch(tension)[0].recip() * -self.guided + self.unstrained_length
+    fn free_length(&self, tension: f64) -> f64 {
+        let given = self.given::<f64>();
+        given.length - given.guided / self.material(&given).stretch(tension)[0]
+    }
+
+    /// The end of the cable from both step sizes, with the error of its position [m].
+    fn extrapolated<const N: usize>(
+        &self,
+        given: &Given<Dual<f64, N>>,
+        steps: usize,
+    ) -> (State<Dual<f64, N>>, f64) {
+        let (coarse, fine) = (self.integrated(given, steps), self.integrated(given, 2 * steps));
+        let apart = |k: usize| (fine[0][k].value - coarse[0][k].value) / 15.0;
+        let error = Vector3::from([0, 1, 2].map(apart)).norm();
+        let end =
+            [0, 1].map(|of| [0, 1, 2].map(|k| fine[of][k] + (fine[of][k] - coarse[of][k]) * (1.0 / 15.0)));
+        (end, error)
     }
 
     /// The end of the cable, (C40).
-    fn integrated<T: Real>(&self, force: [T; 3], steps: usize) -> State<T> {
-        let step = self.free_length(dot(&force, &force).sqrt()) * (1.0 / steps as f64);
-        let mut state = [[T::of(0.0); 3], force];
+    fn integrated<T: Real>(&self, given: &Given<T>, steps: usize) -> State<T> {
+        let tension = dot(&given.force, &given.force).sqrt();
+        let free = given.length - given.guided / self.material(given).stretch(tension)[0];
+        let step = free * (1.0 / steps as f64);
+        let mut state = [[T::of(0.0); 3], given.force];
         for _ in 0..steps {
-            state = self.stepped(state, step);
+            state = self.stepped(given, state, step);
         }
         state
     }
 
     /// A step of the classical Runge-Kutta method.
-    fn stepped<T: Real>(&self, state: State<T>, step: T) -> State<T> {
+    fn stepped<T: Real>(&self, given: &Given<T>, state: State<T>, step: T) -> State<T> {
         let half = step * 0.5;
-        let first = self.slope(&state[1]);
-        let second = self.slope(&moved(&state, &first, half)[1]);
-        let third = self.slope(&moved(&state, &second, half)[1]);
-        let fourth = self.slope(&moved(&state, &third, step)[1]);
+        let first = self.slope(given, &state);
+        let second = self.slope(given, &moved(&state, &first, half));
+        let third = self.slope(given, &moved(&state, &second, half));
+        let fourth = self.slope(given, &moved(&state, &third, step));
         let mean = [0, 1].map(|of| {
             [0, 1, 2]
                 .map(|k| (first[of][k] + (second[of][k] + third[of][k]) * 2.0 + fourth[of][k]) * (1.0 / 6.0))
@@ -173,24 +293,39 @@ impl CableInWind<'_> {
     }
 
     /// dr/ds and dn/ds, (C39) and (C40).
-    fn slope<T: Real>(&self, force: &[T; 3]) -> State<T> {
+    fn slope<T: Real>(&self, given: &Given<T>, [r, force]: &State<T>) -> State<T> {
         let tension = dot(force, force).sqrt();
         let per_tension = tension.recip();
-        let stretch = self.material::<T>().stretch(tension)[0];
+        let stretch = self.material(given).stretch(tension)[0];
         let t = force.map(|component| component * per_tension);
-        let velocity = [0, 1, 2].map(|k| T::of(self.velocity[k]));
+        let share = self.profile.map_or(T::of(1.0), |profile| profile.share(given.height + r[2]));
+        let velocity = [0, 1, 2].map(|k| share * self.velocity[k]);
         let along = dot(&velocity, &t);
         let across = [0, 1, 2].map(|k| velocity[k] - along * t[k]);
         // The root has no derivative at zero.
         let speed = (dot(&across, &across) + f64::MIN_POSITIVE).sqrt();
-        let drag = stretch * speed * self.drag;
-        [t.map(|component| stretch * component), [0, 1, 2].map(|k| -(across[k] * drag) + -self.weight[k])]
+        let drag = stretch * speed * given.drag;
+        [t.map(|component| stretch * component), [0, 1, 2].map(|k| -(across[k] * drag) - given.weight[k])]
     }
 
-    fn material<T: Lanewise + Real>(&self) -> Material<'_, T> {
-        let Cable { weight_per_length, axial_stiffness, .. } = self.cable;
-        let [weight_per_length, axial_flexibility] = [weight_per_length, 1.0 / axial_stiffness].map(T::of);
+    fn material<T: Lanewise + Real>(&self, given: &Given<T>) -> Material<'_, T> {
+        let weight_per_length = T::of(self.cable.weight_per_length);
+        let axial_flexibility = given.axial_flexibility;
         Material { law: self.cable.law.terms(), weight_per_length, axial_flexibility }
+    }
+}
+
+impl WindOverHeight {
+    /// The velocity at a height [m] over that at the reference height, (C41).
+    fn share<T: Real>(&self, height: T) -> T {
+        if height.value() <= 0.0 {
+            return T::of(0.0);
+        }
+        let per_reference = (self.reference / self.roughness).ln_1p().recip();
+        let above = height * (1.0 / self.roughness) + 1.0;
+        // ln x = ln a + x/a - 1 to first order, exact in value and derivative at a = x.
+        let near = above.value();
+        (above * (1.0 / near) + (near.ln() - 1.0)) * per_reference
     }
 }
 

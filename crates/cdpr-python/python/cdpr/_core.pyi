@@ -1415,6 +1415,7 @@ class Robot:
         frame_expansion: float = 0.0,
         ice: float = 0.0,
         creep: float = 0.0,
+        wind_profile: tuple[float, float] | None = None,
         payload: float | None = None,
         force: _Row | None = None,
         moment: _Row | None = None,
@@ -1441,6 +1442,9 @@ class Robot:
             Thickness of the ice around each cable [m], of 900 kg/m³.
         creep : float
             Strain by which each cable has crept.
+        wind_profile : tuple of float, optional
+            Roughness length of the ground and height above it at which the wind has its velocity [m], such as (0.3, 10), of a
+            wind that grows with height from nothing at the ground, `ground_z` or z = 0.
         payload : array_like, optional
             Mass added at the platform's centre of mass [kg].
         force, moment : array_like, optional
@@ -1481,6 +1485,7 @@ class Robot:
         frame_expansion: float = 0.0,
         ice: float = 0.0,
         creep: float = 0.0,
+        wind_profile: tuple[float, float] | None = None,
         payload: ArrayLike | None = None,
         force: ArrayLike | None = None,
         moment: ArrayLike | None = None,

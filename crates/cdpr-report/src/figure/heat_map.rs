@@ -40,11 +40,13 @@ pub enum MapQuantity {
     Amplitude,
     /// Largest amplitude by a winch in a band of frequencies.
     WinchAmplitude,
+    /// Displacement in the weather and under the load, in wind of the worst direction.
+    Weather,
 }
 
 impl MapQuantity {
     /// All quantities.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 14] = [
         Self::Deflection,
         Self::LeastStiffness,
         Self::PlatformFrequency,
@@ -58,6 +60,7 @@ impl MapQuantity {
         Self::Tilt,
         Self::Amplitude,
         Self::WinchAmplitude,
+        Self::Weather,
     ];
 
     /// Name of its figure file.
@@ -76,6 +79,7 @@ impl MapQuantity {
             Self::Tilt => "tilt",
             Self::Amplitude => "amplitude",
             Self::WinchAmplitude => "winch_amplitude",
+            Self::Weather => "weather",
         }
     }
 
@@ -110,6 +114,7 @@ impl MapQuantity {
                 | Self::PlatformFrequency
                 | Self::GreatestTension
                 | Self::PayloadKept
+                | Self::Weather
         ) && !self.is_amplitude()
     }
 
@@ -134,6 +139,7 @@ impl MapQuantity {
             Self::Tilt => ("tilt in the worst direction", "tilt", "degrees"),
             Self::Amplitude => ("largest amplitude by a force", "amplitude", "mm/N"),
             Self::WinchAmplitude => ("largest amplitude by a winch", "amplitude", "mm/mm"),
+            Self::Weather => ("displacement in the weather", "|dp|", "mm"),
         }
     }
 
@@ -153,6 +159,7 @@ impl MapQuantity {
             Self::Tilt => row.tilt_deg,
             Self::Amplitude => row.amplitude_mm_per_n,
             Self::WinchAmplitude => row.winch_mm_per_mm,
+            Self::Weather => row.weather_mm,
         }
     }
 }
@@ -189,6 +196,9 @@ fn values(
         map = map.by_decades();
         shown = |value| digits(value, 3);
         lines.push(format!("shaken from {}", shaking.conditions()));
+    }
+    if let Some(weather) = summary.weather.filter(|_| quantity == MapQuantity::Weather) {
+        lines.push(weather.conditions());
     }
     let hatched = |index: usize| !quantity.is_held(rows[index]);
     let held = (0..rows.len()).filter(|index| !hatched(*index)).count();

@@ -2,7 +2,7 @@
 
 use crate::equations::spanned::{SpannedCable, end, to_base};
 use crate::problem::DirectProblem;
-use cdpr_cable::{Catenary, HeldSlopes, Property, PropertySlopes};
+use cdpr_cable::{Catenary, HeldInWind, HeldSlopes, InWindSlopes, Property, PropertySlopes};
 use cdpr_number::vector;
 use cdpr_robot::{Matrix3, Pose, Robot, TiltAxis, Vector2, Vector3, Vector6};
 use nalgebra::SMatrix;
@@ -20,7 +20,7 @@ pub(super) fn moment(arm: &Vector3<f64>, force: &Vector3<f64>) -> Vector6<f64> {
 
 /// What the force of a cable depends on: the columns of [`CableDerivatives::per_input`], per SI unit.
 #[derive(Clone, Copy)]
-pub(super) enum CableInput {
+pub(crate) enum CableInput {
     Density,
     Modulus,
     Lead,
@@ -41,7 +41,7 @@ pub(crate) struct CableDerivatives {
     /// u_i; zero for a slack cable without weight.
     pub(crate) direction: Vector3<f64>,
     /// -dF_i/dr_i: K3_i, or Q_i K3_i where the tension is given [N/m].
-    pub(super) stiffness: Matrix3<f64>,
+    pub(crate) stiffness: Matrix3<f64>,
     /// By the inputs of the cable, in the order of [`CableInput`]; zero by those that are no parameters.
     pub(super) per_input: SMatrix<f64, 3, 9>,
     /// k_L [N/m] per length, or v_i per tension where the tension is given.
@@ -106,6 +106,39 @@ impl CableDerivatives {
             }
         }
         self
+    }
+
+    /// Cable i of a rest in wind with its length given, equation (C42) of `cdpr_cable`: one without a pulley.
+    pub(crate) fn in_wind(
+        robot: &Robot,
+        pose: &Pose,
+        i: usize,
+        held: &HeldInWind,
+        slopes: &InWindSlopes,
+    ) -> Self {
+        let (properties, force) = (&robot.cables[i].properties, -held.anchor_force);
+        let mut per_input = SMatrix::<f64, 3, 9>::zeros();
+        let mut set = |column: usize, slope: Vector3<f64>| per_input.set_column(column, &-slope);
+        set(CableInput::Density as usize, slopes.per_weight * robot.gravity.vector());
+        set(CableInput::Modulus as usize, slopes.per_axial_stiffness * properties.section);
+        set(CableInput::Lead as usize, slopes.per_guided);
+        for k in 0..3 {
+            let column = slopes.per_weight.column(k) * properties.linear_density;
+            set(CableInput::Gravity as usize + k, column);
+        }
+        Self {
+            arm: robot.anchor_arm(pose, i),
+            force,
+            direction: force / force.norm(),
+            stiffness: held.stiffness,
+            per_input,
+            per_actuation: -slopes.per_length,
+        }
+    }
+
+    /// Derivative of the force by an input of the cable with one component.
+    pub(crate) fn by(&self, input: CableInput) -> Vector3<f64> {
+        self.per_input.column(input as usize).into()
     }
 
     /// All cables of a model at a pose.

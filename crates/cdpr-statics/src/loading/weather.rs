@@ -3,7 +3,7 @@
 //!
 //! ```text
 //! L' = L (1 + α ΔT)(1 + ε)      unstrained length, warmer by ΔT and with the creep strain ε
-//! b' = b (1 + α_f ΔT)           exit points, and leads, of a frame that expands from the origin of the base frame
+//! b' = b (1 + α_f ΔT)           exit points, and leads, of a frame that expands from the origin of base
 //! ρ' = ρ L/L' + ρ_ice π t (d + t),  d' = d + 2t      with ice of thickness t around a diameter d
 //! ```
 
@@ -13,6 +13,7 @@ use crate::loading::deflection::{Deflection, deflection};
 use crate::loading::wind::{RestInWeather, Wind};
 use crate::problem::DirectProblem;
 use crate::state::{Load, WantedPose};
+use cdpr_number::{Dual, Real};
 use cdpr_robot::Robot;
 use std::f64::consts::PI;
 
@@ -60,9 +61,19 @@ impl Weather {
         Ok(())
     }
 
-    /// Factor of the unstrained lengths.
-    fn lengthening(&self) -> f64 {
-        (1.0 + self.cable_expansion * self.warmer) * (1.0 + self.creep)
+    /// Its numbers: warmer, expansion of cables and frame, ice, creep.
+    fn numbers(&self) -> [f64; 5] {
+        [self.warmer, self.cable_expansion, self.frame_expansion, self.ice, self.creep]
+    }
+
+    /// What it makes of a cable, with the derivatives by its numbers in the order of
+    /// [`crate::derivatives::WeatherInput`].
+    pub(crate) fn slopes(&self, robot: &Robot, i: usize) -> CableInWeather<Dual<f64, 5>> {
+        let numbers = self.numbers();
+        let properties = &robot.cables[i].properties;
+        let diameter = properties.diameter.unwrap_or_default();
+        let inputs = [0, 1, 2, 3, 4].map(|k| Dual::input(numbers[k], k));
+        CableInWeather::new(inputs, properties.linear_density, diameter)
     }
 
     /// The robot with its frame and cables as they become.
@@ -72,28 +83,51 @@ impl Weather {
     pub fn robot(&self, robot: &Robot) -> Result<Robot, StaticsError> {
         self.check()?;
         let mut changed = robot.clone();
-        let frame = 1.0 + self.frame_expansion * self.warmer;
         for (i, cable) in changed.cables.iter_mut().enumerate() {
-            cable.exit_point *= frame;
-            cable.lead *= frame;
             let properties = &mut cable.properties;
-            properties.linear_density /= self.lengthening();
-            if self.ice == 0.0 {
-                continue;
-            }
-            let Some(diameter) = properties.diameter.as_mut() else {
+            if self.ice > 0.0 && properties.diameter.is_none() {
                 let expected = "a diameter [m], on which the weight of the ice depends";
                 return Err(StaticsError::invalid(format!("cables[{i}].diameter"), "not given", expected));
-            };
-            properties.linear_density += ICE_DENSITY * PI * self.ice * (*diameter + self.ice);
-            *diameter += 2.0 * self.ice;
+            }
+            let diameter = properties.diameter.unwrap_or_default();
+            let made = CableInWeather::new(self.numbers(), properties.linear_density, diameter);
+            cable.exit_point *= made.frame;
+            cable.lead *= made.frame;
+            properties.linear_density = made.linear_density;
+            properties.diameter = properties.diameter.map(|_| made.diameter);
         }
         Ok(changed)
     }
 
     /// Unstrained lengths [m] as they become.
     pub fn lengths(&self, lengths: &[f64]) -> Vec<f64> {
-        lengths.iter().map(|length| length * self.lengthening()).collect()
+        let lengthening = CableInWeather::new(self.numbers(), 0.0, 0.0).lengthening;
+        lengths.iter().map(|length| length * lengthening).collect()
+    }
+}
+
+/// What weather makes of a cable and of the frame, over any kind of number.
+pub(crate) struct CableInWeather<T> {
+    /// L'/L.
+    pub(crate) lengthening: T,
+    /// b'/b.
+    pub(crate) frame: T,
+    /// ρ' [kg/m].
+    pub(crate) linear_density: T,
+    /// d' [m].
+    pub(crate) diameter: T,
+}
+
+impl<T: Real> CableInWeather<T> {
+    /// A cable of this linear density [kg/m] and diameter [m].
+    fn new([warmer, of_cable, of_frame, ice, creep]: [T; 5], density: f64, diameter: f64) -> Self {
+        let lengthening = (of_cable * warmer + 1.0) * (creep + 1.0);
+        Self {
+            lengthening,
+            frame: of_frame * warmer + 1.0,
+            linear_density: lengthening.recip() * density + ice * (ice + diameter) * (ICE_DENSITY * PI),
+            diameter: ice * 2.0 + diameter,
+        }
     }
 }
 

@@ -2,14 +2,15 @@
 //!
 //! The drag of each cable is that of (C39), so that a cable hangs in no plane. With the unstrained lengths
 //! kept, Newton's method finds the pose at which cables, weight and load balance, Eq. (3), while the drag is
-//! raised from zero. The point where a cable leaves its pulley stays where it is without wind.
+//! raised from zero. The point where a cable leaves its pulley stays where it is without wind. A wind that
+//! grows with height follows (C41), over `ground_z` of the robot or z = 0 of the base frame.
 
 use crate::direct::DirectSolution;
-use crate::equations::{Balance, FORCES, Pins, SpannedCable, in_its_plane, to_base};
+use crate::equations::{Balance, CableDerivatives, FORCES, Pins, SpannedCable, in_its_plane, to_base};
 use crate::error::StaticsError;
 use crate::problem::DirectProblem;
 use crate::state::Residual;
-use cdpr_cable::{CableInWind, HeldInWind, SpatialCable};
+use cdpr_cable::{CableInWind, HeldInWind, SpatialCable, WindOverHeight};
 use cdpr_robot::{Pose, Vector3, Vector6};
 
 /// Density of the air at sea level [kg/m³] (ISO 2533:1975, standard atmosphere).
@@ -25,10 +26,23 @@ const FASTEST: f64 = 120.0;
 /// Shares of the drag that are solved one after the other.
 const SHARES: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
 
-/// A steady wind, the same everywhere.
+/// ½ ρ c, drag of a rope per length, diameter and square of the velocity across [kg/m³].
+pub(crate) const DRAG_PER_DIAMETER: f64 = 0.5 * AIR_DENSITY * DRAG_COEFFICIENT;
+
+/// A steady wind, the same everywhere or growing with height.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Wind {
     velocity: Vector3<f64>,
+    profile: Option<WindProfile>,
+}
+
+/// How a wind grows with the height above the ground, (C41) of `cdpr_cable`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WindProfile {
+    /// Roughness length z0 of the ground [m]: 0.003 of a sea to 1 of a town (EN 1991-1-4:2005, Table 4.1).
+    pub roughness: f64,
+    /// Height above the ground at which the wind has its velocity [m].
+    pub reference: f64,
 }
 
 impl Wind {
@@ -41,15 +55,50 @@ impl Wind {
     /// [`StaticsError::Invalid`] unless it is finite and at most 120 m/s.
     pub fn new(velocity: Vector3<f64>) -> Result<Self, StaticsError> {
         if velocity.norm() <= FASTEST {
-            return Ok(Self { velocity });
+            return Ok(Self { velocity, profile: None });
         }
         let expected = format!("a velocity of at most {FASTEST} m/s");
         Err(StaticsError::invalid("wind".to_owned(), format!("{:?}", velocity.as_slice()), expected))
     }
 
-    /// Its velocity in the base frame [m/s].
+    /// The same wind with its velocity at one height, growing with height.
+    ///
+    /// # Errors
+    /// [`StaticsError::Invalid`] unless the roughness length is 0.0001 to 10 m and the height 0.1 to 1000 m.
+    pub fn over_height(self, profile: WindProfile) -> Result<Self, StaticsError> {
+        let WindProfile { roughness, reference } = profile;
+        for (field, value, range, expected) in [
+            ("wind_profile.roughness", roughness, 1e-4..=10.0, "a roughness length from 0.0001 to 10 m"),
+            ("wind_profile.reference", reference, 0.1..=1e3, "a height from 0.1 to 1000 m"),
+        ] {
+            if !range.contains(&value) {
+                return Err(StaticsError::invalid(field.to_owned(), value, expected));
+            }
+        }
+        Ok(Self { profile: Some(profile), ..self })
+    }
+
+    /// The same wind with another velocity [m/s].
+    ///
+    /// # Errors
+    /// As [`Wind::new`].
+    pub fn with_velocity(self, velocity: Vector3<f64>) -> Result<Self, StaticsError> {
+        Ok(Self { profile: self.profile, ..Self::new(velocity)? })
+    }
+
+    /// Its velocity in the base frame [m/s], at the height of reference of its profile if it has one.
     pub fn velocity(&self) -> Vector3<f64> {
         self.velocity
+    }
+
+    /// How it grows with height; `None` where it is the same everywhere.
+    pub fn profile(&self) -> Option<WindProfile> {
+        self.profile
+    }
+
+    /// Whether there is no wind.
+    pub fn is_calm(&self) -> bool {
+        self.velocity == Vector3::zeros()
     }
 }
 
@@ -70,6 +119,17 @@ pub struct RestInWeather {
     pub integration: f64,
     /// Iterations of Newton's method.
     pub iterations: usize,
+    /// The cables.
+    pub(crate) held: Vec<HeldInWind>,
+}
+
+/// A cable in wind with the derivatives of its force on the platform.
+pub(crate) struct BlownCable {
+    pub(crate) cable: CableDerivatives,
+    /// By ½ ρ c d' of its diameter d'.
+    pub(crate) per_drag: Vector3<f64>,
+    /// By its height above the ground [N/m].
+    pub(crate) per_height: Vector3<f64>,
 }
 
 impl RestInWeather {
@@ -113,7 +173,7 @@ impl DirectProblem<'_> {
         let mut hung: Vec<_> = hung.collect::<Result<_, _>>()?;
         let mut at = Blown::at(self, &mut hung, still.equilibrium.pose)?;
         let mut iterations = 0;
-        let shares = if *wind == Wind::default() { &SHARES[3..] } else { &SHARES };
+        let shares = if wind.is_calm() { &SHARES[3..] } else { &SHARES };
         for share in shares {
             // The drag is that of the velocity's square.
             let velocity = wind.velocity * share.sqrt();
@@ -134,7 +194,35 @@ impl DirectProblem<'_> {
             integration: at.cables.iter().map(|held| held.error).fold(0.0, f64::max),
             pose: at.pose,
             iterations,
+            held: at.cables,
         })
+    }
+
+    /// The cables of a rest in the wind, which is that of `still` without it.
+    ///
+    /// # Errors
+    /// [`StaticsError::NoDerivative`] for a cable on a pulley: the point where it leaves the pulley would
+    /// move.
+    pub(crate) fn blown_cables(
+        &self,
+        wind: &Wind,
+        still: &DirectSolution,
+        rest: &RestInWeather,
+    ) -> Result<Vec<BlownCable>, StaticsError> {
+        let one = |(i, held): (usize, &HeldInWind)| {
+            if self.cable(i).guide.is_some_and(|guide| guide.radius > 0.0) {
+                let reason = "it leaves a pulley at a point that is taken as constant";
+                return Err(StaticsError::NoDerivative { quantity: "a cable in wind", reason });
+            }
+            let cable = CableInWind { velocity: wind.velocity, ..self.hung(still, i, wind)?.cable };
+            let slopes = cable.slopes(held).map_err(StaticsError::cable(i))?;
+            Ok(BlownCable {
+                cable: CableDerivatives::in_wind(self.robot, &rest.pose, i, held, &slopes),
+                per_drag: -slopes.per_drag,
+                per_height: -slopes.per_height,
+            })
+        };
+        rest.held.iter().enumerate().map(one).collect()
     }
 
     /// Cable i as it hangs before the wind.
@@ -142,7 +230,7 @@ impl DirectProblem<'_> {
         let (robot, at) = (self.robot, &still.equilibrium);
         let diameter = match robot.cables[i].properties.diameter {
             Some(diameter) => diameter,
-            None if *wind == Wind::default() => 0.0,
+            None if wind.is_calm() => 0.0,
             None => {
                 let expected = "a diameter [m], on which the drag of the wind depends";
                 return Err(StaticsError::invalid(format!("cables[{i}].diameter"), "not given", expected));
@@ -163,16 +251,22 @@ impl DirectProblem<'_> {
             }
         };
         let stretch = 1.0 + cable.strain(in_plane.exit_tension());
+        let leave = robot.cables[i].exit_point + in_base(leave);
         Ok(Hung {
             cable: CableInWind {
                 cable,
                 weight: in_base(Vector3::new(0.0, 0.0, -cable.weight_per_length)),
                 velocity: Vector3::zeros(),
-                drag: 0.5 * AIR_DENSITY * DRAG_COEFFICIENT * diameter,
+                drag: DRAG_PER_DIAMETER * diameter,
                 unstrained_length: self.lengths[i],
                 guided: (self.lengths[i] - in_plane.free_length()) * stretch,
+                profile: wind.profile.map(|WindProfile { roughness, reference }| WindOverHeight {
+                    roughness,
+                    reference,
+                    height: leave.z - robot.ground_z.unwrap_or(0.0),
+                }),
             },
-            leave: robot.cables[i].exit_point + in_base(leave),
+            leave,
             force: in_base(plane.lift([fx, in_plane.exit_vertical_force()]).into()),
         })
     }

@@ -4,7 +4,7 @@ use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each, plotte
 use crate::robot::Robot;
 use crate::robot::inverse::coordinates;
 use cdpr_robot::{Vector3, Vector6};
-use cdpr_statics::weather::{RestInWeather as Rest, Weather, Wind, in_weather};
+use cdpr_statics::weather::{RestInWeather as Rest, Weather, Wind, WindProfile, in_weather};
 use cdpr_statics::{StaticsError, WantedPose};
 use pyo3::prelude::*;
 
@@ -77,6 +77,9 @@ impl Robot {
     ///     Thickness of the ice around each cable [m], of 900 kg/m³.
     /// creep : float
     ///     Strain by which each cable has crept.
+    /// wind_profile : tuple of float, optional
+    ///     Roughness length of the ground and height above it at which the wind has its velocity [m], such as (0.3, 10), of a
+    ///     wind that grows with height from nothing at the ground, `ground_z` or z = 0.
     /// payload : array_like, optional
     ///     Mass added at the platform's centre of mass [kg].
     /// force, moment : array_like, optional
@@ -106,7 +109,7 @@ impl Robot {
     /// >>> bool(robot.in_weather([0, 0, 2], ice=0.005).displacement[2] > 0)  # sag shortens the chords
     /// True
     #[pyo3(signature = (pose, wind=None, *, warmer=0.0, cable_expansion=0.0, frame_expansion=0.0, ice=0.0,
-        creep=0.0, payload=None, force=None, moment=None, free=None))]
+        creep=0.0, wind_profile=None, payload=None, force=None, moment=None, free=None))]
     #[allow(clippy::too_many_arguments)]
     fn in_weather(
         &self,
@@ -118,6 +121,7 @@ impl Robot {
         frame_expansion: f64,
         ice: f64,
         creep: f64,
+        wind_profile: Option<(f64, f64)>,
         payload: Option<Numbers>,
         force: Option<Numbers>,
         moment: Option<Numbers>,
@@ -128,9 +132,11 @@ impl Robot {
         let winds = Rows::components::<3>("wind", wind.as_ref())?.finite()?;
         let loads = Loads::new(force.as_ref(), moment.as_ref(), payload.as_ref(), robot)?;
         let cases = loads.cases([&poses, &winds])?;
+        let profile = wind_profile.map(|(roughness, reference)| WindProfile { roughness, reference });
         let weather = Weather { wind: Wind::default(), warmer, cable_expansion, frame_expansion, ice, creep };
         let outcomes: Vec<Result<Found, StaticsError>> = each(py, cases.count, |case| {
             let wind = Wind::new(Vector3::from_row_slice(winds.row(case)))?;
+            let wind = profile.map_or(Ok(wind), |profile| wind.over_height(profile))?;
             let wanted = poses.pose(case)?;
             let wanted = WantedPose::at(&wanted).free(&free);
             let (still, rest) = in_weather(robot, wanted, &loads.load(case)?, &Weather { wind, ..weather })?;

@@ -1,12 +1,12 @@
 //! `cdpr deflection`: how far a load or the weather displaces and rotates the platform.
 
 use crate::program::answer::{Found, OutOfLimits, Residual, decimal, vector};
-use crate::program::arguments::{With, components, number, with};
+use crate::program::arguments::{WEATHER, WindArgument, With, with};
 use crate::program::error::ProgramError;
 use crate::program::output::{Details, Ending, print_sentence, table};
 use crate::program::pose::at_pose::{RobotAtFreePose, Row, cells, numbered};
 use cdpr_robot::{Pose, Robot, Vector3, Vector6};
-use cdpr_statics::weather::{RestInWeather, Weather, Wind, in_weather};
+use cdpr_statics::weather::{RestInWeather, Weather, in_weather};
 use cdpr_statics::{Deflection, WantedPose, deflection};
 use serde::Serialize;
 
@@ -15,14 +15,11 @@ use serde::Serialize;
 pub(crate) struct Settings {
     #[command(flatten)]
     at: RobotAtFreePose,
-    /// Velocity of the wind on the cables, in the base frame: vx,vy,vz [m/s].
-    ///
-    /// Air of 1.225 kg/m³ and cables with a drag coefficient of 1.2; with others, the wind that is
-    /// sqrt(density coefficient/1.47) times as fast. Wind on the platform itself is a load, as --force.
-    #[arg(long, value_name = "VX,VY,VZ", value_parser = components::<3>, allow_hyphen_values = true)]
-    wind: Option<[f64; 3]>,
+    #[command(flatten)]
+    wind: WindArgument,
     /// What else changes while the winches hold: warmer=KELVIN with cable_expansion=, frame_expansion= [1/K];
-    /// ice=METRES around each cable; creep=STRAIN of each cable.
+    /// ice=METRES around each cable; creep=STRAIN of each cable; wind_profile=Z0:ZREF, a wind that grows with
+    /// height.
     #[arg(long, value_name = "NAME=VALUE,..", value_parser = with)]
     with: Option<With>,
     #[command(flatten)]
@@ -32,7 +29,9 @@ pub(crate) struct Settings {
 pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     let RobotAtFreePose { at, free } = &settings.at;
     let details = settings.details.details;
-    let Some(weather) = settings.weather()? else {
+    let with = settings.with.clone().unwrap_or_default();
+    with.check(&WEATHER)?;
+    let Some(weather) = settings.wind.weather(&with)? else {
         let load = at.load.some_load()?;
         let solve = |robot: &Robot, pose: &Pose| {
             let found = deflection(robot, WantedPose::at(pose).free(&free.free), &load)?;
@@ -46,26 +45,6 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
         Ok(AnswerInWeather::new(robot, &still, &rest, &weather))
     };
     at.answer(solve, |answer, heading| answer.print(heading, details))
-}
-
-impl Settings {
-    /// The weather, if any is given.
-    fn weather(&self) -> Result<Option<Weather>, ProgramError> {
-        if self.wind.is_none() && self.with.is_none() {
-            return Ok(None);
-        }
-        let with = self.with.clone().unwrap_or_default();
-        with.check(&["warmer", "cable_expansion", "frame_expansion", "ice", "creep"])?;
-        let value = |name| Ok::<_, ProgramError>(with.value(name, None, number)?.unwrap_or_default());
-        Ok(Some(Weather {
-            wind: Wind::new(self.wind.unwrap_or_default().into())?,
-            warmer: value("warmer")?,
-            cable_expansion: value("cable_expansion")?,
-            frame_expansion: value("frame_expansion")?,
-            ice: value("ice")?,
-            creep: value("creep")?,
-        }))
-    }
 }
 
 /// The deflection, in SI units unless the name says otherwise.
@@ -198,8 +177,7 @@ impl AnswerInWeather {
                 rotation_deg: [3, 4, 5].map(|row| motion[row].to_degrees()),
                 tensions,
                 exit_tensions,
-                drag: (weather.wind != Wind::default())
-                    .then(|| rest.drags.iter().sum::<Vector3<f64>>().into()),
+                drag: (!weather.wind.is_calm()).then(|| rest.drags.iter().sum::<Vector3<f64>>().into()),
                 out_of_limits: found.into_iter().map(OutOfLimits::new).collect(),
                 residual: Residual::new(&rest.residual),
                 integration: rest.integration,

@@ -3,15 +3,17 @@
 mod amplitude;
 mod leading;
 mod uncertainty;
+mod weather;
 
 use crate::program::answer::{OutOfLimits, bound_name, decimal};
-use crate::program::arguments::{self, Format, UncertaintyArgument, With, with};
+use crate::program::arguments::{self, Format, UncertaintyArgument, WEATHER, WindArgument, With, with};
 use crate::program::error::ProgramError;
 use crate::program::output::{Details, Ending, print_sentence, table, wide_table};
 use crate::program::pose::at_pose::{RobotAtFreePose, Row, cells};
 use crate::program::pose::derivatives::amplitude::Amplitude;
 use crate::program::pose::derivatives::leading::{LEADING, handy_unit};
 use crate::program::pose::derivatives::uncertainty::Uncertainty;
+use crate::program::pose::derivatives::weather::InWeather;
 use cdpr_dynamics::{DynamicsError, FrequencyDerivatives};
 use cdpr_robot::{Parameter, Robot};
 use cdpr_statics::derivatives::OneSided;
@@ -26,12 +28,17 @@ pub(crate) struct Settings {
     at: RobotAtFreePose,
     #[command(flatten)]
     errors: UncertaintyArgument,
-    /// amplitude=HZ: derivatives of the amplitude of a platform that is shaken; damping, drag, along.
+    /// amplitude=HZ: derivatives of the amplitude of a platform that is shaken; damping, drag, along. ice=
+    /// and others, with --wind or without: derivatives of the displacement in that weather.
     ///
-    /// Of the point --marker with the load, per newton of a force there, in the worst direction or along=x, y
-    /// or z. damping=TAU and drag=RATE damp the cables, as those of `response` (2e-4 s, none).
+    /// warmer=KELVIN with cable_expansion=, frame_expansion=, ice=METRES, creep=STRAIN, wind_profile=Z0:ZREF:
+    /// as those of `deflection`. Of the point --marker with the load, per newton of a force there, in the
+    /// worst direction or along=x, y or z. damping=TAU and drag=RATE damp the cables, as those of `response`
+    /// (2e-4 s, none).
     #[arg(long, value_name = "NAMES", value_parser = with)]
     with: Option<With>,
+    #[command(flatten)]
+    wind: WindArgument,
     /// Point of the platform that is shaken: x,y,z in its frame [m]; P if left out.
     #[arg(long, value_parser = arguments::components::<3>, allow_hyphen_values = true)]
     marker: Option<[f64; 3]>,
@@ -40,15 +47,22 @@ pub(crate) struct Settings {
 }
 
 pub(crate) fn run(
-    Settings { at: RobotAtFreePose { at, free }, errors, with, marker, details }: &Settings,
+    Settings { at: RobotAtFreePose { at, free }, errors, with, wind, marker, details }: &Settings,
 ) -> Result<Ending, ProgramError> {
+    let with = with.clone().unwrap_or_default();
+    with.check(&[&["amplitude", "damping", "drag", "along"], &WEATHER[..]].concat())?;
+    let weather = wind.weather(&with)?;
     let load = at.load.some_load()?;
     let is_table = match at.printing.format() {
         Format::Csv => true,
         Format::Text => at.pose()?.is_none(),
         Format::Json => false,
     };
-    let shaken = amplitude::asked(&with.clone().unwrap_or_default(), *marker, is_table)?;
+    let shaken = amplitude::asked(&with, *marker, is_table)?;
+    if weather.is_some() && is_table {
+        let expected = "expected --format json, as the table has no columns for weather";
+        return Err(ProgramError::Usage(format!("--wind, --with: {expected}")));
+    }
     let robot = at.robot()?;
     let model = errors.model(&robot)?;
     model.as_ref().map(|model| model.check(&robot)).transpose()?;
@@ -56,6 +70,9 @@ pub(crate) fn run(
         let found = derivatives(robot, WantedPose::at(pose).free(&free.free), &load)?;
         let mut slopes = Slopes::new(robot, &load, &found)?;
         slopes.amplitude = shaken.map(|at| Amplitude::new(robot, &load, &found, &at)).transpose()?;
+        slopes.in_weather = weather
+            .map(|weather| InWeather::new(robot, WantedPose::at(pose).free(&free.free), &load, &weather))
+            .transpose()?;
         slopes.uncertainty = model.as_ref().map(|model| Uncertainty::new(model, &found)).transpose()?;
         // With free coordinates the scalar models search for each robot, which takes too long.
         if let (Some(uncertainty), Some(model), []) = (&mut slopes.uncertainty, &model, &free.free[..]) {
@@ -103,6 +120,9 @@ struct Slopes {
     /// Of a platform that is shaken, if asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     amplitude: Option<Amplitude>,
+    /// In weather, if asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    in_weather: Option<InWeather>,
     /// Absent without an error model.
     #[serde(skip_serializing_if = "Option::is_none")]
     uncertainty: Option<Uncertainty>,
@@ -212,6 +232,7 @@ impl Slopes {
             unstrained_lengths: left.into_iter().map(|slope| slope.unstrained_lengths).collect(),
             unit: "per SI unit of the parameter",
             amplitude: None,
+            in_weather: None,
             uncertainty: None,
             out_of_limits: OutOfLimits::all(robot, &deflection.lengths, &equilibria),
         })
@@ -278,6 +299,7 @@ impl Slopes {
             ));
         }
         self.amplitude.iter().for_each(|of| of.print(&self.inputs));
+        self.in_weather.iter().for_each(|of| of.print(&self.inputs));
         OutOfLimits::print(&self.out_of_limits);
     }
 

@@ -1,12 +1,17 @@
-//! `cdpr safety`: what becomes of the platform when a cable breaks.
+//! `cdpr safety`: what becomes of the platform when a cable breaks, and in weather.
 
-use crate::program::answer::{OutOfLimits, Residual, decimal, numbers};
-use crate::program::arguments::{FreeArguments, With, number, with};
+mod case;
+mod weather;
+
+use crate::program::answer::{OutOfLimits, numbers};
+use crate::program::arguments::{FreeArguments, WEATHER, With, any_weather, number, with};
 use crate::program::error::ProgramError;
 use crate::program::output::{Ending, print_sentence, table};
-use crate::program::pose::at_pose::{Failure, RobotAtPose, Row};
+use crate::program::pose::at_pose::{RobotAtPose, Row};
 use crate::program::pose::modes::with_inertia;
-use cdpr_assess::{Breaks, Broken, BrokenRest, Safety, Swing, safety_at};
+use crate::program::pose::safety::case::{Case, Rest, Swinging};
+use crate::program::pose::safety::weather::InWeather;
+use cdpr_assess::{Breaks, Safety, safety_at};
 use cdpr_robot::{Pose, Robot, significant};
 use cdpr_statics::WantedPose;
 use serde::Serialize;
@@ -20,20 +25,26 @@ pub(crate) struct Settings {
     #[command(flatten)]
     free: FreeArguments,
     /// pairs: break every pair of cables, too. swing=SECONDS: follow the motion after each break for so long,
-    /// without damping.
+    /// without damping. wind=SPEED: wind on the whole robot from any horizontal direction; ice= and others.
+    ///
+    /// wind=VX:VY:VZ: wind of one velocity [m/s]. ice=METRES, warmer=KELVIN with cable_expansion=,
+    /// frame_expansion=, creep=STRAIN, wind_profile=Z0:ZREF: as those of `deflection`. All cables are whole
+    /// in the weather.
     #[arg(long, value_name = "NAMES", value_parser = with)]
     with: Option<With>,
 }
 
 pub(crate) fn run(Settings { at, free, with }: &Settings) -> Result<Ending, ProgramError> {
     let with = with.clone().unwrap_or_default();
-    with.check(&["pairs", "swing"])?;
+    with.check(&[&["pairs", "swing", "wind"], &WEATHER[..]].concat())?;
+    let weather = any_weather(&with)?;
     let load = at.load.load();
     let breaks = Breaks { pairs: with.has("pairs")?, follow: with.value("swing", None, above_zero)? };
     let solve = |robot: &Robot, pose: &Pose| {
         let robot = if breaks.follow.is_some() { with_inertia(robot) } else { Cow::Borrowed(robot) };
         let found = safety_at(&robot, WantedPose::at(pose).free(&free.free), &load, breaks)?;
-        Ok(Answer::from(found))
+        let weather = weather.map(|weather| InWeather::new(&robot, &found, &load, &weather)).transpose()?;
+        Ok(Answer { in_weather: weather, ..Answer::from(found) })
     };
     at.answer(solve, Answer::print)
 }
@@ -52,200 +63,15 @@ struct Answer {
     /// Tensions before the break [N].
     tensions: Vec<f64>,
     broken: Vec<Case>,
-}
-
-/// What becomes of the platform without these cables.
-#[derive(Serialize)]
-struct Case {
-    /// Their numbers.
-    cables: Vec<usize>,
-    #[serde(flatten)]
-    rest: Option<Rest>,
+    /// The whole robot in the weather, if asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
-    error: Option<Failure>,
-    /// The motion after the break, if it is followed.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    swing: Option<Motion>,
-}
-
-/// How the platform swings, or why that is not known.
-#[derive(Serialize)]
-#[serde(untagged)]
-enum Motion {
-    Followed(Swinging),
-    Failed { error: String },
-}
-
-/// How the platform swings.
-#[derive(Serialize)]
-struct Swinging {
-    /// Greatest distance from where it was [m].
-    moved: f64,
-    greatest_tension: Greatest,
-    /// When that is [s].
-    time: f64,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    out_of_limits: Vec<OutOfLimits>,
-    safety_factor: Option<f64>,
-    below_ground: bool,
-    /// Difference of two computations in the tensions [N].
-    tension_difference: f64,
-}
-
-/// Where the platform comes to rest.
-#[derive(Serialize)]
-struct Rest {
-    /// Position of P [m] and quaternion, qw first.
-    position: [f64; 3],
-    rotation: [f64; 4],
-    moved: f64,
-    turned_deg: f64,
-    /// At the platform and at the exit points [N], zero for a broken cable.
-    tensions: Vec<f64>,
-    exit_tensions: Vec<f64>,
-    greatest_tension: Greatest,
-    slack_cables: Vec<usize>,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    out_of_limits: Vec<OutOfLimits>,
-    /// Least breaking force over greatest tension; `null` where no breaking force is known.
-    safety_factor: Option<f64>,
-    below_ground: bool,
-    residual: Residual,
-}
-
-/// A tension at either end of a cable [N].
-#[derive(Clone, Copy, Serialize)]
-struct Greatest {
-    cable: usize,
-    tension: f64,
-}
-
-impl From<BrokenRest> for Rest {
-    fn from(rest: BrokenRest) -> Self {
-        let (tension, cable) = rest.greatest_tension();
-        let [_, _, _, qw, qx, qy, qz] = crate::program::arguments::poses::pose_numbers(&rest.pose);
-        Self {
-            position: rest.pose.position.into(),
-            rotation: [qw, qx, qy, qz],
-            moved: rest.moved,
-            turned_deg: rest.turned.to_degrees(),
-            tensions: rest.tensions.iter().map(|ends| ends[0]).collect(),
-            exit_tensions: rest.tensions.iter().map(|ends| ends[1]).collect(),
-            greatest_tension: Greatest { cable: cable + 1, tension },
-            slack_cables: rest.slack.iter().map(|i| i + 1).collect(),
-            out_of_limits: rest.out_of_limits.into_iter().map(OutOfLimits::new).collect(),
-            safety_factor: rest.safety_factor.map(|(factor, _)| factor),
-            below_ground: rest.below_ground,
-            residual: Residual::new(&rest.residual),
-        }
-    }
-}
-
-impl From<Swing> for Swinging {
-    fn from(swing: Swing) -> Self {
-        let (tension, cable, time) = swing.greatest;
-        Self {
-            moved: swing.moved,
-            greatest_tension: Greatest { cable: cable + 1, tension },
-            time,
-            out_of_limits: swing.out_of_limits.into_iter().map(OutOfLimits::new).collect(),
-            safety_factor: swing.safety_factor.map(|(factor, _)| factor),
-            below_ground: swing.below_ground,
-            tension_difference: swing.difference.tension,
-        }
-    }
-}
-
-impl From<Broken> for Case {
-    fn from(Broken { cables, rest, swing }: Broken) -> Self {
-        let cables = cables.into_iter().map(|i| i + 1).collect();
-        let swing = swing.map(|swing| match swing {
-            Ok(swing) => Motion::Followed(swing.into()),
-            Err(error) => Motion::Failed { error: error.to_string() },
-        });
-        match rest {
-            Ok(rest) => Self { cables, rest: Some(rest.into()), error: None, swing },
-            Err(error) => Self { cables, rest: None, error: Some(error.into()), swing },
-        }
-    }
+    in_weather: Option<InWeather>,
 }
 
 impl From<Safety> for Answer {
     fn from(Safety { lengths, tensions, broken, .. }: Safety) -> Self {
-        Self { lengths, tensions, broken: broken.into_iter().map(Case::from).collect() }
+        Self { lengths, tensions, broken: broken.into_iter().map(Case::from).collect(), in_weather: None }
     }
-}
-
-impl Case {
-    /// `cable 3`, `cables 3, 4`.
-    fn name(&self) -> String {
-        format!("cable{} {}", if self.cables.len() > 1 { "s" } else { "" }, numbers(&self.cables))
-    }
-
-    /// The motion, where it is known.
-    fn swinging(&self) -> Option<&Swinging> {
-        match &self.swing {
-            Some(Motion::Followed(swing)) => Some(swing),
-            _ => None,
-        }
-    }
-
-    /// What is wrong without these cables, at rest or on the way there.
-    fn wrong(&self) -> Option<String> {
-        let Some(rest) = &self.rest else { return Some("no rest was found".to_owned()) };
-        let swing = self.swinging();
-        let swinging = swing.map_or(&[][..], |swing| &swing.out_of_limits);
-        let at_rest = rest.out_of_limits.iter().map(|one| (one, ""));
-        let beyond = at_rest.chain(swinging.iter().map(|one| (one, " on the way")));
-        let beyond = beyond.filter(|(one, _)| one.is_too_much());
-        let beyond = beyond.min_by_key(|(one, _)| one.limit != "breaking_force");
-        let beyond = beyond.map(|(one, when)| match one.limit {
-            "breaking_force" => format!("cable {} breaks, too{when}", one.cable),
-            _ => format!("cable {} is above its greatest tension{when}", one.cable),
-        });
-        let below = rest.below_ground || swing.is_some_and(|swing| swing.below_ground);
-        beyond.or_else(|| below.then(|| "the platform comes below the ground".to_owned())).or_else(|| {
-            matches!(self.swing, Some(Motion::Failed { .. })).then(|| "its motion is not known".to_owned())
-        })
-    }
-
-    /// How far the platform moves and turns, the greatest tension at rest, its cable, and the factor.
-    fn at_rest(&self) -> Vec<String> {
-        let Some(rest) = &self.rest else { return vec![String::new(); 5] };
-        let Greatest { cable, tension } = rest.greatest_tension;
-        let (moved, turned) = (significant(rest.moved, 4), decimal(rest.turned_deg, 2));
-        vec![moved, turned, significant(tension, 4), cable.to_string(), factor(rest.safety_factor)]
-    }
-
-    /// How far the platform moves, the greatest tension at rest; how far it swings, the greatest tension then, its
-    /// cable, and the factor.
-    fn with_swing(&self) -> Vec<String> {
-        let rest = self
-            .rest
-            .as_ref()
-            .map(|rest| [significant(rest.moved, 4), significant(rest.greatest_tension.tension, 4)]);
-        let swing = self.swinging().map(|swing| {
-            let Greatest { cable, tension } = swing.greatest_tension;
-            let (moved, tension) = (significant(swing.moved, 4), significant(tension, 4));
-            [moved, tension, cable.to_string(), factor(swing.safety_factor)]
-        });
-        rest.unwrap_or_default().into_iter().chain(swing.unwrap_or_default()).collect()
-    }
-
-    /// What is to be said of it in a table.
-    fn remark(&self) -> String {
-        let Some(rest) = &self.rest else {
-            return self.error.as_ref().map_or_else(String::new, |error| error.message.clone());
-        };
-        let slack =
-            (!rest.slack_cables.is_empty()).then(|| format!("slack: {}", numbers(&rest.slack_cables)));
-        self.wrong().into_iter().chain(slack).collect::<Vec<_>>().join("; ")
-    }
-}
-
-/// A safety factor in a table; empty where it is not known.
-fn factor(factor: Option<f64>) -> String {
-    factor.map_or_else(String::new, |factor| significant(factor, 3))
 }
 
 impl Answer {
@@ -308,7 +134,8 @@ impl Answer {
     }
 
     fn print(&self, heading: &str) {
-        for sentence in self.sentences(heading) {
+        let in_weather = self.in_weather.iter().flat_map(|weather| weather.sentences(heading));
+        for sentence in in_weather.chain(self.sentences(heading)) {
             print_sentence(&sentence);
         }
         let followed = self.broken.iter().any(|case| case.swing.is_some());
@@ -351,8 +178,10 @@ impl Row for Answer {
             "peak_tension_cable",
             "peak_tension_without",
         ]
+        .into_iter()
+        .chain(weather::COLUMNS)
         .map(str::to_owned)
-        .into()
+        .collect()
     }
 
     fn cells(&self) -> Vec<String> {
@@ -384,7 +213,8 @@ impl Row for Answer {
         let far = far.map_or_else(String::new, |far| format!("{far:?}"));
         let cable = peak.map_or_else(String::new, |(swing, _)| swing.greatest_tension.cable.to_string());
         let swing = [far, value, cable, case];
-        without(moved).into_iter().chain(without(turned)).chain(last).chain(swing).collect()
+        let weather = self.in_weather.as_ref().map(InWeather::cells).unwrap_or_default();
+        without(moved).into_iter().chain(without(turned)).chain(last).chain(swing).chain(weather).collect()
     }
 
     fn out_of_limits(&self) -> Vec<&[OutOfLimits]> {
@@ -392,7 +222,8 @@ impl Row for Answer {
     }
 
     fn ending(&self) -> Ending {
-        let is_wrong = self.broken.iter().any(|case| case.wrong().is_some());
+        let in_weather = self.in_weather.as_ref().is_some_and(|weather| weather.wrong().is_some());
+        let is_wrong = in_weather || self.broken.iter().any(|case| case.wrong().is_some());
         if is_wrong { Ending::SomethingWrong } else { Ending::Well }
     }
 }

@@ -3,7 +3,8 @@
 use crate::program::arguments::poses::Angles;
 use crate::program::arguments::{
     self, FigureArgument, Format, FreeArguments, LoadArguments, NO_DRAG, Overwrite, Preference, Region,
-    RobotArgument, Threads, UncertaintyArgument, With, count, figure, number, region, with, write_figures,
+    RobotArgument, Threads, UncertaintyArgument, WEATHER, With, any_weather, count, figure, number, region,
+    with, write_figures,
 };
 use crate::program::error::ProgramError;
 use crate::program::output::{
@@ -12,8 +13,8 @@ use crate::program::output::{
 use crate::program::questions;
 use crate::program::wrenches::WrenchArguments;
 use cdpr_assess::{
-    BoundarySummary, Further, HELD, Shaking, TiltDirections, Way, Workspace, WorkspaceSummary,
-    begin_workspace, compute_workspace, workspace_boundary, write_workspace,
+    AnyWeather, BoundarySummary, DIRECTIONS, Further, HELD, Shaking, TiltDirections, Way, Workspace,
+    WorkspaceSummary, begin_workspace, compute_workspace, workspace_boundary, write_workspace,
 };
 use cdpr_dynamics::Damping;
 use cdpr_report::{MapQuantity, layers, workspace_maps};
@@ -47,7 +48,8 @@ pub(crate) struct Settings {
     errors: UncertaintyArgument,
     #[command(flatten)]
     set: WrenchArguments,
-    /// Further results, which take longer: capacity, distances, tilt=N, amplitude=HZ:HZ, boundary, layers=N.
+    /// Further results, which take longer: capacity, distances, tilt=N, amplitude=HZ:HZ, boundary, layers=N,
+    /// wind=SPEED.
     ///
     /// capacity: greatest payload and margins of the tensions, for each --wrench on top of the load.
     /// distances: of the nearest two cables, and of the cable nearest to the platform. tilt: how far the
@@ -56,7 +58,9 @@ pub(crate) struct Settings {
     /// drag=RATE damp the cables, as those of `response` (2e-4 s, none). boundary: of the positions that are
     /// held under the load with the tensions distributed again, or boundary=kept, with the lengths kept:
     /// polygons in a plane, a mesh in a box (STL). layers: of a box that are drawn, spread evenly (12); 0 draws
-    /// nothing.
+    /// nothing. wind=SPEED: how far wind on the cables and load displace the platform, the lengths kept, and
+    /// the worst of all horizontal directions; wind=VX:VY:VZ: wind of one velocity; ice, creep and the others as
+    /// those of `deflection`.
     #[arg(long, value_name = "NAMES", value_parser = with)]
     with: Option<With>,
     /// Point of the platform whose amplitude is mapped: x,y,z in its frame [m]; P if left out.
@@ -87,6 +91,7 @@ struct Wanted {
     /// Directions of the tilt.
     tilt: Option<usize>,
     shaking: Option<Shaking>,
+    weather: Option<AnyWeather>,
     boundary: Option<Way>,
     /// Layers of a box that are drawn.
     layers: usize,
@@ -94,7 +99,9 @@ struct Wanted {
 
 impl Wanted {
     fn new(with: &With, marker: Option<[f64; 3]>) -> Result<Self, ProgramError> {
-        with.check(&["capacity", "distances", "tilt", "amplitude", "damping", "drag", "boundary", "layers"])?;
+        let own =
+            ["capacity", "distances", "tilt", "amplitude", "damping", "drag", "boundary", "layers", "wind"];
+        with.check(&[&own[..], &WEATHER].concat())?;
         let band = |text: &str| {
             let (from, to) = text.split_once(':').unwrap_or((text, text));
             let ends = number(from).ok().zip(number(to).ok()).map(<[f64; 2]>::from);
@@ -122,6 +129,7 @@ impl Wanted {
             distances: with.has("distances")?,
             tilt: with.value("tilt", Some(4), count::<1, 360>)?,
             shaking: band.map(shaking),
+            weather: any_weather(with)?,
             boundary: with.value("boundary", Some(Way::Recomputed), way)?,
             layers: with.value("layers", None, count::<0, 10_000>)?.unwrap_or(12),
         })
@@ -186,6 +194,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
             distances: wanted.distances,
             tilt: wanted.tilt.map(|count| TiltDirections { count, accuracy: TILT_ACCURACY.to_radians() }),
             shaking: wanted.shaking,
+            weather: wanted.weather,
         },
     };
     let progress = progress(grid.poses().len(), "poses");
@@ -262,13 +271,24 @@ fn print(summary: &WorkspaceSummary) {
             print_sentence(NO_DRAG);
         }
     }
+    if let Some(weather) = &summary.weather {
+        let wrong = match weather.wrong {
+            0 => "at no position held is a tension out of its limits".to_owned(),
+            count => format!(
+                "at {count} of {held} positions held a tension is out of its limits or no rest was found"
+            ),
+        };
+        let directions =
+            weather.speed.map_or_else(String::new, |_| format!(" ({DIRECTIONS} directions and a search)"));
+        print_sentence(&format!("In the weather, {}{directions}: {wrong}.", weather.conditions()));
+    }
     if let Some(BoundarySummary { measure, error, unit, .. }) = &summary.boundary {
         print_sentence(&format!("The region held has {measure:.4} {unit}, with an error of {error:.1e}."));
     }
 }
 
 /// What ranges over the positions held.
-fn ranges(summary: &WorkspaceSummary) -> [(&'static str, Option<Extremes>); 16] {
+fn ranges(summary: &WorkspaceSummary) -> [(&'static str, Option<Extremes>); 18] {
     [
         ("|dp| [mm]", summary.magnitude_mm),
         ("least stiffness [N/m]", summary.least_stiffness),
@@ -286,6 +306,8 @@ fn ranges(summary: &WorkspaceSummary) -> [(&'static str, Option<Extremes>); 16] 
         ("tilt in the worst direction [deg]", summary.tilt_deg),
         ("largest amplitude by a force [mm/N]", summary.amplitude_mm_per_n),
         ("largest amplitude by a winch [mm/mm]", summary.winch_mm_per_mm),
+        ("displacement in the weather [mm]", summary.weather_mm),
+        ("greatest tension in the weather [N]", summary.weather_greatest_tension),
     ]
 }
 

@@ -17,7 +17,6 @@ pub(super) fn asked(
     marker: Option<[f64; 3]>,
     is_table: bool,
 ) -> Result<Option<AmplitudeAt>, ProgramError> {
-    with.check(&["amplitude", "damping", "drag", "along"])?;
     let hertz = |text: &str| match number(text)? {
         frequency if frequency > 0.0 => Ok(frequency),
         _ => Err("expected a frequency above 0 Hz".to_owned()),

@@ -1,0 +1,206 @@
+//! A platform in weather, with wind of one velocity or from any direction in the horizontal plane.
+//!
+//! From any direction, the wind blows at [`DIRECTIONS`] azimuths. Around the one that moves the platform
+//! farthest a golden-section search looks for a direction that moves it farther still (R. P. Brent,
+//! *Algorithms for Minimization without Derivatives*, 1973, chapter 5). Between the azimuths nothing is
+//! proven.
+
+use crate::inspection::is_below_floor;
+use cdpr_robot::{Pose, Robot, UnitQuaternion, Vector3};
+use cdpr_statics::limits::{Limit, OutOfLimits, tensions_out_of_limits};
+use cdpr_statics::weather::{RestInWeather, Weather, Wind};
+use cdpr_statics::{DirectProblem, DirectSolution, DirectStart, Load, StaticsError};
+use rayon::prelude::*;
+use std::f64::consts::TAU;
+
+/// Azimuths from which a search for the worst one begins.
+pub const DIRECTIONS: usize = 24;
+
+/// Steps of the golden-section search: the interval shrinks to a thousandth.
+const STEPS: usize = 14;
+
+/// Weather with a wind of one velocity, or of one speed from any direction.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct AnyWeather {
+    /// The weather. Where `speed` is given, the velocity of its wind does not matter.
+    pub weather: Weather,
+    /// Speed of a horizontal wind from any direction [m/s].
+    pub speed: Option<f64>,
+}
+
+/// The platform in one wind.
+#[derive(Clone, Debug, PartialEq)]
+pub struct InWind {
+    /// Direction in which the wind blows, from x to y of the base frame [rad]; `None` for a wind of one
+    /// velocity.
+    pub azimuth: Option<f64>,
+    /// Where the platform rests.
+    pub rest: RestInWeather,
+    /// Displacement of P [m].
+    pub displacement: Vector3<f64>,
+    /// Angle of the rotation [rad], at most π.
+    pub turned: f64,
+    /// Tensions that are out of limits.
+    pub out_of_limits: Vec<OutOfLimits>,
+    /// Least breaking force over greatest tension, and the index of that cable; `None` where no breaking
+    /// force is known.
+    pub safety_factor: Option<(f64, usize)>,
+    /// Whether P or an anchor point is below `ground_z`, or, where the file has none, below what robots stand
+    /// on.
+    pub below_ground: bool,
+}
+
+impl InWind {
+    /// Distance of P from where it was [m].
+    pub fn moved(&self) -> f64 {
+        self.displacement.norm()
+    }
+
+    /// The greatest tension at either end [N], and the index of its cable.
+    pub fn greatest_tension(&self) -> (f64, usize) {
+        let each = self.rest.tensions().into_iter().zip(&self.rest.exit_tensions).enumerate();
+        let each = each.map(|(i, (anchor, exit))| (anchor.max(*exit), i));
+        each.fold((0.0, 0), |a, b| if b.0 > a.0 { b } else { a })
+    }
+
+    /// The most serious limit that a tension passes at the end where it is limited.
+    pub fn gravest(&self) -> Option<&OutOfLimits> {
+        let passed = self.out_of_limits.iter().filter(|one| one.limit != Limit::MaxElsewhere);
+        passed.min_by_key(|one| one.limit)
+    }
+}
+
+/// A platform in wind from all directions, or in one wind.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Winds {
+    /// Every azimuth that was looked at [rad], with why no rest was found in that wind: those of the first
+    /// [`DIRECTIONS`], then those of the search.
+    pub failures: Vec<(Option<f64>, StaticsError)>,
+    /// The winds with a rest, in the same order.
+    pub rests: Vec<InWind>,
+}
+
+impl Winds {
+    /// The wind that moves the platform farthest.
+    pub fn farthest(&self) -> Option<&InWind> {
+        self.rests.iter().max_by(|a, b| a.moved().total_cmp(&b.moved()))
+    }
+
+    /// The wind with the greatest tension.
+    pub fn tightest(&self) -> Option<&InWind> {
+        self.rests.iter().max_by(|a, b| a.greatest_tension().0.total_cmp(&b.greatest_tension().0))
+    }
+
+    /// The least tension at the platform [N].
+    pub fn least_tension(&self) -> Option<f64> {
+        self.rests.iter().flat_map(|one| one.rest.tensions()).min_by(f64::total_cmp)
+    }
+}
+
+/// How a platform that rests at `at` under a load rests in weather, on winches that do not move.
+/// Displacements are those from `from`.
+///
+/// # Errors
+/// [`StaticsError::Invalid`] for weather that cannot be and for a cable without a diameter in wind or ice;
+/// those of the direct model without the wind.
+pub fn winds(
+    robot: &Robot,
+    lengths: &[f64],
+    load: &Load,
+    [at, from]: [&Pose; 2],
+    question: &AnyWeather,
+) -> Result<Winds, StaticsError> {
+    let AnyWeather { weather, speed } = question;
+    let changed = weather.robot(robot)?;
+    let lengths = weather.lengths(lengths);
+    let problem = DirectProblem::new(&changed, &lengths, load)?;
+    let calm = problem.direct(DirectStart::Pose(at))?;
+    let blown = Blown { problem: &problem, calm: &calm, from };
+    let Some(speed) = *speed else {
+        return sorted(vec![(None, blown.by(None, &weather.wind))]);
+    };
+    let by = |azimuth: f64| {
+        let velocity = speed * Vector3::new(azimuth.cos(), azimuth.sin(), 0.0);
+        let wind = weather.wind.with_velocity(velocity);
+        (Some(azimuth), wind.and_then(|wind| blown.by(Some(azimuth), &wind)))
+    };
+    let step = TAU / DIRECTIONS as f64;
+    let mut found: Vec<_> = (0..DIRECTIONS).into_par_iter().map(|k| by(step * k as f64)).collect();
+    let moved =
+        |outcome: &Result<InWind, StaticsError>| outcome.as_ref().map_or(f64::NEG_INFINITY, InWind::moved);
+    let worst = found.iter().max_by(|a, b| moved(&a.1).total_cmp(&moved(&b.1)));
+    if let Some((Some(worst), Ok(_))) = worst {
+        const GOLDEN: f64 = 0.618_033_988_749_894_9;
+        let (mut low, mut high) = (worst - step, worst + step);
+        let mut inner = [high - GOLDEN * (high - low), low + GOLDEN * (high - low)];
+        let mut outcomes = inner.map(by);
+        for _ in 0..STEPS {
+            // The part beyond the lesser of two inner points is left out.
+            let upper = moved(&outcomes[1].1) > moved(&outcomes[0].1);
+            let next = if upper {
+                low = inner[0];
+                inner = [inner[1], low + GOLDEN * (high - low)];
+                outcomes.swap(0, 1);
+                by(inner[1])
+            } else {
+                high = inner[1];
+                inner = [high - GOLDEN * (high - low), inner[0]];
+                outcomes.swap(0, 1);
+                by(inner[0])
+            };
+            found.push(std::mem::replace(&mut outcomes[usize::from(upper)], next));
+        }
+        found.extend(outcomes);
+    }
+    sorted(found)
+}
+
+/// Rests and failures; what is wrong with the question itself is an error.
+fn sorted(found: Vec<(Option<f64>, Result<InWind, StaticsError>)>) -> Result<Winds, StaticsError> {
+    let mut winds = Winds { failures: Vec::new(), rests: Vec::new() };
+    for (azimuth, outcome) in found {
+        match outcome {
+            Ok(rest) => winds.rests.push(rest),
+            Err(error @ StaticsError::Invalid { .. }) => return Err(error),
+            Err(error) => winds.failures.push((azimuth, error)),
+        }
+    }
+    Ok(winds)
+}
+
+/// A robot whose cables the wind blows on.
+struct Blown<'a> {
+    problem: &'a DirectProblem<'a>,
+    calm: &'a DirectSolution,
+    from: &'a Pose,
+}
+
+impl Blown<'_> {
+    fn by(&self, azimuth: Option<f64>, wind: &Wind) -> Result<InWind, StaticsError> {
+        let robot = self.problem.robot();
+        let rest = self.problem.in_wind(wind, self.calm)?;
+        let ends = rest.tensions().into_iter().zip(&rest.exit_tensions);
+        let ends: Vec<[f64; 2]> = ends.map(|(anchor, exit)| [anchor, *exit]).collect();
+        let all: Vec<usize> = (0..ends.len()).collect();
+        let [before, after] =
+            [self.from, &rest.pose].map(|pose| UnitQuaternion::from_rotation_matrix(&pose.rotation));
+        Ok(InWind {
+            azimuth,
+            displacement: rest.pose.position - self.from.position,
+            turned: before.angle_to(&after),
+            out_of_limits: tensions_out_of_limits(robot, std::slice::from_ref(&ends)),
+            safety_factor: safety_factor(robot, &all, &ends),
+            below_ground: is_below_floor(robot, &rest.pose),
+            rest,
+        })
+    }
+}
+
+/// Least breaking force over greatest tension of these cables.
+pub(super) fn safety_factor(robot: &Robot, cables: &[usize], tensions: &[[f64; 2]]) -> Option<(f64, usize)> {
+    let factor = |i: &usize| {
+        let force = robot.cables[*i].properties.breaking_force?;
+        Some((force / tensions[*i][0].max(tensions[*i][1]), *i))
+    };
+    cables.iter().filter_map(factor).min_by(|a, b| a.0.total_cmp(&b.0))
+}

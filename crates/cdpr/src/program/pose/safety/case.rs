@@ -1,0 +1,195 @@
+//! What becomes of the platform without some of its cables, and how it is said.
+
+use crate::program::answer::{OutOfLimits, Residual, decimal, numbers};
+use crate::program::pose::at_pose::Failure;
+use cdpr_assess::{Broken, BrokenRest, Swing};
+use cdpr_robot::significant;
+use serde::Serialize;
+
+/// What becomes of the platform without these cables.
+#[derive(Serialize)]
+pub(super) struct Case {
+    /// Their numbers.
+    pub(super) cables: Vec<usize>,
+    #[serde(flatten)]
+    pub(super) rest: Option<Rest>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) error: Option<Failure>,
+    /// The motion after the break, if it is followed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) swing: Option<Motion>,
+}
+
+/// How the platform swings, or why that is not known.
+#[derive(Serialize)]
+#[serde(untagged)]
+pub(super) enum Motion {
+    Followed(Swinging),
+    Failed { error: String },
+}
+
+/// How the platform swings.
+#[derive(Serialize)]
+pub(super) struct Swinging {
+    /// Greatest distance from where it was [m].
+    pub(super) moved: f64,
+    pub(super) greatest_tension: Greatest,
+    /// When that is [s].
+    pub(super) time: f64,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(super) out_of_limits: Vec<OutOfLimits>,
+    pub(super) safety_factor: Option<f64>,
+    pub(super) below_ground: bool,
+    /// Difference of two computations in the tensions [N].
+    pub(super) tension_difference: f64,
+}
+
+/// Where the platform comes to rest.
+#[derive(Serialize)]
+pub(super) struct Rest {
+    /// Position of P [m] and quaternion, qw first.
+    pub(super) position: [f64; 3],
+    pub(super) rotation: [f64; 4],
+    pub(super) moved: f64,
+    pub(super) turned_deg: f64,
+    /// At the platform and at the exit points [N], zero for a broken cable.
+    pub(super) tensions: Vec<f64>,
+    pub(super) exit_tensions: Vec<f64>,
+    pub(super) greatest_tension: Greatest,
+    pub(super) slack_cables: Vec<usize>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(super) out_of_limits: Vec<OutOfLimits>,
+    /// Least breaking force over greatest tension; `null` where no breaking force is known.
+    pub(super) safety_factor: Option<f64>,
+    pub(super) below_ground: bool,
+    pub(super) residual: Residual,
+}
+
+/// A tension at either end of a cable [N].
+#[derive(Clone, Copy, Serialize)]
+pub(super) struct Greatest {
+    pub(super) cable: usize,
+    pub(super) tension: f64,
+}
+
+impl From<BrokenRest> for Rest {
+    fn from(rest: BrokenRest) -> Self {
+        let (tension, cable) = rest.greatest_tension();
+        let [_, _, _, qw, qx, qy, qz] = crate::program::arguments::poses::pose_numbers(&rest.pose);
+        Self {
+            position: rest.pose.position.into(),
+            rotation: [qw, qx, qy, qz],
+            moved: rest.moved,
+            turned_deg: rest.turned.to_degrees(),
+            tensions: rest.tensions.iter().map(|ends| ends[0]).collect(),
+            exit_tensions: rest.tensions.iter().map(|ends| ends[1]).collect(),
+            greatest_tension: Greatest { cable: cable + 1, tension },
+            slack_cables: rest.slack.iter().map(|i| i + 1).collect(),
+            out_of_limits: rest.out_of_limits.into_iter().map(OutOfLimits::new).collect(),
+            safety_factor: rest.safety_factor.map(|(factor, _)| factor),
+            below_ground: rest.below_ground,
+            residual: Residual::new(&rest.residual),
+        }
+    }
+}
+
+impl From<Swing> for Swinging {
+    fn from(swing: Swing) -> Self {
+        let (tension, cable, time) = swing.greatest;
+        Self {
+            moved: swing.moved,
+            greatest_tension: Greatest { cable: cable + 1, tension },
+            time,
+            out_of_limits: swing.out_of_limits.into_iter().map(OutOfLimits::new).collect(),
+            safety_factor: swing.safety_factor.map(|(factor, _)| factor),
+            below_ground: swing.below_ground,
+            tension_difference: swing.difference.tension,
+        }
+    }
+}
+
+impl From<Broken> for Case {
+    fn from(Broken { cables, rest, swing }: Broken) -> Self {
+        let cables = cables.into_iter().map(|i| i + 1).collect();
+        let swing = swing.map(|swing| match swing {
+            Ok(swing) => Motion::Followed(swing.into()),
+            Err(error) => Motion::Failed { error: error.to_string() },
+        });
+        match rest {
+            Ok(rest) => Self { cables, rest: Some(rest.into()), error: None, swing },
+            Err(error) => Self { cables, rest: None, error: Some(error.into()), swing },
+        }
+    }
+}
+
+impl Case {
+    /// `cable 3`, `cables 3, 4`.
+    pub(super) fn name(&self) -> String {
+        format!("cable{} {}", if self.cables.len() > 1 { "s" } else { "" }, numbers(&self.cables))
+    }
+
+    /// The motion, where it is known.
+    pub(super) fn swinging(&self) -> Option<&Swinging> {
+        match &self.swing {
+            Some(Motion::Followed(swing)) => Some(swing),
+            _ => None,
+        }
+    }
+
+    /// What is wrong without these cables, at rest or on the way there.
+    pub(super) fn wrong(&self) -> Option<String> {
+        let Some(rest) = &self.rest else { return Some("no rest was found".to_owned()) };
+        let swing = self.swinging();
+        let swinging = swing.map_or(&[][..], |swing| &swing.out_of_limits);
+        let at_rest = rest.out_of_limits.iter().map(|one| (one, ""));
+        let beyond = at_rest.chain(swinging.iter().map(|one| (one, " on the way")));
+        let beyond = beyond.filter(|(one, _)| one.is_too_much());
+        let beyond = beyond.min_by_key(|(one, _)| one.limit != "breaking_force");
+        let beyond = beyond.map(|(one, when)| match one.limit {
+            "breaking_force" => format!("cable {} breaks, too{when}", one.cable),
+            _ => format!("cable {} is above its greatest tension{when}", one.cable),
+        });
+        let below = rest.below_ground || swing.is_some_and(|swing| swing.below_ground);
+        beyond.or_else(|| below.then(|| "the platform comes below the ground".to_owned())).or_else(|| {
+            matches!(self.swing, Some(Motion::Failed { .. })).then(|| "its motion is not known".to_owned())
+        })
+    }
+
+    /// How far the platform moves and turns, the greatest tension at rest, its cable, and the factor.
+    pub(super) fn at_rest(&self) -> Vec<String> {
+        let Some(rest) = &self.rest else { return vec![String::new(); 5] };
+        let Greatest { cable, tension } = rest.greatest_tension;
+        let (moved, turned) = (significant(rest.moved, 4), decimal(rest.turned_deg, 2));
+        vec![moved, turned, significant(tension, 4), cable.to_string(), factor(rest.safety_factor)]
+    }
+
+    /// How far the platform moves, the greatest tension at rest; how far it swings, the greatest tension
+    /// then, its cable, and the factor.
+    pub(super) fn with_swing(&self) -> Vec<String> {
+        let rest = self
+            .rest
+            .as_ref()
+            .map(|rest| [significant(rest.moved, 4), significant(rest.greatest_tension.tension, 4)]);
+        let swing = self.swinging().map(|swing| {
+            let Greatest { cable, tension } = swing.greatest_tension;
+            let (moved, tension) = (significant(swing.moved, 4), significant(tension, 4));
+            [moved, tension, cable.to_string(), factor(swing.safety_factor)]
+        });
+        rest.unwrap_or_default().into_iter().chain(swing.unwrap_or_default()).collect()
+    }
+
+    /// What is to be said of it in a table.
+    pub(super) fn remark(&self) -> String {
+        let Some(rest) = &self.rest else {
+            return self.error.as_ref().map_or_else(String::new, |error| error.message.clone());
+        };
+        let slack =
+            (!rest.slack_cables.is_empty()).then(|| format!("slack: {}", numbers(&rest.slack_cables)));
+        self.wrong().into_iter().chain(slack).collect::<Vec<_>>().join("; ")
+    }
+}
+
+/// A safety factor in a table; empty where it is not known.
+pub(super) fn factor(factor: Option<f64>) -> String {
+    factor.map_or_else(String::new, |factor| significant(factor, 3))
+}

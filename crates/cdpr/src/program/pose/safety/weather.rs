@@ -1,0 +1,177 @@
+//! The whole robot in weather, and how it is said.
+
+use crate::program::answer::{OutOfLimits, Residual};
+use crate::program::arguments::towards;
+use crate::program::pose::safety::case::Greatest;
+use cdpr_assess::{AnyWeather, DIRECTIONS, InWind, Safety, winds};
+use cdpr_robot::{Robot, significant};
+use cdpr_statics::limits::Limit;
+use cdpr_statics::{Load, StaticsError};
+use serde::Serialize;
+
+/// Its columns in a table.
+pub(super) const COLUMNS: [&str; 7] = [
+    "weather_moved_m",
+    "weather_azimuth_deg",
+    "weather_tension_n",
+    "weather_tension_cable",
+    "weather_tension_azimuth_deg",
+    "weather_safety_factor",
+    "weather_wrong",
+];
+
+/// The platform in wind of all directions that were looked at, or of one.
+#[derive(Serialize)]
+pub(super) struct InWeather {
+    /// Speed of a wind from any direction [m/s].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    speed: Option<f64>,
+    /// Winds that were looked at.
+    directions: usize,
+    /// The wind that moves the platform farthest; absent where there is no rest in any.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    farthest: Option<OneWind>,
+    /// The wind with the greatest tension.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    tightest: Option<OneWind>,
+    /// A wind in which something is wrong.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    wrong: Option<String>,
+    /// A wind in which a tension falls below its least one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    below_least: Option<String>,
+}
+
+/// The platform in one wind.
+#[derive(Serialize)]
+struct OneWind {
+    /// Direction in which it blows, from x to y; absent for a wind of one velocity.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    azimuth_deg: Option<f64>,
+    /// Position of P [m] and quaternion, qw first.
+    position: [f64; 3],
+    rotation: [f64; 4],
+    /// From where the platform is held without the weather [m].
+    displacement: [f64; 3],
+    moved: f64,
+    turned_deg: f64,
+    tensions: Vec<f64>,
+    exit_tensions: Vec<f64>,
+    greatest_tension: Greatest,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    out_of_limits: Vec<OutOfLimits>,
+    /// Least breaking force over greatest tension; `null` where no breaking force is known.
+    safety_factor: Option<f64>,
+    below_ground: bool,
+    residual: Residual,
+}
+
+impl OneWind {
+    fn new(found: &InWind) -> Self {
+        let [_, _, _, qw, qx, qy, qz] = crate::program::arguments::poses::pose_numbers(&found.rest.pose);
+        let (tension, cable) = found.greatest_tension();
+        Self {
+            azimuth_deg: found.azimuth.map(|azimuth| azimuth.to_degrees().rem_euclid(360.0)),
+            position: found.rest.pose.position.into(),
+            rotation: [qw, qx, qy, qz],
+            displacement: found.displacement.into(),
+            moved: found.moved(),
+            turned_deg: found.turned.to_degrees(),
+            tensions: found.rest.tensions(),
+            exit_tensions: found.rest.exit_tensions.clone(),
+            greatest_tension: Greatest { cable: cable + 1, tension },
+            out_of_limits: found.out_of_limits.iter().copied().map(OutOfLimits::new).collect(),
+            safety_factor: found.safety_factor.map(|(factor, _)| factor),
+            below_ground: found.below_ground,
+            residual: Residual::new(&found.rest.residual),
+        }
+    }
+}
+
+/// What is wrong in one wind: the gravest has the least number.
+fn wrong(found: &InWind) -> Option<(u8, String)> {
+    let gravest = found.gravest().filter(|one| one.is_too_much());
+    let beyond = gravest.map(|one| (1, one.to_string()));
+    let below = || found.below_ground.then(|| (2, "the platform comes below the ground".to_owned()));
+    let (rank, what) = beyond.or_else(below)?;
+    Some((rank, format!("{what}, in wind{}", towards(found.azimuth))))
+}
+
+impl InWeather {
+    pub(super) fn new(
+        robot: &Robot,
+        held: &Safety,
+        load: &Load,
+        weather: &AnyWeather,
+    ) -> Result<Self, StaticsError> {
+        let found = winds(robot, &held.lengths, load, [&held.pose, &held.pose], weather)?;
+        let failed = found
+            .failures
+            .iter()
+            .map(|(azimuth, error)| (0, format!("no rest was found in wind{} ({error})", towards(*azimuth))));
+        let gravest = failed.chain(found.rests.iter().filter_map(wrong)).min_by_key(|(rank, _)| *rank);
+        Ok(Self {
+            speed: weather.speed,
+            directions: found.rests.len() + found.failures.len(),
+            farthest: found.farthest().map(OneWind::new),
+            tightest: found.tightest().map(OneWind::new),
+            wrong: gravest.map(|(_, what)| what),
+            below_least: found.rests.iter().find_map(|one| {
+                let least = one.out_of_limits.iter().find(|passed| passed.limit == Limit::Min)?;
+                Some(format!("{least}, in wind{}", towards(one.azimuth)))
+            }),
+        })
+    }
+
+    pub(super) fn wrong(&self) -> Option<&str> {
+        self.wrong.as_deref()
+    }
+
+    /// The verdict, and the winds that move the platform farthest and pull most.
+    pub(super) fn sentences(&self, heading: &str) -> Vec<String> {
+        let winds = match self.speed {
+            Some(speed) => format!(
+                "wind of {speed} m/s from {DIRECTIONS} directions, and from {} of a search for the worst one",
+                self.directions.saturating_sub(DIRECTIONS)
+            ),
+            None => "the weather".to_owned(),
+        };
+        let first = match &self.wrong {
+            None => format!("{heading} bears {winds}: no tension is too great."),
+            Some(what) => format!("{heading} does not bear {winds}: {what}."),
+        };
+        let towards = |one: &OneWind| {
+            one.azimuth_deg
+                .map_or_else(String::new, |azimuth| format!(" (wind towards {azimuth:.0} degrees)"))
+        };
+        let farthest = self.farthest.as_ref().map(|one| {
+            let [moved, x, y, z] = [one.moved, one.displacement[0], one.displacement[1], one.displacement[2]]
+                .map(|metres| significant(1e3 * metres, 4));
+            format!("The weather moves it up to {moved} mm, by ({x}, {y}, {z}) mm{}.", towards(one))
+        });
+        let tightest = self.tightest.as_ref().map(|one| {
+            let Greatest { cable, tension } = one.greatest_tension;
+            let tension = significant(tension, 4);
+            let factor = one.safety_factor.map_or_else(String::new, |factor| {
+                format!(", a safety factor of {}", significant(factor, 3))
+            });
+            format!("Tensions in the weather reach {tension} N, in cable {cable}{}{factor}.", towards(one))
+        });
+        let below = self.below_least.as_ref().map(|what| format!("In the weather {what}."));
+        [Some(first), farthest, tightest, below].into_iter().flatten().collect()
+    }
+
+    pub(super) fn cells(&self) -> Vec<String> {
+        let number = |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:?}"));
+        let (far, tight) = (self.farthest.as_ref(), self.tightest.as_ref());
+        vec![
+            number(far.map(|one| one.moved)),
+            number(far.and_then(|one| one.azimuth_deg)),
+            number(tight.map(|one| one.greatest_tension.tension)),
+            tight.map_or_else(String::new, |one| one.greatest_tension.cable.to_string()),
+            number(tight.and_then(|one| one.azimuth_deg)),
+            number(tight.and_then(|one| one.safety_factor)),
+            self.wrong.clone().unwrap_or_default(),
+        ]
+    }
+}
