@@ -2,7 +2,8 @@
 //!
 //! Times depend on the load of the machine: criterion compares them with those of its last run. Instruction
 //! counts do not: in criterion's test mode each benchmark calls its function `counted` once, and callgrind
-//! counts the instructions of that call. Valgrind does not support AVX-512, so that lanes are counted on AVX2.
+//! counts the instructions of that call. Valgrind does not support AVX-512, so that lanes are counted on
+//! AVX2.
 
 use crate::cargo::{
     Outcome, cargo_command, done, emptied, files, machine, printed, read, read_json, root, target, text,
@@ -101,7 +102,8 @@ pub(crate) fn valgrind() -> Option<String> {
     version
 }
 
-/// A program under callgrind, which counts each call of a function on its own: `name.1` and so on in the folder.
+/// A program under callgrind, which counts each call of a function on its own: `name.1` and so on in the
+/// folder.
 pub(crate) fn callgrind(folder: &Path, name: &str, function: &str, program: impl AsRef<OsStr>) -> Command {
     let mut command = Command::new("valgrind");
     command.args([

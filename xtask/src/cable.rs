@@ -1,7 +1,7 @@
 //! The part of `cargo xtask caroca-study` on real cables (sections 4.2.1 to 4.2.3 of the paper).
 //!
-//! It prints Table 2 next to the moduli that follow from its record, runs a cycle of the payload, and compares
-//! the paper's deflections with those of a modulus that depends on the tension.
+//! It prints Table 2 next to the moduli that follow from its record, runs a cycle of the payload, and
+//! compares the paper's deflections with those of a modulus that depends on the tension.
 
 #![allow(clippy::print_stdout)]
 

@@ -128,8 +128,8 @@ pub(crate) fn emptied(folder: &Path) -> Outcome {
     made(folder)
 }
 
-/// All files in a folder and in the folders in it, sorted; without those folders that have one of these names.
-/// A file is itself.
+/// All files in a folder and in the folders in it, sorted; without those folders that have one of these
+/// names. A file is itself.
 pub(crate) fn files(path: &Path, without: &[&str]) -> Outcome<Vec<PathBuf>> {
     if !path.is_dir() {
         return Ok(vec![path.to_owned()]);

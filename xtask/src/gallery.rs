@@ -119,14 +119,14 @@ fn studied(name: &str, folder: &Path) -> Outcome<[(&'static str, String); 3]> {
     write(&pictures.join(format!("{name}.svg")), &read(&results.join("robot.svg"))?)?;
     let summary = read_json(&results.join("summary.json"))?;
     let all = &summary["studies"]["all"];
-    let numbers = |values: &Value| values.as_array().into_iter().flatten().map(number).collect::<Vec<_>>();
-    let pose: Vec<_> = numbers(&all["pose"]).iter().map(ToString::to_string).collect();
+    let pose: Vec<_> = all["pose"].as_array().into_iter().flatten().map(ToString::to_string).collect();
     let rest = if study["samplings"]["all"]["free"].is_null() {
         ""
     } else {
         ", where it comes to rest with its own tilt"
     };
-    let tensions = numbers(&all["nominal"]["unloaded_tensions"]);
+    let tensions = all["nominal"]["unloaded_tensions"].as_array().into_iter().flatten();
+    let tensions: Vec<f64> = tensions.map(number).collect();
     let least = tensions.iter().copied().fold(f64::INFINITY, f64::min);
     let greatest = tensions.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let deflection = number(&all["magnitude_mm"]["nominal"]);

@@ -27,14 +27,14 @@ use std::process::{Command, ExitCode};
 enum Task {
     /// Run the study of Baklouti, Caro, Courteille (CableCon 2017) and print it with their figures
     ///
-    /// The published figures are in data/reference/published.json. All measures of the study's sensitivity go to
-    /// DIR/sensitivity, the hysteresis of its cables to DIR/cable, the robot with pulleys and the cable behind
-    /// them to DIR/led. It begins again unless it resumes.
+    /// The published figures are in data/reference/published.json. All measures of the study's sensitivity go
+    /// to DIR/sensitivity, the hysteresis of its cables to DIR/cable, the robot with pulleys and the cable
+    /// behind them to DIR/led. It begins again unless it resumes.
     CarocaStudy(Study),
     /// Count how often the direct model finds CoGiRo's true pose from a wrong start
     ///
-    /// [--poses N] [--modulus E] [--seed N] [--robot FILE] [--free NAMES] [--out DIR]: by the protocol of Mahnke
-    /// and Caverly (N = 10000, E = 35e9 Pa) and on thirty poses; DIR is target/robustness.
+    /// [--poses N] [--modulus E] [--seed N] [--robot FILE] [--free NAMES] [--out DIR]: by the protocol of
+    /// Mahnke and Caverly (N = 10000, E = 35e9 Pa) and on thirty poses; DIR is target/robustness.
     Robustness(Rest),
     /// Run a sampling of the paper's study, without tables, and print time, memory and results in a line
     ///
@@ -48,8 +48,8 @@ enum Task {
     },
     /// Run all criterion benchmarks, and print times and instructions next to the baseline
     ///
-    /// Arguments go to criterion: a part of a name, and other options. Instructions are counted where valgrind is
-    /// installed; it fails where a count is by 1 % larger than in data/benchmarks/baseline.json.
+    /// Arguments go to criterion: a part of a name, and other options. Instructions are counted where
+    /// valgrind is installed; it fails where a count is by 1 % larger than in data/benchmarks/baseline.json.
     Bench {
         /// Write the baseline
         #[arg(long)]
@@ -59,7 +59,8 @@ enum Task {
     },
     /// Follow random smooth courses of the robots of the library, and write times and iterations
     ///
-    /// [STEPS [ROBOT..]]: 1000000 steps of a tracker each; to data/benchmarks/latency.json, a table and a figure.
+    /// [STEPS [ROBOT..]]: 1000000 steps of a tracker each; to data/benchmarks/latency.json, a table and a
+    /// figure.
     Latency(Rest),
     /// Measure how often estimators of cdpr-sensitivity are right
     ///
@@ -73,7 +74,8 @@ enum Task {
     ///
     /// It keeps their figures there and writes the tables of docs/trust.md.
     Evidence {
-        /// Compare the figures in the folder CDPR_EVIDENCE, which tests have written, with those that are kept
+        /// Compare the figures in the folder CDPR_EVIDENCE, which tests have written, with those that are
+        /// kept
         #[arg(long)]
         check: bool,
         /// Beginnings of their names
@@ -81,11 +83,13 @@ enum Task {
     },
     /// Make what a release consists of in target/dist
     ///
-    /// The program, on Linux one that runs on any, the wheel, the packed crates, the book, notes and checksums.
+    /// The program, on Linux one that runs on any, the wheel, the packed crates, the book, notes and
+    /// checksums.
     Dist,
     /// Set repository, authors and version wherever files name them
     ///
-    /// In manifests, CITATION.cff, recipe, book, README, paper and, with a version, the heading of CHANGELOG.md.
+    /// In manifests, CITATION.cff, recipe, book, README, paper and, with a version, the heading of
+    /// CHANGELOG.md.
     Release(release::Values),
     /// Build libcdpr and install it: header, libraries, pkg-config, CMake, MATLAB, see docs/c.md
     C {
@@ -160,7 +164,8 @@ fn main() -> ExitCode {
 
 fn caroca_study(settings: Study) -> Outcome {
     let mut options = settings.rest.rest;
-    // Results of another state of the code are replaced in our folder; a folder of the user's is left to the program.
+    // Results of another state of the code are replaced in our folder; a folder of the user's is left to the
+    // program.
     if settings.resume {
         options.push("--resume".to_owned());
     } else if settings.out.is_none() && !options.iter().any(|option| option == "--overwrite") {

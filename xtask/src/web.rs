@@ -1,7 +1,8 @@
 //! `cargo xtask web`: the module and the page of `cdpr explore`, in `crates/cdpr-web/dist`.
 //!
-//! The products are kept in the tree, so that nobody needs their tools to build `cdpr`. `SOURCES` next to them
-//! has the checksum of what they were made of; `cargo xtask web --check` says where it is another one by now.
+//! The products are kept in the tree, so that nobody needs their tools to build `cdpr`. `SOURCES` next to
+//! them has the checksum of what they were made of; `cargo xtask web --check` says where it is another one by
+//! now.
 //!
 //! It takes the target `wasm32-unknown-unknown` of the compiler, npm, and wasm-bindgen in the version of
 //! Cargo.lock, which is installed below `target`. The module uses the vector unit of WebAssembly.
