@@ -117,7 +117,7 @@ fn rotors_without_end_in_mass_or_stiffness_are_winches_that_hold() {
             let off = |found: Matrix6<f64>| (found - fixed).norm() / fixed.norm();
             let stiff = off(at(rotor(1.0, 1e20), frequency));
             let spring = robot.cables[0].properties.youngs_modulus * robot.cables[0].properties.section / 5.0;
-            let mass = 1e5 * spring / (TAU * frequency).powi(2);
+            let mass = 2e5 * spring / (TAU * frequency).powi(2);
             let heavy =
                 off(at(rotor(2.0 * mass, spring), frequency) * 2.0 - at(rotor(mass, spring), frequency));
             println!("{} at {frequency:.2} Hz: {stiff:.1e} {heavy:.1e}", robot.name);

@@ -173,7 +173,7 @@ fn amplitudes_of_a_shaken_platform_have_columns_a_map_and_their_conditions() {
         &["workspace", &data_path("robots/caroca.json"), region[0], "--out", "shaken", "--overwrite"],
     ));
     assert!(!folder.path().join("shaken/amplitude.svg").exists());
-    for wrong in ["amplitude", "amplitude=5", "amplitude=5:1", "amplitude=x:1", "damping=1e-3", "drag=2"] {
+    for wrong in ["amplitude", "amplitude=0", "amplitude=5:1", "amplitude=x:1", "damping=1e-3", "drag=2"] {
         let refused = cdpr_in(
             folder.path(),
             &["workspace", &data_path("robots/caroca.json"), region[0], "--with", wrong, "--out", "no"],
