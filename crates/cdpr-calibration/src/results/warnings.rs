@@ -87,7 +87,7 @@ impl Fit {
         if let [(greatest, mean), others @ ..] = &self.mean_residuals()[..] {
             let others = match others.len() {
                 0 => String::new(),
-                more => format!(" and those of {} significantly", counted(more, "more cable")),
+                more => format!(", and of {} such a mean is significant, too", counted(more, "more cable")),
             };
             return Some(format!(
                 "residuals of cable {}, {greatest}, average {} mm{others}: {remedy}",
