@@ -2,8 +2,7 @@
 
 use crate::common::{Case, EXTERNAL, cases};
 use cdpr_calibration::{
-    Campaign, Fit, FitSettings, Measurements, Noise, Quantity, Row, SensorError, Simulated, Trend, Unknowns,
-    carry_out, drawn, fit, simulate,
+    Fit, FitSettings, Noise, Quantity, Row, Simulated, Trend, Unknowns, drawn, fit, simulate,
 };
 use cdpr_robot::{Axis, Parameter, Robot};
 use cdpr_statics::Load;
@@ -117,51 +116,5 @@ fn a_displacement_with_the_wrong_sign_shows_in_its_own_column() {
         let of_column = found.outliers().iter().take(40).filter(|of| of.quantity == quantity).count();
         println!("{of_column} of the 40 farthest numbers are of this column");
         assert!(of_column >= 30, "{}: {of_column}", case.name);
-    }
-}
-
-/// Lengths of incremental encoders, each with a constant error.
-#[test]
-fn constant_errors_of_lengths_are_named_whatever_is_sought() {
-    let case = &cases()[0];
-    let truth = drawn(&case.model(), 5);
-    let exact = Noise { length: None, ..EXTERNAL };
-    let with = |offset: f64, noise: Noise, unknowns: &Unknowns| {
-        let mut rows = campaign(case, &truth, noise, Load::none());
-        for row in &mut rows {
-            row.lengths.iter_mut().for_each(|lengths| lengths[2] += offset);
-        }
-        let measured = Measurements { rows, noise_is_stated: true, markers: 0 };
-        let campaign = Campaign {
-            robot: &case.robot,
-            prior: None,
-            unknowns,
-            measured: &measured,
-            name: "rows",
-            settings: FitSettings::default(),
-            folds: 0,
-        };
-        let found = carry_out(&campaign, None, |_, _, _| String::new()).unwrap();
-        found
-            .summary
-            .warnings
-            .into_iter()
-            .filter(|warning| warning.contains("length_offset"))
-            .collect::<Vec<_>>()
-    };
-    let tolerances = Unknowns::of_model(&case.model());
-    let mass = Unknowns::free(&case.robot, &["mass"]).unwrap();
-    let mut offsets = tolerances.clone();
-    offsets.add(&case.robot, SensorError::LengthOffset, None, 0);
-    for (noise, unknowns, words) in [
-        (EXTERNAL, &tolerances, "cable 3"),
-        (exact, &tolerances, "cable 3"),
-        (EXTERNAL, &mass, "fit length_offset, too"),
-    ] {
-        let warnings = with(8e-3, noise, unknowns);
-        assert!(warnings.len() == 1 && warnings[0].contains(words), "{warnings:?}");
-    }
-    for (offset, unknowns) in [(0.0, &tolerances), (8e-3, &offsets)] {
-        assert_eq!(with(offset, EXTERNAL, unknowns), [""; 0]);
     }
 }

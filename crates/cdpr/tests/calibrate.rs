@@ -238,3 +238,24 @@ fn swapped_columns_and_rows_of_other_poses_are_warned_of() {
         assert!(output.status.code() == Some(1) && error.contains(words), "{error}");
     }
 }
+
+/// Lengths of incremental encoders, each with a constant error.
+#[test]
+fn constant_errors_of_lengths_are_named_whatever_is_sought() {
+    let folder = TempDir::new().unwrap();
+    let path = |name: &str| folder.path().join(name).display().to_string();
+    let (table, points) = (path("table.csv"), ["--uncertainty", "a=0.0005,b=0.0005"]);
+    let simulate = ["calibrate", "simulate", "caroca", "--region=-2:2:3,-1:1:3,1:2.5:3", "--noise", NOISE];
+    let errors = ["--unknown", "length_offset=0.005", "--seed", "3", "--out", &table];
+    assert!(cdpr(&[&simulate[..], &points, &errors].concat()).status.success());
+    for (sought, words) in [
+        (&points[..], "constant errors of the lengths explain 84 % of chi-square, with -9.0 mm in cable 1"),
+        (&["--parameters", "mass"], "residuals of cable 1, l1_m, average -4.6 mm"),
+    ] {
+        let fit = ["calibrate", "fit", "caroca", &table, "--noise", NOISE, "--overwrite", "--out"];
+        let output = cdpr(&[&fit[..], &[&path("out")], sought].concat());
+        assert_eq!(output.status.code(), Some(3));
+        let said = crate::common::text(output.stdout).replace('\n', " ");
+        assert!(said.contains(words) && said.contains("fit length_offset, too"), "{said}");
+    }
+}

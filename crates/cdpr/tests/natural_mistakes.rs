@@ -322,7 +322,7 @@ fn a_missing_comma_and_lengths_too_short_for_a_pose_are_placed_and_measured() {
         (
             "0,0,2",
             "9.7,5,9.4,9.5,9.8,9.2,9.5,9.6",
-            "length 2 is 5 m: at position (0, 0, 2) m the points of cable 2 are 9.213 m apart, 4.213 m more",
+            "length 2 is 5 m: at position (0, 0, 2) m the points of cable 2 are 9.183 m apart, 4.183 m more",
         ),
         ("0,0,2", "5,5,5,5,5,5,5,5", "; 8 of 8 cables are too short"),
     ] {
