@@ -75,6 +75,22 @@ fn load_cycles_with_friction_match_the_integration_of_another_program() {
 }
 
 #[test]
+fn the_ratio_of_tensions_solves_the_balance_of_the_wheel() {
+    for (friction, bearing) in [(0.0, 0.1), (0.1, 0.0), (0.2, 0.05), (0.5, 0.3)] {
+        let of = PulleyFriction { friction, bearing };
+        for wrap in [1e-3, 0.7, 1.6, 3.0, 4.0] {
+            for slip in [-1.0, -0.3, 0.0, 0.4, 1.0] {
+                let ratio = of.ratio(wrap, slip);
+                let resultant = (1.0 + ratio * ratio - 2.0 * ratio * f64::cos(wrap)).sqrt();
+                let balanced = f64::exp(slip * friction * wrap) + slip * bearing * resultant;
+                let off = (ratio - balanced.max(0.0)).abs();
+                assert!(off <= 1e-13 * balanced.max(1.0), "{of:?} {wrap} {slip}: {ratio} {balanced}");
+            }
+        }
+    }
+}
+
+#[test]
 fn without_friction_the_cycle_is_the_same_to_the_last_bit() {
     for (robot, pose) in
         [(library("ipanema-3", 2.0), Pose::at(0.0, 0.0, 1.5)), (caroca(), Pose::at(0.0, 0.0, 1.75))]

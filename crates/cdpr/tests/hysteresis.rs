@@ -82,6 +82,7 @@ fn cables_of_other_moduli_follow_the_record_and_those_of_other_sections_its_stre
     write(&|cable| {
         cable["section"] = 2.4e-5.into();
         cable["diameter"] = 0.006.into();
+        cable["linear_density"] = 0.19385.into();
     });
     let section = ["--section", "1.2566370614e-5"];
     let thicker = json(&[&[file], &record[..], &section].concat());

@@ -133,37 +133,3 @@ fn led(cable: &Cable, guide: &Guide, state: &PulleyState, rate: f64) -> [f64; 2]
     add(winch_tension, guide.lead);
     sums
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use approx::assert_relative_eq;
-
-    #[test]
-    fn the_ratio_solves_the_balance_of_the_wheel() {
-        for (friction, bearing) in [(0.0, 0.1), (0.1, 0.0), (0.2, 0.05), (0.5, 0.3)] {
-            let of = PulleyFriction { friction, bearing };
-            for wrap in [1e-3, 0.7, 1.6, 3.0, 4.0] {
-                for slip in [-1.0, -0.3, 0.0, 0.4, 1.0] {
-                    let ratio = of.ratio(wrap, slip);
-                    let resultant = (1.0 + ratio * ratio - 2.0 * ratio * wrap.cos()).sqrt();
-                    let balanced = (slip * friction * wrap).exp() + slip * bearing * resultant;
-                    if balanced > 0.0 {
-                        assert_relative_eq!(ratio, balanced, max_relative = 1e-13);
-                    }
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn a_wheel_sticks_between_its_two_slips() {
-        let of = PulleyFriction { friction: 0.1, bearing: 0.02 };
-        let [least, most] = [-1.0, 1.0].map(|slip| 500.0 * of.ratio(1.5, slip));
-        assert_eq!(of.winch(1.5, 500.0, most + 1.0), [most, 1.0]);
-        assert_eq!(of.winch(1.5, 500.0, least - 1.0), [least, -1.0]);
-        let [winch, slip] = of.winch(1.5, 500.0, 520.0);
-        assert_eq!(winch, 520.0);
-        assert_relative_eq!(500.0 * of.ratio(1.5, slip), 520.0, max_relative = 1e-14);
-    }
-}

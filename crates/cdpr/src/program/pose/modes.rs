@@ -63,7 +63,9 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
         let found = Modes::on_winches(problem, &rest, wanted, winches)?;
         let swing = Modes::on_winches(problem, &rest, Wanted::OfPlatform, winches);
         let swing = swing.ok().and_then(|found| Swing::of(&found));
-        Ok(Answer { winches: winches.map(Winches::from), ..Answer::new(robot, &found, swing) })
+        let inertia_assumed = matches!(robot, Cow::Owned(_));
+        let winches = winches.map(Winches::from);
+        Ok(Answer { winches, inertia_assumed, ..Answer::new(robot, &found, swing) })
     };
     settings.answer(solve, Answer::print)
 }
@@ -216,7 +218,7 @@ impl Row for Answer {
 }
 
 impl Answer {
-    fn new(robot: &Cow<'_, Robot>, found: &Modes, swing: Option<Swing>) -> Self {
+    fn new(robot: &Robot, found: &Modes, swing: Option<Swing>) -> Self {
         let motion = |mode: &Mode| Motion {
             frequency_hz: mode.frequency,
             within: mode.within,
@@ -232,7 +234,7 @@ impl Answer {
                 .map(|swing| Swinging { frequency_hz: swing.platform, platform_share: swing.platform_share }),
             counted: found.counted,
             complete_below_hz: found.complete_below,
-            inertia_assumed: matches!(robot, Cow::Owned(_)),
+            inertia_assumed: false,
             winches: None,
             out_of_limits: OutOfLimits::all(robot, &found.lengths, &[&found.equilibrium]),
         }
