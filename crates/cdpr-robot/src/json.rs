@@ -297,7 +297,7 @@ mod tests {
             ("{\"a\": [-1,5, 2]}", "-1,5 has a decimal comma: expected a point, -1.5"),
             ("{a: [1, 2]}", "expected a name in double quotes"),
             ("{\"a\": [1 2]}", "a comma is missing here"),
-            ("{\"a\": [1, 2; 3]}", "expected `,` or `]`"),
+            ("{\"a\": [1; 2]}", "expected `,` or `]`"),
             ("{\"a\": [1, 2, 3]}", "expected the end of the list here"),
         ] {
             assert_eq!(read(text), words, "{text}");
@@ -331,7 +331,7 @@ mod tests {
     fn a_missing_comma_is_placed_behind_the_value_that_lacks_it() {
         for (text, place) in [
             ("{\n  \"a\": [1, 2]\n\n  \"b\": [3, 4]\n}", (2, 14)),
-            ("{\"a\": [1, 2], \"b\": [3 \r\n 4]}", (1, 24)),
+            ("{\"a\": [1, 2], \"b\": [3 \r\n 4]}", (1, 22)),
             ("{\"a\": [-1.5e3\n-4]}", (1, 14)),
         ] {
             let error = from_json::<BTreeMap<String, Vec<f64>>>(text).unwrap_err();
