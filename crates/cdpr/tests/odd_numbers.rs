@@ -29,7 +29,7 @@ const ODD: [&str; 19] = [
 ];
 
 /// Commands whose number in braces is replaced.
-const COMMANDS: [&str; 34] = [
+const COMMANDS: [&str; 36] = [
     "inverse caroca --pose 0,0,1.75 --payload {50}",
     "inverse caroca --pose 0,0,{1.75}",
     "inverse caroca --pose 0,0,1.75 --rpy {5},0,0",
