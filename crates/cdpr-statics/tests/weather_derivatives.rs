@@ -62,7 +62,7 @@ fn cases() -> Vec<Case> {
         case(led, Pose::at(0.4, -0.3, 1.6), &[], 20.0, 1e-11),
         case(named("cogiro"), Pose::at(1.0, -0.5, 2.0), &[], 30.0, 1e-10),
         case(Robot::from_json(stadium).unwrap(), Pose::at(20.0, 10.0, 12.0), &[], 0.0, 1e-9),
-        case(named("four-cables"), Pose::at(0.5, 0.3, 2.0), &upright, 2.0, 1e-9),
+        case(named("four-cables"), Pose::at(0.2, 0.1, 1.5), &upright, 2.0, 1e-9),
     ]
 }
 
@@ -120,6 +120,8 @@ fn derivatives_by_the_robot_are_those_of_differences() {
         let weather = windy();
         let wanted = || WantedPose::at(&pose).free(&free);
         let found = weather_derivatives(&robot, wanted(), &load, &weather).unwrap();
+        // Tensions of few cables change much within a milliradian of yaw.
+        let short = if robot.is_fully_actuated() { 1e-3 } else { 1e-4 };
         let mut compared = 0;
         for (column, parameter) in found.inputs.parameters.iter().enumerate() {
             let of_one_cable = match parameter {
@@ -133,7 +135,7 @@ fn derivatives_by_the_robot_are_those_of_differences() {
             let value = parameter.nominal(&robot);
             let step = match parameter {
                 Parameter::YoungsModulus | Parameter::LinearDensity | Parameter::Mass => 1e-3 * value,
-                _ => 1e-3,
+                _ => short,
             };
             let known = difference(step, |by| {
                 let robot = robot.with_values(&[(&parameter.to_string(), value + by)]).unwrap();
