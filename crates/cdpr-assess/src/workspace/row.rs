@@ -117,16 +117,17 @@ impl WorkspaceRow {
         let shaken = pose.shaken.as_deref();
         let shaken_by = shaken.and_then(|shaken| shaken.as_ref().ok());
         let [moved, azimuth, least, greatest] = in_weather(pose);
+        let (status, reason) = match &pose.outcome {
+            Ok(held) if held.is_within_limits() => (HELD, overflow.then(|| OVERFLOW.to_owned())),
+            Ok(held) => ("beyond_limits", Some(in_words(&held.out_of_limits))),
+            Err(error) => (error.kind(), Some(error.to_string())),
+        };
         let name = |dominant: Dominant| Some(workspace.tolerances?.inputs.get(dominant.input)?.name.clone());
         Self {
             x,
             y,
             z,
-            status: match &pose.outcome {
-                Ok(held) if held.is_within_limits() => HELD,
-                Ok(_) => "beyond_limits",
-                Err(error) => error.kind(),
-            },
+            status,
             least_tension: held.map(|held| held.least_tension),
             greatest_tension: held.map(|held| held.greatest_tension),
             dx_mm: displacement.map(|dp| dp.x),
@@ -145,11 +146,7 @@ impl WorkspaceRow {
             dominant: dominant.and_then(name),
             dominant_share: dominant.map(|dominant| dominant.share),
             std_mm: dominant.map(|dominant| 1e3 * dominant.std),
-            reason: match &pose.outcome {
-                Ok(held) if held.is_within_limits() => overflow.then(|| OVERFLOW.to_owned()),
-                Ok(held) => Some(in_words(&held.out_of_limits)),
-                Err(error) => Some(error.to_string()),
-            },
+            reason,
             recomputed_status: recomputed
                 .map(|recomputed| recomputed.as_ref().map_or_else(StaticsError::kind, |_| HELD)),
             recomputed_least_tension: tensions.map(|recomputed| recomputed.least_tension),
