@@ -147,12 +147,10 @@ impl WorkspaceRow {
             dominant_share: dominant.map(|dominant| dominant.share),
             std_mm: dominant.map(|dominant| 1e3 * dominant.std),
             reason,
-            recomputed_status: recomputed
-                .map(|recomputed| recomputed.as_ref().map_or_else(StaticsError::kind, |_| HELD)),
+            recomputed_status: recomputed.map(|of| of.as_ref().map_or_else(StaticsError::kind, |_| HELD)),
             recomputed_least_tension: tensions.map(|recomputed| recomputed.least_tension),
             recomputed_greatest_tension: tensions.map(|recomputed| recomputed.greatest_tension),
-            recomputed_reason: recomputed
-                .and_then(|recomputed| recomputed.as_ref().err().map(ToString::to_string)),
+            recomputed_reason: recomputed.and_then(|of| of.as_ref().err().map(ToString::to_string)),
             payload_recomputed_kg: value(|capacity| &capacity.payload_recomputed),
             payload_recomputed_blocked_by: blocked_by(pose, |capacity| &capacity.payload_recomputed),
             payload_kept_kg: value(|capacity| &capacity.payload_kept),
