@@ -25,7 +25,7 @@ pub(crate) struct Values {
     /// Address of the repository, https://HOST/OWNER/cdpr
     #[arg(long, value_name = "URL", value_parser = repository)]
     repository: Option<String>,
-    /// Authors, "NAME <MAIL>, .."
+    /// Authors, as `NAME <MAIL>, NAME <MAIL>`
     #[arg(long, value_name = "AUTHORS", value_delimiter = ',', value_parser = author)]
     authors: Vec<Author>,
     /// Version, such as 0.1.0 or 0.2.0-rc.1
