@@ -316,7 +316,7 @@ fn print(robot: &Robot, found: &Found) {
         "energy: {} mJ given by the payload, {} mJ in the loops of the cables{}",
         millijoules(found.payload_work_j),
         millijoules(found.dissipated_j),
-        if found.pulleys.is_some() { ", the rest at the pulleys" } else { "" }
+        if found.pulleys.is_some() { ",\nthe rest at the pulleys" } else { "" }
     );
     if let Some(pulleys) = &found.pulleys {
         pulleys.print();
