@@ -34,8 +34,8 @@ pub struct Rotor {
 }
 
 impl Rotor {
-    /// Refuses a mass or a stiffness that is none, and a rotor so slow that motions up to a frequency [Hz]
-    /// are lost by rounding.
+    /// Refuses a negative mass, a stiffness that is not positive, values that are not finite, and a rotor so
+    /// slow that rounding hides the motions up to a frequency [Hz].
     pub(crate) fn check(&self, highest: f64) -> Result<(), DynamicsError> {
         /// Greatest square of the highest frequency over that of the rotor on its servo.
         const SLOWEST: f64 = 1e8;

@@ -132,7 +132,8 @@ def test_friction_of_pulleys_is_that_of_the_program_and_is_found_again(data):
     square = 1 + grown**2 - 2 * grown * numpy.cos(wraps) - (0.01 * numpy.sin(wraps)) ** 2
     ratio = (grown - 1e-4 * numpy.cos(wraps) + 0.01 * slips * numpy.sqrt(square)) / (1 - 1e-4)
     fit = assess.pulley_friction(wraps, 500 + 0 * wraps, 500 * ratio, slips)
-    assert fit.friction[0] == pytest.approx(0.05, abs=1e-9) and fit.bearing[0] == pytest.approx(0.01, abs=1e-9)
+    assert fit.friction[0] == pytest.approx(0.05, abs=1e-9)
+    assert fit.bearing[0] == pytest.approx(0.01, abs=1e-9)
     assert "friction 0.0" in repr(fit)
     elastic = assess.hysteresis(cdpr.Robot.from_file("caroca-law"), [0, 0, 1.75], 50, steps=2)
     assert elastic.winch_tensions is None and elastic.gap < 1e-9

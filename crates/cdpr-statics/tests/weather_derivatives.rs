@@ -159,7 +159,6 @@ fn derivatives_by_the_robot_are_those_of_differences() {
     }
 }
 
-/// With nothing but its own lengthening, a hanging platform sinks by the length.
 #[test]
 fn pulleys_have_derivatives_without_wind_and_none_in_it() {
     let robot = named("ipanema-3");

@@ -35,8 +35,8 @@ impl Findings<'_> {
                     format!("cables[{i}].pulley.axis"),
                     format!("{:?}", pulley.axis.as_slice()),
                     &format!(
-                        "the cable lies on its wheel over {wrap:.1} degrees {at}: it comes back next to itself, \
-                         and nearer to the axis it would cut its wheel"
+                        "the cable lies on its wheel over {wrap:.1} degrees {at}: it comes back next to \
+                         itself, and nearer to the axis it would cut its wheel"
                     ),
                     "the direction in which the cable enters, or an exit point farther away",
                 );

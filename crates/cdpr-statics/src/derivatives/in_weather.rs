@@ -79,13 +79,13 @@ pub struct WeatherDerivatives {
     pub still: Deflection,
     /// The platform in the weather.
     pub rest: RestInWeather,
-    /// What the columns of `motion` stand for.
+    /// What the columns of `displacement` stand for.
     pub inputs: Inputs,
     /// Derivatives of the displacement from the pose without load and weather to that in the weather, 3 x
     /// count [m per unit].
     pub displacement: Matrix3xX<f64>,
     /// Derivatives of that displacement by the numbers of the weather, in the order of [`WeatherInput::ALL`]
-    /// [m per unit], or why there is none.
+    /// [m per unit]. An error says why a derivative does not exist.
     pub per_weather: [Result<Vector3<f64>, StaticsError>; 6],
     /// The inputs whose left and right derivatives differ, because a cable leaves a bound on one side.
     pub one_sided: Vec<OneSided>,

@@ -107,7 +107,8 @@ def pulley_friction(
     """
     import numpy
 
-    lists = [numpy.asarray(values, dtype=float).ravel() for values in (wraps, tensions, winch_tensions, slips)]
+    given = (wraps, tensions, winch_tensions, slips)
+    lists = [numpy.asarray(values, dtype=float).ravel() for values in given]
     slipping = numpy.abs(lists[3]) >= 1
     if all(len(values) == len(slipping) for values in lists):
         lists = [values[slipping] for values in lists]

@@ -78,8 +78,9 @@ impl Robot {
     /// creep : float
     ///     Strain by which each cable has crept.
     /// wind_profile : tuple of float, optional
-    ///     Roughness length of the ground and height above it at which the wind has its velocity [m], such as (0.3, 10), of a
-    ///     wind that grows with height from nothing at the ground, `ground_z` or z = 0.
+    ///     Roughness length of the ground and height above it at which the wind has its velocity [m],
+    ///     such as (0.3, 10), of a wind that grows with height from nothing at the ground,
+    ///     `ground_z` or z = 0.
     /// payload : array_like, optional
     ///     Mass added at the platform's centre of mass [kg].
     /// force, moment : array_like, optional

@@ -89,8 +89,8 @@ fn weather(with: &With, velocity: Option<[f64; 3]>, blows: bool) -> Result<Optio
 /// `0.3:10`.
 fn profile(text: &str) -> Result<WindProfile, String> {
     let numbers = text.split_once(':').and_then(|(a, b)| Some([number(a).ok()?, number(b).ok()?]));
-    let expected = "expected the roughness length of the ground and the height at which the wind has its speed [m], \
-                    such as wind_profile=0.3:10";
+    let expected = "expected the roughness length of the ground and the height at which the wind has its \
+                    speed [m], such as wind_profile=0.3:10";
     numbers
         .map(|[roughness, reference]| WindProfile { roughness, reference })
         .ok_or_else(|| expected.to_owned())

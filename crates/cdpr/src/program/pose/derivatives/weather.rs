@@ -20,7 +20,7 @@ pub(super) struct InWeather {
     by_weather: Vec<ByWeather>,
 }
 
-/// The derivative by a number of the weather, or why there is none.
+/// The derivative by a number of the weather; `without` says why it does not exist.
 #[derive(Serialize)]
 struct ByWeather {
     name: &'static str,
