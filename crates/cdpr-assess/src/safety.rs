@@ -198,21 +198,20 @@ fn swing_without(
     let cut = |cable: &usize| Event { time: 0.0, change: Change::Cut { cable: *cable, at: CutAt::Anchor } };
     let events: Vec<Event> = broken.iter().map(cut).collect();
     let problem = DirectProblem::new(robot, &held.lengths, load)?;
-    let series = simulate(&problem, &held.equilibrium, &events, &Settings::until(until))?;
+    /// Samples at least, and each second: between them nothing is known of the ground.
+    const SAMPLES: f64 = 100.0;
+    let settings = Settings { rate: (SAMPLES / until).max(SAMPLES), ..Settings::until(until) };
+    let series = simulate(&problem, &held.equilibrium, &events, &settings)?;
     let kept: Vec<usize> = (0..robot.cables.len()).filter(|i| !broken.contains(i)).collect();
     let mut tensions = vec![[0.0; 2]; robot.cables.len()];
     for i in &kept {
-        let at_samples = |end: usize| series.samples.iter().map(move |sample| sample.tensions[*i][end]);
-        // Exit and anchor point; between samples the greater one may be greater still.
-        let [exit, anchor] = [0, 1].map(|end| at_samples(end).fold(0.0, f64::max));
-        let peak = series.peaks[*i].0;
-        tensions[*i] = if exit >= anchor { [anchor, peak] } else { [peak, exit] };
+        let [exit, anchor] = series.end_peaks[*i];
+        tensions[*i] = [anchor, exit];
     }
-    let from = held.equilibrium.pose.position;
     let greatest = kept.iter().max_by(|a, b| series.peaks[**a].0.total_cmp(&series.peaks[**b].0));
     Ok(Swing {
         greatest: greatest.map_or((0.0, 0, 0.0), |i| (series.peaks[*i].0, *i, series.peaks[*i].1)),
-        moved: series.samples.iter().map(|sample| (sample.pose.position - from).norm()).fold(0.0, f64::max),
+        moved: series.excursion.distance,
         out_of_limits: beyond(robot, broken, &tensions),
         safety_factor: safety_factor(robot, &kept, &tensions),
         below_ground: series.samples.iter().any(|sample| is_below_floor(robot, &sample.pose)),

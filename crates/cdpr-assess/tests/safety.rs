@@ -116,7 +116,8 @@ fn the_swing_is_that_of_the_simulation() {
         let problem = DirectProblem::new(&robot, &held.lengths, &Load::none()).unwrap();
         let first = found.broken[0].swing.as_ref().unwrap().as_ref().unwrap();
         let cut = Event { time: 0.0, change: Change::Cut { cable: 0, at: CutAt::Anchor } };
-        let series = simulate(&problem, &held.equilibrium, &[cut], &Settings::until(until)).unwrap();
+        let settings = Settings { rate: (100.0_f64 / until).max(100.0), ..Settings::until(until) };
+        let series = simulate(&problem, &held.equilibrium, &[cut], &settings).unwrap();
         let peak = series.peaks[1..].iter().map(|peak| peak.0).fold(0.0, f64::max);
         assert_eq!(first.greatest.0, peak, "{}", robot.name);
         let last = series.samples.last().unwrap();

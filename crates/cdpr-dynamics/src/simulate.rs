@@ -14,7 +14,7 @@ mod winch;
 
 pub use event::{Change, CutAt, Event, events_from_json, events_schema};
 pub use radau::Work;
-pub use run::{Command, Control, Difference, Energy, Sample, Series};
+pub use run::{Command, Control, Difference, Energy, Excursion, Sample, Series};
 pub use setting::{Discretization, Settings};
 pub use winch::{Profile, WinchLengths};
 

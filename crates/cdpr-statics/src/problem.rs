@@ -152,7 +152,8 @@ pub fn check_lengths(robot: &Robot, lengths: &[f64]) -> Result<(), StaticsError>
     let away = |cable: &RobotCable| (cable.exit_point - robot.cables[0].exit_point).norm();
     let wide = robot.cables.iter().map(away).fold(robot.platform_size(), f64::max);
     let shortest = lengths.iter().copied().fold(f64::INFINITY, f64::min);
-    if shortest.is_finite() && shortest > LONGEST * wide {
+    // One exit point and one anchor point have no width.
+    if wide > 0.0 && shortest.is_finite() && shortest > LONGEST * wide {
         return Err(StaticsError::invalid(
             "lengths".to_owned(),
             format!("{lengths:?}"),

@@ -38,6 +38,7 @@ mod path;
 mod poses;
 mod questions;
 mod response;
+mod safety;
 mod shell;
 mod simulate;
 mod strangers;

@@ -136,3 +136,27 @@ fn paths_maps_and_derivatives_have_the_frequencies_of_platform_and_cables() {
         .map(|name| (name.to_owned(), rows["columns"][name][0].clone()));
     check(&Value::Object(of_first.into_iter().collect()));
 }
+
+#[test]
+fn a_heading_has_the_pose_at_which_free_coordinates_are_found() {
+    let file = data_path("robots/four-cables.json");
+    let at = [&file, "--pose", "0.5,0.3,2", "--free", "roll,pitch"];
+    let held = answer(&[&["inverse"], &at[..]].concat());
+    let further: [&[&str]; 5] = [
+        &["modes", "--number", "3"],
+        &["response", "--below", "2"],
+        &["stiffness"],
+        &["safety"],
+        &["deflection"],
+    ];
+    for more in further {
+        let load: &[&str] = if more[0] == "deflection" { &["--payload", "5"] } else { &[] };
+        let call = [&more[..1], &at[..], &more[1..], load].concat();
+        let found = numbers(&answer(&call)["found_pose"]);
+        let apart = found.iter().zip(numbers(&held["found_pose"])).map(|(one, other)| (one - other).abs());
+        assert!(found.len() == 7 && apart.fold(0.0, f64::max) < 1e-9, "{more:?}: {found:?}");
+        let text = printed(&call).replace('\n', " ");
+        assert!(text.starts_with("four cables at (0.5, 0.3, 2) m, roll 3.07"), "{more:?}: {text}");
+    }
+    assert!(answer(&["modes", &data_path("robots/cogiro.json"), "--pose", "0,0,2"])["found_pose"].is_null());
+}

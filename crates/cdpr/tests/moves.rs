@@ -1,6 +1,7 @@
 //! `cdpr path --with seconds=1` and `cdpr simulate --lengths FILE` as a user types them.
 
 use crate::common::{cdpr, data_path, text, unwrapped};
+use crate::models::answer;
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -58,6 +59,9 @@ fn what_a_move_cannot_be_is_refused_with_what_would_be_right() {
         ("seconds=1,speed=2", &[], "--with speed: expected seconds, profile"),
         ("seconds=1,shaper", &["--uncertainty", "mass=1"], "expected --with residual"),
         ("seconds=1,residual", &["--uncertainty", "mass=1"], "expected seed=N"),
+        ("seconds=1,residual=-0.5", &[], "--with residual=-0.5: expected a time above 0 s"),
+        ("seconds=1,damping=-1", &[], "--with damping=-1: expected a time of 0 s or more"),
+        ("seconds=1,modes=2", &[], "--with modes: expected shaper, too"),
     ] {
         let call = [&["path", &robot, "--poses", &poses, "--with", with], further].concat();
         let printed = cdpr(&call);
@@ -73,4 +77,30 @@ fn what_a_move_cannot_be_is_refused_with_what_would_be_right() {
     std::fs::write(file, "t_s,length_1_m\n0,9\n1,9\n").unwrap();
     let error = unwrapped(cdpr(&["simulate", &robot, "--lengths", file, "--until", "1"]).stderr);
     assert!(error.contains("no length_2_m") && error.contains("lengths.csv"), "{error}");
+}
+
+#[test]
+fn few_set_points_hide_no_tension_of_the_motion() {
+    let (robot, poses) = (data_path("robots/cogiro.json"), data_path("poses/one-metre.csv"));
+    let plan = |rate: &str| {
+        let with = format!("seconds=1,rate={rate}");
+        answer(&["path", &robot, "--poses", &poses, "--with", &with])
+    };
+    let [few, many] = ["3", "500"].map(plan);
+    assert_eq!(few["set_points"].as_array().unwrap().len(), 4);
+    for name in ["least_tension_n", "greatest_exit_tension_n"] {
+        let [few, many] = [&few, &many].map(|of| of[name].as_f64().unwrap());
+        assert!((few / many - 1.0).abs() < 0.01, "{name}: {few} {many}");
+    }
+}
+
+#[test]
+fn a_shaper_that_is_left_out_is_named() {
+    let (robot, poses) = (data_path("robots/cogiro.json"), data_path("poses/one-metre.csv"));
+    let found = cdpr(&["path", &robot, "--poses", &poses, "--with", "seconds=0.2,shaper"]);
+    let summary = text(found.stdout);
+    assert!(
+        summary.contains("\nNo shaper: of those that take less than 0.2 s none leaves less"),
+        "{summary}"
+    );
 }

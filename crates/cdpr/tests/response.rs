@@ -66,3 +66,16 @@ fn a_shaken_platform_answers_as_the_library_says_in_json_csv_and_figure() {
         assert!(unwrapped(refused.stderr).contains("expected"));
     }
 }
+
+#[test]
+fn a_peak_that_nothing_damps_has_no_number() {
+    let call =
+        ["response", &data_path("robots/cogiro.json"), "--pose", "0,0,2", "--below", "5", "--number", "9"];
+    let shown = text(cdpr(&[&call[..], &["--with", "damping=0"]].concat()).stdout).replace('\n', " ");
+    assert!(
+        shown.contains("a force shakes the point without a bound, at ") && !shown.contains("e1"),
+        "{shown}"
+    );
+    let shown = text(cdpr(&[&call[..], &["--with", "drag=0.5"]].concat()).stdout);
+    assert!(!shown.contains("bound"), "{shown}");
+}

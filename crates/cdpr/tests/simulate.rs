@@ -1,6 +1,8 @@
 //! `cdpr simulate` as a user types it.
 
-use crate::common::{cdpr, data_path, text, unwrapped};
+use crate::common::{cdpr, data, data_path, text, unwrapped};
+use crate::models::answer;
+use crate::safety::point_mass;
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -104,6 +106,15 @@ fn what_is_wrong_is_named() {
         solve(r#"[{"t": 0, "cut": 9}]"#, &until)
             .contains("event 1, cut is 9: expected the number of a cable")
     );
+    let twice = r#"[{"t": 0.02, "cut": 1}, {"t": 0.01, "cut": 1}]"#;
+    let gone = "cut is 1: expected a cable that is still there, not one that parts at 0.01 s";
+    assert!(solve(twice, &until).contains(&format!("event 1, {gone}")));
+    let loose =
+        r#"[{"t": 0, "cut": 2, "at": "exit"}, {"t": 0.01, "shorten": {"cable": 2, "by": 0.1, "over": 1}}]"#;
+    assert!(
+        solve(loose, &until).contains("event 2, shorten.cable is 2: expected a cable that is still there")
+    );
+    assert!(solve("[]", &["--until", "-1"]).contains("until is -1.0: expected a time"));
     assert!(solve("[{]", &until).contains("events.json: events: line 1, column 3"));
     assert!(solve("[]", &[]).contains("--until"));
     assert!(solve("[]", &["--until", "0"]).contains("until is 0.0: expected a time [s] above zero"));
@@ -111,5 +122,61 @@ fn what_is_wrong_is_named() {
     assert!(solve("[]", &["--until", "1", "--damping=-1"]).contains("damping is -1.0"));
     assert!(
         solve("[]", &["--until", "1", "--with", "mesh=3"]).contains("expected elements, degree, tolerance")
+    );
+}
+
+#[test]
+fn few_samples_hide_neither_how_far_the_platform_moves_nor_how_it_swings() {
+    // A mass on a spring that loses a load m: it swings by m g/k about its new rest, with the stiffness
+    // k = EA/L of the cable.
+    let folder = TempDir::new().unwrap();
+    let robot = point_mass(&folder, &[[0.0, 0.0, 5.0]], true);
+    let events = events(&folder, r#"[{"t": 0, "payload": -5}]"#);
+    let call = ["simulate", &robot, "--lengths", "2.97", "--payload", "5", "--events", &events];
+    let amplitude = 5.0 * 9.81 * 2.97 / 1e4;
+    for rate in ["1", "1000"] {
+        let whole = answer(&[&call[..], &["--until", "0.9", "--rate", rate]].concat());
+        let of = |name: &str| whole[name].as_f64().unwrap();
+        assert!((of("greatest_distance_m") / (2.0 * amplitude) - 1.0).abs() < 0.01, "{rate}: {whole}");
+        // The mean place of part of a period is not its middle.
+        assert!((0.8..1.6).contains(&(of("swing_m") / amplitude)), "{rate}: {whole}");
+        let samples = whole["samples"].as_array().unwrap();
+        assert_eq!(samples.len(), if rate == "1" { 1 } else { 901 });
+    }
+}
+
+#[test]
+fn a_greatest_tension_holds_for_the_end_where_it_is_limited() {
+    // At rest cable 3 has 543.5 N at the platform, where it is limited to 550 N, and 557.3 N at its exit.
+    let folder = TempDir::new().unwrap();
+    let stadium = std::fs::read_to_string(data("../docs/how-to/loads/stadium.json")).unwrap();
+    let robot = folder.path().join("stadium.json");
+    std::fs::write(&robot, stadium.replace("\"max\": 8000", "\"max\": 550")).unwrap();
+    let robot = robot.to_str().unwrap();
+    let events = events(&folder, r#"[{"t": 0.1, "payload": 0.001}]"#);
+    let held = answer(&["inverse", robot, "--pose", "20,10,12"]);
+    let call = ["simulate", robot, "--pose", "20,10,12", "--events", &events, "--until", "0.2"];
+    let found = answer(&call);
+    for (cable, exit) in
+        found["cables"].as_array().unwrap().iter().zip(held["exit_tensions"].as_array().unwrap())
+    {
+        assert!(cable["above"].is_null(), "{cable}");
+        assert!((cable["rest_n"].as_f64().unwrap() - exit.as_f64().unwrap()).abs() < 1e-3, "{cable} {exit}");
+    }
+}
+
+#[test]
+fn events_that_do_nothing_or_take_from_the_platform_are_questioned() {
+    let folder = TempDir::new().unwrap();
+    let robot = point_mass(&folder, &[[0.0, 0.0, 5.0]], true);
+    let given = r#"[{"t": 0.2, "payload": -5}, {"t": 0, "payload": -2}, {"t": 0.01, "payload": 1}]"#;
+    let events = events(&folder, given);
+    let found = cdpr(&["simulate", &robot, "--lengths", "2.97", "--events", &events, "--until", "0.05"]);
+    assert_eq!(found.status.code(), Some(3));
+    let asked = unwrapped(found.stderr);
+    assert!(asked.contains("question: event 1, t is 0.2 s: the motion ends at 0.05 s, before it"), "{asked}");
+    assert!(
+        asked.contains("question: event 2, payload is -2 kg: 2 kg of it are the platform's own"),
+        "{asked}"
     );
 }

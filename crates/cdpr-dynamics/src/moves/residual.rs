@@ -1,7 +1,7 @@
 //! What swings after a move.
 
 use super::{Move, SetPoint};
-use crate::error::DynamicsError;
+use crate::error::{DynamicsError, positive};
 use crate::simulate::{Change, Discretization, Event, Settings, WinchLengths, simulate};
 use cdpr_robot::Robot;
 use cdpr_statics::{DirectProblem, DirectStart, InversePath, Load, WantedPose, set_point_lengths};
@@ -28,16 +28,22 @@ impl Move<'_> {
     /// It is fast, and exact to some micrometres for cables that stay taut: two discretizations are compared.
     ///
     /// # Errors
-    /// Those of [`Move::excited`], without a time.
+    /// [`DynamicsError::Invalid`] for a time that is not above zero; without one those of [`Move::excited`].
     pub fn watched(&self, seconds: Option<f64>, damping: f64) -> Result<Settings, DynamicsError> {
         const DISCRETIZATION: Discretization = Discretization { elements: 2, degree: 5 };
         const LEAST: f64 = 0.5;
+        /// Samples each second, at least [Hz].
+        const RATE: f64 = 200.0;
         let seconds = match seconds {
-            Some(seconds) => seconds,
+            Some(seconds) => {
+                positive("residual", seconds, "a time after the move [s] above zero")?;
+                seconds
+            }
             None => self.excited(damping)?.iter().map(|one| 2.0 / one.frequency).fold(LEAST, f64::max),
         };
         let discretization = Some(DISCRETIZATION);
-        Ok(Settings { rate: self.rate, damping, discretization, tolerance: 1e-6, ..Settings::until(seconds) })
+        let rate = self.rate.max(RATE);
+        Ok(Settings { rate, damping, discretization, tolerance: 1e-6, ..Settings::until(seconds) })
     }
 }
 

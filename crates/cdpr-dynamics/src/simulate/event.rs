@@ -2,7 +2,7 @@
 
 use super::winch::{Profile, Reeling, WinchLengths};
 use crate::error::DynamicsError;
-use cdpr_robot::{JsonError, Vector3, Vector6, from_json};
+use cdpr_robot::{JsonError, Robot, Vector3, Vector6, from_json};
 use cdpr_statics::DirectProblem;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -212,6 +212,9 @@ pub(super) fn check(problem: &DirectProblem, events: &[Event]) -> Result<(), Dyn
         }
         let exists = |cable: usize| cable < robot.cables.len();
         let cables = format!("the number of a cable, 1 to {}", robot.cables.len());
+        if let Some((field, value, expected)) = fault_of_parted(event, &before) {
+            return wrong(field, value, expected);
+        }
         match &event.change {
             Change::Payload(payload) => {
                 mass += payload;
@@ -233,17 +236,8 @@ pub(super) fn check(problem: &DirectProblem, events: &[Event]) -> Result<(), Dyn
                 }
             }
             Change::Displace(motion) => {
-                if event.time != 0.0 {
-                    let expected = "0: a motion begins there, and no platform jumps later";
-                    return wrong("t", format!("{:?}", event.time), expected.to_owned());
-                }
-                let free = robot.freedoms();
-                for k in 0..6 {
-                    if !motion[k].is_finite() || (motion[k] != 0.0 && !free.contains(k)) {
-                        let expected = "a number, 0 for a motion that the platform has not";
-                        let (field, value) = (format!("displace[{k}]"), format!("{:?}", motion[k]));
-                        return wrong(&field, value, expected.to_owned());
-                    }
+                if let Some((field, value, expected)) = fault_of_displacement(robot, event.time, motion) {
+                    return wrong(&field, value, expected.to_owned());
                 }
             }
             Change::Shorten { cable, by, over, .. } => {
@@ -270,6 +264,40 @@ pub(super) fn check(problem: &DirectProblem, events: &[Event]) -> Result<(), Dyn
         before.push(event);
     }
     Ok(())
+}
+
+/// What of an event acts on a cable that has parted before: a second cut at the same end, or one of a cable
+/// that has left the platform; a winch that takes in a cable that is not whole.
+fn fault_of_parted(event: &Event, before: &[&Event]) -> Option<(&'static str, String, String)> {
+    let (cable, field, at) = match &event.change {
+        Change::Cut { cable, at } => (*cable, "cut", Some(*at)),
+        Change::Shorten { cable, .. } => (*cable, "shorten.cable", None),
+        _ => return None,
+    };
+    let has_parted = |one: &&&Event| {
+        let Change::Cut { cable: own, at: place } = one.change else { return false };
+        own == cable && (place == CutAt::Anchor || at.is_none_or(|at| at == place))
+    };
+    let expected =
+        |one: &&Event| format!("a cable that is still there, not one that parts at {:?} s", one.time);
+    before.iter().find(has_parted).map(|one| (field, (cable + 1).to_string(), expected(one)))
+}
+
+/// What of a displacement is not possible at a time [s].
+fn fault_of_displacement(
+    robot: &Robot,
+    time: f64,
+    motion: &Vector6<f64>,
+) -> Option<(String, String, &'static str)> {
+    if time != 0.0 {
+        let expected = "0: a motion begins there, and no platform jumps later";
+        return Some(("t".to_owned(), format!("{time:?}"), expected));
+    }
+    let free = robot.freedoms();
+    let is_possible = |k: &usize| motion[*k].is_finite() && (motion[*k] == 0.0 || free.contains(*k));
+    let k = (0..6).find(|k| !is_possible(k))?;
+    let expected = "a number, 0 for a motion that the platform has not";
+    Some((format!("displace[{k}]"), format!("{:?}", motion[k]), expected))
 }
 
 /// The lengths at a time [m] after what winches have done until then.

@@ -68,6 +68,19 @@ pub struct Difference {
     pub tension: f64,
 }
 
+/// How far a platform moves, over all steps of a motion.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Excursion {
+    /// Greatest distance of P from where it rests before the first event [m].
+    pub distance: f64,
+    /// When that is [s].
+    pub time: f64,
+    /// Greatest rotation from the rest [rad].
+    pub rotation: f64,
+    /// Greatest distance of P from its mean place in the last quarter of the time [m].
+    pub swing: f64,
+}
+
 /// A motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Series {
@@ -81,6 +94,10 @@ pub struct Series {
     pub residual: f64,
     /// Greatest tension of each cable, at its exit or its anchor point, at any step [N], and when [s].
     pub peaks: Vec<(f64, f64)>,
+    /// Greatest tension of each cable at its exit and at its anchor point, at any step [N].
+    pub end_peaks: Vec<[f64; 2]>,
+    /// How far the platform moves.
+    pub excursion: Excursion,
     /// Whether each cable lost its elastic tension at one of its points.
     pub slack: Vec<bool>,
     /// What it took.
@@ -123,6 +140,10 @@ struct Run<'a> {
     radau: Radau<System<'a>>,
     events: Vec<Event>,
     series: Series,
+    /// Where the platform rests before the first event.
+    rest: Pose,
+    /// Time [s] and place of P [m] at each step.
+    places: Vec<(f64, Vector3<f64>)>,
     /// Energy that there should be [J].
     before: f64,
     /// Elements of cables that go slack, where they get others.
@@ -161,16 +182,21 @@ pub(super) fn run(
             energy: Energy::default(),
             residual,
             peaks: vec![(0.0, 0.0); cables],
+            end_peaks: vec![[0.0; 2]; cables],
+            excursion: Excursion::default(),
             slack: vec![false; cables],
             work: Work::default(),
             discretizations: vec![Discretization { elements: 1, degree: 1 }; cables],
         },
+        rest: rest.pose,
+        places: Vec::new(),
         before: 0.0,
         slack,
     };
     run.before = run.energy();
     run.count_elements();
     run.all(settings, control)?;
+    run.series.excursion.swing = swing(&run.places);
     Ok(run.series)
 }
 
@@ -281,16 +307,33 @@ impl Run<'_> {
         Ok(())
     }
 
-    /// Keeps the greatest tensions.
+    /// Keeps the greatest tensions, and how far the platform is from its rest.
     fn watch(&mut self) {
         let (time, state) = (self.radau.time, &self.radau.state);
-        for (index, [exit, anchor], is_slack) in self.system.tensions(time, state) {
+        for (index, ends, is_slack) in self.system.tensions(time, state) {
+            let [exit, anchor] = ends;
             let peak = &mut self.series.peaks[index];
             if exit.max(anchor) > peak.0 {
                 *peak = (exit.max(anchor), time);
             }
+            let peaks = self.series.end_peaks[index].iter_mut().zip(ends);
+            peaks.for_each(|(peak, tension)| *peak = peak.max(tension));
             self.series.slack[index] |= is_slack;
         }
+        let pose = self.pose();
+        let motion = self.rest.motion_to(&pose);
+        let [distance, rotation] = [0, 3].map(|first| motion.fixed_rows::<3>(first).norm());
+        let excursion = &mut self.series.excursion;
+        if distance > excursion.distance {
+            (excursion.distance, excursion.time) = (distance, time);
+        }
+        excursion.rotation = excursion.rotation.max(rotation);
+        self.places.push((time, pose.position));
+    }
+
+    fn pose(&self) -> Pose {
+        let position = Vector3::from_column_slice(&self.radau.state[..3]);
+        Pose { position, rotation: self.system.rotation }
     }
 
     /// Keeps a sample and applies what the control decides there; false where it ends the motion.
@@ -303,7 +346,7 @@ impl Run<'_> {
         }
         let sample = Sample {
             time: self.radau.time,
-            pose: Pose { position: Vector3::from_column_slice(&state[..3]), rotation: self.system.rotation },
+            pose: self.pose(),
             velocity: Vector6::from_column_slice(&state[n..n + 6]),
             tensions,
         };
@@ -315,6 +358,22 @@ impl Run<'_> {
         }
         true
     }
+}
+
+/// Greatest distance from the mean place over the last quarter of the time [m].
+fn swing(places: &[(f64, Vector3<f64>)]) -> f64 {
+    let end = places.last().map_or(0.0, |(time, _)| *time);
+    let last = &places[places.partition_point(|(time, _)| *time < 0.75 * end)..];
+    let (mut time, mut sum) = (0.0, Vector3::zeros());
+    for pair in last.windows(2) {
+        let step = pair[1].0 - pair[0].0;
+        time += step;
+        sum += (pair[0].1 + pair[1].1) * (0.5 * step);
+    }
+    if time == 0.0 {
+        return 0.0;
+    }
+    last.iter().map(|(_, place)| (place - sum / time).norm()).fold(0.0, f64::max)
 }
 
 impl Work {

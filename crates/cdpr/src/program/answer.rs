@@ -44,7 +44,7 @@ pub(crate) struct OutOfLimits {
     /// `min` or `max` of its limits, or `breaking_force`.
     pub(crate) limit: &'static str,
     /// The limit [N].
-    value: f64,
+    pub(crate) value: f64,
     #[serde(skip)]
     found: cdpr_statics::limits::OutOfLimits,
 }

@@ -6,6 +6,7 @@ use crate::program::arguments::{components, numbers};
 use crate::program::error::{POSE, PoseError, ProgramError};
 use crate::program::questions;
 use cdpr_robot::{Pose, Rotation3, Vector3, plausible, rotation_by_angles, rotation_in_order, rounded};
+use serde::{Serialize, Serializer};
 
 /// `x,y,z` [m], followed by the quaternion `qw,qx,qy,qz` where the platform is rotated.
 pub(crate) fn pose(text: &str) -> Result<Pose, PoseError> {
@@ -88,7 +89,7 @@ fn is_level(pose: &Pose) -> bool {
 
 /// Where a pose is, for a heading: its position, and its angles unless it is level.
 pub(crate) fn place(pose: &Pose) -> String {
-    let [x, y, z] = pose.position.into();
+    let [x, y, z] = <[f64; 3]>::from(pose.position).map(|value| rounded(value, 6));
     let position = format!("({x}, {y}, {z}) m");
     if is_level(pose) {
         return position;
@@ -106,6 +107,11 @@ pub(crate) fn pose_numbers(pose: &Pose) -> [f64; 7] {
     let [x, y, z] = pose.position.into();
     let [qw, qx, qy, qz] = pose.quaternion();
     [x, y, z, qw, qx, qy, qz]
+}
+
+/// A pose in JSON: its numbers.
+pub(crate) fn as_numbers<S: Serializer>(pose: &Option<Pose>, serializer: S) -> Result<S::Ok, S::Error> {
+    pose.as_ref().map(pose_numbers).serialize(serializer)
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use crate::program::arguments::{components, mass};
 use crate::program::error::ProgramError;
 use crate::program::questions;
-use cdpr_robot::{Coordinate, Robot, TensionDistribution, TensionReference, Wrench, plausible};
+use cdpr_robot::{Coordinate, Pose, Robot, TensionDistribution, TensionReference, Wrench, plausible};
 use cdpr_statics::Load;
 use cdpr_study::{Study, open_robot_in_any_unit};
 use std::path::{Path, PathBuf};
@@ -31,6 +31,13 @@ pub(crate) struct FreeArguments {
     /// They start from the pose and end where the platform rests. R = Rz(yaw) Ry(pitch) Rx(roll).
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     pub(crate) free: Vec<Coordinate>,
+}
+
+impl FreeArguments {
+    /// The pose that is found, if any coordinate is free.
+    pub(crate) fn found(&self, pose: &Pose) -> Option<Pose> {
+        (!self.free.is_empty()).then_some(*pose)
+    }
 }
 
 /// The components of a force [N].

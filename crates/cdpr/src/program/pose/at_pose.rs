@@ -75,6 +75,11 @@ pub(crate) trait Row: Serialize + Send {
         lists.fold(Ending::Well, |ending, list| ending.and(OutOfLimits::ending(list)))
     }
 
+    /// The pose with its free coordinates as they are found, if there are any.
+    fn found_pose(&self) -> Option<Pose> {
+        None
+    }
+
     /// What is doubtful about its numbers, if anything is.
     fn warning(&self) -> Option<&str> {
         None
@@ -169,7 +174,9 @@ impl RobotAtPose {
         let format = self.printing.format();
         match patiently("solving", || solve(&robot, &pose)) {
             Err(error @ StaticsError::BranchEnds(_)) => print_fall(format, &robot, &pose, error),
-            answer => self.print(&robot, &pose, &answer?, |answer| text(answer, &heading(&robot, &pose))),
+            answer => self.print(&robot, &pose, &answer?, |answer| {
+                text(answer, &heading(&robot, &answer.found_pose().unwrap_or(pose)));
+            }),
         }
     }
 

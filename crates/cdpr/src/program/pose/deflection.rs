@@ -1,6 +1,7 @@
 //! `cdpr deflection`: how far a load or the weather displaces and rotates the platform.
 
 use crate::program::answer::{Found, OutOfLimits, Residual, decimal, vector};
+use crate::program::arguments::poses::as_numbers;
 use crate::program::arguments::{WEATHER, WindArgument, With, with};
 use crate::program::error::ProgramError;
 use crate::program::output::{Details, Ending, print_sentence, table};
@@ -35,14 +36,17 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
         let load = at.load.some_load()?;
         let solve = |robot: &Robot, pose: &Pose| {
             let found = deflection(robot, WantedPose::at(pose).free(&free.free), &load)?;
-            Ok(Answer::new(robot, &found))
+            let found_pose = free.found(&found.unloaded.equilibrium.pose);
+            Ok(Answer { found_pose, ..Answer::new(robot, &found) })
         };
         return at.answer(solve, |answer, heading| answer.print(heading, details));
     };
     let load = at.load.load();
     let solve = |robot: &Robot, pose: &Pose| {
         let (still, rest) = in_weather(robot, WantedPose::at(pose).free(&free.free), &load, &weather)?;
-        Ok(AnswerInWeather::new(robot, &still, &rest, &weather))
+        let mut answer = AnswerInWeather::new(robot, &still, &rest, &weather);
+        answer.still.found_pose = free.found(&still.unloaded.equilibrium.pose);
+        Ok(answer)
     };
     at.answer(solve, |answer, heading| answer.print(heading, details))
 }
@@ -60,6 +64,9 @@ struct Answer {
     rotation_deg: [f64; 3],
     /// Unstrained lengths.
     lengths: Vec<f64>,
+    /// The pose with its free coordinates as they are found.
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "as_numbers")]
+    found_pose: Option<Pose>,
     unloaded: Found,
     loaded: Found,
 }
@@ -81,6 +88,10 @@ impl Row for Answer {
         cells(motion.chain(&self.lengths).chain(tensions).chain(exit_tensions))
     }
 
+    fn found_pose(&self) -> Option<Pose> {
+        self.found_pose
+    }
+
     fn out_of_limits(&self) -> Vec<&[OutOfLimits]> {
         vec![&self.unloaded.out_of_limits, &self.loaded.out_of_limits]
     }
@@ -97,6 +108,7 @@ impl Answer {
             rounding_mm: 1e3 * rounding,
             rotation_deg: [3, 4, 5].map(|row| motion[row].to_degrees()),
             lengths: found.lengths.clone(),
+            found_pose: None,
             unloaded: Found::new(robot, &found.lengths, &found.unloaded),
             loaded: Found::new(robot, &found.lengths, &found.loaded),
         }
@@ -237,6 +249,10 @@ impl Row for AnswerInWeather {
         let motion = deflection_mm.iter().chain([magnitude_mm]).chain(rotation_deg);
         let own = cells(motion.chain(tensions).chain(exit_tensions));
         self.still.cells().into_iter().chain(own).collect()
+    }
+
+    fn found_pose(&self) -> Option<Pose> {
+        self.still.found_pose
     }
 
     fn out_of_limits(&self) -> Vec<&[OutOfLimits]> {

@@ -3,7 +3,7 @@
 mod massless;
 
 use crate::program::answer::{OutOfLimits, decimal};
-use crate::program::arguments::poses;
+use crate::program::arguments::poses::{self, as_numbers};
 use crate::program::arguments::{self, FreeArguments, With, number, with};
 use crate::program::error::ProgramError;
 use crate::program::output::{Ending, print_sentence, table};
@@ -36,7 +36,7 @@ pub(crate) struct Settings {
     #[arg(long, value_parser = arguments::lengths, conflicts_with = "poses", allow_hyphen_values = true)]
     lengths: Option<arguments::Lengths>,
     /// All natural motions up to this frequency [Hz].
-    #[arg(long, value_name = "HZ", conflicts_with_all = ["number", "massless"])]
+    #[arg(long, value_name = "HZ", allow_negative_numbers = true, conflicts_with_all = ["number", "massless"])]
     below: Option<f64>,
     /// This many natural motions, the slowest; 12 if left out.
     #[arg(long, value_name = "N", value_parser = arguments::count::<1, 10_000>, conflicts_with = "massless")]
@@ -65,7 +65,8 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
         let swing = swing.ok().and_then(|found| Swing::of(&found));
         let inertia_assumed = matches!(robot, Cow::Owned(_));
         let winches = winches.map(Winches::from);
-        Ok(Answer { winches, inertia_assumed, ..Answer::new(robot, &found, swing) })
+        let found_pose = settings.free.found(&rest.pose);
+        Ok(Answer { winches, inertia_assumed, found_pose, ..Answer::new(robot, &found, swing) })
     };
     settings.answer(solve, Answer::print)
 }
@@ -150,6 +151,9 @@ struct Answer {
     /// Missing where the winches hold.
     #[serde(skip_serializing_if = "Option::is_none")]
     winches: Option<Winches>,
+    /// The pose with its free coordinates as they are found.
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "as_numbers")]
+    found_pose: Option<Pose>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     out_of_limits: Vec<OutOfLimits>,
 }
@@ -212,6 +216,10 @@ impl Row for Answer {
         ]
     }
 
+    fn found_pose(&self) -> Option<Pose> {
+        self.found_pose
+    }
+
     fn out_of_limits(&self) -> Vec<&[OutOfLimits]> {
         vec![&self.out_of_limits]
     }
@@ -236,12 +244,14 @@ impl Answer {
             complete_below_hz: found.complete_below,
             inertia_assumed: false,
             winches: None,
+            found_pose: None,
             out_of_limits: OutOfLimits::all(robot, &found.lengths, &[&found.equilibrium]),
         }
     }
 
     fn print(&self, heading: &str) {
-        println!("{heading}: {} natural motions up to {:.4} Hz.", self.counted, self.complete_below_hz);
+        let (counted, below) = (self.counted, self.complete_below_hz);
+        print_sentence(&format!("{heading}: {counted} natural motions up to {below:.4} Hz."));
         if let Some(Swinging { frequency_hz, platform_share }) = &self.platform {
             let share = decimal(100.0 * platform_share, 1);
             println!(

@@ -1,6 +1,7 @@
 //! `cdpr response`: how a platform that is shaken moves.
 
 use crate::program::answer::{OutOfLimits, decimal};
+use crate::program::arguments::poses::as_numbers;
 use crate::program::arguments::{
     self, FigureArgument, Format, FreeArguments, NO_DRAG, With, figure, print_record, with,
 };
@@ -17,6 +18,9 @@ use serde::Serialize;
 /// Frequencies at equal distances where no other number is given.
 const NUMBER: usize = 200;
 
+/// What is printed where nothing damps a motion.
+const NO_BOUND: &str = "no bound";
+
 /// Peaks that are listed.
 const LISTED: usize = 12;
 
@@ -28,7 +32,7 @@ pub(crate) struct Settings {
     #[command(flatten)]
     free: FreeArguments,
     /// The highest frequency [Hz].
-    #[arg(long, value_name = "HZ")]
+    #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
     below: f64,
     /// This many frequencies at equal distances, 200 if left out; the natural ones come on top.
     #[arg(long, value_name = "N", value_parser = arguments::count::<1, 10_000>)]
@@ -95,6 +99,7 @@ impl Settings {
             drag_per_s: damping.drag,
             inertia_assumed: matches!(robot, std::borrow::Cow::Owned(_)),
             frequencies: frequencies.iter().map(at).collect::<Result<_, StaticsError>>()?,
+            found_pose: self.free.found(&rest.pose),
             out_of_limits: OutOfLimits::all(&robot, &held.lengths, &[&rest]),
         })
     }
@@ -109,6 +114,9 @@ struct Answer {
     inertia_assumed: bool,
     /// Without motion first.
     frequencies: Vec<At>,
+    /// The pose with its free coordinates as they are found.
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "as_numbers")]
+    found_pose: Option<Pose>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     out_of_limits: Vec<OutOfLimits>,
 }
@@ -172,17 +180,31 @@ impl Answer {
         peaks
     }
 
+    /// By how much a peak is at most above the amplitude at rest: beyond, it is rounding that bounds it. What
+    /// damps the stretch alone leaves motions across the cables without damping.
+    fn most(&self) -> f64 {
+        if self.damping_s == 0.0 && self.drag_per_s == 0.0 { 1e5 } else { 1e9 }
+    }
+
+    /// An amplitude [m/N] in mm/N, or that nothing bounds it.
+    fn millimetres(&self, value: f64) -> String {
+        let still = self.frequencies.first().map_or(f64::INFINITY, |still| still.amplitude_m_per_n);
+        if value < self.most() * still { significant(1e3 * value, 3) } else { NO_BOUND.to_owned() }
+    }
+
     fn print(&self, heading: &str) {
         let greatest = |one: &&At, other: &&At| one.amplitude_m_per_n.total_cmp(&other.amplitude_m_per_n);
         if let (Some(still), Some(most)) =
             (self.frequencies.first(), self.frequencies.iter().max_by(greatest))
         {
-            print_sentence(&format!(
-                "{heading}: a force shakes the point by up to {} mm/N, at {:.4} Hz; at rest it moves it by {} mm/N.",
-                significant(1e3 * most.amplitude_m_per_n, 3),
-                most.frequency_hz,
-                significant(1e3 * still.amplitude_m_per_n, 3)
-            ));
+            let at_rest = significant(1e3 * still.amplitude_m_per_n, 3);
+            let most_of = match self.millimetres(most.amplitude_m_per_n).as_str() {
+                NO_BOUND => "without a bound".to_owned(),
+                most => format!("by up to {most} mm/N"),
+            };
+            let shaken =
+                format!("{heading}: a force shakes the point {most_of}, at {:.4} Hz", most.frequency_hz);
+            print_sentence(&format!("{shaken}; at rest it moves it by {at_rest} mm/N."));
         }
         println!(
             "Damping of the cables: stretch {} s, drag {} 1/s. The largest peaks:",
@@ -191,14 +213,13 @@ impl Answer {
         let names = ["frequency [Hz]", "amplitude [mm/N]", "x, y, z along [mm/N]", "winches [mm/mm]"];
         let mut rows = table(&names);
         for at in self.peaks().into_iter().take(LISTED) {
-            let millimetres = |value: f64| significant(1e3 * value, 3);
             let winches = at.of_winches().into_iter().fold(0.0, f64::max);
-            let along = at.along().map(millimetres).join(" ");
+            let along = at.along().map(|value| self.millimetres(value)).join(" ");
             let cells = [
                 format!("{:.4}", at.frequency_hz),
-                millimetres(at.amplitude_m_per_n),
+                self.millimetres(at.amplitude_m_per_n),
                 along,
-                decimal(winches, 2),
+                if winches < self.most() { decimal(winches, 2) } else { NO_BOUND.to_owned() },
             ];
             rows.add_row(cells);
         }
@@ -254,6 +275,10 @@ impl Row for Answer {
             number(self.peak().map(|at| at.amplitude_m_per_n)),
             number(self.frequencies.first().map(|at| at.amplitude_m_per_n)),
         ]
+    }
+
+    fn found_pose(&self) -> Option<Pose> {
+        self.found_pose
     }
 
     fn out_of_limits(&self) -> Vec<&[OutOfLimits]> {

@@ -4,6 +4,7 @@ mod case;
 mod weather;
 
 use crate::program::answer::{OutOfLimits, numbers};
+use crate::program::arguments::poses::as_numbers;
 use crate::program::arguments::{FreeArguments, WEATHER, With, any_weather, number, with};
 use crate::program::error::ProgramError;
 use crate::program::output::{Ending, print_sentence, table};
@@ -11,7 +12,7 @@ use crate::program::pose::at_pose::{RobotAtPose, Row};
 use crate::program::pose::modes::with_inertia;
 use crate::program::pose::safety::case::{Case, Rest, Swinging};
 use crate::program::pose::safety::weather::InWeather;
-use cdpr_assess::{Breaks, Safety, safety_at};
+use cdpr_assess::{Breaks, Broken, Safety, safety_at};
 use cdpr_robot::{Pose, Robot, significant};
 use cdpr_statics::WantedPose;
 use serde::Serialize;
@@ -44,15 +45,16 @@ pub(crate) fn run(Settings { at, free, with }: &Settings) -> Result<Ending, Prog
         let robot = if breaks.follow.is_some() { with_inertia(robot) } else { Cow::Borrowed(robot) };
         let found = safety_at(&robot, WantedPose::at(pose).free(&free.free), &load, breaks)?;
         let weather = weather.map(|weather| InWeather::new(&robot, &found, &load, &weather)).transpose()?;
-        Ok(Answer { in_weather: weather, ..Answer::from(found) })
+        Ok(Answer { found_pose: free.found(&found.pose), in_weather: weather, ..Answer::from(found) })
     };
     at.answer(solve, Answer::print)
 }
 
 /// A time [s].
 fn above_zero(text: &str) -> Result<f64, String> {
-    number(text)
-        .and_then(|time| if time > 0.0 { Ok(time) } else { Err("expected a time above 0 s".to_owned()) })
+    const MOST: f64 = 1e5;
+    let expected = "expected a time above 0 s, and 1e5 s at most".to_owned();
+    number(text).and_then(|time| if time > 0.0 && time <= MOST { Ok(time) } else { Err(expected) })
 }
 
 /// The robot with each cable broken.
@@ -63,6 +65,9 @@ struct Answer {
     /// Tensions before the break [N].
     tensions: Vec<f64>,
     broken: Vec<Case>,
+    /// The pose with its free coordinates as they are found.
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "as_numbers")]
+    found_pose: Option<Pose>,
     /// The whole robot in the weather, if asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     in_weather: Option<InWeather>,
@@ -70,7 +75,15 @@ struct Answer {
 
 impl From<Safety> for Answer {
     fn from(Safety { lengths, tensions, broken, .. }: Safety) -> Self {
-        Self { lengths, tensions, broken: broken.into_iter().map(Case::from).collect(), in_weather: None }
+        let all = lengths.len();
+        let case = |of: Broken| Case { falls: of.cables.len() == all, ..Case::from(of) };
+        Self {
+            lengths,
+            tensions,
+            broken: broken.into_iter().map(case).collect(),
+            found_pose: None,
+            in_weather: None,
+        }
     }
 }
 
@@ -90,14 +103,24 @@ impl Answer {
 
     /// Whether the others hold the platform, and what it does at most.
     fn sentences(&self, heading: &str) -> Vec<String> {
-        let wrong: Vec<String> = self
-            .broken
-            .iter()
-            .filter_map(|case| case.wrong().map(|what| format!("without {} {what}", case.name())))
-            .collect();
+        let cases = |what: fn(&Case) -> Option<String>| -> Vec<String> {
+            let said = |case: &Case| what(case).map(|what| format!("without {} {what}", case.name()));
+            self.broken.iter().filter_map(said).collect()
+        };
+        let (bad, wrong) = (cases(Case::bad), cases(Case::wrong));
+        let unknown = match wrong.len() - bad.len() {
+            unknown if unknown > 0 && !bad.is_empty() => {
+                format!(" What {unknown} of {} breaks lead to is not known.", self.broken.len())
+            }
+            _ => String::new(),
+        };
         let pairs = self.broken.iter().any(|case| case.cables.len() > 1);
         let all = if pairs { "one or two of them break" } else { "of them breaks" };
-        let first = match wrong.as_slice() {
+        let first = match bad.as_slice() {
+            [] if !wrong.is_empty() => {
+                let why = self.broken.iter().find_map(Case::failure).unwrap_or_default();
+                format!("{heading}: whether it bears every break is not known; {} ({why}).", wrong[0])
+            }
             [] => format!("{heading} comes to rest on its other cables, whichever {all}."),
             [first] => format!("{heading} does not bear every break: {first}."),
             [first, rest @ ..] => format!(
@@ -130,7 +153,7 @@ impl Answer {
             let reached = format!("{tension} N, in cable {} without {without}", peak.cable);
             format!("In the time followed they reach {reached}; two computations differ by up to {differ} N.")
         });
-        [Some(first), moved, tension, peak].into_iter().flatten().collect()
+        [Some(first + &unknown), moved, tension, peak].into_iter().flatten().collect()
     }
 
     fn print(&self, heading: &str) {
@@ -192,16 +215,14 @@ impl Row for Answer {
         let tension = self.greatest(|rest| rest.greatest_tension.tension);
         let cable = tension.and_then(|(_, case)| Some(case.rest.as_ref()?.greatest_tension.cable));
         let [value, case] = without(tension);
-        let factors = self.broken.iter().filter_map(|case| case.rest.as_ref()?.safety_factor);
-        let factor = factors.min_by(f64::total_cmp);
-        let is = |case: &Case, what: fn(&Rest) -> bool| case.rest.as_ref().is_some_and(what);
+        let factor = self.broken.iter().filter_map(Case::safety_factor).min_by(f64::total_cmp);
         let last = [
             value,
             cable.map_or_else(String::new, |cable| cable.to_string()),
             case,
             factor.map_or_else(String::new, |factor| format!("{factor:?}")),
-            self.names(|case| is(case, |rest| rest.out_of_limits.iter().any(OutOfLimits::is_too_much))),
-            self.names(|case| is(case, |rest| rest.below_ground)),
+            self.names(Case::is_overloaded),
+            self.names(Case::is_below_ground),
             self.names(|case| case.rest.is_none()),
         ];
         let [moved, turned] = [self.greatest(|rest| rest.moved), self.greatest(|rest| rest.turned_deg)];
@@ -215,6 +236,10 @@ impl Row for Answer {
         let swing = [far, value, cable, case];
         let weather = self.in_weather.as_ref().map(InWeather::cells).unwrap_or_default();
         without(moved).into_iter().chain(without(turned)).chain(last).chain(swing).chain(weather).collect()
+    }
+
+    fn found_pose(&self) -> Option<Pose> {
+        self.found_pose
     }
 
     fn out_of_limits(&self) -> Vec<&[OutOfLimits]> {

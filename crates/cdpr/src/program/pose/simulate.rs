@@ -1,5 +1,6 @@
 //! `cdpr simulate`: how a robot moves after events.
 
+use crate::program::answer::OutOfLimits;
 use crate::program::arguments::poses::{PoseArguments, pose_numbers};
 use crate::program::arguments::{
     self, FigureArgument, FreeArguments, Lengths, LoadArguments, Preference, Printing, RobotArgument, With,
@@ -11,15 +12,19 @@ use crate::program::pose::modes::with_inertia;
 use crate::program::questions;
 use cdpr_dynamics::DynamicsError;
 use cdpr_dynamics::simulate::{
-    Change, Discretization, Event, Sample, Series, WinchLengths, events_from_json, simulate,
+    Change, Discretization, Event, Excursion, Sample, Series, Settings as Timing, WinchLengths,
+    events_from_json, simulate,
 };
 use cdpr_report::{Quantity, over_time};
-use cdpr_robot::{Pose, Robot, Vector3, counted, rounded, shown, significant};
+use cdpr_robot::{Pose, Robot, counted, rounded, shown, significant};
 use cdpr_statics::{DirectProblem, DirectStart, WantedPose, inverse, rough_pose};
 use cdpr_study::{InputKind, read_text};
 use serde::Serialize;
 use std::f64::consts::PI;
 use std::path::PathBuf;
+
+/// Samples of a motion, at least; those that are not wanted are left out of the series.
+const FEWEST: f64 = 100.0;
 
 /// A robot at rest, what happens to it, and for how long it is followed.
 #[derive(clap::Args)]
@@ -49,13 +54,15 @@ pub(crate) struct Settings {
     #[arg(long, value_name = "FILE")]
     events: Option<PathBuf>,
     /// How long the motion is followed [s].
-    #[arg(long, value_name = "SECONDS", value_parser = arguments::number)]
+    #[arg(long, value_name = "SECONDS", value_parser = arguments::number, allow_negative_numbers = true)]
     until: f64,
     /// Samples for each second [Hz].
-    #[arg(long, value_name = "HZ", value_parser = arguments::number, default_value = "100")]
+    #[arg(long, value_name = "HZ", value_parser = arguments::number, default_value = "100",
+        allow_negative_numbers = true)]
     rate: f64,
     /// Damping of the cables: the ratio of their viscous to their elastic modulus [s].
-    #[arg(long, value_name = "SECONDS", value_parser = arguments::number, default_value = "0")]
+    #[arg(long, value_name = "SECONDS", value_parser = arguments::number, default_value = "0",
+        allow_negative_numbers = true)]
     damping: f64,
     /// Settings of the computation: elements=N of each cable, degree=N of the polynomial on each,
     /// tolerance=M, the error of a step [m].
@@ -91,8 +98,12 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
         questions::about_rest(&robot, "the equilibrium", (&lengths, &load), &rest, &start);
     }
     let rest = rest.equilibrium;
+    questions::about_events(&events, load.payload, how.until);
+    // Between few samples a coarser computation would differ unseen.
+    let finer = (FEWEST / (how.until * how.rate)).ceil().clamp(1.0, 1e12);
+    let how = Timing { rate: finer * how.rate, ..how };
     let found = patiently("simulating", || simulate(&problem, &rest, &events, &how));
-    let series = found.map_err(|error| match error {
+    let mut series = found.map_err(|error| match error {
         DynamicsError::Event { index, .. } => match (&settings.events, &settings.lengths) {
             (_, Some(Lengths::Table(file))) if index + 1 == events.len() => {
                 ProgramError::in_file(file)(error)
@@ -103,6 +114,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
         error => error.into(),
     })?;
     let answer = Answer::new(&robot, &rest.pose, &lengths, &series);
+    series.samples = series.samples.into_iter().step_by(finer as usize).collect();
     if let Some(file) = &settings.figure {
         file.write(&settings.printing.overwrite, &figure(&robot, &rest.pose, &series)?)?;
     }
@@ -114,7 +126,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
 }
 
 impl Settings {
-    fn how(&self) -> Result<cdpr_dynamics::simulate::Settings, ProgramError> {
+    fn how(&self) -> Result<Timing, ProgramError> {
         let with = self.with.clone().unwrap_or_default();
         with.check(&["elements", "degree", "tolerance"])?;
         let elements = with.value("elements", None, arguments::count::<1, 1000>)?;
@@ -124,15 +136,9 @@ impl Settings {
             elements: elements.unwrap_or(usual.elements),
             degree: degree.unwrap_or(usual.degree),
         });
-        let usual = cdpr_dynamics::simulate::Settings::until(self.until);
+        let usual = Timing::until(self.until);
         let tolerance = with.value("tolerance", None, arguments::number)?.unwrap_or(usual.tolerance);
-        Ok(cdpr_dynamics::simulate::Settings {
-            rate: self.rate,
-            damping: self.damping,
-            discretization,
-            tolerance,
-            ..usual
-        })
+        Ok(Timing { rate: self.rate, damping: self.damping, discretization, tolerance, ..usual })
     }
 
     /// The unstrained lengths [m], where their pose is searched for, and the lengths over time.
@@ -231,6 +237,7 @@ struct Whole<'a> {
 
 #[derive(Serialize)]
 struct CableAnswer {
+    /// At the begin and at most, at the end that is pulled more.
     rest_n: f64,
     greatest_n: f64,
     at_s: f64,
@@ -268,40 +275,34 @@ struct Energy {
 
 impl Answer {
     fn new(robot: &Robot, rest: &Pose, lengths: &[f64], series: &Series) -> Self {
-        let distance = |sample: &Sample| (sample.pose.position - rest.position).norm();
-        let (mut greatest, mut at, mut rotation) = (0.0, 0.0, 0.0_f64);
-        for sample in &series.samples {
-            if distance(sample) > greatest {
-                (greatest, at) = (distance(sample), sample.time);
-            }
-            rotation = rotation.max(rest.motion_to(&sample.pose).fixed_rows::<3>(3).norm());
-        }
-        let last = &series.samples[series.samples.len() * 3 / 4..];
-        let sum = last.iter().fold(Vector3::zeros(), |sum, sample| sum + sample.pose.position);
-        let mean = sum / last.len() as f64;
-        let swing = last.iter().map(|sample| (sample.pose.position - mean).norm()).fold(0.0, f64::max);
+        let ends = series.end_peaks.iter().map(|[exit, anchor]| [*anchor, *exit]).collect();
+        let beyond = OutOfLimits::of_tensions(robot, &[ends]);
+        let above = |i: usize| {
+            let of_cable = beyond.iter().filter(|one| one.cable == i + 1 && one.is_too_much());
+            let first = of_cable.min_by_key(|one| one.limit != "breaking_force")?;
+            let limit = if first.limit == "breaking_force" { first.limit } else { "tension_limits.max" };
+            Some(Above { limit, value_n: first.value })
+        };
         let cables = series.peaks.iter().enumerate().map(|(i, (peak, at))| {
-            let breaking = robot.cables[i].properties.breaking_force;
-            let limits = [("breaking_force", breaking), ("tension_limits.max", Some(robot.limits(i).max))];
-            let mut above =
-                limits.into_iter().filter_map(|(limit, value_n)| Some(Above { limit, value_n: value_n? }));
+            let [exit, anchor] = series.samples[0].tensions[i];
             CableAnswer {
-                rest_n: series.samples[0].tensions[i][1],
+                rest_n: exit.max(anchor),
                 greatest_n: *peak,
                 at_s: *at,
                 slack: series.slack[i],
-                above: above.find(|above| *peak > above.value_n),
+                above: above(i),
             }
         });
         let pose = ["t_s", "x_m", "y_m", "z_m", "rx_rad", "ry_rad", "rz_rad"].map(str::to_owned);
         let tensions = (1..=lengths.len()).flat_map(|i| [format!("t_exit_{i}_n"), format!("t_anchor_{i}_n")]);
         let cdpr_dynamics::simulate::Difference { position, rotation: turn, tension } = series.difference;
         let cdpr_dynamics::simulate::Energy { kinetic, given, lost, drift } = series.energy;
+        let Excursion { distance, time, rotation, swing } = series.excursion;
         Self {
             start: pose_numbers(rest),
             lengths: lengths.to_vec(),
-            greatest_distance_m: greatest,
-            at_s: at,
+            greatest_distance_m: distance,
+            at_s: time,
             greatest_rotation_rad: rotation,
             swing_m: swing,
             cables: cables.collect(),
@@ -351,6 +352,7 @@ impl Answer {
             ]);
         }
         println!("{rows}");
+        println!("tensions: of the end of the cable that is pulled more");
         let Difference { position_m, rotation_rad, tension_n } = &self.difference;
         println!(
             "A coarser computation differs by up to {} mm, {} deg and {} N.",

@@ -1,10 +1,11 @@
 //! `cdpr stiffness`: the Cartesian stiffness at a pose, with its eigenvalues and their motions.
 
 use crate::program::answer::{self, Neutral, OutOfLimits, decimal};
+use crate::program::arguments::poses::as_numbers;
 use crate::program::error::ProgramError;
 use crate::program::output::{Ending, print_sentence, table};
 use crate::program::pose::at_pose::{RobotAtFreePose, Row, cells};
-use cdpr_robot::{Robot, significant};
+use cdpr_robot::{Pose, Robot, significant};
 use cdpr_statics::WantedPose;
 use cdpr_statics::stiffness::{PoseStiffness, stiffness_at};
 use serde::Serialize;
@@ -12,7 +13,8 @@ use serde::Serialize;
 pub(crate) fn run(RobotAtFreePose { at, free }: &RobotAtFreePose) -> Result<Ending, ProgramError> {
     let load = at.load.load();
     let solve = |robot: &Robot, pose: &_| {
-        Ok(Answer::new(robot, &stiffness_at(robot, WantedPose::at(pose).free(&free.free), &load)?))
+        let found = stiffness_at(robot, WantedPose::at(pose).free(&free.free), &load)?;
+        Ok(Answer { found_pose: free.found(&found.equilibrium.pose), ..Answer::new(robot, &found) })
     };
     at.answer(solve, Answer::print)
 }
@@ -35,6 +37,9 @@ struct Answer {
     neutral: Vec<Neutral>,
     /// Characteristic length ℓ, which makes rotations comparable with translations [m].
     characteristic_length: f64,
+    /// The pose with its free coordinates as they are found.
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "as_numbers")]
+    found_pose: Option<Pose>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     out_of_limits: Vec<OutOfLimits>,
 }
@@ -66,6 +71,10 @@ impl Row for Answer {
         cells(first.chain(eigenvalues).chain(self.stiffness.as_flattened()))
     }
 
+    fn found_pose(&self) -> Option<Pose> {
+        self.found_pose
+    }
+
     fn out_of_limits(&self) -> Vec<&[OutOfLimits]> {
         vec![&self.out_of_limits]
     }
@@ -93,6 +102,7 @@ impl Answer {
             stable: stability.is_stable(),
             neutral: Neutral::all(stability),
             characteristic_length: stability.characteristic_length(),
+            found_pose: None,
             out_of_limits: OutOfLimits::all(robot, lengths, &[equilibrium]),
         }
     }

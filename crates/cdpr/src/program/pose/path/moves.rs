@@ -11,6 +11,7 @@ use answer::{After, Answer, Robots};
 use cdpr_assess::DrawnRobots;
 use cdpr_dynamics::moves::{FeedForward, Move, SetPoint, Shaper, ShaperKind, residual};
 use cdpr_dynamics::simulate::Profile;
+use std::ops::RangeFrom;
 
 /// The names of `--with`.
 const NAMES: [&str; 10] = [
@@ -25,6 +26,9 @@ const NAMES: [&str; 10] = [
     "robots",
     "seed",
 ];
+
+/// Set points of which the tensions are known, at least.
+const FEWEST: usize = 100;
 
 /// Robots that are drawn where no number is given.
 const ROBOTS: usize = 100;
@@ -58,19 +62,33 @@ impl Wanted {
             text.parse::<u64>().map_err(|_| "expected a whole number, zero or more".to_owned())
         })?;
         let profile = with.value("profile", None, |text| one_of(text, &Profile::SMOOTH))?;
+        let shaper = with.value("shaper", Some(ShaperKind::Zvd), |text| one_of(text, &ShaperKind::NAMED))?;
+        let modes = with.value("modes", None, arguments::count::<1, 6>)?;
+        if modes.is_some() && shaper.is_none() {
+            return Err(ProgramError::Usage(
+                "--with modes: expected shaper, too, which is for them".to_owned(),
+            ));
+        }
         Ok(Self {
             seconds: seconds.ok_or_else(|| ProgramError::Usage(missing.to_owned()))?,
             profile: profile.unwrap_or_else(|| feed_forward.usual_profile()),
-            shaper: with.value("shaper", Some(ShaperKind::Zvd), |text| one_of(text, &ShaperKind::NAMED))?,
-            modes: with.value("modes", None, arguments::count::<1, 6>)?.unwrap_or(2),
+            shaper,
+            modes: modes.unwrap_or(2),
             feed_forward,
             rate: number("rate", 200.0)?,
-            damping: number("damping", 0.0)?,
-            residual: with.value("residual", Some(None), |text| arguments::number(text).map(Some))?,
+            damping: with.value("damping", None, |text| time(text, 0.0..))?.unwrap_or_default(),
+            residual: with.value("residual", Some(None), |text| time(text, f64::MIN_POSITIVE..).map(Some))?,
             robots: with.value("robots", None, arguments::count::<1, 100_000>)?,
             seed,
         })
     }
+}
+
+/// A time in a range that has no end [s].
+fn time(text: &str, range: RangeFrom<f64>) -> Result<f64, String> {
+    let expected = if range.start > 0.0 { "a time above 0 s" } else { "a time of 0 s or more" };
+    arguments::number(text)
+        .and_then(|time| if range.contains(&time) { Ok(time) } else { Err(format!("expected {expected}")) })
 }
 
 fn one_of<T: Copy>(text: &str, named: &[(&str, T)]) -> Result<T, String> {
@@ -116,7 +134,10 @@ pub(super) fn run(
         (planned, modes) = planned.shaped(kind, wanted.modes, wanted.damping)?;
     }
     let set_points = planned.plan()?;
-    let mut answer = Answer::new(&planned, &modes, &set_points);
+    let finer = FEWEST.div_ceil(set_points.len());
+    let fine = Move { rate: wanted.rate * finer as f64, ..planned.clone() };
+    let between = if finer > 1 { fine.plan()? } else { set_points.clone() };
+    let mut answer = Answer::new(&planned, wanted.shaper.map(|_| &modes[..]), &between);
     if let Some(seconds) = wanted.residual {
         let simulated = plain.watched(seconds, wanted.damping)?;
         let unshaped = plain.plan()?;

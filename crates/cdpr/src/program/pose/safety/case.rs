@@ -18,6 +18,9 @@ pub(super) struct Case {
     /// The motion after the break, if it is followed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) swing: Option<Motion>,
+    /// Whether no cable is left.
+    #[serde(skip)]
+    pub(super) falls: bool,
 }
 
 /// How the platform swings, or why that is not known.
@@ -116,8 +119,8 @@ impl From<Broken> for Case {
             Err(error) => Motion::Failed { error: error.to_string() },
         });
         match rest {
-            Ok(rest) => Self { cables, rest: Some(rest.into()), error: None, swing },
-            Err(error) => Self { cables, rest: None, error: Some(error.into()), swing },
+            Ok(rest) => Self { cables, rest: Some(rest.into()), error: None, swing, falls: false },
+            Err(error) => Self { cables, rest: None, error: Some(error.into()), swing, falls: false },
         }
     }
 }
@@ -136,9 +139,30 @@ impl Case {
         }
     }
 
-    /// What is wrong without these cables, at rest or on the way there.
+    /// What is wrong without these cables, at rest or on the way there, or why that is not known.
     pub(super) fn wrong(&self) -> Option<String> {
-        let Some(rest) = &self.rest else { return Some("no rest was found".to_owned()) };
+        self.bad().or_else(|| match &self.swing {
+            _ if self.rest.is_none() => Some("no rest was found".to_owned()),
+            Some(Motion::Failed { .. }) => Some("its motion is not known".to_owned()),
+            _ => None,
+        })
+    }
+
+    /// Why its rest or its motion is not known.
+    pub(super) fn failure(&self) -> Option<&str> {
+        match (&self.error, &self.swing) {
+            (Some(failure), _) => Some(&failure.message),
+            (_, Some(Motion::Failed { error })) => Some(error),
+            _ => None,
+        }
+    }
+
+    /// What is known to be wrong.
+    pub(super) fn bad(&self) -> Option<String> {
+        if self.falls {
+            return Some("no cable is left".to_owned());
+        }
+        let rest = self.rest.as_ref()?;
         let swing = self.swinging();
         let swinging = swing.map_or(&[][..], |swing| &swing.out_of_limits);
         let at_rest = rest.out_of_limits.iter().map(|one| (one, ""));
@@ -149,10 +173,28 @@ impl Case {
             "breaking_force" => format!("cable {} breaks, too{when}", one.cable),
             _ => format!("cable {} is above its greatest tension{when}", one.cable),
         });
-        let below = rest.below_ground || swing.is_some_and(|swing| swing.below_ground);
-        beyond.or_else(|| below.then(|| "the platform comes below the ground".to_owned())).or_else(|| {
-            matches!(self.swing, Some(Motion::Failed { .. })).then(|| "its motion is not known".to_owned())
-        })
+        let below = self.is_below_ground();
+        beyond.or_else(|| below.then(|| "the platform comes below the ground".to_owned()))
+    }
+
+    /// Whether another cable is loaded too much, at rest or on the way.
+    pub(super) fn is_overloaded(&self) -> bool {
+        let at_rest = self.rest.iter().flat_map(|rest| &rest.out_of_limits);
+        let swinging = self.swinging().into_iter().flat_map(|swing| &swing.out_of_limits);
+        at_rest.chain(swinging).any(OutOfLimits::is_too_much)
+    }
+
+    /// Whether the platform comes below the ground, at rest or on the way.
+    pub(super) fn is_below_ground(&self) -> bool {
+        let at_rest = self.rest.as_ref().is_some_and(|rest| rest.below_ground);
+        at_rest || self.swinging().is_some_and(|swing| swing.below_ground)
+    }
+
+    /// The least safety factor at rest and on the way.
+    pub(super) fn safety_factor(&self) -> Option<f64> {
+        let at_rest = self.rest.as_ref().and_then(|rest| rest.safety_factor);
+        let swinging = self.swinging().and_then(|swing| swing.safety_factor);
+        at_rest.into_iter().chain(swinging).min_by(f64::total_cmp)
     }
 
     /// How far the platform moves and turns, the greatest tension at rest, its cable, and the factor.
@@ -166,14 +208,10 @@ impl Case {
     /// How far the platform moves, the greatest tension at rest; how far it swings, the greatest tension
     /// then, its cable, and the factor.
     pub(super) fn with_swing(&self) -> Vec<String> {
-        let rest = self
-            .rest
-            .as_ref()
-            .map(|rest| [significant(rest.moved, 4), significant(rest.greatest_tension.tension, 4)]);
+        let rest = self.rest.as_ref().map(|rest| [short(rest.moved), short(rest.greatest_tension.tension)]);
         let swing = self.swinging().map(|swing| {
             let Greatest { cable, tension } = swing.greatest_tension;
-            let (moved, tension) = (significant(swing.moved, 4), significant(tension, 4));
-            [moved, tension, cable.to_string(), factor(swing.safety_factor)]
+            [short(swing.moved), short(tension), cable.to_string(), factor(swing.safety_factor)]
         });
         rest.unwrap_or_default().into_iter().chain(swing.unwrap_or_default()).collect()
     }
@@ -181,12 +219,21 @@ impl Case {
     /// What is to be said of it in a table.
     pub(super) fn remark(&self) -> String {
         let Some(rest) = &self.rest else {
-            return self.error.as_ref().map_or_else(String::new, |error| error.message.clone());
+            let why = || self.error.as_ref().map(|error| error.message.clone());
+            return self.bad().or_else(why).unwrap_or_default();
         };
         let slack =
             (!rest.slack_cables.is_empty()).then(|| format!("slack: {}", numbers(&rest.slack_cables)));
         self.wrong().into_iter().chain(slack).collect::<Vec<_>>().join("; ")
     }
+}
+
+/// A number of at most seven characters, where it is neither tiny nor huge, so that no line of a table ends
+/// within it.
+fn short(value: f64) -> String {
+    const MOST: usize = 7;
+    let text = significant(value, 4);
+    if text.len() > MOST { format!("{value:.2e}") } else { text }
 }
 
 /// A safety factor in a table; empty where it is not known.

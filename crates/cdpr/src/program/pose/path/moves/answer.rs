@@ -19,6 +19,9 @@ pub(super) struct Answer {
     impulses: Vec<[f64; 2]>,
     /// Motions that the shaper is for.
     shaped: Vec<Shaped>,
+    /// Whether a shaper was wanted and none makes the platform swing less.
+    #[serde(skip)]
+    is_unshaped: bool,
     least_tension_n: f64,
     greatest_exit_tension_n: f64,
     /// Greatest difference of a length to that at rest.
@@ -189,7 +192,9 @@ impl Robots {
 }
 
 impl Answer {
-    pub(super) fn new(planned: &Move, modes: &[Excited], set_points: &[SetPoint]) -> Self {
+    /// With the motions of the shaper, if one is wanted; the set points may lie closer than those of the
+    /// move, so that their tensions miss no peak.
+    pub(super) fn new(planned: &Move, modes: Option<&[Excited]>, set_points: &[SetPoint]) -> Self {
         let cables = planned.robot.cables.len();
         let ways = planned.poses.windows(2).map(|pair| (pair[1].position - pair[0].position).norm());
         let own = ["t_s", "x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"].map(str::to_owned);
@@ -210,7 +215,8 @@ impl Answer {
             seconds: planned.seconds,
             way_m: ways.sum(),
             impulses: planned.shaper.impulses.clone(),
-            shaped: modes.iter().map(shaped).collect(),
+            shaped: modes.unwrap_or_default().iter().map(shaped).collect(),
+            is_unshaped: modes.is_some_and(<[Excited]>::is_empty),
             least_tension_n: all(|point| &point.tensions).fold(f64::INFINITY, f64::min),
             greatest_exit_tension_n: all(|point| &point.exit_tensions).fold(0.0, f64::max),
             feed_forward_m: all(|point| &point.feed_forward).fold(0.0, |most: f64, one| most.max(one.abs())),
@@ -250,6 +256,11 @@ impl Answer {
                 "Shaper for {} Hz: {impulses} in {} s.",
                 of.join(" and "),
                 significant(*duration, 3)
+            ));
+        }
+        if self.is_unshaped {
+            print_lines(&format!(
+                "No shaper: of those that take less than {seconds} s none leaves less that swings."
             ));
         }
         let of = if self.feed_forward_m == 0.0 {
