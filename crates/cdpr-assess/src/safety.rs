@@ -195,11 +195,11 @@ fn swing_without(
     load: &Load,
     until: f64,
 ) -> Result<Swing, DynamicsError> {
+    /// Samples at least, and each second: between them nothing is known of the ground.
+    const SAMPLES: f64 = 100.0;
     let cut = |cable: &usize| Event { time: 0.0, change: Change::Cut { cable: *cable, at: CutAt::Anchor } };
     let events: Vec<Event> = broken.iter().map(cut).collect();
     let problem = DirectProblem::new(robot, &held.lengths, load)?;
-    /// Samples at least, and each second: between them nothing is known of the ground.
-    const SAMPLES: f64 = 100.0;
     let settings = Settings { rate: (SAMPLES / until).max(SAMPLES), ..Settings::until(until) };
     let series = simulate(&problem, &held.equilibrium, &events, &settings)?;
     let kept: Vec<usize> = (0..robot.cables.len()).filter(|i| !broken.contains(i)).collect();
