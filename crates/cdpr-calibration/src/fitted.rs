@@ -297,4 +297,18 @@ impl Fit {
         let map = map_of(terms, [self.deviations.len(), all.len()], |_| 1.0);
         &map * &self.covariance * map.transpose()
     }
+
+    /// Roots of a covariance of one scale along each combination that neither data nor priors identify: a
+    /// combination a column, parameters in the order of [`Parameter::of`].
+    ///
+    /// [`Parameter::of`]: cdpr_robot::Parameter::of
+    pub(crate) fn unidentified(&self) -> DMatrix<f64> {
+        let Unknowns { terms, all, .. } = &self.unknowns;
+        let map = map_of(terms, [self.deviations.len(), all.len()], |input| all[input].scale);
+        let [posterior, _] = &self.roots;
+        let is_unknown = |row: &DVector<f64>| !is_known(row.norm(), 1.0);
+        let rows = posterior.row_iter().map(|row| row.transpose()).filter(is_unknown);
+        let columns: Vec<_> = rows.map(|row| &map * row.normalize()).collect();
+        if columns.is_empty() { DMatrix::zeros(map.nrows(), 0) } else { DMatrix::from_columns(&columns) }
+    }
 }

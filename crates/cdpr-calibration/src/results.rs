@@ -100,6 +100,11 @@ impl Fit {
             self.position_variance(robot, covariance, lengths).map(f64::sqrt)
         };
         let map = || uncertainty_map(self, campaign.robot, prior.as_ref(), &covariance);
+        let after = std_of(&self.robot, &covariance);
+        let open = self.unidentified();
+        let by_open = (open.ncols() > 0).then(|| std_of(&self.robot, &(&open * open.transpose()))).flatten();
+        let is_open = by_open.zip(after).is_some_and(|(open, after)| open > NEGLIGIBLE * after);
+        let unknown = || self.estimates.iter().filter(|of| of.std.is_none()).map(|of| of.name.clone());
         let mut summary = CalibrationSummary {
             robot: campaign.robot.name.clone(),
             version: env!("CARGO_PKG_VERSION"),
@@ -116,9 +121,10 @@ impl Fit {
             outliers: if *noise_is_stated { self.outlier_summaries() } else { Vec::new() },
             trends: if *noise_is_stated { self.trends() } else { Vec::new() },
             splits: self.splits(),
-            workspace: if relative { None } else { map() },
+            workspace: if relative || is_open { None } else { map() },
             position_std_before: prior.as_ref().and_then(|prior| std_of(campaign.robot, prior)),
-            position_std_after: std_of(&self.robot, &covariance),
+            position_std_after: after.filter(|_| !is_open),
+            position_depends_on: if is_open { unknown().collect() } else { Vec::new() },
             steps: self.steps,
             status: self.status,
             starts: self.starts,
@@ -209,6 +215,9 @@ impl Fit {
         sensors
     }
 }
+
+/// Share of the standard deviation of a position below which what is not identified counts as no part of it.
+const NEGLIGIBLE: f64 = 0.1;
 
 /// Covariance of the parameters by these terms of an error model.
 fn prior_covariance(model: &ErrorModel, terms: &[Term], count: usize) -> DMatrix<f64> {

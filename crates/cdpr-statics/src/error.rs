@@ -67,11 +67,12 @@ pub enum StaticsError {
     },
     /// Fewer cables than free motions: not all coordinates of a pose can be chosen.
     #[error(
-        "{cables} cables for {freedoms} free motions leave {} coordinates of the pose that cannot be chosen: \
+        "{} for {} leave {} of the pose that cannot be chosen: \
          expected as many names in `free` (of x, y, z, roll, pitch, yaw), not {named}; the inverse model, \
          deflection, derivatives, stiffness, modes, capacity, load cycles, workspaces, robustness, \
          calibrations and studies take them",
-        freedoms.saturating_sub(*cables)
+        counted(*cables, "cable"), counted(*freedoms, "free motion"),
+        counted(freedoms.saturating_sub(*cables), "coordinate")
     )]
     FreeCoordinates {
         /// Number n of cables.
@@ -294,10 +295,10 @@ impl Blocked {
         let of = |bound: Bound, name: &str| {
             let cables: Vec<_> =
                 blocked.iter().filter(|b| b.bound == bound).map(|b| (b.index + 1).to_string()).collect();
-            if cables.is_empty() {
-                String::new()
-            } else {
-                format!(", with cables {} at their {name}", cables.join(", "))
+            match &cables[..] {
+                [] => String::new(),
+                [cable] => format!(", with cable {cable} at its {name}"),
+                cables => format!(", with cables {} at their {name}", cables.join(", ")),
             }
         };
         of(Bound::Min, "least") + &of(Bound::Max, "greatest")

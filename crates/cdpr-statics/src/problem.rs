@@ -143,17 +143,28 @@ impl<'a> DirectProblem<'a> {
 /// are a thousand times too long.
 const LONGEST: f64 = 30.0;
 
+/// Greatest length of a cable by its unstrained length.
+const MOST_STRETCH: f64 = 1.1;
+
 /// Questions lengths [m] that are all so much longer than the robot is wide that they must be in another
-/// unit.
+/// unit. Cables whose exits are near to each other may be that long: in mm they would not reach the platform.
 ///
 /// # Errors
 /// [`StaticsError::Invalid`] with what the shortest would be if it were in mm.
 pub fn check_lengths(robot: &Robot, lengths: &[f64]) -> Result<(), StaticsError> {
-    let away = |cable: &RobotCable| (cable.exit_point - robot.cables[0].exit_point).norm();
+    let first = &robot.cables[0];
+    let away = |cable: &RobotCable| (cable.exit_point - first.exit_point).norm();
     let wide = robot.cables.iter().map(away).fold(robot.platform_size(), f64::max);
     let shortest = lengths.iter().copied().fold(f64::INFINITY, f64::min);
-    // One exit point and one anchor point have no width.
-    if wide > 0.0 && shortest.is_finite() && shortest > LONGEST * wide {
+    let reach_in_mm = || {
+        let reach = |length: f64| 1e-3 * MOST_STRETCH * length;
+        let arm = |cable: &RobotCable| (cable.anchor_point - first.anchor_point).norm();
+        let join = |(cable, length): (&RobotCable, &f64)| {
+            away(cable) <= reach(lengths[0]) + reach(*length) + arm(cable)
+        };
+        robot.cables.iter().any(|cable| away(cable) > 0.0) && robot.cables.iter().zip(lengths).all(join)
+    };
+    if shortest.is_finite() && shortest > LONGEST * wide && reach_in_mm() {
         return Err(StaticsError::invalid(
             "lengths".to_owned(),
             format!("{lengths:?}"),

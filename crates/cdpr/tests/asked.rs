@@ -204,3 +204,67 @@ fn a_platform_that_falls_ends_a_simulation_as_it_ends_a_deflection() {
     let (said, code) = questions(&cdpr_in(folder.path(), &simulation.concat()));
     assert!(said.contains("the platform falls from") && code == Some(3), "{said}");
 }
+
+#[test]
+fn answers_of_the_inverse_model_are_cases_with_their_load() {
+    let folder = tempfile::TempDir::new().unwrap();
+    std::fs::write(folder.path().join("poses.csv"), "x_m,y_m,z_m,note\n0.1,0,2,a\n").unwrap();
+    let rests = |robot: &str, more: &[&str], wanted: [f64; 3]| {
+        let first = ["inverse", robot, "--format", "json", "--out", "answer.json", "--overwrite"];
+        let output = cdpr_in(folder.path(), &[&first[..], more].concat());
+        assert!(output.status.success(), "{}", unwrapped(output.stderr));
+        let output = cdpr_in(folder.path(), &["direct", robot, "--from", "answer.json", "--format", "json"]);
+        assert!(output.status.success(), "{}", unwrapped(output.stderr));
+        let found: Value = serde_json::from_slice(&output.stdout).unwrap();
+        let position = &found.get(0).unwrap_or(&found)["position"];
+        for (i, wanted) in wanted.iter().enumerate() {
+            assert!((position[i].as_f64().unwrap() - wanted).abs() < 1e-9, "{position}");
+        }
+    };
+    let load = ["--payload", "300", "--force", "50,-20,10", "--moment", "5,0,0"];
+    rests("cogiro", &[&["--pose", "0,0,2"], &load[..]].concat(), [0.0, 0.0, 2.0]);
+    rests("cogiro", &[&["--poses", "poses.csv"], &load[..]].concat(), [0.1, 0.0, 2.0]);
+    let free = ["--pose", "0.5,0.3,2", "--free", "roll,pitch", "--payload", "5"];
+    rests("four-cables", &free, [0.5, 0.3, 2.0]);
+}
+
+#[test]
+fn a_hoist_hangs_at_the_length_of_its_cable() {
+    let folder = tempfile::TempDir::new().unwrap();
+    let cable = json!({"exit_point": [0, 0, 4], "anchor_point": [0, 0, 0]});
+    let robot = json!({
+        "format": "cdpr-robot/1", "name": "hoist", "gravity": 9.81,
+        "platform": {"mass": 5, "center_of_mass": [0, 0, 0], "point": true},
+        "cable": {"section": 1.6e-5, "linear_density": 0.16, "youngs_modulus": 9e10},
+        "tension_limits": {"min": 1, "max": 3000}, "ground_z": -100, "cables": [cable],
+    });
+    std::fs::write(folder.path().join("hoist.json"), robot.to_string()).unwrap();
+    let hoist = ["hoist.json", "--lengths", "90", "--format", "json"];
+    let output = cdpr_in(folder.path(), &[&["direct"], &hoist[..]].concat());
+    assert!(output.status.success(), "{}", unwrapped(output.stderr));
+    let found: Value = serde_json::from_slice(&output.stdout).unwrap();
+    // A hanging bar is stretched by its load and by half of its own weight.
+    let stretch = 9.81 * (5.0 + 0.5 * 0.16 * 90.0) * 90.0 / (1.6e-5 * 9e10);
+    let z = found["position"][2].as_f64().unwrap();
+    assert!((z - (4.0 - 90.0 - stretch)).abs() < 1e-9, "{z}");
+    let refused = cdpr_in(folder.path(), &["inverse", "hoist.json", "--pose", "0,0,2"]);
+    let said = unwrapped(refused.stderr);
+    assert!(said.contains("1 cable for 3 free motions leave 2 coordinates"), "{said}");
+}
+
+#[test]
+fn what_was_not_tried_is_no_part_of_an_answer() {
+    let tilt = |with: &str| text(cdpr(&["capacity", "cogiro", "--pose", "0,0,2", "--with", with]).stdout);
+    // Towards 45 degrees the platform tilts by 63 degrees.
+    let tried = "may tilt by 90 degrees, the most that is tried, in 4 directions.";
+    assert!(tilt("tilt=4").replace('\n', " ").contains(tried));
+    assert!(tilt("tilt=8").replace('\n', " ").contains("towards 45.0 degrees, the worst of 8 directions."));
+    let plan = ["calibrate", "plan", "caroca", "--region=-2:2:3,-1:1:3,1:2.5:2", "--number", "1"];
+    let known = ["--uncertainty", "a=0.002", "--noise", "position=1e-4,rotation=1e-4"];
+    let work = ["--with", "criterion=mean-position", "--work=-30:0:2,0,1.75"];
+    let output = text(cdpr(&[&plan[..], &known, &work].concat()).stdout);
+    assert!(output.contains("1 pose of CAROCA leaves"), "{output}");
+    assert!(output.contains("1 position of --work left out: not held"), "{output}");
+    let weighed = text(cdpr(&["cable", "density", "--mass", "0.203", "--length", "2"]).stdout);
+    assert_eq!(weighed, "0.101500 kg/m\n");
+}

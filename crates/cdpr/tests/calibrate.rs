@@ -148,8 +148,35 @@ fn a_campaign_gives_a_robot_and_what_is_left_and_a_study_takes_both() {
 }
 
 #[test]
+fn a_position_is_not_known_where_base_and_tracker_may_move_together() {
+    let (folder, path) = campaign();
+    let fit = |unknown: &[&str]| -> Value {
+        let out = folder.path().join(format!("out{}", unknown.len()));
+        let settings = ["--parameters", "a,b", "--noise", NOISE, "--with", "folds=0"];
+        let output = calibrate(&path, &out, &[&settings[..], unknown].concat());
+        serde_json::from_slice(&output.stdout).unwrap_or_else(|_| panic!("{}", unwrapped(output.stderr)))
+    };
+    let known = fit(&[]);
+    assert!(known["position_std_after"].as_f64().unwrap() < 1e-3, "{known}");
+    assert!(known.get("position_depends_on").is_none());
+    // All exits and the tracker moved alike read the same.
+    let moved = fit(&["--unknown", "frame"]);
+    assert!(moved["position_std_after"].is_null() && moved.get("workspace").is_none(), "{moved}");
+    let names = moved["position_depends_on"].as_array().unwrap();
+    assert!(names.contains(&"b1.x".into()) && names.contains(&"frame.r.x".into()), "{names:?}");
+    assert!(!names.contains(&"a1.x".into()), "{names:?}");
+}
+
+#[test]
 fn bad_measurements_are_named_by_line_and_column() {
-    let cases: [(Change, &str); 16] = [
+    let payload = |(i, row): (usize, &mut Vec<String>)| {
+        row.push(if i == 0 { "payload_kg" } else { "-500" }.to_owned());
+    };
+    let cases: [(Change, &str); 17] = [
+        (
+            &|cells| cells.iter_mut().enumerate().for_each(payload),
+            "line 2, column payload_kg: -500: expected a payload above -180 kg, the platform's mass",
+        ),
         (&|cells| cells[3][2] = "NaN".to_owned(), "line 4, column l3_m: `NaN`: expected a finite number"),
         (&|cells| cells[5][0] = "4100".to_owned(), "line 6, column l1_m: 4100: expected a length in m"),
         (&|cells| cells[0][1] = "l9_m".to_owned(), "column l9_m: expected one of the 8 cables of the robot"),

@@ -38,7 +38,7 @@ fn typed_numbers_in_another_unit_are_questioned_and_taken() {
     asks(
         &map("1200", "mm"),
         &[
-            ("pose 1 of the map is (-3.5, -2, 1200) m", "(-3.5, -2, 1.2) m, if it is in mm"),
+            ("a corner of the map is (-3.5, -2, 1200) m", "(-3.5, -2, 1.2) m, if it is in mm"),
             ("the map is empty", ""),
         ],
     );

@@ -126,8 +126,11 @@ pub struct CalibrationSummary {
     /// Mean standard deviation of the position at the poses measured, per coordinate, before [m]; none
     /// without prior.
     pub position_std_before: Option<f64>,
-    /// The same after [m].
+    /// The same after [m]; none where unknowns that nothing identifies displace the platform.
     pub position_std_after: Option<f64>,
+    /// Unknowns that nothing identifies, where they displace the platform.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub position_depends_on: Vec<String>,
     /// Steps of the search.
     pub steps: usize,
     /// Whether it ended at a minimum, and what shows that it is the least.

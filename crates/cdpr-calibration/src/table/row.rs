@@ -4,7 +4,7 @@ use crate::campaign::{Noise, Quantity, Reading, Row, STD_EXPECTED, is_std};
 use crate::error::CalibrationError;
 use crate::sensor_error::size;
 use crate::table::columns::{Column, Named};
-use cdpr_robot::{Axis, Robot, Rotation3, rotation_in_order};
+use cdpr_robot::{Axis, Robot, Rotation3, rotation_in_order, short};
 use cdpr_statics::Load;
 
 /// The noise that is stated for all rows.
@@ -104,9 +104,19 @@ impl Cells<'_> {
     }
 
     fn mass(&self) -> Result<Option<f64>, CalibrationError> {
-        match self.find(Column::Mass, false) {
-            Some((mass, named)) if mass <= 0.0 => Err(self.refused(named, mass, "a mass above zero [kg]")),
-            found => Ok(found.map(|(mass, _)| mass)),
+        let mass = match self.find(Column::Mass, false) {
+            Some((mass, named)) if mass <= 0.0 => {
+                return Err(self.refused(named, mass, "a mass above zero [kg]"));
+            }
+            found => found.map(|(mass, _)| mass),
+        };
+        let whole = mass.unwrap_or(self.robot.platform.mass);
+        match self.find(Column::Payload, false) {
+            Some((payload, named)) if payload <= -whole => {
+                let expected = format!("a payload above -{} kg, the platform's mass", short(whole));
+                Err(self.refused(named, payload, expected))
+            }
+            _ => Ok(mass),
         }
     }
 

@@ -132,6 +132,12 @@ pub(crate) fn about_poses(robot: &Robot, name: &str, poses: &[Pose]) {
     ask([Doubt { quantity, value: format!("{}{others}", doubt.value), ..doubt }]);
 }
 
+/// Asks about the first odd corner of a region, which is called `name`.
+pub(crate) fn about_corners(robot: &Robot, name: &str, corners: &[Pose]) {
+    let name = format!("a corner of {name}");
+    ask(corners.iter().find_map(|pose| odd_pose(robot, &name, pose)));
+}
+
 /// Asks about a load.
 pub(crate) fn about_load(robot: &Robot, load: &Load) {
     ask(plausible::load(robot, load.payload, &load.wrench));

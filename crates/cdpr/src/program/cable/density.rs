@@ -38,6 +38,10 @@ pub(super) fn run(settings: &Settings) -> Result<(), ProgramError> {
     )?;
     questions::ask(plausible::linear_density(found.value));
     let found = Found { linear_density: found.value, error: found.error, unit: "kg/m" };
-    let text = |found: &Found| println!("{:.6} kg/m +- {:.6} kg/m", found.linear_density, found.error);
+    let text = |found: &Found| match found.error {
+        // Without errors nothing bounds the density.
+        0.0 => println!("{:.6} kg/m", found.linear_density),
+        error => println!("{:.6} kg/m +- {error:.6} kg/m", found.linear_density),
+    };
     Ok(settings.printing.format().print(&found, text)?)
 }

@@ -176,6 +176,7 @@ fn print(summary: &CalibrationSummary) {
     let all = || summary.parameters.iter().chain(&summary.sensors);
     let (unknowns, identifiable) = (all().count(), all().filter(|(_, of)| of.identifiable).count());
     let (robot, rows) = (shown(&summary.robot), counted(summary.rows, "row"));
+    let have = if summary.rows == 1 { "has" } else { "have" };
     let mut sentences: Vec<String> = summary
         .position_std_after
         .iter()
@@ -185,10 +186,17 @@ fn print(summary: &CalibrationSummary) {
             format!("{robot}: the position is known to {} mm a coordinate{before}.", digits(1e3 * after))
         })
         .collect();
+    if let [first, others @ ..] = &summary.position_depends_on[..] {
+        let others = if others.is_empty() { String::new() } else { format!(" and {} more", others.len()) };
+        sentences.push(format!(
+            "{robot}: the position is not known: it depends on {first}{others}, which neither measurements \
+             nor priors identify."
+        ));
+    }
     let unknowns = counted(unknowns, "unknown");
     sentences.push(format!("{identifiable} of {unknowns} of {robot} are identifiable."));
     sentences.push(format!(
-        "The {rows} have a chi-square of {} for {} degrees of freedom.",
+        "The {rows} {have} a chi-square of {} for {} degrees of freedom.",
         significant(summary.chi_square, 4),
         summary.degrees_of_freedom
     ));

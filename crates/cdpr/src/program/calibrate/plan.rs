@@ -158,7 +158,8 @@ pub(super) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
             .collect();
         settings.overwrite.write(out, format!("{}\n{}\n", poses::COLUMNS.join(","), lines.join("\n")))?;
     }
-    let output = Plan::new(&poses, refused, found, accuracy);
+    let left_out = work.len() - worked;
+    let output = Plan { work_left_out: left_out, ..Plan::new(&poses, refused, found, accuracy) };
     let text = |output: &Plan| print_plan(&robot, output, settings.details.details);
     settings.format.print(&output, text)?;
     Ok(ending(output.candidates, all))
@@ -170,6 +171,8 @@ struct Plan {
     /// Poses that the robot holds.
     candidates: usize,
     refused: BTreeMap<&'static str, usize>,
+    /// Positions where the robot works that it does not hold, and that no figure is of.
+    work_left_out: usize,
     /// x, y, z [m], qw, qx, qy, qz.
     poses: Vec<[f64; 7]>,
     plan: Left,
@@ -212,6 +215,7 @@ impl Plan {
         Self {
             candidates: poses.len(),
             refused,
+            work_left_out: 0,
             poses: found.poses.iter().map(|pose| poses::pose_numbers(&poses[*pose])).collect(),
             plan: found.quality.into(),
             random: found.random.into(),
@@ -234,17 +238,18 @@ fn reached(robot: &Robot, output: &Plan, needed: Option<usize>) -> String {
 
 /// What the planned poses leave, compared with other sets.
 fn answer(robot: &Robot, output: &Plan) -> String {
-    let (count, name) = (output.poses.len(), shown(&robot.name));
+    let (poses, name) = (counted(output.poses.len(), "pose"), shown(&robot.name));
+    let leave = if output.poses.len() == 1 { "leaves" } else { "leave" };
     let at_work = |of: &Left| of.mean_at_work.map(|std| significant(1e3 * std, 3));
     let sets = [&output.plan, &output.random, &output.outermost];
     match sets.map(at_work) {
-        [Some(plan), Some(random), Some(outermost)] => format!(
-            "{count} poses of {name} leave {plan} mm at work (random {random}, outermost {outermost})."
-        ),
+        [Some(plan), Some(random), Some(outermost)] => {
+            format!("{poses} of {name} {leave} {plan} mm at work (random {random}, outermost {outermost}).")
+        }
         _ => {
             let [plan, random, outermost] = sets.map(|of| significant(100.0 * of.parameters, 3));
             format!(
-                "{count} poses of {name} leave {plan} % of parameters' std (random {random}, outermost \
+                "{poses} of {name} {leave} {plan} % of parameters' std (random {random}, outermost \
                  {outermost})."
             )
         }
@@ -257,6 +262,9 @@ fn print_plan(robot: &Robot, output: &Plan, details: bool) {
     println!("chosen of {}", counted(output.candidates, "pose"));
     for (reason, count) in &output.refused {
         println!("{} left out: {reason}", counted(*count, "pose"));
+    }
+    if output.work_left_out > 0 {
+        println!("{} of --work left out: not held", counted(output.work_left_out, "position"));
     }
     let mut rows = table(&[
         "set of poses",

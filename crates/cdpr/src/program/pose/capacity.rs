@@ -11,7 +11,7 @@ use cdpr_assess::{
     Block, CableDistance, Capacity, Clearance, Figure, PlatformDistance, TiltTowards, WrenchSet, capacity_at,
     clearance_under, tilt_at,
 };
-use cdpr_robot::{Pose, Robot, significant};
+use cdpr_robot::{Pose, Robot, counted, significant};
 use cdpr_statics::capacity::tension_margin;
 use cdpr_statics::{Load, StaticsError, WantedPose};
 use serde::Serialize;
@@ -85,7 +85,8 @@ struct Towards {
     /// The direction in which the upward axis leans, from x to y.
     azimuth_deg: f64,
     angle_deg: f64,
-    /// The limit next to the tensions there; absent where nothing ends it below a right angle.
+    /// The limit next to the tensions there; absent where nothing ends it below a right angle, or where the
+    /// limit is not found.
     #[serde(skip_serializing_if = "Option::is_none")]
     blocking: Option<Blocking>,
 }
@@ -289,9 +290,15 @@ impl Answer {
     fn sentences(&self, heading: &str) -> Vec<String> {
         let least = self.tilt.iter().min_by(|a, b| a.angle_deg.total_cmp(&b.angle_deg));
         let tilt = least.map(|towards| {
+            let tried = counted(self.tilt.len(), "direction");
             let [angle, azimuth] =
                 [(towards.angle_deg, 2), (towards.azimuth_deg, 1)].map(|(x, n)| decimal(x, n));
-            format!("{heading} may tilt by {angle} degrees in any direction, least towards {azimuth}.")
+            if towards.angle_deg < 90.0 {
+                let least = format!("towards {azimuth} degrees, the worst of {tried}");
+                format!("{heading} may tilt by {angle} degrees {least}.")
+            } else {
+                format!("{heading} may tilt by 90 degrees, the most that is tried, in {tried}.")
+            }
         });
         let payload = &self.payload.recomputed;
         let limit = |of: &Blocking| of.words.split(',').next().unwrap_or_default().to_owned();
@@ -342,9 +349,9 @@ impl Answer {
         }
         let mut rows = table(&["tilt towards [deg]", "reached [deg]", "ended by"]);
         for Towards { azimuth_deg, angle_deg, blocking } in &self.tilt {
-            let ended =
-                blocking.as_ref().map(|blocking| blocking.words.as_str()).unwrap_or_default().to_owned();
-            rows.add_row([decimal(*azimuth_deg, 1), decimal(*angle_deg, 2), ended]);
+            let unknown = if *angle_deg < 90.0 { "not found" } else { "" };
+            let ended = blocking.as_ref().map_or(unknown, |blocking| blocking.words.as_str());
+            rows.add_row([decimal(*azimuth_deg, 1), decimal(*angle_deg, 2), ended.to_owned()]);
         }
         println!("{rows}");
     }

@@ -66,6 +66,8 @@ struct Case {
     payload: Option<f64>,
     /// Start of the search: position, or position and quaternion, three or seven numbers.
     pose: Option<Vec<f64>>,
+    /// Where the inverse model has found a rest with free coordinates: the start then.
+    found_pose: Option<Vec<f64>>,
     certify: bool,
     tensions: IgnoredAny,
     exit_tensions: IgnoredAny,
@@ -77,6 +79,12 @@ struct Case {
     out_of_limits: IgnoredAny,
     jump: IgnoredAny,
     questions: IgnoredAny,
+    given: IgnoredAny,
+    roll_pitch_yaw_deg: IgnoredAny,
+    loops: IgnoredAny,
+    iterations: IgnoredAny,
+    residual: IgnoredAny,
+    others: IgnoredAny,
     /// Why the inverse model has no lengths.
     error: Option<CaseError>,
 }
@@ -144,6 +152,11 @@ impl Settings {
 }
 
 impl Case {
+    /// Where the search starts.
+    fn start(&self) -> Option<&Vec<f64>> {
+        self.found_pose.as_ref().or(self.pose.as_ref())
+    }
+
     /// Asks about lengths, mass, load and start.
     fn question(&self, robot: &Robot) {
         questions::about_lengths(robot, &self.lengths);
@@ -151,7 +164,7 @@ impl Case {
         let mass = self.mass.filter(|mass| *mass > 0.0);
         questions::ask(mass.and_then(|mass| plausible::mass(robot, "mass", mass)));
         questions::about_load(robot, &self.load());
-        if let Some(start) = self.pose.as_ref().and_then(|numbers| poses::pose_of(numbers).ok()) {
+        if let Some(start) = self.start().and_then(|numbers| poses::pose_of(numbers).ok()) {
             questions::about_pose(robot, "pose", &start);
         }
     }
@@ -233,7 +246,7 @@ fn solve(robot: &Robot, case: &Case, name: &str, prove: bool) -> Result<Answer, 
         });
     }
     let load = case.load();
-    let start = match &case.pose {
+    let start = match case.start() {
         Some(numbers) => poses::pose_of(numbers).map_err(|_| StaticsError::Invalid {
             field: "pose".to_owned(),
             value: format!("{numbers:?}"),
@@ -251,7 +264,7 @@ fn solve(robot: &Robot, case: &Case, name: &str, prove: bool) -> Result<Answer, 
     check_lengths(&robot, &case.lengths)?;
     let problem = DirectProblem::new(&robot, &case.lengths, &load)?;
     let solution = problem.direct(DirectStart::Pose(&start)).inspect_err(|_| {
-        if case.pose.is_some() {
+        if case.start().is_some() {
             questions::ask(plausible::lengths_at(&robot, &case.lengths, &start));
         }
     })?;

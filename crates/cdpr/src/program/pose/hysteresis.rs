@@ -1,6 +1,6 @@
 //! `cdpr hysteresis`: where a payload that is put on and taken off again leaves the platform.
 
-use crate::program::answer::{OutOfLimits, vector};
+use crate::program::answer::{OutOfLimits, decimal, vector};
 use crate::program::arguments::poses::PoseArguments;
 use crate::program::arguments::{
     self, FigureArgument, FreeArguments, Preference, Printing, RobotArgument, With, figure, number, payload,
@@ -129,10 +129,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     };
     let found = Found { pulleys: Pulleys::new(friction, &cycle), ..Found::new(&robot, &laws, &cycle) };
     settings.printing.format().print(&found, |found| print(&robot, found))?;
-    // The work of gravity on the payload on its way down, of which 1e-9 is rounding.
-    let work =
-        settings.payload * robot.gravity.magnitude() * 1e-3 * Vector3::from(found.deflection_mm).norm();
-    if found.cables.iter().any(|cable| cable.dissipated_j < -1e-9 * work) {
+    if gives_energy(&robot, settings.payload, &cycle) {
         eprintln!(
             "warning: the loop of a cable runs the wrong way round and gives energy: in its range of tension \
              the record's unloading curve is softer than its loading curve, as it can be far below the \
@@ -143,6 +140,17 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
         file.write(&settings.printing.overwrite, &draw(&robot, &cycle, &found)?)?;
     }
     Ok(OutOfLimits::ending(&found.out_of_limits))
+}
+
+/// Whether a cable gives more energy than rounding: 1e-9 of the work of gravity on the payload on its way
+/// down, and 1e-11 of the elastic energy of the cable.
+fn gives_energy(robot: &Robot, payload: f64, cycle: &LoadCycle) -> bool {
+    let work = payload * robot.gravity.magnitude() * cycle.deflection().norm();
+    let elastic = |i: usize| {
+        cycle.tensions[i][1].powi(2) * cycle.lengths[i] / robot.cables[i].properties.axial_stiffness()
+    };
+    let mut energies = cycle.dissipated.iter().enumerate();
+    energies.any(|(i, energy)| *energy < -1e-9 * work - 1e-11 * elastic(i))
 }
 
 /// The hysteresis of each cable.
@@ -279,7 +287,7 @@ impl Pulleys {
         ]);
         for (i, at) in self.cables.iter().enumerate() {
             let both = |k: usize| format!("{:.2}, {:.2}", at.platform_tension_n[k], at.winch_tension_n[k]);
-            let slips = format!("{:.2}, {:.2}", at.slip[1], at.slip[2]);
+            let slips = format!("{}, {}", decimal(at.slip[1], 2), decimal(at.slip[2], 2));
             rows.add_row([
                 (i + 1).to_string(),
                 format!("{:.1}", at.wrap_deg[1]),

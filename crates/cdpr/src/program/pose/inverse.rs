@@ -51,7 +51,7 @@ pub(crate) fn run(Settings { at, free, with }: &Settings) -> Result<Ending, Prog
     if !free.free.is_empty() {
         let solve = |robot: &Robot, pose: &Pose| {
             let wanted = WantedPose { free: &free.free, loops, ..pose.into() };
-            Ok(Rest::new(robot, &free_solutions(robot, wanted, &load)?))
+            Ok(Rest::new(robot, &load, &free_solutions(robot, wanted, &load)?))
         };
         return at.answer(solve, Rest::print);
     }
@@ -82,11 +82,41 @@ impl Row for OnPath {
     }
 }
 
+/// The load that the lengths are for, without what is zero: with it an answer is a case of `cdpr direct`.
+#[derive(Serialize)]
+struct Borne {
+    /// Mass [kg].
+    #[serde(skip_serializing_if = "is_zero")]
+    payload: f64,
+    /// Components in the base frame [N].
+    #[serde(skip_serializing_if = "are_zero")]
+    force: [f64; 3],
+    /// Components about P in the base frame [N m].
+    #[serde(skip_serializing_if = "are_zero")]
+    moment: [f64; 3],
+}
+
+impl From<&Load> for Borne {
+    fn from(Load { payload, wrench }: &Load) -> Self {
+        Self { payload: *payload, force: wrench.force.into(), moment: wrench.moment.into() }
+    }
+}
+
+fn is_zero(value: &f64) -> bool {
+    *value == 0.0
+}
+
+fn are_zero(values: &[f64; 3]) -> bool {
+    values.iter().all(is_zero)
+}
+
 /// The solutions with free coordinates.
 #[derive(Serialize)]
 struct Rest {
     #[serde(flatten)]
     first: Resting,
+    #[serde(flatten)]
+    load: Borne,
     /// Further solutions: those within the limits come first, and of them stable ones.
     others: Vec<Resting>,
 }
@@ -204,9 +234,10 @@ impl Row for Rest {
 }
 
 impl Rest {
-    fn new(robot: &Robot, FreeSolutions { first, others }: &FreeSolutions) -> Self {
+    fn new(robot: &Robot, load: &Load, FreeSolutions { first, others }: &FreeSolutions) -> Self {
         Self {
             first: Resting::new(robot, first),
+            load: load.into(),
             others: others.iter().map(|other| Resting::new(robot, other)).collect(),
         }
     }
@@ -241,6 +272,8 @@ struct Answer {
     out_of_limits: Vec<OutOfLimits>,
     /// Force (fx, fz) on each cable at its anchor point, in its vertical plane.
     cable_forces: Vec<[f64; 2]>,
+    #[serde(flatten)]
+    load: Borne,
     #[serde(flatten)]
     stays: Stays,
     report: Report,
@@ -283,6 +316,7 @@ impl Answer {
             exit_tensions: solution.equilibrium.exit_tensions(robot, &solution.lengths),
             out_of_limits: OutOfLimits::all(robot, &solution.lengths, &[&solution.equilibrium]),
             cable_forces: answer::forces(&solution.equilibrium),
+            load: load.into(),
             stays: Stays::new(&problem.stability(&solution.equilibrium)?),
             report: Report {
                 iterations: solution.iterations,

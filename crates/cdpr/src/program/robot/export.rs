@@ -110,7 +110,7 @@ fn table(settings: &Settings) -> Result<(), ProgramError> {
     };
     let robot = questions::open_robot(settings.robot.path())?;
     let grid = region.grid(&robot)?;
-    questions::about_poses(&robot, "the table", &grid.corners());
+    questions::about_corners(&robot, "the table", &grid.corners());
     let coordinates = Axis::ALL.map(|axis| grid.axis(axis).coordinates());
     let made = patiently("solving", || correction_table(&robot, &rotation, &coordinates))?;
     let of = format!("{} at {}", shown(&robot.name), counted(grid.count(), "position"));

@@ -6,7 +6,7 @@ use crate::program::error::ProgramError;
 use crate::program::output::{Ending, print_sentence};
 use crate::program::questions;
 use cdpr_exchange::{ForeignFile, ImportOptions, Imported, NoteKind, import};
-use cdpr_robot::{TensionLimits, plausible, shown};
+use cdpr_robot::{TensionLimits, counted, plausible, shown};
 use cdpr_study::{InputKind, StudyError, open_cable, other_kind, read_text};
 use std::path::{Path, PathBuf};
 
@@ -76,7 +76,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
         Some(out) => {
             settings.overwrite.write(out, &text)?;
             lines.iter().for_each(|line| print_sentence(line));
-            println!("{}: {}, {} cables", out.display(), shown(&robot.name), robot.cables.len());
+            println!("{}: {}, {}", out.display(), shown(&robot.name), counted(robot.cables.len(), "cable"));
         }
         None => {
             println!("{}", text.trim_end());

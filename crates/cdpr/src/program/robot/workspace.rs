@@ -173,7 +173,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     let wanted = Wanted::new(&settings.with.clone().unwrap_or_default(), settings.marker)?;
     let robot = settings.preference.open_robot(settings.robot.path())?;
     let grid = settings.region.grid(&robot)?;
-    questions::about_poses(&robot, "the map", &grid.corners());
+    questions::about_corners(&robot, "the map", &grid.corners());
     questions::about_load(&robot, &settings.load.load());
     let tolerances = settings.errors.model(&robot)?;
     wanted.check(settings, &grid)?;
