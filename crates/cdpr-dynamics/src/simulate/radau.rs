@@ -208,7 +208,8 @@ impl<S: Equations> Radau<S> {
         Some(newton)
     }
 
-    /// The stages minus the state, the iterations and their rate; where they do not converge, the last stages.
+    /// The stages minus the state, the iterations and their rate; the last stages where they do not
+    /// converge.
     fn stages(
         &mut self,
         equations: &S,
