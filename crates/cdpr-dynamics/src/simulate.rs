@@ -68,7 +68,8 @@ pub fn simulate_controlled(
     fine.difference = fine.difference_to(&coarse);
     let size = problem.robot().platform_size();
     for elements in &CHAINS[2..] {
-        let [differs, moves] = [&fine.difference, &fine.motion()].map(|by| by.position + size * by.rotation);
+        let [differs, moves] =
+            [&fine.difference, &fine.motion()].map(|by| by.position.max(size * by.rotation));
         let has_chain = fine.slack.contains(&true) && settings.discretization.is_none();
         if !has_chain || differs <= (ENOUGH[0] * moves).max(ENOUGH[1]) {
             break;
@@ -84,4 +85,4 @@ const CHAINS: [usize; 4] = [10, 20, 40, 80];
 
 /// Chains are fine enough where those of half as many elements move the platform otherwise by this share of
 /// its motion, or by this length [m].
-const ENOUGH: [f64; 2] = [2e-3, 2e-4];
+const ENOUGH: [f64; 2] = [2e-3, 3e-4];

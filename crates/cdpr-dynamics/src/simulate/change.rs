@@ -103,25 +103,37 @@ impl System<'_> {
         self.assemble(parts, state);
     }
 
-    /// Puts cables on other elements.
+    /// Whether all cables are on these elements, and those that went slack are damped.
+    pub(super) fn is_refined(&self, elements: Discretization, slack: &[bool]) -> bool {
+        self.cables.iter().all(|cable| {
+            let Some(mesh) = &cable.mesh else { return true };
+            let is_damped = cable.material.damping >= cable.material.damping_of_shocks(mesh, cable.length);
+            elements.is_of(mesh) && (is_damped || !slack[cable.index])
+        })
+    }
+
+    /// Puts all cables on other elements, and damps the shocks of those that went slack.
     pub(super) fn refine(
         &mut self,
-        (indices, time): (&[usize], f64),
-        Discretization { elements, degree }: Discretization,
+        time: f64,
+        elements: Discretization,
+        slack: &[bool],
         state: &mut Vec<f64>,
     ) {
         let mut parts = self.parts(state);
-        let rule = Arc::new(Rule::new(degree));
+        let chain = Mesh::equal(&Arc::new(Rule::new(elements.degree)), elements.elements);
         for (place, part) in parts.iter_mut().enumerate() {
-            if indices.contains(&self.cables[place].index) {
-                let cable = &self.cables[place];
-                let mesh = Mesh::equal(&rule, elements);
-                let at = self.instant(time, state, cable);
-                *part = cable.on(&mesh, &at, self.own(cable, state));
-                let cable = &mut self.cables[place];
-                cable.material.resist_shocks(&rule, at.length.0 / elements as f64);
-                cable.mesh = Some(mesh);
+            let cable = &self.cables[place];
+            let Some(mesh) = &cable.mesh else { continue };
+            if !elements.is_of(mesh) {
+                *part = cable.on(&chain, &self.instant(time, state, cable), self.own(cable, state));
             }
+            let cable = &mut self.cables[place];
+            if slack[cable.index] {
+                let least = cable.material.damping_of_shocks(&chain, cable.length);
+                cable.material.damping = cable.material.damping.max(least);
+            }
+            cable.mesh = Some(chain.clone());
         }
         self.assemble(parts, state);
     }

@@ -78,15 +78,15 @@ pub(super) struct Pull {
 }
 
 impl Material<'_> {
-    /// Raises the damping to the least one of straight elements of a length [m]. A cable that goes slack and
-    /// taut again has shocks, which no mesh resolves; without damping their waves stay for ever (the
+    /// The least damping [s] of straight elements of a cable of a length [m] that goes slack. Such a cable
+    /// has shocks when it is taut again, which no mesh resolves; without damping their waves stay for ever (the
     /// artificial viscosity of J. von Neumann, R. D. Richtmyer, *A method for the numerical calculation of
     /// hydrodynamic shocks*, 1950). It vanishes with the length of the elements.
-    pub(super) fn resist_shocks(&mut self, rule: &Rule, length: f64) {
-        if rule.degree == 1 && self.density > 0.0 {
-            let passing = length * (self.density / self.cable.axial_stiffness).sqrt();
-            self.damping = self.damping.max(passing);
+    pub(super) fn damping_of_shocks(&self, mesh: &Mesh, length: f64) -> f64 {
+        if mesh.rule.degree > 1 {
+            return 0.0;
         }
+        length / mesh.elements() as f64 * (self.density / self.cable.axial_stiffness).sqrt()
     }
 
     /// Tension where `r' = slope` and its rate is `rate` [1/s].

@@ -56,6 +56,8 @@ const P: [[f64; 3]; 3] = [
 ];
 
 const MOST_ITERATIONS: usize = 6;
+/// Linearizations within a step before it is halved.
+const MOST_LINEARIZATIONS: usize = 2;
 /// Newton's method ends at this share of the error that is accepted.
 const NEWTON_TOLERANCE: f64 = 0.01;
 const LEAST_FACTOR: f64 = 0.2;
@@ -90,6 +92,9 @@ pub struct Work {
     pub factorizations: usize,
 }
 
+/// States of the three stages of a step, minus that at its begin.
+type Stages = [Vec<f64>; 3];
+
 /// The step [s] and the factors of its two matrices.
 type Factors<L> = (f64, <L as Linearization>::Factors<f64>, <L as Linearization>::Factors<Complex<f64>>);
 
@@ -117,6 +122,8 @@ impl<S: Equations> Radau<S> {
     /// One step, not beyond `until` [s].
     pub(super) fn advance(&mut self, equations: &S, until: f64) -> Result<Step, Stalled> {
         let mut was_rejected = false;
+        let mut tried = None;
+        let (mut linearized, mut has_failed) = (0, false);
         loop {
             let left = until - self.time;
             let h = left / (left / self.step - 1e-9).ceil().max(1.0);
@@ -127,15 +134,24 @@ impl<S: Equations> Radau<S> {
                 self.step = 0.5 * h;
                 continue;
             };
-            let solved = self.stages(equations, &newton, h);
-            let Some((stages, iterations, rate)) = solved else {
-                if self.is_current {
-                    self.step = 0.5 * h;
-                    self.newton = Some(newton);
-                } else {
-                    self.newton = None;
+            let start = tried.take().unwrap_or_else(|| self.guess(h));
+            let (stages, iterations, rate) = match self.stages(equations, &newton, h, start) {
+                Ok(solved) => solved,
+                Err(last) => {
+                    self.work.rejected += 1;
+                    has_failed = true;
+                    if let (Some(last), true) = (last, linearized < MOST_LINEARIZATIONS) {
+                        linearized += 1;
+                        self.newton = Some(self.linearized_at(equations, h, &last[1]));
+                        tried = Some(last);
+                    } else if self.is_current {
+                        (self.step, linearized) = (0.5 * h, 0);
+                        self.newton = Some(newton);
+                    } else {
+                        self.newton = None;
+                    }
+                    continue;
                 }
-                continue;
             };
             let mut error = self.error(equations, &newton, &stages, h, false);
             if error > 1.0 && was_rejected {
@@ -155,7 +171,8 @@ impl<S: Equations> Radau<S> {
             self.newton = (!renew).then_some(newton);
             self.is_current = false;
             if renew || !(0.9..=1.2).contains(&factor) {
-                self.step = h * factor.min(GREATEST_FACTOR);
+                // A step that Newton's method hardly managed is not followed by a longer one.
+                self.step = h * factor.min(if has_failed { 1.0 } else { GREATEST_FACTOR });
             }
             return Ok(self.accept(equations, h, stages, error));
         }
@@ -191,16 +208,17 @@ impl<S: Equations> Radau<S> {
         Some(newton)
     }
 
-    /// The stages minus the state, the iterations and their rate.
+    /// The stages minus the state, the iterations and their rate; the last stages where they do not
+    /// converge.
     fn stages(
         &mut self,
         equations: &S,
         newton: &Newton<S::Linearization>,
         h: f64,
-    ) -> Option<([Vec<f64>; 3], usize, f64)> {
+        mut z: Stages,
+    ) -> Result<(Stages, usize, f64), Option<Stages>> {
         let (n, scale) = (self.state.len(), equations.scale());
-        let (_, real, complex) = newton.factors.as_ref()?;
-        let mut z = self.guess(h);
+        let Some((_, real, complex)) = &newton.factors else { return Err(None) };
         let mut w = combined(&TI, &z);
         let (mut before, mut rate) = (None, 0.0_f64);
         for iteration in 1..=MOST_ITERATIONS {
@@ -210,7 +228,7 @@ impl<S: Equations> Radau<S> {
             });
             self.work.evaluations += 3;
             if slopes.iter().flatten().any(|slope| !slope.is_finite()) {
-                return None;
+                return Err(None);
             }
             let slopes = combined(&TI, &slopes);
             let right: Vec<f64> = (0..n).map(|i| slopes[0][i] - REAL / h * w[0][i]).collect();
@@ -237,21 +255,29 @@ impl<S: Equations> Radau<S> {
                     || rate >= 1.0
                     || f64::powi(rate, left) / (1.0 - rate) * norm > NEWTON_TOLERANCE
                 {
-                    return None;
+                    return Err(norm.is_finite().then_some(z));
                 }
             } else if !norm.is_finite() {
-                return None;
+                return Err(None);
             }
             if norm == 0.0 || (before.is_some() && rate / (1.0 - rate) * norm < NEWTON_TOLERANCE) {
-                return Some((z, iteration, rate));
+                return Ok((z, iteration, rate));
             }
             before = Some(norm);
         }
-        None
+        Err(Some(z))
+    }
+
+    /// The linearization where Newton's method came to, at the second of its stages: where cables go slack or
+    /// taut within a step, that at its begin does not serve.
+    fn linearized_at(&mut self, equations: &S, h: f64, stage: &[f64]) -> Newton<S::Linearization> {
+        self.is_current = true;
+        let state: Vec<f64> = self.state.iter().zip(stage).map(|(y, z)| y + z).collect();
+        Newton { at: equations.linearize(self.time + C[1] * h, &state), factors: None }
     }
 
     /// Where the polynomial of the last step leads.
-    fn guess(&self, h: f64) -> [Vec<f64>; 3] {
+    fn guess(&self, h: f64) -> Stages {
         let n = self.state.len();
         let Some((last, stages, _)) = &self.last else { return std::array::from_fn(|_| vec![0.0; n]) };
         let share = |k: usize, x: f64| P[k][0] * x + P[k][1] * x * x + P[k][2] * x * x * x;

@@ -146,11 +146,11 @@ struct Run<'a> {
     places: Vec<(f64, Vector3<f64>)>,
     /// Energy that there should be [J].
     before: f64,
-    /// Elements of cables that go slack, where they get others.
+    /// Elements of all cables once one goes slack, where they get others.
     slack: Option<Discretization>,
 }
 
-/// The motion with one discretization, and with another one of cables that go slack.
+/// The motion with one discretization, and with another one from the step on in which a cable goes slack.
 pub(super) fn run(
     Wanted { problem, rest, events, settings, control }: Wanted,
     (discretization, slack): (Discretization, Option<Discretization>),
@@ -252,24 +252,15 @@ impl Run<'_> {
         self.series.energy.given += change;
     }
 
-    /// Puts cables that went slack on the elements for that.
+    /// Puts all cables on the elements for slack ones once one is.
     fn refine(&mut self) {
-        let Some(elements) = self.slack else { return };
-        let found = &self.series;
-        let indices: Vec<usize> = self
-            .system
-            .cables
-            .iter()
-            .filter(|cable| found.slack[cable.index] && cable.mesh.is_some())
-            .map(|cable| cable.index)
-            .filter(|index| found.discretizations[*index] != elements)
-            .collect();
-        if indices.is_empty() {
+        let (Some(elements), slack, time) = (self.slack, self.series.slack.clone(), self.radau.time) else {
             return;
+        };
+        if slack.contains(&true) && !self.system.is_refined(elements, &slack) {
+            self.restart(|system, _, state| system.refine(time, elements, &slack, state));
+            self.count_elements();
         }
-        let time = self.radau.time;
-        self.restart(|system, _, state| system.refine((&indices, time), elements, state));
-        self.count_elements();
     }
 
     fn count_elements(&mut self) {

@@ -28,6 +28,11 @@ impl Discretization {
         Self { elements, degree: 1 }
     }
 
+    /// Whether a mesh is this one.
+    pub(super) fn is_of(self, mesh: &Mesh) -> bool {
+        (self.elements, self.degree) == (mesh.elements(), mesh.rule.degree)
+    }
+
     /// One that is coarser.
     pub(super) fn coarser(self) -> Self {
         let Self { elements, degree } = self;
@@ -49,9 +54,9 @@ pub struct Settings {
     /// Ratio τ of the viscous to the elastic modulus of the cables [s].
     pub damping: f64,
     /// Elements of each cable. Without, a cable has [`Discretization::TAUT`], or more of them where its
-    /// tension at rest needs more, and a chain of straight elements from the step on in which it goes slack.
-    /// The chain has 20 elements; 40 or 80 where half as many move the platform otherwise by more than 0.2 %
-    /// of its motion and more than 0.2 mm.
+    /// tension at rest needs more. From the step on in which one goes slack, all are chains of straight
+    /// elements: 20; 40 or 80 where half as many move the platform otherwise by more than 0.2 % of its motion
+    /// and more than 0.3 mm.
     pub discretization: Option<Discretization>,
     /// Error of a step that is accepted, as a position [m]; 20 times as much with chains, whose own error is
     /// far greater.
@@ -143,7 +148,6 @@ impl Settings {
         let density = at_rest.linear_density;
         let cable = Cable { guide: None, ..free.cable };
         let mut material = Material { cable, density, damping: self.damping, relaxing: None };
-        material.resist_shocks(rule, free.unstrained_length / elements as f64);
         let end = rest.pose.position + at_rest.lever;
         let lift = |x: f64, z: f64| at_rest.axes * Vector3::new(x, 0.0, z);
         let last = if whole.is_slack_and_weightless() { None } else { Some(free.end_position()) };
@@ -176,6 +180,7 @@ impl Settings {
         });
         let mut own = Vec::new();
         if let Some(mesh) = &mesh {
+            material.damping = material.damping.max(material.damping_of_shocks(mesh, free.unstrained_length));
             own.extend(lead.iter().map(|_| 0.0));
             let shares = mesh.shares();
             own.extend(shares[1..shares.len() - 1].iter().flat_map(|share| <[f64; 3]>::from(point(*share))));
