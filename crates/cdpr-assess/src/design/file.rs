@@ -1,7 +1,7 @@
 //! The design file, `cdpr-design/1`: what of a robot may change, and for which poses, loads and purpose.
 
 use cdpr_robot::Coordinate;
-use cdpr_study::{Output, PosesSpec};
+use cdpr_study::{IndexMap, InputSpec, Output, PosesSpec};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -33,6 +33,10 @@ pub struct DesignFile {
     /// m].
     #[serde(default)]
     pub wrench: [f64; 6],
+    /// Deviations of parameters from which a position error follows, as an error model of a study has them: laws
+    /// with mean zero.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub errors: Option<IndexMap<String, InputSpec>>,
     /// What is to be as good as possible.
     pub objective: ObjectiveSpec,
     /// What is demanded at every pose.
@@ -77,8 +81,9 @@ pub struct VariableSpec {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ObjectiveSpec {
-    /// "deflection", which is to be small, or "stiffness", "frequency" or "platform_frequency", which are to
-    /// be great.
+    /// "deflection" or "position", which are to be small, or "stiffness", "frequency" or "platform_frequency",
+    /// which are to be great. Position is the distance from the pose within which P of 95 % of the robots of
+    /// `errors` is, without the load.
     pub output: Output,
     /// Over the poses.
     pub over: Over,
@@ -101,6 +106,9 @@ pub struct LimitsSpec {
     /// Greatest deflection [mm].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub deflection: Option<f64>,
+    /// Greatest position error [mm], within which 95 % of the robots of `errors` are.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub position: Option<f64>,
     /// Least stiffness [N/m].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stiffness: Option<f64>,
@@ -119,6 +127,7 @@ impl LimitsSpec {
         let of = |output, limit: Option<f64>| limit.map(|limit| (output, limit));
         [
             of(Output::Deflection, self.deflection),
+            of(Output::Position, self.position),
             of(Output::Stiffness, self.stiffness),
             of(Output::Frequency, self.frequency),
         ]

@@ -4,10 +4,12 @@ use crate::design::file::{DESIGN_FORMAT, DesignFile, LimitsSpec, Over};
 use crate::design::variable::{Domain, Variable, variables, with, wrong};
 use cdpr_robot::{Coordinate, Pose, Robot, RobotError, Vector6, Wrench, from_json};
 use cdpr_statics::Load;
-use cdpr_study::{InField, InputKind, Output, StudyError, other_kind, read_text};
+use cdpr_study::{ErrorModel, InField, InputKind, Output, StudyError, error_model, other_kind, read_text};
 use std::collections::BTreeSet;
 use std::path::Path;
 
+/// Step of differences, as a share of the range between the bounds.
+pub(crate) const STEP: f64 = 1e-4;
 /// Poses of a design.
 const MOST_POSES: usize = 10_000;
 /// Configurations of the choices, each with all starts of the local search where something has bounds.
@@ -21,6 +23,8 @@ pub struct DesignProblem {
     pub(crate) poses: Vec<Pose>,
     pub(crate) free: Vec<Coordinate>,
     pub(crate) load: Load,
+    /// Deviations from which position errors follow.
+    pub(crate) errors: Option<ErrorModel>,
     pub(crate) output: Output,
     pub(crate) over: Over,
     pub(crate) limits: LimitsSpec,
@@ -71,6 +75,7 @@ impl DesignProblem {
             poses,
             free: file.free.clone(),
             load: load(file)?,
+            errors: errors(file, &robot)?,
             output: file.objective.output,
             over: file.objective.over,
             limits: file.limits,
@@ -85,9 +90,14 @@ impl DesignProblem {
 
     fn check(&self) -> Result<(), InField> {
         let Self { robot, output, load, .. } = self;
-        if matches!(output, Output::Position | Output::Amplitude) {
-            let expected = "deflection, stiffness, frequency or platform_frequency";
+        if *output == Output::Amplitude {
+            let expected = "deflection, position, stiffness, frequency or platform_frequency";
             return wrong("objective.output", output, expected);
+        }
+        if self.needs(Output::Position) && self.errors.is_none() {
+            let expected = "the deviations that a position error follows from, such as {\"b\": {\"law\": \
+                            {\"normal\": {\"mean\": 0, \"std\": 0.001}}}}";
+            return wrong("errors", "missing", expected);
         }
         for (of, limit) in self.limits.each() {
             if !(limit.is_finite() && limit > 0.0) {
@@ -98,15 +108,14 @@ impl DesignProblem {
                 );
             }
         }
-        let needs = |what: Output| *output == what || self.limits.each().any(|(of, _)| of == what);
-        if needs(Output::Deflection) && *load == Load::none() {
+        if self.needs(Output::Deflection) && *load == Load::none() {
             return wrong(
                 "payload",
                 load.payload,
                 "a mass above zero [kg], or a `wrench`: nothing else deflects",
             );
         }
-        if (needs(Output::Frequency) || needs(Output::PlatformFrequency)) && robot.lacks_inertia() {
+        if (self.needs(Output::Frequency) || self.needs(Output::PlatformFrequency)) && robot.lacks_inertia() {
             let expected = "deflection or stiffness, or a robot with `platform.inertia`";
             return wrong("objective.output", output, expected);
         }
@@ -137,6 +146,11 @@ impl DesignProblem {
             return wrong("starts", self.starts, expected);
         }
         Ok(())
+    }
+
+    /// Whether this is the objective or limited.
+    pub(crate) fn needs(&self, what: Output) -> bool {
+        self.output == what || self.limits.each().any(|(of, _)| of == what)
     }
 
     /// Indices of the variables with bounds.
@@ -202,4 +216,27 @@ fn load(file: &DesignFile) -> Result<Load, InField> {
         return wrong("wrench", format!("{:?}", file.wrench), "six finite numbers [N, N m]");
     }
     Ok(Load { payload: file.payload, wrench: Wrench::from_vector(&Vector6::from(file.wrench)) })
+}
+
+/// The error model of a file.
+fn errors(file: &DesignFile, robot: &Robot) -> Result<Option<ErrorModel>, InField> {
+    let Some(entries) = &file.errors else { return Ok(None) };
+    let in_errors = |(field, value, expected)| (format!("errors.{field}"), value, expected);
+    let model = error_model(entries, robot).map_err(in_errors)?;
+    if model.inputs.is_empty() {
+        return wrong("errors", "empty", "at least one parameter with the law of its deviation");
+    }
+    for (input, entry) in model.inputs.iter().zip(&model.entries) {
+        let (mean, std) = (input.law.mean(), input.law.std());
+        if !(mean.abs() <= 1e-9 * std && std.is_finite()) {
+            let expected =
+                "a law with mean zero and a finite standard deviation; a known mean belongs to the robot";
+            return wrong(
+                &format!("errors.{entry}.law"),
+                format!("of mean {mean} and standard deviation {std}"),
+                expected,
+            );
+        }
+    }
+    Ok(Some(model))
 }

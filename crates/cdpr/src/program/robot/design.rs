@@ -52,11 +52,9 @@ fn print(robot: &Robot, found: &Design) {
         print_sentence(&none(robot, found));
         return;
     };
-    for sentence in
-        [Some(verdict(robot, found, best)), Some(ends(found, best)), optimum(best), demands(found, best)]
-            .into_iter()
-            .flatten()
-    {
+    let basis = found.basis.map(str::to_owned);
+    let first = [Some(verdict(robot, found, best)), basis, Some(ends(found, best))];
+    for sentence in first.into_iter().chain([optimum(best), demands(found, best)]).flatten() {
         print_sentence(&sentence);
     }
     let per_unit = format!("{} per unit", found.output.unit());
@@ -160,11 +158,18 @@ fn ends(found: &Design, best: &BestDesign) -> String {
 /// Whether it is an optimum, by the residual of its conditions.
 fn optimum(best: &BestDesign) -> Option<String> {
     let residual = best.kkt_residual?;
-    Some(match best.optimal {
-        true => "It is a local optimum: the KKT residual is below 1e-8.".to_owned(),
-        false => format!(
-            "The search ended before an optimum (KKT residual {}): derivatives jump there, where a tension meets \
-             a limit, or no step keeps all poses.",
+    let by_differences = best.gradient_error.map_or_else(String::new, |error| {
+        format!(", with derivatives by differences that are right to {}", significant(error, 1))
+    });
+    Some(match (best.optimal, best.gradient_error) {
+        (true, None) => "It is a local optimum: the KKT residual is below 1e-8.".to_owned(),
+        (true, Some(_)) => {
+            let precision = "the KKT residual is below 1e-6, with the error of derivatives by differences";
+            format!("It is a local optimum: {precision}.")
+        }
+        (false, _) => format!(
+            "The search ended before an optimum (KKT residual {}{by_differences}): derivatives jump there, where a \
+             tension meets a limit, or no step keeps all poses.",
             significant(residual, 1)
         ),
     })
