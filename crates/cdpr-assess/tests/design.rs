@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use std::path::Path;
 
 /// Height of the exits of [`planar`] above the point mass [m].
-const HEIGHT: f64 = 2.0;
+pub(crate) const HEIGHT: f64 = 2.0;
 
 /// A point mass in the plane of x and z on two weightless cables from `(-h, 0, H)` and `(h, 0, H)`.
 pub(crate) fn planar(h: f64, greatest_tension: f64) -> Robot {
@@ -26,7 +26,7 @@ pub(crate) fn planar(h: f64, greatest_tension: f64) -> Robot {
 }
 
 /// Both exits move apart within bounds of `b1.x`; `force` pulls along x.
-fn apart(bounds: [f64; 2], force: f64) -> Value {
+pub(crate) fn apart(bounds: [f64; 2], force: f64) -> Value {
     json!({
         "format": "cdpr-design/1",
         "variables": [{"parameters": ["b1.x", "b2.x"], "signs": [1, -1], "bounds": bounds}],
@@ -128,7 +128,7 @@ fn the_worst_of_several_poses_and_their_mean_are_as_small_as_on_a_fine_grid() {
 }
 
 /// Places of CAROCA's exits in steps, symmetric to both middle planes.
-fn caroca(domains: [Value; 3]) -> Value {
+pub(crate) fn caroca(domains: [Value; 3]) -> Value {
     let names = |axis: &str| (1..9).map(|i| format!("b{i}.{axis}")).collect::<Vec<_>>();
     let mut variables = vec![
         json!({"name": "half length", "parameters": names("x"), "signs": [1, -1, 1, -1, 1, -1, 1, -1]}),

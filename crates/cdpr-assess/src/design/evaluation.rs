@@ -1,5 +1,6 @@
 //! What is observed of a robot at the poses of a design, with derivatives by the variables.
 
+use crate::design::file::Over;
 use crate::design::problem::DesignProblem;
 use crate::design::variable::Variable;
 use cdpr_dynamics::{FrequencyDerivatives, Modes, Swing};
@@ -23,8 +24,11 @@ pub(crate) struct Quantity {
 pub(crate) struct Evaluation {
     /// The output at each pose, in its unit.
     pub(crate) outputs: Vec<Quantity>,
+    /// The output of a second objective at each pose, where there is one.
+    pub(crate) seconds: Vec<Quantity>,
     /// By how much a demand is passed, as a share of its limit; zero or less where it is met. Of each pose
-    /// the limits of outputs, then, under a load, the greatest tension of each cable.
+    /// the limits of outputs, then, under a load, the greatest tension of each cable; after all poses the bound
+    /// of a second objective, of each pose or of the mean.
     pub(crate) excesses: Vec<Quantity>,
 }
 
@@ -56,6 +60,9 @@ impl DesignProblem {
             let position = positions.next();
             let at = AtPose { problem: self, robot: &robot, deflection, slopes, position };
             found.outputs.push(at.output(self.output)?);
+            if let Some((second, _)) = self.second {
+                found.seconds.push(at.output(second)?);
+            }
             for (of, limit) in self.limits.each() {
                 let sign = sense(of);
                 found.excesses.push(at.output(of)?.scaled(sign / limit, -sign));
@@ -64,7 +71,27 @@ impl DesignProblem {
                 at.tensions(&mut found.excesses)?;
             }
         }
+        if let (Some((second, over)), Some(bound)) = (self.second, self.bound) {
+            let sign = sense(second);
+            let excess = |of: Quantity| of.scaled(sign / bound.abs(), -sign * bound.signum());
+            found.excesses.extend(over.of(&found.seconds).into_iter().map(excess));
+        }
         Ok(found)
+    }
+}
+
+impl Over {
+    /// The quantities of which the worst counts: those of the poses, or their mean.
+    pub(crate) fn of(self, poses: &[Quantity]) -> Vec<Quantity> {
+        let share = 1.0 / poses.len() as f64;
+        let slope = |j: usize| share * poses.iter().map(|of| of.slopes[j]).sum::<f64>();
+        match (self, poses) {
+            (Self::Mean, [first, ..]) => vec![Quantity {
+                value: share * poses.iter().map(|of| of.value).sum::<f64>(),
+                slopes: (0..first.slopes.len()).map(slope).collect(),
+            }],
+            _ => poses.to_vec(),
+        }
     }
 }
 
@@ -134,7 +161,7 @@ impl AtPose<'_> {
 
     /// Adds by how much the greatest tension of each cable is passed under the load.
     fn tensions(&self, excesses: &mut Vec<Quantity>) -> Result<(), StaticsError> {
-        let Self { robot, deflection, slopes, problem } = self;
+        let Self { robot, deflection, slopes, problem, .. } = self;
         let rest = &deflection.loaded.equilibrium;
         let n = robot.cables.len();
         let exits = (0..n).any(|i| !robot.max_at(i).is_anchor());
@@ -202,7 +229,7 @@ mod tests {
         let problem = DesignProblem::from_json(design, Path::new("design.json"), robot).unwrap();
         let values = problem.nominal();
         let all = |values: &[f64], with_slopes: bool| {
-            let Evaluation { outputs, excesses } =
+            let Evaluation { outputs, excesses, .. } =
                 problem.evaluate(values, with_slopes.then_some(STEP)).unwrap();
             [outputs, excesses].concat()
         };

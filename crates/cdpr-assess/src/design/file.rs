@@ -39,6 +39,9 @@ pub struct DesignFile {
     pub errors: Option<IndexMap<String, InputSpec>>,
     /// What is to be as good as possible.
     pub objective: ObjectiveSpec,
+    /// A second objective: what is searched is the Pareto front of both, robots of which none is better in both.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pareto: Option<ParetoSpec>,
     /// What is demanded at every pose.
     #[serde(default, skip_serializing_if = "LimitsSpec::is_empty")]
     pub limits: LimitsSpec,
@@ -87,6 +90,25 @@ pub struct ObjectiveSpec {
     pub output: Output,
     /// Over the poses.
     pub over: Over,
+}
+
+/// A second objective.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ParetoSpec {
+    /// As that of the objective.
+    pub output: Output,
+    /// Over the poses.
+    pub over: Over,
+    /// Points of the front that are looked for, its ends included; of choices without bounds all are found.
+    #[serde(default = "ParetoSpec::usual_points")]
+    pub points: usize,
+}
+
+impl ParetoSpec {
+    fn usual_points() -> usize {
+        9
+    }
 }
 
 /// Which number of several poses counts.

@@ -10,6 +10,8 @@ use std::path::Path;
 
 /// Step of differences, as a share of the range between the bounds.
 pub(crate) const STEP: f64 = 1e-4;
+/// Points of a front.
+const MOST_POINTS: usize = 1000;
 /// Poses of a design.
 const MOST_POSES: usize = 10_000;
 /// Configurations of the choices, each with all starts of the local search where something has bounds.
@@ -27,6 +29,12 @@ pub struct DesignProblem {
     pub(crate) errors: Option<ErrorModel>,
     pub(crate) output: Output,
     pub(crate) over: Over,
+    /// A second objective.
+    pub(crate) second: Option<(Output, Over)>,
+    /// Points of the front of both.
+    pub(crate) points: usize,
+    /// What the second objective has to reach, in its unit.
+    pub(crate) bound: Option<f64>,
     pub(crate) limits: LimitsSpec,
     pub(crate) starts: usize,
     pub(crate) seed: Option<u64>,
@@ -78,6 +86,9 @@ impl DesignProblem {
             errors: errors(file, &robot)?,
             output: file.objective.output,
             over: file.objective.over,
+            second: file.pareto.map(|second| (second.output, second.over)),
+            points: file.pareto.map_or(0, |second| second.points),
+            bound: None,
             limits: file.limits,
             starts: file.starts,
             seed: file.seed,
@@ -90,9 +101,22 @@ impl DesignProblem {
 
     fn check(&self) -> Result<(), InField> {
         let Self { robot, output, load, .. } = self;
-        if *output == Output::Amplitude {
-            let expected = "deflection, position, stiffness, frequency or platform_frequency";
-            return wrong("objective.output", output, expected);
+        let second = self.second.map(|(output, _)| output);
+        for (of, output) in [("objective", Some(*output)), ("pareto", second)] {
+            if let Some(output @ Output::Amplitude) = output {
+                let expected = "deflection, position, stiffness, frequency or platform_frequency";
+                return wrong(&format!("{of}.output"), output, expected);
+            }
+        }
+        if self.second == Some((*output, self.over)) {
+            return wrong(
+                "pareto",
+                format!("the {output} as in `objective`"),
+                "another output, or another `over`",
+            );
+        }
+        if self.second.is_some() && !(2..=MOST_POINTS).contains(&self.points) {
+            return wrong("pareto.points", self.points, format!("2 to {MOST_POINTS}"));
         }
         if self.needs(Output::Position) && self.errors.is_none() {
             let expected = "the deviations that a position error follows from, such as {\"b\": {\"law\": \
@@ -150,7 +174,8 @@ impl DesignProblem {
 
     /// Whether this is the objective or limited.
     pub(crate) fn needs(&self, what: Output) -> bool {
-        self.output == what || self.limits.each().any(|(of, _)| of == what)
+        let is_second = self.second.is_some_and(|(second, _)| second == what);
+        self.output == what || is_second || self.limits.each().any(|(of, _)| of == what)
     }
 
     /// Indices of the variables with bounds.
@@ -199,6 +224,16 @@ impl DesignProblem {
     /// Excesses of tensions at each pose.
     pub(crate) fn tensions_each(&self) -> usize {
         if self.load == Load::none() { 0 } else { self.robot.cables.len() }
+    }
+
+    /// Excesses at each pose.
+    pub(crate) fn excesses_each(&self) -> usize {
+        self.limits.each().count() + self.tensions_each()
+    }
+
+    /// Whether it has a second objective: then its answer is a [`crate::front`].
+    pub fn has_front(&self) -> bool {
+        self.second.is_some()
     }
 
     /// The values of the robot as it is.

@@ -85,12 +85,9 @@ pub(crate) struct Found {
     pub(crate) evaluations: usize,
 }
 
-/// The least objective of several functions, or of their mean.
+/// The signed objective of the outputs at the poses.
 pub(crate) fn objective(over: Over, outputs: &[Quantity], sign: f64) -> f64 {
-    match over {
-        Over::Worst => outputs.iter().map(|f| sign * f.value).fold(f64::NEG_INFINITY, f64::max),
-        Over::Mean => sign * outputs.iter().map(|f| f.value).sum::<f64>() / outputs.len() as f64,
-    }
+    over.of(outputs).iter().map(|f| sign * f.value).fold(f64::NEG_INFINITY, f64::max)
 }
 
 /// The greatest excess, at least zero.
@@ -172,15 +169,7 @@ impl Search<'_> {
         };
         let factor = sense(problem.output) / *scale;
         let outputs: Vec<Quantity> = found.outputs.iter().map(|f| in_box(f, factor)).collect();
-        let f = match problem.over {
-            Over::Worst => outputs,
-            Over::Mean => {
-                let share = 1.0 / outputs.len() as f64;
-                let slope = |j: usize| share * outputs.iter().map(|f| f.slopes[j]).sum::<f64>();
-                let value = share * outputs.iter().map(|f| f.value).sum::<f64>();
-                vec![Quantity { value, slopes: (0..bounded.len()).map(slope).collect() }]
-            }
-        };
+        let f = problem.over.of(&outputs);
         let c = found.excesses.iter().map(|c| in_box(c, 1.0)).collect();
         let point = Point { u, f, c };
         point.is_finite().then_some(point)

@@ -45,13 +45,13 @@ pub struct NormalDistance {
 ///
 /// # Errors
 /// [`SensitivityError::InvalidParameter`] for a variance that is negative or not finite, and a share outside
-/// 0.5 to 1.
+/// 0.9 to 1.
 pub fn normal_distance(variances: [f64; 3], share: f64) -> Result<NormalDistance, SensitivityError> {
     for variance in variances {
         let is_valid = variance.is_finite() && variance >= 0.0;
         require(is_valid, "variance", variance, "a finite number, zero or more")?;
     }
-    require((0.5..1.0).contains(&share), "share", share, "0.5 or more, and below 1")?;
+    require((0.9..1.0).contains(&share), "share", share, "0.9 or more, and below 1")?;
     let mut order = [0, 1, 2];
     order.sort_by(|a, b| variances[*b].total_cmp(&variances[*a]));
     let greatest = variances[order[0]];
@@ -59,7 +59,7 @@ pub fn normal_distance(variances: [f64; 3], share: f64) -> Result<NormalDistance
         return Ok(NormalDistance { distance: 0.0, per_variance: [f64::INFINITY; 3] });
     }
     let nodes = nodes(order.map(|i| variances[i] / greatest));
-    // On a line, and up to the share of one half in space.
+    // On a line, and beyond what it is in space.
     let mut low = standard_normal_quantile(0.5 + 0.5 * share).powi(2);
     let (mut high, mut square) = (6.0 * low, low);
     loop {
@@ -129,16 +129,15 @@ mod tests {
 
     #[test]
     fn distances_on_a_line_in_a_plane_and_in_space_are_those_of_chi() {
-        for share in [0.5_f64, 0.95, 0.999] {
+        for share in [0.9_f64, 0.95, 0.999] {
             let line = standard_normal_quantile(0.5 + 0.5 * share);
             assert!((distance([0.0, 9.0, 0.0], share) / (3.0 * line) - 1.0).abs() < 1e-9);
             // Rayleigh's law.
             let plane = (-2.0 * (1.0 - share).ln()).sqrt();
             assert!((distance([4.0, 0.0, 4.0], share) / (2.0 * plane) - 1.0).abs() < 1e-9);
         }
-        // Quantiles of χ with three degrees of freedom, by scipy.stats.chi.ppf.
-        assert!((distance([1e-6; 3], 0.95) - 2.795483482915108e-3).abs() < 1e-12);
-        assert!((distance([1.0; 3], 0.5) - 1.5381722544550522).abs() < 1e-10);
+        // The quantile of χ with three degrees of freedom, by scipy.stats.chi.ppf.
+        assert!((distance([1e-6; 3], 0.95) - 2.7954834829151074e-3).abs() < 1e-12);
     }
 
     /// The mean over directions of an octant by 200 x 200 points with SciPy (`chi2.cdf`, `brentq`).
@@ -178,6 +177,6 @@ mod tests {
         assert_eq!(distance([0.0; 3], 0.95), 0.0);
         assert!(normal_distance([1.0, -1.0, 0.0], 0.95).is_err());
         assert!(normal_distance([1.0, f64::NAN, 0.0], 0.95).is_err());
-        assert!(normal_distance([1.0; 3], 1.0).is_err() && normal_distance([1.0; 3], 0.2).is_err());
+        assert!(normal_distance([1.0; 3], 1.0).is_err() && normal_distance([1.0; 3], 0.5).is_err());
     }
 }
