@@ -78,12 +78,12 @@ pub struct BestDesign {
     /// Residual of the optimality conditions, relative to the objective at the start and to the widths
     /// between the bounds; `None` where nothing has bounds.
     pub kkt_residual: Option<f64>,
-    /// Greatest change of the derivatives in this residual if differences have steps twice as long; `None` where
-    /// all derivatives are exact.
+    /// Greatest change of the derivatives in this residual if differences have steps twice as long; `None`
+    /// where all derivatives are exact.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub gradient_error: Option<f64>,
-    /// Whether that residual is small enough for a local optimum: at most 1e-8, with derivatives by differences
-    /// at most 1e-6 with their error; true where nothing has bounds.
+    /// Whether that residual is small enough for a local optimum: at most 1e-8, with derivatives by
+    /// differences at most 1e-6 with their error; true where nothing has bounds.
     pub optimal: bool,
     /// Demands that keep the objective from being better.
     pub active: Vec<ActiveDemand>,

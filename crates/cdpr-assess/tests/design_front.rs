@@ -13,8 +13,8 @@ fn solve(file: &Value, robot: Robot) -> Front {
     front(&problem).unwrap()
 }
 
-/// The deflection [mm] of [`planar`] for 1 N along x, and its stiffness along z [N/m], the lowest one below 45°: by
-/// `k_x = (2 EA sin θ cos² θ + W)/H` and `k_z = (2 EA sin³ θ + W)/H`.
+/// The deflection [mm] of [`planar`] for 1 N along x, and its stiffness along z [N/m], the lowest one below
+/// 45°: by `k_x = (2 EA sin θ cos² θ + W)/H` and `k_z = (2 EA sin³ θ + W)/H`.
 fn both(sine: f64) -> [f64; 2] {
     let k_x = (2e6 * sine * (1.0 - sine * sine) + 981.0) / HEIGHT;
     [1e3 / k_x, (2e6 * sine.powi(3) + 981.0) / HEIGHT]

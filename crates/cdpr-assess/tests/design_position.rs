@@ -37,7 +37,8 @@ const ROBOTS: [(&str, [f64; 3]); 3] =
 fn a_sample_of_three_robots_has_the_error_of_the_first_order_as_its_quantile() {
     for (name, pose) in ROBOTS {
         let study = json!({
-            "format": "cdpr-study/1", "name": name, "robot": format!("../robots/{name}.json"), "seed": 1, "replicates": 1, "confidence": 0.95, "bootstrap_resamples": 10,
+            "format": "cdpr-study/1", "name": name, "robot": format!("../robots/{name}.json"),
+            "seed": 1, "replicates": 1, "confidence": 0.95, "bootstrap_resamples": 10,
             "output": "position", "error_models": {"all": errors()},
             "samplings": {"point": {
                 "title": name, "pose": {"position": pose}, "error_model": "all", "observations": 16,
@@ -58,8 +59,8 @@ fn a_sample_of_three_robots_has_the_error_of_the_first_order_as_its_quantile() {
     }
 }
 
-/// The distance within which 95 % of normal displacements with a covariance are, by bisection of the mean over
-/// directions on Fibonacci's lattice of the sphere.
+/// The distance within which 95 % of normal displacements with a covariance are, by bisection of the mean
+/// over directions on Fibonacci's lattice of the sphere.
 fn distance(covariance: &Matrix3<f64>) -> f64 {
     const DIRECTIONS: usize = 40_000;
     let turn = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
@@ -131,8 +132,9 @@ fn tolerant(objective: &Value) -> Value {
 }
 
 /// Cables at the angle θ that do not stretch: with the errors n1, n2 of the exits along the cables, each of
-/// deviation σ, `x = (n2 - n1)/(2 cos θ)` and `z = (n1 + n2)/(2 sin θ)`, so that the variances are `σ²/(2 cos² θ)` and
-/// `σ²/(2 sin² θ)`. At 45° both are σ², and the distance is that of Rayleigh's law, `σ √(-2 ln 0.05)`: the least.
+/// deviation σ, `x = (n2 - n1)/(2 cos θ)` and `z = (n1 + n2)/(2 sin θ)`, so that the variances are
+/// `σ²/(2 cos² θ)` and `σ²/(2 sin² θ)`. At 45° both are σ², and the distance is that of Rayleigh's law,
+/// `σ √(-2 ln 0.05)`: the least.
 #[test]
 fn exits_as_far_apart_as_high_make_the_position_error_of_a_mass_on_two_cables_least() {
     let found = solve(&tolerant(&json!({"output": "position", "over": "worst"})), stiff());

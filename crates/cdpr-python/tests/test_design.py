@@ -49,7 +49,7 @@ def test_the_position_error_of_a_mass_on_two_cables_is_least_at_45_degrees():
     assert found.robot.exit_points[1, 0] == -found.values[0]
     frame = found.to_dataframe()
     assert frame.loc["half", "to"] == found.values[0] and frame.loc["half", "unit"] == "m"
-    assert repr(found).startswith("Design(position: ")
+    assert repr(found).startswith("Designed(position: ")
 
 
 def test_a_file_and_its_content_have_the_same_best_robot():

@@ -67,7 +67,8 @@ fn a_front_is_a_table_in_text_and_csv_and_a_robot_file_for_each_point() {
     let points = found["points"].as_array().unwrap();
     let table = run(&["--format", "csv"]);
     let mut rows = table.lines();
-    let header = "worst_magnitude_mm,mean_position_error_mm,exchange,kkt_residual,optimal,half length,half width,height";
+    let header = "worst_magnitude_mm,mean_position_error_mm,exchange,kkt_residual,optimal,half length,half width,\
+        height";
     assert_eq!(rows.next(), Some(header));
     assert!(points.len() > 1 && rows.clone().count() == points.len(), "{table}");
     for (k, (point, row)) in points.iter().zip(rows).enumerate() {

@@ -27,14 +27,14 @@ pub(crate) struct Evaluation {
     /// The output of a second objective at each pose, where there is one.
     pub(crate) seconds: Vec<Quantity>,
     /// By how much a demand is passed, as a share of its limit; zero or less where it is met. Of each pose
-    /// the limits of outputs, then, under a load, the greatest tension of each cable; after all poses the bound
-    /// of a second objective, of each pose or of the mean.
+    /// the limits of outputs, then, under a load, the greatest tension of each cable; after all poses the
+    /// bound of a second objective, of each pose or of the mean.
     pub(crate) excesses: Vec<Quantity>,
 }
 
 impl DesignProblem {
-    /// What is observed of the robot with these values, with derivatives or without: those of position errors by
-    /// differences over this share of the range between the bounds, all others exact.
+    /// What is observed of the robot with these values, with derivatives or without: those of position errors
+    /// by differences over this share of the range between the bounds, all others exact.
     ///
     /// # Errors
     /// Why it is not held at a pose, or has no derivatives there.

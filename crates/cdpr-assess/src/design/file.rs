@@ -33,13 +33,14 @@ pub struct DesignFile {
     /// m].
     #[serde(default)]
     pub wrench: [f64; 6],
-    /// Deviations of parameters from which a position error follows, as an error model of a study has them: laws
-    /// with mean zero.
+    /// Deviations of parameters from which a position error follows, as an error model of a study has them:
+    /// laws with mean zero.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub errors: Option<IndexMap<String, InputSpec>>,
     /// What is to be as good as possible.
     pub objective: ObjectiveSpec,
-    /// A second objective: what is searched is the Pareto front of both, robots of which none is better in both.
+    /// A second objective: what is searched is the Pareto front of both, robots of which none is better in
+    /// both.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pareto: Option<ParetoSpec>,
     /// What is demanded at every pose.
@@ -84,9 +85,9 @@ pub struct VariableSpec {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ObjectiveSpec {
-    /// "deflection" or "position", which are to be small, or "stiffness", "frequency" or "platform_frequency",
-    /// which are to be great. Position is the distance from the pose within which P of 95 % of the robots of
-    /// `errors` is, without the load.
+    /// "deflection" or "position", which are to be small, or "stiffness", "frequency" or
+    /// "platform_frequency", which are to be great. Position is the distance from the pose within which P of
+    /// 95 % of the robots of `errors` is, without the load.
     pub output: Output,
     /// Over the poses.
     pub over: Over,

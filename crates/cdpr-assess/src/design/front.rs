@@ -1,15 +1,16 @@
 //! The Pareto front of two objectives.
 //!
 //! With both signed so that less is better, the ends are the best robots by either one. Between their values
-//! `ε_0` and `ε_n` of the second objective, equal steps bound it, and the first one is made as good as possible,
+//! `ε_0` and `ε_n` of the second objective, equal steps bound it, and the first one is made as good as
+//! possible,
 //!
 //! ```text
 //! minimize  f(x)    subject to    g(x) <= ε_k,      k = 1 .. n - 1                              (Q6)
 //! ```
 //!
 //! (Y. Y. Haimes, L. S. Lasdon, D. A. Wismer, IEEE Trans. Systems, Man, Cybernetics 1, 1971). Fronts that are
-//! not convex are found, too. The multiplier μ of the bound is the rate of exchange, `df/dε = -μ`. Where nothing has
-//! bounds, every configuration is evaluated, and the front is that of all of them.
+//! not convex are found, too. The multiplier μ of the bound is the rate of exchange, `df/dε = -μ`. Where
+//! nothing has bounds, every configuration is evaluated, and the front is that of all of them.
 
 use crate::design::evaluation::sense;
 use crate::design::file::Over;
@@ -82,8 +83,8 @@ const SAME: f64 = 1e-6;
 /// The result does not depend on the number of threads.
 ///
 /// # Errors
-/// [`AssessError::Study`] for a problem without a second objective, and for more variables than Sobol's sequence
-/// has dimensions.
+/// [`AssessError::Study`] for a problem without a second objective, and for more variables than Sobol's
+/// sequence has dimensions.
 pub fn front(problem: &DesignProblem) -> Result<Front, AssessError> {
     let Some((second, over)) = problem.second else {
         let expected = "a second objective, such as {\"output\": \"stiffness\", \"over\": \"worst\"}";

@@ -7,9 +7,9 @@
 //! C = sum over the causes j:  σ_j² G_j G_jᵀ                                                    (Q4)
 //! ```
 //!
-//! of the exact derivatives `G_j`; the mean of both sides where left and right ones differ. The vector is taken
-//! as normal: it is if the causes are, and nearly so if many of them count. [`normal_distance`] is the distance
-//! r, with its derivatives `D_i` by the eigenvalues of C, whose eigenvectors are `e_i`:
+//! of the exact derivatives `G_j`; the mean of both sides where left and right ones differ. The vector is
+//! taken as normal: it is if the causes are, and nearly so if many of them count. [`normal_distance`] is the
+//! distance r, with its derivatives `D_i` by the eigenvalues of C, whose eigenvectors are `e_i`:
 //!
 //! ```text
 //! dr = sum D_i e_iᵀ dC e_i                                                                     (Q5)
@@ -32,9 +32,9 @@ use cdpr_study::{ErrorModel, position_slopes};
 /// Share of the robots whose position error is within the distance.
 const SHARE: f64 = 0.95;
 /// What a position error of a design is.
-pub(crate) const BASIS: &str = "The position error is the distance from its pose within which P of 95 % of the \
-    robots is, if they are given the lengths of the design without the load: to first order in the deviations, \
-    whose sum is taken as normal.";
+pub(crate) const BASIS: &str = "The position error is the distance from its pose within which P of 95 % of \
+    the robots is, if they are given the lengths of the design without the load: to first order in the \
+    deviations, whose sum is taken as normal.";
 
 impl DesignProblem {
     /// The position error at each pose [mm], with derivatives by differences over this share of the range

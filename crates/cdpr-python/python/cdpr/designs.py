@@ -30,11 +30,11 @@ if TYPE_CHECKING:
     import numpy
     from numpy.typing import NDArray
 
-__all__ = ["Design", "DesignFront", "design", "design_front"]
+__all__ = ["Designed", "DesignFront", "design", "design_front"]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Design:
+class Designed:
     """The best robot that was found, for k variables and m poses.
 
     Where no robot counts, `robot` is None, numbers and arrays are NaN, and `reason` says why.
@@ -50,7 +50,8 @@ class Design:
     values : numpy.ndarray
         Their values in the best robot, in the SI unit of each, (k,).
     per_unit : numpy.ndarray
-        By how much the objective changes for each unit by which an active bound is moved, zero within bounds, (k,).
+        By how much the objective changes for each unit by which an active bound is moved, zero within
+        bounds, (k,).
     outputs : numpy.ndarray
         The output at each pose, in its unit: mm, N/m or Hz, (m,).
     objective : float
@@ -60,9 +61,11 @@ class Design:
     kkt_residual : float
         Residual of the optimality conditions; NaN where nothing has bounds.
     gradient_error : float
-        Error of derivatives by differences in it, for position errors; zero where all derivatives are exact.
+        Error of derivatives by differences in it, for position errors; zero where all derivatives are
+        exact.
     optimal : bool
-        Whether the residual is small enough for a local optimum; of choices alone, whether there is a best one.
+        Whether the residual is small enough for a local optimum; of choices alone, whether there is a best
+        one.
     reason : str or None
         Why there is no best robot.
     """
@@ -82,7 +85,7 @@ class Design:
 
     def __repr__(self) -> str:
         """Shows the objective before and after."""
-        return f"Design({self.content['output']}: {self.before:.6g} -> {self.objective:.6g})"
+        return f"Designed({self.content['output']}: {self.before:.6g} -> {self.objective:.6g})"
 
     def to_dataframe(self) -> Any:
         """Makes a frame with a row for each variable.
@@ -116,8 +119,8 @@ class DesignFront:
     values : numpy.ndarray
         Values of the variables, in the SI unit of each, (p, k).
     exchange : numpy.ndarray
-        By how much the first objective changes along the front for each unit of the second one, (p,); NaN at the
-        ends, and where nothing has bounds.
+        By how much the first objective changes along the front for each unit of the second one, (p,); NaN
+        at the ends, and where nothing has bounds.
     optimal : numpy.ndarray
         Whether the residual of the optimality conditions is small enough for a local optimum, (p,).
     """
@@ -140,7 +143,8 @@ class DesignFront:
         Returns
         -------
         pandas.DataFrame
-            The frame: both objectives as `worst_deflection`, the exchange, whether it is an optimum, the variables.
+            The frame: both objectives as `worst_deflection`, the exchange, whether it is an optimum, the
+            variables.
         """
         import pandas
 
@@ -150,22 +154,24 @@ class DesignFront:
         return frame.join(pandas.DataFrame(self.values, columns=self.names))
 
 
-def design(robot: Robot, design: _inputs.Document, *, threads: Optional[int] = None) -> Design:
-    """Finds the values of a robot that make it as good as possible for poses and a load, as `cdpr design` does.
+def design(robot: Robot, design: _inputs.Document, *, threads: Optional[int] = None) -> Designed:
+    """Finds the values of a robot that make it as good as possible for poses and a load.
+
+    The answer is that of `cdpr design`.
 
     Parameters
     ----------
     robot : Robot
         The robot as it is.
     design : path or dict
-        Design file (`cdpr-design/1`), or its content as a dictionary: what may change, the poses, the load, what is
-        to be as good as possible, and what is demanded.
+        Design file (`cdpr-design/1`), or its content as a dictionary: what may change, the poses, the load,
+        what is to be as good as possible, and what is demanded.
     threads : int, optional
         Number of threads; all cores if left out. The answer does not depend on it.
 
     Returns
     -------
-    Design
+    Designed
         The best robot, and how far that can be relied on.
 
     Raises
@@ -192,7 +198,7 @@ def design(robot: Robot, design: _inputs.Document, *, threads: Optional[int] = N
     def number(value: Any) -> float:
         return float("nan") if value is None else float(value)
 
-    return Design(
+    return Designed(
         content=content,
         robot=robots[0] if robots else None,
         names=[variable["name"] for variable in variables],

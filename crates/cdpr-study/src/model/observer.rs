@@ -347,8 +347,8 @@ impl<'a> OutputObserver<'a> {
     }
 }
 
-/// Derivatives of the position of P at an equilibrium for given lengths, by the parameters [m per unit]; by the
-/// offsets of tension set-points as they change these lengths, and zero without `of_offsets`.
+/// Derivatives of the position of P at an equilibrium for given lengths, by the parameters [m per unit]; by
+/// the offsets of tension set-points as they change these lengths, and zero without `of_offsets`.
 ///
 /// # Errors
 /// As [`DirectProblem::derivatives`].

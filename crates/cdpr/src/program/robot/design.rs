@@ -115,15 +115,15 @@ fn print_front(robot: &Robot, found: &Front) {
         "{name}: the {one} against the {two}, {points} of which none is better in both ({tried}{each})."
     ));
     found.basis.iter().for_each(|basis| print_sentence(basis));
-    let dominated = counted(found.dominated, "robot");
+    let dominated = match found.dominated {
+        0 => String::new(),
+        count => format!("; {} left out, as good as another or worse in both", counted(count, "robot")),
+    };
     let lost = match found.lost {
         0 => String::new(),
-        lost => format!("; for {} no robot was found", counted(lost, "step")),
+        count => format!("; no robot was found for {}", counted(count, "step")),
     };
-    let evaluations = counted(found.evaluations, "evaluation");
-    print_sentence(&format!(
-        "{dominated} left out, as good as another or worse in both{lost}; {evaluations}."
-    ));
+    print_sentence(&format!("{}{dominated}{lost}.", counted(found.evaluations, "evaluation")));
     let doubtful: Vec<String> =
         (1..).zip(&found.points).filter(|(_, of)| !of.optimal).map(|(k, _)| k.to_string()).collect();
     if !doubtful.is_empty() {
@@ -282,8 +282,8 @@ fn optimum(best: &BestDesign) -> Option<String> {
             format!("It is a local optimum: {precision}.")
         }
         (false, _) => format!(
-            "The search ended before an optimum (KKT residual {}{by_differences}): derivatives jump there, where a \
-             tension meets a limit, or no step keeps all poses.",
+            "The search ended before an optimum (KKT residual {}{by_differences}): derivatives jump there, where \
+             a tension meets a limit, or no step keeps all poses.",
             significant(residual, 1)
         ),
     })
