@@ -38,7 +38,7 @@ fn a_sample_of_three_robots_has_the_error_of_the_first_order_as_its_quantile() {
     for (name, pose) in ROBOTS {
         let study = json!({
             "format": "cdpr-study/1", "name": name, "robot": format!("../robots/{name}.json"),
-            "seed": 1, "replicates": 1, "confidence": 0.95, "bootstrap_resamples": 10,
+            "seed": 1, "replicates": 0, "confidence": 0.95, "bootstrap_resamples": 10,
             "output": "position", "error_models": {"all": errors()},
             "samplings": {"point": {
                 "title": name, "pose": {"position": pose}, "error_model": "all", "observations": 16,
