@@ -129,7 +129,7 @@ fn print_front(robot: &Robot, found: &Front) {
     if !doubtful.is_empty() {
         print_sentence(&format!("No local optimum, by the KKT residual: {}.", doubtful.join(", ")));
     }
-    let units = found.outputs.map(|output| output.unit());
+    let units = found.outputs.map(Output::unit);
     let [one, two] = [0, 1].map(|i| format!("{} [{}]", found.outputs[i].noun(), units[i]));
     let mut header = vec!["".to_owned(), one, two];
     if found.starts > 0 {
