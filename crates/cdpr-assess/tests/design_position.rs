@@ -9,13 +9,11 @@ use cdpr_study::Study;
 use serde_json::{Value, json};
 use std::path::Path;
 
-/// Deviations of points, mass and modulus as errors of normal and uniform laws.
-fn errors() -> Value {
-    let normal = |std: f64| json!({"law": {"normal": {"mean": 0, "std": std}}});
-    json!({
-        "a": normal(5e-4), "b": {"law": {"uniform": {"min": -1.5e-3, "max": 1.5e-3}}}, "mass": normal(0.5),
-        "youngs_modulus": normal(1e9),
-    })
+/// Deviations of points, mass and modulus as errors of normal and uniform laws, times a share.
+fn errors(share: f64) -> Value {
+    let normal = |std: f64| json!({"law": {"normal": {"mean": 0, "std": share * std}}});
+    let b = json!({"law": {"uniform": {"min": -1.5e-3 * share, "max": 1.5e-3 * share}}});
+    json!({"a": normal(5e-4), "b": b, "mass": normal(0.5), "youngs_modulus": normal(1e9)})
 }
 
 /// The position errors [mm] of a robot as it is.
@@ -33,13 +31,16 @@ fn of(robot: Robot, poses: &[[f64; 3]], errors: &Value) -> Vec<f64> {
 const ROBOTS: [(&str, [f64; 3]); 3] =
     [("caroca", [0.4, -0.3, 1.6]), ("cogiro", [1.0, 0.5, 1.2]), ("ipanema-3", [0.5, -0.4, 1.3])];
 
+/// Larger deviations let cables of stiff robots become slack, which is beyond the first order.
+const SMALL: f64 = 0.1;
+
 #[test]
 fn a_sample_of_three_robots_has_the_error_of_the_first_order_as_its_quantile() {
     for (name, pose) in ROBOTS {
         let study = json!({
             "format": "cdpr-study/1", "name": name, "robot": format!("../robots/{name}.json"),
             "seed": 1, "replicates": 0, "confidence": 0.95, "bootstrap_resamples": 10,
-            "output": "position", "error_models": {"all": errors()},
+            "output": "position", "error_models": {"all": errors(SMALL)},
             "samplings": {"point": {
                 "title": name, "pose": {"position": pose}, "error_model": "all", "observations": 16,
             }},
@@ -54,7 +55,7 @@ fn a_sample_of_three_robots_has_the_error_of_the_first_order_as_its_quantile() {
         let mut away: Vec<f64> = observed.into_iter().map(|found| found.unwrap().value()).collect();
         away.sort_by(f64::total_cmp);
         let sample = Estimate::of_quantile(&away, 0.95, 0.999).unwrap();
-        let [found] = of(data(name), &[pose], &errors())[..] else { panic!() };
+        let [found] = of(data(name), &[pose], &errors(SMALL))[..] else { panic!() };
         assert!(sample.low <= found && found <= sample.high, "{name}: {found} {sample:?}");
     }
 }
@@ -85,7 +86,7 @@ fn distance(covariance: &Matrix3<f64>) -> f64 {
 }
 
 #[test]
-fn a_loop_over_the_parameters_with_the_direct_model_has_the_same_position_errors() {
+fn a_loop_over_the_parameters_with_the_direct_model_has_the_same_position_errors(1.0) {
     for (name, place) in ROBOTS {
         let (robot, pose) = (data(name), Pose::at(place[0], place[1], place[2]));
         let held = inverse(&robot, &pose, &Load::none()).unwrap();
@@ -107,7 +108,7 @@ fn a_loop_over_the_parameters_with_the_direct_model_has_the_same_position_errors
             let slope = std * (moved(step) - moved(-step)) / (2.0 * step);
             covariance += slope * slope.transpose();
         }
-        let [found] = of(robot, &[place], &errors())[..] else { panic!() };
+        let [found] = of(robot, &[place], &errors(1.0))[..] else { panic!() };
         let by_hand = 1e3 * distance(&covariance);
         assert!((found / by_hand - 1.0).abs() < 1e-5, "{name}: {found} {by_hand}");
     }
@@ -168,13 +169,13 @@ fn a_demanded_position_error_ends_the_design_where_it_is_reached() {
 #[test]
 fn the_greatest_and_the_mean_position_error_are_those_of_the_poses() {
     let poses = [[0.0, 0.0, 1.75], [1.0, 0.4, 1.2], [-1.0, 0.2, 2.0]];
-    let all = of(data("caroca"), &poses, &errors());
+    let all = of(data("caroca"), &poses, &errors(1.0));
     for (pose, one) in poses.iter().zip(&all) {
-        let [alone] = of(data("caroca"), &[*pose], &errors())[..] else { panic!() };
+        let [alone] = of(data("caroca"), &[*pose], &errors(1.0))[..] else { panic!() };
         assert!((one / alone - 1.0).abs() < 1e-9, "{one} {alone}");
     }
     // Offsets of the tensions count, too: they enlarge the error.
-    let mut with_offsets = errors();
+    let mut with_offsets = errors(1.0);
     with_offsets["dt"] = json!({"law": {"normal": {"mean": 0, "std": 100}}});
     let more = of(data("caroca"), &poses, &with_offsets);
     assert!(more.iter().zip(&all).all(|(more, one)| more > one), "{more:?} {all:?}");
