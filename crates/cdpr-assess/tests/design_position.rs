@@ -86,7 +86,7 @@ fn distance(covariance: &Matrix3<f64>) -> f64 {
 }
 
 #[test]
-fn a_loop_over_the_parameters_with_the_direct_model_has_the_same_position_errors(1.0) {
+fn a_loop_over_the_parameters_with_the_direct_model_has_the_same_position_errors() {
     for (name, place) in ROBOTS {
         let (robot, pose) = (data(name), Pose::at(place[0], place[1], place[2]));
         let held = inverse(&robot, &pose, &Load::none()).unwrap();
