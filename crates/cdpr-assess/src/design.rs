@@ -9,20 +9,26 @@
 
 mod evaluation;
 mod file;
+mod front;
+mod position;
 mod problem;
 mod search;
+mod starts;
 mod variable;
 
 use crate::error::AssessError;
 use cdpr_robot::Robot;
-use cdpr_sensitivity::Sobol;
 use cdpr_study::{Output, StudyError};
 use evaluation::sense;
-pub use file::{DESIGN_FORMAT, DesignFile, LimitsSpec, ObjectiveSpec, Over, VariableSpec, design_schema};
+pub use file::{
+    DESIGN_FORMAT, DesignFile, LimitsSpec, ObjectiveSpec, Over, ParetoSpec, VariableSpec, design_schema,
+};
+pub use front::{Front, FrontPoint, front};
+use position::BASIS;
 pub use problem::DesignProblem;
-use rayon::prelude::*;
-use search::{Found, MET, OPTIMAL, Search, excess, objective};
+use search::{Found, MET, excess, objective};
 use serde::Serialize;
+use starts::Searched;
 use variable::{Domain, Variable};
 
 /// The best robot that was found, and how far that can be relied on.
@@ -32,6 +38,9 @@ pub struct Design {
     pub output: Output,
     /// Over the poses.
     pub over: Over,
+    /// What a position error is and assumes, where there is one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub basis: Option<&'static str>,
     /// Number of poses.
     pub poses: usize,
     /// The objective of the robot as it is, in the unit of the output; `None` where it is not held at
@@ -69,7 +78,12 @@ pub struct BestDesign {
     /// Residual of the optimality conditions, relative to the objective at the start and to the widths
     /// between the bounds; `None` where nothing has bounds.
     pub kkt_residual: Option<f64>,
-    /// Whether that residual is small enough for a local optimum; true where nothing has bounds.
+    /// Greatest change of the derivatives in this residual if differences have steps twice as long; `None`
+    /// where all derivatives are exact.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub gradient_error: Option<f64>,
+    /// Whether that residual is small enough for a local optimum: at most 1e-8, with derivatives by
+    /// differences at most 1e-6 with their error; true where nothing has bounds.
     pub optimal: bool,
     /// Demands that keep the objective from being better.
     pub active: Vec<ActiveDemand>,
@@ -122,26 +136,12 @@ const SAME_OBJECTIVE: f64 = 1e-6;
 /// [`AssessError::Study`] for more variables than Sobol's sequence has dimensions.
 pub fn design(problem: &DesignProblem) -> Result<Design, AssessError> {
     let sign = sense(problem.output);
-    let (configurations, each) = (problem.configurations().unwrap_or(0), problem.searches_each());
-    let starts = starts(problem)?;
-    let run = |number: usize| {
-        let values = problem.configuration(number / each);
-        match &starts {
-            Some(starts) => Search::run(problem, values, starts[number % each].clone()),
-            None => single(problem, values),
-        }
-    };
-    let found: Vec<Option<Found>> = (0..configurations * each).into_par_iter().map(run).collect();
-    let counts = |found: &&Found| found.excess <= MET;
-    let feasible = || found.iter().enumerate().filter_map(|(k, one)| Some((k, one.as_ref().filter(counts)?)));
-    let best = feasible().min_by(|(_, a), (_, b)| a.objective.total_cmp(&b.objective));
-    let before = problem.evaluate(&problem.nominal(), false).ok();
-    let evaluations = 1 + found.iter().flatten().map(|one| one.evaluations).sum::<usize>();
-    let reason =
-        best.is_none().then(|| match problem.evaluate(&problem.configuration(0), starts.is_some()) {
-            Err(error) => error.to_string(),
-            Ok(at) => format!("a limit is passed by {:.1} %", 100.0 * excess(&at)),
-        });
+    let searched = Searched::of(problem, &[])?;
+    let Searched { starts, each, .. } = searched;
+    let feasible = || searched.feasible();
+    let best = searched.best();
+    let before = problem.evaluate(&problem.nominal(), None).ok();
+    let reason = best.is_none().then(|| searched.reason(problem));
     let best = best.map(|(number, best)| {
         let others = feasible().filter(|(k, _)| k / each != number / each).map(|(_, one)| one.objective);
         let next = others.min_by(f64::total_cmp).map(|objective| sign * objective);
@@ -151,48 +151,17 @@ pub fn design(problem: &DesignProblem) -> Result<Design, AssessError> {
     Ok(Design {
         output: problem.output,
         over: problem.over,
+        basis: problem.needs(Output::Position).then_some(BASIS),
         poses: problem.poses.len(),
         before: before.as_ref().map(|at| sign * objective(problem.over, &at.outputs, sign)),
         feasible_before: before.as_ref().is_some_and(|at| excess(at) <= MET),
-        configurations,
-        starts: starts.map_or(0, |starts| starts.len()),
+        configurations: searched.found.len() / each,
+        starts,
         feasible: feasible().count(),
-        evaluations,
+        evaluations: 1 + searched.evaluations(),
         reason,
         best: best.transpose()?,
     })
-}
-
-/// Starts of the local search in the box between the bounds; `None` where nothing has bounds.
-fn starts(problem: &DesignProblem) -> Result<Option<Vec<Vec<f64>>>, StudyError> {
-    let nominal: Vec<f64> = problem
-        .bounded()
-        .map(|(j, [low, high])| ((problem.variables[j].nominal - low) / (high - low)).clamp(0.0, 1.0))
-        .collect();
-    if nominal.is_empty() {
-        return Ok(None);
-    }
-    let too_many = |_| StudyError::setting("variables", nominal.len(), "at most 2048 with bounds");
-    let sobol = match problem.seed {
-        Some(seed) => Sobol::scrambled(nominal.len(), seed),
-        None => Sobol::new(nominal.len()),
-    };
-    let sobol = sobol.map_err(too_many)?;
-    let point = |index: usize| {
-        let mut point = vec![0.0; nominal.len()];
-        sobol.point(index as u32, &mut point).map(|()| point).map_err(too_many)
-    };
-    let others: Vec<Vec<f64>> = (1..problem.starts).map(point).collect::<Result<_, _>>()?;
-    Ok(Some([nominal].into_iter().chain(others).collect()))
-}
-
-/// A configuration where nothing has bounds.
-fn single(problem: &DesignProblem, values: Vec<f64>) -> Option<Found> {
-    let at = problem.evaluate(&values, false).ok()?;
-    let objective = objective(problem.over, &at.outputs, sense(problem.output));
-    let excess = excess(&at);
-    let (gradient, active) = (Vec::new(), Vec::new());
-    Some(Found { values, objective, excess, residual: 0.0, gradient, active, evaluations: 1 })
 }
 
 fn is_same(problem: &DesignProblem, one: &Found, best: &Found) -> bool {
@@ -214,7 +183,7 @@ fn best_design(
     let invalid =
         |error: &dyn std::fmt::Display| StudyError::setting("variables", error, "values of a valid robot");
     let robot = problem.robot_at(&best.values).map_err(|error| invalid(&error))?;
-    let outputs = problem.evaluate(&best.values, false).map_err(|error| invalid(&error))?.outputs;
+    let outputs = problem.evaluate(&best.values, None).map_err(|error| invalid(&error))?.outputs;
     let variable = |(j, variable): (usize, &Variable)| {
         let to = best.values[j];
         let bound = match variable.domain {
@@ -250,7 +219,8 @@ fn best_design(
         same,
         next_configuration,
         kkt_residual: has_bounds.then_some(best.residual),
-        optimal: best.residual <= OPTIMAL,
+        gradient_error: best.gradient_error,
+        optimal: best.is_optimal(),
         active: active.collect(),
         robot,
     })

@@ -8,6 +8,7 @@
 //! | Where does it come to rest when a cable breaks, and do the others bear that? | [`safety_at`] |
 //! | Where does it rest in weather, and from which direction is wind worst? | [`winds`] |
 //! | Where do the exits go for the least deflection? | [`design`] |
+//! | What has to be given up of one objective for another? | [`front`] |
 //! | How near do cables come to each other and to the platform? | [`clearance_at`] |
 //! | How far may it tilt there? | [`tilt_at`] |
 //! | What happens along a path of poses, and how uncertain is it? | [`Path`] |
@@ -35,8 +36,8 @@ pub use boundary::Boundary;
 pub use capacity::{Block, Capacity, Figure, WrenchSet, capacity_at};
 pub use clearance::{CableDistance, Clearance, PlatformDistance, clearance_at, clearance_under};
 pub use design::{
-    ActiveDemand, BestDesign, DESIGN_FORMAT, Design, DesignFile, DesignProblem, DesignedVariable, LimitsSpec,
-    ObjectiveSpec, Over, VariableSpec, design, design_schema,
+    ActiveDemand, BestDesign, DESIGN_FORMAT, Design, DesignFile, DesignProblem, DesignedVariable, Front,
+    FrontPoint, LimitsSpec, ObjectiveSpec, Over, ParetoSpec, VariableSpec, design, design_schema, front,
 };
 pub use error::AssessError;
 pub use inspection::{Finding, Severity, doubtful_rest, inspect};

@@ -8,10 +8,10 @@ use serde_json::{Value, json};
 use std::path::Path;
 
 /// Height of the exits of [`planar`] above the point mass [m].
-const HEIGHT: f64 = 2.0;
+pub(crate) const HEIGHT: f64 = 2.0;
 
 /// A point mass in the plane of x and z on two weightless cables from `(-h, 0, H)` and `(h, 0, H)`.
-fn planar(h: f64, greatest_tension: f64) -> Robot {
+pub(crate) fn planar(h: f64, greatest_tension: f64) -> Robot {
     let text = json!({
         "format": "cdpr-robot/1", "name": "Planar", "gravity": 9.81, "plane": "xz",
         "platform": {"mass": 100.0, "center_of_mass": [0, 0, 0], "point": true},
@@ -26,7 +26,7 @@ fn planar(h: f64, greatest_tension: f64) -> Robot {
 }
 
 /// Both exits move apart within bounds of `b1.x`; `force` pulls along x.
-fn apart(bounds: [f64; 2], force: f64) -> Value {
+pub(crate) fn apart(bounds: [f64; 2], force: f64) -> Value {
     json!({
         "format": "cdpr-design/1",
         "variables": [{"parameters": ["b1.x", "b2.x"], "signs": [1, -1], "bounds": bounds}],
@@ -38,7 +38,7 @@ fn apart(bounds: [f64; 2], force: f64) -> Value {
 }
 
 /// The file with another value of a field, which it need not have yet.
-fn with(mut file: Value, field: &str, value: Value) -> Value {
+pub(crate) fn with(mut file: Value, field: &str, value: Value) -> Value {
     let (of, name) = field.rsplit_once('/').unwrap();
     match file.pointer_mut(of).unwrap() {
         Value::Array(list) => list[name.parse::<usize>().unwrap()] = value,
@@ -47,11 +47,11 @@ fn with(mut file: Value, field: &str, value: Value) -> Value {
     file
 }
 
-fn solve(file: &Value, robot: Robot) -> Design {
+pub(crate) fn solve(file: &Value, robot: Robot) -> Design {
     design(&DesignProblem::from_json(&file.to_string(), Path::new("design.json"), robot).unwrap()).unwrap()
 }
 
-fn data(name: &str) -> Robot {
+pub(crate) fn data(name: &str) -> Robot {
     let path = format!("{}/../../data/robots/{name}.json", env!("CARGO_MANIFEST_DIR"));
     Robot::from_json(&std::fs::read_to_string(path).unwrap()).unwrap()
 }
@@ -128,7 +128,7 @@ fn the_worst_of_several_poses_and_their_mean_are_as_small_as_on_a_fine_grid() {
 }
 
 /// Places of CAROCA's exits in steps, symmetric to both middle planes.
-fn caroca(domains: [Value; 3]) -> Value {
+pub(crate) fn caroca(domains: [Value; 3]) -> Value {
     let names = |axis: &str| (1..9).map(|i| format!("b{i}.{axis}")).collect::<Vec<_>>();
     let mut variables = vec![
         json!({"name": "half length", "parameters": names("x"), "signs": [1, -1, 1, -1, 1, -1, 1, -1]}),
@@ -248,7 +248,7 @@ fn wrong_files_are_refused_with_field_value_and_what_is_right() {
         ("/free", json!(["x"]), "free is [x]: expected 0 different ones"),
         ("/starts", json!(0), "starts is 0: expected 1 or more"),
         ("/starts", json!(100_001), "at most 100000 configurations"),
-        ("/objective/output", json!("position"), "objective.output is position: expected deflection"),
+        ("/objective/output", json!("amplitude"), "objective.output is amplitude: expected deflection"),
         ("/objective/output", json!("cost"), "unknown variant `cost`"),
         ("/objective/over", json!("best"), "unknown variant `best`"),
         ("/limits", json!({"stiffness": -5}), "limits.stiffness is -5: expected a finite number above zero"),

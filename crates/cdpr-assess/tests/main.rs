@@ -4,6 +4,8 @@
 
 mod capacity;
 mod design;
+mod design_front;
+mod design_position;
 mod free_workspaces;
 mod inspection;
 mod maps;

@@ -106,6 +106,7 @@ pub use measure::allocation::allocate;
 pub use measure::bracket::{Bracket, brackets};
 pub use measure::convergence::{Target, Tightened, convergence, first_tight, until_tight};
 pub use measure::dgsm::{DerivativeMeasure, DerivativeMeasures, Slopes, dgsm};
+pub use measure::distance::{NormalDistance, normal_distance};
 pub use measure::effect::{
     Effect, EffectInterval, EffectSums, Effects, Replicate, effect_intervals, intervals_of_effects,
     student_effects,

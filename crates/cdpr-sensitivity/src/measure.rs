@@ -4,6 +4,7 @@ pub mod allocation;
 pub mod bracket;
 pub mod convergence;
 pub mod dgsm;
+pub mod distance;
 pub mod effect;
 pub mod expansion;
 pub mod gradient_expansion;

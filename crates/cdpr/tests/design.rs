@@ -46,3 +46,37 @@ fn what_no_robot_can_do_ends_with_three_and_a_wrong_field_with_its_line() {
     let said = unwrapped(robot.stderr);
     assert!(said.contains("is a robot file: expected a design file"), "{said}");
 }
+
+#[test]
+fn a_front_is_a_table_in_text_and_csv_and_a_robot_file_for_each_point() {
+    let folder = TempDir::new().unwrap();
+    let mut design = json_file(data("designs/caroca-pulleys.json"));
+    design["pareto"] = json!({"output": "position", "over": "mean"});
+    design["errors"] = json!({"b": {"law": {"normal": {"mean": 0, "std": 1e-3}}}});
+    std::fs::write(folder.path().join("design.json"), design.to_string()).unwrap();
+    let run = |more: &[&str]| {
+        answered(cdpr_in(folder.path(), &[&["design", "caroca", "design.json"], more].concat()))
+    };
+    let printed = run(&["--out", "best.json"]);
+    assert!(
+        printed.starts_with("CAROCA: the greatest deflection against the mean position error,"),
+        "{printed}"
+    );
+    assert!(printed.contains("taken as normal") && printed.lines().all(|line| line.chars().count() <= 80));
+    let found: Value = serde_json::from_str(&run(&["--format", "json"])).unwrap();
+    let points = found["points"].as_array().unwrap();
+    let table = run(&["--format", "csv"]);
+    let mut rows = table.lines();
+    let header = "worst_magnitude_mm,mean_position_error_mm,exchange,kkt_residual,optimal,half length,half width,\
+        height";
+    assert_eq!(rows.next(), Some(header));
+    assert!(points.len() > 1 && rows.clone().count() == points.len(), "{table}");
+    for (k, (point, row)) in points.iter().zip(rows).enumerate() {
+        let cells: Vec<&str> = row.split(',').collect();
+        for i in 0..2 {
+            assert_eq!(cells[i].parse::<f64>().unwrap(), point["objectives"][i].as_f64().unwrap());
+        }
+        let robot = json_file(folder.path().join(format!("best-{}.json", k + 1)));
+        assert_eq!(robot["cables"][0]["exit_point"][0], point["variables"][0]);
+    }
+}

@@ -1,5 +1,6 @@
 //! What is observed of a robot at the poses of a design, with derivatives by the variables.
 
+use crate::design::file::Over;
 use crate::design::problem::DesignProblem;
 use crate::design::variable::Variable;
 use cdpr_dynamics::{FrequencyDerivatives, Modes, Swing};
@@ -23,25 +24,32 @@ pub(crate) struct Quantity {
 pub(crate) struct Evaluation {
     /// The output at each pose, in its unit.
     pub(crate) outputs: Vec<Quantity>,
+    /// The output of a second objective at each pose, where there is one.
+    pub(crate) seconds: Vec<Quantity>,
     /// By how much a demand is passed, as a share of its limit; zero or less where it is met. Of each pose
-    /// the limits of outputs, then, under a load, the greatest tension of each cable.
+    /// the limits of outputs, then, under a load, the greatest tension of each cable; after all poses the
+    /// bound of a second objective, of each pose or of the mean.
     pub(crate) excesses: Vec<Quantity>,
 }
 
 impl DesignProblem {
-    /// What is observed of the robot with these values, with derivatives or without.
+    /// What is observed of the robot with these values, with derivatives or without: those of position errors
+    /// by differences over this share of the range between the bounds, all others exact.
     ///
     /// # Errors
     /// Why it is not held at a pose, or has no derivatives there.
-    pub(crate) fn evaluate(&self, values: &[f64], with_slopes: bool) -> Result<Evaluation, StaticsError> {
+    pub(crate) fn evaluate(&self, values: &[f64], step: Option<f64>) -> Result<Evaluation, StaticsError> {
         let robot = self.robot_at(values)?;
+        let positions =
+            if self.needs(Output::Position) { self.position_errors(values, step)? } else { Vec::new() };
+        let mut positions = positions.into_iter();
         let mut found = Evaluation::default();
         let none = Load::none();
         let solved = if self.free.is_empty() { inverse(&robot, &self.poses, &none) } else { Vec::new() };
         let mut solved = solved.into_iter();
         for pose in &self.poses {
             let wanted = WantedPose::at(pose).free(&self.free);
-            let (deflection, slopes) = match (solved.next().transpose()?, with_slopes) {
+            let (deflection, slopes) = match (solved.next().transpose()?, step.is_some()) {
                 (Some(held), true) => sloped(derivatives_from(&robot, wanted, &self.load, held)?),
                 (None, true) => sloped(derivatives(&robot, wanted, &self.load)?),
                 (Some(held), false) => {
@@ -49,8 +57,12 @@ impl DesignProblem {
                 }
                 (None, false) => (deflection(&robot, wanted, &self.load)?, None),
             };
-            let at = AtPose { problem: self, robot: &robot, deflection, slopes };
+            let position = positions.next();
+            let at = AtPose { problem: self, robot: &robot, deflection, slopes, position };
             found.outputs.push(at.output(self.output)?);
+            if let Some((second, _)) = self.second {
+                found.seconds.push(at.output(second)?);
+            }
             for (of, limit) in self.limits.each() {
                 let sign = sense(of);
                 found.excesses.push(at.output(of)?.scaled(sign / limit, -sign));
@@ -59,7 +71,27 @@ impl DesignProblem {
                 at.tensions(&mut found.excesses)?;
             }
         }
+        if let (Some((second, over)), Some(bound)) = (self.second, self.bound) {
+            let sign = sense(second);
+            let excess = |of: Quantity| of.scaled(sign / bound.abs(), -sign * bound.signum());
+            found.excesses.extend(over.of(&found.seconds).into_iter().map(excess));
+        }
         Ok(found)
+    }
+}
+
+impl Over {
+    /// The quantities of which the worst counts: those of the poses, or their mean.
+    pub(crate) fn of(self, poses: &[Quantity]) -> Vec<Quantity> {
+        let share = 1.0 / poses.len() as f64;
+        let slope = |j: usize| share * poses.iter().map(|of| of.slopes[j]).sum::<f64>();
+        match (self, poses) {
+            (Self::Mean, [first, ..]) => vec![Quantity {
+                value: share * poses.iter().map(|of| of.value).sum::<f64>(),
+                slopes: (0..first.slopes.len()).map(slope).collect(),
+            }],
+            _ => poses.to_vec(),
+        }
     }
 }
 
@@ -81,6 +113,8 @@ struct AtPose<'a> {
     robot: &'a Robot,
     deflection: Deflection,
     slopes: Option<Derivatives>,
+    /// The position error, where it is needed.
+    position: Option<Quantity>,
 }
 
 impl AtPose<'_> {
@@ -91,10 +125,13 @@ impl AtPose<'_> {
         let rest = &deflection.loaded.equilibrium;
         Ok(match (of, &self.slopes) {
             // An amplitude is no output of designs.
-            (Output::Deflection | Output::Position | Output::Amplitude, None) => {
-                self.quantity(1e3 * deflection.magnitude(), &[])
+            (Output::Position | Output::Amplitude, _) => {
+                let missing =
+                    || StaticsError::NoDerivative { quantity: of.label(), reason: "it is not observed" };
+                self.position.clone().ok_or_else(missing)?
             }
-            (Output::Deflection | Output::Position | Output::Amplitude, Some(found)) => {
+            (Output::Deflection, None) => self.quantity(1e3 * deflection.magnitude(), &[]),
+            (Output::Deflection, Some(found)) => {
                 self.quantity(deflection.magnitude(), &found.magnitude()?).scaled(1e3, 0.0)
             }
             (Output::Stiffness, None) => {
@@ -124,7 +161,7 @@ impl AtPose<'_> {
 
     /// Adds by how much the greatest tension of each cable is passed under the load.
     fn tensions(&self, excesses: &mut Vec<Quantity>) -> Result<(), StaticsError> {
-        let Self { robot, deflection, slopes, problem } = self;
+        let Self { robot, deflection, slopes, problem, .. } = self;
         let rest = &deflection.loaded.equilibrium;
         let n = robot.cables.len();
         let exits = (0..n).any(|i| !robot.max_at(i).is_anchor());
@@ -182,6 +219,7 @@ impl Quantity {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::design::problem::STEP;
     use cdpr_robot::library::{ROBOTS, named};
     use std::path::Path;
 
@@ -190,8 +228,9 @@ mod tests {
         let robot = Robot::from_json(robot).unwrap();
         let problem = DesignProblem::from_json(design, Path::new("design.json"), robot).unwrap();
         let values = problem.nominal();
-        let all = |values: &[f64], with_slopes| {
-            let Evaluation { outputs, excesses } = problem.evaluate(values, with_slopes).unwrap();
+        let all = |values: &[f64], with_slopes: bool| {
+            let Evaluation { outputs, excesses, .. } =
+                problem.evaluate(values, with_slopes.then_some(STEP)).unwrap();
             [outputs, excesses].concat()
         };
         let found = all(&values, true);
@@ -235,6 +274,20 @@ mod tests {
         );
         let inertia = "\"center_of_mass\": [0, 0, 0], \"inertia\": [[9, 0, 0], [0, 8, 0], [0, 0, 7]]";
         check(&caroca.replace("\"center_of_mass\": [0, 0, 0]", inertia), &design("frequency"), 1e-4);
+    }
+
+    #[test]
+    fn derivatives_of_position_errors_are_those_of_their_values() {
+        let design = r#"{"format": "cdpr-design/1", "limits": {"position": 3},
+            "objective": {"output": "position", "over": "mean"},
+            "errors": {"b": {"law": {"uniform": {"min": -0.01, "max": 0.01}}},
+                "mass": {"law": {"normal": {"mean": 0, "std": 5}}},
+                "dt": {"law": {"normal": {"mean": 0, "std": 15}}}},
+            "poses": {"list": [{"position": [0.3, 0.2, 1.75]}, {"position": [-1, 0.4, 1.5]}]},
+            "variables": [{"parameters": ["b1.x", "b3.x"], "bounds": [-4, -2]},
+                {"parameters": ["b1.z", "b2.z"], "signs": [1, -1], "bounds": [3.5, 4]},
+                {"parameters": ["b5.z"], "bounds": [3, 3.5]}]}"#;
+        check(named(ROBOTS, "caroca").unwrap().text, design, 1e-4);
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! The design file, `cdpr-design/1`: what of a robot may change, and for which poses, loads and purpose.
 
 use cdpr_robot::Coordinate;
-use cdpr_study::{Output, PosesSpec};
+use cdpr_study::{IndexMap, InputSpec, Output, PosesSpec};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -33,8 +33,16 @@ pub struct DesignFile {
     /// m].
     #[serde(default)]
     pub wrench: [f64; 6],
+    /// Deviations of parameters from which a position error follows, as an error model of a study has them:
+    /// laws with mean zero.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub errors: Option<IndexMap<String, InputSpec>>,
     /// What is to be as good as possible.
     pub objective: ObjectiveSpec,
+    /// A second objective: what is searched is the Pareto front of both, robots of which none is better in
+    /// both.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pareto: Option<ParetoSpec>,
     /// What is demanded at every pose.
     #[serde(default, skip_serializing_if = "LimitsSpec::is_empty")]
     pub limits: LimitsSpec,
@@ -77,11 +85,31 @@ pub struct VariableSpec {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ObjectiveSpec {
-    /// "deflection", which is to be small, or "stiffness", "frequency" or "platform_frequency", which are to
-    /// be great.
+    /// "deflection" or "position", which are to be small, or "stiffness", "frequency" or
+    /// "platform_frequency", which are to be great. Position is the distance from the pose within which P of
+    /// 95 % of the robots of `errors` is, without the load.
     pub output: Output,
     /// Over the poses.
     pub over: Over,
+}
+
+/// A second objective.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ParetoSpec {
+    /// As that of the objective.
+    pub output: Output,
+    /// Over the poses.
+    pub over: Over,
+    /// Points of the front that are looked for, its ends included; of choices without bounds all are found.
+    #[serde(default = "ParetoSpec::usual_points")]
+    pub points: usize,
+}
+
+impl ParetoSpec {
+    fn usual_points() -> usize {
+        9
+    }
 }
 
 /// Which number of several poses counts.
@@ -101,6 +129,9 @@ pub struct LimitsSpec {
     /// Greatest deflection [mm].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub deflection: Option<f64>,
+    /// Greatest position error [mm], within which 95 % of the robots of `errors` are.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub position: Option<f64>,
     /// Least stiffness [N/m].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stiffness: Option<f64>,
@@ -119,6 +150,7 @@ impl LimitsSpec {
         let of = |output, limit: Option<f64>| limit.map(|limit| (output, limit));
         [
             of(Output::Deflection, self.deflection),
+            of(Output::Position, self.position),
             of(Output::Stiffness, self.stiffness),
             of(Output::Frequency, self.frequency),
         ]

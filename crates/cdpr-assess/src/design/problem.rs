@@ -4,10 +4,14 @@ use crate::design::file::{DESIGN_FORMAT, DesignFile, LimitsSpec, Over};
 use crate::design::variable::{Domain, Variable, variables, with, wrong};
 use cdpr_robot::{Coordinate, Pose, Robot, RobotError, Vector6, Wrench, from_json};
 use cdpr_statics::Load;
-use cdpr_study::{InField, InputKind, Output, StudyError, other_kind, read_text};
+use cdpr_study::{ErrorModel, InField, InputKind, Output, StudyError, error_model, other_kind, read_text};
 use std::collections::BTreeSet;
 use std::path::Path;
 
+/// Step of differences, as a share of the range between the bounds.
+pub(crate) const STEP: f64 = 1e-4;
+/// Points of a front.
+const MOST_POINTS: usize = 1000;
 /// Poses of a design.
 const MOST_POSES: usize = 10_000;
 /// Configurations of the choices, each with all starts of the local search where something has bounds.
@@ -21,8 +25,16 @@ pub struct DesignProblem {
     pub(crate) poses: Vec<Pose>,
     pub(crate) free: Vec<Coordinate>,
     pub(crate) load: Load,
+    /// Deviations from which position errors follow.
+    pub(crate) errors: Option<ErrorModel>,
     pub(crate) output: Output,
     pub(crate) over: Over,
+    /// A second objective.
+    pub(crate) second: Option<(Output, Over)>,
+    /// Points of the front of both.
+    pub(crate) points: usize,
+    /// What the second objective has to reach, in its unit.
+    pub(crate) bound: Option<f64>,
     pub(crate) limits: LimitsSpec,
     pub(crate) starts: usize,
     pub(crate) seed: Option<u64>,
@@ -71,8 +83,12 @@ impl DesignProblem {
             poses,
             free: file.free.clone(),
             load: load(file)?,
+            errors: errors(file, &robot)?,
             output: file.objective.output,
             over: file.objective.over,
+            second: file.pareto.map(|second| (second.output, second.over)),
+            points: file.pareto.map_or(0, |second| second.points),
+            bound: None,
             limits: file.limits,
             starts: file.starts,
             seed: file.seed,
@@ -85,9 +101,27 @@ impl DesignProblem {
 
     fn check(&self) -> Result<(), InField> {
         let Self { robot, output, load, .. } = self;
-        if matches!(output, Output::Position | Output::Amplitude) {
-            let expected = "deflection, stiffness, frequency or platform_frequency";
-            return wrong("objective.output", output, expected);
+        let second = self.second.map(|(output, _)| output);
+        for (of, output) in [("objective", Some(*output)), ("pareto", second)] {
+            if let Some(output @ Output::Amplitude) = output {
+                let expected = "deflection, position, stiffness, frequency or platform_frequency";
+                return wrong(&format!("{of}.output"), output, expected);
+            }
+        }
+        if self.second == Some((*output, self.over)) {
+            return wrong(
+                "pareto",
+                format!("the {output} as in `objective`"),
+                "another output, or another `over`",
+            );
+        }
+        if self.second.is_some() && !(2..=MOST_POINTS).contains(&self.points) {
+            return wrong("pareto.points", self.points, format!("2 to {MOST_POINTS}"));
+        }
+        if self.needs(Output::Position) && self.errors.is_none() {
+            let expected = "the deviations that a position error follows from, such as {\"b\": {\"law\": \
+                            {\"normal\": {\"mean\": 0, \"std\": 0.001}}}}";
+            return wrong("errors", "missing", expected);
         }
         for (of, limit) in self.limits.each() {
             if !(limit.is_finite() && limit > 0.0) {
@@ -98,15 +132,14 @@ impl DesignProblem {
                 );
             }
         }
-        let needs = |what: Output| *output == what || self.limits.each().any(|(of, _)| of == what);
-        if needs(Output::Deflection) && *load == Load::none() {
+        if self.needs(Output::Deflection) && *load == Load::none() {
             return wrong(
                 "payload",
                 load.payload,
                 "a mass above zero [kg], or a `wrench`: nothing else deflects",
             );
         }
-        if (needs(Output::Frequency) || needs(Output::PlatformFrequency)) && robot.lacks_inertia() {
+        if (self.needs(Output::Frequency) || self.needs(Output::PlatformFrequency)) && robot.lacks_inertia() {
             let expected = "deflection or stiffness, or a robot with `platform.inertia`";
             return wrong("objective.output", output, expected);
         }
@@ -137,6 +170,12 @@ impl DesignProblem {
             return wrong("starts", self.starts, expected);
         }
         Ok(())
+    }
+
+    /// Whether this is the objective or limited.
+    pub(crate) fn needs(&self, what: Output) -> bool {
+        let is_second = self.second.is_some_and(|(second, _)| second == what);
+        self.output == what || is_second || self.limits.each().any(|(of, _)| of == what)
     }
 
     /// Indices of the variables with bounds.
@@ -187,6 +226,16 @@ impl DesignProblem {
         if self.load == Load::none() { 0 } else { self.robot.cables.len() }
     }
 
+    /// Excesses at each pose.
+    pub(crate) fn excesses_each(&self) -> usize {
+        self.limits.each().count() + self.tensions_each()
+    }
+
+    /// Whether it has a second objective: then its answer is a [`crate::front`].
+    pub fn has_front(&self) -> bool {
+        self.second.is_some()
+    }
+
     /// The values of the robot as it is.
     pub(crate) fn nominal(&self) -> Vec<f64> {
         self.variables.iter().map(|variable| variable.nominal).collect()
@@ -202,4 +251,27 @@ fn load(file: &DesignFile) -> Result<Load, InField> {
         return wrong("wrench", format!("{:?}", file.wrench), "six finite numbers [N, N m]");
     }
     Ok(Load { payload: file.payload, wrench: Wrench::from_vector(&Vector6::from(file.wrench)) })
+}
+
+/// The error model of a file.
+fn errors(file: &DesignFile, robot: &Robot) -> Result<Option<ErrorModel>, InField> {
+    let Some(entries) = &file.errors else { return Ok(None) };
+    let in_errors = |(field, value, expected)| (format!("errors.{field}"), value, expected);
+    let model = error_model(entries, robot).map_err(in_errors)?;
+    if model.inputs.is_empty() {
+        return wrong("errors", "empty", "at least one parameter with the law of its deviation");
+    }
+    for (input, entry) in model.inputs.iter().zip(&model.entries) {
+        let (mean, std) = (input.law.mean(), input.law.std());
+        if !(mean.abs() <= 1e-9 * std && std.is_finite()) {
+            let expected =
+                "a law with mean zero and a finite standard deviation; a known mean belongs to the robot";
+            return wrong(
+                &format!("errors.{entry}.law"),
+                format!("of mean {mean} and standard deviation {std}"),
+                expected,
+            );
+        }
+    }
+    Ok(Some(model))
 }

@@ -29,12 +29,15 @@
 
 use crate::design::evaluation::{Evaluation, Quantity, sense};
 use crate::design::file::Over;
-use crate::design::problem::DesignProblem;
+use crate::design::problem::{DesignProblem, STEP};
 use cdpr_statics::DMatrix;
+use cdpr_study::Output;
 use cdpr_tension::QuadraticProgram;
 
 /// Residual (Q3) of an optimum.
 pub(crate) const OPTIMAL: f64 = 1e-8;
+/// The same with derivatives by differences, their error added.
+pub(crate) const OPTIMAL_BY_DIFFERENCES: f64 = 1e-6;
 /// Residual at which the search ends.
 const AIM: f64 = 1e-10;
 /// Excess of a demand that rounding leaves, as a share of its limit.
@@ -51,6 +54,16 @@ const MOST_HALVINGS: usize = 40;
 /// Greatest ρ.
 const MOST_PENALTY: f64 = 1e7;
 
+impl Found {
+    /// Whether the residual is small enough for a local optimum.
+    pub(crate) fn is_optimal(&self) -> bool {
+        match self.gradient_error {
+            None => self.residual <= OPTIMAL,
+            Some(error) => self.residual + error <= OPTIMAL_BY_DIFFERENCES,
+        }
+    }
+}
+
 /// Where a search ended.
 #[derive(Clone, Debug)]
 pub(crate) struct Found {
@@ -64,18 +77,17 @@ pub(crate) struct Found {
     pub(crate) residual: f64,
     /// ∇L by the variables, in units of the output; what a bound that is moved by a unit gains.
     pub(crate) gradient: Vec<f64>,
+    /// Greatest change of ∇L if differences have steps twice as long; `None` where all derivatives are exact.
+    pub(crate) gradient_error: Option<f64>,
     /// Multipliers of the excesses that are not zero, in units of the output.
     pub(crate) active: Vec<(usize, f64)>,
     /// Evaluations at all poses.
     pub(crate) evaluations: usize,
 }
 
-/// The least objective of several functions, or of their mean.
+/// The signed objective of the outputs at the poses.
 pub(crate) fn objective(over: Over, outputs: &[Quantity], sign: f64) -> f64 {
-    match over {
-        Over::Worst => outputs.iter().map(|f| sign * f.value).fold(f64::NEG_INFINITY, f64::max),
-        Over::Mean => sign * outputs.iter().map(|f| f.value).sum::<f64>() / outputs.len() as f64,
-    }
+    over.of(outputs).iter().map(|f| sign * f.value).fold(f64::NEG_INFINITY, f64::max)
 }
 
 /// The greatest excess, at least zero.
@@ -140,9 +152,14 @@ impl Search<'_> {
 
     /// The functions at a point; `None` where the robot is not held or has no derivatives.
     fn at(&mut self, u: Vec<f64>) -> Option<Point> {
+        self.with_step(u, STEP)
+    }
+
+    /// The same with differences over this step.
+    fn with_step(&mut self, u: Vec<f64>, step: f64) -> Option<Point> {
         self.evaluations += 1;
         let Self { problem, bounded, scale, .. } = &*self;
-        let found = problem.evaluate(&self.values_at(&u), true).ok()?;
+        let found = problem.evaluate(&self.values_at(&u), Some(step)).ok()?;
         let in_box = |quantity: &Quantity, factor: f64| Quantity {
             value: factor * quantity.value,
             slopes: bounded
@@ -152,15 +169,7 @@ impl Search<'_> {
         };
         let factor = sense(problem.output) / *scale;
         let outputs: Vec<Quantity> = found.outputs.iter().map(|f| in_box(f, factor)).collect();
-        let f = match problem.over {
-            Over::Worst => outputs,
-            Over::Mean => {
-                let share = 1.0 / outputs.len() as f64;
-                let slope = |j: usize| share * outputs.iter().map(|f| f.slopes[j]).sum::<f64>();
-                let value = share * outputs.iter().map(|f| f.value).sum::<f64>();
-                vec![Quantity { value, slopes: (0..bounded.len()).map(slope).collect() }]
-            }
-        };
+        let f = problem.over.of(&outputs);
         let c = found.excesses.iter().map(|c| in_box(c, 1.0)).collect();
         let point = Point { u, f, c };
         point.is_finite().then_some(point)
@@ -203,12 +212,20 @@ impl Search<'_> {
         let mut gradient = vec![0.0; self.values.len()];
         let slopes = here.gradient(&step).into_iter().zip(&self.bounded).map(per_value);
         self.bounded.iter().zip(slopes).for_each(|((j, _), slope)| gradient[*j] = slope);
+        let gradient_error = if self.problem.needs(Output::Position) {
+            let again = self.with_step(here.u.clone(), 2.0 * STEP)?;
+            let pairs = here.gradient(&step).into_iter().zip(again.gradient(&step));
+            Some(pairs.map(|(one, other)| (one - other).abs()).fold(0.0, f64::max))
+        } else {
+            None
+        };
         let active = step.mu.iter().enumerate().filter(|(_, mu)| **mu > 1e-6);
         Some(Found {
             values: self.values_at(&here.u),
             objective: self.scale * here.merit(0.0),
             excess: here.violation(),
             residual,
+            gradient_error,
             gradient,
             active: active.map(|(k, mu)| (k, self.scale * mu)).collect(),
             evaluations: self.evaluations,

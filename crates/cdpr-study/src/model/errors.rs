@@ -7,6 +7,7 @@ use crate::fs::input::{other_kind, read_text};
 use crate::kind::InputKind;
 use crate::model::error_model::{ErrorModel, Wrong};
 use cdpr_robot::{Robot, from_json};
+use cdpr_sensitivity::SensitivityError;
 use indexmap::IndexMap;
 use serde_json::Value;
 use std::borrow::Cow;
@@ -74,16 +75,7 @@ pub fn open_errors(path: &Path, robot: &Robot) -> Result<ErrorModel, StudyError>
 /// # Errors
 /// [`StudyError::Format`], [`StudyError::Invalid`] and [`StudyError::Statistics`] for what it says.
 pub fn read_errors(text: &str, path: &Path, robot: &Robot) -> Result<ErrorModel, StudyError> {
-    let entries = entries_of(text, path)?;
-    if let Some((key, _)) = entries.iter().find(|(_, spec)| spec.operating_point.is_some()) {
-        return Err(StudyError::Invalid {
-            path: path.to_owned(),
-            field: format!("{key}.operating_point"),
-            value: "given".to_owned(),
-            expected: "an error model without one, as there is no pose and load of a sampling".to_owned(),
-        });
-    }
-    ErrorModel::new(&entries, robot).map_err(|wrong| match wrong {
+    without_sampling(&entries_of(text, path)?, robot).map_err(|wrong| match wrong {
         Wrong::Field { field, value, expected } => {
             StudyError::Invalid { path: path.to_owned(), field, value, expected }
         }
@@ -91,4 +83,33 @@ pub fn read_errors(text: &str, path: &Path, robot: &Robot) -> Result<ErrorModel,
             StudyError::Statistics { path: path.to_owned(), field: "error model".to_owned(), source }
         }
     })
+}
+
+/// The error model of entries as a study has them in `error_models`, for a robot.
+///
+/// # Errors
+/// Field, value and what is expected.
+pub fn error_model(
+    entries: &IndexMap<String, InputSpec>,
+    robot: &Robot,
+) -> Result<ErrorModel, (String, String, String)> {
+    without_sampling(entries, robot).map_err(|wrong| match wrong {
+        Wrong::Field { field, value, expected } => (field, value, expected),
+        Wrong::Law(SensitivityError::InvalidInput { name, source }) => match *source {
+            SensitivityError::InvalidParameter { field, value, expected } => {
+                (format!("{name}.{field}"), value.to_string(), expected.to_owned())
+            }
+            source => (name, "invalid".to_owned(), source.to_string()),
+        },
+        Wrong::Law(source) => ("law".to_owned(), "invalid".to_owned(), source.to_string()),
+    })
+}
+
+/// The error model of entries, none of which refers to the pose and load of a sampling.
+fn without_sampling(entries: &IndexMap<String, InputSpec>, robot: &Robot) -> Result<ErrorModel, Wrong> {
+    if let Some((key, _)) = entries.iter().find(|(_, spec)| spec.operating_point.is_some()) {
+        let expected = "an error model without one, as there is no pose and load of a sampling";
+        return Err(Wrong::field(format!("{key}.operating_point"), "given", expected));
+    }
+    ErrorModel::new(entries, robot)
 }

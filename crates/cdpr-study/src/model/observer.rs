@@ -6,11 +6,11 @@ use crate::file::output::Output;
 use crate::model::error_model::ErrorModel;
 use crate::model::observed::{Measured, MeasuredQuantity};
 use cdpr_dynamics::{AmplitudeAt, AmplitudeDerivatives, FrequencyDerivatives, Modes, Swing};
-use cdpr_robot::{Coordinate, Deviations, Perturbed, Pose, Robot, Vector3, Vector6};
+use cdpr_robot::{Coordinate, Deviations, Parameter, Perturbed, Pose, Robot, Vector3, Vector6};
 use cdpr_statics::batch::{Observation, ObservationMotion, ObservationSlopes, ScalarReason};
 use cdpr_statics::{
-    Deflection, Derivatives, DirectProblem, DirectStart, Load, Matrix3xX, Observer, StaticsError, WantedPose,
-    derivatives, direct,
+    Deflection, Derivatives, DirectProblem, DirectStart, Equilibrium, Load, Matrix3xX, Observer,
+    StaticsError, WantedPose, derivatives, direct,
 };
 use std::borrow::Cow;
 
@@ -236,21 +236,13 @@ impl<'a> OutputObserver<'a> {
         let (none, lengths) = (Load::none(), self.lengths(perturbed)?);
         let problem = DirectProblem::new(&perturbed.robot, &lengths, &none)?;
         let found = problem.direct(DirectStart::Near(rest))?.equilibrium;
-        let mut slopes: Matrix3xX<f64> = problem.derivatives(&found)?.pose.fixed_rows::<3>(0).into();
-        if errors.has_offsets() {
-            // Offsets act through the lengths alone, which are those of the nominal robot.
-            let offsets = &perturbed.tension_offsets;
-            let wound = derivatives(
-                self.robot,
-                WantedPose::at(&self.pose).free(self.free).tension_offsets(offsets),
-                &self.load,
-            )?
-            .lengths;
-            let moved = problem.linearize(&found)?.pose_per_length() * wound;
-            let n = self.robot.cables.len();
-            let first = errors.parameters() - n;
-            slopes.columns_mut(first, n).copy_from(&moved.view((0, first), (3, n)));
-        }
+        // Offsets act through the lengths alone, which are those of the nominal robot.
+        let at_offsets = || {
+            let wanted = WantedPose::at(&self.pose).free(self.free);
+            derivatives(self.robot, wanted.tension_offsets(&perturbed.tension_offsets), &self.load)
+        };
+        let of_offsets = errors.has_offsets().then(at_offsets).transpose()?;
+        let slopes = position_slopes(&problem, &found, of_offsets.as_ref())?;
         Ok((found.pose.position - rest.pose.position, slopes))
     }
 
@@ -353,6 +345,27 @@ impl<'a> OutputObserver<'a> {
         let slopes = displaced.normalize().transpose() * slopes;
         Ok((1e3 * displaced.norm(), scaled(1e3, errors.gradient(slopes.as_slice()))))
     }
+}
+
+/// Derivatives of the position of P at an equilibrium for given lengths, by the parameters [m per unit]; by
+/// the offsets of tension set-points as they change these lengths, and zero without `of_offsets`.
+///
+/// # Errors
+/// As [`DirectProblem::derivatives`].
+pub fn position_slopes(
+    problem: &DirectProblem,
+    rest: &Equilibrium,
+    of_offsets: Option<&Derivatives>,
+) -> Result<Matrix3xX<f64>, StaticsError> {
+    let mut slopes: Matrix3xX<f64> = problem.derivatives(rest)?.pose.fixed_rows::<3>(0).into();
+    if let Some(Derivatives { inputs, lengths, .. }) = of_offsets
+        && let Some(first) = inputs.column(Parameter::TensionOffset(0))
+    {
+        let n = lengths.nrows();
+        let moved = problem.linearize(rest)?.pose_per_length() * lengths.columns(first, n);
+        slopes.columns_mut(first, n).copy_from(&moved.fixed_rows::<3>(0));
+    }
+    Ok(slopes)
 }
 
 impl From<Observation> for Measured {

@@ -205,7 +205,7 @@ pub(crate) fn quadrature(law: &Law, degree: usize) -> Vec<(f64, f64)> {
 }
 
 /// Nodes and weights of the Gauss-Legendre rule of n points on [-1, 1], by Newton's method.
-fn gauss_legendre(n: usize) -> Vec<(f64, f64)> {
+pub(crate) fn gauss_legendre(n: usize) -> Vec<(f64, f64)> {
     let count = n as f64;
     let node = |i: usize| {
         let mut z = (std::f64::consts::PI * (i as f64 + 0.75) / (count + 0.5)).cos();

@@ -1,9 +1,13 @@
 //! `cdpr design`: values of a robot that make it as good as possible for poses and a load.
 
-use crate::program::arguments::{Format, Overwrite, Preference, RobotArgument, Threads, endings};
+use crate::program::arguments::{
+    Format, Overwrite, Preference, RobotArgument, Threads, endings, print_record,
+};
 use crate::program::error::ProgramError;
 use crate::program::output::{Ending, patiently, print_sentence, table};
-use cdpr_assess::{ActiveDemand, BestDesign, Design, DesignProblem, DesignedVariable, Over, design};
+use cdpr_assess::{
+    ActiveDemand, BestDesign, Design, DesignProblem, DesignedVariable, Front, FrontPoint, Over, design, front,
+};
 use cdpr_robot::{Robot, counted, shown, significant};
 use cdpr_study::Output;
 use std::path::PathBuf;
@@ -18,7 +22,7 @@ pub(crate) struct Settings {
     design: PathBuf,
     #[command(flatten)]
     preference: Preference,
-    /// Robot file of the best robot.
+    /// Robot file of the best robot; of a front best-1.json, best-2.json and so on for best.json.
     #[arg(short, long, value_parser = endings::json())]
     out: Option<PathBuf>,
     #[command(flatten)]
@@ -34,6 +38,10 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     settings.threads.start()?;
     let robot = settings.preference.open_robot(settings.robot.path())?;
     let problem = DesignProblem::open(&settings.design, robot.clone())?;
+    if problem.has_front() {
+        let found = patiently("looking for the best robots", || front(&problem))?;
+        return answer_front(settings, &robot, &found);
+    }
     let found = patiently("looking for the best robot", || design(&problem))?;
     if let (Some(out), Some(best)) = (&settings.out, &found.best) {
         settings.overwrite.write(out, format!("{}\n", best.robot.to_json()))?;
@@ -47,16 +55,112 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     Ok(if found.best.is_some() { Ending::Well } else { Ending::SomethingWrong })
 }
 
+/// Writes and prints a front.
+fn answer_front(settings: &Settings, robot: &Robot, found: &Front) -> Result<Ending, ProgramError> {
+    let mut written = Vec::new();
+    if let Some(out) = &settings.out {
+        let stem = out.file_stem().unwrap_or_default().to_string_lossy();
+        for (k, point) in found.points.iter().enumerate() {
+            let path = out.with_file_name(format!("{stem}-{}.json", k + 1));
+            settings.overwrite.write(&path, format!("{}\n", point.robot.to_json()))?;
+            written.push(path.display().to_string());
+        }
+    }
+    if settings.format == Format::Csv {
+        print_table(found);
+    } else {
+        settings.format.print(found, |found| {
+            print_front(robot, found);
+            if let ([first, ..], Some(last)) = (&written[..], written.last()) {
+                println!("{first} to {last}");
+            }
+        })?;
+    }
+    Ok(if found.points.is_empty() { Ending::SomethingWrong } else { Ending::Well })
+}
+
+/// A front as CSV: a row for each point.
+fn print_table(found: &Front) {
+    let of = |i: usize| {
+        let over = if found.over[i] == Over::Mean { "mean" } else { "worst" };
+        format!("{over}_{}", found.outputs[i].name())
+    };
+    let columns = [of(0), of(1), "exchange".to_owned(), "kkt_residual".to_owned(), "optimal".to_owned()];
+    let variables = found.variables.iter().map(|(name, _)| name.clone());
+    print_record(&columns.into_iter().chain(variables).collect::<Vec<_>>());
+    for FrontPoint { objectives, variables, exchange, kkt_residual, optimal, .. } in &found.points {
+        let number = |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:?}"));
+        let [one, two] = objectives.map(|value| number(Some(value)));
+        let cells = [one, two, number(*exchange), number(*kkt_residual), optimal.to_string()];
+        let variables = variables.iter().map(|value| number(Some(*value)));
+        print_record(&cells.into_iter().chain(variables).collect::<Vec<_>>());
+    }
+}
+
+fn print_front(robot: &Robot, found: &Front) {
+    /// Variables with columns of their own.
+    const MOST: usize = 4;
+    let [one, two] = [0, 1].map(|i| noun(found.over[i], found.outputs[i], found.poses));
+    let name = shown(&robot.name);
+    let tried = tried(found.starts, found.configurations);
+    if found.points.is_empty() {
+        let reason =
+            found.reason.as_ref().map_or_else(String::new, |reason| format!(" The first one: {reason}."));
+        print_sentence(&format!("{name}: no robot was found that holds all poses, in {tried}.{reason}"));
+        return;
+    }
+    let points = counted(found.points.len(), "robot");
+    let each = if found.starts == 0 { ", all evaluated" } else { " for each" };
+    print_sentence(&format!(
+        "{name}: the {one} against the {two}, {points} of which none is better in both ({tried}{each})."
+    ));
+    found.basis.iter().for_each(|basis| print_sentence(basis));
+    let dominated = match found.dominated {
+        0 => String::new(),
+        count => format!("; {} left out, as good as another or worse in both", counted(count, "robot")),
+    };
+    let lost = match found.lost {
+        0 => String::new(),
+        count => format!("; no robot was found for {}", counted(count, "step")),
+    };
+    print_sentence(&format!("{}{dominated}{lost}.", counted(found.evaluations, "evaluation")));
+    let doubtful: Vec<String> =
+        (1..).zip(&found.points).filter(|(_, of)| !of.optimal).map(|(k, _)| k.to_string()).collect();
+    if !doubtful.is_empty() {
+        print_sentence(&format!("No local optimum, by the KKT residual: {}.", doubtful.join(", ")));
+    }
+    let units = found.outputs.map(Output::unit);
+    let [one, two] = [0, 1].map(|i| format!("{} [{}]", found.outputs[i].noun(), units[i]));
+    let mut header = vec!["".to_owned(), one, two];
+    if found.starts > 0 {
+        header.push(format!("{} per {}", units[0], units[1]));
+    }
+    let named = if found.variables.len() > MOST { &[][..] } else { &found.variables[..] };
+    header.extend(named.iter().map(|(name, unit)| format!("{} [{unit}]", shown(name))));
+    let mut rows = table(&header.iter().map(String::as_str).collect::<Vec<_>>());
+    for (k, point) in (1..).zip(&found.points) {
+        let mut cells = vec![k.to_string()];
+        cells.extend(point.objectives.map(|value| significant(value, 4)));
+        if found.starts > 0 {
+            cells.push(point.exchange.map_or_else(String::new, |rate| significant(rate, 3)));
+        }
+        cells.extend(point.variables.iter().take(named.len()).map(|of| value(*of)));
+        rows.add_row(&cells);
+    }
+    println!("{rows}");
+    if named.is_empty() {
+        print_sentence("--format csv and json have the values of the variables.");
+    }
+}
+
 fn print(robot: &Robot, found: &Design) {
     let Some(best) = &found.best else {
         print_sentence(&none(robot, found));
         return;
     };
-    for sentence in
-        [Some(verdict(robot, found, best)), Some(ends(found, best)), optimum(best), demands(found, best)]
-            .into_iter()
-            .flatten()
-    {
+    let basis = found.basis.map(str::to_owned);
+    let first = [Some(verdict(robot, found, best)), basis, Some(ends(found, best))];
+    for sentence in first.into_iter().chain([optimum(best), demands(found, best)]).flatten() {
         print_sentence(&sentence);
     }
     let per_unit = format!("{} per unit", found.output.unit());
@@ -73,16 +177,16 @@ fn print(robot: &Robot, found: &Design) {
 }
 
 /// What is as good as possible, in words.
-fn noun(found: &Design) -> String {
-    let of = match (found.over, found.output) {
-        (_, Output::Stiffness) if found.poses > 1 && found.over == Over::Mean => "mean lowest ",
+fn noun(over: Over, output: Output, poses: usize) -> String {
+    let of = match (over, output) {
+        (Over::Mean, Output::Stiffness) if poses > 1 => "mean lowest ",
         (_, Output::Stiffness) => "lowest ",
-        _ if found.poses == 1 => "",
+        _ if poses == 1 => "",
         (Over::Mean, _) => "mean ",
         (Over::Worst, Output::Frequency | Output::PlatformFrequency) => "lowest ",
         (Over::Worst, _) => "greatest ",
     };
-    format!("{of}{}", found.output.noun())
+    format!("{of}{}", output.noun())
 }
 
 /// A value with six digits, without zeros at its end.
@@ -95,8 +199,8 @@ fn value(value: f64) -> String {
 }
 
 /// `3 starts`, or `3 configurations`, or `3 starts in each of 4 configurations`.
-fn tried(found: &Design) -> String {
-    match (found.starts, found.configurations) {
+fn tried(starts: usize, configurations: usize) -> String {
+    match (starts, configurations) {
         (0, count) => counted(count, "configuration"),
         (starts, 1) => counted(starts, "start"),
         (starts, count) => {
@@ -110,7 +214,10 @@ fn none(robot: &Robot, found: &Design) -> String {
     let reason =
         found.reason.as_ref().map_or_else(String::new, |reason| format!(" The first one: {reason}."));
     let name = shown(&robot.name);
-    format!("{name}: no robot was found that holds {poses} within the limits, in {}.{reason}", tried(found))
+    format!(
+        "{name}: no robot was found that holds {poses} within the limits, in {}.{reason}",
+        tried(found.starts, found.configurations)
+    )
 }
 
 /// What becomes of the objective, and of how many it is the best.
@@ -129,7 +236,12 @@ fn verdict(robot: &Robot, found: &Design, best: &BestDesign) -> String {
         None => format!("becomes {} {unit}", significant(after, 4)),
     };
     let all = if found.starts == 0 { ", all evaluated" } else { "" };
-    format!("{}: the {} {becomes} (best of {}{all}).", shown(&robot.name), noun(found), tried(found))
+    format!(
+        "{}: the {} {becomes} (best of {}{all}).",
+        shown(&robot.name),
+        noun(found.over, found.output, found.poses),
+        tried(found.starts, found.configurations)
+    )
 }
 
 /// How many starts or configurations lead where, and what the robot as it is lacks.
@@ -160,11 +272,18 @@ fn ends(found: &Design, best: &BestDesign) -> String {
 /// Whether it is an optimum, by the residual of its conditions.
 fn optimum(best: &BestDesign) -> Option<String> {
     let residual = best.kkt_residual?;
-    Some(match best.optimal {
-        true => "It is a local optimum: the KKT residual is below 1e-8.".to_owned(),
-        false => format!(
-            "The search ended before an optimum (KKT residual {}): derivatives jump there, where a tension meets \
-             a limit, or no step keeps all poses.",
+    let by_differences = best.gradient_error.map_or_else(String::new, |error| {
+        format!(", with derivatives by differences that are right to {}", significant(error, 1))
+    });
+    Some(match (best.optimal, best.gradient_error) {
+        (true, None) => "It is a local optimum: the KKT residual is below 1e-8.".to_owned(),
+        (true, Some(_)) => {
+            let precision = "the KKT residual is below 1e-6, with the error of derivatives by differences";
+            format!("It is a local optimum: {precision}.")
+        }
+        (false, _) => format!(
+            "The search ended before an optimum (KKT residual {}{by_differences}): derivatives jump there, where \
+             a tension meets a limit, or no step keeps all poses.",
             significant(residual, 1)
         ),
     })
