@@ -4,6 +4,7 @@
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use cdpr_robot::shown_lines;
+use cdpr_statics::Load;
 use cdpr_study::{Output, Study, StudyFile};
 use cdpr_web::page;
 use maud::{Markup, PreEscaped, html};
@@ -27,7 +28,7 @@ pub(crate) struct LiveRobot<'a> {
 }
 
 /// What a page observes of a study: its first sampling at one pose, which is called `all` there, with the
-/// deflection as output, eight replicates and at most 2048 observations in each. A study without payload gets
+/// deflection as output, eight replicates and at most 2048 observations in each. A study without load gets
 /// a tenth of the platform's mass. None if no sampling has one pose.
 pub fn explored_study(study: &Study) -> Option<StudyFile> {
     let mut file = study.file.clone();
@@ -38,7 +39,7 @@ pub fn explored_study(study: &Study) -> Option<StudyFile> {
     file.samplings.clear();
     file.samplings.insert("all".to_owned(), sampling);
     file.output = Output::Deflection;
-    if file.payload == 0.0 {
+    if file.load() == Load::none() {
         // That of a template.
         file.payload = 0.1 * study.robot.platform.mass;
     }
