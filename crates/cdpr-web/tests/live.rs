@@ -133,9 +133,10 @@ fn robots_are_observed_on_kept_lengths_under_a_force() {
     let far = 1e3 * (0..3).map(|k| (loaded[k] - alone[k]).powi(2)).sum::<f64>().sqrt();
     assert!((observed["nominal_mm"].as_f64().unwrap() - far).abs() < 1e-7 * far, "{far}: {observed}");
     let values = observed["values_mm"].as_array().unwrap();
-    assert!(
-        values.len() == 16 && values.iter().all(|value| (value.as_f64().unwrap() / far - 1.0).abs() < 0.3)
-    );
+    let of = |value: &Value| value.as_f64().unwrap() / far;
+    assert_eq!(values.len(), 16);
+    assert!(values.iter().all(|value| (0.2..5.0).contains(&of(value))), "{far}: {values:?}");
+    assert!(values.iter().any(|value| (of(value) - 1.0).abs() > 1e-3));
 }
 
 #[test]

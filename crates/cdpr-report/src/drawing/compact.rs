@@ -96,9 +96,9 @@ fn write_column(text: &mut String, column: &[Cell]) {
         return;
     }
     let middle = x as f64 + 0.5 * width as f64;
-    let _ = writeln!(text, "<g stroke-width=\"{width}\">");
+    let _ = writeln!(text, "<g stroke-width=\"{width}\" transform=\"translate({middle})\">");
     for Cell { sides: [_, y, _, height], color } in column {
-        let _ = writeln!(text, "<path stroke=\"{color}\" d=\"M{middle},{y}v{height}\"/>");
+        let _ = writeln!(text, "<path stroke=\"{color}\" d=\"M0,{y}v{height}\"/>");
     }
     text.push_str("</g>\n");
 }
@@ -123,7 +123,8 @@ mod tests {
         let few = column(3, 7) + &column(8, 7);
         assert_eq!(compact(&few), few);
         let many = compact(&(column(3, 8) + &column(8, 2)));
-        assert!(many.starts_with("<g stroke-width=\"5\">\n<path stroke=\"#000000\" d=\"M5.5,0v9\"/>\n"));
-        assert!(many.contains("d=\"M5.5,63v9\"/>\n</g>\n<rect x=\"8\"") && many.ends_with(&column(8, 2)));
+        let group = "<g stroke-width=\"5\" transform=\"translate(5.5)\">";
+        assert!(many.starts_with(&format!("{group}\n<path stroke=\"#000000\" d=\"M0,0v9\"/>\n")));
+        assert!(many.contains("d=\"M0,63v9\"/>\n</g>\n<rect x=\"8\"") && many.ends_with(&column(8, 2)));
     }
 }
