@@ -13,7 +13,7 @@ use serde_json::value::RawValue;
 use sha2::{Digest, Sha256};
 
 /// The script that unpacks, which comes before the one of the page.
-pub(crate) const UNPACK: &str = include_str!("live/unpack.js");
+pub(crate) const UNPACK: &str = concat!(include_str!("live/lzma.js"), include_str!("live/unpack.js"));
 
 /// The script of a page that shows the explorer alone.
 pub(crate) const BOOT: &str = include_str!("live/boot.js");
