@@ -4,7 +4,7 @@
 //! them has the checksum of what they were made of; `cargo xtask web --check` says where it is another one by
 //! now.
 //!
-//! It takes the target `wasm32-unknown-unknown` of the compiler, npm, and wasm-bindgen in the version of
+//! It takes the target `wasm32-unknown-unknown` of the compiler, npm, xz, and wasm-bindgen in the version of
 //! Cargo.lock, which is installed below `target`. The module uses the vector unit of WebAssembly.
 
 use crate::cargo::{self, Outcome, cargo_command, done, files, printed, read, root, write};
@@ -43,9 +43,9 @@ fn make() -> Outcome {
     eprintln!("page");
     done(Command::new("npm").args(["ci", "--no-audit", "--no-fund"]).current_dir(&page))?;
     done(Command::new("npm").args(["run", "build"]).current_dir(&page))?;
-    pack(&page, &bound.join("cdpr_web_bg.wasm"), &dist.join("cdpr_web.wasm.gz"))?;
+    pack(&bound.join("cdpr_web_bg.wasm"), &dist.join("cdpr_web.wasm.lzma"))?;
     let script = dist.join("explorer.js");
-    pack(&page, &script, &dist.join("explorer.js.gz"))?;
+    pack(&script, &dist.join("explorer.js.lzma"))?;
     fs::remove_file(script)?;
     write(&dist.join("SOURCES"), &format!("{sources}\n"))?;
     for file in fs::read_dir(&dist)? {
@@ -55,9 +55,15 @@ fn make() -> Outcome {
     Ok(())
 }
 
-/// Packs a file by gzip, by the script of the page.
-fn pack(page: &Path, file: &Path, packed: &Path) -> Outcome {
-    done(Command::new("node").arg("pack.mjs").args([file, packed]).current_dir(page))
+/// Packs a file by LZMA: a fifth smaller than by gzip. Neither code nor text has a period of bytes (pb = 0).
+fn pack(file: &Path, packed: &Path) -> Outcome {
+    let setting = "--lzma1=preset=9e,dict=4MiB,nice=273,pb=0";
+    done(
+        Command::new("xz")
+            .args(["--format=lzma", setting, "--stdout"])
+            .arg(file)
+            .stdout(fs::File::create(packed)?),
+    )
 }
 
 /// Says where the products are not those of the sources: a warning, because the models may agree

@@ -21,7 +21,7 @@ use crate::error::AssessError;
 use cdpr_sensitivity::{
     Estimate, RandomDesign, SampleDesign, SensitivityError, SobolDesign, allocate, derived_seed,
 };
-use cdpr_statics::StaticsError;
+use cdpr_statics::{Load, StaticsError};
 use cdpr_study::{LinearLaw, Sampling, StudyError, explained, observe_rows};
 pub use limit::{Limit, Limited};
 use rayon::prelude::*;
@@ -180,10 +180,9 @@ impl<'a> Model<'a> {
     fn new(sampling: &'a Sampling<'a>, limit: &'a Limit) -> Result<Self, AssessError> {
         limit.check()?;
         let of = Limited::of(limit.of, sampling.output())?;
-        let payload = sampling.study.file.payload;
-        if of == Limited::Deflection && payload == 0.0 {
+        if of == Limited::Deflection && sampling.load == Load::none() {
             let expected = "a mass above zero [kg], whose effect is the deflection";
-            return Err(StudyError::setting("the study's payload", payload, expected).into());
+            return Err(StudyError::setting("the study's payload", 0.0, expected).into());
         }
         if sampling.correlation.is_some() {
             let expected = "none: the variance of correlated tolerances is not the sum of their parts (B1)";
@@ -244,8 +243,8 @@ impl<'a> Model<'a> {
             |slopes: &[f64]| errors.gradient(slopes).into_iter().map(|slope| 1e3 * slope).collect();
         let (value, slopes): (Vec<f64>, Vec<Vec<f64>>) = match self.of {
             Limited::Deflection => {
-                let found = observer.derivatives(&perturbed)?;
-                (vec![found.deflection.magnitude()], vec![gradient(&found.magnitude()?)])
+                let (magnitude, slopes) = observer.magnitude_slopes(&perturbed)?;
+                (vec![magnitude], vec![gradient(&slopes)])
             }
             Limited::Position => {
                 let (displaced, slopes) = observer.displaced_slopes(&perturbed, errors)?;

@@ -2,6 +2,7 @@
 
 pub(crate) mod axis;
 pub(crate) mod color_map;
+pub(crate) mod compact;
 pub(crate) mod heading;
 pub(crate) mod name_map;
 pub(crate) mod plane;

@@ -4,6 +4,7 @@
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use cdpr_robot::shown_lines;
+use cdpr_statics::Load;
 use cdpr_study::{Output, Study, StudyFile};
 use cdpr_web::page;
 use maud::{Markup, PreEscaped, html};
@@ -12,7 +13,7 @@ use serde_json::value::RawValue;
 use sha2::{Digest, Sha256};
 
 /// The script that unpacks, which comes before the one of the page.
-pub(crate) const UNPACK: &str = include_str!("live/unpack.js");
+pub(crate) const UNPACK: &str = concat!(include_str!("live/lzma.js"), include_str!("live/unpack.js"));
 
 /// The script of a page that shows the explorer alone.
 pub(crate) const BOOT: &str = include_str!("live/boot.js");
@@ -27,7 +28,7 @@ pub(crate) struct LiveRobot<'a> {
 }
 
 /// What a page observes of a study: its first sampling at one pose, which is called `all` there, with the
-/// deflection as output, eight replicates and at most 2048 observations in each. A study without payload gets
+/// deflection as output, eight replicates and at most 2048 observations in each. A study without load gets
 /// a tenth of the platform's mass. None if no sampling has one pose.
 pub fn explored_study(study: &Study) -> Option<StudyFile> {
     let mut file = study.file.clone();
@@ -38,7 +39,7 @@ pub fn explored_study(study: &Study) -> Option<StudyFile> {
     file.samplings.clear();
     file.samplings.insert("all".to_owned(), sampling);
     file.output = Output::Deflection;
-    if file.payload == 0.0 {
+    if file.load() == Load::none() {
         // That of a template.
         file.payload = 0.1 * study.robot.platform.mass;
     }

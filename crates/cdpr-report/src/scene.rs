@@ -7,7 +7,7 @@ use cdpr_study::{Study, StudyError};
 use serde::{Serialize, Serializer};
 
 /// Number of points along a cable.
-const POINTS: usize = 49;
+const POINTS: usize = 33;
 
 /// Points of a cable on its pulley.
 const POINTS_ON_PULLEY: usize = 8;

@@ -1,7 +1,8 @@
 //! Numbers, points, laws and steps as text.
 
-use cdpr_robot::decimal;
+use cdpr_robot::{Vector3, Wrench, decimal};
 use cdpr_sensitivity::{Law, Steps};
+use cdpr_statics::Load;
 use serde::Serialize;
 use serde_json::Value;
 
@@ -59,6 +60,17 @@ fn superscript(exponent: i32) -> String {
 pub(crate) fn point(coordinates: &[f64]) -> String {
     let coordinates: Vec<String> = coordinates.iter().map(|value| digits(*value, 5)).collect();
     format!("({})", coordinates.join(", "))
+}
+
+/// The force and moment of a load that has them, as in `the force (0, 0, −10) N`.
+pub(crate) fn wrench_words(load: &Load) -> Option<String> {
+    let Wrench { force, moment } = load.wrench;
+    let of = |name: &str, vector: Vector3<f64>, unit: &str| {
+        (vector != Vector3::zeros()).then(|| format!("the {name} {} {unit}", point(vector.as_slice())))
+    };
+    let words: Vec<_> =
+        [of("force", force, "N"), of("moment", moment, "N m")].into_iter().flatten().collect();
+    (!words.is_empty()).then(|| words.join(" and "))
 }
 
 /// Law in words. Its parameters are multiplied by `scale`.

@@ -157,9 +157,15 @@ fn figures() -> [String; 7] {
     ]
 }
 
-/// Filled rectangles, without the background.
+/// Filled rectangles, without the background; in columns of many they are strokes.
 pub(crate) fn rectangles(svg: &str) -> usize {
-    svg.matches("<rect ").count() - 1
+    svg.matches("<rect ").count() + svg.matches("<path stroke=").count() - 1
+}
+
+/// Lines; those of one pen are one path, in which each begins with a move.
+pub(crate) fn lines(svg: &str) -> usize {
+    let paths = svg.split(" d=\"").skip(1).filter_map(|rest| rest.split('"').next());
+    paths.map(|path| path.matches('m').count()).sum()
 }
 
 /// Texts, in the order of the file.

@@ -1,5 +1,6 @@
 //! Maps of a plane, and workspaces that are not a plane.
 
+use crate::figures::{lines as lines_of, rectangles};
 use cdpr_assess::{
     AnyWeather, Further, ShakingSummary, TiltDirections, Workspace, WorkspaceRow, WorkspaceSummary,
     WrenchSet, compute_workspace,
@@ -89,7 +90,7 @@ fn a_map_has_every_cell_the_hatching_the_frame_and_the_exit_points() {
         let svg = heat_map(&robot, &summary, quantity).unwrap();
         // The paper, 63 cells, 128 steps of the colour bar; grey for a cell without value and for the key's
         // bar as a line.
-        assert_eq!(count(&svg, "<rect"), 1 + 63 + 128, "{quantity:?}");
+        assert_eq!(rectangles(&svg), 63 + 128, "{quantity:?}");
         assert_eq!(count(&svg, "fill=\"#B0B0B0\""), not_held);
         assert_eq!(count(&svg, "<circle"), 8);
         for words in
@@ -113,7 +114,7 @@ fn each_position_has_the_colour_of_its_dominant_tolerance() {
     let svg = tolerance_map(&robot, &summary).unwrap();
     let held = summary.rows.iter().filter(|row| row.status == "held").count();
     // Cells; the key has a bar of each name.
-    assert_eq!(count(&svg, "<rect"), 1 + 63);
+    assert_eq!(rectangles(&svg), 63);
     let blue = count(&svg, "fill=\"#0072B2\"");
     assert_eq!((blue, count(&svg, "fill=\"#56B4E9\"")), (held - 2, 2));
     assert!(svg.contains("youngs_modulus") && svg.contains("a1.x") && svg.contains("of 63 positions"));
@@ -123,9 +124,8 @@ fn each_position_has_the_colour_of_its_dominant_tolerance() {
 fn a_load_beyond_the_limits_is_coloured_and_hatched() {
     let robot = caroca();
     let mut summary = summary(&robot, Grid::over_frame(&robot, Axis::Z, 1.75, [9, 7]).unwrap());
-    let lines = |summary: &WorkspaceSummary| {
-        count(&heat_map(&robot, summary, MapQuantity::Deflection).unwrap(), "<polyline")
-    };
+    let lines =
+        |summary: &WorkspaceSummary| lines_of(&heat_map(&robot, summary, MapQuantity::Deflection).unwrap());
     let before = lines(&summary);
     summary.rows[31].status = "beyond_limits";
     assert_eq!(lines(&summary), before + 1);

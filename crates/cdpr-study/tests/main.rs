@@ -4,6 +4,7 @@
 
 mod correlated_inputs;
 mod error_model;
+mod kept;
 mod memory;
 mod operating_point;
 mod output;

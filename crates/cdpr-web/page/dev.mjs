@@ -2,7 +2,7 @@
 // and worker are those of ../dist.
 
 import { readFile, writeFile, mkdtemp } from "node:fs/promises";
-import { gzipSync } from "node:zlib";
+import vm from "node:vm";
 import { tmpdir } from "node:os";
 import path from "node:path";
 import { fileURLToPath } from "node:url";
@@ -17,8 +17,8 @@ const read = (name) => readFile(path.join(dist, name), "utf8");
 const made = (name) => path.join(here, "../dist", name);
 // The smallest module stands for the real one, where the engine is the stand-in.
 const module = mock
-  ? gzipSync(Buffer.from([0, 97, 115, 109, 1, 0, 0, 0]))
-  : await readFile(made("cdpr_web.wasm.gz"));
+  ? Buffer.from([0, 97, 115, 109, 1, 0, 0, 0])
+  : await unpacked(made("cdpr_web.wasm.lzma"));
 const worker = mock ? await read("worker.js") : await readFile(made("worker.js"), "utf8");
 const script = (text) => text.replaceAll("</script", "<\\/script");
 const policy = [
@@ -47,9 +47,7 @@ const page = `<!doctype html>
 <script>
 (async () => {
   const text = (id) => document.getElementById(id).textContent;
-  const bytes = Uint8Array.from(atob(text("module")), (letter) => letter.charCodeAt(0));
-  const unzipped = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
-  const module = await new Response(unzipped).arrayBuffer();
+  const module = Uint8Array.from(atob(text("module")), (letter) => letter.charCodeAt(0)).buffer;
   window.live = cdprExplorer.mount(document.getElementById("explorer"), {
     robot: JSON.parse(text("robot")), module, worker: text("worker"),
     name: ${JSON.stringify(path.basename(robot))},
@@ -61,4 +59,9 @@ const page = `<!doctype html>
 </html>
 `;
 await writeFile(out, page);
+
+async function unpacked(file) {
+  const lzma = await readFile(path.join(here, "../../cdpr-report/src/live/lzma.js"), "utf8");
+  return Buffer.from(vm.runInThisContext(`${lzma}; unlzma`)(await readFile(file)));
+}
 console.log(`${out}: ${page.length} bytes`);

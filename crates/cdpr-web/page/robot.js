@@ -77,19 +77,34 @@ export function firstSampling(study) {
 }
 
 /**
- * What a study says instead of the template: itself, and pose, payload and free coordinates to begin with.
+ * What a study says instead of the template: itself, and pose or lengths, load and free coordinates to begin
+ * with.
  * @param {object} study study file
  */
 export function ofStudy(study) {
-  const { pose, free = [] } = firstSampling(study);
+  const { pose, free = [], lengths } = firstSampling(study);
   const rotation = pose?.quaternion ?? quaternion(pose?.rpy_deg ?? [0, 0, 0]);
-  const start = pose ? { pose: [...pose.position, ...rotation], payload: study.payload } : null;
+  const { payload, force, moment } = study;
+  const start = pose ? { pose: [...pose.position, ...rotation], payload, force, moment, lengths } : null;
   return { study, ...(start ? { start, free } : {}), reference: study.tension_reference ?? null };
 }
 
 /** The tolerances of a study: the entries of the error model of its sampling. */
 export function tolerances(study) {
   return study.error_models[firstSampling(study).error_model];
+}
+
+/** Whether an entry of an error model is of set-points of tensions, which kept lengths do not have. */
+export function isOfSetPoints([name, { parameters }]) {
+  return (parameters ? Object.keys(parameters) : [name]).some((acts) => /^dt\d*$/.test(acts));
+}
+
+// The entries that deviate in a state, with their factors.
+function deviating(study, { way, tolerances: factors }) {
+  return Object.entries(tolerances(study))
+    .filter((entry) => way === "pose" || !isOfSetPoints(entry))
+    .map(([name, entry]) => [name, entry, factors[name] ?? 1])
+    .filter(([, , factor]) => factor > 0);
 }
 
 // The number that a slider shows of a law, in SI units, and what it is.
@@ -123,17 +138,19 @@ export function scaled(entry, factor) {
 }
 
 /**
- * The study of what is on screen: one sampling, `all`, at the pose, with scaled tolerances.
+ * The study of what is on screen: one sampling, `all`, at the pose or on the lengths that are kept, under the
+ * load, with scaled tolerances.
  * @param {object} study the study of the template
  * @param {object} state
  * @param {{robot: string, observations?: number}} options name of the robot file
  */
 export function studyOf(study, state, { robot, observations = state.observations }) {
   const sampling = firstSampling(study);
-  const entries = Object.entries(tolerances(study))
-    .map(([name, entry]) => [name, entry, state.tolerances[name] ?? 1])
-    .filter(([, , factor]) => factor > 0)
-    .map(([name, entry, factor]) => [name, factor === 1 ? entry : scaled(entry, factor)]);
+  const entries = deviating(study, state).map(([name, entry, factor]) => [
+    name,
+    factor === 1 ? entry : scaled(entry, factor),
+  ]);
+  const wrench = ["force", "moment"].filter((part) => state[part].some((value) => value !== 0));
   const { name, seed, replicates, confidence, bootstrap_resamples } = study;
   return {
     format: study.format,
@@ -141,6 +158,7 @@ export function studyOf(study, state, { robot, observations = state.observations
     source: "Written by the live robot of cdpr.",
     robot,
     payload: state.payload,
+    ...Object.fromEntries(wrench.map((part) => [part, state[part]])),
     seed,
     ...(state.changes.reference === null ? {} : { tension_reference: state.changes.reference }),
     replicates: Math.max(2, replicates),
@@ -151,7 +169,8 @@ export function studyOf(study, state, { robot, observations = state.observations
       all: {
         title: sampling.title,
         pose: { position: state.position, quaternion: quaternion(state.rpy_deg) },
-        ...(state.free.length > 0 ? { free: state.free } : {}),
+        ...(state.way === "kept" ? { lengths: state.lengths } : {}),
+        ...(state.way === "pose" && state.free.length > 0 ? { free: state.free } : {}),
         error_model: "tolerances",
         observations,
       },
@@ -160,19 +179,18 @@ export function studyOf(study, state, { robot, observations = state.observations
 }
 
 /**
- * Why the study of the state would be of another state, or of nothing; null where it is of this one. Studies
- * set the lengths for the pose, and load the platform with the payload alone.
+ * Why the state has no study; null where it has one.
  * @param {object} study the study of the template
  * @param {object} state
  */
-export function unobserved(study, { way, force, moment, payload, tolerances: factors }) {
-  if (way === "kept")
-    return "the lengths are kept, but robots are observed with lengths for the pose: choose those";
-  if ([...force, ...moment].some((value) => value !== 0))
-    return "robots are observed under the payload alone: set force and moment to zero";
-  if (payload === 0) return "there is no payload, so there is no deflection to observe: set a payload";
-  const entries = Object.keys(tolerances(study));
-  if (entries.every((entry) => factors[entry] === 0)) return "all tolerances are zero, so nothing deviates";
+export function unobserved(study, state) {
+  const { force, moment, payload } = state;
+  if (payload === 0 && [...force, ...moment].every((value) => value === 0))
+    return "there is no load, so there is no deflection to observe: set a payload or a force";
+  if (deviating(study, state).length === 0) {
+    const points = state.way === "kept" ? ", and kept lengths have no tension set-points" : "";
+    return `all tolerances are zero${points}, so nothing deviates`;
+  }
   return null;
 }
 

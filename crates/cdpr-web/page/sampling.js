@@ -48,10 +48,9 @@ export class Sampling {
   /** Observes at a state. `version` changes with the robot. */
   update(state, version) {
     if (!this.study) return;
-    const { position, rpy_deg, payload, free, tolerances: factors, observations, changes } = state;
     const reason = unobserved(this.study, state);
-    const observed = [position, rpy_deg, payload, free, factors, observations, changes, version];
-    const key = JSON.stringify([reason, ...(reason === null ? observed : [])]);
+    const study = reason === null ? studyOf(this.study, state, { robot: "robot.json" }) : null;
+    const key = JSON.stringify([reason, study, state.changes, version]);
     if (key === this.#wanted?.key) return;
     this.#wanted = { key, state, since: performance.now() };
     this.failure = null;

@@ -25,17 +25,17 @@ const CHOICES = {
  * @param {object} robot answer to `describe`
  */
 export function initial(robot) {
-  const pose = robot.start?.pose ?? [0, 0, 0, 1, 0, 0, 0];
+  const { pose = [0, 0, 0, 1, 0, 0, 0], payload = 0, lengths = null, ...wrench } = robot.start ?? {};
   return {
     format: FORMAT,
     robot: robot.name,
-    way: "pose",
+    way: lengths ? "kept" : "pose",
     ...placeOf(pose),
-    lengths: null,
+    lengths,
     cables: robot.cables,
-    payload: robot.start?.payload ?? 0,
-    force: [0, 0, 0],
-    moment: [0, 0, 0],
+    payload,
+    force: wrench.force ?? [0, 0, 0],
+    moment: wrench.moment ?? [0, 0, 0],
     free: robot.free ?? [],
     changes: {
       modulus: 1,

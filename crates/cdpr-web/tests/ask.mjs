@@ -2,11 +2,12 @@
 // input and the list of answers on the standard output.
 
 import { readFileSync } from "node:fs";
-import { gunzipSync } from "node:zlib";
 import vm from "node:vm";
 
 const dist = new URL("../dist/", import.meta.url);
-const module = gunzipSync(readFileSync(new URL("cdpr_web.wasm.gz", dist)));
+const lzma = new URL("../../cdpr-report/src/live/lzma.js", import.meta.url);
+const unlzma = vm.runInThisContext(`${readFileSync(lzma, "utf8")}; unlzma`);
+const module = unlzma(readFileSync(new URL("cdpr_web.wasm.lzma", dist)));
 const said = [];
 globalThis.self = { postMessage: (message) => said.push(message) };
 vm.runInThisContext(readFileSync(new URL("worker.js", dist), "utf8"));

@@ -106,6 +106,40 @@ fn a_table_has_the_inputs_and_outputs_of_every_observation() {
 }
 
 #[test]
+fn robots_are_observed_on_kept_lengths_under_a_force() {
+    let (_, text) = robots().swap_remove(0);
+    let mut live = Live::new(&text).unwrap();
+    let mut study = ask(&mut live, &json!({"describe": {}}))["ok"]["study"].clone();
+    let load = json!({"payload": 20.0, "force": [30.0, 0.0, 0.0], "moment": [0.0, 4.0, 0.0]});
+    let pose = json!([0.2, 0.1, 1.6, 1, 0, 0, 0]);
+    let mut lengths = ask(&mut live, &json!({"hold": {"pose": pose}}))["ok"]["lengths"].clone();
+    lengths[2] = json!(1.0002 * lengths[2].as_f64().unwrap());
+    for part in ["payload", "force", "moment"] {
+        study[part] = load[part].clone();
+    }
+    let sampling = &mut study["samplings"]["all"];
+    (sampling["observations"], sampling["lengths"]) = (json!(16), lengths.clone());
+    sampling["pose"] = json!({"position": [0.2, 0.1, 1.6]});
+    study["error_models"]["tolerances"].as_object_mut().unwrap().shift_remove("dt");
+    let set = ask(&mut live, &json!({"study": {"text": study}}));
+    assert!(set["ok"].is_object(), "{set}");
+    let observed = ask(&mut live, &json!({"observe": {"replicate": 0}}))["ok"].clone();
+    let position = |live: &mut Live, load: &Value| {
+        let stand = json!({"stand": {"lengths": lengths, "load": load, "start": pose}});
+        let pose = ask(live, &stand)["ok"]["pose"].clone();
+        [0, 1, 2].map(|k| pose[k].as_f64().unwrap())
+    };
+    let [loaded, alone] = [&load, &json!({})].map(|load| position(&mut live, load));
+    let far = 1e3 * (0..3).map(|k| (loaded[k] - alone[k]).powi(2)).sum::<f64>().sqrt();
+    assert!((observed["nominal_mm"].as_f64().unwrap() - far).abs() < 1e-7 * far, "{far}: {observed}");
+    let values = observed["values_mm"].as_array().unwrap();
+    let of = |value: &Value| value.as_f64().unwrap() / far;
+    assert_eq!(values.len(), 16);
+    assert!(values.iter().all(|value| (0.2..5.0).contains(&of(value))), "{far}: {values:?}");
+    assert!(values.iter().any(|value| (of(value) - 1.0).abs() > 1e-3));
+}
+
+#[test]
 fn a_cable_says_where_it_leaves_its_pulley() {
     for (name, robot) in robots() {
         let mut live = Live::new(&robot).unwrap();

@@ -10,8 +10,8 @@ page shows, and follows it; a state that is set is shown.
 
 from __future__ import annotations
 
-import gzip
 import json
+import lzma
 from typing import Any
 
 try:
@@ -70,7 +70,7 @@ class Explorer(anywidget.AnyWidget):
     state: what is shown, a dictionary of the format `cdpr-explorer/1`; None until something is shown.
     """
 
-    _esm = gzip.decompress(_PARTS["script"]).decode() + _RENDER
+    _esm = lzma.decompress(_PARTS["script"]).decode() + _RENDER
     _css = _STYLE
     robot = traitlets.Dict().tag(sync=True)
     state = traitlets.Dict(default_value=None, allow_none=True).tag(sync=True)
@@ -82,7 +82,7 @@ class Explorer(anywidget.AnyWidget):
         super().__init__(
             robot=json.loads(robot.to_json()),
             state=state,
-            _module=gzip.decompress(_PARTS["module"]),
+            _module=lzma.decompress(_PARTS["module"]),
             _worker=_PARTS["worker"],
             _name=f"{robot.name}.json",
             **traits,

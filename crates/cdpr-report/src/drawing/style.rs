@@ -1,5 +1,6 @@
 //! Style of all figures: size, fonts, colours, lines.
 
+use crate::drawing::compact::compact;
 use crate::error::ReportError;
 use cdpr_robot::shown_lines;
 use plotters::coord::{CoordTranslate, Shift};
@@ -32,6 +33,8 @@ pub(crate) const LINE_HEIGHT: f64 = 20.0;
 /// Mean width of a character over the size of its font. It is an upper estimate, because the font of the
 /// reader is unknown.
 pub(crate) const CHARACTER: f64 = 0.58;
+/// The font of all texts of a figure.
+const FONT: &str = "font-family=\"sans-serif\"";
 /// Units per pixel. plotters rounds coordinates to integers, which therefore count tenths of a pixel.
 const UNITS: f64 = 10.0;
 
@@ -98,8 +101,10 @@ pub(crate) fn figure(
     // The view box stays in tenths of a pixel, but the size is in pixels.
     let drawn = format!("width=\"{width_units}\" height=\"{height_units}\"");
     // What is so without being said, a fifth of a figure; in texts these marks are escaped.
-    let svg = shown_lines(&svg).replace(" opacity=\"1\"", "").replace(" stroke=\"none\"/>", "/>");
-    Ok(svg.replacen(&drawn, &format!("width=\"{WIDTH}\" height=\"{height}\""), 1))
+    let mut svg = shown_lines(&svg).replace(" opacity=\"1\"", "").replace(" stroke=\"none\"/>", "/>");
+    svg = svg.replace(&format!(" {FONT}"), "");
+    let size = format!("width=\"{WIDTH}\" height=\"{height}\" {FONT}");
+    Ok(compact(&svg.replacen(&drawn, &size, 1)))
 }
 
 /// Writes text from (x, y) [px] to the right, centred on its height. Text that is too long is made smaller.

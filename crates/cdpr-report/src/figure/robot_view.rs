@@ -8,7 +8,7 @@ use crate::drawing::style::{
 };
 use crate::error::ReportError;
 use crate::scene::{Scene, State};
-use crate::text::number;
+use crate::text::{number, wrench_words};
 use cdpr_robot::Axis;
 use cdpr_study::Study;
 use plotters::prelude::*;
@@ -37,8 +37,9 @@ pub fn robot_view(study: &Study) -> Result<String, ReportError> {
     let tensions = poses.iter().flat_map(|(pose, _)| pose.loaded.cables.iter().map(|cable| cable.tension));
     let Range { start: least, end: greatest } = extent(tensions);
     let sag = poses.iter().map(|(pose, _)| pose.loaded.greatest_sag_mm()).fold(0.0, f64::max);
+    let borne = wrench_words(&study.file.load()).map(|words| format!(" and {words}")).unwrap_or_default();
     let heading = Heading {
-        title: &format!("{} under {} kg, to scale", study.robot.name, study.file.payload),
+        title: &format!("{} under {} kg{borne}, to scale", study.robot.name, study.file.payload),
         lines: &[format!(
             "tensions at the platform {} N to {} N; cables sag by {} mm at most",
             number(least, 0),
@@ -182,7 +183,9 @@ mod tests {
         // Exit points, and the anchor points of two poses, each with a platform.
         assert_eq!((count("<circle"), count("<polygon")), (8 + 2 * 8, 2));
         // Frame, axes, cables, key.
-        assert_eq!(count("<polyline"), 2 * 8 + 3 + 2 * 8 + 2);
+        let paths = svg.split(" d=\"").skip(1).filter_map(|rest| rest.split('"').next());
+        let lines: usize = paths.map(|path| path.matches('m').count()).sum();
+        assert_eq!(lines, 2 * 8 + 3 + 2 * 8 + 2);
         for words in ["CAROCA under 50 kg", "(0, 0, 1.75) m", "sag by"] {
             assert!(svg.contains(words), "{words}");
         }

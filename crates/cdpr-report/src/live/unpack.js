@@ -3,13 +3,7 @@
 const packed = (() => {
   const text = (id) => document.getElementById(id)?.textContent;
 
-  async function bytes(id) {
-    if (typeof DecompressionStream === "undefined") {
-      throw new Error("this browser cannot unpack data; take one of 2023 or later");
-    }
-    const unpacked = new Blob([decoded(text(id))]).stream().pipeThrough(new DecompressionStream("gzip"));
-    return new Response(unpacked).arrayBuffer();
-  }
+  const bytes = (id) => unlzma(decoded(text(id))).buffer;
 
   // The bytes of a text of the base 85: five characters are four bytes, from `(` on, with `!` for `<`.
   function decoded(digits) {
@@ -34,7 +28,7 @@ const packed = (() => {
   }
 
   async function load(id) {
-    const address = URL.createObjectURL(new Blob([await bytes(id)], { type: "text/javascript" }));
+    const address = URL.createObjectURL(new Blob([bytes(id)], { type: "text/javascript" }));
     const script = document.createElement("script");
     const done = new Promise((resolve, reject) => {
       script.onload = resolve;
@@ -50,8 +44,8 @@ const packed = (() => {
   async function explore(element, options) {
     try {
       if (typeof WebAssembly === "undefined") throw new Error("this browser has no WebAssembly");
-      const [module] = await Promise.all([bytes("module"), run("explorer-script")]);
-      return cdprExplorer.mount(element, { ...options, module, worker: text("worker") });
+      await run("explorer-script");
+      return cdprExplorer.mount(element, { ...options, module: bytes("module"), worker: text("worker") });
     } catch (error) {
       const note = document.createElement("p");
       note.setAttribute("role", "alert");

@@ -2,7 +2,7 @@
 
 use crate::page::elements::{cell, numeric, table};
 use crate::parameters;
-use crate::text;
+use crate::text::{self, wrench_words};
 use cdpr_study::{
     Output, Overview, PartVerdict, PosesSummary, RecommendedIndex, Results, SamplingSummary, StudySummary,
     Summary, SurfaceSummary,
@@ -67,10 +67,14 @@ fn kicker(output: Output) -> &'static str {
 
 /// What the study asks.
 fn question(summary: &Summary, output: Output) -> String {
-    let (robot, payload) = (&summary.robot, text::digits(summary.payload, 4));
+    let (robot, load) = (&summary.robot, summary.load());
+    let payload = text::digits(load.payload, 4);
+    let added = (load.payload > 0.0).then(|| format!("{payload} kg are added to it"));
+    let borne = wrench_words(&load).map(|words| format!("it bears {words}"));
     match output {
         Output::Deflection => {
-            format!("How far the platform of {robot} moves when {payload} kg are added to it")
+            let when: Vec<_> = [added, borne].into_iter().flatten().collect();
+            format!("How far the platform of {robot} moves when {}", when.join(" and "))
         }
         Output::Position => {
             format!(
@@ -78,9 +82,9 @@ fn question(summary: &Summary, output: Output) -> String {
             )
         }
         Output::Frequency | Output::PlatformFrequency | Output::Amplitude | Output::Stiffness => {
-            let loaded =
-                if summary.payload > 0.0 { format!(" with {payload} kg added to it") } else { String::new() };
-            format!("The {} of the platform of {robot}{loaded}", output.label())
+            let loaded = added.map(|_| format!(" with {payload} kg added to it")).unwrap_or_default();
+            let borne = borne.map(|words| format!("; {words}")).unwrap_or_default();
+            format!("The {} of the platform of {robot}{loaded}{borne}", output.label())
         }
     }
 }

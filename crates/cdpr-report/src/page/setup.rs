@@ -46,6 +46,10 @@ fn settings(results: &Results) -> Markup {
                 dt { "Load" }
                 dd { (text::digits(file.payload, 5)) " kg added at the platform's centre of mass" }
             }
+            @if let Some(words) = text::wrench_words(&file.load()) {
+                dt { "Wrench" }
+                dd { (words) ", in the base frame" }
+            }
             dt { "Design" }
             dd { "all uncertain parameters at once, at points of Sobol's sequence" }
             dt { "Intervals" }

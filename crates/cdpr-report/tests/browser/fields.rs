@@ -111,24 +111,30 @@ fn a_decimal_comma_is_read_and_what_is_no_number_is_told() {
 }
 
 #[test]
-fn observations_of_another_state_are_hidden_with_the_reason() {
+fn observations_are_of_the_force_and_the_lengths_on_screen_or_hidden_with_the_reason() {
     let (mut page, _) = caroca();
-    let hidden = "document.querySelector('.charts .pair').hidden";
-    let says = |words: &str| {
-        let told = "document.querySelector('.charts .failure')";
-        format!("{hidden} && {told}.textContent.includes('{words}') && !{told}.hidden")
-    };
     let words = "[...document.querySelectorAll('.charts .says')].map((said) => said.textContent).join(' ')";
-    let seen = format!("!{hidden} && /^Mean deflection .* matters/.test({words})");
+    let current = "!document.querySelector('.charts').classList.contains('stale')";
+    let hidden = "document.querySelector('.charts .pair').hidden";
+    let seen = format!("{current} && !{hidden} && /^Mean deflection .* matters/.test({words})");
+    let other_than = |before: &Value| format!("{seen} && {words} !== {before}");
     page.wait_for(&seen);
+    let of_payload = page.evaluate(words);
     page.evaluate("enter('force x')");
     page.write("100");
     page.press("Enter", 0);
-    page.wait_for(&says("under the payload alone"));
+    page.wait_for(&other_than(&of_payload));
+    let of_force = page.evaluate(words);
+    page.evaluate("document.querySelector('.stagebar input[value=kept]').click()");
+    page.wait_for(&other_than(&of_force));
+    page.evaluate("enter('force x')");
+    page.write("0");
+    page.press("Enter", 0);
+    page.evaluate("enter('payload')");
+    page.write("0");
+    page.press("Enter", 0);
+    let failure = "document.querySelector('.charts .failure')";
+    page.wait_for(&format!("{hidden} && !{failure}.hidden && {failure}.textContent.includes('no load')"));
     let said = page.evaluate(words);
     assert_eq!(said.as_str().map(str::trim), Some(""));
-    page.press("z", 2);
-    page.wait_for(&seen);
-    page.evaluate("document.querySelector('.stagebar input[value=kept]').click()");
-    page.wait_for(&says("the lengths are kept"));
 }

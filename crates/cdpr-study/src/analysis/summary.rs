@@ -4,6 +4,8 @@ use crate::analysis::keys::in_file;
 use crate::analysis::part::StudySummary;
 use crate::error::StudyError;
 use crate::model::study::Study;
+use cdpr_robot::{Vector3, Wrench};
+use cdpr_statics::Load;
 use indexmap::IndexMap;
 use serde::{Deserialize, Serialize};
 
@@ -21,6 +23,9 @@ pub struct Summary {
     pub version: String,
     /// Mass added [kg].
     pub payload: f64,
+    /// Force and moment that come with it [N, N m], of a study that has them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub wrench: Option<[[f64; 3]; 2]>,
     /// Seed.
     pub seed: u64,
     /// Results by name.
@@ -29,6 +34,12 @@ pub struct Summary {
 }
 
 impl Summary {
+    /// The load whose effect is the deflection.
+    pub fn load(&self) -> Load {
+        let [force, moment] = self.wrench.unwrap_or_default().map(Vector3::from);
+        Load { payload: self.payload, wrench: Wrench { force, moment } }
+    }
+
     /// The summary of a study from the results of its samplings and surfaces.
     ///
     /// # Errors
@@ -40,6 +51,7 @@ impl Summary {
             robot: study.robot.name.clone(),
             version: env!("CARGO_PKG_VERSION").to_owned(),
             payload: study.file.payload,
+            wrench: Some([study.file.force, study.file.moment]).filter(|wrench| *wrench != [[0.0; 3]; 2]),
             seed: study.file.seed,
             studies,
         })

@@ -5,8 +5,9 @@ use crate::file::cable_law::CableLaw;
 use crate::file::grid::GridSpec;
 use crate::file::output::{AmplitudeSpec, Output};
 use crate::file::sensitivity_spec::SensitivitySpec;
-use cdpr_robot::{Coordinate, TensionDistribution, TensionReference};
+use cdpr_robot::{Coordinate, TensionDistribution, TensionReference, Vector3, Wrench};
 use cdpr_sensitivity::{Law, Steps};
+use cdpr_statics::Load;
 use indexmap::IndexMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -32,6 +33,12 @@ pub struct StudyFile {
     /// none.
     #[serde(default)]
     pub payload: f64,
+    /// Force on the platform in the base frame [N], which comes with the payload.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub force: [f64; 3],
+    /// Moment on the platform in the base frame, about P [N m], which comes with the payload.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub moment: [f64; 3],
     /// What is observed of every robot: "deflection" unless another output is named.
     #[serde(default, skip_serializing_if = "Output::is_deflection")]
     pub output: Output,
@@ -79,6 +86,18 @@ pub struct StudyFile {
     /// Surfaces by name: two parameters vary over a grid, and all others are nominal.
     #[serde(default)]
     pub surfaces: IndexMap<String, SurfaceSpec>,
+}
+
+impl StudyFile {
+    /// The load whose effect is the deflection.
+    pub fn load(&self) -> Load {
+        let [force, moment] = [self.force, self.moment].map(Vector3::from);
+        Load { payload: self.payload, wrench: Wrench { force, moment } }
+    }
+}
+
+fn is_zero(vector: &[f64; 3]) -> bool {
+    *vector == [0.0; 3]
 }
 
 /// An error model as a file may have it: where it is read, files are put in their places.
@@ -167,6 +186,11 @@ pub struct SamplingSpec {
     /// workspace, without replicates and measures of sensitivity.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub poses: Option<PosesSpec>,
+    /// Unstrained lengths [m] that every robot has, one for each cable, instead of its own for the pose. The
+    /// platform of the nominal robot is then where these lengths hold it near the pose; robots have no
+    /// set-points of tensions, and the output is a deflection or a position.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub lengths: Option<Vec<f64>>,
     /// Coordinates of the pose that are found where the platform rests, for a robot with fewer cables than
     /// free motions: as many of x, y, z, roll, pitch, yaw as cables are missing.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]

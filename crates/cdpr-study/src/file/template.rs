@@ -15,7 +15,7 @@ use tolerances::{Tolerances, two_digits};
 pub const TEMPLATE_NOTES: &str = "\
 The study runs as it is. Replace by what you know of your robot:
   payload          mass added to the platform, whose effect is the deflection
-                   [kg]
+                   [kg]; force, moment [N, N m] come with it
   error_models     law of each parameter's deviation from the robot file, in SI
                    units
     mass           mass of the platform [kg]
@@ -34,7 +34,8 @@ The study runs as it is. Replace by what you know of your robot:
   samplings        all parameters vary at once: pose (position [m]; quaternion
                    [w, x, y, z] or rpy_deg) or poses (a list or a grid), error
                    model, observations; free: coordinates of the pose that are
-                   found, for a robot with fewer cables than free motions
+                   found, for a robot with fewer cables than free motions;
+                   lengths: those that all robots have, instead of a pose's
   surfaces         two parameters vary over a grid, all others are as in the
                    robot file
   replicates       scrambled samplings behind the intervals of signed effects

@@ -4,7 +4,7 @@ use crate::file::grid::GridSpec;
 use crate::file::study_file::{AxisSpec, PoseSpec, PosesSpec};
 use crate::model::error_model::{ErrorModel, Term};
 use crate::model::study::Study;
-use cdpr_robot::{Doubt, Doubts, Parameter, Pose, Robot, Vector3, Wrench, plausible};
+use cdpr_robot::{Doubt, Doubts, Parameter, Pose, Robot, Vector3, plausible};
 use indexmap::IndexMap;
 use std::str::FromStr;
 
@@ -59,7 +59,7 @@ impl Study {
     /// [`plausible::robot`].
     pub fn doubts(&self) -> Doubts {
         let (file, robot) = (&self.file, &self.robot);
-        let mut doubts = plausible::load(robot, file.payload, &Wrench::none());
+        let mut doubts = plausible::load(robot, file.payload, &file.load().wrench);
         let models = file
             .error_models
             .iter()

@@ -6,6 +6,7 @@ use crate::file::study_file::SamplingSpec;
 use crate::model::study::Study;
 use cdpr_robot::{Provenance, Robot};
 use cdpr_sensitivity::POINTS_VERSION;
+use cdpr_statics::Load;
 use serde::Serialize;
 
 impl Study {
@@ -41,7 +42,12 @@ impl Study {
             error_model: String::new(),
             ..spec.clone()
         };
-        let content = (spec, model, self.file.payload, self.file.seed);
+        let file = &self.file;
+        let content = (spec, model, file.payload, file.seed);
+        if file.load() != Load::payload(file.payload) {
+            let wrench = (file.force, file.moment);
+            return self.hash_of(&(content, file.output, file.amplitude, wrench));
+        }
         match self.file.output {
             Output::Deflection => self.hash_of(&content),
             Output::Amplitude => self.hash_of(&(content, Output::Amplitude, self.file.amplitude)),

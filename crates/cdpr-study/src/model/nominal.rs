@@ -2,7 +2,10 @@
 
 use cdpr_robot::{Coordinate, Pose, Robot};
 use cdpr_statics::limits::{OutOfLimits, out_of_limits};
-use cdpr_statics::{Deflection, DirectSolution, Load, StaticsError, WantedPose, deflection};
+use cdpr_statics::{
+    Deflection, DirectProblem, DirectSolution, DirectStart, Load, StaticsError, WantedPose, deflection,
+    deflection_from,
+};
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// Poses that are kept: those of single samplings and of surfaces, and the first ones of a sampling at
@@ -18,35 +21,52 @@ pub(crate) struct Nominals(Arc<Mutex<Vec<Nominal>>>);
 #[derive(Clone, Debug)]
 struct Nominal {
     robot: Robot,
-    pose: Pose,
     load: Load,
-    free: Vec<Coordinate>,
+    at: NominalAt,
     deflection: Deflection,
 }
 
+/// Where a platform is wanted: at a pose with `free` coordinates that are found, or near it on given lengths.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct NominalAt {
+    pub(crate) pose: Pose,
+    pub(crate) free: Vec<Coordinate>,
+    /// Unstrained lengths [m].
+    pub(crate) lengths: Option<Vec<f64>>,
+}
+
 impl Nominals {
-    /// The deflection of a robot without offsets of its tensions, with the `free` coordinates found.
+    /// The deflection of a robot without offsets of its tensions.
     ///
     /// # Errors
-    /// As [`cdpr_statics::deflection`].
+    /// As [`cdpr_statics::deflection`]; on given lengths as [`cdpr_statics::deflection_from`].
     pub(crate) fn deflection(
         &self,
         robot: &Robot,
-        pose: &Pose,
+        at: &NominalAt,
         load: &Load,
-        free: &[Coordinate],
     ) -> Result<Deflection, StaticsError> {
         let known = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        let same =
-            |of: &&Nominal| of.pose == *pose && of.load == *load && of.free == *free && of.robot == *robot;
+        let same = |of: &&Nominal| of.at == *at && of.load == *load && of.robot == *robot;
         if let Some(found) = known().iter().find(same) {
             return Ok(found.deflection.clone());
         }
-        let found = deflection(robot, WantedPose::at(pose).free(free), load)?;
+        let found = match &at.lengths {
+            None => deflection(robot, WantedPose::at(&at.pose).free(&at.free), load)?,
+            Some(lengths) => {
+                let problem = DirectProblem::new(robot, lengths, &Load::none())?;
+                let rest = problem.direct(DirectStart::Pose(&at.pose))?.equilibrium;
+                deflection_from(robot, lengths.clone(), load, &rest)?
+            }
+        };
         let mut known = known();
         if known.len() < MOST {
-            let (robot, free, deflection) = (robot.clone(), free.to_vec(), found.clone());
-            known.push(Nominal { robot, pose: *pose, load: *load, free, deflection });
+            known.push(Nominal {
+                robot: robot.clone(),
+                load: *load,
+                at: at.clone(),
+                deflection: found.clone(),
+            });
         }
         Ok(found)
     }

@@ -9,8 +9,8 @@ use cdpr_dynamics::{AmplitudeAt, AmplitudeDerivatives, FrequencyDerivatives, Mod
 use cdpr_robot::{Coordinate, Deviations, Parameter, Perturbed, Pose, Robot, Vector3, Vector6};
 use cdpr_statics::batch::{Observation, ObservationMotion, ObservationSlopes, ScalarReason};
 use cdpr_statics::{
-    Deflection, Derivatives, DirectProblem, DirectStart, Equilibrium, Load, Matrix3xX, Observer,
-    StaticsError, WantedPose, derivatives, direct,
+    Deflection, Derivatives, DirectProblem, DirectSolution, DirectStart, Equilibrium, Load, Matrix3xX,
+    Observer, StaticsError, WantedPose, deflection_from, derivatives, direct,
 };
 use std::borrow::Cow;
 
@@ -25,6 +25,8 @@ pub struct OutputObserver<'a> {
     /// Which amplitude, where the output is one.
     amplitude: Option<AmplitudeAt>,
     free: &'a [Coordinate],
+    /// Whether every robot has the lengths of the nominal one, instead of its own for the pose.
+    is_kept: bool,
     /// The nominal robot.
     nominal: Deflection,
     /// Observes deflections.
@@ -39,13 +41,14 @@ pub(crate) struct Observing<'a> {
     pub(crate) output: Output,
     pub(crate) amplitude: Option<AmplitudeAt>,
     pub(crate) free: &'a [Coordinate],
+    pub(crate) is_kept: bool,
 }
 
 impl<'a> OutputObserver<'a> {
     /// # Errors
     /// Those of [`Observer::new`].
     pub(crate) fn new(of: Observing<'a>, nominal: &Deflection) -> Result<Self, StaticsError> {
-        let Observing { robot, pose, load, output, amplitude, free } = of;
+        let Observing { robot, pose, load, output, amplitude, free, is_kept } = of;
         let lanes = Observer::new(robot, WantedPose::at(&pose).free(free), &load)?;
         Ok(Self {
             robot,
@@ -54,6 +57,7 @@ impl<'a> OutputObserver<'a> {
             output,
             amplitude,
             free,
+            is_kept,
             nominal: nominal.clone(),
             lanes,
         })
@@ -107,7 +111,7 @@ impl<'a> OutputObserver<'a> {
 
     /// Observes a robot for each row of a table. A robot without the output is an error with the reason.
     pub fn observe(&self, deviations: &Deviations) -> Vec<Result<Measured, StaticsError>> {
-        if self.output == Output::Deflection {
+        if self.is_in_lanes() {
             let outcomes = self.lanes.observe::<Observation>(deviations).into_iter();
             return outcomes.map(|found| found.map(Measured::from)).collect();
         }
@@ -115,18 +119,32 @@ impl<'a> OutputObserver<'a> {
             let perturbed = self.robot.perturbed(row)?;
             let quantity = match self.output {
                 Output::Position => MeasuredQuantity::Displacement(self.displaced(&perturbed)?),
-                _ => self.of_deflection(&perturbed.robot, &self.lanes.deflection(&perturbed)?)?.quantity,
+                _ => self.of_deflection(&perturbed.robot, &self.deflection(&perturbed)?)?.quantity,
             };
             Ok(Measured { quantity, scalar: Some(ScalarReason::Output) })
         };
         deviations.each(self.lanes.layout(), |rows| rows.map(observed))
     }
 
+    /// Whether the output is what lanes observe: the deflection with the lengths of each robot for the pose.
+    fn is_in_lanes(&self) -> bool {
+        self.output == Output::Deflection && !self.is_kept
+    }
+
+    /// The deflection of a robot, with its own lengths for the pose or on those of the nominal robot.
+    fn deflection(&self, perturbed: &Perturbed) -> Result<Deflection, StaticsError> {
+        if !self.is_kept {
+            return self.lanes.deflection(perturbed);
+        }
+        let Deflection { lengths, unloaded, .. } = &self.nominal;
+        deflection_from(&perturbed.robot, lengths.clone(), &self.load, &unloaded.equilibrium)
+    }
+
     /// The same with the rotation of the platform, for an output that is a length.
     pub(crate) fn observe_motions(&self, deviations: &Deviations) -> Vec<Result<Measured, StaticsError>> {
         let moved =
             |motion, scalar| Measured { quantity: MeasuredQuantity::Motion(Box::new(motion)), scalar };
-        if self.output == Output::Deflection {
+        if self.is_in_lanes() {
             let in_lanes = |found: ObservationMotion| {
                 let Observation { displacement: p, scalar, .. } = found.observation;
                 let r = found.rotation;
@@ -139,7 +157,7 @@ impl<'a> OutputObserver<'a> {
             let perturbed = self.robot.perturbed(row)?;
             let motion = match self.output {
                 Output::Position => self.moved(&perturbed)?,
-                _ => self.lanes.deflection(&perturbed)?.motion(),
+                _ => self.deflection(&perturbed)?.motion(),
             };
             Ok(moved(motion, Some(ScalarReason::Output)))
         };
@@ -148,6 +166,10 @@ impl<'a> OutputObserver<'a> {
 
     /// Displacements under the load [m] of any number of robots, whatever the output is.
     pub fn displacements(&self, deviations: &Deviations) -> Vec<Result<Vector3<f64>, StaticsError>> {
+        if self.is_kept {
+            let displaced = |row: &[f64]| Ok(self.deflection(&self.robot.perturbed(row)?)?.displacement());
+            return deviations.each(self.lanes.layout(), |rows| rows.map(displaced));
+        }
         let outcomes = self.lanes.observe::<Observation>(deviations).into_iter();
         outcomes.map(|found| found.map(|found| found.displacement)).collect()
     }
@@ -157,11 +179,8 @@ impl<'a> OutputObserver<'a> {
         self.nominal.loaded.stability.characteristic_length()
     }
 
-    /// The deflection of a robot with its derivatives.
-    ///
-    /// # Errors
-    /// As [`cdpr_statics::derivatives`].
-    pub fn derivatives(&self, perturbed: &Perturbed) -> Result<Derivatives, StaticsError> {
+    /// The deflection of a robot for the pose with its derivatives.
+    fn derivatives(&self, perturbed: &Perturbed) -> Result<Derivatives, StaticsError> {
         derivatives(
             &perturbed.robot,
             WantedPose::at(&self.pose).free(self.free).tension_offsets(&perturbed.tension_offsets),
@@ -169,29 +188,54 @@ impl<'a> OutputObserver<'a> {
         )
     }
 
+    /// |dp| [m] of a robot under the load, and its derivatives by the parameters.
+    ///
+    /// # Errors
+    /// As [`cdpr_statics::derivatives`]; [`StaticsError::NoDerivative`] where dp is zero.
+    pub fn magnitude_slopes(&self, perturbed: &Perturbed) -> Result<(f64, Vec<f64>), StaticsError> {
+        if !self.is_kept {
+            let found = self.derivatives(perturbed)?;
+            return Ok((found.deflection.magnitude(), found.magnitude()?));
+        }
+        let found = self.deflection(perturbed)?;
+        // The lengths are constants: dp' = p_loaded' - p_unloaded'.
+        let slopes = |load: &Load, at: &DirectSolution| -> Result<Matrix3xX<f64>, StaticsError> {
+            let problem = DirectProblem::new(&perturbed.robot, &found.lengths, load)?;
+            Ok(problem.derivatives(&at.equilibrium)?.pose.fixed_rows::<3>(0).into())
+        };
+        let slopes = slopes(&self.load, &found.loaded)? - slopes(&Load::none(), &found.unloaded)?;
+        self.length_slopes(&found.displacement(), &slopes)
+    }
+
+    /// The length of a displacement [m], and its derivatives from those of the displacement.
+    fn length_slopes(
+        &self,
+        displaced: &Vector3<f64>,
+        slopes: &Matrix3xX<f64>,
+    ) -> Result<(f64, Vec<f64>), StaticsError> {
+        if displaced.norm() <= self.nominal.rounding(self.robot) {
+            let reason = "it is the length of a displacement, which is zero here";
+            return Err(StaticsError::NoDerivative { quantity: self.output.label(), reason });
+        }
+        Ok((displaced.norm(), (displaced.normalize().transpose() * slopes).as_slice().to_vec()))
+    }
+
     /// The output of a robot that is deflected by the load; not its position.
     fn of_deflection(&self, robot: &Robot, found: &Deflection) -> Result<Measured, StaticsError> {
+        let at = &found.loaded.equilibrium;
+        let problem = DirectProblem::new(robot, &found.lengths, &self.load);
         let quantity = match self.output {
             Output::Deflection | Output::Position => MeasuredQuantity::Displacement(found.displacement()),
             Output::Stiffness => {
-                let problem = DirectProblem::new(robot, &found.lengths, &self.load)?;
-                let problem = problem.with_characteristic_length(self.characteristic_length());
-                MeasuredQuantity::Number(problem.stability(&found.loaded.equilibrium)?.least_stiffness())
+                let problem = problem?.with_characteristic_length(self.characteristic_length());
+                MeasuredQuantity::Number(problem.stability(at)?.least_stiffness())
             }
             Output::Frequency => {
-                let problem = DirectProblem::new(robot, &found.lengths, &self.load)?;
-                let found = Modes::slowest(&problem, &found.loaded.equilibrium)?;
+                let found = Modes::slowest(&problem?, at)?;
                 MeasuredQuantity::Number(found.lowest().map_or(0.0, |mode| mode.frequency))
             }
-            Output::PlatformFrequency => {
-                let problem = DirectProblem::new(robot, &found.lengths, &self.load)?;
-                MeasuredQuantity::Number(Swing::new(&problem, &found.loaded.equilibrium)?.platform)
-            }
-            Output::Amplitude => {
-                let problem = DirectProblem::new(robot, &found.lengths, &self.load)?;
-                let amplitude = self.shaken()?.of(&problem, &found.loaded.equilibrium)?;
-                MeasuredQuantity::Number(1e3 * amplitude)
-            }
+            Output::PlatformFrequency => MeasuredQuantity::Number(Swing::new(&problem?, at)?.platform),
+            Output::Amplitude => MeasuredQuantity::Number(1e3 * self.shaken()?.of(&problem?, at)?),
         };
         Ok(Measured { quantity, scalar: Some(ScalarReason::OneByOne) })
     }
@@ -287,7 +331,7 @@ impl<'a> OutputObserver<'a> {
         deviations: &Deviations,
         errors: &ErrorModel,
     ) -> Vec<Result<(f64, Vec<f64>), StaticsError>> {
-        if self.output == Output::Deflection && self.free.is_empty() {
+        if self.is_in_lanes() && self.free.is_empty() {
             let in_unit = |found: ObservationSlopes| {
                 (1e3 * found.observation.magnitude(), scaled(1e3, errors.gradient(&found.magnitude)))
             };
@@ -303,47 +347,34 @@ impl<'a> OutputObserver<'a> {
         errors: &ErrorModel,
     ) -> Result<(f64, Vec<f64>), StaticsError> {
         let perturbed = self.robot.perturbed(deviations)?;
-        if self.output == Output::Position {
-            return self.position_slopes(&perturbed, errors);
-        }
-        let found = self.derivatives(&perturbed)?;
+        let (robot, of_pose) = (&perturbed.robot, || self.derivatives(&perturbed));
         let ((value, slopes), per_unit) = match self.output {
+            Output::Deflection => (self.magnitude_slopes(&perturbed)?, 1e3),
+            Output::Position => {
+                let (displaced, slopes) = self.displaced_slopes(&perturbed, errors)?;
+                (self.length_slopes(&displaced, &slopes)?, 1e3)
+            }
             Output::Frequency => {
-                let of = FrequencyDerivatives::lowest_of_deflection(&perturbed.robot, &self.load, &found)?;
+                let found = of_pose()?;
+                let of = FrequencyDerivatives::lowest_of_deflection(robot, &self.load, &found)?;
                 ((of.frequency, of.with_lengths(&found.lengths)), 1.0)
             }
             Output::PlatformFrequency => {
-                let of = FrequencyDerivatives::of_deflection(&perturbed.robot, &self.load, &found)?;
+                let found = of_pose()?;
+                let of = FrequencyDerivatives::of_deflection(robot, &self.load, &found)?;
                 ((of.frequency, of.with_lengths(&found.lengths)), 1.0)
             }
             Output::Amplitude => {
-                let (robot, at) = (&perturbed.robot, self.shaken()?);
+                let (found, at) = (of_pose()?, self.shaken()?);
                 let of = AmplitudeDerivatives::of_deflection(robot, &self.load, &found, &at)?;
                 ((of.amplitude, of.with_lengths(&found.lengths)), 1e3)
             }
             Output::Stiffness => {
                 let length = self.characteristic_length();
-                (found.least_stiffness_with(&perturbed.robot, &self.load, length)?, 1.0)
-            }
-            Output::Deflection | Output::Position => {
-                ((found.deflection.magnitude(), found.magnitude()?), 1e3)
+                (of_pose()?.least_stiffness_with(robot, &self.load, length)?, 1.0)
             }
         };
         Ok((per_unit * value, scaled(per_unit, errors.gradient(&slopes))))
-    }
-
-    fn position_slopes(
-        &self,
-        perturbed: &Perturbed,
-        errors: &ErrorModel,
-    ) -> Result<(f64, Vec<f64>), StaticsError> {
-        let (displaced, slopes) = self.displaced_slopes(perturbed, errors)?;
-        if displaced.norm() <= self.nominal.rounding(self.robot) {
-            let reason = "it is the length of a displacement, which is zero here";
-            return Err(StaticsError::NoDerivative { quantity: self.output.label(), reason });
-        }
-        let slopes = displaced.normalize().transpose() * slopes;
-        Ok((1e3 * displaced.norm(), scaled(1e3, errors.gradient(slopes.as_slice()))))
     }
 }
 

@@ -13,6 +13,7 @@ use crate::model::prepare::FEWEST_OBSERVATIONS;
 use crate::model::study::Study;
 use crate::names::BLOCKS_NAME;
 use cdpr_robot::{Coordinate, Robot, RobotError, TensionDistribution, TensionReference, from_json};
+use cdpr_statics::{Load, check_lengths};
 use std::path::Path;
 
 /// Designs of a sampling besides the first: intervals of a quantile need no more.
@@ -161,7 +162,10 @@ impl Study {
             self.error_model(name, model, &[])?;
         }
         for (name, spec) in &file.samplings {
-            self.check_free(&format!("samplings.{name}"), &spec.free)?;
+            match &spec.lengths {
+                Some(lengths) => self.check_lengths(name, spec, lengths)?,
+                None => self.check_free(&format!("samplings.{name}"), &spec.free)?,
+            }
             self.check_sampling(name, spec)?;
         }
         for (name, spec) in &file.surfaces {
@@ -178,11 +182,17 @@ impl Study {
         if file.format != STUDY_FORMAT {
             return Err(self.invalid("format", &file.format, STUDY_FORMAT));
         }
-        let is_loaded = file.payload > 0.0 || file.payload == 0.0 && !file.output.is_deflection();
-        if !(file.payload.is_finite() && is_loaded) {
+        for (field, vector) in [("force", file.force), ("moment", file.moment)] {
+            if let Some(value) = vector.iter().find(|value| !value.is_finite()) {
+                return Err(self.invalid(field, value, "finite components [N or N m]"));
+            }
+        }
+        let is_loaded = file.load() != Load::none() || !file.output.is_deflection();
+        if !(file.payload.is_finite() && file.payload >= 0.0 && is_loaded) {
             let expected = match file.output {
                 Output::Deflection => {
-                    "a finite mass above zero [kg], whose effect is the deflection; output position needs none"
+                    "a finite mass above zero [kg], or a `force` or `moment`, whose effect is the deflection; \
+                     output position needs none"
                 }
                 _ => "a finite mass, zero or more [kg]",
             };
@@ -250,6 +260,35 @@ impl Study {
             return Err(self.invalid("sensitivity.vector", "pose", &expected));
         }
         Ok(())
+    }
+
+    /// There is a length for each cable, and nothing else asks for lengths for the pose.
+    fn check_lengths(&self, name: &str, spec: &SamplingSpec, lengths: &[f64]) -> Result<(), StudyError> {
+        let wrong = |value: String, expected: &str| {
+            Err(self.invalid(&format!("samplings.{name}.lengths"), value, expected))
+        };
+        let cables = self.robot.cables.len();
+        if lengths.len() != cables {
+            return wrong(format!("{} lengths", lengths.len()), &format!("{cables}, one for each cable [m]"));
+        }
+        if let Some(length) = lengths.iter().find(|length| !(length.is_finite() && **length > 0.0)) {
+            return wrong(length.to_string(), "finite lengths above zero [m]");
+        }
+        if spec.poses.is_some() || !spec.free.is_empty() {
+            let of = if spec.poses.is_some() { "poses" } else { "free" };
+            return wrong(format!("given with `{of}`"), "a sampling at one `pose`, near which they hold it");
+        }
+        if !self.file.output.is_length() {
+            let expected = "output deflection or position, or a sampling without lengths";
+            return wrong(format!("given with output {}", self.file.output), expected);
+        }
+        let entries = self.file.error_models.get(&spec.error_model);
+        let errors = entries.map(|model| self.error_model(&spec.error_model, model, &[])).transpose()?;
+        if errors.is_some_and(|(errors, _)| errors.has_offsets()) {
+            let expected = "an error model without `dt`: there are no set-points of tensions";
+            return wrong(format!("given with {}", spec.error_model), expected);
+        }
+        check_lengths(&self.robot, lengths).or_else(|error| wrong(format!("{lengths:?}"), &error.to_string()))
     }
 
     /// As many coordinates are free as cables are missing, each of them once and none that is held.

@@ -4,6 +4,7 @@
 use crate::error::StudyError;
 use crate::file::study_file::{PoseSpec, PosesSpec, SamplingSpec};
 use crate::model::grid::Grid;
+use crate::model::nominal::NominalAt;
 use crate::model::study::{Study, keys};
 use cdpr_robot::{Pose, QuaternionError, Vector3, rotation_by_angles, rotation_in_order};
 
@@ -49,6 +50,13 @@ impl PoseSet<'_> {
 /// Digits of the numbers of poses: four, or as many as the last one has.
 fn digits(poses: usize) -> usize {
     poses.saturating_sub(1).to_string().len().max(4)
+}
+
+impl SamplingSpec {
+    /// Where the nominal robot is in this sampling at one of its poses.
+    pub(crate) fn at(&self, pose: Pose) -> NominalAt {
+        NominalAt { pose, free: self.free.clone(), lengths: self.lengths.clone() }
+    }
 }
 
 impl Study {

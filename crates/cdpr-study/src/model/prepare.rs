@@ -3,13 +3,14 @@
 use crate::error::StudyError;
 use crate::file::study_file::{AxisSpec, InputSpec, SamplingSpec, SurfaceSpec};
 use crate::model::error_model::{ErrorModel, Wrong};
+use crate::model::nominal::NominalAt;
 use crate::model::observer::{Observing, OutputObserver};
 use crate::model::operating_point::{Moduli, resolved};
 use crate::model::pose_set::Located;
 use crate::model::study::{NominalPose, Sampling, Study, Surface, SurfaceAxis, keys};
 use cdpr_robot::{Coordinate, Parameter, Pose, plausible};
 use cdpr_sensitivity::{Input, SobolDesign};
-use cdpr_statics::{Deflection, Load, StaticsError};
+use cdpr_statics::{Deflection, StaticsError};
 use indexmap::IndexMap;
 
 /// Points of one axis of a surface.
@@ -30,9 +31,9 @@ impl Study {
     /// hold the pose.
     pub fn sampling(&self, name: &str) -> Result<Sampling<'_>, StudyError> {
         let Located { name, entry, spec, pose, field } = self.located(name)?;
-        let load = Load::payload(self.file.payload);
-        let nominal = self.deflection(&field, &pose, &spec.free)?;
-        let (nominal_value, observer) = self.observer(&field, &pose, &spec.free, &nominal)?;
+        let (load, at) = (self.file.load(), spec.at(pose));
+        let nominal = self.deflection(&field, &at)?;
+        let (nominal_value, observer) = self.observer(&field, &at, &spec.free, &nominal)?;
         let (errors, operating_moduli, design) = self.design(entry, spec, &[&nominal])?;
         let correlation = self.correlation(entry, spec, &design)?;
         let groups = self.groups(&errors)?;
@@ -101,11 +102,12 @@ impl Study {
             return Err(self.invalid(&field, "missing", &keys(&self.file.surfaces)));
         };
         let pose = self.pose(&format!("{field}.pose"), &spec.pose)?;
-        let load = Load::payload(self.file.payload);
+        let load = self.file.load();
         let [x, y] = self.surface_axes(name, spec)?;
         let field = format!("{field}.pose.position");
-        let nominal = self.deflection(&field, &pose, &spec.free)?;
-        let (nominal_value, observer) = self.observer(&field, &pose, &spec.free, &nominal)?;
+        let at = NominalAt { pose, free: spec.free.clone(), lengths: None };
+        let nominal = self.deflection(&field, &at)?;
+        let (nominal_value, observer) = self.observer(&field, &at, &spec.free, &nominal)?;
         let (title, robot, output) = (&spec.title, &self.robot, self.file.output);
         Ok(Surface { name, title, robot, pose, load, x, y, output, nominal, nominal_value, observer })
     }
@@ -199,36 +201,37 @@ impl Study {
     /// # Errors
     /// As [`Study::sampling`].
     pub fn nominal(&self, name: &str) -> Result<NominalPose, StudyError> {
-        let (pose, field, free) = match self.file.surfaces.get(name) {
+        let (at, field) = match self.file.surfaces.get(name) {
             Some(spec) => {
                 let field = format!("surfaces.{name}.pose");
-                (self.pose(&field, &spec.pose)?, format!("{field}.position"), &spec.free)
+                let pose = self.pose(&field, &spec.pose)?;
+                let at = NominalAt { pose, free: spec.free.clone(), lengths: None };
+                (at, format!("{field}.position"))
             }
-            None => self.located(name).map(|found| (found.pose, found.field, &found.spec.free))?,
+            None => self.located(name).map(|found| (found.spec.at(found.pose), found.field))?,
         };
-        Ok(NominalPose { pose, deflection: self.deflection(&field, &pose, free)? })
+        Ok(NominalPose { pose: at.pose, deflection: self.deflection(&field, &at)? })
     }
 
-    fn deflection(&self, field: &str, pose: &Pose, free: &[Coordinate]) -> Result<Deflection, StudyError> {
-        let load = Load::payload(self.file.payload);
-        let found = self.nominals.deflection(&self.robot, pose, &load, free);
-        found.map_err(|source| self.not_held(field, pose, source))
+    fn deflection(&self, field: &str, at: &NominalAt) -> Result<Deflection, StudyError> {
+        let found = self.nominals.deflection(&self.robot, at, &self.file.load());
+        found.map_err(|source| self.not_held(field, &at.pose, source))
     }
 
     /// What observes the output at a pose, and the output of the nominal robot.
     fn observer<'a>(
         &'a self,
         field: &str,
-        pose: &Pose,
+        at: &NominalAt,
         free: &'a [Coordinate],
         nominal: &Deflection,
     ) -> Result<(f64, OutputObserver<'a>), StudyError> {
-        let load = Load::payload(self.file.payload);
-        let (robot, output) = (&self.robot, self.file.output);
+        let (robot, load, output) = (&self.robot, self.file.load(), self.file.output);
+        let (pose, is_kept) = (at.pose, at.lengths.is_some());
         let amplitude = self.file.amplitude.map(|spec| spec.at());
-        let of = Observing { robot, pose: *pose, load, output, amplitude, free };
+        let of = Observing { robot, pose, load, output, amplitude, free, is_kept };
         let found = OutputObserver::new(of, nominal).and_then(|found| Ok((found.nominal_value()?, found)));
-        found.map_err(|source| self.not_held(field, pose, source))
+        found.map_err(|source| self.not_held(field, &pose, source))
     }
 
     fn not_held(&self, field: &str, pose: &Pose, source: StaticsError) -> StudyError {

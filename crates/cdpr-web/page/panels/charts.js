@@ -21,7 +21,7 @@ export function chartsPanel(app) {
     h(
       "section",
       { "aria-label": "Histogram of the deflection" },
-      h("h3", { text: "Deflection under the payload, of robots within the tolerances" }),
+      h("h3", { text: "Deflection under the load, of robots within the tolerances" }),
       first,
       numbers,
       counted,

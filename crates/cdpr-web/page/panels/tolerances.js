@@ -2,7 +2,7 @@
 
 import { button, h, linear, select, setText, slider } from "../dom.js";
 import { entryWords, sharePercent, shownUnit } from "../format.js";
-import { shares, tolerances, width, widthWords } from "../robot.js";
+import { isOfSetPoints, shares, tolerances, width, widthWords } from "../robot.js";
 import { panel } from "./panel.js";
 
 const COUNTS = [512, 2048, 8192, 20000];
@@ -34,7 +34,7 @@ export function tolerancesPanel(app) {
       title: "share of the variance that the effects explain here",
     });
     one.element.append(share);
-    return { name, nominal, share, ...one };
+    return { name, nominal, share, isOfSetPoints: isOfSetPoints([name, entry]), ...one };
   });
   const counts = [...new Set([...COUNTS, app.first.observations])].sort((a, b) => a - b);
   const options = counts.map((n) => [String(n), String(n)]);
@@ -56,7 +56,9 @@ export function tolerancesPanel(app) {
 
   function update() {
     const found = sampling.effects ? shares(sampling.effects.inputs, tolerances(robot.study)) : [];
-    for (const { name, nominal, share, set } of sliders) {
+    for (const { name, nominal, share, set, element, isOfSetPoints } of sliders) {
+      // Kept lengths have no set-points.
+      element.hidden = isOfSetPoints && store.state.way === "kept";
       set(nominal * (store.state.tolerances[name] ?? 1));
       const part = found.find(({ entry }) => entry === name)?.share;
       setText(share, part === undefined ? "" : sharePercent(part));

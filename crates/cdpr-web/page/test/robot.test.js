@@ -103,6 +103,9 @@ test("the study on screen has the pose, the scaled tolerances, and none that is 
     samplings: { all: { title: "All", error_model: "t", observations: 2048 } },
   };
   const state = {
+    way: "pose",
+    force: [0, 0, 0],
+    moment: [0, 0, 0],
     position: [1, 2, 3],
     rpy_deg: [0, 0, 180],
     payload: 9,
@@ -283,11 +286,34 @@ test("a state that robots are not observed in says why", () => {
   const state = { way: "pose", force: [0, 0, 0], moment: [0, 0, 0], payload: 9, tolerances: { mass: 0 } };
   const why = (change) => unobserved(study, { ...state, ...change });
   assert.equal(why({}), null);
-  assert.match(why({ way: "kept" }), /lengths are kept/);
-  assert.match(why({ force: [0, -3, 0] }), /payload alone/);
-  assert.match(why({ moment: [0, 0, 1] }), /payload alone/);
-  assert.match(why({ payload: 0 }), /no payload/);
-  assert.match(why({ tolerances: { mass: 0, a: 0 } }), /nothing deviates/);
+  assert.match(why({ payload: 0 }), /no load/);
+  assert.equal(why({ payload: 0, force: [0, -3, 0] }), null);
+  assert.equal(why({ payload: 0, moment: [0, 0, 1] }), null);
+  assert.match(why({ tolerances: { mass: 0, a: 0 } }), /zero, so nothing deviates/);
+  study.error_models.t = { dt: uniform(15) };
+  assert.equal(why({}), null);
+  assert.match(why({ way: "kept", lengths: [3, 4] }), /kept lengths have no tension set-points/);
+});
+
+test("robots are observed on the lengths that are kept and under the force, without set-points", () => {
+  const study = {
+    error_models: { t: { a: uniform(0.002), dt: uniform(15), dt3: uniform(5) } },
+    samplings: { all: { title: "All", error_model: "t", observations: 8, pose: { position: [0, 0, 1] } } },
+  };
+  const load = { payload: 0, force: [0, 0, 0], moment: [0, 1, 0] };
+  const held = { position: [0, 0, 1], rpy_deg: [0, 0, 0], tolerances: {}, free: ["x"], changes: none };
+  const of = (more) => studyOf(study, { ...held, ...load, ...more }, { robot: "r.json" });
+  const kept = of({ way: "kept", lengths: [3, 4] });
+  assert.deepEqual(kept.samplings.all.lengths, [3, 4]);
+  assert.equal(kept.samplings.all.free, undefined);
+  assert.deepEqual(Object.keys(kept.error_models.tolerances), ["a"]);
+  assert.deepEqual([kept.payload, kept.force, kept.moment], [0, undefined, [0, 1, 0]]);
+  const posed = of({ way: "pose", lengths: null });
+  assert.deepEqual([posed.samplings.all.lengths, posed.samplings.all.free], [undefined, ["x"]]);
+  assert.deepEqual(Object.keys(posed.error_models.tolerances), ["a", "dt", "dt3"]);
+  // The page begins with what such a study says.
+  const { way, lengths, force, moment } = initial({ name: "r", ...ofStudy(kept) });
+  assert.deepEqual([way, lengths, force, moment], ["kept", [3, 4], [0, 0, 0], [0, 1, 0]]);
 });
 
 test("a small motion moves and turns a pose", () => {
