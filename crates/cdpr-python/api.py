@@ -9,7 +9,7 @@ from pathlib import Path
 
 import cdpr
 
-MODULES = [cdpr, cdpr.analysis, cdpr.assess, cdpr.calibration, cdpr.exchange, cdpr.sensitivity, cdpr.study]
+MODULES = [cdpr, cdpr.analysis, cdpr.assess, cdpr.calibration, cdpr.designs, cdpr.exchange, cdpr.sensitivity, cdpr.study]
 
 
 def signature(name, of):

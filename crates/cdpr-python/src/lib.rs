@@ -11,6 +11,7 @@ mod assess;
 mod calibration;
 mod catenary;
 mod convert;
+mod design;
 mod exchange;
 mod explorer;
 mod observer;
@@ -33,6 +34,8 @@ mod _core {
     use crate::calibration::{calibrate, identify, plan, simulate};
     #[pymodule_export]
     use crate::catenary::{Catenary, catenary};
+    #[pymodule_export]
+    use crate::design::design;
     #[pymodule_export]
     use crate::exchange::{export_robot, import_robot, library};
     #[pymodule_export]

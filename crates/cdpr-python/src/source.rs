@@ -2,6 +2,7 @@
 
 use crate::convert::{Answer, Raised, question};
 use crate::robot::Robot;
+use cdpr_assess::DesignProblem;
 use cdpr_cable::Record;
 use cdpr_robot::plausible;
 use cdpr_study::{
@@ -49,6 +50,11 @@ impl Source {
         let model = read_errors(&self.text(InputKind::Errors)?, self.path(), robot)?;
         question(model.doubts(robot))?;
         Ok(model)
+    }
+
+    /// The design for a robot.
+    pub(crate) fn design(&self, robot: &cdpr_robot::Robot) -> Answer<DesignProblem> {
+        Ok(DesignProblem::from_json(&self.text(InputKind::Design)?, self.path(), robot.clone())?)
     }
 
     /// The law of a cable.

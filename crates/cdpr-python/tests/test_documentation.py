@@ -13,7 +13,7 @@ import pytest
 
 import cdpr
 
-MODULES = [cdpr, cdpr.analysis, cdpr.assess, cdpr.calibration, cdpr.exchange, cdpr.sensitivity, cdpr.study]
+MODULES = [cdpr, cdpr.analysis, cdpr.assess, cdpr.calibration, cdpr.designs, cdpr.exchange, cdpr.sensitivity, cdpr.study]
 
 #: Types of methods of native classes.
 NATIVE = ("method_descriptor", "builtin_function_or_method")

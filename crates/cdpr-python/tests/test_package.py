@@ -119,7 +119,7 @@ def test_a_type_checker_finds_nothing_wrong(names):
     assert done.returncode == 0, done.stdout
 
 
-@pytest.mark.parametrize("name", ["analysis", "assess", "calibration", "exchange", "sensitivity", "sensitivity.inputs", "study"])
+@pytest.mark.parametrize("name", ["analysis", "assess", "calibration", "designs", "exchange", "sensitivity", "sensitivity.inputs", "study"])
 def test_the_examples_of_a_module_print_what_they_say(name):
     module = importlib.import_module(f"cdpr.{name}")
     found = doctest.testmod(module)

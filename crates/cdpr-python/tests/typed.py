@@ -42,3 +42,5 @@ def softest(answer: cdpr.Stiffness[Floats]) -> float:
 plan = cdpr.calibration.plan(robot, [[0, 0, 2]], uncertainty={"a": 0.002}, noise={"position": 1e-4, "rotation": 1e-4})
 assert_type(plan.poses, Floats)
 assert_type(plan.quality.information_bits, float)
+assert_type(cdpr.design(robot, "design.json").values, Floats)
+assert_type(cdpr.design_front(robot, "design.json").objectives, Floats)

@@ -51,8 +51,9 @@ from .errors import CdprError, FaultError, FileError, InputError, NoSolutionErro
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from . import analysis, assess, calibration, exchange, sensitivity, study
+    from . import analysis, assess, calibration, designs, exchange, sensitivity, study
     from .analysis import analyse
+    from .designs import design, design_front
 
 __all__ = [
     "Boundary",
@@ -94,6 +95,9 @@ __all__ = [
     "assess",
     "calibration",
     "catenary",
+    "design",
+    "design_front",
+    "designs",
     "errors",
     "exchange",
     "pose",
@@ -104,7 +108,7 @@ __all__ = [
 
 def __getattr__(name: str) -> object:
     # These are loaded when they are first used: the modules that they need take longer than all the rest.
-    if name in ("analysis", "assess", "calibration", "exchange", "sensitivity", "study"):
+    if name in ("analysis", "assess", "calibration", "designs", "exchange", "sensitivity", "study"):
         import importlib
 
         return importlib.import_module(f"cdpr.{name}")
@@ -112,4 +116,8 @@ def __getattr__(name: str) -> object:
         from .analysis import analyse
 
         return analyse
+    if name in ("design", "design_front"):
+        from . import designs
+
+        return getattr(designs, name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -3567,6 +3567,10 @@ def check(robot: Robot) -> str:
     """What is odd about a robot and yet no error, as JSON."""
 def check_file(path: _Path) -> str:
     """The same of a robot file, whatever its units."""
+def design(
+    robot: Robot, design: _Source, is_front: bool, threads: int | None
+) -> tuple[str, list[Robot]]:
+    """The best robot by a design, or the front of its two objectives: what was found as JSON, and the robots."""
 def tolerances(
     study: _Source,
     robot: Robot | None,
