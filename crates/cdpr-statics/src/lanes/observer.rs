@@ -26,9 +26,9 @@ use cdpr_number::lanes::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
 use cdpr_number::three;
 use cdpr_robot::{Deviations, ParameterLayout, Perturbed, Pose, Robot, Vector3, Vector6};
 pub use motions::ObservationMotion;
+use motions::with_rotations;
 pub use slopes::ObservationSlopes;
 use std::array::from_fn;
-use std::marker::PhantomData;
 
 /// The deflection of one perturbed robot.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -76,7 +76,8 @@ pub trait Observed: Sized {
 
 impl Observed for Observation {
     fn in_lanes(batch: Batch) -> Vec<Result<Self, ScalarReason>> {
-        dispatch(BatchOf(batch, PhantomData))
+        let found = dispatch(Displacements { batch, with_frames: false });
+        found.into_iter().map(|found| Ok(found?.observation)).collect()
     }
 
     fn by_scalar_models(
@@ -235,15 +236,6 @@ pub struct Batch<'a> {
     deviations: &'a [f64],
 }
 
-/// What lanes observe at once, whichever axes their pulleys have.
-trait InLanes: Copy {
-    /// Whether it needs the platform frames.
-    const WITH_FRAMES: bool;
-
-    /// The observation in each lane, or why it was left.
-    fn read<S: Simd>(outcome: &Outcome<S>, of: &InRows<'_, S>) -> [Result<Self, ScalarReason>; MAX_LANES];
-}
-
 /// The robots whose outcome is read: their level frames, where these are not the base frame, and the lanes
 /// whose parameters are valid, and whose axes are upright.
 struct InRows<'a, S: Simd> {
@@ -252,15 +244,19 @@ struct InRows<'a, S: Simd> {
     nominal: &'a Nominal,
 }
 
-/// A batch of which `T` is observed.
-struct BatchOf<'a, T>(Batch<'a>, PhantomData<T>);
+/// A batch whose displacements are observed, `with_frames` the rotations that belong to them, which are zero
+/// otherwise.
+struct Displacements<'a> {
+    batch: Batch<'a>,
+    with_frames: bool,
+}
 
-impl<T: InLanes> WithSimd for BatchOf<'_, T> {
-    type Output = Vec<Result<T, ScalarReason>>;
+impl WithSimd for Displacements<'_> {
+    type Output = Vec<Result<ObservationMotion, ScalarReason>>;
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
-        let Batch { observer: Observer { robot, pose, load, layout, nominal, .. }, deviations } = self.0;
+        let Batch { observer: Observer { robot, pose, load, layout, nominal, .. }, deviations } = self.batch;
         let parameters = layout.count();
         let count = deviations.len() / parameters;
         let nominal = match nominal {
@@ -278,11 +274,11 @@ impl<T: InLanes> WithSimd for BatchOf<'_, T> {
                 if !(0..count).any(|lane| own[lane] && observed[lane].is_none()) {
                     continue;
                 }
-                if T::WITH_FRAMES {
+                if self.with_frames {
                     start.robots.frame.extend(rows.frame(pose, level.as_ref()));
                 }
                 let (outcome, _) = observe(&mut start, &nominal.shared, false);
-                let read = T::read(&outcome, &InRows { level: level.as_ref(), valid, nominal });
+                let read = with_rotations(&outcome, &InRows { level: level.as_ref(), valid, nominal });
                 for lane in (0..count).filter(|lane| own[*lane]) {
                     observed[lane].get_or_insert(read[lane]);
                 }
@@ -293,15 +289,6 @@ impl<T: InLanes> WithSimd for BatchOf<'_, T> {
             found.extend(observed.into_iter().take(count).flatten());
         }
         found
-    }
-}
-
-impl InLanes for Observation {
-    const WITH_FRAMES: bool = false;
-
-    #[inline(always)]
-    fn read<S: Simd>(outcome: &Outcome<S>, of: &InRows<'_, S>) -> [Result<Self, ScalarReason>; MAX_LANES] {
-        read(outcome, of)
     }
 }
 

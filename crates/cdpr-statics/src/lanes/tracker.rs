@@ -31,6 +31,11 @@ use std::borrow::Borrow;
 /// ```
 pub struct Tracker<R: Borrow<Robot>> {
     robot: R,
+    tracked: Tracked,
+}
+
+/// An equilibrium of a robot that is followed, apart from how the robot is kept.
+struct Tracked {
     /// Lengths [m] and load of the equilibrium.
     lengths: Vec<f64>,
     load: Load,
@@ -56,22 +61,18 @@ impl<R: Borrow<Robot>> Tracker<R> {
     /// # Errors
     /// Those of [`direct`], and [`StaticsError::Robot`] for an invalid robot.
     pub fn new(robot: R, lengths: &[f64], load: &Load, start: &Equilibrium) -> Result<Self, StaticsError> {
-        let borrowed: &Robot = robot.borrow();
-        borrowed.validate()?;
-        let solution = direct(borrowed, lengths, load, DirectStart::Near(start))?;
-        let (equilibrium, residual) = (solution.equilibrium, solution.report.residual);
-        let in_lanes = fits_lanes(borrowed);
-        Ok(Self { robot, lengths: lengths.to_vec(), load: *load, equilibrium, residual, in_lanes })
+        let tracked = Tracked::new(robot.borrow(), lengths, load, start)?;
+        Ok(Self { robot, tracked })
     }
 
     /// The current equilibrium.
     pub fn equilibrium(&self) -> &Equilibrium {
-        &self.equilibrium
+        &self.tracked.equilibrium
     }
 
     /// The residual of the current equilibrium.
     pub fn residual(&self) -> Residual {
-        self.residual
+        self.tracked.residual
     }
 
     /// Goes to the equilibrium for other lengths [m] and another load that the current one becomes while both
@@ -86,20 +87,14 @@ impl<R: Borrow<Robot>> Tracker<R> {
     /// [`StaticsError::BranchEnds`] where the platform falls on the way, and those of [`direct`]; the
     /// equilibrium is then the one before.
     pub fn update(&mut self, lengths: &[f64], load: &Load) -> Result<&Equilibrium, StaticsError> {
-        if !self.newton(lengths, load)?.converged {
-            let solution = self.followed(lengths, load)?;
-            self.residual = solution.report.residual;
-            self.equilibrium = solution.equilibrium;
-            self.lengths.copy_from_slice(lengths);
-            self.load = *load;
-        }
-        Ok(&self.equilibrium)
+        self.tracked.update(self.robot.borrow(), lengths, load)?;
+        Ok(&self.tracked.equilibrium)
     }
 
     /// Whether [`Tracker::step`] takes the robot: one with a cable for each free motion, all of one elastic
     /// law, and with a level base where it is planar.
     pub fn takes_steps(&self) -> bool {
-        self.in_lanes
+        self.tracked.in_lanes
     }
 
     /// Goes to the equilibrium for other lengths [m] and another load by Newton's method alone, from the last
@@ -114,17 +109,37 @@ impl<R: Borrow<Robot>> Tracker<R> {
     /// [`StaticsError::Invalid`] unless there is one finite, positive length for each cable and the load is
     /// finite, and for a robot that it does not take ([`Tracker::takes_steps`]).
     pub fn step(&mut self, lengths: &[f64], load: &Load) -> Result<TrackerStep, StaticsError> {
-        if !self.in_lanes {
+        let robot: &Robot = self.robot.borrow();
+        if !self.takes_steps() {
             let expected = "one with a cable for each free motion, all of one elastic law";
-            let name = &self.robot.borrow().name;
-            return Err(StaticsError::invalid("robot".to_owned(), name, expected));
+            return Err(StaticsError::invalid("robot".to_owned(), &robot.name, expected));
         }
-        self.newton(lengths, load)
+        self.tracked.newton(robot, lengths, load)
+    }
+}
+
+impl Tracked {
+    fn new(robot: &Robot, lengths: &[f64], load: &Load, start: &Equilibrium) -> Result<Self, StaticsError> {
+        robot.validate()?;
+        let solution = direct(robot, lengths, load, DirectStart::Near(start))?;
+        let (equilibrium, residual) = (solution.equilibrium, solution.report.residual);
+        let in_lanes = fits_lanes(robot);
+        Ok(Self { lengths: lengths.to_vec(), load: *load, equilibrium, residual, in_lanes })
+    }
+
+    fn update(&mut self, robot: &Robot, lengths: &[f64], load: &Load) -> Result<(), StaticsError> {
+        if !self.newton(robot, lengths, load)?.converged {
+            let solution = self.followed(robot, lengths, load)?;
+            self.residual = solution.report.residual;
+            self.equilibrium = solution.equilibrium;
+            self.lengths.copy_from_slice(lengths);
+            self.load = *load;
+        }
+        Ok(())
     }
 
     /// A step of a robot for the lanes; others do not converge.
-    fn newton(&mut self, lengths: &[f64], load: &Load) -> Result<TrackerStep, StaticsError> {
-        let robot: &Robot = self.robot.borrow();
+    fn newton(&mut self, robot: &Robot, lengths: &[f64], load: &Load) -> Result<TrackerStep, StaticsError> {
         let problem = &DirectProblem::new(robot, lengths, load)?;
         if !self.in_lanes {
             return Ok(TrackerStep { iterations: 0, converged: false });
@@ -139,9 +154,8 @@ impl<R: Borrow<Robot>> Tracker<R> {
         Ok(TrackerStep { iterations, converged: found.is_some() })
     }
 
-    fn followed(&self, lengths: &[f64], load: &Load) -> Result<DirectSolution, StaticsError> {
+    fn followed(&self, robot: &Robot, lengths: &[f64], load: &Load) -> Result<DirectSolution, StaticsError> {
         let start = DirectStart::Near(&self.equilibrium);
-        let robot: &Robot = self.robot.borrow();
         let now = direct(robot, &self.lengths, &self.load, start)?;
         match follow_change(robot, ((&self.lengths, &self.load), &now), (lengths, load)) {
             Err(StaticsError::Overstrained { .. } | StaticsError::DirectNotConverged { .. }) => {

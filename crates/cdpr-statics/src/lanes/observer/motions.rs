@@ -1,6 +1,6 @@
 //! Observations with the rotation of the platform under the load.
 
-use super::{Batch, BatchOf, InLanes, InRows, Observation, Observed, Observer, read};
+use super::{Batch, Displacements, InRows, Observation, Observed, Observer, read};
 use crate::error::StaticsError;
 use crate::lanes::chain::Outcome;
 use crate::lanes::level::LevelFrame;
@@ -10,7 +10,6 @@ use cdpr_number::lanes::{Lanes, MAX_LANES, Simd, dispatch};
 use cdpr_robot::{Matrix3, Pose, Vector3, orthonormalized};
 use smallvec::SmallVec;
 use std::array::from_fn;
-use std::marker::PhantomData;
 
 /// The deflection of one perturbed robot, with the rotation that belongs to it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,7 +23,7 @@ pub struct ObservationMotion {
 
 impl Observed for ObservationMotion {
     fn in_lanes(batch: Batch) -> Vec<Result<Self, ScalarReason>> {
-        dispatch(BatchOf(batch, PhantomData))
+        dispatch(Displacements { batch, with_frames: true })
     }
 
     fn by_scalar_models(
@@ -38,15 +37,19 @@ impl Observed for ObservationMotion {
     }
 }
 
-impl InLanes for ObservationMotion {
-    const WITH_FRAMES: bool = true;
-
-    #[inline(always)]
-    fn read<S: Simd>(outcome: &Outcome<S>, of: &InRows<'_, S>) -> [Result<Self, ScalarReason>; MAX_LANES] {
-        let frames = outcome.frames.each_ref().map(|frame| in_base(frame, of.level));
-        let observed = read(outcome, of);
-        from_fn(|lane| with_rotation(observed[lane], &frames, lane))
+/// The observation in each lane, with its rotation where the platforms have frames, or why it was left.
+#[inline(always)]
+pub(super) fn with_rotations<S: Simd>(
+    outcome: &Outcome<S>,
+    of: &InRows<'_, S>,
+) -> [Result<ObservationMotion, ScalarReason>; MAX_LANES] {
+    let (observed, [frame, _]) = (read(outcome, of), &outcome.frames);
+    if frame.is_empty() {
+        let rotation = Vector3::zeros();
+        return observed.map(|found| Ok(ObservationMotion { observation: found?, rotation }));
     }
+    let frames = outcome.frames.each_ref().map(|frame| in_base(frame, of.level));
+    from_fn(|lane| with_rotation(observed[lane], &frames, lane))
 }
 
 /// Adds the rotation in a lane from the first of the frames to the second one.
