@@ -16,17 +16,16 @@ mod slopes;
 
 use crate::error::StaticsError;
 use crate::inverse::{Branch, FreeBranch, InverseSolution, PoseLengths, refuse_offsets, require_smooth};
-use crate::lanes::chain::{Outcome, Stage, observe};
+use crate::lanes::chain::{Outcome, Stage};
 use crate::lanes::level::LevelFrame;
-use crate::lanes::observer::rows::{Nominal, Rows};
+use crate::lanes::observer::rows::Nominal;
 use crate::lanes::reason::ScalarReason;
 use crate::loading::{Deflection, SetPointLengths, deflection_from, lengths_at_rest};
 use crate::state::{Load, Residual, WantedPose};
-use cdpr_number::lanes::{Lanes, MAX_LANES, Mask, Simd, WithSimd, dispatch};
+use cdpr_number::lanes::{MAX_LANES, Mask, Simd};
 use cdpr_number::three;
 use cdpr_robot::{Deviations, ParameterLayout, Perturbed, Pose, Robot, Vector3, Vector6};
 pub use motions::ObservationMotion;
-use motions::with_rotations;
 pub use slopes::ObservationSlopes;
 use std::array::from_fn;
 
@@ -72,21 +71,6 @@ pub trait Observed: Sized {
         deviations: &[f64],
         why: ScalarReason,
     ) -> Result<Self, StaticsError>;
-}
-
-impl Observed for Observation {
-    fn in_lanes(batch: Batch) -> Vec<Result<Self, ScalarReason>> {
-        let found = dispatch(Displacements { batch, with_frames: false });
-        found.into_iter().map(|found| Ok(found?.observation)).collect()
-    }
-
-    fn by_scalar_models(
-        observer: &Observer,
-        deviations: &[f64],
-        why: ScalarReason,
-    ) -> Result<Self, StaticsError> {
-        Ok(Self::of(&observer.deflection(&observer.robot.perturbed(deviations)?)?, why))
-    }
 }
 
 /// A robot whose parameters deviate, observed at a wanted pose under a load.
@@ -242,54 +226,6 @@ struct InRows<'a, S: Simd> {
     level: Option<&'a LevelFrame<S>>,
     valid: [Mask<S>; 2],
     nominal: &'a Nominal,
-}
-
-/// A batch whose displacements are observed, `with_frames` the rotations that belong to them, which are zero
-/// otherwise.
-struct Displacements<'a> {
-    batch: Batch<'a>,
-    with_frames: bool,
-}
-
-impl WithSimd for Displacements<'_> {
-    type Output = Vec<Result<ObservationMotion, ScalarReason>>;
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
-        let Batch { observer: Observer { robot, pose, load, layout, nominal, .. }, deviations } = self.batch;
-        let parameters = layout.count();
-        let count = deviations.len() / parameters;
-        let nominal = match nominal {
-            Ok(nominal) => nominal,
-            Err(why) => return vec![Err(*why); count],
-        };
-        let mut found = Vec::with_capacity(count);
-        for rows in deviations.chunks(Lanes::<S>::COUNT * parameters) {
-            let count = rows.len() / parameters;
-            let rows = Rows::new(simd, rows, layout);
-            let mut observed = [None; MAX_LANES];
-            for axes in nominal.axes() {
-                let (mut start, level, valid) = rows.robots(robot, pose, load, nominal, *axes);
-                let own = valid[1].to_array();
-                if !(0..count).any(|lane| own[lane] && observed[lane].is_none()) {
-                    continue;
-                }
-                if self.with_frames {
-                    start.robots.frame.extend(rows.frame(pose, level.as_ref()));
-                }
-                let (outcome, _) = observe(&mut start, &nominal.shared, false);
-                let read = with_rotations(&outcome, &InRows { level: level.as_ref(), valid, nominal });
-                for lane in (0..count).filter(|lane| own[*lane]) {
-                    observed[lane].get_or_insert(read[lane]);
-                }
-                if observed[..count].iter().all(Option::is_some) {
-                    break;
-                }
-            }
-            found.extend(observed.into_iter().take(count).flatten());
-        }
-        found
-    }
 }
 
 /// The observation in each lane, or why it was left.

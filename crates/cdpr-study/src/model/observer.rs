@@ -2,16 +2,19 @@
 //!
 //! Deflections are observed in lanes ([`Observer`]); all else by the scalar models, one robot at a time.
 
+mod position;
+
 use crate::file::output::Output;
 use crate::model::error_model::ErrorModel;
 use crate::model::observed::{Measured, MeasuredQuantity};
 use cdpr_dynamics::{AmplitudeAt, AmplitudeDerivatives, FrequencyDerivatives, Modes, Swing};
-use cdpr_robot::{Coordinate, Deviations, Parameter, Perturbed, Pose, Robot, Vector3, Vector6};
+use cdpr_robot::{Coordinate, Deviations, Perturbed, Pose, Robot, Vector3, Vector6};
 use cdpr_statics::batch::{Observation, ObservationMotion, ObservationSlopes, ScalarReason};
 use cdpr_statics::{
-    Deflection, Derivatives, DirectProblem, DirectSolution, DirectStart, Equilibrium, Load, Matrix3xX,
-    Observer, StaticsError, WantedPose, deflection_from, derivatives, direct,
+    Deflection, Derivatives, DirectProblem, DirectSolution, DirectStart, Load, Matrix3xX, Observer,
+    StaticsError, WantedPose, deflection_from, derivatives, direct,
 };
+pub use position::position_slopes;
 use std::borrow::Cow;
 
 /// Observes the output of a study.
@@ -376,27 +379,6 @@ impl<'a> OutputObserver<'a> {
         };
         Ok((per_unit * value, scaled(per_unit, errors.gradient(&slopes))))
     }
-}
-
-/// Derivatives of the position of P at an equilibrium for given lengths, by the parameters [m per unit]; by
-/// the offsets of tension set-points as they change these lengths, and zero without `of_offsets`.
-///
-/// # Errors
-/// As [`DirectProblem::derivatives`].
-pub fn position_slopes(
-    problem: &DirectProblem,
-    rest: &Equilibrium,
-    of_offsets: Option<&Derivatives>,
-) -> Result<Matrix3xX<f64>, StaticsError> {
-    let mut slopes: Matrix3xX<f64> = problem.derivatives(rest)?.pose.fixed_rows::<3>(0).into();
-    if let Some(Derivatives { inputs, lengths, .. }) = of_offsets
-        && let Some(first) = inputs.column(Parameter::TensionOffset(0))
-    {
-        let n = lengths.nrows();
-        let moved = problem.linearize(rest)?.pose_per_length() * lengths.columns(first, n);
-        slopes.columns_mut(first, n).copy_from(&moved.fixed_rows::<3>(0));
-    }
-    Ok(slopes)
 }
 
 impl From<Observation> for Measured {

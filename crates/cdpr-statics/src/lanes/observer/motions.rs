@@ -1,12 +1,13 @@
-//! Observations with the rotation of the platform under the load.
+//! Observations of displacements, with the rotation of the platform under the load or without.
 
-use super::{Batch, Displacements, InRows, Observation, Observed, Observer, read};
+use super::{Batch, InRows, Observation, Observed, Observer, read};
 use crate::error::StaticsError;
-use crate::lanes::chain::Outcome;
+use crate::lanes::chain::{Outcome, observe};
 use crate::lanes::level::LevelFrame;
+use crate::lanes::observer::rows::Rows;
 use crate::lanes::reason::ScalarReason;
 use cdpr_number::dense::Lanes3;
-use cdpr_number::lanes::{Lanes, MAX_LANES, Simd, dispatch};
+use cdpr_number::lanes::{Lanes, MAX_LANES, Simd, WithSimd, dispatch};
 use cdpr_robot::{Matrix3, Pose, Vector3, orthonormalized};
 use smallvec::SmallVec;
 use std::array::from_fn;
@@ -19,6 +20,21 @@ pub struct ObservationMotion {
     /// Rotation vector from the unloaded to the loaded platform in the base frame [rad], as
     /// [`Pose::motion_to`].
     pub rotation: Vector3<f64>,
+}
+
+impl Observed for Observation {
+    fn in_lanes(batch: Batch) -> Vec<Result<Self, ScalarReason>> {
+        let found = dispatch(Displacements { batch, with_frames: false });
+        found.into_iter().map(|found| Ok(found?.observation)).collect()
+    }
+
+    fn by_scalar_models(
+        observer: &Observer,
+        deviations: &[f64],
+        why: ScalarReason,
+    ) -> Result<Self, StaticsError> {
+        Ok(Self::of(&observer.deflection(&observer.robot.perturbed(deviations)?)?, why))
+    }
 }
 
 impl Observed for ObservationMotion {
@@ -37,9 +53,57 @@ impl Observed for ObservationMotion {
     }
 }
 
+/// A batch whose displacements are observed, `with_frames` the rotations that belong to them, which are zero
+/// otherwise.
+struct Displacements<'a> {
+    batch: Batch<'a>,
+    with_frames: bool,
+}
+
+impl WithSimd for Displacements<'_> {
+    type Output = Vec<Result<ObservationMotion, ScalarReason>>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
+        let Batch { observer: Observer { robot, pose, load, layout, nominal, .. }, deviations } = self.batch;
+        let parameters = layout.count();
+        let count = deviations.len() / parameters;
+        let nominal = match nominal {
+            Ok(nominal) => nominal,
+            Err(why) => return vec![Err(*why); count],
+        };
+        let mut found = Vec::with_capacity(count);
+        for rows in deviations.chunks(Lanes::<S>::COUNT * parameters) {
+            let count = rows.len() / parameters;
+            let rows = Rows::new(simd, rows, layout);
+            let mut observed = [None; MAX_LANES];
+            for axes in nominal.axes() {
+                let (mut start, level, valid) = rows.robots(robot, pose, load, nominal, *axes);
+                let own = valid[1].to_array();
+                if !(0..count).any(|lane| own[lane] && observed[lane].is_none()) {
+                    continue;
+                }
+                if self.with_frames {
+                    start.robots.frame.extend(rows.frame(pose, level.as_ref()));
+                }
+                let (outcome, _) = observe(&mut start, &nominal.shared, false);
+                let read = with_rotations(&outcome, &InRows { level: level.as_ref(), valid, nominal });
+                for lane in (0..count).filter(|lane| own[*lane]) {
+                    observed[lane].get_or_insert(read[lane]);
+                }
+                if observed[..count].iter().all(Option::is_some) {
+                    break;
+                }
+            }
+            found.extend(observed.into_iter().take(count).flatten());
+        }
+        found
+    }
+}
+
 /// The observation in each lane, with its rotation where the platforms have frames, or why it was left.
 #[inline(always)]
-pub(super) fn with_rotations<S: Simd>(
+fn with_rotations<S: Simd>(
     outcome: &Outcome<S>,
     of: &InRows<'_, S>,
 ) -> [Result<ObservationMotion, ScalarReason>; MAX_LANES] {
