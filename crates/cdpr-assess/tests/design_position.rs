@@ -31,7 +31,7 @@ fn of(robot: Robot, poses: &[[f64; 3]], errors: &Value) -> Vec<f64> {
 const ROBOTS: [(&str, [f64; 3]); 3] =
     [("caroca", [0.4, -0.3, 1.6]), ("cogiro", [1.0, 0.5, 1.2]), ("ipanema-3", [0.5, -0.4, 1.3])];
 
-/// Larger deviations let cables of stiff robots become slack, which is beyond the first order.
+/// Small enough for the first order.
 const SMALL: f64 = 0.1;
 
 #[test]
