@@ -16,11 +16,11 @@ def mass_on_two_cables():
     return cdpr.Robot(
         [[0, 0, 0]] * 2,
         [[-1, 0, 2], [1, 0, 2]],
-        100,
-        1e-5,
-        0.0,
-        1e16,
-        (1.0, 1e6),
+        mass=100,
+        section=1e-5,
+        linear_density=0.0,
+        youngs_modulus=1e16,
+        tension_limits=(1.0, 1e6),
         point=True,
         plane="xz",
     )

@@ -40,12 +40,13 @@ def test_a_motion_is_that_of_the_program(name, pose, free, tmp_path):
     robot = with_inertia(name)
     mass = robot.to_dict()["platform"]["mass"]
     events = [{"t": 0.02, "payload": 0.1 * mass}, {"t": 0, "force": numpy.array([0.01 * mass, 0, 0])}]
-    motion = robot.simulate(pose, until=0.1, events=events, free=free, damping=2e-4)
+    motion = robot.simulate(pose, until=0.1, rate=1000, events=events, free=free, damping=2e-4)
     (tmp_path / "robot.json").write_text(robot.to_json())
     plain = [events[0], {"t": 0, "force": events[1]["force"].tolist()}]
     (tmp_path / "events.json").write_text(json.dumps(plain))
     arguments = ["simulate", tmp_path / "robot.json", f"--pose={text(pose)}", "--events", tmp_path / "events.json"]
-    arguments += ["--until", "0.1", "--damping", "2e-4", *(["--free", ",".join(free)] if free else [])]
+    arguments += ["--until", "0.1", "--rate", "1000", "--damping", "2e-4"]
+    arguments += ["--free", ",".join(free)] if free else []
     expected = answer(*arguments)
     rows = numpy.array(expected["samples"])
     n = robot.n_cables
@@ -58,8 +59,9 @@ def test_a_motion_is_that_of_the_program(name, pose, free, tmp_path):
     numpy.testing.assert_array_equal(summary.lengths, expected["lengths"])
     assert summary.position_difference == expected["difference"]["position_m"]
     assert summary.energy_drift == expected["energy"]["drift_j"] and summary.steps == expected["steps"]
-    assert motion.poses.shape == (11, 7) and motion.velocities.shape == motion.angular_velocities.shape == (11, 3)
-    middle = (motion.poses[2:, :3] - motion.poses[:-2, :3]) / 0.02
+    assert motion.poses.shape == (101, 7)
+    assert motion.velocities.shape == motion.angular_velocities.shape == (101, 3)
+    middle = (motion.poses[2:, :3] - motion.poses[:-2, :3]) / 0.002
     speed = numpy.abs(motion.velocities).max()
     numpy.testing.assert_allclose(motion.velocities[1:-1], middle, atol=0.5 * speed)
 

@@ -6,7 +6,7 @@
 ...     robot,
 ...     {
 ...         "format": "cdpr-design/1",
-...         "variables": [{"parameters": ["b1.z", "b2.z"], "bounds": [3.0, 3.5]}],
+...         "variables": [{"parameters": ["b1.z", "b2.z"], "bounds": [3.0, 4.0]}],
 ...         "poses": {"list": [{"position": [0, 0, 1.75]}]},
 ...         "payload": 50,
 ...         "objective": {"output": "deflection", "over": "worst"},
@@ -184,9 +184,16 @@ def design(robot: Robot, design: _inputs.Document, *, threads: Optional[int] = N
     Examples
     --------
     >>> import cdpr
-    >>> found = cdpr.design(cdpr.Robot.from_file("caroca"), "data/designs/caroca-pulleys.json")
-    >>> [float(value) for value in found.values]  # half length, half width, height [m]
-    [-2.0, 1.0, 3.5]
+    >>> wanted = {
+    ...     "format": "cdpr-design/1",
+    ...     "variables": [{"name": "height", "parameters": ["b1.z", "b2.z"], "choices": [3.0, 3.5]}],
+    ...     "poses": {"list": [{"position": [0, 0, 1.75]}]},
+    ...     "payload": 50,
+    ...     "objective": {"output": "deflection", "over": "worst"},
+    ... }
+    >>> found = cdpr.design(cdpr.Robot.from_file("caroca"), wanted)
+    >>> found.objective <= found.before and found.values.shape == (1,)
+    True
     """
     import numpy
 
@@ -240,11 +247,16 @@ def design_front(robot: Robot, design: _inputs.Document, *, threads: Optional[in
 
     Examples
     --------
-    >>> import cdpr, json
-    >>> with open("data/designs/caroca-pulleys.json") as file:
-    ...     given = json.load(file)
-    >>> given["pareto"] = {"output": "stiffness", "over": "mean"}
-    >>> front = cdpr.design_front(cdpr.Robot.from_file("caroca"), given)
+    >>> import cdpr
+    >>> wanted = {
+    ...     "format": "cdpr-design/1",
+    ...     "variables": [{"name": "height", "parameters": ["b1.z", "b2.z"], "choices": [3.0, 3.5]}],
+    ...     "poses": {"list": [{"position": [0, 0, 1.75]}]},
+    ...     "payload": 50,
+    ...     "objective": {"output": "deflection", "over": "worst"},
+    ...     "pareto": {"output": "stiffness", "over": "mean"},
+    ... }
+    >>> front = cdpr.design_front(cdpr.Robot.from_file("caroca"), wanted)
     >>> front.objectives.shape == (len(front.robots), 2)
     True
     """
