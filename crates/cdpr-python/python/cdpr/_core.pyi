@@ -58,6 +58,7 @@ __all__ = [
     "carry_out",
     "check",
     "check_file",
+    "design",
     "hysteresis",
     "linear_density",
     "modulus",
