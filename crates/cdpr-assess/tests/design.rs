@@ -142,20 +142,22 @@ pub(crate) fn caroca(domains: [Value; 3]) -> Value {
     }
     json!({
         "format": "cdpr-design/1", "variables": variables, "payload": 50.0,
-        "poses": {"list": [{"position": [0, 0, 1.75]}, {"position": [1, 0.4, 1.2]}, {"position": [-1, 0.2, 2]}]},
+        "poses": {"list": [
+            {"position": [0, 0, 1.75]}, {"position": [1, 0.4, 1.2]}, {"position": [-1, 0.2, 2]},
+        ]},
         "objective": {"output": "deflection", "over": "worst"}, "starts": 6,
     })
 }
 
-#[test]
-fn the_best_of_discrete_places_is_that_of_all_of_them_one_by_one() {
-    let (x, y, z) = ([-3.5, -3.0, -2.5, -2.0], [2.0, 1.5, 1.0], [3.5, 3.0, 2.75]);
-    let file = caroca([json!(x), json!(y), json!(z)]);
-    let found = solve(&file, data("caroca"));
-    let best = found.best.as_ref().unwrap();
-    assert_eq!((found.configurations, found.starts, best.kkt_residual), (36, 0, None));
+/// Coordinates of the exits of CAROCA, at places symmetric to both middle planes [m].
+pub(crate) const PLACES: ([f64; 4], [f64; 3], [f64; 3]) =
+    ([-3.5, -3.0, -2.5, -2.0], [2.0, 1.5, 1.0], [3.5, 3.0, 2.75]);
+
+/// The deflections [mm] at the poses of [`caroca`] with each of the [`PLACES`] that holds all of them.
+pub(crate) fn one_by_one() -> Vec<(Vec<f64>, [f64; 3])> {
     let poses = [Pose::at(0.0, 0.0, 1.75), Pose::at(1.0, 0.4, 1.2), Pose::at(-1.0, 0.2, 2.0)];
     let mut all = Vec::new();
+    let (x, y, z) = PLACES;
     for (x, y, z) in x.iter().flat_map(|x| y.iter().flat_map(move |y| z.map(|z| (*x, *y, z)))) {
         let mut robot = data("caroca");
         for (i, cable) in robot.cables.iter_mut().enumerate() {
@@ -165,9 +167,20 @@ fn the_best_of_discrete_places_is_that_of_all_of_them_one_by_one() {
         let each =
             poses.map(|pose| deflection(&robot, &pose, &Load::payload(50.0)).map(|at| 1e3 * at.magnitude()));
         if let Ok(each) = each.into_iter().collect::<Result<Vec<f64>, _>>() {
-            all.push((each.into_iter().fold(0.0, f64::max), [x, y, z]));
+            all.push((each, [x, y, z]));
         }
     }
+    all
+}
+
+#[test]
+fn the_best_of_discrete_places_is_that_of_all_of_them_one_by_one() {
+    let (x, y, z) = PLACES;
+    let found = solve(&caroca([json!(x), json!(y), json!(z)]), data("caroca"));
+    let best = found.best.as_ref().unwrap();
+    assert_eq!((found.configurations, found.starts, best.kkt_residual), (36, 0, None));
+    let worst = |(each, place): (Vec<f64>, _)| (each.into_iter().fold(0.0, f64::max), place);
+    let mut all: Vec<(f64, [f64; 3])> = one_by_one().into_iter().map(worst).collect();
     all.sort_by(|a, b| a.0.total_cmp(&b.0));
     assert_eq!(found.feasible, all.len());
     assert!((best.objective / all[0].0 - 1.0).abs() < 1e-9 && all[0].0 < found.before.unwrap());

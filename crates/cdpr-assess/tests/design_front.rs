@@ -1,9 +1,8 @@
 //! Pareto fronts that are known in closed form, or by evaluating everything.
 
-use crate::design::{HEIGHT, apart, caroca, data, planar, with};
+use crate::design::{HEIGHT, PLACES, apart, caroca, data, one_by_one, planar, with};
 use cdpr_assess::{DesignProblem, Front, front};
-use cdpr_robot::{Pose, Robot};
-use cdpr_statics::{Load, deflection};
+use cdpr_robot::Robot;
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -50,24 +49,14 @@ fn the_front_of_a_mass_on_two_cables_is_that_of_its_angles_between_both_optima()
 
 #[test]
 fn the_front_of_discrete_places_is_that_of_all_of_them_one_by_one() {
-    let (x, y, z) = ([-3.5, -3.0, -2.5, -2.0], [2.0, 1.5, 1.0], [3.5, 3.0, 2.75]);
+    let (x, y, z) = PLACES;
     let file = caroca([json!(x), json!(y), json!(z)]);
     let file = with(file, "/pareto", json!({"output": "deflection", "over": "mean"}));
     let found = solve(&file, data("caroca"));
-    let poses = [Pose::at(0.0, 0.0, 1.75), Pose::at(1.0, 0.4, 1.2), Pose::at(-1.0, 0.2, 2.0)];
-    let mut all: Vec<([f64; 2], [f64; 3])> = Vec::new();
-    for (x, y, z) in x.iter().flat_map(|x| y.iter().flat_map(move |y| z.map(|z| (*x, *y, z)))) {
-        let mut robot = data("caroca");
-        for (i, cable) in robot.cables.iter_mut().enumerate() {
-            let [sx, sy] = [if i % 2 == 0 { 1.0 } else { -1.0 }, if i < 4 { 1.0 } else { -1.0 }];
-            cable.exit_point = [sx * x, sy * y, z].into();
-        }
-        let each =
-            poses.map(|pose| deflection(&robot, &pose, &Load::payload(50.0)).map(|at| 1e3 * at.magnitude()));
-        if let Ok(each) = each.into_iter().collect::<Result<Vec<f64>, _>>() {
-            all.push(([each.iter().copied().fold(0.0, f64::max), each.iter().sum::<f64>() / 3.0], [x, y, z]));
-        }
-    }
+    let both = |(each, place): (Vec<f64>, _)| {
+        ([each.iter().copied().fold(0.0, f64::max), each.iter().sum::<f64>() / 3.0], place)
+    };
+    let all: Vec<([f64; 2], [f64; 3])> = one_by_one().into_iter().map(both).collect();
     let is_dominated = |one: &[f64; 2]| {
         all.iter().any(|(other, _)| other[0] <= one[0] && other[1] <= one[1] && other != one)
     };

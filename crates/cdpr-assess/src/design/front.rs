@@ -45,7 +45,7 @@ pub struct Front {
     pub dominated: usize,
     /// Bounds (Q6) for which no search led to a robot that counts.
     pub lost: usize,
-    /// Why there is no point, where there is none.
+    /// Why the front has no point; `None` where it has points.
     pub reason: Option<String>,
     /// Names of the variables, and their SI units.
     pub variables: Vec<(String, &'static str)>,
@@ -75,7 +75,7 @@ pub struct FrontPoint {
     pub robot: Robot,
 }
 
-/// Relative difference of objectives that is none.
+/// Objectives whose relative difference is below this are equal.
 const SAME: f64 = 1e-6;
 
 /// Finds the Pareto front of both objectives of a problem.

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-/// A run of cells is worth a group from so many on.
+/// The fewest cells in a run that become a group.
 const CELLS: usize = 8;
 
 /// Shortens the elements of a figure of plotters, which has each element on a line of its own.

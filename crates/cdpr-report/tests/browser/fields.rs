@@ -20,8 +20,10 @@ const SHOWN: &str = r#"(() => {
 /// Finds a field by its label, and gives it the focus with all its text selected.
 const FIELD: &str = r#"
   window.field = (name) => {
-    const one = [...document.querySelectorAll(".field")].find((one) => one.textContent.startsWith(`${name} `));
-    return { input: one.querySelector("input"), note: one.querySelector(".fieldnote") };
+    const named = (one) => one.textContent.startsWith(`${name} `);
+    const all = [...document.querySelectorAll(".field"), ...document.querySelectorAll(".slider")];
+    const one = all.find(named);
+    return { input: one.querySelector("input:not([type=range])"), note: one.querySelector(".fieldnote") };
   };
   window.enter = (name) => { const { input } = field(name); input.focus(); input.select(); };"#;
 
@@ -111,7 +113,7 @@ fn a_decimal_comma_is_read_and_what_is_no_number_is_told() {
 }
 
 #[test]
-fn observations_are_of_the_force_and_the_lengths_on_screen() {
+fn observations_are_of_the_force_and_the_lengths_on_screen_or_hidden_with_the_reason() {
     let (mut page, _) = caroca();
     let words = "[...document.querySelectorAll('.charts .says')].map((said) => said.textContent).join(' ')";
     let current = "!document.querySelector('.charts').classList.contains('stale')";
@@ -127,4 +129,14 @@ fn observations_are_of_the_force_and_the_lengths_on_screen() {
     let of_force = page.evaluate(words);
     page.evaluate("document.querySelector('.stagebar input[value=kept]').click()");
     page.wait_for(&other_than(&of_force));
+    page.evaluate("enter('force x')");
+    page.write("0");
+    page.press("Enter", 0);
+    page.evaluate("enter('payload')");
+    page.write("0");
+    page.press("Enter", 0);
+    let failure = "document.querySelector('.charts .failure')";
+    page.wait_for(&format!("{hidden} && !{failure}.hidden && {failure}.textContent.includes('no load')"));
+    let said = page.evaluate(words);
+    assert_eq!(said.as_str().map(str::trim), Some(""));
 }
