@@ -76,6 +76,14 @@ fn a_peak_that_nothing_damps_has_no_number() {
         shown.contains("a force shakes the point without a bound, at ") && !shown.contains("e1"),
         "{shown}"
     );
+    let undamped =
+        |format: &str| text(cdpr(&[&call[..], &["--with", "damping=0", "--format", format]].concat()).stdout);
+    let json: serde_json::Value = serde_json::from_str(&undamped("json")).unwrap();
+    let without = |at: &&serde_json::Value| at["amplitude_m_per_n"].is_null();
+    let unbounded = json["frequencies"].as_array().unwrap().iter().filter(without).count();
+    assert!(
+        unbounded > 0 && undamped("csv").lines().filter(|line| line.contains(",,,")).count() == unbounded
+    );
     let shown = text(cdpr(&[&call[..], &["--with", "drag=0.5"]].concat()).stdout);
     assert!(!shown.contains("bound"), "{shown}");
 }

@@ -186,7 +186,7 @@ fn each_robot_says_first_what_it_carries_how_much_of_a_plane_it_holds_and_what_a
             let path = ["path", robot, "--poses", "poses.csv", "--payload", "1"];
             let output = cdpr_in(folder.path(), &path);
             let said = unwrapped(output.stderr);
-            assert!(said.starts_with("1 of 1 pose held, tensions "), "{robot}: {said}");
+            assert!(said.starts_with("1 of 1 pose held, unloaded at "), "{robot}: {said}");
             assert_narrow(said.lines().next().unwrap());
         }
     }

@@ -155,7 +155,8 @@ fn listed<T>(
     };
     let list = read(&table).map_err(refused)?;
     if table.rows() == 0 {
-        let empty = format!("{option} {}: the file is empty, expected {what} on each line", path.display());
+        let found = if table.columns.is_empty() { "the file is empty" } else { "nothing but a header" };
+        let empty = format!("{option} {}: {found}, expected {what} on each line", path.display());
         return Err(ProgramError::Usage(empty));
     }
     Ok(list)

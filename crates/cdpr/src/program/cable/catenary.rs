@@ -59,8 +59,9 @@ struct Answer {
     /// Force on the cable at the anchor point.
     force: [f64; 2],
     tension: Tension,
-    /// Greatest height of the chord above the cable [m].
-    sag: f64,
+    /// Greatest height of the chord above the cable [m]; `null` for a slack cable without weight, which has
+    /// no shape.
+    sag: Option<f64>,
     /// Elastic energy plus potential energy of the weight, which is zero at the height of the exit point [J].
     energy: f64,
     unstrained_length: f64,
@@ -88,7 +89,7 @@ impl Answer {
         Ok(Self {
             force: catenary.force.into(),
             tension: Tension { anchor: catenary.anchor_tension(), exit: catenary.exit_tension() },
-            sag: catenary.vertical_sag(),
+            sag: (!catenary.is_slack_and_weightless()).then(|| catenary.vertical_sag()),
             energy: catenary.potential_energy(),
             unstrained_length: catenary.unstrained_length,
             end: solution.end.into(),
@@ -102,7 +103,10 @@ impl Answer {
         println!("force at it        {} N on the cable", vector(&self.force, 6));
         println!("tension            {:.6} N at the anchor point", self.tension.anchor);
         println!("                   {:.6} N at the exit point", self.tension.exit);
-        println!("sag                {:.6} m below the chord", self.sag);
+        match self.sag {
+            Some(sag) => println!("sag                {sag:.6} m below the chord"),
+            None => println!("sag                none: slack and without weight, it has no shape"),
+        }
         println!("energy             {:.6} J", self.energy);
     }
 }

@@ -259,7 +259,8 @@ fn answer(robot: &Robot, output: &Plan) -> String {
 fn print_plan(robot: &Robot, output: &Plan, details: bool) {
     output.needed.iter().for_each(|needed| print_sentence(&reached(robot, output, *needed)));
     print_sentence(&answer(robot, output));
-    println!("chosen of {}", counted(output.candidates, "pose"));
+    let all = if output.poses.len() == output.candidates { ", which are all there are" } else { "" };
+    println!("chosen of {}{all}", counted(output.candidates, "pose"));
     for (reason, count) in &output.refused {
         println!("{} left out: {reason}", counted(*count, "pose"));
     }

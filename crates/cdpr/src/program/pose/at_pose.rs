@@ -213,9 +213,14 @@ impl RobotAtPose {
         Ok(robot)
     }
 
+    fn poses_path(&self) -> Result<&Path, ProgramError> {
+        let expected = || ProgramError::Usage("expected --poses FILE, the poses of the path".to_owned());
+        self.poses.as_deref().ok_or_else(expected)
+    }
+
     /// The poses of the file.
     pub(crate) fn poses(&self, robot: &Robot) -> Result<Vec<Pose>, ProgramError> {
-        let path = self.poses.as_ref().ok_or_else(|| ProgramError::Usage("expected --poses".to_owned()))?;
+        let path = self.poses_path()?;
         let PoseTable { poses, .. } = pose_file(path)?;
         questions::about_poses(robot, "--poses", &poses);
         Ok(poses)
@@ -227,7 +232,7 @@ impl RobotAtPose {
         robot: &Robot,
         mut solve: impl FnMut(&Pose) -> Result<T, StaticsError>,
     ) -> Result<Ending, ProgramError> {
-        let path = self.poses.as_ref().ok_or_else(|| ProgramError::Usage("expected --poses".to_owned()))?;
+        let path = self.poses_path()?;
         let mut solve = |pose: &Pose, progress: &ProgressBar| {
             let answer = solve(pose);
             progress.inc(1);

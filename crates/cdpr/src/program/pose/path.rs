@@ -10,7 +10,7 @@ use crate::program::pose::at_pose::{RobotAtPose, Row, cells, numbered};
 use cdpr_assess::{Bands, Path, PathPose};
 use cdpr_report::path_view;
 use cdpr_robot::{Robot, broken, counted, significant};
-use cdpr_statics::Deflection;
+use cdpr_statics::{Deflection, Load};
 use serde::Serialize;
 
 /// The robot, its poses, and what is uncertain.
@@ -63,7 +63,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     } else {
         at.answer_in_order(&robot, |pose| Ok(Passed::new(&robot, solve(pose)?)))?
     };
-    along.tell();
+    along.tell(load != Load::none());
     if let Some(file) = figure {
         file.write(&at.printing.overwrite, &path_view(&robot, &load, &passed)?)?;
     }
@@ -97,13 +97,14 @@ impl Along {
         }
     }
 
-    fn tell(&self) {
+    fn tell(&self, is_loaded: bool) {
         let Self { poses, held, jumps, .. } = self;
         let mut sentence = format!("{held} of {} held", counted(*poses, "pose"));
         if let (Some([least, greatest]), Some((size, pose))) = (self.tensions, self.farthest) {
             let [least, greatest] = [least, greatest].map(|tension| significant(tension, 3));
-            sentence += &format!(", tensions {least} to {greatest} N");
-            if size > 0.0 {
+            let of = if is_loaded { "unloaded at" } else { "tensions" };
+            sentence += &format!(", {of} {least} to {greatest} N");
+            if is_loaded {
                 sentence += &format!(", |dp| up to {} mm at pose {pose}", significant(1e3 * size, 3));
             }
         }
@@ -121,6 +122,7 @@ struct Passed {
     jump: bool,
     /// Unstrained lengths.
     lengths: Vec<f64>,
+    /// At the platform, without the load.
     tensions: Vec<f64>,
     exit_tensions: Vec<f64>,
     /// Greatest distance of each cable across its chord.

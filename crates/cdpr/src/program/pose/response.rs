@@ -93,7 +93,8 @@ impl Settings {
         frequencies.sort_by(f64::total_cmp);
         frequencies.dedup();
         let lever = rest.pose.rotation * Vector3::from(self.marker.unwrap_or_default());
-        let at = |frequency: &f64| Ok(At::new(&response.at(*frequency)?, &lever));
+        let still = At::new(&response.at(0.0)?, &lever);
+        let at = |frequency: &f64| Ok(At::new(&response.at(*frequency)?, &lever).bounded_by(&still, damping));
         Ok(Answer {
             damping_s: damping.stretch,
             drag_per_s: damping.drag,
@@ -125,7 +126,8 @@ struct Answer {
 #[derive(Serialize)]
 struct At {
     frequency_hz: f64,
-    /// Largest amplitude of the point for a force there of any direction [m/N].
+    /// Largest amplitude of the point for a force there of any direction [m/N]; it and all below are infinite,
+    /// `null` in JSON, where nothing bounds it.
     amplitude_m_per_n: f64,
     /// Amplitude in x, y and z for forces in these directions, row by row: real and imaginary part [m/N].
     per_force: [[[f64; 2]; 3]; 3],
@@ -147,6 +149,21 @@ impl At {
         }
     }
 
+    /// By how much a peak is at most above the amplitude at rest: beyond, it is rounding that bounds it. What
+    /// damps the stretch alone leaves motions across the cables without damping.
+    fn bounded_by(self, still: &Self, damping: Damping) -> Self {
+        let most = if damping.stretch == 0.0 && damping.drag == 0.0 { 1e5 } else { 1e9 };
+        if self.amplitude_m_per_n < most * still.amplitude_m_per_n {
+            return self;
+        }
+        Self {
+            amplitude_m_per_n: f64::INFINITY,
+            per_force: [[[f64::INFINITY; 2]; 3]; 3],
+            per_shortening: vec![[[f64::INFINITY; 2]; 3]; self.per_shortening.len()],
+            ..self
+        }
+    }
+
     /// Amplitudes for forces along the axes, each in its own direction [m/N].
     fn along(&self) -> [f64; 3] {
         [0, 1, 2].map(|k| size(&self.per_force[k][k]))
@@ -161,6 +178,16 @@ impl At {
 
 fn size([re, im]: &[f64; 2]) -> f64 {
     re.hypot(*im)
+}
+
+/// An amplitude [m/N] in mm/N, or that nothing bounds it.
+fn millimetres(value: f64) -> String {
+    if value.is_finite() { significant(1e3 * value, 3) } else { NO_BOUND.to_owned() }
+}
+
+/// A number of a table, empty where nothing bounds it.
+fn cell(value: f64) -> String {
+    if value.is_finite() { format!("{value:?}") } else { String::new() }
 }
 
 impl Answer {
@@ -180,25 +207,13 @@ impl Answer {
         peaks
     }
 
-    /// By how much a peak is at most above the amplitude at rest: beyond, it is rounding that bounds it. What
-    /// damps the stretch alone leaves motions across the cables without damping.
-    fn most(&self) -> f64 {
-        if self.damping_s == 0.0 && self.drag_per_s == 0.0 { 1e5 } else { 1e9 }
-    }
-
-    /// An amplitude [m/N] in mm/N, or that nothing bounds it.
-    fn millimetres(&self, value: f64) -> String {
-        let still = self.frequencies.first().map_or(f64::INFINITY, |still| still.amplitude_m_per_n);
-        if value < self.most() * still { significant(1e3 * value, 3) } else { NO_BOUND.to_owned() }
-    }
-
     fn print(&self, heading: &str) {
         let greatest = |one: &&At, other: &&At| one.amplitude_m_per_n.total_cmp(&other.amplitude_m_per_n);
         if let (Some(still), Some(most)) =
             (self.frequencies.first(), self.frequencies.iter().max_by(greatest))
         {
             let at_rest = significant(1e3 * still.amplitude_m_per_n, 3);
-            let most_of = match self.millimetres(most.amplitude_m_per_n).as_str() {
+            let most_of = match millimetres(most.amplitude_m_per_n).as_str() {
                 NO_BOUND => "without a bound".to_owned(),
                 most => format!("by up to {most} mm/N"),
             };
@@ -214,12 +229,12 @@ impl Answer {
         let mut rows = table(&names);
         for at in self.peaks().into_iter().take(LISTED) {
             let winches = at.of_winches().into_iter().fold(0.0, f64::max);
-            let along = at.along().map(|value| self.millimetres(value)).join(" ");
+            let along = at.along().map(millimetres).join(" ");
             let cells = [
                 format!("{:.4}", at.frequency_hz),
-                self.millimetres(at.amplitude_m_per_n),
+                millimetres(at.amplitude_m_per_n),
                 along,
-                if winches < self.most() { decimal(winches, 2) } else { NO_BOUND.to_owned() },
+                if winches.is_finite() { decimal(winches, 2) } else { NO_BOUND.to_owned() },
             ];
             rows.add_row(cells);
         }
@@ -240,13 +255,14 @@ impl Answer {
         for at in &self.frequencies {
             let numbers = [at.frequency_hz, at.amplitude_m_per_n].into_iter().chain(at.along());
             let numbers = numbers.chain(at.of_winches());
-            print_record(&numbers.map(|number| format!("{number:?}")).collect::<Vec<_>>());
+            print_record(&numbers.map(cell).collect::<Vec<_>>());
         }
     }
 
     fn figure(&self, robot: &Robot) -> Result<String, ProgramError> {
         let curve = |name: &str, of: &dyn Fn(&At) -> f64| {
-            let points = self.frequencies.iter().map(|at| (at.frequency_hz, 1e3 * of(at))).collect();
+            let points = self.frequencies.iter().map(|at| (at.frequency_hz, 1e3 * of(at)));
+            let points = points.filter(|(_, amplitude)| amplitude.is_finite()).collect();
             (name.to_owned(), points)
         };
         let curves = [
@@ -269,7 +285,7 @@ impl Row for Answer {
     }
 
     fn cells(&self) -> Vec<String> {
-        let number = |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:?}"));
+        let number = |value: Option<f64>| value.map_or_else(String::new, cell);
         vec![
             number(self.peak().map(|at| at.frequency_hz)),
             number(self.peak().map(|at| at.amplitude_m_per_n)),
