@@ -39,6 +39,9 @@ impl Robot {
 
     /// The robot with other values of some parameters, by name and in [`Parameter::unit`].
     ///
+    /// The value of a parameter that cables share is that of the first cable. The others change by as much, as
+    /// in [`Robot::perturbed`].
+    ///
     /// # Errors
     /// [`RobotError::UnknownParameter`] for a name that the robot does not have, and for an offset of a
     /// tension, which is no property of a robot; [`RobotError::Invalid`] for an invalid value.
@@ -54,7 +57,11 @@ impl Robot {
                     expected: format!("{}; no offset dt of a tension", layout.names()),
                 });
             }
-            parameter.change(self, &mut changed, |old| *old = *value);
+            let nominal = parameter.nominal(self);
+            let deviation = value - nominal;
+            parameter.change(self, &mut changed, |old| {
+                *old = if *old == nominal { *value } else { *old + deviation };
+            });
         }
         changed.robot.validate()?;
         Ok(changed.robot)

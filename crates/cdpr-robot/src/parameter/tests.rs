@@ -105,8 +105,14 @@ fn a_robot_with_another_value_has_that_very_value() {
             assert_eq!(parameter.nominal(&changed.robot), value, "{parameter}");
         }
     }
-    let robot = caroca();
+    let mut robot = caroca();
     assert_eq!(robot.with_values(&[("mass", 185.0)]).unwrap().platform.mass, 185.0);
+    // Cables of two materials differ as before.
+    robot.cables[3].properties.youngs_modulus = 4e10;
+    let nominal = robot.cables[0].properties.youngs_modulus;
+    let softer = robot.with_values(&[("youngs_modulus", nominal - 1e9)]).unwrap();
+    assert_eq!([0, 3].map(|i| softer.cables[i].properties.youngs_modulus), [nominal - 1e9, 3.9e10]);
+    assert_eq!(robot.with_values(&[("youngs_modulus", nominal)]).unwrap(), robot);
     let refused = [("dt1", 1.0), ("a9.x", 1.0), ("mass", -1.0), ("b1.x", f64::NAN), ("r1", 0.1)];
     for (name, value) in refused.into_iter().chain([("lead1", 0.1), ("tilt1.u", 0.1), ("gravity.x", 0.1)]) {
         assert!(robot.with_values(&[(name, value)]).is_err(), "{name}");

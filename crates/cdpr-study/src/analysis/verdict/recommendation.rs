@@ -18,8 +18,9 @@
 //!   has the norm √e.
 //! - (Rc2): by C. E. Bonferroni, so that a verdict on many inputs is as certain as one on a single input.
 //!
-//! The first basis that settles an input is recommended, in this order: derivatives, expansion, Sobol'.
-//! Where none does, Shapley effects or ranks, which have no bounds, put the inputs in an order.
+//! Of derivatives and Sobol' indices the one that settles more inputs is recommended, derivatives where both
+//! settle as many; the expansion where neither settles any. Where none does, Shapley effects or ranks, which
+//! have no bounds, put the inputs in an order.
 
 use cdpr_sensitivity::is_resolved;
 use serde::{Deserialize, Serialize};
@@ -142,17 +143,28 @@ pub(crate) fn by_expansion(total: f64, error: f64) -> TotalBounds {
     TotalBounds { low, at_least: value, at_most: value, high, few: false }
 }
 
-/// The recommendation of the first candidate that says enough; `None` without candidates.
+/// The recommendation of the candidate that says most; `None` without candidates.
 pub(crate) fn recommend(
     names: &[String],
     mut candidates: Vec<Candidate>,
     confidence: f64,
 ) -> Option<Recommendation> {
-    candidates.sort_by_key(|of| (of.basis, std::cmp::Reverse(of.settled())));
-    let settles = |of: &Candidate| of.settled() > 0;
-    let orders = |of: &Candidate| matches!(of.said, Said::Values(_));
-    let chosen = candidates.iter().position(settles).or(candidates.iter().position(orders)).unwrap_or(0);
-    (chosen < candidates.len()).then(|| candidates.swap_remove(chosen).recommendation(names, confidence))
+    let rank = |of: &Candidate| {
+        let settled = of.settled();
+        let is_certain = settled > 0 && of.basis != Basis::Expansion;
+        let orders = matches!(of.said, Said::Values(_));
+        (!is_certain, settled == 0, !orders, std::cmp::Reverse(settled), of.basis)
+    };
+    candidates.sort_by_key(rank);
+    // Where points of derivatives cannot settle the others, blocks may.
+    let of_blocks = candidates.iter().find(|of| of.basis == Basis::Sobol).and_then(Candidate::remedy);
+    let first = candidates.into_iter().next()?;
+    let is_bound = first.basis == Basis::Derivatives && first.wanted().is_none();
+    let mut found = first.recommendation(names, confidence);
+    if let Some(of_blocks) = of_blocks.filter(|_| is_bound && found.remedy.is_some()) {
+        found.remedy = Some(of_blocks);
+    }
+    Some(found)
 }
 
 impl TotalBounds {
@@ -250,6 +262,16 @@ impl Candidate {
         }
     }
 
+    /// How many points or blocks settle the inputs that are open, if any number does.
+    fn wanted(&self) -> Option<usize> {
+        let Said::Bounds(bounds) = &self.said else { return None };
+        let open = bounds.iter().filter(|of| of.standing() == Standing::Open);
+        let growth: Option<Vec<f64>> = open.map(TotalBounds::growth).collect();
+        let times = growth?.into_iter().fold(1.0, f64::max);
+        let wanted = (self.count as f64 * times).min(2.0 * MOST).ceil() as usize;
+        Some(wanted.next_power_of_two()).filter(|count| *count as f64 <= MOST)
+    }
+
     /// What settles the inputs that are open.
     fn remedy(&self) -> Option<String> {
         let Said::Bounds(bounds) = &self.said else {
@@ -257,16 +279,11 @@ impl Candidate {
             return (self.basis != Basis::Shapley)
                 .then(|| format!("Bounds need independent inputs and {field} of 64 or more."));
         };
-        let open: Vec<&TotalBounds> = bounds.iter().filter(|of| of.standing() == Standing::Open).collect();
-        if open.is_empty() {
+        if bounds.iter().all(|of| of.standing() != Standing::Open) {
             return None;
         }
-        let growth: Option<Vec<f64>> = open.iter().map(|of| of.growth()).collect();
-        let growth = growth.map(|all| all.into_iter().fold(1.0, f64::max));
-        let wanted = growth.map(|times| (self.count as f64 * times).min(2.0 * MOST).ceil() as usize);
-        let wanted = wanted.map(usize::next_power_of_two).filter(|count| *count as f64 <= MOST);
         let more = |count: usize| (count.saturating_sub(self.count)) * self.observations;
-        Some(match (self.basis, wanted) {
+        Some(match (self.basis, self.wanted()) {
             (Basis::Derivatives, Some(count)) => format!(
                 "To settle it: about {} more points with derivatives \
                  (`sensitivity.derivative_points`: {count}).",
@@ -332,7 +349,7 @@ mod tests {
     }
 
     #[test]
-    fn the_first_basis_that_settles_an_input_is_recommended_and_values_where_none_does() {
+    fn the_basis_that_settles_most_inputs_is_recommended_and_values_where_none_does() {
         let loose = || candidate(Basis::Derivatives, 64, vec![bounds(0.0, 0.1, 0.9, 0.9)]);
         let narrow = candidate(Basis::Sobol, 64, vec![bounds(0.3, 0.4, 0.4, 0.5)]);
         let found = recommend(&names(1), vec![loose(), narrow], 0.95).unwrap();
@@ -341,6 +358,26 @@ mod tests {
         let student = Candidate::of_student(vec![2.0]);
         assert_eq!(recommend(&names(1), vec![loose(), student], 0.95).unwrap().basis, Basis::Student);
         assert_eq!(recommend(&names(1), vec![], 0.95), None);
+    }
+
+    #[test]
+    fn blocks_settle_what_derivatives_cannot() {
+        let certain = || bounds(0.9, 0.95, 0.95, 0.97);
+        let derivatives =
+            |of: [TotalBounds; 2]| candidate(Basis::Derivatives, 64, [vec![certain()], of.to_vec()].concat());
+        let apart = bounds(0.0, 0.001, 0.9, 1.0);
+        let blocks =
+            |of: [TotalBounds; 2]| candidate(Basis::Sobol, 64, [vec![certain()], of.to_vec()].concat());
+        let found = |of| recommend(&names(3), of, 0.95).unwrap();
+        let settled = found(vec![derivatives([apart; 2]), blocks([certain(), bounds(0.0, 0.0, 0.0, 0.001)])]);
+        assert_eq!((settled.basis, settled.remedy), (Basis::Sobol, None));
+        // Both settle the first one alone: the bounds that are exact, and the blocks that settle the others.
+        let open = bounds(0.0, 0.1, 0.1, 0.2);
+        let both = found(vec![derivatives([apart; 2]), blocks([open; 2])]);
+        assert_eq!(both.basis, Basis::Derivatives);
+        assert!(both.remedy.unwrap().contains("`sensitivity.saltelli_blocks`: 128"));
+        let expansion = candidate(Basis::Expansion, 64, vec![certain(); 3]);
+        assert_eq!(found(vec![derivatives([apart; 2]), expansion]).basis, Basis::Derivatives);
     }
 
     #[test]
