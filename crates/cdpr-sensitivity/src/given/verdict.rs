@@ -130,12 +130,16 @@ impl Table<'_> {
         self.note_tests(&mut verdict);
         let inputs = Inputs::new(&tested, self.coordinate, &self.drawn.outputs);
         let found = corrected(&tests);
-        let mut pairs = inputs.pairs();
+        let (pairs, mut likely) = (inputs.pairs(), Vec::new());
         for ((input, tests), companions) in found.iter().zip(inputs.companions(&found)) {
             let mut reasons = Vec::new();
+            let with = companions.inputs.iter().map(|other| [*input.min(other), *input.max(other)]);
+            let doubtful: Vec<[usize; 2]> = with.filter(|pair| !pairs.contains(pair)).collect();
             if !companions.inputs.is_empty() {
-                reasons.push(format!("depends on {}", self.named(&companions.inputs)));
+                let depends = if doubtful.is_empty() { "depends" } else { "may depend" };
+                reasons.push(format!("{depends} on {}", self.named(&companions.inputs)));
             }
+            likely.extend(doubtful);
             if !companions.patterns.is_empty() {
                 let together = |inputs: &Vec<usize>| {
                     let names: Vec<&str> = inputs.iter().map(|&input| self.names[input]).collect();
@@ -149,13 +153,13 @@ impl Table<'_> {
             if in_order[*input] {
                 reasons.push("rows next to each other are alike in it and in the output".to_owned());
             }
-            pairs.extend(companions.inputs.iter().map(|other| [*input.min(other), *input.max(other)]));
             let name = self.names[*input].to_owned();
             let Test { measure, p_value } = tests[0];
             let list = if reasons.is_empty() { &mut verdict.certain } else { &mut verdict.related };
             list.push(Finding { input: name, measure, p_value, reasons });
         }
-        self.note_dependence(&mut verdict, pairs);
+        self.note_dependence(&mut verdict, "depend", pairs);
+        self.note_dependence(&mut verdict, "may depend", likely);
         self.note_order(&mut verdict, &in_order);
         verdict
     }
@@ -205,7 +209,8 @@ impl Table<'_> {
         }
     }
 
-    fn note_dependence(&self, verdict: &mut Verdict, mut pairs: Vec<[usize; 2]>) {
+    /// Pairs of inputs that `depend` on each other.
+    fn note_dependence(&self, verdict: &mut Verdict, depend: &str, mut pairs: Vec<[usize; 2]>) {
         let mut seen = HashSet::new();
         pairs.retain(|pair| seen.insert(*pair));
         if pairs.is_empty() {
@@ -213,7 +218,7 @@ impl Table<'_> {
         }
         let pair = |&[one, other]: &[usize; 2]| format!("`{}` and `{}`", self.names[one], self.names[other]);
         let text = format!(
-            "inputs depend on each other ({}): first-order indices, shares and tests count for each what \
+            "inputs {depend} on each other ({}): first-order indices, shares and tests count for each what \
              they cause together, and what they cause against each other may not be found",
             listed(&pairs, 8, pair)
         );

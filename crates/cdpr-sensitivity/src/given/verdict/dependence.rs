@@ -5,6 +5,9 @@
 //! others, at [`FALSE_FINDINGS`] over their number: at least as sensitive as the verdict, which corrects for
 //! more tests.
 //!
+//! A dependence is stated where it is clear to 1 % for all pairs of a table, and is possible otherwise: of
+//! independent inputs each found one has a possible dependence in one table of twenty.
+//!
 //! Several others together may explain it where none does alone ([`joint`](super::joint)), at 1 %.
 //!
 //! Two coordinates of a [`sequence`](super::sequence) are independent by construction, but make a pattern. An
