@@ -120,12 +120,14 @@ impl Findings<'_> {
         let gravity = &self.robot.gravity;
         let tilt = gravity.tilt();
         if tilt > 0.0 {
+            let upwards = tilt > std::f64::consts::FRAC_PI_2;
+            let why = format!("the base is tilted by {:.2}\u{b0}", tilt.to_degrees());
             self.add(
-                Severity::Note,
+                if upwards { Severity::Warning } else { Severity::Note },
                 "gravity",
                 format!("{:?} m/s\u{b2}", gravity.vector().as_slice()),
-                &format!("the base is tilted by {:.2}\u{b0}", tilt.to_degrees()),
-                "the direction in which things fall, in the base frame",
+                &if upwards { format!("{why}: things fall towards +z") } else { why },
+                "the direction in which things fall, in the base frame; 0,0,-9.81 where z points up",
             );
         }
         let gravity = gravity.magnitude();
@@ -184,6 +186,21 @@ impl Findings<'_> {
                     format!("{max} N"),
                     &why,
                     "a limit of half the breaking force or less, where people are near",
+                );
+            }
+        }
+        if let Some(law) = &properties.law {
+            /// A law is in proportion to the modulus, which is then near its slope.
+            const NEAR: std::ops::Range<f64> = 0.2..5.0;
+            let slopes = [self.robot.limits(i).min, max].map(|tension| law.ratio(tension));
+            if slopes.iter().all(|slope| !NEAR.contains(slope)) {
+                let [low, high] = slopes.map(|slope| 1e-9 * slope * properties.youngs_modulus);
+                self.add(
+                    Severity::Warning,
+                    format!("{cable}.youngs_modulus"),
+                    format!("{:.3} GPa", 1e-9 * properties.youngs_modulus),
+                    &format!("the slope of its law is {low:.3} GPa at the least tension, {high:.3} GPa at the greatest"),
+                    "a modulus near the slope of the law, which is in proportion to it",
                 );
             }
         }

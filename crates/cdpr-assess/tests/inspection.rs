@@ -23,6 +23,26 @@ fn a_tilted_base_is_noted_with_its_angle_and_gravity_is_compared_by_its_magnitud
         about_gravity(moon),
         [note("the base is tilted by 36.87\u{b0}"), note("not that of the Earth's surface")]
     );
+    let up = about_gravity(Vector3::new(0.0, 0.0, 9.81));
+    assert!(
+        matches!(&up[..], [(Severity::Warning, why)] if why.ends_with("things fall towards +z")),
+        "{up:?}"
+    );
+}
+
+#[test]
+fn a_modulus_far_from_the_law_and_one_anchor_point_in_millimetres_are_named() {
+    let law = include_str!("../../../data/robots/caroca-law.json");
+    let fields = |robot: &Robot| -> Vec<String> {
+        let found = inspect(robot).into_iter().filter(|finding| finding.severity == Severity::Warning);
+        found.map(|finding| finding.field).collect()
+    };
+    assert!(fields(&Robot::from_json(law).unwrap()).is_empty());
+    let robot = Robot::from_json(&law.replace("1.022e11", "1.022e9")).unwrap();
+    assert!(fields(&robot).contains(&"cable.youngs_modulus".to_owned()), "{:?}", fields(&robot));
+    let mut robot = Robot::from_json(include_str!("../../../data/robots/caroca.json")).unwrap();
+    robot.cables[2].anchor_point *= 1000.0;
+    assert!(fields(&robot).contains(&"cables[2].anchor_point".to_owned()), "{:?}", fields(&robot));
 }
 
 #[test]

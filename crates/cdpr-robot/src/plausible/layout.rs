@@ -22,6 +22,13 @@ pub(super) fn sizes(robot: &Robot) -> Doubts {
             "hardly the size of a robot",
             "coordinates in m, not in mm",
         )
+    } else if let Some(i) = astray(robot).filter(|_| platform > size) {
+        Doubt::new(
+            format!("cables[{i}].anchor_point"),
+            format!("{:?} m", robot.cables[i].anchor_point.as_slice()),
+            format!("far from all others, outside of the frame of {size:.3} m"),
+            "a point of the platform in m, not in mm",
+        )
     } else if platform > size {
         Doubt::new(
             "cables[*].anchor_point",
@@ -33,6 +40,15 @@ pub(super) fn sizes(robot: &Robot) -> Doubts {
         return Doubts::new();
     };
     vec![doubt]
+}
+
+/// The one cable whose anchor point is farther from P than fifty times that of each other one.
+fn astray(robot: &Robot) -> Option<usize> {
+    let away = |i: &usize| robot.cables[*i].anchor_point.norm();
+    let farthest = (0..robot.cables.len()).max_by(|i, j| away(i).total_cmp(&away(j)))?;
+    let others = (0..robot.cables.len()).filter(|i| *i != farthest);
+    let next = others.map(|i| away(&i)).fold(0.0, f64::max);
+    (next > 0.0 && away(&farthest) > 50.0 * next).then_some(farthest)
 }
 
 /// One exit point below the base frame's origin, all others above it at its height: a lost sign. A single
