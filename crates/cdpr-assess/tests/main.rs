@@ -4,6 +4,7 @@
 
 mod capacity;
 mod design;
+mod design_cables;
 mod design_front;
 mod design_position;
 mod free_workspaces;
