@@ -78,7 +78,7 @@ pub struct BestDesign {
     /// The type of cable of each group, where types are chosen.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub cables: Vec<ChosenCable>,
-    /// The best robot with each choice of types, in the order of the file.
+    /// The best robot with each choice of types, in the order of the file; none where these are more than 1000.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub cable_types: Vec<BestOfTypes>,
     /// Searches that led to these values.
@@ -260,6 +260,9 @@ fn best_design(
     })
 }
 
+/// Choices of types that are listed.
+const MOST_CHOICES: usize = 1000;
+
 /// The best robot with each choice of types of cable.
 fn of_types(problem: &DesignProblem, searched: &Searched, sign: f64) -> Vec<BestOfTypes> {
     let groups: Vec<usize> =
@@ -288,5 +291,8 @@ fn of_types(problem: &DesignProblem, searched: &Searched, sign: f64) -> Vec<Best
             mass: chosen.map(|of| of.iter().map(|of| of.mass).sum()),
         }
     };
-    if groups.is_empty() { Vec::new() } else { best.into_iter().map(row).collect() }
+    match groups.is_empty() || best.len() > MOST_CHOICES {
+        true => Vec::new(),
+        false => best.into_iter().map(row).collect(),
+    }
 }

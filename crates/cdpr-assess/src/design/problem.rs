@@ -104,8 +104,8 @@ impl DesignProblem {
         Ok(problem)
     }
 
-    fn check(&self) -> Result<(), InField> {
-        let Self { robot, output, load, .. } = self;
+    /// Checks what may change, and that a limited cost has types of cable.
+    fn check_variables(&self) -> Result<(), InField> {
         if self.variables.is_empty() {
             return wrong("variables", "empty", "at least one variable, or types of `cables`");
         }
@@ -122,6 +122,12 @@ impl DesignProblem {
                 "no modulus and no linear density, which the type of cable sets",
             );
         }
+        Ok(())
+    }
+
+    fn check(&self) -> Result<(), InField> {
+        let Self { robot, output, load, .. } = self;
+        self.check_variables()?;
         let second = self.second.map(|(output, _)| output);
         for (of, output) in [("objective", Some(*output)), ("pareto", second)] {
             if let Some(output @ Output::Amplitude) = output {

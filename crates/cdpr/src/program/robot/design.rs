@@ -214,8 +214,8 @@ fn print_cables(found: &Design, best: &BestDesign) {
         rows.add_row([numbers, shown(name).into(), length, mass, optional(*cost, 4)]);
     }
     println!("{rows}");
-    if best.cable_types.len() > MOST {
-        print_sentence("--format json has the best robot of each choice of types.");
+    if best.cable_types.len() > MOST || best.cable_types.is_empty() {
+        print_sentence("--format json has the best robot of each choice of types, up to 1000 choices.");
         return;
     }
     let objective = format!("{} [{}]", found.output.noun(), found.output.unit());
