@@ -29,7 +29,7 @@ enum Task {
     ///
     /// The published figures are in data/reference/published.json. All measures of the study's sensitivity go
     /// to DIR/sensitivity, the hysteresis of its cables to DIR/cable, the robot with pulleys and the cable
-    /// behind them to DIR/led. It begins again unless it resumes.
+    /// behind them to DIR/led, all places of its pulleys to DIR/reconfiguration.txt. It begins again unless it resumes.
     CarocaStudy(Study),
     /// Count how often the direct model finds CoGiRo's true pose from a wrong start
     ///
@@ -181,20 +181,23 @@ fn caroca_study(settings: Study) -> Outcome {
     );
     study(&studies.join("caroca.json"), &out, &options)?;
     study(&studies.join("caroca-sensitivity.json"), &out.join("sensitivity"), &options)?;
-    compared(&out)?;
+    example("published", &[&root().join("data/reference/published.json"), &out], &out)?;
     cable::run(&out, &options)?;
-    led::run(&out, &options)
+    led::run(&out, &options)?;
+    eprintln!("evaluating all configurations of the pulleys, a minute on two threads");
+    let study = root().join("data/studies/caroca.json");
+    example("reconfiguration", &[&study], &out)
 }
 
-/// Prints the published figures next to those of the study, and writes them to `published.txt`.
+/// Prints what an example of `cdpr-study` says of these files, and writes it to a text of its name in `out`.
 ///
 /// As for the program, cargo chooses the example among all default members: with the features of one package
 /// alone everything would be compiled again.
-fn compared(out: &Path) -> Outcome {
-    let mut published = cargo_command(&["run", "--quiet", "--example", "published", "--"]);
-    let text = text_of(published.arg(root().join("data/reference/published.json")).arg(out), &[0])?;
+fn example(name: &str, files: &[&Path], out: &Path) -> Outcome {
+    let mut run = cargo_command(&["run", "--quiet", "--example", name, "--"]);
+    let text = text_of(run.args(files), &[0])?;
     println!("\n{text}");
-    write(&out.join("published.txt"), &text)
+    write(&out.join(format!("{name}.txt")), &text)
 }
 
 fn robustness(rest: &[String]) -> Outcome {

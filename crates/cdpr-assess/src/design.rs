@@ -7,6 +7,7 @@
 //! the lengths kept, no tension is above its greatest value or breaking force, and if it meets the
 //! demands.
 
+mod cables;
 mod evaluation;
 mod file;
 mod front;
@@ -17,13 +18,16 @@ mod starts;
 mod variable;
 
 use crate::error::AssessError;
+pub use cables::ChosenCable;
 use cdpr_robot::Robot;
 use cdpr_study::{Output, StudyError};
 use evaluation::sense;
 pub use file::{
-    DESIGN_FORMAT, DesignFile, LimitsSpec, ObjectiveSpec, Over, ParetoSpec, VariableSpec, design_schema,
+    CableSpec, DESIGN_FORMAT, DesignFile, LimitsSpec, ObjectiveSpec, Over, ParetoSpec, VariableSpec,
+    design_schema,
 };
 pub use front::{Front, FrontPoint, front};
+use indexmap::IndexMap;
 use position::BASIS;
 pub use problem::DesignProblem;
 use search::{Found, MET, excess, objective};
@@ -71,6 +75,12 @@ pub struct BestDesign {
     pub outputs: Vec<f64>,
     /// What changed.
     pub variables: Vec<DesignedVariable>,
+    /// The type of cable of each group, where types are chosen.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub cables: Vec<ChosenCable>,
+    /// The best robot with each choice of types, in the order of the file; none where these are more than 1000.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub cable_types: Vec<BestOfTypes>,
     /// Searches that led to these values.
     pub same: usize,
     /// The objective of the best other configuration, where there is one that counts.
@@ -87,9 +97,26 @@ pub struct BestDesign {
     pub optimal: bool,
     /// Demands that keep the objective from being better.
     pub active: Vec<ActiveDemand>,
+    /// By how much the objective would be better if the limit of the cost were 1 % wider, to first order;
+    /// `None` where it does not keep it from being better.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cost_per_percent: Option<f64>,
     /// The robot.
     #[serde(skip)]
     pub robot: Robot,
+}
+
+/// The best robot with some types of cable.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct BestOfTypes {
+    /// The type of each group.
+    pub types: Vec<String>,
+    /// The objective in the unit of the output; `None` where no robot with these types counts.
+    pub objective: Option<f64>,
+    /// Cost of all cables; `None` where a type has none, or no robot counts.
+    pub cost: Option<f64>,
+    /// Mass of all cables [kg].
+    pub mass: Option<f64>,
 }
 
 /// A variable of a design.
@@ -147,6 +174,7 @@ pub fn design(problem: &DesignProblem) -> Result<Design, AssessError> {
         let next = others.min_by(f64::total_cmp).map(|objective| sign * objective);
         let same = feasible().filter(|(_, one)| is_same(problem, one, best)).count();
         best_design(problem, best, same, next)
+            .map(|best| BestDesign { cable_types: of_types(problem, &searched, sign), ..best })
     });
     Ok(Design {
         output: problem.output,
@@ -183,7 +211,8 @@ fn best_design(
     let invalid =
         |error: &dyn std::fmt::Display| StudyError::setting("variables", error, "values of a valid robot");
     let robot = problem.robot_at(&best.values).map_err(|error| invalid(&error))?;
-    let outputs = problem.evaluate(&best.values, None).map_err(|error| invalid(&error))?.outputs;
+    let at = problem.evaluate(&best.values, None).map_err(|error| invalid(&error))?;
+    let lengths: Vec<f64> = at.longest.iter().map(|length| length.value).collect();
     let variable = |(j, variable): (usize, &Variable)| {
         let to = best.values[j];
         let bound = match variable.domain {
@@ -202,7 +231,9 @@ fn best_design(
     };
     let demands: Vec<Output> = problem.limits.each().map(|(output, _)| output).collect();
     let each = demands.len() + problem.tensions_each();
-    let active = best.active.iter().map(|(k, multiplier)| {
+    let poses = each * problem.poses.len();
+    let of_cost = best.active.iter().filter(|(k, _)| *k >= poses).map(|(_, multiplier)| 0.01 * multiplier);
+    let active = best.active.iter().filter(|(k, _)| *k < poses).map(|(k, multiplier)| {
         let (pose, of) = (k / each, k % each);
         ActiveDemand {
             pose,
@@ -214,14 +245,54 @@ fn best_design(
     let has_bounds = problem.bounded().next().is_some();
     Ok(BestDesign {
         objective: sign * best.objective,
-        outputs: outputs.iter().map(|output| output.value).collect(),
-        variables: problem.variables.iter().enumerate().map(variable).collect(),
+        outputs: at.outputs.iter().map(|output| output.value).collect(),
+        variables: problem.of_parameters().map(variable).collect(),
+        cables: problem.chosen(&best.values, &lengths),
+        cable_types: Vec::new(),
         same,
         next_configuration,
         kkt_residual: has_bounds.then_some(best.residual),
         gradient_error: best.gradient_error,
         optimal: best.is_optimal(),
         active: active.collect(),
+        cost_per_percent: of_cost.reduce(|one, other| one + other),
         robot,
     })
+}
+
+/// Choices of types that are listed.
+const MOST_CHOICES: usize = 1000;
+
+/// The best robot with each choice of types of cable.
+fn of_types(problem: &DesignProblem, searched: &Searched, sign: f64) -> Vec<BestOfTypes> {
+    let groups: Vec<usize> =
+        (0..problem.variables.len()).filter(|j| !problem.variables[*j].cables.is_empty()).collect();
+    let mut best: IndexMap<Vec<usize>, Option<&Found>> = IndexMap::new();
+    for number in 0..searched.found.len() / searched.each {
+        let values = problem.configuration(number);
+        best.entry(groups.iter().map(|j| values[*j] as usize).collect()).or_default();
+    }
+    for (_, found) in searched.feasible() {
+        let of = best.entry(groups.iter().map(|j| found.values[*j] as usize).collect()).or_default();
+        if of.is_none_or(|of| found.objective < of.objective) {
+            *of = Some(found);
+        }
+    }
+    let row = |(types, found): (Vec<usize>, Option<&Found>)| {
+        let chosen = found.and_then(|found| {
+            let lengths: Vec<f64> =
+                problem.evaluate(&found.values, None).ok()?.longest.iter().map(|of| of.value).collect();
+            Some(problem.chosen(&found.values, &lengths))
+        });
+        BestOfTypes {
+            types: types.iter().map(|k| problem.types[*k].name.clone()).collect(),
+            objective: found.map(|found| sign * found.objective),
+            cost: chosen.as_ref().and_then(|of| of.iter().map(|of| of.cost).sum()),
+            mass: chosen.map(|of| of.iter().map(|of| of.mass).sum()),
+        }
+    };
+    match groups.is_empty() || best.len() > MOST_CHOICES {
+        true => Vec::new(),
+        false => best.into_iter().map(row).collect(),
+    }
 }

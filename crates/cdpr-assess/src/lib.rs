@@ -36,8 +36,9 @@ pub use boundary::Boundary;
 pub use capacity::{Block, Capacity, Figure, WrenchSet, capacity_at};
 pub use clearance::{CableDistance, Clearance, PlatformDistance, clearance_at, clearance_under};
 pub use design::{
-    ActiveDemand, BestDesign, DESIGN_FORMAT, Design, DesignFile, DesignProblem, DesignedVariable, Front,
-    FrontPoint, LimitsSpec, ObjectiveSpec, Over, ParetoSpec, VariableSpec, design, design_schema, front,
+    ActiveDemand, BestDesign, BestOfTypes, CableSpec, ChosenCable, DESIGN_FORMAT, Design, DesignFile,
+    DesignProblem, DesignedVariable, Front, FrontPoint, LimitsSpec, ObjectiveSpec, Over, ParetoSpec,
+    VariableSpec, design, design_schema, front,
 };
 pub use error::AssessError;
 pub use inspection::{Finding, Severity, doubtful_rest, inspect};

@@ -4,7 +4,9 @@
 
 mod capacity;
 mod design;
+mod design_cables;
 mod design_front;
+mod design_known;
 mod design_position;
 mod free_workspaces;
 mod inspection;

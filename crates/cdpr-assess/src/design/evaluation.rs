@@ -28,8 +28,10 @@ pub(crate) struct Evaluation {
     pub(crate) seconds: Vec<Quantity>,
     /// By how much a demand is passed, as a share of its limit; zero or less where it is met. Of each pose
     /// the limits of outputs, then, under a load, the greatest tension of each cable; after all poses the
-    /// bound of a second objective, of each pose or of the mean.
+    /// limit of the cost, then the bound of a second objective, of each pose or of the mean.
     pub(crate) excesses: Vec<Quantity>,
+    /// Greatest unstrained length of each cable over the poses [m].
+    pub(crate) longest: Vec<Quantity>,
 }
 
 impl DesignProblem {
@@ -70,6 +72,10 @@ impl DesignProblem {
             if self.tensions_each() > 0 {
                 at.tensions(&mut found.excesses)?;
             }
+            at.lengthen(&mut found.longest);
+        }
+        if let Some(limit) = self.limits.cost {
+            found.excesses.push(total(&found.longest, &self.costs(values)).scaled(1.0 / limit, -1.0));
         }
         if let (Some((second, over)), Some(bound)) = (self.second, self.bound) {
             let sign = sense(second);
@@ -101,6 +107,15 @@ pub(crate) fn sense(output: Output) -> f64 {
         Output::Deflection | Output::Position | Output::Amplitude => 1.0,
         Output::Stiffness | Output::Frequency | Output::PlatformFrequency => -1.0,
     }
+}
+
+/// The sum of `factors` times the quantities.
+fn total(quantities: &[Quantity], factors: &[f64]) -> Quantity {
+    let sum = |of: &dyn Fn(&Quantity) -> f64| {
+        quantities.iter().zip(factors).map(|(q, factor)| factor * of(q)).sum()
+    };
+    let count = quantities.first().map_or(0, |first| first.slopes.len());
+    Quantity { value: sum(&|q| q.value), slopes: (0..count).map(|j| sum(&|q| q.slopes[j])).collect() }
 }
 
 fn sloped(found: Derivatives) -> (Deflection, Option<Derivatives>) {
@@ -157,6 +172,20 @@ impl AtPose<'_> {
                 self.quantity(of.frequency, &of.with_lengths(&found.lengths))
             }
         })
+    }
+
+    /// Keeps the greatest length of each cable.
+    fn lengthen(&self, longest: &mut Vec<Quantity>) {
+        for (i, length) in self.deflection.lengths.iter().enumerate() {
+            let row =
+                self.slopes.as_ref().map_or_else(Vec::new, |of| of.lengths.row(i).iter().copied().collect());
+            let length = self.quantity(*length, &row);
+            match longest.get_mut(i) {
+                Some(most) if most.value >= length.value => {}
+                Some(most) => *most = length,
+                None => longest.push(length),
+            }
+        }
     }
 
     /// Adds by how much the greatest tension of each cable is passed under the load.

@@ -19,7 +19,14 @@ pub struct DesignFile {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub source: Option<String>,
     /// What may change: lengths, points, masses, each within bounds or among choices.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub variables: Vec<VariableSpec>,
+    /// Types of cable, of which one is chosen for all cables or for each of `cable_groups`.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub cables: Vec<CableSpec>,
+    /// Groups of cables that are of one type, by their numbers from 1; all cables in one group if left out.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub cable_groups: Vec<Vec<usize>>,
     /// Poses that the platform takes.
     pub poses: PosesSpec,
     /// Coordinates of the poses that are found where the platform rests, for a robot with fewer cables
@@ -81,6 +88,30 @@ pub struct VariableSpec {
     pub choices: Option<Vec<f64>>,
 }
 
+/// A type of cable, with the fields that the cables of a robot file have. SI units.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CableSpec {
+    /// Name of the type.
+    pub name: String,
+    /// Diameter [m].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub diameter: Option<f64>,
+    /// Section that carries the tension [m²]; that of the full circle of the diameter if left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub section: Option<f64>,
+    /// Mass per unstrained length [kg/m].
+    pub linear_density: f64,
+    /// Young's modulus [Pa].
+    pub youngs_modulus: f64,
+    /// Breaking force [N], which is the greatest tension if it is below that of the robot.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub breaking_force: Option<f64>,
+    /// Cost of a metre, in any currency.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cost: Option<f64>,
+}
+
 /// What is to be as good as possible.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -122,7 +153,7 @@ pub enum Over {
     Worst,
 }
 
-/// Demands at every pose, on top of the limits of the tensions.
+/// Demands at every pose, on top of the limits of the tensions, and of all poses together.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LimitsSpec {
@@ -138,6 +169,10 @@ pub struct LimitsSpec {
     /// Least natural frequency [Hz].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub frequency: Option<f64>,
+    /// Greatest cost of all cables: that of a metre of their types times the length that each needs, lead
+    /// included, at the pose where it is longest.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cost: Option<f64>,
 }
 
 impl LimitsSpec {
@@ -145,7 +180,7 @@ impl LimitsSpec {
         *self == Self::default()
     }
 
-    /// The demands: of what, and its limit.
+    /// The demands at each pose: of what, and its limit.
     pub(crate) fn each(&self) -> impl Iterator<Item = (Output, f64)> {
         let of = |output, limit: Option<f64>| limit.map(|limit| (output, limit));
         [

@@ -12,6 +12,7 @@
 //! not convex are found, too. The multiplier μ of the bound is the rate of exchange, `df/dε = -μ`. Where
 //! nothing has bounds, every configuration is evaluated, and the front is that of all of them.
 
+use crate::design::cables::ChosenCable;
 use crate::design::evaluation::sense;
 use crate::design::file::Over;
 use crate::design::position::BASIS;
@@ -60,6 +61,9 @@ pub struct FrontPoint {
     pub objectives: [f64; 2],
     /// Values of the variables.
     pub variables: Vec<f64>,
+    /// The type of cable of each group, where types are chosen.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub cables: Vec<ChosenCable>,
     /// By how much the first objective changes along the front for each unit of the second one; `None` at the
     /// ends, and where nothing has bounds.
     pub exchange: Option<f64>,
@@ -103,9 +107,8 @@ pub fn front(problem: &DesignProblem) -> Result<Front, AssessError> {
         lost: 0,
         reason: first.best().is_none().then(|| first.reason(problem)),
         variables: problem
-            .variables
-            .iter()
-            .map(|one| (one.name.clone(), one.parameters[0].0.unit()))
+            .of_parameters()
+            .map(|(_, one)| (one.name.clone(), one.parameters[0].0.unit()))
             .collect(),
         points: Vec::new(),
     };
@@ -163,12 +166,14 @@ impl Front {
         let value = |i: usize, of| sign[i] * objective(self.over[i], of, sign[i]);
         let objectives = [value(0, &at.outputs), value(1, &at.seconds)];
         // The bound is the last of the excesses, in parts of its value.
-        let first = problem.excesses_each() * problem.poses.len();
+        let first = problem.excesses_before_bound();
+        let lengths: Vec<f64> = at.longest.iter().map(|length| length.value).collect();
         let multiplier = found.active.iter().filter(|(k, _)| *k >= first).map(|(_, mu)| mu).sum::<f64>();
         let has_bounds = problem.bounded().next().is_some();
         Some(FrontPoint {
             objectives,
-            variables: found.values.clone(),
+            variables: problem.of_parameters().map(|(j, _)| found.values[j]).collect(),
+            cables: problem.chosen(&found.values, &lengths),
             exchange: bound.map(|bound| -sign[0] * sign[1] * multiplier / bound.abs()),
             kkt_residual: has_bounds.then_some(found.residual),
             gradient_error: found.gradient_error,

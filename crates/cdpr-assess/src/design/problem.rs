@@ -1,8 +1,9 @@
 //! A design file with its robot, checked.
 
+use crate::design::cables::{CableType, ChosenCable, type_at, types};
 use crate::design::file::{DESIGN_FORMAT, DesignFile, LimitsSpec, Over};
 use crate::design::variable::{Domain, Variable, variables, with, wrong};
-use cdpr_robot::{Coordinate, Pose, Robot, RobotError, Vector6, Wrench, from_json};
+use cdpr_robot::{Coordinate, Parameter, Pose, Robot, RobotError, Vector6, Wrench, from_json};
 use cdpr_statics::Load;
 use cdpr_study::{ErrorModel, InField, InputKind, Output, StudyError, error_model, other_kind, read_text};
 use std::collections::BTreeSet;
@@ -22,6 +23,8 @@ pub(crate) const MOST_CONFIGURATIONS: usize = 100_000;
 pub struct DesignProblem {
     pub(crate) robot: Robot,
     pub(crate) variables: Vec<Variable>,
+    /// Types of cable that variables choose from.
+    pub(crate) types: Vec<CableType>,
     pub(crate) poses: Vec<Pose>,
     pub(crate) free: Vec<Coordinate>,
     pub(crate) load: Load,
@@ -78,8 +81,10 @@ impl DesignProblem {
             return wrong("poses", poses.len(), format!("at most {MOST_POSES} poses"));
         }
         let size = robot.platform_size();
+        let (types, of_cables) = types(file, &robot)?;
         let problem = Self {
-            variables: variables(&file.variables, &robot)?,
+            variables: variables(&file.variables, &robot)?.into_iter().chain(of_cables).collect(),
+            types,
             poses,
             free: file.free.clone(),
             load: load(file)?,
@@ -99,8 +104,30 @@ impl DesignProblem {
         Ok(problem)
     }
 
+    /// Checks what may change, and that a limited cost has types of cable.
+    fn check_variables(&self) -> Result<(), InField> {
+        if self.variables.is_empty() {
+            return wrong("variables", "empty", "at least one variable, or types of `cables`");
+        }
+        if let (Some(limit), true) = (self.limits.cost, self.types.is_empty()) {
+            return wrong("limits.cost", limit, "none without types of `cables` with their cost");
+        }
+        let by_type =
+            |(name, _): &(Parameter, f64)| matches!(name.group(), "youngs_modulus" | "linear_density");
+        let by_type = |of: &&Variable| !self.types.is_empty() && of.parameters.iter().any(by_type);
+        if let Some(of) = self.variables.iter().find(by_type) {
+            return wrong(
+                "variables",
+                &of.name,
+                "no modulus and no linear density, which the type of cable sets",
+            );
+        }
+        Ok(())
+    }
+
     fn check(&self) -> Result<(), InField> {
         let Self { robot, output, load, .. } = self;
+        self.check_variables()?;
         let second = self.second.map(|(output, _)| output);
         for (of, output) in [("objective", Some(*output)), ("pareto", second)] {
             if let Some(output @ Output::Amplitude) = output {
@@ -218,12 +245,46 @@ impl DesignProblem {
     /// # Errors
     /// Those of [`Robot::with_values`].
     pub(crate) fn robot_at(&self, values: &[f64]) -> Result<Robot, RobotError> {
-        with(&self.robot, self.variables.iter().zip(values.iter().copied()))
+        let mut robot = self.robot.clone();
+        for (variable, value) in self.variables.iter().zip(values) {
+            for i in &variable.cables {
+                type_at(&self.types, *value).into_iter().for_each(|of| of.put_on(&mut robot, *i));
+            }
+        }
+        with(&robot, self.of_parameters().map(|(j, variable)| (variable, values[j])))
+    }
+
+    /// The variables of parameters with their indices.
+    pub(crate) fn of_parameters(&self) -> impl Iterator<Item = (usize, &Variable)> {
+        self.variables.iter().enumerate().filter(|(_, variable)| variable.cables.is_empty())
+    }
+
+    /// The types that these values choose, of cables with these lengths [m].
+    pub(crate) fn chosen(&self, values: &[f64], lengths: &[f64]) -> Vec<ChosenCable> {
+        let of = |(variable, value): (&Variable, &f64)| {
+            type_at(&self.types, *value).map(|of| of.chosen(&variable.cables, lengths))
+        };
+        self.variables.iter().zip(values).filter(|(of, _)| !of.cables.is_empty()).filter_map(of).collect()
+    }
+
+    /// Cost of a metre of each cable; zero where its type has none.
+    pub(crate) fn costs(&self, values: &[f64]) -> Vec<f64> {
+        let mut costs = vec![0.0; self.robot.cables.len()];
+        for (variable, value) in self.variables.iter().zip(values) {
+            let cost = type_at(&self.types, *value).and_then(|of| of.cost).unwrap_or(0.0);
+            variable.cables.iter().for_each(|i| costs[*i] = cost);
+        }
+        costs
     }
 
     /// Excesses of tensions at each pose.
     pub(crate) fn tensions_each(&self) -> usize {
         if self.load == Load::none() { 0 } else { self.robot.cables.len() }
+    }
+
+    /// Excesses before that of the bound of a second objective: of all poses, and of the cost.
+    pub(crate) fn excesses_before_bound(&self) -> usize {
+        self.excesses_each() * self.poses.len() + usize::from(self.limits.cost.is_some())
     }
 
     /// Excesses at each pose.

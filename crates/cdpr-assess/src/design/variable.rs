@@ -11,6 +11,8 @@ pub(crate) struct Variable {
     pub(crate) name: String,
     /// The parameters with the sign of their change relative to that of the first.
     pub(crate) parameters: Vec<(Parameter, f64)>,
+    /// Cables whose type it is, from 0, where it has no parameters.
+    pub(crate) cables: Vec<usize>,
     pub(crate) domain: Domain,
     /// Its value in the robot as it is.
     pub(crate) nominal: f64,
@@ -46,9 +48,6 @@ pub(crate) fn wrong<T>(field: &str, value: impl ToString, expected: impl Into<St
 
 /// The variables of a file.
 pub(crate) fn variables(specs: &[VariableSpec], robot: &Robot) -> Result<Vec<Variable>, InField> {
-    if specs.is_empty() {
-        return wrong("variables", "empty", "at least one variable");
-    }
     let layout = ParameterLayout::of(robot);
     let mut taken = BTreeSet::new();
     let mut found = Vec::with_capacity(specs.len());
@@ -84,7 +83,7 @@ pub(crate) fn variables(specs: &[VariableSpec], robot: &Robot) -> Result<Vec<Var
             Domain::Bounds(bounds) => ("bounds", bounds.to_vec()),
             Domain::Choices(values) => ("choices", values.clone()),
         };
-        let variable = Variable { name, parameters, domain, nominal };
+        let variable = Variable { name, parameters, cables: Vec::new(), domain, nominal };
         for value in values {
             if let Err(error) = with(robot, [(&variable, value)].into_iter()) {
                 return wrong(&field(of), value, format!("values of a valid robot: {error}"));

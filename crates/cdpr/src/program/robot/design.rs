@@ -6,7 +6,8 @@ use crate::program::arguments::{
 use crate::program::error::ProgramError;
 use crate::program::output::{Ending, patiently, print_sentence, table};
 use cdpr_assess::{
-    ActiveDemand, BestDesign, Design, DesignProblem, DesignedVariable, Front, FrontPoint, Over, design, front,
+    ActiveDemand, BestDesign, BestOfTypes, ChosenCable, Design, DesignProblem, DesignedVariable, Front,
+    FrontPoint, Over, design, front,
 };
 use cdpr_robot::{Robot, counted, shown, significant};
 use cdpr_study::Output;
@@ -87,14 +88,27 @@ fn print_table(found: &Front) {
     };
     let columns = [of(0), of(1), "exchange".to_owned(), "kkt_residual".to_owned(), "optimal".to_owned()];
     let variables = found.variables.iter().map(|(name, _)| name.clone());
-    print_record(&columns.into_iter().chain(variables).collect::<Vec<_>>());
-    for FrontPoint { objectives, variables, exchange, kkt_residual, optimal, .. } in &found.points {
+    let cables = has_types(found).then(|| "cables".to_owned());
+    print_record(&columns.into_iter().chain(variables).chain(cables).collect::<Vec<_>>());
+    for point in &found.points {
+        let FrontPoint { objectives, variables, exchange, kkt_residual, optimal, .. } = point;
         let number = |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:?}"));
         let [one, two] = objectives.map(|value| number(Some(value)));
         let cells = [one, two, number(*exchange), number(*kkt_residual), optimal.to_string()];
         let variables = variables.iter().map(|value| number(Some(*value)));
-        print_record(&cells.into_iter().chain(variables).collect::<Vec<_>>());
+        let cables = has_types(found).then(|| types(&point.cables));
+        print_record(&cells.into_iter().chain(variables).chain(cables).collect::<Vec<_>>());
     }
+}
+
+/// Whether a front chooses types of cable.
+fn has_types(found: &Front) -> bool {
+    found.points.iter().any(|point| !point.cables.is_empty())
+}
+
+/// The types of the groups, in their order.
+fn types(chosen: &[ChosenCable]) -> String {
+    chosen.iter().map(|of| shown(&of.name)).collect::<Vec<_>>().join(", ")
 }
 
 fn print_front(robot: &Robot, found: &Front) {
@@ -137,6 +151,9 @@ fn print_front(robot: &Robot, found: &Front) {
     }
     let named = if found.variables.len() > MOST { &[][..] } else { &found.variables[..] };
     header.extend(named.iter().map(|(name, unit)| format!("{} [{unit}]", shown(name))));
+    if has_types(found) {
+        header.push("cables".to_owned());
+    }
     let mut rows = table(&header.iter().map(String::as_str).collect::<Vec<_>>());
     for (k, point) in (1..).zip(&found.points) {
         let mut cells = vec![k.to_string()];
@@ -145,10 +162,13 @@ fn print_front(robot: &Robot, found: &Front) {
             cells.push(point.exchange.map_or_else(String::new, |rate| significant(rate, 3)));
         }
         cells.extend(point.variables.iter().take(named.len()).map(|of| value(*of)));
+        if has_types(found) {
+            cells.push(types(&point.cables));
+        }
         rows.add_row(&cells);
     }
     println!("{rows}");
-    if named.is_empty() {
+    if named.len() < found.variables.len() {
         print_sentence("--format csv and json have the values of the variables.");
     }
 }
@@ -172,6 +192,38 @@ fn print(robot: &Robot, found: &Design) {
         let name = format!("{} [{unit}]", shown(name));
         let cells = [name, value(*from), value(*to), bound.unwrap_or_default().to_owned(), per_unit];
         rows.add_row(&cells[..columns]);
+    }
+    if !best.variables.is_empty() {
+        println!("{rows}");
+    }
+    if !best.cables.is_empty() {
+        print_cables(found, best);
+    }
+}
+
+/// The types of cable that are chosen, and what the others lead to.
+fn print_cables(found: &Design, best: &BestDesign) {
+    /// Combinations of types with rows of their own.
+    const MOST: usize = 12;
+    let optional =
+        |number: Option<f64>, digits| number.map_or_else(String::new, |of| significant(of, digits));
+    let mut rows = table(&["cables", "type", "length [m]", "mass [kg]", "cost"]);
+    for ChosenCable { cables, name, length, mass, cost } in &best.cables {
+        let numbers = cables.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
+        let [length, mass] = [length, mass].map(|of| significant(*of, 4));
+        rows.add_row([numbers, shown(name).into(), length, mass, optional(*cost, 4)]);
+    }
+    println!("{rows}");
+    if best.cable_types.len() > MOST || best.cable_types.is_empty() {
+        print_sentence("--format json has the best robot of each choice of types, up to 1000 choices.");
+        return;
+    }
+    let objective = format!("{} [{}]", found.output.noun(), found.output.unit());
+    let mut rows = table(&["best with", &objective, "mass [kg]", "cost"]);
+    for BestOfTypes { types, objective, cost, mass } in &best.cable_types {
+        let types = types.iter().map(|name| shown(name)).collect::<Vec<_>>().join(", ");
+        let objective = objective.map_or_else(|| "none".to_owned(), |of| significant(of, 4));
+        rows.add_row([types, objective, optional(*mass, 4), optional(*cost, 4)]);
     }
     println!("{rows}");
 }
@@ -302,7 +354,9 @@ fn demands(found: &Design, best: &BestDesign) -> Option<String> {
     };
     let mut active: Vec<&ActiveDemand> = best.active.iter().collect();
     active.sort_by(|a, b| b.per_percent.total_cmp(&a.per_percent));
-    let named: Vec<String> = active.iter().take(MOST).map(|demand| one(demand)).collect();
+    let mut named: Vec<String> = active.iter().take(MOST).map(|demand| one(demand)).collect();
+    let gain = |of| format!("{} {} for 1 %", significant(of, 2), found.output.unit());
+    named.extend(best.cost_per_percent.map(|of| format!("the limit of the cost ({})", gain(of))));
     let more = active.len().saturating_sub(MOST);
     let more = if more == 0 { String::new() } else { format!(", and {more} more") };
     (!named.is_empty()).then(|| format!("What keeps it from being better: {}{more}.", named.join(", ")))
