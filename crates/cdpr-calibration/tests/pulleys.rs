@@ -145,7 +145,7 @@ fn winches_that_drive_from_pose_to_pose_slip_the_way_in_which_cables_run() {
         let wheel = |i: usize| {
             let history = cdpr_statics::hysteresis::LoadHistory::begin(
                 &robot,
-                &pose,
+                pose,
                 &cdpr_statics::Load::none(),
                 PulleyFriction::default(),
             );

@@ -47,7 +47,7 @@ pub(crate) enum Command {
     ///
     /// Prints the coefficients that the measurements identify, or the sum of them that they do, and how far
     /// the tensions are from the model.
-    #[command(after_help = "Example: cdpr calibrate pulleys expo2015-lucia cycle.csv --pose 0,0,2")]
+    #[command(after_help = "Example: cdpr calibrate pulleys expo2015-lucia load-cycle.csv --pose 0.2,0.1,2")]
     Pulleys(Box<pulleys::Settings>),
 }
 
