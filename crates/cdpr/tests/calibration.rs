@@ -113,7 +113,7 @@ fn a_load_cycle_identifies_the_sum_of_the_coefficients_of_friction() {
     assert!(
         number("/rms_n/1") < 0.02 * number("/rms_n/0") && found["readings"].as_array().unwrap().len() == 48
     );
-    let said = unwrapped(cdpr(&[&given[..], &["--details"]].concat()).stdout);
+    let said = text(cdpr(&[&given[..], &["--details"]].concat()).stdout).replace('\n', " ");
     assert!(
         said.contains("these measurements identify this sum alone") && said.contains("0 sticks"),
         "{said}"
