@@ -174,14 +174,15 @@ fn winches_that_drive_from_pose_to_pose_slip_the_way_in_which_cables_run() {
     assert!(refused.to_string().starts_with("column t1_n is missing: expected tensions at the platform"));
 }
 
+fn refused(robot: &Robot, text: &str, pose: Option<&Pose>) -> String {
+    let measured = read_measurements(text.as_bytes(), robot, &[]).unwrap();
+    calibrate_pulleys(robot, &measured, pose, &[]).unwrap_err().to_string()
+}
+
 #[test]
 fn what_is_no_load_history_of_pulleys_is_refused() {
     let lucia = library("expo2015-lucia", 1.0);
     let pose = Pose::at(0.0, 0.0, 2.0);
-    let refused = |robot: &Robot, text: &str, pose: Option<&Pose>| {
-        let measured = read_measurements(text.as_bytes(), robot, &[]).unwrap();
-        calibrate_pulleys(robot, &measured, pose, &[]).unwrap_err().to_string()
-    };
     let rows = |loads: [f64; 4], winches: [f64; 4]| {
         let lines = loads.iter().zip(winches).map(|(load, winch)| format!("{load},{winch},{winch}"));
         std::iter::once("payload_kg,t1_winch_n,t2_winch_n".to_owned())
@@ -253,6 +254,11 @@ fn what_is_no_load_history_of_pulleys_is_refused() {
         let error = refused(robot, text, pose);
         assert!(error.contains(said), "{text}: {error}");
     }
+}
+
+#[test]
+fn robots_without_pulleys_are_refused() {
+    let pose = Pose::at(0.0, 0.0, 2.0);
     for name in ["caroca", "cogiro", "ipanema-1", "nist-robocrane", "four-cables", "segesta"] {
         let robot = Robot::from_library(name).unwrap();
         let error = refused(&robot, "payload_kg,t1_winch_n\n0,400\n5,410\n5,410\n0,400\n", Some(&pose));

@@ -17,11 +17,9 @@ pub(crate) struct Settings {
     #[command(flatten)]
     robot: RobotArgument,
     /// Measurements in the order in which they were taken (a table with units in its header, or JSON):
-    /// t1_winch_n ..., loads (payload_kg ...) or poses; t1_n ... at the platform, dz_m ...; - for the standard
-    /// input.
+    /// t1_winch_n ..., with loads (payload_kg ...) and --pose, that under the first load, or with positions;
+    /// t1_n ... at the platform, dz_m ...; - for the standard input.
     measurements: PathBuf,
-    /// The pose at which the winches stand still: that of the platform under the load of the first row. Rows
-    /// with positions need none.
     #[command(flatten)]
     pose: PoseArguments,
     #[command(flatten)]
