@@ -147,8 +147,9 @@ fn columns_of_one_meaning_are_refused() {
         let text = TABLE.replace(",colour", &format!(",{name}")).replace("red", "1").replace("blue", "1");
         imported(&[("r.csv", &text)], &all_options()).map(|found| questions(&found))
     };
+    let twice = with("exit_x").unwrap_err().to_string();
+    assert!(twice.contains("r.csv, line 1: column exit_x is there twice"), "{twice}");
     for (name, meant) in [
-        ("exit_x", "exit_x"),
         ("Exit X", "exit_x"),
         ("bx", "exit_x"),
         ("EXIT.Y [mm]", "exit_y"),
