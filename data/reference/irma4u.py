@@ -14,7 +14,8 @@ pitch, yaw, rad) and `swivel_meas` (4 x n, rad). Poses are not measured. Two fit
 The angles are those of Rz(yaw) Ry(pitch) Rx(roll): the authors take them as of Rx Ry Rz, but that fits worse
 (roll and pitch 0.57 and 0.66 degrees in place of 0.34 and 0.27, 27 poses).
 
-Printed are the residuals of each sensor, and how far the first pose lies from the one that the authors take
+Printed are the residuals of each sensor; those of the tensions without and with friction of the pulleys, by
+`cdpr calibrate pulleys` at the fitted poses; and how far the first pose lies from the one that the authors take
 as true, `zeta_0_real`, which their pose estimation makes of the lengths and angles: beside the distance of
 their own self-calibration in the same file (7.3 mm for 27 poses, 10.5 mm for 8).
 
@@ -105,6 +106,30 @@ def residuals(path):
     return columns
 
 
+def with_friction(program, out, columns):
+    """Residuals of the tensions without and with friction of the pulleys, at the poses of a fit."""
+    lengths, tensions, _, _ = columns
+    cables = range(1, 5)
+    path = os.path.join(out, "winches.csv")
+    names = ["x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"]
+    with open(os.path.join(out, "poses.csv")) as poses, open(path, "w", newline="") as file:
+        write = csv.writer(file)
+        write.writerow(names + [f"l{i}_m" for i in cables] + [f"t{i}_winch_n" for i in cables])
+        for pose, l, t in zip(csv.DictReader(poses), lengths, tensions):
+            write.writerow([pose[name] for name in names] + l + t)
+    robot = os.path.join(out, "calibrated.json")
+    command = [program, "calibrate", "pulleys", robot, path, "--free", "roll,pitch", "--format", "json"]
+    found = subprocess.run(command, capture_output=True, text=True, check=False)
+    if found.returncode != 0:
+        print(f"  friction of the pulleys: {found.stderr.strip().splitlines()[-1].replace(out, '')}")
+        return
+    found = json.loads(found.stdout)
+    without, rms = found["rms_n"]
+    (one, other), of = found["combination"], found["combined"]
+    print(f"  tension residuals at {len(found['readings'])} readings: {without:.3f} N without friction, {rms:.3f} N with")
+    print(f"  {one:.3f} friction + {other:.3f} bearing = {of['value']:.4f} +- {of['std']:.4f}")
+
+
 def main():
     program = os.environ.get("CDPR", "target/debug/cdpr")
     for path in sys.argv[1:] or sys.exit(__doc__):
@@ -149,6 +174,7 @@ def main():
                 print(
                     f"  first pose {1e3 * distance:.1f} mm from zeta_0_real, the authors' {1e3 * theirs[1]:.1f} mm"
                 )
+            with_friction(program, out, columns)
             if name == "offsets":
                 for sensor, of in summary["sensors"].items():
                     std = "-" if of["std"] is None else f"{of['std']:.2e}"

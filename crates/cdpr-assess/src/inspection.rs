@@ -9,7 +9,7 @@ mod pulley;
 mod swapped;
 mod symmetry;
 
-use cdpr_robot::{Doubt, Robot, RobotCable, Vector3, plausible};
+use cdpr_robot::{Doubt, Robot, RobotCable, Vector3, counted, plausible};
 pub use equilibrium::doubtful_rest;
 pub(crate) use equilibrium::is_below_floor;
 use serde::Serialize;
@@ -62,6 +62,7 @@ pub fn inspect(robot: &Robot) -> Vec<Finding> {
     findings.gravity();
     findings.inertia();
     findings.limits();
+    findings.reference();
     findings.points();
     let known = findings.list.len();
     findings.ground();
@@ -158,6 +159,31 @@ impl Findings<'_> {
             let own = cable.tension_limits.max.map(|_| format!("cables[{i}].tension_limits.max"));
             self.greatest(&own.unwrap_or_else(|| "tension_limits.max".to_owned()), i);
         }
+    }
+
+    /// A preferred tension that a cable may not have.
+    fn reference(&mut self) {
+        let robot = self.robot;
+        let tensions = robot.reference();
+        let is_outside = |i: &usize| {
+            let limits = robot.limits(*i);
+            !(limits.min..=limits.max).contains(&tensions[*i])
+        };
+        let mut outside = (0..tensions.len()).filter(is_outside);
+        let known = self.list.iter().any(|finding| finding.field == "tension_reference");
+        let (Some(i), false) = (outside.next(), robot.tension_reference.is_none() || known) else { return };
+        let others = match outside.count() {
+            0 => String::new(),
+            more => format!(", and {} outside of theirs", counted(more, "other")),
+        };
+        let limits = robot.limits(i);
+        self.add(
+            Severity::Note,
+            "tension_reference",
+            format!("{} N for cable {}", tensions[i], i + 1),
+            &format!("outside of its limits, {} N to {} N{others}", limits.min, limits.max),
+            "tensions within the limits; the inverse model comes as near to others as the limits let it",
+        );
     }
 
     /// The greatest tension of cable `i`, which stands in `field`.
@@ -258,7 +284,7 @@ impl Findings<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use cdpr_robot::CableProperties;
+    use cdpr_robot::{CableProperties, TensionReference};
 
     fn robot() -> Robot {
         Robot::from_library("cogiro").unwrap()
@@ -299,6 +325,28 @@ mod tests {
     #[test]
     fn nothing_is_odd_about_cogiro() {
         assert_eq!(inspect(&robot()), []);
+    }
+
+    #[test]
+    fn preferred_tensions_out_of_the_limits_are_seen() {
+        let said = |reference: TensionReference| {
+            let mut robot = robot();
+            robot.tension_reference = Some(reference);
+            let found = inspect(&robot).into_iter().filter(|finding| finding.field == "tension_reference");
+            found.map(|finding| (finding.severity, finding.value, finding.why)).collect::<Vec<_>>()
+        };
+        let limits = robot().limits(0);
+        let (middle, above) = (0.5 * (limits.min + limits.max), 1.5 * limits.max);
+        assert_eq!(said(TensionReference::MID), []);
+        assert_eq!(said(TensionReference::All(middle)), []);
+        let mut each = vec![middle; robot().cables.len()];
+        (each[2], each[5]) = (above, 0.5 * limits.min);
+        let [(Severity::Note, value, why)] = &said(TensionReference::Each(each))[..] else { panic!() };
+        assert_eq!(*value, format!("{above} N for cable 3"));
+        assert!(why.starts_with("outside of its limits") && why.ends_with(", and 1 other outside of theirs"));
+        // Far above them it is more than a note, and said once.
+        let far = said(TensionReference::All(10.0 * limits.max));
+        assert!(matches!(&far[..], [(Severity::Warning, ..)]), "{far:?}");
     }
 
     #[test]

@@ -487,7 +487,7 @@ enum CdprStatus cdpr_tracker_state(const struct CdprTracker *tracker,
 void cdpr_tracker_free(struct CdprTracker *tracker);
 
 /**
- * Creates a path, whose first pose is the next one.
+ * Creates a path, whose first pose is the next one. Robots with fewer cables than free motions are refused.
  */
 enum CdprStatus cdpr_path_new(const struct CdprRobot *robot, struct CdprPath **path);
 

@@ -272,12 +272,12 @@ pub unsafe extern "C" fn cdpr_tracker_free(tracker: *mut CdprTracker) {
     unsafe { free(tracker) }
 }
 
-/// Creates a path, whose first pose is the next one.
+/// Creates a path, whose first pose is the next one. Robots with fewer cables than free motions are refused.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cdpr_path_new(robot: *const CdprRobot, path: *mut *mut CdprPath) -> CdprStatus {
     guarded(|| unsafe {
         let path = empty(path, "path")?;
-        create(path, Ok(CdprPath::new(&given(robot, "robot")?.robot)))
+        create(path, CdprPath::new(&given(robot, "robot")?.robot))
     })
 }
 

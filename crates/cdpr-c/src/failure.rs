@@ -57,9 +57,7 @@ pub(crate) enum Failure {
 impl From<StaticsError> for Failure {
     fn from(error: StaticsError) -> Self {
         match error {
-            StaticsError::FreeCoordinates { .. } => {
-                Self::Unsupported("a robot with fewer cables than free motions")
-            }
+            StaticsError::FreeCoordinates { .. } => Self::FEW_CABLES,
             error => Self::Models(error),
         }
     }
@@ -95,6 +93,9 @@ impl fmt::Display for Failure {
 }
 
 impl Failure {
+    /// A function without free coordinates.
+    pub(crate) const FEW_CABLES: Self = Self::Unsupported("a robot with fewer cables than free motions");
+
     fn status(&self) -> CdprStatus {
         match self {
             Self::Pointer(_) => CdprStatus::Pointer,

@@ -64,8 +64,12 @@ pub struct CdprPath {
 }
 
 impl CdprPath {
-    pub(crate) fn new(robot: &Arc<Robot>) -> Self {
-        Self { path: InversePath::new(Arc::clone(robot)), cables: robot.cables.len() }
+    /// A path has no free coordinates: a robot with fewer cables than free motions is refused.
+    pub(crate) fn new(robot: &Arc<Robot>) -> Result<Self, Failure> {
+        if robot.cables.len() < robot.freedoms().count() {
+            return Err(Failure::FEW_CABLES);
+        }
+        Ok(Self { path: InversePath::new(Arc::clone(robot)), cables: robot.cables.len() })
     }
 
     pub(crate) fn cables(&self) -> usize {

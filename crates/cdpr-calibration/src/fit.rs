@@ -7,6 +7,7 @@
 
 mod conclude;
 mod frame;
+pub(crate) mod friction;
 mod offset;
 mod problem;
 mod rows;

@@ -7,6 +7,7 @@
 //! | what do measurements of this kind tell at all? | [`Calibration::identify`] |
 //! | which poses should be measured? | [`Calibration::plan`], [`Calibration::best_poses`] |
 //! | what would a campaign read? | [`simulate`] |
+//! | which friction of pulleys explains tensions at winches? | [`calibrate_pulleys`] |
 //! | all of a calibration, from a table to results and their folder | [`carry_out`] |
 #![warn(missing_docs)]
 
@@ -29,6 +30,7 @@ mod unknowns;
 pub use campaign::{Noise, Quantity, Reading, Row};
 pub use carry_out::carry_out;
 pub use error::CalibrationError;
+pub use fit::friction::{EstimatedValue, PulleyCalibration, PulleyOfCable, WinchResidual, calibrate_pulleys};
 pub use fit::{cross_validated, fit};
 pub use fitted::{Difference, Estimate, Fit, FitSettings, FitStatus, RobustLoss, UnidentifiableCombination};
 pub use identify::{

@@ -127,7 +127,7 @@ impl<'a> Model<'a> {
         lengths.iter().enumerate().map(read).collect()
     }
 
-    pub(super) fn load(&self, row: &Row, robot: &Robot) -> Load {
+    pub(crate) fn load(&self, row: &Row, robot: &Robot) -> Load {
         let payload = row.load.payload + row.mass.map_or(0.0, |mass| mass - robot.platform.mass);
         Load { payload, ..row.load }
     }

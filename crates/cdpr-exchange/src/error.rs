@@ -2,6 +2,7 @@
 
 use cdpr_robot::RobotError;
 use cdpr_statics::StaticsError;
+use cdpr_study::TableError;
 use std::fmt;
 
 /// Why a file of another program was not imported, or a robot not exported.
@@ -16,7 +17,7 @@ pub enum ExchangeError {
         line: usize,
         /// Column in that line, from 1.
         column: usize,
-        /// What the reader of XML, YAML or CSV says.
+        /// What the reader of XML or YAML says.
         message: String,
     },
     /// A file is larger than that of any robot.
@@ -48,6 +49,14 @@ pub enum ExchangeError {
         value: String,
         /// What would be right.
         expected: String,
+    },
+    /// A table is none, or a cell of it no number.
+    #[error("{file}, {source}")]
+    Table {
+        /// The file.
+        file: String,
+        /// What is wrong, with its line.
+        source: TableError,
     },
     /// A cable set of CASPR cannot be imported; the file has others.
     #[error("{source}; this is the cable set {set}, the file also has {}", .others.join(", "))]

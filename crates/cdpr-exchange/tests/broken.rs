@@ -95,7 +95,7 @@ fn other_broken_files_are_refused_with_element_and_line() {
         (&irma, "\"pos_OD_glob\"", "\"pos_PD_loc\"", 5, "actuator[1]/pulley/pos_OD_glob is missing"),
         (&irma, "\"mass\": 1,", "\"mass\": 1, \"mass\": 2,", 10, "the key `mass` stands twice"),
         (&table, "anchor_z,radius", "anchor_w,radius", 1, "anchor_z is missing: expected the columns exit_x"),
-        (&table, "2,1.5,3", "2,left,3", 3, "exit_y is \"left\": expected a finite number"),
+        (&table, "2,1.5,3", "2,left,3", 3, "column exit_y: `left`: expected a number"),
         (&table, "-1,red", ",red", 2, "axis_z is empty: expected a finite number"),
     ]);
 }

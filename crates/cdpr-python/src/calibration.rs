@@ -112,6 +112,31 @@ fn numbers(pose: &Pose) -> Vec<f64> {
     [pose.position.as_slice(), &pose.quaternion()].concat()
 }
 
+/// The friction of pulleys from tensions at the winches, as JSON.
+#[pyfunction]
+pub(crate) fn calibrate_pulleys(
+    py: Python,
+    robot: &Robot,
+    measurements: Source,
+    pose: Option<Numbers>,
+    noise: Named,
+    free: Option<Vec<String>>,
+) -> Answer<String> {
+    let (robot, free) = (&robot.robot, coordinates(free)?);
+    let poses = pose.map(|pose| Rows::poses("pose", &pose, robot)).transpose()?;
+    let pose = match &poses {
+        Some(poses) if poses.number() != 1 => {
+            return Err(Raised::Input(format!("pose has {} rows: expected one pose", poses.number())));
+        }
+        poses => poses.as_ref().map(|poses| poses.pose(0)).transpose()?,
+    };
+    let found = run(py, |_| -> Answer<_> {
+        let measured = read_measurements(&measurements.measurements()?, robot, &noise)?;
+        Ok(cdpr_calibration::calibrate_pulleys(robot, &measured, pose.as_ref(), &free)?)
+    });
+    to_json(&found??)
+}
+
 /// What measurements at poses tell of uncertain parameters, as JSON.
 #[pyfunction]
 #[allow(clippy::too_many_arguments)]

@@ -31,7 +31,7 @@ mod _core {
         check, check_file, hysteresis, linear_density, modulus, pulley_friction, robustness, tolerances,
     };
     #[pymodule_export]
-    use crate::calibration::{calibrate, identify, plan, simulate};
+    use crate::calibration::{calibrate, calibrate_pulleys, identify, plan, simulate};
     #[pymodule_export]
     use crate::catenary::{Catenary, catenary};
     #[pymodule_export]

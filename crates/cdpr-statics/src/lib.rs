@@ -109,10 +109,10 @@ pub mod free_coordinates {
 /// Load cycles on cables that dissipate energy, over pulleys with friction.
 pub mod hysteresis {
     pub use crate::loading::{
-        CycleStep, HysteresisLaw, LoadCycle, Unloading, load_cycle, load_cycle_over_pulleys,
+        CycleStep, HysteresisLaw, LoadCycle, LoadHistory, Unloading, load_cycle, load_cycle_over_pulleys,
     };
     pub use crate::loading::{
-        Estimate, FrictionFit, PulleyFriction, PulleyState, WinchReading, fit_friction,
+        Estimate, FrictionFit, PulleyFriction, PulleyState, WinchReading, fit_friction, fit_friction_model,
     };
 }
 

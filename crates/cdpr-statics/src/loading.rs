@@ -13,8 +13,12 @@ mod wind;
 pub use deflection::{Deflection, deflection, deflection_from, set_point_lengths};
 pub(crate) use deflection::{SetPointLengths, lengths_at_rest};
 pub use follow::follow;
-pub use friction::{Estimate, FrictionFit, PulleyFriction, PulleyState, WinchReading, fit_friction};
-pub use hysteresis::{CycleStep, HysteresisLaw, LoadCycle, Unloading, load_cycle, load_cycle_over_pulleys};
+pub use friction::{
+    Estimate, FrictionFit, PulleyFriction, PulleyState, WinchReading, fit_friction, fit_friction_model,
+};
+pub use hysteresis::{
+    CycleStep, HysteresisLaw, LoadCycle, LoadHistory, Unloading, load_cycle, load_cycle_over_pulleys,
+};
 pub use modes::{CableFrequency, NaturalMode, PoseModes, modes_at};
 pub use small_motions::{CableAtRest, SmallMotions};
 pub use stiffness::{PoseStiffness, stiffness_at};

@@ -11,6 +11,7 @@
 //! | [`sensitivity`] | Sobol points, laws, effects, indices |
 //! | [`study`], [`assess`] | studies of uncertain parameters; tables, tolerances |
 //! | [`calibration`] | poses to measure, identifiability, calibration, cable moduli |
+//! | [`observer`] | payload, centre of mass and modulus from measured tensions, sample by sample |
 //! | [`exchange`] | robots of CASPR, WireX and others; MoorDyn |
 //!
 //! The program `cdpr` is the module [`program`], behind the feature of this name. Leave it out for the libraries alone:
@@ -29,6 +30,7 @@ pub use cdpr_cable as cable;
 pub use cdpr_calibration as calibration;
 pub use cdpr_dynamics as dynamics;
 pub use cdpr_exchange as exchange;
+pub use cdpr_observer as observer;
 pub use cdpr_robot as robot;
 pub use cdpr_sensitivity as sensitivity;
 pub use cdpr_statics as statics;

@@ -36,7 +36,7 @@ fn every_option_with_a_unit_is_known_to_the_questions() {
         // Errors of a measurement widen an interval and enter nothing else; a tension ends a catenary.
         ("none", vec!["--tension", "--end-force", "--errors"]),
     ];
-    let commands: [&[&str]; 21] = [
+    let commands: [&[&str]; 22] = [
         &["cable", "catenary"],
         &["inverse"],
         &["direct"],
@@ -50,6 +50,7 @@ fn every_option_with_a_unit_is_known_to_the_questions() {
         &["calibrate", "fit"],
         &["calibrate", "identify"],
         &["calibrate", "plan"],
+        &["calibrate", "pulleys"],
         &["calibrate", "simulate"],
         &["derivatives"],
         &["hysteresis"],

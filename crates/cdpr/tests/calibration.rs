@@ -98,3 +98,39 @@ fn bad_input_is_named_with_what_would_be_right() {
         assert!(text.contains(words) && !text.contains("panicked"), "`{words}` is not in: {text}");
     }
 }
+
+/// The tensions are those of another program, `data/reference/friction.py`, for friction 0.05 and bearing 0.02.
+#[test]
+fn a_load_cycle_identifies_the_sum_of_the_coefficients_of_friction() {
+    let table = data_path("calibration/expo2015-lucia-load-cycle.csv");
+    let given = ["calibrate", "pulleys", "expo2015-lucia", &table, "--pose", "0.2,0.1,2"];
+    let found: Value =
+        serde_json::from_str(&answered(cdpr(&[&given[..], &["--format", "json"]].concat()))).unwrap();
+    let number = |path: &str| found.pointer(path).and_then(Value::as_f64).unwrap();
+    assert!(found["friction"].is_null() && found["bearing"].is_null());
+    let exact = 0.05 * number("/combination/0") + 0.02 * number("/combination/1");
+    assert!((number("/combined/value") - exact).abs() < 0.01 * exact, "{exact} {found}");
+    assert!(
+        number("/rms_n/1") < 0.02 * number("/rms_n/0") && found["readings"].as_array().unwrap().len() == 48
+    );
+    let said = text(cdpr(&[&given[..], &["--details"]].concat()).stdout).replace('\n', " ");
+    assert!(
+        said.contains("these measurements identify this sum alone") && said.contains("0 sticks"),
+        "{said}"
+    );
+    let wheels = found["cables"].as_array().unwrap();
+    assert_eq!(
+        wheels.iter().map(|of| of["slipping"].as_u64().unwrap()).filter(|slipping| *slipping > 0).count(),
+        6
+    );
+    // Without pulleys, and without the pose
+    let refused = cdpr(&["calibrate", "pulleys", "caroca", &table, "--pose", "0,0,1.75"]);
+    assert_eq!(refused.status.code(), Some(1));
+    let said = unwrapped(refused.stderr);
+    assert!(said.contains("load-cycle.csv: pulley is missing at every cable"), "{said}");
+    let refused = cdpr(&given[..4]);
+    assert!(
+        unwrapped(refused.stderr)
+            .contains("pose is missing: expected that of the platform under the first load")
+    );
+}

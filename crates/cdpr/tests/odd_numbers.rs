@@ -29,7 +29,7 @@ const ODD: [&str; 19] = [
 ];
 
 /// Commands whose number in braces is replaced.
-const COMMANDS: [&str; 36] = [
+const COMMANDS: [&str; 37] = [
     "inverse caroca --pose 0,0,1.75 --payload {50}",
     "inverse caroca --pose 0,0,{1.75}",
     "inverse caroca --pose 0,0,1.75 --rpy {5},0,0",
@@ -59,6 +59,7 @@ const COMMANDS: [&str; 36] = [
     "hysteresis caroca-law --pose 0,0,1.75 --payload 50 --with steps={3}",
     "hysteresis expo2015-lucia --pose 0,0,2 --payload 50 --with steps=2,friction={0.05}",
     "hysteresis expo2015-lucia --pose 0,0,2 --payload 50 --with steps=2,bearing={0.01}",
+    "calibrate pulleys expo2015-lucia ../../data/calibration/expo2015-lucia-load-cycle.csv --pose 0.2,0.1,{2}",
     "cable catenary weight={1},stiffness=1e6 --length 11 --end 10,1",
     "cable catenary weight=1,stiffness={1e6} --length 11 --end 10,1",
     "cable catenary weight=1,stiffness=1e6 --length {11} --end 10,1",

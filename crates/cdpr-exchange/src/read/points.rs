@@ -1,12 +1,13 @@
-//! A table of points: CSV with a cable a line. Columns are found by meaning: `Exit X [mm]` is `exit_x`.
+//! A table of points with a cable a line, with the separators and decimal marks of all tables. Columns are found by meaning: `Exit X [mm]` is `exit_x`.
 
 mod columns;
 
-use crate::document::{finite, short};
+use crate::document::short;
 use crate::draft::{Draft, DraftCable, Note, NoteKind};
 use crate::error::ExchangeError;
 use crate::read::points::columns::{Column, Meaning, NAMES, harmless, is_number, meaning};
 use cdpr_robot::{CableProperties, Pulley, Vector3};
+use cdpr_study::{Cells, Table, TableError};
 use std::collections::HashMap;
 
 /// Columns that every table has.
@@ -25,24 +26,14 @@ pub(crate) fn is_table(text: &str) -> bool {
 /// Reads a table.
 ///
 /// # Errors
-/// [`ExchangeError::Syntax`]; [`ExchangeError::Value`] with file, line and column's name.
+/// [`ExchangeError::Table`]; [`ExchangeError::Value`] with file, line and column's name.
 pub(crate) fn read(file: &str, text: &str) -> Result<Draft, ExchangeError> {
-    let syntax = |error: csv::Error| ExchangeError::Syntax {
-        file: file.to_owned(),
-        line: error.position().map_or(1, |position| position.line() as usize),
-        column: 1,
-        message: error.to_string(),
-    };
+    let in_table = |source: TableError| ExchangeError::Table { file: file.to_owned(), source };
+    let table = Table::read(text.as_bytes()).map_err(in_table)?;
     let mut draft = Draft::of_file(file, "");
     draft.source = format!("Imported from {file}, a table of points.");
-    let mut table =
-        csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).from_reader(text.as_bytes());
-    let header = table.headers().map_err(syntax)?.clone();
-    if let (1, Some(other)) = (header.len(), header[0].chars().find(|c| [';', '\t'].contains(c))) {
-        let message = format!("the separator is {other:?}: expected commas, and points in numbers");
-        return Err(ExchangeError::Syntax { file: file.to_owned(), line: 1, column: 1, message });
-    }
-    let columns = find_columns(&mut draft, file, &header)?;
+    let first = table.header.unwrap_or(1);
+    let columns = find_columns(&mut draft, (file, first), &table)?;
     let value = |line: usize, element: &str, value: &str, expected: &str| ExchangeError::Value {
         file: file.to_owned(),
         line,
@@ -52,23 +43,24 @@ pub(crate) fn read(file: &str, text: &str) -> Result<Draft, ExchangeError> {
         expected: expected.to_owned(),
     };
     if let Some(missing) = POINTS.iter().find(|name| !columns.contains_key(*name)) {
-        return Err(value(1, missing, "missing", &format!("the columns {}", POINTS.join(", "))));
+        return Err(value(first, missing, "missing", &format!("the columns {}", POINTS.join(", "))));
     }
-    let numbered = header.iter().position(is_number);
+    let numbered = table.columns.iter().position(|column| is_number(&column.name));
     let mut before: Option<i64> = None;
-    for row in table.records() {
-        let row = row.map_err(syntax)?;
-        let line = row.position().map_or(0, |position| position.line() as usize);
+    for (row, line) in table.lines.iter().copied().enumerate() {
         if let Some(index) = numbered {
-            before = next_number(file, (line, index), &header, &row, before)?;
+            before = next_number(file, (row, index), &table, before)?;
         }
         let number = |name: &str| -> Result<Option<f64>, ExchangeError> {
             let Some(column) = columns.get(name) else { return Ok(None) };
-            let Some(text) = row.get(column.index).filter(|text| !text.is_empty()) else { return Ok(None) };
-            let number = finite(text).map(|number| column.factor * number);
-            number
-                .map(Some)
-                .ok_or_else(|| value(line, name, &format!("{:?}", short(text)), "a finite number"))
+            let own = &table.columns[column.index];
+            let number = table.numbers(own).map_err(in_table)?[row];
+            let blank = own.blanks.binary_search_by_key(&row, |blank| blank.row);
+            match blank.map(|at| own.blanks[at].text.as_str()) {
+                Ok("") => Ok(None),
+                Ok(text) => Err(value(line, name, &format!("{:?}", short(text)), "a finite number")),
+                Err(_) => Ok(Some(column.factor * number)),
+            }
         };
         let need = |name: &str| number(name)?.ok_or_else(|| value(line, name, "empty", "a finite number"));
         let vector =
@@ -103,21 +95,25 @@ pub(crate) fn read(file: &str, text: &str) -> Result<Draft, ExchangeError> {
     Ok(draft)
 }
 
-/// The number of a cable in column `index`, refused where it does not follow that of the row before.
+/// The number of a cable in a row and a column, refused where it does not follow that of the row before.
 fn next_number(
     file: &str,
-    (line, index): (usize, usize),
-    header: &csv::StringRecord,
-    row: &csv::StringRecord,
+    (row, index): (usize, usize),
+    table: &Table,
     before: Option<i64>,
 ) -> Result<Option<i64>, ExchangeError> {
-    let number = row.get(index).and_then(|text| text.parse::<i64>().ok());
+    let column = &table.columns[index];
+    let number = match column.cells() {
+        Ok(Cells::Numbers(numbers)) => Some(numbers[row]).filter(|n| n.fract() == 0.0).map(|n| n as i64),
+        Ok(Cells::Text(texts)) => texts[row].parse().ok(),
+        Err(_) => None,
+    };
     match (before.map(|before| before.saturating_add(1)), number) {
         (Some(next), Some(number)) if number != next => Err(ExchangeError::Value {
             file: file.to_owned(),
-            line,
+            line: table.lines[row],
             column: index + 1,
-            element: header[index].to_owned(),
+            element: column.name.clone(),
             value: number.to_string(),
             expected: format!("{next}: each cable once and in order, none left out"),
         }),
@@ -128,12 +124,12 @@ fn next_number(
 /// The columns of a header by their names in this program.
 fn find_columns(
     draft: &mut Draft,
-    file: &str,
-    header: &csv::StringRecord,
+    (file, line): (&str, usize),
+    table: &Table,
 ) -> Result<HashMap<&'static str, Column>, ExchangeError> {
     let mut columns: HashMap<&'static str, Column> = HashMap::new();
     let (mut ignored, mut unknown, mut by_letter) = (Vec::new(), Vec::new(), Vec::new());
-    for (index, name) in header.iter().enumerate() {
+    for (index, name) in table.columns.iter().map(|column| column.name.as_str()).enumerate() {
         let Some(Meaning { name: found, factor, is_letter }) = meaning(name) else {
             if harmless(name) { &mut ignored } else { &mut unknown }.push(short(name));
             continue;
@@ -144,10 +140,10 @@ fn find_columns(
         if let Some(first) = columns.insert(found, Column { index, factor }) {
             return Err(ExchangeError::Value {
                 file: file.to_owned(),
-                line: 1,
+                line,
                 column: index + 1,
                 element: name.to_owned(),
-                value: format!("a second column of {found}, after {:?}", &header[first.index]),
+                value: format!("a second column of {found}, after {:?}", table.columns[first.index].name),
                 expected: "one".to_owned(),
             });
         }
@@ -159,7 +155,7 @@ fn find_columns(
             let more = if more > 0 { format!(" and {more} more") } else { String::new() };
             let columns = if names.len() == 1 { "column" } else { "columns" };
             let text = format!("{columns} {listed}{more}{said}");
-            draft.notes.push(Note { kind, place: Some((file.to_owned(), 1)), text });
+            draft.notes.push(Note { kind, place: Some((file.to_owned(), line)), text });
         }
     };
     note(NoteKind::NoPlace, &ignored, "");

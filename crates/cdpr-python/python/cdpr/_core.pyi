@@ -49,6 +49,7 @@ __all__ = [
     "analyse",
     "begin",
     "calibrate",
+    "calibrate_pulleys",
     "plan",
     "pose",
     "template",
@@ -3718,6 +3719,14 @@ def calibrate(
     Returns the calibrated robot, and as JSON the summary, what is known of the robot's errors, the residuals
     and the poses.
     """
+def calibrate_pulleys(
+    robot: Robot,
+    measurements: _Source,
+    pose: Any,
+    noise: list[tuple[str, float]],
+    free: list[str] | None,
+) -> str:
+    """The friction of pulleys from tensions at the winches, as JSON."""
 def simulate(
     robot: Robot,
     poses: ArrayLike,

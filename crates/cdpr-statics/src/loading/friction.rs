@@ -39,8 +39,10 @@
 
 mod fit;
 mod history;
+mod model_fit;
 mod wheel;
 
 pub use fit::{Estimate, FrictionFit, WinchReading, fit_friction};
 pub(crate) use history::Wheels;
+pub use model_fit::fit_friction_model;
 pub use wheel::{PulleyFriction, PulleyState};

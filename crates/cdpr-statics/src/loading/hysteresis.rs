@@ -193,10 +193,7 @@ pub fn load_cycle_over_pulleys<'a>(
     check(robot, laws, payload, steps)?;
     let mut robot = with_laws(robot, laws.iter().map(|law| law.loading.clone()).collect());
     let mut wheels = Wheels::new(&robot, friction)?;
-    let PoseLengths { lengths, equilibrium: start } = lengths_at(&robot, &wanted, &Load::none())?;
-    let first = DirectProblem::new(&robot, &lengths, &Load::none())?
-        .with_unstable(Unstable::Refused)
-        .direct(DirectStart::Near(&start))?;
+    let (lengths, first) = start(&robot, &wanted, &Load::none())?;
     let pulleys = wheels.as_ref().map(|wheels| wheels.begin(&robot, &lengths, &first.equilibrium));
     let pulleys = pulleys.transpose()?.unwrap_or_default();
     let mut here = CycleStep { payload: 0.0, solution: first, pulleys };
@@ -214,8 +211,9 @@ pub fn load_cycle_over_pulleys<'a>(
         for step in 1..=steps {
             let share = step as f64 / steps as f64;
             let to = payload * if up { share } else { 1.0 - share };
-            let next = next_step(&robot, &lengths, &way[way.len() - 1], wheels.as_mut(), to);
             let last = way[way.len() - 1].payload;
+            let loads = [last, to].map(Load::payload);
+            let next = next_step(&robot, &lengths, &way[way.len() - 1], wheels.as_mut(), &loads);
             let of_all = |share: f64| (last + share * (to - last)) / payload;
             way.push(next.map_err(|error| error.with_share(of_all))?);
         }
@@ -244,6 +242,53 @@ pub fn load_cycle_over_pulleys<'a>(
     Ok(LoadCycle { lengths, loading, unloading, tensions, dissipated, payload_work })
 }
 
+/// A robot under one load after another while its winches stand still, over pulleys with friction.
+///
+/// Cables unload as they load, by the laws of the robot file.
+#[derive(Debug)]
+pub struct LoadHistory<'a> {
+    robot: &'a Robot,
+    /// Unstrained lengths at the winches [m].
+    pub lengths: Vec<f64>,
+    wheels: Wheels,
+    load: Load,
+    /// The equilibrium under the last load.
+    pub now: CycleStep,
+}
+
+impl<'a> LoadHistory<'a> {
+    /// A history that begins at a wanted pose under a load, where no wheel slips.
+    ///
+    /// # Errors
+    /// [`StaticsError::Invalid`] for coefficients out of their ranges and a robot without pulleys; those of
+    /// the inverse and the direct model.
+    pub fn begin<'b>(
+        robot: &'a Robot,
+        wanted: impl Into<WantedPose<'b>>,
+        load: &Load,
+        friction: PulleyFriction,
+    ) -> Result<Self, StaticsError> {
+        let wanted = refuse_offsets(wanted.into())?;
+        friction.validate()?;
+        let wheels = Wheels::on_pulleys(robot, friction)?;
+        let (lengths, solution) = start(robot, &wanted, load)?;
+        let pulleys = wheels.begin(robot, &lengths, &solution.equilibrium)?;
+        let now = CycleStep { payload: load.payload, solution, pulleys };
+        Ok(Self { robot, lengths, wheels, load: *load, now })
+    }
+
+    /// The equilibrium under the next load.
+    ///
+    /// # Errors
+    /// Those of the direct model; [`StaticsError::BranchEnds`] where the platform falls.
+    pub fn follow(&mut self, load: &Load) -> Result<&CycleStep, StaticsError> {
+        let (loads, wheels) = ([self.load, *load], Some(&mut self.wheels));
+        self.now = next_step(self.robot, &self.lengths, &self.now, wheels, &loads)?;
+        self.load = *load;
+        Ok(&self.now)
+    }
+}
+
 fn check(robot: &Robot, laws: &[HysteresisLaw], payload: f64, steps: usize) -> Result<(), StaticsError> {
     let invalid = |field: &str, value: String, expected: &str| {
         Err(StaticsError::invalid(field.to_owned(), value, expected))
@@ -261,21 +306,32 @@ fn check(robot: &Robot, laws: &[HysteresisLaw], payload: f64, steps: usize) -> R
     Ok(())
 }
 
-/// The step after `last` with this payload [kg].
+/// Lengths [m] for a wanted pose under a load, and the stable equilibrium there.
+fn start(
+    robot: &Robot,
+    wanted: &WantedPose,
+    load: &Load,
+) -> Result<(Vec<f64>, DirectSolution), StaticsError> {
+    let PoseLengths { lengths, equilibrium } = lengths_at(robot, wanted, load)?;
+    let problem = DirectProblem::new(robot, &lengths, load)?.with_unstable(Unstable::Refused);
+    let solution = problem.direct(DirectStart::Near(&equilibrium))?;
+    Ok((lengths, solution))
+}
+
+/// The step after `last`, from the first load to the second one.
 fn next_step(
     robot: &Robot,
     lengths: &[f64],
     last: &CycleStep,
     wheels: Option<&mut Wheels>,
-    payload: f64,
+    [begin, end]: &[Load; 2],
 ) -> Result<CycleStep, StaticsError> {
-    let [begin, end] = [last.payload, payload].map(Load::payload);
-    let solution = follow_load(robot, &last.lengths(lengths), (&begin, &last.solution), &end)?;
+    let solution = follow_load(robot, &last.lengths(lengths), (begin, &last.solution), end)?;
     let (solution, pulleys) = match wheels {
         None => (solution, Vec::new()),
-        Some(wheels) => wheels.next(robot, lengths, &end, solution, &last.pulleys)?,
+        Some(wheels) => wheels.next(robot, lengths, end, solution, &last.pulleys)?,
     };
-    Ok(CycleStep { payload, solution, pulleys })
+    Ok(CycleStep { payload: end.payload, solution, pulleys })
 }
 
 /// Work of gravity on the payload along the ways of a cycle [J], by the trapezoidal rule.

@@ -4,6 +4,7 @@ mod candidates;
 mod fit;
 mod identify;
 mod plan;
+mod pulleys;
 mod sensors;
 mod simulate;
 
@@ -42,6 +43,12 @@ pub(crate) enum Command {
   cdpr calibrate fit irma4u lengths-and-tensions.csv --parameters mass \
                       --unknown length_offset --noise length=1e-3,tension=2 --out calibration")]
     Fit(Box<fit::Settings>),
+    /// Find the friction of pulleys from tensions at the winches.
+    ///
+    /// Prints the coefficients that the measurements identify, or the sum of them that they do, and how far
+    /// the tensions are from the model.
+    #[command(after_help = "Example: cdpr calibrate pulleys expo2015-lucia load-cycle.csv --pose 0.2,0.1,2")]
+    Pulleys(Box<pulleys::Settings>),
 }
 
 pub(crate) fn run(command: &Command) -> Result<Ending, ProgramError> {
@@ -50,5 +57,6 @@ pub(crate) fn run(command: &Command) -> Result<Ending, ProgramError> {
         Command::Identify(settings) => identify::run(settings),
         Command::Simulate(settings) => simulate::run(settings),
         Command::Fit(settings) => fit::run(settings),
+        Command::Pulleys(settings) => pulleys::run(settings),
     }
 }

@@ -9,7 +9,7 @@ use std::path::Path;
 use std::process::Command;
 
 /// A good call of each command in the folder of all cases.
-const CALLS: [&str; 30] = [
+const CALLS: [&str; 31] = [
     "cable catenary weight=1,stiffness=1e6 --length 4.3 --end 4,-1",
     "inverse robot.json --pose 0,0,1.75",
     "direct robot.json --lengths 4.44,4.54,4.36,4.26,4.26,4.36,4.54,4.44",
@@ -32,6 +32,7 @@ const CALLS: [&str; 30] = [
     "calibrate plan robot.json --poses poses.txt --uncertainty a=2e-3 --noise lengths=1e-3 --number 2",
     "calibrate simulate robot.json --poses poses.txt --uncertainty study.json:table_3 \
      --noise length=1e-3 --seed 1 --out out/measured.csv",
+    "calibrate pulleys expo2015-lucia cycle.csv --pose 0,0,2",
     "derivatives robot.json --pose 0,0,1.75 --payload 50",
     "hysteresis robot.json --law law.json --pose 0,0,1.75 --payload 50",
     "cable density --mass 0.203 --length 2",
@@ -73,6 +74,8 @@ pub(super) fn prepare(folder: &Path) -> io::Result<()> {
     fs::write(folder.join("design.json"), design)?;
     fs::write(folder.join("events.json"), "[{\"t\": 0, \"payload\": 1}]")?;
     fs::write(folder.join("measured.csv"), format!("{header}{rows}"))?;
+    let cycle = "payload_kg,t1_winch_n,t1_n\n0,400,400\n10,440,410\n20,455,420\n10,390,410\n0,380,400\n";
+    fs::write(folder.join("cycle.csv"), cycle)?;
     fs::write(folder.join("points.csv"), "bx,by,bz,ax,ay,az\n1,1,1,0.1,0.1,0\n-1,1,1,-0.1,0.1,0\n")
 }
 

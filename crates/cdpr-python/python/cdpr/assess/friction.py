@@ -14,6 +14,8 @@ if TYPE_CHECKING:
 class FrictionFit:
     """Friction of pulleys from measured tensions; `content` has everything."""
 
+    _module = "cdpr.assess"
+
     def __init__(self, content: dict[str, Any]) -> None:
         #: All fields as lists.
         self.content = content
@@ -62,7 +64,7 @@ class FrictionFit:
                 f"{name} {value:.5f} +- {deviation:.5f}"
                 for name, (value, deviation) in (("friction", self.friction), ("bearing", self.bearing))
             )
-        return f"<cdpr.assess.FrictionFit: {said}>"
+        return f"<{self._module}.{type(self).__name__}: {said}>"
 
 
 def pulley_friction(

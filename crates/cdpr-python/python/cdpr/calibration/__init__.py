@@ -20,6 +20,7 @@ from __future__ import annotations
 from .campaigns import Campaign, simulate
 from .fitting import Calibrated, Residuals, calibrate
 from .planning import Combination, Identified, Plan, Quality, identify, plan
+from .pulleys import PulleyCalibration, calibrate_pulleys
 
 __all__ = [
     "Calibrated",
@@ -27,9 +28,11 @@ __all__ = [
     "Combination",
     "Identified",
     "Plan",
+    "PulleyCalibration",
     "Quality",
     "Residuals",
     "calibrate",
+    "calibrate_pulleys",
     "identify",
     "plan",
     "simulate",

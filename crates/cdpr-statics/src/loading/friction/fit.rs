@@ -53,7 +53,7 @@ pub struct FrictionFit {
 
 /// Ratio of the singular values below which μ and c differ by no more than terms of the third order, in which
 /// one law of friction is as good as the other.
-const SEPARABLE: f64 = 0.01;
+pub(super) const SEPARABLE: f64 = 0.01;
 
 /// Standard deviation beyond which a coefficient is not identified: that of a pulley is hardly greater.
 const UNCERTAIN: f64 = 0.1;
@@ -103,7 +103,7 @@ pub fn fit_friction(readings: &[WinchReading]) -> Result<FrictionFit, StaticsErr
 }
 
 /// The fit at its minimum, with the right singular vectors.
-fn concluded(
+pub(super) fn concluded(
     at: Vector2<f64>,
     v: Matrix2<f64>,
     singular_values: [f64; 2],

@@ -18,6 +18,7 @@ const SAME_LENGTH: f64 = 4.0 * f64::EPSILON;
 const NEAR_LENGTH: f64 = 1e-12;
 
 /// The pulleys of a robot along a load history.
+#[derive(Debug)]
 pub(crate) struct Wheels {
     friction: PulleyFriction,
     /// Approximation of `-dx/dF` for the lengths x = Δ and their residual F, by Broyden's updates.
@@ -32,9 +33,14 @@ impl Wheels {
     /// pulleys.
     pub(crate) fn new(robot: &Robot, friction: PulleyFriction) -> Result<Option<Self>, StaticsError> {
         friction.validate()?;
-        if friction.is_none() {
-            return Ok(None);
-        }
+        if friction.is_none() { Ok(None) } else { Self::on_pulleys(robot, friction).map(Some) }
+    }
+
+    /// Those of a robot, also without friction.
+    ///
+    /// # Errors
+    /// [`StaticsError::Invalid`] for a robot without pulleys.
+    pub(crate) fn on_pulleys(robot: &Robot, friction: PulleyFriction) -> Result<Self, StaticsError> {
         let wheels = robot.cables.iter().filter_map(|cable| cable.pulley);
         if wheels.filter(|pulley| pulley.radius > 0.0).count() == 0 {
             let (field, value) = match friction {
@@ -46,7 +52,7 @@ impl Wheels {
             return Err(StaticsError::invalid(field.to_owned(), value, expected));
         }
         let n = robot.cables.len();
-        Ok(Some(Self { friction, inverse: DMatrix::identity(n, n) }))
+        Ok(Self { friction, inverse: DMatrix::identity(n, n) })
     }
 
     /// The pulleys before a history: no slip, and the same tension on both sides.
