@@ -66,7 +66,9 @@ pub fn fit_friction_model<E: From<StaticsError>>(
     // Without friction: where the residuals want the best identified sum to be
     let along = &here.slopes * best;
     let wanted = along.dot(&here.residuals) / along.norm_squared();
-    let is_negative = at.amax() == 0.0 && wanted < -3.0 * noise / along.norm();
+    let unexplained = here.residuals.norm_squared() - wanted.powi(2) * along.norm_squared();
+    let deviation = (unexplained.max(0.0) / freedom as f64).sqrt() / along.norm();
+    let is_negative = at.amax() == 0.0 && wanted < -(3.0 * deviation).max(1e-9);
     if is_negative || at.x >= MOST.x || at.y >= MOST.y {
         let expected =
             "tensions greater at the winch than at the platform where cable runs towards the winch";

@@ -15,8 +15,8 @@ use std::path::{Path, PathBuf};
 /// The record and its specimen.
 #[derive(clap::Args)]
 pub(crate) struct Settings {
-    /// Record: a table with the columns force_n, elongation_mm, phase (loading or unloading); - for the
-    /// standard input.
+    /// Record of a whole loop: a table with the columns force_n, elongation_mm, phase (loading and unloading); -
+    /// for the standard input.
     record: PathBuf,
     /// Breaking force [N]; ranges of load are percentages of it.
     #[arg(long, value_parser = number, allow_hyphen_values = true)]
@@ -30,7 +30,10 @@ pub(crate) struct Settings {
     /// Range of load in percent of the breaking force, such as 10-30; may be given several times.
     #[arg(long = "range", value_parser = range, required = true)]
     ranges: Vec<(f64, f64)>,
-    /// Greatest errors in SI units: of each force [N] and elongation [m], of length [m] and section [m²].
+    /// Errors in SI units: of each force [N] and elongation [m], of length [m] and section [m²].
+    ///
+    /// Independent errors give a modulus one standard deviation where these are standard deviations. `greatest`
+    /// is where all of them add up.
     #[arg(long, value_parser = named, default_value = "force=1,elongation=3e-5,length=0,section=0")]
     errors: Named,
     /// File for a figure of the loop (.svg, .pdf, .png); behind its name: width=MM, untitled.
@@ -123,17 +126,17 @@ fn print(found: &Found) {
     for InRange { from_percent, to_percent, loading, .. } in found.ranges.iter().take(1) {
         let [modulus, error] = [loading.modulus_gpa, loading.standard_uncertainty_gpa];
         print_sentence(&format!(
-            "While loading, from {from_percent} to {to_percent} %: {modulus:.2} GPa, standard deviation \
-             {error:.2} GPa."
+            "While loading, from {from_percent} to {to_percent} %: {modulus:.2} GPa +- {error:.2} GPa, where \
+             errors are independent."
         ));
     }
     let mut rows = table(&[
         "range [%]",
         "loading [GPa]",
-        "standard",
+        "independent",
         "greatest",
         "unloading [GPa]",
-        "standard",
+        "independent",
         "greatest",
     ]);
     for range in &found.ranges {
