@@ -3,8 +3,8 @@
 //! `cargo run -p cdpr-study --example reconfiguration -- STUDY` evaluates every configuration at the poses of
 //! two samplings of the study. `cargo xtask caroca-study` runs it.
 //!
-//! The pulleys "can be displaced in a discrete manner" on a frame of 7 x 4 x 3 m (section 2 of the paper),
-//! which gives neither steps nor symmetry. Assumed are places in steps of 0.25 m inside that frame, whose
+//! The pulleys move in steps on a frame of 7 x 4 x 3 m (section 2 of the paper), which gives neither their
+//! size nor a symmetry. Assumed are places in steps of 0.25 m inside that frame, whose
 //! upper corners are the exit points of Table 1, and two sets of pulleys, those of the upper and those of the
 //! lower anchor points, each symmetric to both middle planes of the frame.
 //!
