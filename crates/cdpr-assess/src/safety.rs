@@ -36,6 +36,11 @@ pub struct Safety {
     pub lengths: Vec<f64>,
     /// Tension of each cable at the platform [N].
     pub tensions: Vec<f64>,
+    /// Tension of each cable at the exit point [N].
+    pub exit_tensions: Vec<f64>,
+    /// Least breaking force over greatest tension, and the index of that cable; `None` where no breaking
+    /// force is known.
+    pub safety_factor: Option<(f64, usize)>,
     /// Every cable that breaks alone, in the order of their numbers, then every pair, if asked for.
     pub broken: Vec<Broken>,
 }
@@ -140,7 +145,12 @@ pub fn safety_at(
         Broken { cables, rest, swing }
     };
     let broken = sets.into_iter().map(break_these).collect();
-    Ok(Safety { pose, lengths: held.lengths, tensions: held.tensions, broken })
+    let exit_tensions = held.equilibrium.exit_tensions(robot, &held.lengths);
+    let ends: Vec<[f64; 2]> =
+        held.tensions.iter().zip(&exit_tensions).map(|(at, exit)| [*at, *exit]).collect();
+    let safety_factor = safety_factor(robot, &(0..count).collect::<Vec<_>>(), &ends);
+    let InverseSolution { lengths, tensions, .. } = held;
+    Ok(Safety { pose, lengths, tensions, exit_tensions, safety_factor, broken })
 }
 
 /// Where the platform rests that is released at a pose without these cables.

@@ -56,3 +56,23 @@ fn what_is_not_known_is_not_said_to_end_badly() {
     assert_eq!(alone.status.code(), Some(3));
     assert!(printed.contains("does not bear every break: without cable 1 no cable is\nleft."), "{printed}");
 }
+
+#[test]
+fn the_table_begins_with_the_whole_robot_and_names_the_forces_that_its_factors_are_of() {
+    let folder = TempDir::new().unwrap();
+    let robot = point_mass(&folder, &FOUR, false);
+    let printed = text(cdpr(&["safety", &robot, "--pose", "0,0,1"]).stdout).replace('\n', " ");
+    assert!(printed.contains("no breaking force is known, so that there are no factors"), "{printed}");
+    let strong =
+        std::fs::read_to_string(&robot).unwrap().replace("\"section\"", "\"breaking_force\":600,\"section\"");
+    std::fs::write(&robot, strong).unwrap();
+    let call = ["safety", &robot, "--pose", "0,0,1"];
+    let (found, printed) = (answer(&call), text(cdpr(&call).stdout));
+    assert!(printed.contains("Allowed are 1000.0 N; the breaking force is 600.00 N."), "{printed}");
+    let exits = found["exit_tensions"].as_array().unwrap().iter().map(|tension| tension.as_f64().unwrap());
+    let greatest = exits.fold(0.0, f64::max);
+    assert_eq!(found["greatest_tension"]["tension"], greatest);
+    assert_eq!(found["safety_factor"], 600.0 / greatest);
+    let whole = printed.lines().find(|line| line.starts_with("│ none ")).unwrap();
+    assert!(whole.contains(&format!(" {:.2} ", 600.0 / greatest)), "{whole}");
+}

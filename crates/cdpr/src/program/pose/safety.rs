@@ -10,7 +10,7 @@ use crate::program::error::ProgramError;
 use crate::program::output::{Ending, print_sentence, table};
 use crate::program::pose::at_pose::{RobotAtPose, Row};
 use crate::program::pose::modes::with_inertia;
-use crate::program::pose::safety::case::{Case, Rest, Swinging};
+use crate::program::pose::safety::case::{Case, Greatest, Rest, Swinging, factor};
 use crate::program::pose::safety::weather::InWeather;
 use cdpr_assess::{Breaks, Broken, Safety, safety_at};
 use cdpr_robot::{Pose, Robot, significant};
@@ -45,7 +45,8 @@ pub(crate) fn run(Settings { at, free, with }: &Settings) -> Result<Ending, Prog
         let robot = if breaks.follow.is_some() { with_inertia(robot) } else { Cow::Borrowed(robot) };
         let found = safety_at(&robot, WantedPose::at(pose).free(&free.free), &load, breaks)?;
         let weather = weather.map(|weather| InWeather::new(&robot, &found, &load, &weather)).transpose()?;
-        Ok(Answer { found_pose: free.found(&found.pose), in_weather: weather, ..Answer::from(found) })
+        let found_pose = free.found(&found.pose);
+        Ok(Answer { found_pose, in_weather: weather, ..Answer::new(&robot, found) })
     };
     at.answer(solve, Answer::print)
 }
@@ -62,8 +63,16 @@ fn above_zero(text: &str) -> Result<f64, String> {
 struct Answer {
     /// Unstrained lengths, which the winches keep [m].
     lengths: Vec<f64>,
-    /// Tensions before the break [N].
+    /// Tensions before the break at the platform and at the exit points [N].
     tensions: Vec<f64>,
+    exit_tensions: Vec<f64>,
+    /// Greatest tension allowed, and breaking force of each cable, `null` where it is not known [N].
+    greatest_allowed: Vec<f64>,
+    breaking_forces: Vec<Option<f64>>,
+    /// The greatest tension before the break, and the least breaking force over greatest tension; `null` where
+    /// no breaking force is known.
+    greatest_tension: Greatest,
+    safety_factor: Option<f64>,
     broken: Vec<Case>,
     /// The pose with its free coordinates as they are found.
     #[serde(skip_serializing_if = "Option::is_none", serialize_with = "as_numbers")]
@@ -73,21 +82,27 @@ struct Answer {
     in_weather: Option<InWeather>,
 }
 
-impl From<Safety> for Answer {
-    fn from(Safety { lengths, tensions, broken, .. }: Safety) -> Self {
+impl Answer {
+    fn new(robot: &Robot, found: Safety) -> Self {
+        let Safety { lengths, tensions, exit_tensions, safety_factor, broken, .. } = found;
         let all = lengths.len();
         let case = |of: Broken| Case { falls: of.cables.len() == all, ..Case::from(of) };
+        let ends = tensions.iter().zip(&exit_tensions).map(|(at, exit)| at.max(*exit));
+        let greatest = (1..).zip(ends).max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((1, 0.0));
         Self {
             lengths,
             tensions,
+            exit_tensions,
+            greatest_allowed: (0..all).map(|i| robot.limits(i).max).collect(),
+            breaking_forces: robot.cables.iter().map(|cable| cable.properties.breaking_force).collect(),
+            greatest_tension: Greatest { cable: greatest.0, tension: greatest.1 },
+            safety_factor: safety_factor.map(|(factor, _)| factor),
             broken: broken.into_iter().map(case).collect(),
             found_pose: None,
             in_weather: None,
         }
     }
-}
 
-impl Answer {
     /// The case that is greatest by a figure, with the figure.
     fn greatest(&self, figure: impl Fn(&Rest) -> f64) -> Option<(f64, &Case)> {
         let found = self.broken.iter().filter_map(|case| Some((figure(case.rest.as_ref()?), case)));
@@ -156,6 +171,26 @@ impl Answer {
         [Some(first + &unknown), moved, tension, peak].into_iter().flatten().collect()
     }
 
+    /// What tensions are compared with.
+    fn strength(&self) -> String {
+        let all = |values: &[f64]| {
+            let least = values.iter().copied().fold(f64::INFINITY, f64::min);
+            let greatest = values.iter().copied().fold(0.0, f64::max);
+            let [least, greatest] = [least, greatest].map(|force| significant(force, 5));
+            if least == greatest { format!("{least} N") } else { format!("{least} to {greatest} N") }
+        };
+        let allowed = all(&self.greatest_allowed);
+        let known: Vec<f64> = self.breaking_forces.iter().copied().flatten().collect();
+        let strength = match known.len() {
+            0 => "no breaking force is known, so that there are no factors".to_owned(),
+            some if some < self.breaking_forces.len() => {
+                format!("the breaking force, known of {some} cables, is {}", all(&known))
+            }
+            _ => format!("the breaking force is {}", all(&known)),
+        };
+        format!("Allowed are {allowed}; {strength}.")
+    }
+
     fn print(&self, heading: &str) {
         let in_weather = self.in_weather.iter().flat_map(|weather| weather.sentences(heading));
         for sentence in in_weather.chain(self.sentences(heading)) {
@@ -168,11 +203,22 @@ impl Answer {
             }
             false => &["broken", "moves [m]", "turns [deg]", "greatest [N]", "in cable", "factor", ""],
         });
+        let Greatest { cable, tension } = self.greatest_tension;
+        let (still, tension) = ("0".to_owned(), significant(tension, 4));
+        let [cable, least] = [cable.to_string(), factor(self.safety_factor)];
+        rows.add_row(match followed {
+            true => {
+                ["none".to_owned(), still, tension, String::new(), String::new(), cable, least, String::new()]
+                    .to_vec()
+            }
+            false => ["none".to_owned(), still.clone(), still, tension, cable, least, String::new()].to_vec(),
+        });
         for case in &self.broken {
             let cells = if followed { case.with_swing() } else { case.at_rest() };
             rows.add_row([numbers(&case.cables)].into_iter().chain(cells).chain([case.remark()]));
         }
         println!("{rows}");
+        print_sentence(&self.strength());
         print_sentence(if followed {
             "The winches stand still. Swings and peaks are those of the time followed, without damping."
         } else {
