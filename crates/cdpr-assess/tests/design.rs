@@ -225,6 +225,7 @@ fn wrong_files_are_refused_with_field_value_and_what_is_right() {
         ("/variables/0/parameters", json!(["c1.x", "b2.x"]), "variables[0].parameters[0] is c1.x: expected"),
         ("/variables/0/parameters", json!(["b3.x", "b2.x"]), "a parameter of this robot with 2 cables"),
         ("/variables/0/parameters", json!(["dt1", "b2.x"]), "no dt and no tilt"),
+        ("/variables/0/parameters", json!(["a1.x", "b2.x"]), "no anchor point: those of a point mass"),
         ("/variables/0/parameters", json!(["b1.x", "b1.x"]), "a parameter of one variable alone"),
         ("/variables/0/parameters", json!(["b1.x"]), "variables[0].signs is [1.0, -1.0]: expected 1 or -1"),
         ("/variables/0/signs", json!([1, 0.5]), "variables[0].signs is [1.0, 0.5]"),

@@ -2,6 +2,7 @@
 
 use crate::common::{cdpr, data_path, text, unwrapped};
 use crate::models::answer;
+use crate::safety::point_mass;
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -103,4 +104,22 @@ fn a_shaper_that_is_left_out_is_named() {
         summary.contains("\nNo shaper: of those that take less than 0.2 s none leaves less"),
         "{summary}"
     );
+}
+
+/// A shaper makes the profile faster, and cables slack, of which the linear motions that it is for know nothing.
+#[test]
+fn a_shaper_that_makes_cables_slack_and_the_swing_worse_is_said_to() {
+    let folder = TempDir::new().unwrap();
+    let exits = [[-3.0, -2.0, 5.0], [3.0, -2.0, 5.0], [0.0, 3.0, 5.5]];
+    let robot = point_mass(&folder, &exits, false);
+    let heavier = std::fs::read_to_string(&robot).unwrap().replace("\"mass\":10", "\"mass\":30");
+    std::fs::write(&robot, heavier.replace("1e9", "4.8e10").replace("1000000000.0", "4.8e10")).unwrap();
+    let poses = folder.path().join("poses.csv");
+    std::fs::write(&poses, "x_m,y_m,z_m\n-0.5,0,2\n0.5,0.3,2.5\n").unwrap();
+    let plan = ["path", &robot, "--poses", poses.to_str().unwrap(), "--with"];
+    let worse = cdpr(&[&plan[..], &["seconds=1,shaper=ei,modes=3,damping=1e-3,residual=0.5"]].concat());
+    let said = text(worse.stdout).replace('\n', " ");
+    assert_eq!(worse.status.code(), Some(3), "{said}");
+    assert!(said.contains("The shaper makes it worse: take more seconds, fewer modes or none."), "{said}");
+    assert!(said.contains(" times)") && !said.contains("without both: "), "{said}");
 }

@@ -70,6 +70,9 @@ pub(crate) fn variables(specs: &[VariableSpec], robot: &Robot) -> Result<Vec<Var
                     );
                     return wrong(&of, name, expected);
                 }
+                Some(Parameter::AnchorPoint(..)) if robot.platform.point => {
+                    return wrong(&of, name, "no anchor point: those of a point mass are at it");
+                }
                 Some(parameter) if taken.insert(parameter) => parameters.push((parameter, sign * signs[0])),
                 Some(_) => return wrong(&of, name, "a parameter of one variable alone"),
             }

@@ -142,7 +142,8 @@ pub(super) fn run(
         let simulated = plain.watched(seconds, wanted.damping)?;
         let unshaped = plain.plan()?;
         let after = |points: &[SetPoint]| residual(&robot, &plain.load, points, &[], &simulated);
-        answer.residual = Some(After::new(&after(&set_points)?, &after(&unshaped)?, simulated.until));
+        answer.residual =
+            Some(After::new(&planned, &after(&set_points)?, &after(&unshaped)?, simulated.until));
         if let (Some(model), Some(seed)) = (&model, wanted.seed) {
             let count = wanted.robots.unwrap_or(ROBOTS);
             let drawn = DrawnRobots { nominal: &robot, model, count, seed };

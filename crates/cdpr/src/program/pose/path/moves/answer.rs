@@ -1,12 +1,12 @@
 //! What is printed of a move.
 
-use crate::program::answer::OutOfLimits;
+use crate::program::answer::{OutOfLimits, numbers};
 use crate::program::arguments::Printing;
 use crate::program::error::ProgramError;
 use crate::program::output::{Ending, print_sentence};
 use crate::program::pose::at_pose::numbered;
 use cdpr_assess::{Compared, ratio_of_best};
-use cdpr_dynamics::moves::{Excited, Move, Residual, SetPoint};
+use cdpr_dynamics::moves::{Excited, Move, Residual, SetPoint, Shaper};
 use cdpr_robot::{Robot, broken, counted, shown, significant};
 use serde::Serialize;
 
@@ -66,8 +66,12 @@ pub(super) struct After {
     unshaped_deviation_m: f64,
     /// Greatest difference to a coarser computation.
     difference_m: f64,
-    /// Numbers of the cables that lost their tension, from 1.
+    /// Numbers of the cables that lose their tension, from 1, and of those that do without both.
     slack_cables: Vec<usize>,
+    unshaped_slack_cables: Vec<usize>,
+    /// Whether the move has a shaper.
+    #[serde(skip)]
+    is_shaped: bool,
 }
 
 /// What robots leave that are drawn from the error model.
@@ -78,7 +82,7 @@ pub(super) struct Robots {
     failed: usize,
     #[serde(skip_serializing_if = "Option::is_none")]
     reason: Option<String>,
-    /// Robots of which a cable lost its tension.
+    /// Robots of which a cable loses its tension.
     slack: usize,
     /// As many leave at most `ratio` of what they leave without shaper and feed-forward.
     best: usize,
@@ -104,11 +108,9 @@ fn percent(ratio: f64) -> String {
 }
 
 impl After {
-    pub(super) fn new(left: &Residual, without: &Residual, watched_s: f64) -> Self {
+    pub(super) fn new(planned: &Move, left: &Residual, without: &Residual, watched_s: f64) -> Self {
         let ratio = left.amplitude / without.amplitude;
-        let mut slack_cables: Vec<usize> = left.slack.iter().chain(&without.slack).map(|i| i + 1).collect();
-        slack_cables.sort_unstable();
-        slack_cables.dedup();
+        let from_one = |of: &Residual| of.slack.iter().map(|i| i + 1).collect();
         Self {
             watched_s,
             amplitude_m: left.amplitude,
@@ -117,7 +119,9 @@ impl After {
             deviation_m: left.deviation,
             unshaped_deviation_m: without.deviation,
             difference_m: left.difference.max(without.difference),
-            slack_cables,
+            slack_cables: from_one(left),
+            unshaped_slack_cables: from_one(without),
+            is_shaped: planned.shaper != Shaper::default(),
         }
     }
 
@@ -134,10 +138,20 @@ impl After {
             mm(self.unshaped_deviation_m),
             mm(self.difference_m)
         ));
-        if !self.slack_cables.is_empty() {
-            let cables: Vec<_> = self.slack_cables.iter().map(ToString::to_string).collect();
-            println!("Cables that lost their tension: {}.", cables.join(", "));
+        if self.is_worse() {
+            print_lines("The shaper makes it worse: take more seconds, fewer modes or none.");
         }
+        for (slack, when) in [(&self.slack_cables, ""), (&self.unshaped_slack_cables, ", without both")] {
+            if !slack.is_empty() {
+                println!("Cables that lose their tension{when}: {}.", numbers(slack));
+            }
+        }
+    }
+
+    /// Whether P swings more with a shaper, by more than the computation may be off: a linear motion, for
+    /// which it is chosen, does not know slack cables.
+    fn is_worse(&self) -> bool {
+        self.is_shaped && self.amplitude_m > self.unshaped_amplitude_m + self.difference_m
     }
 }
 
@@ -153,7 +167,7 @@ impl Robots {
             drawn,
             failed: drawn - followed().count(),
             reason: compared.iter().find_map(|one| one.as_ref().err().map(ToString::to_string)),
-            slack: followed().filter(|both| both.iter().any(|one| !one.slack.is_empty())).count(),
+            slack: followed().filter(|both| !both[1].slack.is_empty()).count(),
             best,
             ratio: finite(best),
             worst_ratio: finite(drawn),
@@ -180,7 +194,7 @@ impl Robots {
             None => println!("Fewer than {best} of {drawn} robots could be followed."),
         }
         if *slack > 0 {
-            println!("Robots of which a cable lost its tension: {slack}.");
+            println!("Robots of which a cable loses its tension: {slack}.");
         }
         if let Some(reason) = &self.reason {
             print_lines(&format!(
@@ -229,7 +243,8 @@ impl Answer {
 
     pub(super) fn ending(&self) -> Ending {
         let failed = self.robots.as_ref().is_some_and(|robots| robots.failed > 0);
-        let ending = if failed { Ending::SomethingWrong } else { Ending::Well };
+        let is_worse = self.residual.as_ref().is_some_and(After::is_worse);
+        let ending = if failed || is_worse { Ending::SomethingWrong } else { Ending::Well };
         ending.and(OutOfLimits::ending(&self.out_of_limits))
     }
 
@@ -250,7 +265,19 @@ impl Answer {
         let (way, seconds) = (significant(self.way_m, 4), self.seconds);
         print_sentence(&format!("{name}: {way} m in {seconds} s, {}", counted(set_points, "set point")));
         if let ([.., [duration, _]], false) = (&self.impulses[..], self.shaped.is_empty()) {
-            let of: Vec<_> = self.shaped.iter().map(|mode| significant(mode.frequency_hz, 4)).collect();
+            // A motion may have several, which makes the shaper less sensitive.
+            let mut of: Vec<(String, usize)> = Vec::new();
+            for mode in &self.shaped {
+                let name = significant(mode.frequency_hz, 4);
+                match of.iter_mut().find(|(known, _)| *known == name) {
+                    Some((_, times)) => *times += 1,
+                    None => of.push((name, 1)),
+                }
+            }
+            let of = of
+                .into_iter()
+                .map(|(name, times)| if times > 1 { format!("{name} ({times} times)") } else { name });
+            let of: Vec<_> = of.collect();
             let impulses = counted(self.impulses.len(), "impulse");
             print_lines(&format!(
                 "Shaper for {} Hz: {impulses} in {} s.",
