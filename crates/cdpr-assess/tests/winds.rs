@@ -60,6 +60,19 @@ fn a_robot_that_is_turned_has_its_worst_wind_turned() {
 }
 
 #[test]
+fn wind_is_horizontal_over_a_base_that_is_tilted() {
+    let (robot, pose) = (stadium(), Pose::at(20.0, 10.0, 12.0));
+    let turn = Rotation3::new(Vector3::new(0.3, -0.2, 0.5));
+    let mut turned = robot.clone();
+    turned.cables.iter_mut().for_each(|cable| cable.exit_point = turn * cable.exit_point);
+    turned.gravity = (turn * robot.gravity.vector()).into();
+    let there = Pose { position: turn * pose.position, rotation: turn * pose.rotation };
+    let [one, other] = [blown(&robot, &pose, &any(15.0)), blown(&turned, &there, &any(15.0))];
+    let [one, other] = [&one, &other].map(|winds| winds.farthest().unwrap().moved());
+    assert!((one - other).abs() < 1e-5 * one, "{one} {other}");
+}
+
+#[test]
 fn each_position_of_a_map_has_its_worst_wind() {
     let robot = stadium();
     let load = Load::payload(5.0);
