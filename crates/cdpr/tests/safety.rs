@@ -74,5 +74,5 @@ fn the_table_begins_with_the_whole_robot_and_names_the_forces_that_its_factors_a
     assert_eq!(found["greatest_tension"]["tension"], greatest);
     assert_eq!(found["safety_factor"], 600.0 / greatest);
     let whole = printed.lines().find(|line| line.starts_with("│ none ")).unwrap();
-    assert!(whole.contains(&format!(" {:.2} ", 600.0 / greatest)), "{whole}");
+    assert!(whole.contains(&format!(" {:.1} ", 600.0 / greatest)), "{whole}");
 }
