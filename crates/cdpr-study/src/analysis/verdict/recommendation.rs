@@ -152,19 +152,16 @@ pub(crate) fn recommend(
     let rank = |of: &Candidate| {
         let settled = of.settled();
         let is_certain = settled > 0 && of.basis != Basis::Expansion;
-        let orders = matches!(of.said, Said::Values(_));
-        (!is_certain, settled == 0, !orders, std::cmp::Reverse(settled), of.basis)
+        let is_order = matches!(of.said, Said::Values(_));
+        (!is_certain, settled == 0, !is_order, std::cmp::Reverse(settled), of.basis)
     };
     candidates.sort_by_key(rank);
     // Where points of derivatives cannot settle the others, blocks may.
     let of_blocks = candidates.iter().find(|of| of.basis == Basis::Sobol).and_then(Candidate::remedy);
     let first = candidates.into_iter().next()?;
-    let is_bound = first.basis == Basis::Derivatives && first.wanted().is_none();
-    let mut found = first.recommendation(names, confidence);
-    if let Some(of_blocks) = of_blocks.filter(|_| is_bound && found.remedy.is_some()) {
-        found.remedy = Some(of_blocks);
-    }
-    Some(found)
+    let remedy = of_blocks.filter(|_| first.basis == Basis::Derivatives && first.wanted().is_none());
+    let found = first.recommendation(names, confidence);
+    Some(Recommendation { remedy: remedy.or(found.remedy), ..found })
 }
 
 impl TotalBounds {
@@ -282,7 +279,7 @@ impl Candidate {
         if bounds.iter().all(|of| of.standing() != Standing::Open) {
             return None;
         }
-        let more = |count: usize| (count.saturating_sub(self.count)) * self.observations;
+        let more = |count: usize| count.saturating_sub(self.count) * self.observations;
         Some(match (self.basis, self.wanted()) {
             (Basis::Derivatives, Some(count)) => format!(
                 "To settle it: about {} more points with derivatives \
@@ -362,22 +359,16 @@ mod tests {
 
     #[test]
     fn blocks_settle_what_derivatives_cannot() {
-        let certain = || bounds(0.9, 0.95, 0.95, 0.97);
-        let derivatives =
-            |of: [TotalBounds; 2]| candidate(Basis::Derivatives, 64, [vec![certain()], of.to_vec()].concat());
-        let apart = bounds(0.0, 0.001, 0.9, 1.0);
-        let blocks =
-            |of: [TotalBounds; 2]| candidate(Basis::Sobol, 64, [vec![certain()], of.to_vec()].concat());
-        let found = |of| recommend(&names(3), of, 0.95).unwrap();
-        let settled = found(vec![derivatives([apart; 2]), blocks([certain(), bounds(0.0, 0.0, 0.0, 0.001)])]);
+        let (certain, apart) = (bounds(0.9, 0.95, 0.95, 0.97), bounds(0.0, 0.001, 0.9, 1.0));
+        let found = |blocks: TotalBounds| {
+            let derivatives = candidate(Basis::Derivatives, 64, vec![certain, apart]);
+            let blocks = candidate(Basis::Sobol, 64, vec![certain, blocks]);
+            recommend(&names(2), vec![derivatives, blocks], 0.95).unwrap()
+        };
+        let settled = found(bounds(0.0, 0.0, 0.0, 0.001));
         assert_eq!((settled.basis, settled.remedy), (Basis::Sobol, None));
-        // Both settle the first one alone: the bounds that are exact, and the blocks that settle the others.
-        let open = bounds(0.0, 0.1, 0.1, 0.2);
-        let both = found(vec![derivatives([apart; 2]), blocks([open; 2])]);
-        assert_eq!(both.basis, Basis::Derivatives);
-        assert!(both.remedy.unwrap().contains("`sensitivity.saltelli_blocks`: 128"));
-        let expansion = candidate(Basis::Expansion, 64, vec![certain(); 3]);
-        assert_eq!(found(vec![derivatives([apart; 2]), expansion]).basis, Basis::Derivatives);
+        let open = found(bounds(0.0, 0.1, 0.1, 0.2)).remedy.unwrap();
+        assert!(open.contains("`sensitivity.saltelli_blocks`: 128"), "{open}");
     }
 
     #[test]
