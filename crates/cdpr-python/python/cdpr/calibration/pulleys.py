@@ -20,7 +20,9 @@ class PulleyCalibration(FrictionFit):
     _module = "cdpr.calibration"
 
     def __init__(self, content: dict[str, Any]) -> None:
-        pair = lambda of: [of["value"], of["std"]]
+        def pair(of: Mapping[str, float]) -> list[float]:
+            return [of["value"], of["std"]]
+
         both = [content["friction"], content["bearing"]]
         found = {
             "coefficients": None if None in both else [pair(of) for of in both],
