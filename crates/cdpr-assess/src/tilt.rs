@@ -33,11 +33,15 @@ pub struct TiltTowards {
     pub angle: f64,
 }
 
+/// The rotation from the level frame to the base frame.
+pub(crate) fn to_base(robot: &Robot) -> Matrix3<f64> {
+    robot.gravity.level().map_or_else(Matrix3::identity, Matrix3::transpose)
+}
+
 impl TiltTowards {
     /// A pose tilted by this.
     pub fn of(&self, robot: &Robot, pose: &Pose) -> Pose {
-        let to_base = robot.gravity.level().map_or_else(Matrix3::identity, Matrix3::transpose);
-        let axis = to_base * Vector3::new(-self.azimuth.sin(), self.azimuth.cos(), 0.0);
+        let axis = to_base(robot) * Vector3::new(-self.azimuth.sin(), self.azimuth.cos(), 0.0);
         Pose { rotation: Rotation3::new(self.angle * axis) * pose.rotation, ..*pose }
     }
 

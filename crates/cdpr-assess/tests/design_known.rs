@@ -5,9 +5,9 @@ use cdpr_evidence::accept;
 use cdpr_robot::Robot;
 use serde_json::json;
 
-/// With the cables at the angle θ to the horizontal, `T = W/(2 sin θ)`, `L = H/sin θ` and `EA (1 + T/EA)/L` along a
-/// cable, the stiffness along x is `2/L (EA (1 + T/EA) cos²θ + T sin²θ) = (2 EA sin θ cos²θ + W)/H`, which is
-/// greatest at tan²θ = 1/2, `h = √2 H`, whatever W is.
+/// With the cables at the angle θ to the horizontal, `T = W/(2 sin θ)`, `L = H/sin θ` and `EA (1 + T/EA)/L`
+/// along a cable, the stiffness along x is `2/L (EA (1 + T/EA) cos²θ + T sin²θ)`, that is
+/// `(2 EA sin θ cos²θ + W)/H`. It is greatest at tan²θ = 1/2, `h = √2 H`, whatever W is.
 #[test]
 fn a_mass_on_two_cables_is_stiffest_sideways_at_the_square_root_of_two_from_every_seed() {
     let mut worst = 0.0_f64;
@@ -26,11 +26,11 @@ fn a_mass_on_two_cables_is_stiffest_sideways_at_the_square_root_of_two_from_ever
     accept("V-DESIGN-001", worst);
 }
 
-/// A point mass in the middle of four cables from the corners `(±w, ±h)` of a rectangle, without gravity: with
-/// the force T in each and `k = EA (1 + T/EA)/L`, the stiffness is `4 (k w² + T h²/L)/L²` along x and
-/// `4 (k h² + T w²/L)/L²` along z. For a given h the first one grows with w up to `√2 h` and the second one
-/// falls, so that the lower of both is greatest where they are equal: in the square, where the wrench matrix is
-/// isotropic, its condition number 1.
+/// A point mass in the middle of four cables from the corners `(±w, ±h)` of a rectangle, without gravity:
+/// with the force T in each and `k = EA (1 + T/EA)/L`, the stiffness is `4 (k w² + T h²/L)/L²` along x and
+/// `4 (k h² + T w²/L)/L²` along z. For a given h the first one grows with w up to `√2 h` and the second
+/// falls. The lower of both is therefore greatest where they are equal: in the square, where the wrench
+/// matrix is isotropic, its condition number 1.
 #[test]
 fn a_mass_between_four_cables_is_stiffest_in_the_square_whose_dexterity_is_one() {
     let (h, corners) = (1.5, [[-1.0, -1.0], [1.0, -1.0], [-1.0, 1.0], [1.0, 1.0]]);

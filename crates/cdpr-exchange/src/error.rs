@@ -50,7 +50,7 @@ pub enum ExchangeError {
         /// What would be right.
         expected: String,
     },
-    /// A table is none, or a cell of it no number.
+    /// A file that is not a table, or a cell that is not a number.
     #[error("{file}, {source}")]
     Table {
         /// The file.

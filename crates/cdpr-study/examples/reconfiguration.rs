@@ -53,6 +53,8 @@ struct AtPose {
 struct Configuration {
     sets: [Place; 2],
     poses: [Option<AtPose>; 2],
+    /// Whether it is evaluated: some cables may balance the platform at the first pose.
+    evaluated: bool,
     /// Whether something else is why a pose is not observed.
     failed: bool,
 }
@@ -71,10 +73,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     let seconds = clock.elapsed().as_secs_f64();
     print_counts(&all, places.len());
     print_rankings(&samplings, &all)?;
-    let rate = all.len() as f64 / seconds;
+    let rate = all.iter().filter(|of| of.evaluated).count() as f64 / seconds;
     println!(
-        "\nPlaces: half length, half width, height [m]; deflection ± standard deviation of the first order.\n\
-         {} configurations a second with all derivatives, on {} threads",
+        "\nPlaces: half length, half width, height [m]; deflection ± standard deviation, first order.\n\
+         {} evaluated configurations a second with all derivatives, on {} threads",
         significant(rate, 2),
         rayon::current_num_threads()
     );
@@ -112,8 +114,8 @@ fn placed(robot: &Robot, sets: [Place; 2]) -> Robot {
     placed
 }
 
-/// All configurations with one place of the upper set, the lower sets of a height together; the second pose of
-/// those that hold the first one.
+/// All configurations with one place of the upper set, the lower sets of a height together; the second pose
+/// of those that hold the first one.
 fn with_upper(
     samplings: &[Sampling; 2],
     upper: Place,
@@ -125,6 +127,7 @@ fn with_upper(
         all.extend(level.iter().map(|lower| Configuration {
             sets: [upper, *lower],
             poses: [None; 2],
+            evaluated: false,
             failed: false,
         }));
         for (k, sampling) in samplings.iter().enumerate() {
@@ -136,14 +139,15 @@ fn with_upper(
                 of.failed |=
                     matches!(&found, Err(error) if !matches!(error, StaticsError::NoTensions { .. }));
                 of.poses[k] = found.ok();
+                of.evaluated = true;
             }
         }
     }
     Ok(all)
 }
 
-/// Whether some exit is farther than its anchor point in each direction of the horizontal plane, and some exit
-/// is above: a cable pulls towards its exit there, and its weight down, so that all others hold no platform.
+/// Whether some exit is farther than its anchor point in each direction of the horizontal plane, and some
+/// exit is above: a cable pulls towards its exit there, and its weight down, so that all others hold no platform.
 fn can_balance(sampling: &Sampling, sets: [Place; 2]) -> bool {
     let robot = sampling.robot;
     let is_there = |axis: Axis, sign: f64| {
@@ -192,8 +196,8 @@ fn observed(
     Ok(observer.observe(&deviations).into_iter().map(|of| of.map(at_pose)).collect())
 }
 
-/// Standard deviation of the first observations of a sampling in a configuration [mm]; `None` where one of them
-/// fails.
+/// Standard deviation of the first observations of a sampling in a configuration [mm]; `None` where one of
+/// them fails.
 fn sampled(sampling: &Sampling, sets: [Place; 2], observations: usize) -> Result<Option<f64>, StaticsError> {
     let robot = placed(sampling.robot, sets);
     let observer = Observer::new(&robot, sampling.pose, &sampling.load)?;
@@ -216,10 +220,12 @@ fn print_counts(all: &[Configuration], places: usize) {
     let lanes: usize = (0..2).map(|k| held(k).filter(|of| of.in_lanes).count()).sum();
     let [one, two] = [held(0).count(), held(1).count()];
     println!(
-        "{} configurations, all evaluated: {places} places of each of two sets of four pulleys (those of the upper\n\
-         and of the lower anchor points), in steps of {STEP} m: half length {} to {} m, half width {} to {} m,\n\
-         height {} to {} m. Steps, symmetry and places are assumed.",
+        "{} configurations, {} of them evaluated; the others have no exit on one side of the platform,\n\
+         or none above, and hold nothing. {places} places of each of two sets of four pulleys (those of\n\
+         the upper and of the lower anchor points), in steps of {STEP} m: half length {} to {} m, half\n\
+         width {} to {} m, height {} to {} m. Steps, symmetry and places are assumed.",
         all.len(),
+        all.iter().filter(|of| of.evaluated).count(),
         LEAST[0],
         GREATEST[0],
         LEAST[1],
@@ -228,8 +234,8 @@ fn print_counts(all: &[Configuration], places: usize) {
         GREATEST[2]
     );
     println!(
-        "{one} hold the symmetric pose, {two} of them the non-symmetric one ({:.1} % found in lanes); {} fail for\n\
-         another reason than tensions.",
+        "{one} hold the symmetric pose, {two} of them the non-symmetric one ({:.1} % found in lanes);\n\
+         {} fail for another reason than tensions.",
         100.0 * lanes as f64 / (one + two) as f64,
         all.iter().filter(|of| of.failed).count()
     );
@@ -249,8 +255,8 @@ fn print_rankings(samplings: &[Sampling; 2], all: &[Configuration]) -> Result<()
     let found: Vec<Option<f64>> = both.par_iter().map(rank).collect::<Result<_, StaticsError>>()?;
     let at_both: Vec<Ranked> = found.iter().zip(&both).filter_map(|(std, of)| Some(((*std)?, *of))).collect();
     println!(
-        "\nBoth poses, by the greater standard deviation of {TRIED} observations [mm]: {} configurations; {} others\n\
-         lose a pose in one of these observations",
+        "\nBoth poses, by the greater standard deviation of {TRIED} observations [mm]:\n\
+         {} configurations; {} others lose a pose in one of these observations",
         at_both.len(),
         both.len() - at_both.len()
     );

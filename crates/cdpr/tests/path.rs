@@ -32,7 +32,8 @@ fn rows_of(arguments: &[&str]) -> String {
     let said = unwrapped(output.stderr);
     assert!(output.status.success(), "{said}");
     let (first, rest) = said.split_once('\n').unwrap();
-    assert!(first.contains(" poses held, ") && first.len() <= 80, "{said}");
+    let tensions = if arguments.contains(&"--payload") { "unloaded at" } else { "tensions" };
+    assert!(first.contains(&format!(" poses held, {tensions} ")) && first.len() <= 80, "{said}");
     assert!(rest.is_empty(), "{said}");
     text(output.stdout)
 }

@@ -68,7 +68,10 @@ fn the_table_begins_with_the_whole_robot_and_names_the_forces_that_its_factors_a
     std::fs::write(&robot, strong).unwrap();
     let call = ["safety", &robot, "--pose", "0,0,1"];
     let (found, printed) = (answer(&call), text(cdpr(&call).stdout));
-    assert!(printed.contains("Allowed are 1000.0 N; the breaking force is 600.00 N."), "{printed}");
+    assert!(
+        printed.contains("The greatest tension allowed is 1000.0 N; the breaking force is 600.00 N."),
+        "{printed}"
+    );
     let exits = found["exit_tensions"].as_array().unwrap().iter().map(|tension| tension.as_f64().unwrap());
     let greatest = exits.fold(0.0, f64::max);
     assert_eq!(found["greatest_tension"]["tension"], greatest);

@@ -6,7 +6,8 @@
 //! proven.
 
 use crate::inspection::is_below_floor;
-use cdpr_robot::{Matrix3, Pose, Robot, UnitQuaternion, Vector3};
+use crate::tilt::to_base;
+use cdpr_robot::{Pose, Robot, UnitQuaternion, Vector3};
 use cdpr_statics::limits::{Limit, OutOfLimits, tensions_out_of_limits};
 use cdpr_statics::weather::{RestInWeather, Weather, Wind};
 use cdpr_statics::{DirectProblem, DirectSolution, DirectStart, Load, StaticsError};
@@ -119,8 +120,7 @@ pub fn winds(
     let Some(speed) = *speed else {
         return sorted(vec![(None, blown.by(None, &weather.wind))]);
     };
-    // The base may be tilted.
-    let to_base = robot.gravity.level().map_or_else(Matrix3::identity, Matrix3::transpose);
+    let to_base = to_base(robot);
     let by = |azimuth: f64| {
         let velocity = speed * to_base * Vector3::new(azimuth.cos(), azimuth.sin(), 0.0);
         let wind = weather.wind.with_velocity(velocity);

@@ -188,7 +188,7 @@ impl Answer {
             }
             _ => format!("the breaking force is {}", all(&known)),
         };
-        format!("Allowed are {allowed}; {strength}.")
+        format!("The greatest tension allowed is {allowed}; {strength}.")
     }
 
     fn print(&self, heading: &str) {
