@@ -37,10 +37,13 @@ fn documented() -> BTreeMap<String, BTreeSet<String>> {
         .collect()
 }
 
-/// All packages but that of these tests.
+/// All packages but those of these tests and of the fuzz targets.
 fn packages() -> impl Iterator<Item = Package> {
     let metadata = MetadataCommand::new().no_deps().exec().unwrap();
-    metadata.packages.into_iter().filter(|package| package.name.as_str() != "cdpr-tests")
+    metadata
+        .packages
+        .into_iter()
+        .filter(|package| !["cdpr-tests", "cdpr-fuzz"].contains(&package.name.as_str()))
 }
 
 #[test]

@@ -70,7 +70,8 @@ fn crates(folder: &Path) -> Outcome {
     let mut package = cargo_command(&["package", "--workspace", "--locked", "--no-verify", "--allow-dirty"]);
     // What is not published.
     package.args(
-        ["xtask", "cdpr-tests", "cdpr-python", "cdpr-evidence"].map(|name| format!("--exclude={name}")),
+        ["xtask", "cdpr-tests", "cdpr-fuzz", "cdpr-python", "cdpr-evidence"]
+            .map(|name| format!("--exclude={name}")),
     );
     // A folder without packages of other versions.
     done(package.arg("--target-dir").arg(&into))?;

@@ -17,6 +17,7 @@ use cdpr_statics::limits::{OutOfLimits, tensions_out_of_limits};
 use cdpr_statics::{
     DirectProblem, DirectStart, InverseSolution, Load, Residual, StaticsError, WantedPose, inverse,
 };
+use std::f64::consts::FRAC_PI_2;
 
 /// Which breaks are looked at, and how.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -63,6 +64,8 @@ pub struct Swing {
     pub greatest: (f64, usize, f64),
     /// Greatest distance of P from where it was [m].
     pub moved: f64,
+    /// Whether it was greatest at the end, so that the platform may move farther.
+    pub moves_away: bool,
     /// Greatest tensions of the other cables that are out of limits.
     pub out_of_limits: Vec<OutOfLimits>,
     /// Least breaking force over greatest tension of the other cables, and the index of that cable; `None`
@@ -107,6 +110,12 @@ pub struct BrokenRest {
 }
 
 impl BrokenRest {
+    /// Whether the platform turns by more than a right angle. Its cables then lie against it, or through it,
+    /// which the models do not know.
+    pub fn turns_over(&self) -> bool {
+        self.turned > FRAC_PI_2
+    }
+
     /// The greatest tension at either end [N], and the index of its cable.
     pub fn greatest_tension(&self) -> (f64, usize) {
         let of_cable = |(i, ends): (usize, &[f64; 2])| (ends[0].max(ends[1]), i);
@@ -185,7 +194,7 @@ fn rest_without(
         slack: found.report.slack.iter().map(|i| kept[*i]).collect(),
         out_of_limits: beyond(robot, broken, &tensions),
         safety_factor: safety_factor(robot, &kept, &tensions),
-        below_ground: is_below_floor(robot, &at.pose),
+        below_ground: is_below_floor(robot, from, &at.pose),
         residual: found.report.residual,
         tensions,
     })
@@ -207,9 +216,11 @@ fn swing_without(
 ) -> Result<Swing, DynamicsError> {
     /// Samples at least, and each second: between them nothing is known of the ground.
     const SAMPLES: f64 = 100.0;
+    /// Share of the greatest distance that is the greatest one but for steps between samples.
+    const NEARLY: f64 = 1.0 - 1e-6;
     let cut = |cable: &usize| Event { time: 0.0, change: Change::Cut { cable: *cable, at: CutAt::Anchor } };
     let events: Vec<Event> = broken.iter().map(cut).collect();
-    let problem = DirectProblem::new(robot, &held.lengths, load)?;
+    let (problem, from) = (DirectProblem::new(robot, &held.lengths, load)?, &held.equilibrium.pose);
     let settings = Settings { rate: (SAMPLES / until).max(SAMPLES), ..Settings::until(until) };
     let series = simulate(&problem, &held.equilibrium, &events, &settings)?;
     let kept: Vec<usize> = (0..robot.cables.len()).filter(|i| !broken.contains(i)).collect();
@@ -218,13 +229,15 @@ fn swing_without(
         let [exit, anchor] = series.end_peaks[*i];
         tensions[*i] = [anchor, exit];
     }
+    let at_end = series.samples.last().map_or(0.0, |last| (last.pose.position - from.position).norm());
     let greatest = kept.iter().max_by(|a, b| series.peaks[**a].0.total_cmp(&series.peaks[**b].0));
     Ok(Swing {
         greatest: greatest.map_or((0.0, 0, 0.0), |i| (series.peaks[*i].0, *i, series.peaks[*i].1)),
         moved: series.excursion.distance,
+        moves_away: at_end >= NEARLY * series.excursion.distance,
         out_of_limits: beyond(robot, broken, &tensions),
         safety_factor: safety_factor(robot, &kept, &tensions),
-        below_ground: series.samples.iter().any(|sample| is_below_floor(robot, &sample.pose)),
+        below_ground: series.samples.iter().any(|sample| is_below_floor(robot, from, &sample.pose)),
         difference: series.difference,
     })
 }

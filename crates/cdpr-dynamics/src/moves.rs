@@ -6,15 +6,17 @@
 //!
 //! ```text
 //! f = -m (a + α x c + ω x (ω x c)),      m_P = c x f - I α - ω x I ω                                (N16)
-//! w = (f, m_P) - M_c (a, α) - W L''                                                                (N17)
+//! w = (f, m_P) - M_c (a, α) - W L'',      L''_i = e_i·(a + α x s_i)                                (N17)
 //! ```
 //!
-//! with the lever c of the centre of mass. `M_c` and `W` are the inertia of the cables: the terms in ω² of
-//! their dynamic stiffness and of the force by which a winch moves the platform, (N12), at low frequencies.
-//! The second derivatives L'' are those of the distances between exit and anchor points: lengths at rest have
-//! kinks where a cable comes to its least tension, and those with feed-forward jump in their rate at both
-//! ends of a move. Lengths and poses then belong to each other to second order in ω over the cables' own
-//! frequencies; what the cables swing themselves is left to the shaper.
+//! with the lever c of the centre of mass, the direction e_i from exit to anchor point and the lever s_i of
+//! the latter. `M_c` and `W` are the inertia of the cables: the terms in ω² of their dynamic stiffness and of
+//! the force by which a winch moves the platform, (N12), at low frequencies. L'' is what keeps the sag of a
+//! cable whose anchor point accelerates. Distances grow at constant speed, too, where they turn; the cable is
+//! then paid out without a change of its sag, which nothing resists. Lengths at rest have kinks where a cable
+//! comes to its least tension, and those with feed-forward jump in their rate at both ends of a move.
+//! Lengths and poses then belong to each other to second order in ω over the cables' own frequencies; what
+//! the cables swing themselves is left to the shaper.
 
 mod excited;
 mod inertia;
@@ -25,7 +27,7 @@ mod way;
 
 use crate::error::{DynamicsError, positive};
 use crate::simulate::{Profile, WinchLengths};
-use cdpr_robot::{Pose, Robot};
+use cdpr_robot::{Pose, Robot, Vector3};
 use cdpr_statics::{InversePath, Load, StaticsError};
 pub use excited::Excited;
 use inertia::{CableInertia, resistance};
@@ -113,7 +115,7 @@ impl Move<'_> {
         if self.feed_forward == FeedForward::None {
             return self.with_tensions(&way, at_rest);
         }
-        let mut found = self.in_motion(&way, &at_rest)?;
+        let mut found = self.in_motion(&way)?;
         for (point, still) in found.iter_mut().zip(&at_rest) {
             let both = point.lengths.iter().zip(&still.lengths);
             point.feed_forward = both.map(|(length, still)| length - still).collect();
@@ -122,9 +124,9 @@ impl Move<'_> {
     }
 
     /// The set points with feed-forward.
-    fn in_motion(&self, way: &Way, at_rest: &[SetPoint]) -> Result<Vec<SetPoint>, DynamicsError> {
+    fn in_motion(&self, way: &Way) -> Result<Vec<SetPoint>, DynamicsError> {
         if self.feed_forward == FeedForward::Cables {
-            let wrenches = Wrenches::new(self, way, at_rest)?;
+            let wrenches = Wrenches::new(self, way)?;
             return self.set_points(way, &|time, motion| wrenches.load(time, motion));
         }
         self.check_inertia(way)?;
@@ -240,27 +242,24 @@ impl Move<'_> {
 /// The wrenches with which platform and cables resist a move, (N17).
 struct Wrenches<'a> {
     of: &'a Move<'a>,
-    /// Distances of exit and anchor points, which lengths follow but for what cables stretch and sag. Lengths
-    /// themselves have kinks where a cable comes to its least tension.
-    chords: WinchLengths,
     inertia: CableInertia,
 }
 
 impl<'a> Wrenches<'a> {
-    fn new(of: &'a Move, way: &Way, at_rest: &[SetPoint]) -> Result<Self, DynamicsError> {
+    fn new(of: &'a Move, way: &Way) -> Result<Self, DynamicsError> {
         of.check_inertia(way)?;
-        let chords = |point: &SetPoint| {
-            (0..of.robot.cables.len()).map(|i| of.robot.span(&point.pose, i).norm()).collect::<Vec<f64>>()
-        };
-        let times: Vec<f64> = at_rest.iter().map(|point| point.time).collect();
-        let chords = WinchLengths::new(&times, &at_rest.iter().map(chords).collect::<Vec<_>>())?;
-        let inertia = CableInertia::along(of.robot, &of.load, way)?;
-        Ok(Self { of, chords, inertia })
+        Ok(Self { of, inertia: CableInertia::along(of.robot, &of.load, way)? })
     }
 
     /// The load with the wrench at a time [s].
     fn load(&self, time: f64, motion: &Motion) -> Load {
-        let growth: Vec<f64> = (0..self.chords.cables()).map(|i| self.chords.at(i, time)[2]).collect();
+        let Move { robot, .. } = self.of;
+        let [a, turn] = [0, 3].map(|k| Vector3::from(motion.acceleration.fixed_rows::<3>(k)));
+        let growth = (0..robot.cables.len()).map(|i| {
+            let anchor = a + turn.cross(&robot.anchor_arm(&motion.pose, i));
+            robot.span(&motion.pose, i).normalize().dot(&anchor)
+        });
+        let growth: Vec<f64> = growth.collect();
         let more = self.inertia.resistance(self.of.share_at(time)[0], motion, &growth);
         self.of.with(self.of.of_platform(motion) + more)
     }

@@ -11,6 +11,7 @@ use cdpr_statics::{DirectProblem, DirectStart, Load, StaticsError, inverse};
 
 const CAROCA: &str = include_str!("../../../data/robots/caroca.json");
 const COGIRO: &str = include_str!("../../../data/robots/cogiro.json");
+const STADIUM: &str = include_str!("../../../docs/how-to/loads/stadium.json");
 const IPANEMA_3: &str = include_str!("../../../data/robots/ipanema-3.json");
 
 /// One metre along x at a height, in one second.
@@ -140,6 +141,25 @@ fn tensions_without_feed_forward_are_those_of_the_simulated_motion() {
         println!("{}: {off:.2} N, those at rest {still:.1} N", robot.name);
         assert!(off < share * still, "{}: {off} {still}", robot.name);
         assert!(points.iter().all(|point| point.feed_forward.iter().all(|more| *more == 0.0)));
+    }
+}
+
+/// Cables that sag much turn and grow as a camera flies past them, which takes no force.
+#[test]
+fn a_camera_that_flies_at_constant_speed_has_the_tensions_of_the_simulation() {
+    let robot = robot(STADIUM);
+    let poses = [-20.0, 20.0].map(|x| Pose::at(x, 5.0, 12.0));
+    let plain = plain(&robot, &poses, Profile::Polynomial);
+    for feed_forward in [FeedForward::None, FeedForward::Cables] {
+        let points = Move { seconds: 10.0, feed_forward, ..plain.clone() }.plan().unwrap();
+        let middle = &points[points.len() / 2];
+        let still = inverse(&robot, &middle.pose, &Load::none()).unwrap().tensions;
+        for (moving, still) in middle.tensions.iter().zip(&still) {
+            assert!((moving - still).abs() < 0.01 * still, "{moving} {still}");
+        }
+        let [off, still] = off_simulated(&robot, &points);
+        println!("{feed_forward:?}: {off:.2} N, those at rest {still:.1} N");
+        assert!(off < 0.5 * still, "{off} {still}");
     }
 }
 

@@ -282,7 +282,21 @@ impl Draft {
     /// The limits of the robot: the widest of its cables, which keep theirs where they differ.
     fn limits(&mut self, options: &ImportOptions) -> Option<TensionLimits> {
         if let Some(given) = options.tension_limits {
-            self.assume(format!("the tensions are between {} N and {} N", given.min, given.max));
+            let (min, max) =
+                (self.cables.iter().map(|cable| cable.min), self.cables.iter().map(|cable| cable.max));
+            let range = |values: &mut dyn Iterator<Item = Option<f64>>| {
+                let known = values.flatten().map(|value| [value, value]);
+                known.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])
+            };
+            let of_file = [("least", range(&mut { min })), ("greatest", range(&mut { max }))];
+            let of_file = of_file.into_iter().filter_map(|(which, range)| {
+                let [low, high] = range?;
+                let range = if low == high { format!("{low}") } else { format!("{low} to {high}") };
+                Some(format!("{which} ones of {range} N"))
+            });
+            let of_file = of_file.collect::<Vec<_>>().join(" and ");
+            let instead = if of_file.is_empty() { of_file } else { format!(", instead of {of_file}") };
+            self.assume(format!("the tensions are between {} N and {} N{instead}", given.min, given.max));
             self.cables.iter_mut().for_each(|cable| (cable.min, cable.max) = (None, None));
             return Some(given);
         }

@@ -49,9 +49,19 @@ fn entities_are_not_expanded() {
     );
     let error = imported(&[("r.wcrfx", &bomb)], &all_options()).map(drop).unwrap_err();
     assert!(matches!(error, ExchangeError::Syntax { line: 1, column: 1, .. }), "{error}");
-    assert!(error.to_string().contains("declarations of its own, such as entities: expected none"));
-    // A type that is declared elsewhere, as in CASPR's files, is not refused.
+    assert!(error.to_string().contains("a document type with entities of its own: expected none"));
+    // A type that is declared elsewhere or declares attributes, as in CASPR's files, is not refused.
     assert!(BODIES.contains("<!DOCTYPE bodies_system SYSTEM"));
+    let declared = "<!DOCTYPE cables [ <!ATTLIST cable_set id ID #REQUIRED> ]>";
+    let end = CABLES_OF_CASPR.find("?>").map_or(0, |found| found + 2);
+    let cables = CABLES_OF_CASPR[end..].trim_start();
+    let cables = cables
+        .strip_prefix("<!DOCTYPE")
+        .and_then(|rest| rest.split_once('>'))
+        .map_or(cables, |(_, rest)| rest);
+    let found =
+        imported(&[("b.xml", BODIES), ("c.xml", &format!("{declared}{cables}"))], &all_options()).unwrap();
+    assert_eq!(found.robot.cables.len(), 2);
 }
 
 #[test]

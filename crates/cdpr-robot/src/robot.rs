@@ -339,11 +339,20 @@ impl Robot {
         self.platform.inertia.is_none() && (3..6).any(|k| self.freedoms().contains(k))
     }
 
+    /// Radius of the ball whose inertia is assumed where `platform.inertia` is not known [m]: the root mean
+    /// square distance of the anchor points from the centre of mass, at least a thousandth of the longest
+    /// distance between an exit point and the first one.
+    pub fn assumed_radius(&self) -> f64 {
+        let center = self.platform.center_of_mass;
+        let sum: f64 = self.cables.iter().map(|cable| (cable.anchor_point - center).norm_squared()).sum();
+        let across = self.cables.iter().map(|cable| (cable.exit_point - self.cables[0].exit_point).norm());
+        (sum / self.cables.len() as f64).sqrt().max(1e-3 * across.fold(0.0, f64::max))
+    }
+
     /// Inertia to assume where `platform.inertia` is not known [kg m²]: that of a ball with the radius
-    /// [`Self::platform_size`], at least 1 cm.
+    /// [`Self::assumed_radius`] about the centre of mass.
     pub fn assumed_inertia(&self) -> Matrix3<f64> {
-        let radius = self.platform_size().max(0.01);
-        Matrix3::identity() * (0.4 * self.platform.mass * radius * radius)
+        Matrix3::identity() * (0.4 * self.platform.mass * self.assumed_radius().powi(2))
     }
 }
 

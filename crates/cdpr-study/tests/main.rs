@@ -8,7 +8,6 @@ mod kept;
 mod memory;
 mod operating_point;
 mod output;
-mod parquet;
 mod record;
 mod sensitivity;
 mod sensitivity_settings;

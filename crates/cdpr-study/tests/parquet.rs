@@ -1,6 +1,7 @@
 //! Tables as Parquet hold what the CSV holds, and say what they are of.
 
-#![cfg(feature = "parquet")]
+#![allow(clippy::unwrap_used, clippy::panic)]
+
 use cdpr_study::{
     IfExists, ObservationTable, ResultsFolder, ResultsOf, Session, Study, TableFormat, observe_into,
 };

@@ -314,7 +314,7 @@ fn files_of_other_programs_are_imported_questioned_or_refused_at_once() {
     let (code, _, said) = import(&["bomb.wcrfx"], &cable);
     assert_eq!(code, 1);
     assert!(
-        said.contains("bomb.wcrfx, line 1, column 1: a document type with declarations of its own"),
+        said.contains("bomb.wcrfx, line 1, column 1: a document type with entities of its own"),
         "{said}"
     );
     let folder = data_path("reference/exchange/caspr-parent-offset");

@@ -2,7 +2,9 @@
 
 use cdpr_cable::Phase;
 use cdpr_robot::{Pose, Robot, Vector3};
-use cdpr_statics::{DirectSolution, DirectStart, Equilibrium, InverseSolution, Load, Residual, direct, inverse};
+use cdpr_statics::{
+    DirectSolution, DirectStart, Equilibrium, InverseSolution, Load, Residual, direct, inverse,
+};
 use cdpr_study::{Study, read_record};
 use serde_json::Value;
 use std::path::Path;

@@ -3,8 +3,8 @@
 //! `tests/fuzz/run [SECONDS]` runs all targets. One alone, from the root of the repository:
 //!
 //! ```text
-//! cargo +nightly fuzz run --fuzz-dir tests/fuzz end_force -- -max_total_time=600 -timeout=10
-//! cargo +nightly fuzz run --fuzz-dir tests/fuzz robot_file tests/fuzz/corpus/robot_file data/robots \
+//! cargo +nightly fuzz run --fuzz-dir tests/fuzz --features link end_force -- -max_total_time=600 -timeout=10
+//! cargo +nightly fuzz run --fuzz-dir tests/fuzz --features link robot_file tests/fuzz/corpus/robot_file data/robots \
 //!     -- -dict=tests/fuzz/json.dict
 //! ```
 //!

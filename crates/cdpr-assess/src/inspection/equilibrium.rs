@@ -8,14 +8,16 @@ use std::f64::consts::FRAC_PI_2;
 
 /// Turn from the start beyond which a platform is turned over, or its cables are twisted [rad].
 const TURNED: f64 = FRAC_PI_2;
-/// Depth below the ground or floor that is an error of surveying [m].
-const SURVEYED: f64 = 1e-3;
+/// Depth below the ground or floor that is an error of surveying, over the size of the frame.
+const SURVEYED: f64 = 1e-4;
 /// Depth over the size of the frame below the lowest exit point, where that is at or below the origin.
 const BELOW_EXITS: f64 = 0.1;
 /// The same where all exit points have one height: the robot is suspended, and its frame begins there.
 const BELOW_LEVEL_EXITS: f64 = 2.0;
 /// Heights that differ by less than this share of the frame's size are one.
 const LEVEL: f64 = 0.1;
+/// Horizontal part of the gravity of a level base frame, relative to its size.
+const LEVEL_BASE: f64 = 1e-9;
 /// Robots of fewer cables may hang on half of them.
 const FEW_CABLES: usize = 4;
 
@@ -23,27 +25,28 @@ const REMEDY: &str =
     "lengths of this robot, in m and in the order of its cables; a start near the pose that they hold";
 
 /// A place where a platform hardly was to rest, found for these lengths [m] under a load from a start with
-/// this rotation; `of` is its name, such as `the equilibrium`.
+/// this pose; `of` is its name, such as `the equilibrium`.
 pub fn doubtful_rest(
     robot: &Robot,
     of: &str,
     (lengths, load): (&[f64], &Load),
     found: &DirectSolution,
-    start: &Rotation3<f64>,
+    start: &Pose,
 ) -> Option<Doubt> {
     let pose = &found.equilibrium.pose;
     let doubt = |(value, why): (String, String)| Doubt::new(of, value, why, REMEDY);
-    let found = below_floor(robot, pose).or_else(|| turned(robot, pose, start)).or_else(|| {
-        // A load may leave cables slack; without one they were to be taut.
-        let is_alone = *load == Load::none();
-        is_alone.then(|| idle(robot, lengths, found)).flatten()
-    });
+    let found =
+        below_floor(robot, start, pose).or_else(|| turned(robot, pose, &start.rotation)).or_else(|| {
+            // A load may leave cables slack; without one they were to be taut.
+            let is_alone = *load == Load::none();
+            is_alone.then(|| idle(robot, lengths, found)).flatten()
+        });
     found.map(doubt)
 }
 
 /// The lowest of P and the anchor points below what robots stand on.
-fn below_floor(robot: &Robot, pose: &Pose) -> Option<(String, String)> {
-    let (floor, name) = floor(robot);
+fn below_floor(robot: &Robot, start: &Pose, pose: &Pose) -> Option<(String, String)> {
+    let (floor, name) = floor(robot, start)?;
     let lowest = lowest(robot, pose);
     (lowest < floor).then(|| {
         let value = format!("at z = {} m", short(pose.position.z));
@@ -57,23 +60,26 @@ fn lowest(robot: &Robot, pose: &Pose) -> f64 {
     pose.position.z + anchors.fold(0.0, f64::min)
 }
 
-/// Whether P or an anchor point is below the ground or the floor.
-pub(crate) fn is_below_floor(robot: &Robot, pose: &Pose) -> bool {
-    lowest(robot, pose) < floor(robot).0
+/// Whether P or an anchor point of a platform that was at `start` is below the ground or the floor.
+pub(crate) fn is_below_floor(robot: &Robot, start: &Pose, pose: &Pose) -> bool {
+    floor(robot, start).is_some_and(|(floor, _)| lowest(robot, pose) < floor)
 }
 
-/// The height below which no platform is expected [m], and what is there.
-fn floor(robot: &Robot) -> (f64, String) {
+/// The height below which no platform is expected [m], and what is there. Where the file has no ground it is
+/// a guess, which a platform that starts below it refutes, and a base frame that is tilted.
+fn floor(robot: &Robot, start: &Pose) -> Option<(f64, String)> {
     let frame = frame(robot);
     let size = frame.iter().map(|[low, high]| high - low).fold(0.0, f64::max);
     let [low, high] = frame[2];
-    match robot.ground_z {
-        Some(ground) => (ground - SURVEYED, format!("the ground, ground_z = {} m", short(ground))),
-        None if low > 0.0 => (
-            -SURVEYED,
+    if let Some(ground) = robot.ground_z {
+        return Some((ground - SURVEYED * size, format!("the ground, ground_z = {} m", short(ground))));
+    }
+    let guess = match low > 0.0 {
+        true => (
+            -SURVEYED * size,
             "the floor of the base frame, z = 0 (`ground_z` of the robot file sets another)".to_owned(),
         ),
-        None => {
+        false => {
             let share = if high - low < LEVEL * size { BELOW_LEVEL_EXITS } else { BELOW_EXITS };
             let name = format!(
                 "the lowest exit point, z = {} m, by more than {share} of the frame's size",
@@ -81,7 +87,10 @@ fn floor(robot: &Robot) -> (f64, String) {
             );
             (low - share * size, name)
         }
-    }
+    };
+    let down = robot.gravity.vector();
+    let is_level = down.xy().norm() <= LEVEL_BASE * down.norm();
+    (is_level && lowest(robot, start) >= guess.0).then_some(guess)
 }
 
 /// A platform that is turned by more than a right angle.

@@ -1,9 +1,9 @@
 //! A platform in weather, with wind of one velocity or from any direction in the horizontal plane.
 //!
-//! From any direction, the wind blows at [`DIRECTIONS`] azimuths. Around the one that moves the platform
-//! farthest a golden-section search looks for a direction that moves it farther still (R. P. Brent,
-//! *Algorithms for Minimization without Derivatives*, 1973, chapter 5). Between the azimuths nothing is
-//! proven.
+//! From any direction, the wind blows at [`DIRECTIONS`] azimuths. Around those that move the platform farthest,
+//! or nearly so, and those of the greatest and of the least tension, golden-section searches look for
+//! directions that are worse still (R. P. Brent, *Algorithms for Minimization without Derivatives*, 1973,
+//! chapter 5). Between the azimuths nothing is proven.
 
 use crate::inspection::is_below_floor;
 use crate::tilt::to_base;
@@ -14,7 +14,7 @@ use cdpr_statics::{DirectProblem, DirectSolution, DirectStart, Load, StaticsErro
 use rayon::prelude::*;
 use std::f64::consts::TAU;
 
-/// Azimuths from which a search for the worst one begins.
+/// Azimuths from which the searches for the worst ones begin.
 pub const DIRECTIONS: usize = 24;
 
 /// Steps of the golden-section search: the interval shrinks to a thousandth.
@@ -75,7 +75,7 @@ impl InWind {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Winds {
     /// Every azimuth that was looked at [rad], with why no rest was found in that wind: those of the first
-    /// [`DIRECTIONS`], then those of the search.
+    /// [`DIRECTIONS`], then those of the searches.
     pub failures: Vec<(Option<f64>, StaticsError)>,
     /// The winds with a rest, in the same order.
     pub rests: Vec<InWind>,
@@ -128,37 +128,71 @@ pub fn winds(
     };
     let step = TAU / DIRECTIONS as f64;
     let mut found: Vec<_> = (0..DIRECTIONS).into_par_iter().map(|k| by(step * k as f64)).collect();
-    let moved =
-        |outcome: &Result<InWind, StaticsError>| outcome.as_ref().map_or(f64::NEG_INFINITY, InWind::moved);
-    let worst = found.iter().max_by(|a, b| moved(&a.1).total_cmp(&moved(&b.1)));
-    if let Some((Some(worst), Ok(_))) = worst {
-        const GOLDEN: f64 = 0.618_033_988_749_894_9;
-        let (mut low, mut high) = (worst - step, worst + step);
-        let mut inner = [high - GOLDEN * (high - low), low + GOLDEN * (high - low)];
-        let mut outcomes = inner.map(by);
-        for _ in 0..STEPS {
-            // The part beyond the lesser of two inner points is left out.
-            let upper = moved(&outcomes[1].1) > moved(&outcomes[0].1);
-            let next = if upper {
-                low = inner[0];
-                inner = [inner[1], low + GOLDEN * (high - low)];
-                outcomes.swap(0, 1);
-                by(inner[1])
-            } else {
-                high = inner[1];
-                inner = [high - GOLDEN * (high - low), inner[0]];
-                outcomes.swap(0, 1);
-                by(inner[0])
-            };
-            found.push(std::mem::replace(&mut outcomes[usize::from(upper)], next));
+    for measure in MEASURES {
+        let worse = |outcome: &Outcome| outcome.as_ref().map_or(f64::NEG_INFINITY, measure);
+        let values: Vec<f64> = found[..DIRECTIONS].iter().map(|(_, outcome)| worse(outcome)).collect();
+        for k in nearly_greatest(&values) {
+            let around = [k as f64 - 1.0, k as f64 + 1.0].map(|k| k * step);
+            found.extend(golden_section(around, by, |outcome| worse(&outcome.1)));
         }
-        found.extend(outcomes);
     }
     sorted(found)
 }
 
+type Outcome = Result<InWind, StaticsError>;
+
+/// What makes a wind worse than another.
+const MEASURES: [fn(&InWind) -> f64; 3] = [
+    InWind::moved,
+    |one| one.greatest_tension().0,
+    |one| -one.rest.tensions().into_iter().fold(f64::INFINITY, f64::min),
+];
+
+/// Places of a circle whose values are not below those next to them, and not more than a tenth of the range
+/// below the greatest one.
+fn nearly_greatest(values: &[f64]) -> Vec<usize> {
+    let finite = || values.iter().copied().filter(|value| value.is_finite());
+    let [least, most] = [finite().fold(f64::INFINITY, f64::min), finite().fold(f64::NEG_INFINITY, f64::max)];
+    let n = values.len();
+    let is_peak = |k: &usize| {
+        let (before, here, after) = (values[(k + n - 1) % n], values[*k], values[(k + 1) % n]);
+        // Of equal values next to each other the last one counts.
+        here >= before && here > after && here >= most - 0.1 * (most - least)
+    };
+    (0..n).filter(is_peak).collect()
+}
+
+/// What was found at the places where the greatest value between two bounds was sought.
+fn golden_section<T>(
+    [mut low, mut high]: [f64; 2],
+    at: impl Fn(f64) -> T,
+    value: impl Fn(&T) -> f64,
+) -> Vec<T> {
+    const GOLDEN: f64 = 0.618_033_988_749_894_9;
+    let mut inner = [high - GOLDEN * (high - low), low + GOLDEN * (high - low)];
+    let mut outcomes = inner.map(&at);
+    let mut found = Vec::with_capacity(STEPS + 2);
+    for _ in 0..STEPS {
+        // The part beyond the lesser of two inner points is left out.
+        let upper = value(&outcomes[1]) > value(&outcomes[0]);
+        let next = if upper {
+            low = inner[0];
+            inner = [inner[1], low + GOLDEN * (high - low)];
+            inner[1]
+        } else {
+            high = inner[1];
+            inner = [high - GOLDEN * (high - low), inner[0]];
+            inner[0]
+        };
+        outcomes.swap(0, 1);
+        found.push(std::mem::replace(&mut outcomes[usize::from(upper)], at(next)));
+    }
+    found.extend(outcomes);
+    found
+}
+
 /// Rests and failures; what is wrong with the question itself is an error.
-fn sorted(found: Vec<(Option<f64>, Result<InWind, StaticsError>)>) -> Result<Winds, StaticsError> {
+fn sorted(found: Vec<(Option<f64>, Outcome)>) -> Result<Winds, StaticsError> {
     let mut winds = Winds { failures: Vec::new(), rests: Vec::new() };
     for (azimuth, outcome) in found {
         match outcome {
@@ -192,7 +226,7 @@ impl Blown<'_> {
             turned: before.angle_to(&after),
             out_of_limits: tensions_out_of_limits(robot, std::slice::from_ref(&ends)),
             safety_factor: safety_factor(robot, &all, &ends),
-            below_ground: is_below_floor(robot, &rest.pose),
+            below_ground: is_below_floor(robot, self.from, &rest.pose),
             rest,
         })
     }

@@ -56,8 +56,7 @@ impl CableInertia {
         Ok(Self((0..POSES).map(at).collect::<Result<_, _>>()?))
     }
 
-    /// The wrench with which cables resist a motion at a share of the way and second derivatives of their
-    /// lengths [m/s²].
+    /// The wrench with which cables resist a motion at a share of the way with L'' of (N17) [m/s²].
     pub(super) fn resistance(&self, share: f64, motion: &Motion, growth: &[f64]) -> Vector6<f64> {
         let place = share.clamp(0.0, 1.0) * (self.0.len() - 1) as f64;
         let k = (place as usize).min(self.0.len() - 2);

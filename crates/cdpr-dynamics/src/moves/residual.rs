@@ -3,7 +3,7 @@
 use super::{Move, SetPoint};
 use crate::error::{DynamicsError, positive};
 use crate::simulate::{Change, Discretization, Event, Settings, WinchLengths, simulate};
-use cdpr_robot::Robot;
+use cdpr_robot::{Robot, Vector3};
 use cdpr_statics::{DirectProblem, DirectStart, InversePath, Load, WantedPose, set_point_lengths};
 
 /// The motion of a platform after the end of a move.
@@ -91,14 +91,30 @@ pub fn residual(
             found.rotation = found.rotation.max(motion.fixed_rows::<3>(3).norm());
             continue;
         }
-        // Set points are at equal times; between two of them the way is nearly straight.
-        let place = sample.time / end * count;
-        let k = (place as usize).min(set_points.len() - 2);
-        let between = |k: usize| set_points[k].pose.position;
-        let wanted = between(k).lerp(&between(k + 1), place - k as f64);
+        let wanted = wanted(set_points, sample.time / end * count);
         found.deviation = found.deviation.max((sample.pose.position - wanted - off).norm());
     }
     Ok(found)
+}
+
+/// The wanted position at a place between set points, which are at equal times [m]: of a cubic through the four
+/// around it.
+fn wanted(set_points: &[SetPoint], place: f64) -> Vector3<f64> {
+    let at = |k: usize| set_points[k].pose.position;
+    let count = set_points.len();
+    if count < 4 {
+        let k = (place as usize).min(count - 2);
+        return at(k).lerp(&at(k + 1), place - k as f64);
+    }
+    let first = (place as usize).clamp(1, count - 3) - 1;
+    let s = place - first as f64;
+    let weights = [
+        (1.0 - s) * (2.0 - s) * (3.0 - s) / 6.0,
+        s * (2.0 - s) * (3.0 - s) / 2.0,
+        s * (s - 1.0) * (3.0 - s) / 2.0,
+        s * (s - 1.0) * (s - 2.0) / 6.0,
+    ];
+    weights.iter().zip(first..).fold(Vector3::zeros(), |sum, (weight, k)| sum + at(k) * *weight)
 }
 
 /// The lengths of a robot at the poses of set points, with their feed-forward.

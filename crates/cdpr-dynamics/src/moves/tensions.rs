@@ -15,7 +15,7 @@ impl Move<'_> {
         way: &Way,
         mut points: Vec<SetPoint>,
     ) -> Result<Vec<SetPoint>, DynamicsError> {
-        let wrenches = Wrenches::new(self, way, &points)?;
+        let wrenches = Wrenches::new(self, way)?;
         let mut last: Option<Equilibrium> = None;
         let end = points.len() - 1;
         for point in &mut points[1..end] {

@@ -5,8 +5,8 @@ use super::radau::{Radau, WEIGHTS, Work};
 use super::setting::{Discretization, Settings};
 use super::system::System;
 use crate::error::DynamicsError;
-use cdpr_robot::{Pose, Vector3, Vector6, Wrench};
-use cdpr_statics::{DirectProblem, Equilibrium};
+use cdpr_robot::{Doubt, Pose, Robot, Vector3, Vector6, Wrench, short};
+use cdpr_statics::{DirectProblem, Equilibrium, MAX_STRAIN};
 
 /// The platform and its cables at a time.
 #[derive(Clone, Debug, PartialEq)]
@@ -82,6 +82,8 @@ pub struct Excursion {
 }
 
 /// A motion.
+///
+/// [`Self::overstrained`] says whether it is one that the models hold for.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Series {
     /// Its samples, ascending.
@@ -107,6 +109,22 @@ pub struct Series {
 }
 
 impl Series {
+    /// The cable that is strained most, if by more than the models hold for.
+    pub fn overstrained(&self, robot: &Robot) -> Option<Doubt> {
+        let strains =
+            self.peaks.iter().enumerate().map(|(i, (tension, _))| (i, robot.cable(i).strain(*tension)));
+        let (i, strain) =
+            strains.max_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, strain)| *strain > MAX_STRAIN)?;
+        let value = format!("strained by {} % at {} s", short(100.0 * strain), short(self.peaks[i].1));
+        let why = format!("the models hold up to {} %", short(100.0 * MAX_STRAIN));
+        Some(Doubt::new(
+            format!("cable {}", i + 1),
+            value,
+            why,
+            "a smaller force or motion, or stiffer cables",
+        ))
+    }
+
     /// The greatest differences to the same motion computed otherwise.
     pub(super) fn difference_to(&self, other: &Self) -> Difference {
         Self::difference(self.samples.iter().zip(&other.samples))
@@ -353,8 +371,14 @@ impl Run<'_> {
 
 /// Greatest distance from the mean place over the last quarter of the time [m].
 fn swing(places: &[(f64, Vector3<f64>)]) -> f64 {
-    let end = places.last().map_or(0.0, |(time, _)| *time);
-    let last = &places[places.partition_point(|(time, _)| *time < 0.75 * end)..];
+    let begin = 0.75 * places.last().map_or(0.0, |(time, _)| *time);
+    let next = places.partition_point(|(time, _)| *time < begin);
+    let mut last = places[next..].to_vec();
+    if let (Some((before, from)), Some((after, to))) =
+        (next.checked_sub(1).map(|k| places[k]), places.get(next))
+    {
+        last.insert(0, (begin, from.lerp(to, (begin - before) / (after - before))));
+    }
     let (mut time, mut sum) = (0.0, Vector3::zeros());
     for pair in last.windows(2) {
         let step = pair[1].0 - pair[0].0;

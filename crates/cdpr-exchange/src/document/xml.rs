@@ -88,9 +88,13 @@ fn check_bounds(document: &Document, text: &str) -> Result<(), ExchangeError> {
             after("?>")
         } else {
             let tag = Tag::of(rest);
-            if rest.starts_with("<!") && tag.has_declarations {
-                let message = "a document type with declarations of its own, such as entities: expected none";
-                return Err(document.syntax(place(start), message.to_owned()));
+            if let (true, Some(declarations)) = (rest.starts_with("<!"), tag.declarations) {
+                if text.contains("<!ENTITY") {
+                    let message = "a document type with entities of its own: expected none";
+                    return Err(document.syntax(place(start), message.to_owned()));
+                }
+                at = start + declarations;
+                continue;
             }
             if rest.starts_with("</") {
                 depth -= usize::from(depth > 0);
@@ -124,13 +128,13 @@ struct Tag {
     attributes: usize,
     /// Whether it ends with `/>`.
     is_empty: bool,
-    /// Whether a `[` stands in it.
-    has_declarations: bool,
+    /// Bytes from `<` to a `[` in it, after which declarations begin.
+    declarations: Option<usize>,
 }
 
 impl Tag {
     fn of(text: &str) -> Self {
-        let mut tag = Self { length: None, attributes: 0, is_empty: false, has_declarations: false };
+        let mut tag = Self { length: None, attributes: 0, is_empty: false, declarations: None };
         let mut quote = None;
         let mut before = b' ';
         for (i, byte) in text.bytes().enumerate() {
@@ -140,7 +144,7 @@ impl Tag {
                 (None, b'"' | b'\'') => quote = Some(byte),
                 (None, b'=') => tag.attributes += 1,
                 (None, b'[') => {
-                    tag.has_declarations = true;
+                    tag.declarations = Some(i + 1);
                     return tag;
                 }
                 (None, b'>') => {

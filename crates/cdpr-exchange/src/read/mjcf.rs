@@ -179,10 +179,11 @@ fn stiffness(
 /// Questions actuators that pull at tendons: their ranges are limits of tension in units of their own.
 fn question_limits(draft: &mut Draft, root: &Node) {
     let actuators = root.all("actuator").flat_map(|actuators| actuators.elements());
-    let mut of_tendons = actuators.filter(|actuator| actuator.has("@tendon"));
-    if let Some(first) = of_tendons.next() {
+    // All are looked at: a file has one for each cable.
+    let of_tendons: Vec<_> = actuators.filter(|actuator| actuator.has("@tendon")).collect();
+    if let Some(first) = of_tendons.first() {
         let text = "actuators of tendons: their ranges are not imported as limits of tension";
-        draft.note_once(NoteKind::Questioned, &first, text);
+        draft.note_once(NoteKind::Questioned, first, text);
     }
 }
 

@@ -63,7 +63,10 @@ pub(crate) fn read(file: &str, text: &str) -> Result<Draft, ExchangeError> {
                 Err(_) => Ok(Some(column.factor * number)),
             }
         };
-        let need = |name: &str| number(name)?.ok_or_else(|| value(line, name, "empty", "a finite number"));
+        let need = |name: &str| {
+            let has = if columns.contains_key(name) { "empty" } else { "missing" };
+            number(name)?.ok_or_else(|| value(line, name, has, "a finite number"))
+        };
         let vector =
             |[x, y, z]: [&str; 3]| Ok::<_, ExchangeError>(Vector3::new(need(x)?, need(y)?, need(z)?));
         let radius = number("radius")?.filter(|radius| *radius != 0.0);

@@ -2652,7 +2652,8 @@ class Safety(Generic[_R]):
     @property
     def endings(self) -> list[Any]:
         """How each break ends: `held`, `overloaded` (another cable is beyond its greatest tension or breaking
-        force), `below_ground`, or the kind of failure where no rest was found; a list of k.
+        force), `below_ground`, `turned_over` (by more than a right angle), or the kind of failure where no rest
+        was found; a list of k.
         """
     @property
     def moved(self) -> _Floats:

@@ -8,6 +8,8 @@ use std::ops::Range;
 pub const FRAME: Range<f64> = 0.05..1000.0;
 /// Heights that differ by less than this share of their size are the same, but for surveying and mountings.
 const SAME_HEIGHT: f64 = 0.1;
+/// Heights below this share of the greatest one may be of either sign: a floor is not that even.
+const SURVEYED: f64 = 0.05;
 
 /// The size of the frame, and of the platform compared with it.
 pub(super) fn sizes(robot: &Robot) -> Doubts {
@@ -60,7 +62,9 @@ pub(super) fn mirrored(robot: &Robot) -> Option<Doubt> {
         let mut of_sign = (0..n).filter(|i| heights[*i] * sign < 0.0);
         of_sign.next().filter(|_| of_sign.next().is_none())
     };
-    let i = other_sign(1.0).or_else(|| other_sign(-1.0)).filter(|_| n >= 4)?;
+    let highest = heights.iter().fold(0.0, |most: f64, z| most.max(z.abs()));
+    let is_far = |i: &usize| heights[*i].abs() > SURVEYED * highest;
+    let i = other_sign(1.0).or_else(|| other_sign(-1.0)).filter(|i| n >= 4 && is_far(i))?;
     let near = |j: usize| j != i && (heights[i] + heights[j]).abs() <= SAME_HEIGHT * heights[i].abs();
     let level = (0..n).filter(|j| *j != i).all(|j| heights[j] * heights[i] < 0.0) && (0..n).any(near);
     if !level || is_among(robot, i) {

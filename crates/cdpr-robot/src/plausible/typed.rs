@@ -19,8 +19,8 @@ const LONG: f64 = 20.0;
 const NEARLY_LEVEL: f64 = 0.985;
 /// A whole turn [degrees].
 const TURN: f64 = 360.0;
-/// Depth below the ground that is an error of surveying [m].
-const SURVEYED: f64 = 1e-3;
+/// Depth below the ground that is an error of surveying, over the size of the frame.
+const SURVEYED: f64 = 1e-4;
 /// What cables may stretch: beyond it two of them do not reach each other's exit points.
 const STRETCH: f64 = 1.2;
 /// Parts of a half turn, and how near an angle in radians is typed [rad]: 3.14 for a half turn, but 0.5236
@@ -81,7 +81,7 @@ pub fn in_ground(robot: &Robot, quantity: &str, pose: &Pose) -> Option<Doubt> {
     let ground = robot.ground_z?;
     let anchors = robot.cables.iter().map(|cable| (pose.rotation * cable.anchor_point).z);
     let lowest = pose.position.z + anchors.fold(0.0, f64::min);
-    (lowest < ground - SURVEYED).then(|| {
+    (lowest < ground - SURVEYED * frame_size(robot)).then(|| {
         Doubt::new(
             quantity,
             format!("at z = {} m", four_digits(pose.position.z)),

@@ -20,6 +20,9 @@ const AIR_DENSITY: f64 = 1.225;
 /// wires and cables).
 const DRAG_COEFFICIENT: f64 = 1.2;
 
+/// Horizontal part of the gravity of a level base frame, relative to its size.
+const LEVEL: f64 = 1e-9;
+
 /// Faster winds are in another unit.
 const FASTEST: f64 = 120.0;
 
@@ -54,7 +57,7 @@ impl Wind {
     /// # Errors
     /// [`StaticsError::Invalid`] unless it is finite and at most 120 m/s.
     pub fn new(velocity: Vector3<f64>) -> Result<Self, StaticsError> {
-        if velocity.norm() <= FASTEST {
+        if velocity.norm() <= FASTEST * (1.0 + 4.0 * f64::EPSILON) {
             return Ok(Self { velocity, profile: None });
         }
         let expected = format!("a velocity of at most {FASTEST} m/s");
@@ -167,6 +170,11 @@ impl DirectProblem<'_> {
     /// the pose, and [`StaticsError::DirectNotConverged`].
     pub fn in_wind(&self, wind: &Wind, still: &DirectSolution) -> Result<RestInWeather, StaticsError> {
         self.check("still", &still.equilibrium)?;
+        let down = self.robot.gravity.vector();
+        if wind.profile.is_some() && down.xy().norm() > LEVEL * down.norm() {
+            let expected = "a wind that is the same everywhere, or a base frame whose z axis is vertical";
+            return Err(StaticsError::invalid("wind_profile".to_owned(), "a tilted base frame", expected));
+        }
         let symmetric = self.linearize(&still.equilibrium)?.symmetric_stiffness();
         let pins = Pins::new(self, &still.equilibrium, &symmetric);
         let hung = (0..self.cables()).map(|i| self.hung(still, i, wind));
@@ -284,12 +292,12 @@ impl DirectProblem<'_> {
             let Some(next) = at.nearer(self, hung, &step)? else { break };
             (at, iterations) = (next, iterations + 1);
             let after = at.unbalanced(self);
-            let is_rounding = after <= BALANCED * at.forces() && after > 0.5 * before;
+            let is_rounding = after <= at.rounding() && after > 0.5 * before;
             if is_rounding || after <= FORCES * at.forces() {
                 break;
             }
         }
-        if at.unbalanced(self) <= BALANCED * at.forces() {
+        if at.unbalanced(self) <= at.rounding() {
             return Ok((at, iterations));
         }
         let residual = at.residual(self);
@@ -297,8 +305,7 @@ impl DirectProblem<'_> {
     }
 }
 
-/// Unbalanced wrench, relative to all forces, which is rounding where no step lowers it: the integration
-/// along the cables leaves as much.
+/// Unbalanced wrench, relative to all forces, which is rounding where no step lowers it.
 const BALANCED: f64 = 1e-9;
 
 impl Blown {
@@ -355,6 +362,13 @@ impl Blown {
             force: gradient.fixed_rows::<3>(0).norm(),
             moment: gradient.fixed_rows::<3>(3).norm(),
         }
+    }
+
+    /// What rounding and the integration along the cables leave of the balance [N]: stiff cables make much force
+    /// of a small error of their end.
+    fn rounding(&self) -> f64 {
+        let integration = self.cables.iter().map(|held| held.error * held.stiffness.norm());
+        (BALANCED * self.forces()).max(integration.sum())
     }
 
     fn forces(&self) -> f64 {

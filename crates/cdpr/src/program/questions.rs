@@ -6,7 +6,7 @@
 use crate::program::error::ProgramError;
 use crate::program::said;
 use cdpr_assess::{HELD, WorkspaceSummary, doubtful_rest};
-use cdpr_dynamics::simulate::{Change, Event};
+use cdpr_dynamics::simulate::{Change, Event, Series};
 use cdpr_robot::{Doubt, Pose, Robot, Vector3, Wrench, place_of, plausible, rounded, shown};
 use cdpr_statics::{DirectSolution, Load};
 use cdpr_study::{Access, ErrorModel, InputKind, StoredStudy, Study, is_standard_input, read_text};
@@ -179,7 +179,7 @@ pub(crate) fn about_rest(
     found: &DirectSolution,
     start: &Pose,
 ) {
-    ask(doubtful_rest(robot, name, given, found, &start.rotation));
+    ask(doubtful_rest(robot, name, given, found, start));
 }
 
 /// Asks about the first event that begins after the end of a motion [s], and about the first one that takes
@@ -203,6 +203,11 @@ pub(crate) fn about_events(events: &[Event], payload: f64, until: f64) {
             .then(|| Doubt::new(format!("event {}, payload", i + 1), format!("{change} kg"), why, meant))
     });
     ask(late.into_iter().chain(too_much));
+}
+
+/// Asks about a motion that strains a cable beyond what the models hold for.
+pub(crate) fn about_strain(robot: &Robot, motion: &Series) {
+    ask(motion.overstrained(robot));
 }
 
 /// Asks about unstrained lengths.

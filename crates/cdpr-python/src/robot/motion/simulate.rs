@@ -224,6 +224,7 @@ impl Robot {
         // An exception of the control ends the motion, and comes first.
         control.as_ref().and_then(PythonControl::raised).map_or(Ok(()), Err)?;
         let (lengths, rest, series) = found?;
+        question(series.overstrained(robot))?;
         Motion::new(py, &series, MotionSummary::new(py, (&lengths, &rest.pose), &series)?)
     }
 }

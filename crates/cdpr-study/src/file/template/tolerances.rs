@@ -28,16 +28,20 @@ impl Tolerances {
     }
 
     fn of_share(robot: &Robot, tension: f64, share: f64) -> Self {
-        let cable = &robot.cables[0].properties;
+        let properties = || robot.cables.iter().map(|cable| &cable.properties);
+        let density = properties().map(|cable| cable.linear_density).fold(f64::INFINITY, f64::min);
+        let modulus = properties().map(|cable| cable.youngs_modulus).fold(f64::INFINITY, f64::min);
+        let platform = robot.assumed_radius();
         let of_values = [
             ("mass", 0.05 * robot.platform.mass),
-            ("linear_density", 0.05 * cable.linear_density),
-            ("youngs_modulus", 0.1 * cable.youngs_modulus),
+            ("linear_density", 0.05 * density),
+            ("youngs_modulus", 0.1 * modulus),
         ];
         let of_points = [
-            ("a", 0.002),
-            ("b", 0.005),
-            ("cog", 0.01),
+            // Of small platforms a share of their size.
+            ("a", f64::min(0.002, 0.01 * platform)),
+            ("b", f64::min(0.005, 0.025 * platform)),
+            ("cog", f64::min(0.01, 0.05 * platform)),
             ("dt", two_digits(0.01 * tension)),
             ("r", 0.0005),
             ("lead", 0.05),

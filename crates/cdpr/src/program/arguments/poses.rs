@@ -5,7 +5,9 @@
 use crate::program::arguments::{components, numbers};
 use crate::program::error::{POSE, PoseError, ProgramError};
 use crate::program::questions;
-use cdpr_robot::{Pose, Rotation3, Vector3, plausible, rotation_by_angles, rotation_in_order, rounded};
+use cdpr_robot::{
+    Pose, Rotation3, Vector3, plausible, rotation_by_angles, rotation_in_order, rotation_of, rounded,
+};
 use serde::{Serialize, Serializer};
 
 /// `x,y,z` [m], followed by the quaternion `qw,qx,qy,qz` where the platform is rotated.
@@ -22,6 +24,16 @@ pub(crate) fn pose_of(numbers: &[f64]) -> Result<Pose, PoseError> {
         }
         [_, _, _, roll, pitch, yaw] => Err(PoseError::Angles([roll, pitch, yaw])),
         _ => Err(PoseError::Count(numbers.len())),
+    }
+}
+
+/// The pose of three or seven numbers of a field of a file, which states their order.
+pub(crate) fn stated_pose(numbers: &[f64]) -> Result<Pose, PoseError> {
+    match *numbers {
+        [x, y, z, qw, qx, qy, qz] => {
+            Ok(Pose { position: Vector3::new(x, y, z), rotation: rotation_of([qw, qx, qy, qz])? })
+        }
+        _ => pose_of(numbers),
     }
 }
 

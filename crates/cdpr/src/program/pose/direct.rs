@@ -164,7 +164,7 @@ impl Case {
         let mass = self.mass.filter(|mass| *mass > 0.0);
         questions::ask(mass.and_then(|mass| plausible::mass(robot, "mass", mass)));
         questions::about_load(robot, &self.load());
-        if let Some(start) = self.start().and_then(|numbers| poses::pose_of(numbers).ok()) {
+        if let Some(start) = self.start().and_then(|numbers| poses::stated_pose(numbers).ok()) {
             questions::about_pose(robot, "pose", &start);
         }
     }
@@ -247,7 +247,7 @@ fn solve(robot: &Robot, case: &Case, name: &str, prove: bool) -> Result<Answer, 
     }
     let load = case.load();
     let start = match case.start() {
-        Some(numbers) => poses::pose_of(numbers).map_err(|_| StaticsError::Invalid {
+        Some(numbers) => poses::stated_pose(numbers).map_err(|_| StaticsError::Invalid {
             field: "pose".to_owned(),
             value: format!("{numbers:?}"),
             expected: "x,y,z [m] or x,y,z,qw,qx,qy,qz, with a unit quaternion, qw first".to_owned(),

@@ -128,7 +128,7 @@ pub(super) fn with_inertia(robot: &Robot) -> Cow<'_, Robot> {
     NOTED.call_once(|| {
         note(format_args!(
             "the robot has no inertia: that of a ball with the radius {:.3} m is assumed",
-            robot.platform_size()
+            robot.assumed_radius()
         ));
     });
     let platform = Platform { inertia: Some(robot.assumed_inertia()), ..robot.platform };

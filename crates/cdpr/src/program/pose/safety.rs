@@ -133,8 +133,9 @@ impl Answer {
         let all = if pairs { "one or two of them break" } else { "of them breaks" };
         let first = match bad.as_slice() {
             [] if !wrong.is_empty() => {
-                let why = self.broken.iter().find_map(Case::failure).unwrap_or_default();
-                format!("{heading}: whether it bears every break is not known; {} ({why}).", wrong[0])
+                let why = self.broken.iter().find_map(Case::failure);
+                let why = why.map_or_else(String::new, |why| format!(" ({why})"));
+                format!("{heading}: whether it bears every break is not known; {}{why}.", wrong[0])
             }
             [] => format!("{heading} comes to rest on its other cables, whichever {all}."),
             [first] => format!("{heading} does not bear every break: {first}."),
@@ -220,7 +221,8 @@ impl Answer {
         println!("{rows}");
         print_sentence(&self.strength());
         print_sentence(if followed {
-            "The winches stand still. Swings and peaks are those of the time followed, without damping."
+            "The winches stand still. Swings and peaks are those of the time followed, without damping; `>` marks \
+             a platform that still moved away at its end."
         } else {
             "These are rests while the winches stand still. On the way there the platform swings and tensions \
              are greater: --with swing=SECONDS follows it."

@@ -113,6 +113,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
         },
         error => error.into(),
     })?;
+    questions::about_strain(&robot, &series);
     let answer = Answer::new(&robot, &rest.pose, &lengths, &series);
     series.samples = series.samples.into_iter().step_by(finer as usize).collect();
     if let Some(file) = &settings.figure {

@@ -36,6 +36,8 @@ pub(super) enum Motion {
 pub(super) struct Swinging {
     /// Greatest distance from where it was [m].
     pub(super) moved: f64,
+    /// Whether that was at the end, so that it may move farther.
+    pub(super) moves_away: bool,
     pub(super) greatest_tension: Greatest,
     /// When that is [s].
     pub(super) time: f64,
@@ -65,6 +67,8 @@ pub(super) struct Rest {
     /// Least breaking force over greatest tension; `null` where no breaking force is known.
     pub(super) safety_factor: Option<f64>,
     pub(super) below_ground: bool,
+    /// Whether it is turned by more than a right angle: what its cables touch then is not known.
+    pub(super) turns_over: bool,
     pub(super) residual: Residual,
 }
 
@@ -77,7 +81,7 @@ pub(super) struct Greatest {
 
 impl From<BrokenRest> for Rest {
     fn from(rest: BrokenRest) -> Self {
-        let (tension, cable) = rest.greatest_tension();
+        let (turns_over, (tension, cable)) = (rest.turns_over(), rest.greatest_tension());
         let [_, _, _, qw, qx, qy, qz] = crate::program::arguments::poses::pose_numbers(&rest.pose);
         Self {
             position: rest.pose.position.into(),
@@ -91,6 +95,7 @@ impl From<BrokenRest> for Rest {
             out_of_limits: rest.out_of_limits.into_iter().map(OutOfLimits::new).collect(),
             safety_factor: rest.safety_factor.map(|(factor, _)| factor),
             below_ground: rest.below_ground,
+            turns_over,
             residual: Residual::new(&rest.residual),
         }
     }
@@ -101,6 +106,7 @@ impl From<Swing> for Swinging {
         let (tension, cable, time) = swing.greatest;
         Self {
             moved: swing.moved,
+            moves_away: swing.moves_away,
             greatest_tension: Greatest { cable: cable + 1, tension },
             time,
             out_of_limits: swing.out_of_limits.into_iter().map(OutOfLimits::new).collect(),
@@ -143,9 +149,15 @@ impl Case {
     pub(super) fn wrong(&self) -> Option<String> {
         self.bad().or_else(|| match &self.swing {
             _ if self.rest.is_none() => Some("no rest was found".to_owned()),
+            _ if self.turns_over() => Some("the platform turns over, perhaps into its cables".to_owned()),
             Some(Motion::Failed { .. }) => Some("its motion is not known".to_owned()),
             _ => None,
         })
+    }
+
+    /// Whether the platform turns by more than a right angle.
+    fn turns_over(&self) -> bool {
+        self.rest.as_ref().is_some_and(|rest| rest.turns_over)
     }
 
     /// Why its rest or its motion is not known.
@@ -211,7 +223,8 @@ impl Case {
         let rest = self.rest.as_ref().map(|rest| [short(rest.moved), short(rest.greatest_tension.tension)]);
         let swing = self.swinging().map(|swing| {
             let Greatest { cable, tension } = swing.greatest_tension;
-            [short(swing.moved), short(tension), cable.to_string(), factor(swing.safety_factor)]
+            let moved = format!("{}{}", if swing.moves_away { "> " } else { "" }, short(swing.moved));
+            [moved, short(tension), cable.to_string(), factor(swing.safety_factor)]
         });
         rest.unwrap_or_default().into_iter().chain(swing.unwrap_or_default()).collect()
     }

@@ -37,6 +37,9 @@ pub(super) struct InWeather {
     /// A wind in which something is wrong.
     #[serde(skip_serializing_if = "Option::is_none")]
     wrong: Option<String>,
+    /// A wind in which no rest was found: whether the robot bears it is not known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    not_found: Option<String>,
     /// A wind in which a tension falls below its least one.
     #[serde(skip_serializing_if = "Option::is_none")]
     below_least: Option<String>,
@@ -105,17 +108,18 @@ impl InWeather {
         weather: &AnyWeather,
     ) -> Result<Self, StaticsError> {
         let found = winds(robot, &held.lengths, load, [&held.pose, &held.pose], weather)?;
-        let failed = found
-            .failures
-            .iter()
-            .map(|(azimuth, error)| (0, format!("no rest was found in wind{} ({error})", towards(*azimuth))));
-        let gravest = failed.chain(found.rests.iter().filter_map(wrong)).min_by_key(|(rank, _)| *rank);
+        let mut failed = found.failures.iter();
+        let not_found = failed
+            .next()
+            .map(|(azimuth, error)| format!("no rest was found in wind{} ({error})", towards(*azimuth)));
+        let gravest = found.rests.iter().filter_map(wrong).min_by_key(|(rank, _)| *rank);
         Ok(Self {
             speed: weather.speed,
             directions: found.rests.len() + found.failures.len(),
             farthest: found.farthest().map(OneWind::new),
             tightest: found.tightest().map(OneWind::new),
             wrong: gravest.map(|(_, what)| what),
+            not_found,
             below_least: found.rests.iter().find_map(|one| {
                 let least = one.out_of_limits.iter().find(|passed| passed.limit == Limit::Min)?;
                 Some(format!("{least}, in wind{}", towards(one.azimuth)))
@@ -123,22 +127,24 @@ impl InWeather {
         })
     }
 
+    /// What is wrong, or not known.
     pub(super) fn wrong(&self) -> Option<&str> {
-        self.wrong.as_deref()
+        self.wrong.as_deref().or(self.not_found.as_deref())
     }
 
     /// The verdict, and the winds that move the platform farthest and pull most.
     pub(super) fn sentences(&self, heading: &str) -> Vec<String> {
         let winds = match self.speed {
             Some(speed) => format!(
-                "wind of {speed} m/s from {DIRECTIONS} directions, and from {} of a search for the worst one",
+                "wind of {speed} m/s from {DIRECTIONS} directions, and from {} of searches for the worst ones",
                 self.directions.saturating_sub(DIRECTIONS)
             ),
             None => "the weather".to_owned(),
         };
-        let first = match &self.wrong {
-            None => format!("{heading} bears {winds}: no tension is too great."),
-            Some(what) => format!("{heading} does not bear {winds}: {what}."),
+        let first = match (&self.wrong, &self.not_found) {
+            (None, None) => format!("{heading} bears {winds}: no tension is too great."),
+            (Some(what), _) => format!("{heading} does not bear {winds}: {what}."),
+            (None, Some(what)) => format!("{heading} is not known to bear {winds}: {what}."),
         };
         let towards = |one: &OneWind| {
             one.azimuth_deg
@@ -171,7 +177,7 @@ impl InWeather {
             tight.map_or_else(String::new, |one| one.greatest_tension.cable.to_string()),
             number(tight.and_then(|one| one.azimuth_deg)),
             number(tight.and_then(|one| one.safety_factor)),
-            self.wrong.clone().unwrap_or_default(),
+            self.wrong().unwrap_or_default().to_owned(),
         ]
     }
 }
