@@ -112,7 +112,8 @@ impl ErrorModel {
     pub fn unit(&self, input: usize) -> Option<&'static str> {
         let of_robot = self.terms.iter().map(|term| (term, self.parameters[term.parameter].unit()));
         let of_weather = self.weather.iter().map(|term| (term, WeatherQuantity::ALL[term.parameter].unit()));
-        let mut units = of_robot.chain(of_weather).filter(|(term, _)| term.input == input).map(|(_, unit)| unit);
+        let mut units =
+            of_robot.chain(of_weather).filter(|(term, _)| term.input == input).map(|(_, unit)| unit);
         let first = units.next()?;
         units.all(|unit| unit == first).then_some(first)
     }
@@ -139,7 +140,8 @@ impl ErrorModel {
             layout: ParameterLayout::of(robot),
             parameters: parameters.clone(),
         };
-        if let Some(key) = model.keys().find(|key| weather.is_none() && WeatherQuantity::named(key).is_some()) {
+        if let Some(key) = model.keys().find(|key| weather.is_none() && WeatherQuantity::named(key).is_some())
+        {
             let expected = "no number of the weather: only samplings of a study, with output deflection or position, \
                             are observed in weather";
             return Err(Wrong::field(key, key, expected));
@@ -206,7 +208,8 @@ impl ErrorModel {
             lowest[*parameter] += (factor * support.min).min(factor * support.max);
             named[*parameter] = Some(&self.entries[*input]);
         }
-        for (quantity, (lowest, entry)) in WeatherQuantity::ALL.into_iter().zip(lowest.into_iter().zip(named)) {
+        for (quantity, (lowest, entry)) in WeatherQuantity::ALL.into_iter().zip(lowest.into_iter().zip(named))
+        {
             let Some(entry) = entry else { continue };
             // A quantile is rounded.
             if quantity.is_size() && !(lowest >= -1e-12 * lowest.abs().max(1.0)) {
@@ -219,7 +222,8 @@ impl ErrorModel {
             }
             let expands = nominal.expands() || named[3..5].iter().any(Option::is_some);
             if quantity == WeatherQuantity::Warmer && !expands {
-                let expected = "`cable_expansion` or `frame_expansion` in `weather` [1/K], too, by which it acts";
+                let expected =
+                    "`cable_expansion` or `frame_expansion` in `weather` [1/K], too, by which it acts";
                 return Err(Wrong::field(entry, entry, expected));
             }
         }

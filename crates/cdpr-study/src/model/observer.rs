@@ -280,7 +280,7 @@ impl<'a> OutputObserver<'a> {
         errors: &ErrorModel,
     ) -> Result<(Vec<f64>, Vec<Vec<f64>>), StaticsError> {
         let none = vec![0.0; errors.inputs.len()];
-        if self.output == Output::Position && self.weathers(errors, &none).is_none() {
+        if self.output == Output::Position && !self.is_in_weather(errors) {
             let perturbed = self.robot.perturbed(errors.deviations(&none).values())?;
             let (displaced, slopes) = self.displaced_slopes(&perturbed, errors)?;
             let row = |axis| {
@@ -315,10 +315,9 @@ impl<'a> OutputObserver<'a> {
         errors: &ErrorModel,
         rows: &[f64],
     ) -> Vec<Result<(f64, Vec<f64>), StaticsError>> {
-        if let Some(weathers) = self.weathers(errors, rows) {
-            let rows = rows.chunks_exact(errors.inputs.len()).zip(&weathers);
-            let found = rows.map(|(row, weather)| self.slopes_in(row, weather, errors, self.output));
-            return found.map(|found| found.map(|(size, of)| (1e3 * size, scaled(1e3, of)))).collect();
+        if self.is_in_weather(errors) {
+            let rows = rows.chunks_exact(errors.inputs.len());
+            return rows.filter_map(|row| self.slopes_in_weather(errors, row, self.output)).collect();
         }
         let deviations = &errors.deviations(rows);
         if self.is_in_lanes() && self.free.is_empty() {

@@ -188,7 +188,8 @@ impl Study {
                 return Err(self.invalid(field, value, "finite components [N or N m]"));
             }
         }
-        let is_loaded = file.load() != Load::none() || !file.output.is_deflection() || self.is_in_weather()?;
+        let is_loaded =
+            file.load() != Load::none() || !file.output.is_deflection() || self.is_in_weather()?;
         if !(file.payload.is_finite() && file.payload >= 0.0 && is_loaded) {
             let expected = match file.output {
                 Output::Deflection => {

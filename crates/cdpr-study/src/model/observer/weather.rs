@@ -35,15 +35,43 @@ impl OutputObserver<'_> {
 
     /// Displacements [m] of robots with these inputs under the load, or with output position without it, on the
     /// lengths of the nominal robot and from where that rests; whatever the output of the study is.
-    pub fn displacements_of(&self, errors: &ErrorModel, rows: &[f64], output: Output) -> Outcomes<Vector3<f64>> {
+    pub fn displacements_of(
+        &self,
+        errors: &ErrorModel,
+        rows: &[f64],
+        output: Output,
+    ) -> Outcomes<Vector3<f64>> {
         let deviations = errors.deviations(rows);
         match (self.weathers(errors, rows), output) {
-            (Some(weathers), _) => self.motions_in(&deviations, &weathers, output, |motion| position(&motion)),
+            (Some(weathers), _) => {
+                self.motions_in(&deviations, &weathers, output, |motion| position(&motion))
+            }
             (None, Output::Position) => deviations.each(self.lanes.layout(), |rows| {
                 rows.map(|row| self.displaced(&self.robot.perturbed(row)?))
             }),
             (None, _) => self.displacements(&deviations),
         }
+    }
+
+    /// Whether robots with these inputs are observed in weather.
+    pub fn is_in_weather(&self, errors: &ErrorModel) -> bool {
+        !self.weather.is_nothing() || errors.weather_terms().next().is_some()
+    }
+
+    /// In weather, the length of the displacement [mm] for a row of inputs, as [`Self::displacements_of`] has it,
+    /// and its derivatives by the inputs; `None` without weather.
+    ///
+    /// # Errors
+    /// [`StaticsError::NoDerivative`] for a position, on lengths that are given, and for cables over pulleys in
+    /// wind; those of [`weather_derivatives`].
+    pub fn slopes_in_weather(
+        &self,
+        errors: &ErrorModel,
+        row: &[f64],
+        output: Output,
+    ) -> Option<Result<(f64, Vec<f64>), StaticsError>> {
+        let found = self.is_in_weather(errors).then(|| self.slopes_in(row, errors, output))?;
+        Some(found.map(|(size, slopes)| (1e3 * size, slopes.into_iter().map(|slope| 1e3 * slope).collect())))
     }
 
     /// How far the nominal robot is displaced in the weather of the study [m].
@@ -64,11 +92,9 @@ impl OutputObserver<'_> {
     }
 
     /// Deviations of the numbers of the weather for each row of inputs; `None` without weather.
-    pub(super) fn weathers(&self, errors: &ErrorModel, rows: &[f64]) -> Option<Vec<WeatherNumbers>> {
-        if self.weather.is_nothing() && errors.weather_terms().next().is_none() {
-            return None;
-        }
-        Some(rows.chunks_exact(errors.inputs.len()).map(|row| errors.of_weather(row)).collect())
+    fn weathers(&self, errors: &ErrorModel, rows: &[f64]) -> Option<Vec<WeatherNumbers>> {
+        self.is_in_weather(errors)
+            .then(|| rows.chunks_exact(errors.inputs.len()).map(|row| errors.of_weather(row)).collect())
     }
 
     fn observe_in(
@@ -119,15 +145,10 @@ impl OutputObserver<'_> {
         Ok(still.unloaded.equilibrium.pose.motion_to(&found.pose))
     }
 
-    /// The length of the displacement [m] of the robot with a row of inputs, and its derivatives by the inputs.
-    ///
-    /// # Errors
-    /// [`StaticsError::NoDerivative`] for a position and for lengths that are given, and by a number of the
-    /// weather where it does not exist; those of [`weather_derivatives`].
-    pub(super) fn slopes_in(
+    /// The same in metres.
+    fn slopes_in(
         &self,
         row: &[f64],
-        weather: &WeatherNumbers,
         errors: &ErrorModel,
         output: Output,
     ) -> Result<(f64, Vec<f64>), StaticsError> {
@@ -135,7 +156,7 @@ impl OutputObserver<'_> {
             let reason = "in weather they are known for the lengths of each robot alone";
             return Err(StaticsError::NoDerivative { quantity: output.label(), reason });
         }
-        let weather = self.weather.deviating(weather)?;
+        let weather = self.weather.deviating(&errors.of_weather(row))?;
         let perturbed = self.robot.perturbed(errors.deviations(row).values())?;
         let turns = errors.weather_terms().any(|(quantity, _)| quantity == WeatherQuantity::WindFrom);
         if turns && perturbed.robot.gravity != self.robot.gravity {

@@ -65,7 +65,11 @@ impl Study {
             let field = format!("{field}.{}", errors.entries[term.input]);
             if !self.file.output.is_length() {
                 let expected = "output deflection or position: others are not observed in weather";
-                return Err(self.invalid(&field, format!("given with output {}", self.file.output), expected));
+                return Err(self.invalid(
+                    &field,
+                    format!("given with output {}", self.file.output),
+                    expected,
+                ));
             }
             if quantity.needs_diameter() {
                 self.check_diameters(&field, quantity)?;
@@ -88,6 +92,7 @@ impl Study {
 
 /// The numbers of the weather that deviate in an error model of a study file.
 fn quantities(model: &IndexMap<String, InputSpec>) -> impl Iterator<Item = WeatherQuantity> {
-    let named = model.iter().flat_map(|(key, spec)| spec.parameters.iter().flat_map(|of| of.keys()).chain([key]));
+    let named =
+        model.iter().flat_map(|(key, spec)| spec.parameters.iter().flat_map(|of| of.keys()).chain([key]));
     named.filter_map(|name| WeatherQuantity::named(name))
 }
