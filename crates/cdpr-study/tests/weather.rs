@@ -206,7 +206,7 @@ fn shares_by_derivatives_are_those_of_differences() {
         model["storm"] =
             json!({ "law": law(1.0)["law"], "parameters": { "wind_speed": 0.5, "warmer": 2.0 } });
         value["error_models"]["year"] = model;
-        value["sensitivity"] = json!({ "morris_blocks": 0, "saltelli_blocks": 0, "derivative_points": 16 });
+        value["sensitivity"] = json!({ "morris_blocks": 2, "saltelli_blocks": 0, "derivative_points": 48 });
         let study = opened(&value).unwrap();
         let summary = summary(&study);
         let found = summary.sensitivity.unwrap();
