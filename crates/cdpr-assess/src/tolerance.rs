@@ -95,6 +95,8 @@ pub struct Reached {
 
 /// Robots of a round of sampling.
 const ROUND: usize = 1 << 12;
+/// The same in weather, where robots are observed one by one.
+const ROUND_IN_WEATHER: usize = 1 << 9;
 /// Robots of a round that say how much the linear law explains.
 const EXPLAINED: usize = 512;
 /// Rounds at most.

@@ -28,6 +28,8 @@ const STADIUM: &str = "../../docs/how-to/loads/stadium.json";
 
 const EXPANSION: [f64; 2] = [1.2e-5, 1.0e-5];
 
+const OBSERVATIONS: usize = 8;
+
 /// A study whose weather and modulus deviate.
 fn study((robot, position, free, speed): (&str, [f64; 3], &[&str], f64)) -> Value {
     json!({
@@ -48,7 +50,7 @@ fn study((robot, position, free, speed): (&str, [f64; 3], &[&str], f64)) -> Valu
         } },
         "samplings": { "point": {
             "title": "At a point", "pose": { "position": position }, "free": free, "error_model": "year",
-            "observations": 24
+            "observations": OBSERVATIONS
         } }
     })
 }
@@ -128,7 +130,7 @@ fn every_observation_is_that_of_a_call_for_it_alone() {
             found.push(measured.value());
             expected.push(known.norm());
         }
-        assert!(found.len() >= 20, "{}: {}", case.0, found.len());
+        assert!(found.len() + 1 >= OBSERVATIONS, "{}: {}", case.0, found.len());
         let [mean, deviation] = mean_and_deviation(&expected);
         let [own, spread] = mean_and_deviation(&found);
         assert!(
@@ -191,7 +193,7 @@ fn a_wind_blows_from_where_it_is_said_to_and_whole_turns_change_nothing() {
 fn shares_by_derivatives_are_those_of_differences() {
     let windy =
         [("wind_speed", 9.0, 1.5), ("wind_from_deg", 35.0, 10.0), ("warmer", 8.0, 6.0), ("ice", 1e-3, 3e-4)];
-    for case in [ROBOTS[1], ROBOTS[5]] {
+    for (case, points) in [(ROBOTS[1], 2), (ROBOTS[5], 48)] {
         let mut value = study(case);
         let law = |std: f64| {
             json!({ "law": { "truncated_normal":
@@ -206,7 +208,8 @@ fn shares_by_derivatives_are_those_of_differences() {
         model["storm"] =
             json!({ "law": law(1.0)["law"], "parameters": { "wind_speed": 0.5, "warmer": 2.0 } });
         value["error_models"]["year"] = model;
-        value["sensitivity"] = json!({ "morris_blocks": 2, "saltelli_blocks": 0, "derivative_points": 48 });
+        value["sensitivity"] =
+            json!({ "morris_blocks": 2, "saltelli_blocks": 0, "derivative_points": points });
         let study = opened(&value).unwrap();
         let summary = summary(&study);
         let found = summary.sensitivity.unwrap();
@@ -232,7 +235,12 @@ fn shares_by_derivatives_are_those_of_differences() {
         for (input, part) in found.inputs.iter().zip(parts) {
             let share = input.derivative_share.unwrap();
             assert!((share - part / all).abs() < 1e-4, "{} {}: {share} {}", case.0, input.input, part / all);
-            assert!(input.total_upper.is_some() && input.first_lower.is_some(), "{}", input.input);
+            assert_eq!(
+                input.total_upper.is_some() && input.first_lower.is_some(),
+                points > 40,
+                "{}",
+                input.input
+            );
         }
         let of_weather = found.sums["weather"]["derivative_share"];
         assert!(of_weather > 0.5 && of_weather < 1.0, "{of_weather}");
@@ -242,7 +250,8 @@ fn shares_by_derivatives_are_those_of_differences() {
 #[test]
 fn cables_over_pulleys_have_no_derivatives_in_wind_and_measures_without_them() {
     let mut value = study(ROBOTS[6]);
-    value["sensitivity"] = json!({ "morris_blocks": 4, "saltelli_blocks": 0, "derivative_points": 8 });
+    value["samplings"]["point"]["observations"] = json!(12);
+    value["sensitivity"] = json!({ "morris_blocks": 2, "saltelli_blocks": 0, "derivative_points": 2 });
     let found = summary(&opened(&value).unwrap()).sensitivity.unwrap();
     let why = found.notes.iter().find(|note| note.starts_with("derivatives:")).unwrap();
     assert!(why.contains("no derivative") || why.contains("derivative"), "{why}");
@@ -259,7 +268,7 @@ fn a_position_is_that_on_the_lengths_of_the_nominal_robot() {
         let study = opened(&value).unwrap();
         let pose = study.sampling("point").unwrap().pose;
         let lengths = inverse(&study.robot, &pose, &Load::none()).unwrap().lengths;
-        for (row, measured) in observed(&study).into_iter().step_by(5) {
+        for (row, measured) in observed(&study).into_iter().step_by(3) {
             let weather = weather(&row);
             let changed = weather.robot(&deviating(&study.robot, &row)).unwrap();
             let lengths = weather.lengths(&lengths);

@@ -1,7 +1,7 @@
 //! Robots that are drawn under tolerances: the quantile of their errors, and what independent ones reach.
 
 use crate::error::AssessError;
-use crate::tolerance::{CERTAIN, FIRST, Model, ROUND, Reached};
+use crate::tolerance::{CERTAIN, FIRST, Model, ROUND, ROUND_IN_WEATHER, Reached};
 use cdpr_sensitivity::{Estimate, RandomDesign, SampleDesign, SobolDesign, derived_seed};
 use cdpr_statics::StaticsError;
 use cdpr_study::{Sampling, StudyError, observe_rows};
@@ -83,7 +83,9 @@ impl Model<'_> {
     /// The points of a round.
     pub(super) fn round(&self) -> Result<SobolDesign, StudyError> {
         let (study, errors) = (self.sampling.study, &self.sampling.errors);
-        let design = SobolDesign::scrambled(errors.inputs.clone(), ROUND, study.file.seed);
+        let in_weather = self.sampling.observer.is_in_weather(errors);
+        let points = if in_weather { ROUND_IN_WEATHER } else { ROUND };
+        let design = SobolDesign::scrambled(errors.inputs.clone(), points, study.file.seed);
         design.map_err(|source| self.wrong(source))
     }
 

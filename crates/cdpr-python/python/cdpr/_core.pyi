@@ -1422,6 +1422,7 @@ class Robot:
         force: _Row | None = None,
         moment: _Row | None = None,
         free: Sequence[str] | None = None,
+        slopes: bool = False,
     ) -> RestInWeather[float, None]:
         """Finds where the platform rests in wind, in another temperature, with ice or creep, with winches that hold.
 
@@ -1493,6 +1494,7 @@ class Robot:
         force: ArrayLike | None = None,
         moment: ArrayLike | None = None,
         free: Sequence[str] | None = None,
+        slopes: bool = False,
     ) -> RestInWeather[_Floats, _Words]: ...
     @overload
     def certify(  # type: ignore[overload-overlap]
@@ -2609,6 +2611,14 @@ class RestInWeather(Generic[_N, _R]):
     @property
     def integration(self) -> _N:
         """Largest error of the integration along a cable [m]."""
+    @property
+    def inputs(self) -> list[str] | None:
+        """Names of the inputs of `slopes`, the parameters of the robot and then the numbers of the weather; None
+        unless they are asked for."""
+    @property
+    def slopes(self) -> _Floats | None:
+        """Derivatives of the displacement by each input [m per unit], (3, k), with NaN where one does not exist;
+        None unless they are asked for."""
     @property
     def reasons(self) -> _R:
         """Why there is no answer, None where there is one; None for one case."""

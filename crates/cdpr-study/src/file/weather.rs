@@ -23,7 +23,7 @@ pub struct WeatherSpec {
     /// Velocity of the wind on the cables in the base frame [m/s]. Wind on the platform itself is a `force`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub wind: Option<[f64; 3]>,
-    /// Speed of a horizontal wind [m/s], in place of `wind`; zero if left out.
+    /// Speed of a horizontal wind [m/s], instead of `wind`; zero if left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub wind_speed: Option<f64>,
     /// Azimuth from which it blows [degrees], from the x to the y axis of the base frame: a wind from 0 blows
