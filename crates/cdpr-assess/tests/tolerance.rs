@@ -169,15 +169,16 @@ fn the_error_is_the_studys_output_unless_the_limit_names_another() {
 #[test]
 fn the_weather_stays_as_it_is_and_the_other_tolerances_are_tightened() {
     let file = serde_json::json!({
-        "format": "cdpr-study/1", "name": "hall", "robot": "../robots/caroca.json", "payload": 50.0, "seed": 3,
-        "replicates": 0, "confidence": 0.95, "bootstrap_resamples": 5,
+        "format": "cdpr-study/1", "name": "hall", "robot": "../robots/caroca.json", "payload": 50.0,
+        "seed": 3, "replicates": 0, "confidence": 0.95, "bootstrap_resamples": 5,
         "weather": { "cable_expansion": 1.2e-5, "frame_expansion": 1.0e-5 },
         "error_models": { "hall": {
             "warmer": { "law": { "normal": { "mean": 0.0, "std": 2.0 } } },
             "youngs_modulus": { "law": { "uniform": { "min": -2e10, "max": 2e10 } } }
         } },
         "samplings": { "point": {
-            "title": "Point", "pose": { "position": [0.0, 0.0, 1.75] }, "error_model": "hall", "observations": 3
+            "title": "Point", "pose": { "position": [0.0, 0.0, 1.75] }, "error_model": "hall",
+            "observations": 3
         } }
     });
     let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/studies/hall.json"));

@@ -1,7 +1,7 @@
 //! The weather of a study: what it is, and which of its numbers may be uncertain.
 //!
-//! A wind of the speed v that comes from the azimuth ψ, from x to y of the level frame, and rises by the angle
-//! η has there the velocity
+//! A wind of the speed v that comes from the azimuth ψ, from x to y of the level frame, and rises by the
+//! angle η has there the velocity
 //!
 //! ```text
 //! v (-cos η cos ψ, -cos η sin ψ, sin η)                                                (Wx1)
@@ -15,8 +15,8 @@ use cdpr_statics::weather::{Weather, WeatherInput, Wind, WindProfile};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// The weather in which all robots are observed, on winches that hold the lengths for the pose. It comes after
-/// the load. SI units unless a name says otherwise.
+/// The weather in which all robots are observed, on winches that hold the lengths for the pose. It comes
+/// after the load. SI units unless a name says otherwise.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct WeatherSpec {
@@ -129,7 +129,8 @@ impl WeatherQuantity {
         }
     }
 
-    /// The number of the models by which derivatives are taken, and how much it changes by a unit of this one.
+    /// The number of the models by which derivatives are taken, and how much it changes by a unit of this
+    /// one.
     pub(crate) const fn of_models(self) -> (WeatherInput, f64) {
         match self {
             Self::WindSpeed => (WeatherInput::Wind, 1.0),

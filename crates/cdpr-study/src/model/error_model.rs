@@ -142,8 +142,8 @@ impl ErrorModel {
         };
         if let Some(key) = model.keys().find(|key| weather.is_none() && WeatherQuantity::named(key).is_some())
         {
-            let expected = "no number of the weather: only samplings of a study, with output deflection or position, \
-                            are observed in weather";
+            let expected = "no number of the weather: only samplings of a study, with output deflection or \
+                            position, are observed in weather";
             return Err(Wrong::field(key, key, expected));
         }
         if let Some((key, _)) = model.iter().find(|(key, spec)| spec.parameters.is_none() && !known(key)) {
@@ -214,8 +214,8 @@ impl ErrorModel {
             // A quantile is rounded.
             if quantity.is_size() && !(lowest >= -1e-15) {
                 let expected = format!(
-                    "a law with which {} stays zero or more, such as weibull, or a truncated_normal from the least \
-                     one on",
+                    "a law with which {} stays zero or more, such as weibull, or a truncated_normal from the \
+                     least one on",
                     quantity.name()
                 );
                 return Err(Wrong::field(format!("{entry}.law"), format!("{lowest} and more"), expected));

@@ -85,8 +85,8 @@ impl<'a> OutputObserver<'a> {
         }
     }
 
-    /// Observes a robot for each row of a table, in the weather of the study. A robot without the output is an
-    /// error with the reason.
+    /// Observes a robot for each row of a table, in the weather of the study. A robot without the output is
+    /// an error with the reason.
     pub fn observe(&self, deviations: &Deviations) -> Vec<Result<Measured, StaticsError>> {
         if !self.weather.is_nothing() {
             return self.observe_in_weather(deviations, Recorded::Output);
@@ -306,8 +306,8 @@ impl<'a> OutputObserver<'a> {
         self.lanes.set_point_lengths(offsets).map(Cow::Owned)
     }
 
-    /// The outputs of robots in their unit for rows of the inputs of an error model, and their derivatives with
-    /// respect to these. A robot without the output or without derivatives is an error with the reason:
+    /// The outputs of robots in their unit for rows of the inputs of an error model, and their derivatives
+    /// with respect to these. A robot without the output or without derivatives is an error with the reason:
     /// [`StaticsError::NoDerivative`] where a length is zero or two motions are the softest; those of the
     /// models.
     pub(crate) fn slopes(

@@ -42,11 +42,11 @@ answer! {
         closure_residual: Py<PyAny>,
         /// Largest error of the integration along a cable [m].
         integration: Py<PyAny>,
-        /// Names of the inputs of `slopes`, the parameters of the robot and then the numbers of the weather; None
-        /// unless they are asked for.
+        /// Names of the inputs of `slopes`, the parameters of the robot and then the numbers of the weather;
+        /// None unless they are requested.
         inputs: Option<Vec<String>>,
-        /// Derivatives of the displacement by each input [m per unit], (3, k), with NaN where one does not exist;
-        /// None unless they are asked for.
+        /// Derivatives of the displacement by each input [m per unit], (3, k), with NaN where one does not
+        /// exist; None unless they are requested.
         slopes: Py<PyAny>,
         /// Why there is no answer, None where there is one; None for one case.
         reasons: Py<PyAny>,
@@ -71,8 +71,8 @@ impl Robot {
     /// The lengths are those with which it rests at the pose under its own weight, without weather. The drag is
     /// that of round ropes with a coefficient of 1.2 in air of 1.225 kg/m³; with others, take the wind that is
     /// sqrt(density coefficient/1.47) times as fast. Wind on the platform itself is a `force`. `pose`, `wind` and the
-    /// load are of one case, or have a first axis of m cases: wind from all directions is a `wind` with a row for
-    /// each.
+    /// load are of one case, or have a first axis of m cases: wind from all directions is a `wind` with a
+    /// row for each.
     ///
     /// Parameters
     /// ----------
@@ -100,8 +100,8 @@ impl Robot {
     ///     Names of the coordinates of the pose that are found, for a robot with fewer cables than free
     ///     motions, as `Robot.inverse` takes them.
     /// slopes : bool, default False
-    ///     Whether the exact derivatives of the displacement are computed, too, also by the numbers of the weather. A
-    ///     robot with pulleys has none in wind.
+    ///     Whether the exact derivatives of the displacement are computed, too, also by the numbers of the
+    ///     weather. A robot with pulleys has none in wind.
     ///
     /// Returns
     /// -------
@@ -158,11 +158,10 @@ impl Robot {
             let wanted = poses.pose(case)?;
             let wanted = WantedPose::at(&wanted).free(&free);
             let (load, weather) = (loads.load(case)?, Weather { wind, ..weather });
-            let of_rest = || weather_derivatives(robot, wanted.clone(), &load, &weather);
-            let slopes = slopes.then(of_rest).transpose()?;
+            let found = slopes.then(|| weather_derivatives(robot, wanted.clone(), &load, &weather));
             let (still, rest) = in_weather(robot, wanted, &load, &weather)?;
             let motion = still.unloaded.equilibrium.pose.motion_to(&rest.pose);
-            Ok(Found { motion, lengths: still.lengths, rest, slopes })
+            Ok(Found { motion, lengths: still.lengths, rest, slopes: found.transpose()? })
         })?;
         let parameters = Parameter::of(robot);
         let of_weather = WeatherInput::ALL.map(|input| input.name().to_owned());
@@ -193,8 +192,8 @@ impl Robot {
             slopes: match slopes {
                 true => all.numbers(&[3, names.len()], |found, out| {
                     let Some(slopes) = &found.slopes else { return };
-                    let of_robot = slopes.displacement.column_iter().take(parameters.len());
-                    let of_robot = of_robot.map(|column| Some(column.into_owned()));
+                    let columns = slopes.displacement.column_iter().take(parameters.len());
+                    let of_robot = columns.map(|column| Some(column.into_owned()));
                     let of_weather = slopes.per_weather.iter().map(|slope| slope.as_ref().ok().copied());
                     for (k, slope) in of_robot.chain(of_weather).enumerate() {
                         (0..3).for_each(|row| {

@@ -1,8 +1,8 @@
 //! Observations in weather: by the scalar models, one robot at a time.
 //!
 //! The lengths are those of the robot without weather. It comes after the load, so that the displacement is
-//! that from the pose without load and weather, as [`cdpr_statics::weather::in_weather`] has it; of a position
-//! it is that from where the nominal robot rests without weather.
+//! that from the pose without load and weather, as [`cdpr_statics::weather::in_weather`] has it; of a
+//! position it is that from where the nominal robot rests without weather.
 
 use crate::file::output::{Output, Recorded};
 use crate::file::weather::{WeatherNumbers, WeatherQuantity};
@@ -33,8 +33,8 @@ impl OutputObserver<'_> {
         }
     }
 
-    /// Displacements [m] of robots with these inputs under the load, or with output position without it, on the
-    /// lengths of the nominal robot and from where that rests; whatever the output of the study is.
+    /// Displacements [m] of robots with these inputs under the load, or with output position without it, on
+    /// the lengths of the nominal robot and from where that rests; whatever the output of the study is.
     pub fn displacements_of(
         &self,
         errors: &ErrorModel,
@@ -58,12 +58,12 @@ impl OutputObserver<'_> {
         !self.weather.is_nothing() || errors.weather_terms().next().is_some()
     }
 
-    /// In weather, the length of the displacement [mm] for a row of inputs, as [`Self::displacements_of`] has it,
-    /// and its derivatives by the inputs; `None` without weather.
+    /// In weather, the length of the displacement [mm] for a row of inputs, as [`Self::displacements_of`] has
+    /// it, and its derivatives by the inputs; `None` without weather.
     ///
     /// # Errors
-    /// [`StaticsError::NoDerivative`] for a position, on lengths that are given, and for cables over pulleys in
-    /// wind; those of [`weather_derivatives`].
+    /// [`StaticsError::NoDerivative`] for a position, on lengths that are given, and for cables over pulleys
+    /// in wind; those of [`weather_derivatives`].
     pub fn slopes_in_weather(
         &self,
         errors: &ErrorModel,

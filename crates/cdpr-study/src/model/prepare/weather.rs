@@ -44,8 +44,8 @@ impl Study {
         if weather.is_nothing() {
             let mut deviating = self.file.error_models.values().flat_map(quantities);
             if weather.expands() && !deviating.any(|quantity| quantity == WeatherQuantity::Warmer) {
-                let expected = "a difference of temperature together with the expansion of cables, frame or both, \
-                                in `weather` or as an uncertain input";
+                let expected = "a difference of temperature together with the expansion of cables, frame or \
+                                both, in `weather` or as an uncertain input";
                 return Err(self.invalid("weather.warmer", 0.0, expected));
             }
             return Ok(());
