@@ -212,7 +212,7 @@ impl ErrorModel {
         {
             let Some(entry) = entry else { continue };
             // A quantile is rounded.
-            if quantity.is_size() && !(lowest >= -1e-15) {
+            if quantity.is_size() && (lowest.is_nan() || lowest < -1e-15) {
                 let expected = format!(
                     "a law with which {} stays zero or more, such as weibull, or a truncated_normal from the \
                      least one on",
