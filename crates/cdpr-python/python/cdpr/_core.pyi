@@ -2620,11 +2620,13 @@ class RestInWeather(Generic[_N, _R]):
     @property
     def inputs(self) -> list[str] | None:
         """Names of the inputs of `slopes`, the parameters of the robot and then the numbers of the weather;
-        None unless they are requested."""
+        None unless they are requested.
+        """
     @property
     def slopes(self) -> _Floats | None:
         """Derivatives of the displacement by each input [m per unit], (3, k), with NaN where one does not
-        exist; None unless they are requested."""
+        exist; None unless they are requested.
+        """
     @property
     def reasons(self) -> _R:
         """Why there is no answer, None where there is one; None for one case."""
