@@ -13,18 +13,23 @@
 //! defines κ, which is constant for a linear model and hardly changes otherwise. A sample at the current s
 //! gives κ; κ and the limit give the admissible variance; this gives the cheapest s ([`allocate`]). A few
 //! rounds suffice. Independent draws then verify what the budget reaches.
+//!
+//! The weather of a study is drawn as it is: no money makes it calmer. With yw the quantile in the weather of
+//! robots without deviations, and the sum over all other tolerances,
+//!
+//! ```text
+//! quantile(s) = √(yw² + κ² sum v_j s_j²)                                               (B3)
+//! ```
 
+mod drawn;
 mod limit;
 mod verdict;
 
 use crate::error::AssessError;
-use cdpr_sensitivity::{
-    Estimate, RandomDesign, SampleDesign, SensitivityError, SobolDesign, allocate, derived_seed,
-};
+use cdpr_sensitivity::{Estimate, SensitivityError, allocate};
 use cdpr_statics::{Load, StaticsError};
 use cdpr_study::{LinearLaw, Sampling, StudyError, explained, observe_rows};
 pub use limit::{Limit, Limited};
-use rayon::prelude::*;
 use serde::Serialize;
 
 /// Which tolerances to tighten for a limit.
@@ -38,6 +43,9 @@ pub struct ToleranceBudget {
     pub quantile: f64,
     /// The error without any deviation from the means [mm]: no tolerance goes below it.
     pub least_mm: f64,
+    /// The quantile of the error [mm] that the weather alone leaves, where it deviates.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub weather_mm: Option<f64>,
     /// Share of the variance of the error, as the tolerances are, that the linear law behind (B1) explains.
     pub explained: Option<f64>,
     /// All tolerances, those to tighten most first.
@@ -65,8 +73,11 @@ pub struct Tolerance {
     pub halved_mm: f64,
     /// Factor of the tolerance, above 0; 1 if it may stay as it is.
     pub factor: f64,
-    /// Cost now; tightened, it is divided by the factor.
+    /// Cost now; tightened, it is divided by the factor. Zero of the weather.
     pub cost: f64,
+    /// Whether it is a number of the weather, which stays as it is.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub weather: bool,
 }
 
 /// Results of independent draws of the deviations, with intervals at the study's confidence.
@@ -84,6 +95,8 @@ pub struct Reached {
 
 /// Robots of a round of sampling.
 const ROUND: usize = 1 << 12;
+/// The same in weather, where robots are observed one by one.
+const ROUND_IN_WEATHER: usize = 1 << 9;
 /// Robots of a round that say how much the linear law explains.
 const EXPLAINED: usize = 512;
 /// Rounds at most.
@@ -107,48 +120,60 @@ pub fn tolerance_budget(sampling: &Sampling, limit: &Limit) -> Result<ToleranceB
     let unmoved = vec![1.0; model.names.len()];
     let mut factors = unmoved.clone();
     let mut predicted = model.rounded_quantile(&factors)?;
-    let room = limit.limit_mm - model.least_mm;
+    // Equation (B3) is (B2) about zero, with a part of the variance that stays.
+    let weather_mm = model.of_weather_alone()?;
+    let (about, stays) = weather_mm.map_or((model.least_mm, 0.0), |alone| (0.0, alone));
+    let room = limit.limit_mm - about - stays;
     let (first, mut rounds) = (predicted, 1);
     let inflation = |quantile: f64, factors: &[f64]| {
-        (quantile - model.least_mm).max(0.0).powi(2) / left(&model.variances, factors)
+        let excess = (quantile - about).max(0.0).powi(2) - stays * stays;
+        excess.max(0.0) / left(&model.variances, factors)
     };
     while predicted > limit.limit_mm || (factors != unmoved && predicted < limit.limit_mm - SETTLED * room) {
         if rounds == ROUNDS {
             return Err(model.unreachable("the quantile does not settle", predicted));
         }
         // The aim lies below the limit by half of the allowed difference.
-        let aim = (room * (1.0 - 0.5 * SETTLED)).powi(2) / inflation(predicted, &factors);
+        let aim = (stays + room * (1.0 - 0.5 * SETTLED)).powi(2) - stays * stays;
+        let aim = aim / inflation(predicted, &factors);
         factors = allocate(&model.variances, &model.costs, aim).map_err(|_| {
             model.unreachable("no tolerance has an effect on the error, to first order", predicted)
         })?;
         predicted = model.rounded_quantile(&factors)?;
         rounds += 1;
     }
-    let total: f64 = model.variances.iter().sum();
-    let halved = |part: f64| model.least_mm + (inflation(first, &unmoved) * (total - 0.75 * part)).sqrt();
+    let total: f64 = model.parts.iter().sum();
+    let tightened: f64 = model.variances.iter().sum();
+    let halved = |part: f64| {
+        let excess = inflation(first, &unmoved) * (tightened - 0.75 * part);
+        about + (stays * stays + if tightened > 0.0 { excess } else { 0.0 }).sqrt()
+    };
     let mut tolerances: Vec<Tolerance> = (0..factors.len())
         .map(|j| Tolerance {
             name: model.names[j].clone(),
             std: model.stds[j],
-            share: model.variances[j] / total,
+            share: model.parts[j] / total,
             halved_mm: halved(model.variances[j]),
             factor: factors[j],
-            cost: model.costs[j],
+            cost: if model.weather[j] { 0.0 } else { model.costs[j] },
+            weather: model.weather[j],
         })
         .collect();
     tolerances
         .sort_by(|one, other| one.factor.total_cmp(&other.factor).then(other.share.total_cmp(&one.share)));
-    let cost = |factors: &[f64]| model.costs.iter().zip(factors).map(|(cost, factor)| cost / factor).sum();
+    let cost = |of: fn(&Tolerance) -> f64| tolerances.iter().map(of).sum();
+    let cost = [cost(|one| one.cost), cost(|one| one.cost / one.factor)];
     Ok(ToleranceBudget {
         of: model.of,
         limit_mm: limit.limit_mm,
         quantile: limit.quantile,
         least_mm: model.least_mm,
+        weather_mm,
         explained: model.explained(&unmoved)?,
         tolerances,
         now: model.verify(&unmoved, 1)?,
         tightened: model.verify(&factors, 2)?,
-        cost: [cost(&unmoved), cost(&factors)],
+        cost,
         rounds,
     })
 }
@@ -170,7 +195,11 @@ struct Model<'a> {
     /// The error to first order about the means of the inputs.
     law: LinearLaw,
     /// Equation (B1) [mm²].
+    parts: Vec<f64>,
+    /// The same of those that can be tightened, zero of the weather.
     variances: Vec<f64>,
+    /// Which of them are numbers of the weather.
+    weather: Vec<bool>,
     /// Tolerance of each input, and the mean of its law.
     inputs: Vec<(usize, f64)>,
     least_mm: f64,
@@ -180,7 +209,8 @@ impl<'a> Model<'a> {
     fn new(sampling: &'a Sampling<'a>, limit: &'a Limit) -> Result<Self, AssessError> {
         limit.check()?;
         let of = Limited::of(limit.of, sampling.output())?;
-        if of == Limited::Deflection && sampling.load == Load::none() {
+        let in_weather = sampling.observer.is_in_weather(&sampling.errors);
+        if of == Limited::Deflection && sampling.load == Load::none() && !in_weather {
             let expected = "a mass above zero [kg], whose effect is the deflection";
             return Err(StudyError::setting("the study's payload", 0.0, expected).into());
         }
@@ -191,16 +221,18 @@ impl<'a> Model<'a> {
         }
         let errors = &sampling.errors;
         let mut names: Vec<String> = Vec::new();
-        let mut inputs = Vec::new();
-        for (entry, input) in errors.entries.iter().zip(&errors.inputs) {
+        let (mut inputs, mut weather) = (Vec::new(), Vec::new());
+        for (number, (entry, input)) in errors.entries.iter().zip(&errors.inputs).enumerate() {
             let known = names.iter().position(|name| name == entry).unwrap_or(names.len());
             if known == names.len() {
                 names.push(entry.clone());
+                weather.push(errors.is_of_weather(number));
             }
             inputs.push((known, input.law.mean()));
         }
-        if let Some((name, _)) = limit.costs.iter().find(|(name, _)| !names.contains(name)) {
-            let expected = format!("one of the tolerances {}", names.join(", "));
+        let bought = || names.iter().zip(&weather).filter(|(_, weather)| !**weather).map(|(name, _)| name);
+        if let Some((name, _)) = limit.costs.iter().find(|(name, _)| !bought().any(|of| of == *name)) {
+            let expected = format!("one of the tolerances {}", Vec::from_iter(bought().cloned()).join(", "));
             return Err(StudyError::setting("costs", name, expected).into());
         }
         let mut model = Self {
@@ -209,7 +241,9 @@ impl<'a> Model<'a> {
             of,
             costs: names.iter().map(|name| limit.costs.get(name).copied().unwrap_or(1.0)).collect(),
             stds: vec![0.0; names.len()],
-            variances: vec![0.0; names.len()],
+            parts: vec![0.0; names.len()],
+            variances: Vec::new(),
+            weather,
             names,
             law: LinearLaw { about: Vec::new(), value: Vec::new(), slopes: Vec::new() },
             inputs,
@@ -225,10 +259,12 @@ impl<'a> Model<'a> {
         let parts = model.law.squares();
         for ((tolerance, _), (input, part)) in model.inputs.iter().zip(errors.inputs.iter().zip(parts)) {
             let std = input.law.std();
-            model.variances[*tolerance] += part * std * std;
+            model.parts[*tolerance] += part * std * std;
             model.stds[*tolerance] = model.stds[*tolerance].max(std);
         }
-        if limit.limit_mm <= least {
+        let tightened = model.parts.iter().zip(&model.weather);
+        model.variances = tightened.map(|(part, weather)| if *weather { 0.0 } else { *part }).collect();
+        if limit.limit_mm <= least && !model.weather.contains(&true) {
             return Err(model.unreachable("it is not above the error without any deviation", least));
         }
         Ok(model)
@@ -238,6 +274,10 @@ impl<'a> Model<'a> {
     fn linear(&self) -> Result<LinearLaw, StaticsError> {
         let Sampling { robot, errors, observer, .. } = self.sampling;
         let about: Vec<f64> = self.inputs.iter().map(|(_, mean)| *mean).collect();
+        if let Some(found) = observer.slopes_in_weather(errors, &about, self.of.output()) {
+            let (value, slopes) = found?;
+            return Ok(LinearLaw { about, value: vec![value], slopes: vec![slopes] });
+        }
         let perturbed = robot.perturbed(errors.deviations(&about).values())?;
         let gradient =
             |slopes: &[f64]| errors.gradient(slopes).into_iter().map(|slope| 1e3 * slope).collect();
@@ -267,110 +307,6 @@ impl<'a> Model<'a> {
         let pairs: Vec<_> =
             pairs.into_iter().filter_map(|(linear, observed)| Some((linear, observed?))).collect();
         Ok(explained(&pairs))
-    }
-
-    /// Errors [mm] of the robots of a design under tightened tolerances, in ascending order; infinite for
-    /// robots without feasible tensions. The first robots are observed alone, so that tolerances under which
-    /// too many have none are refused early.
-    fn errors(&self, design: &impl SampleDesign, factors: &[f64]) -> Result<Vec<f64>, AssessError> {
-        let robots = design.points();
-        let mut errors: Vec<f64> = Vec::new();
-        while errors.len() < robots {
-            let next = errors.len()..robots.min(FIRST.max(4 * errors.len()));
-            errors.extend(observe_rows(design, next, |rows| {
-                let outcomes = self.outcomes(rows, factors).into_iter();
-                outcomes.map(|outcome| outcome.map_or(f64::INFINITY, |metres| 1e3 * metres)).collect()
-            }));
-            self.check_failed(&errors, design, factors)?;
-        }
-        errors.par_sort_by(f64::total_cmp);
-        Ok(errors)
-    }
-
-    /// The error of each robot [m]; rows of inputs are tightened in place.
-    fn outcomes(&self, rows: &mut [f64], factors: &[f64]) -> Vec<Result<f64, StaticsError>> {
-        for row in rows.chunks_exact_mut(self.inputs.len()) {
-            for (value, (tolerance, mean)) in row.iter_mut().zip(&self.inputs) {
-                *value = mean + factors[*tolerance] * (*value - mean);
-            }
-        }
-        let deviations = self.sampling.errors.deviations(rows);
-        match self.of {
-            Limited::Deflection => {
-                let outcomes = self.sampling.observer.displacements(&deviations).into_iter();
-                outcomes.map(|outcome| outcome.map(|dp| dp.norm())).collect()
-            }
-            Limited::Position => deviations.rows().map(|row| self.away(row)).collect(),
-        }
-    }
-
-    /// Refuses tolerances under which more robots than the quantile allows have certainly no error.
-    fn check_failed(
-        &self,
-        errors: &[f64],
-        design: &impl SampleDesign,
-        factors: &[f64],
-    ) -> Result<(), AssessError> {
-        let failed = errors.iter().filter(|error| error.is_infinite()).count();
-        let share = Estimate::of_share(failed, errors.len(), CERTAIN).map_err(|source| self.wrong(source))?;
-        if share.low <= 1.0 - self.limit.quantile {
-            return Ok(());
-        }
-        let what = format!("{failed} of {} robots with these tolerances", errors.len());
-        let first = errors.iter().position(|error| error.is_infinite());
-        let source = first.and_then(|first| {
-            let mut why = observe_rows(design, first..first + 1, |rows| self.outcomes(rows, factors));
-            why.pop()?.err().map(Box::new)
-        });
-        Err(AssessError::Unobservable { what, source })
-    }
-
-    /// Distance of P from the wanted pose [m].
-    fn away(&self, deviations: &[f64]) -> Result<f64, StaticsError> {
-        let Sampling { robot, observer, .. } = self.sampling;
-        Ok(observer.displaced(&robot.perturbed(deviations)?)?.norm())
-    }
-
-    /// The quantile [mm] of a round. It uses the same points for all factors, so that it changes with the
-    /// factors alone.
-    fn rounded_quantile(&self, factors: &[f64]) -> Result<f64, AssessError> {
-        let ascending = self.errors(&self.round()?, factors)?;
-        self.estimate(&ascending).map(|quantile| quantile.value)
-    }
-
-    /// The points of a round.
-    fn round(&self) -> Result<SobolDesign, StudyError> {
-        let (study, errors) = (self.sampling.study, &self.sampling.errors);
-        let design = SobolDesign::scrambled(errors.inputs.clone(), ROUND, study.file.seed);
-        design.map_err(|source| self.wrong(source))
-    }
-
-    /// Equation (B2) with independent draws.
-    fn verify(&self, factors: &[f64], draw: u64) -> Result<Reached, AssessError> {
-        let file = &self.sampling.study.file;
-        let (inputs, robots) = (self.sampling.errors.inputs.clone(), self.limit.verified_with);
-        let design = RandomDesign::new(inputs, robots, derived_seed(file.seed, draw));
-        let ascending = self.errors(&design.map_err(|source| self.wrong(source))?, factors)?;
-        let within = ascending.partition_point(|error| *error <= self.limit.limit_mm);
-        Ok(Reached {
-            quantile_mm: self.estimate(&ascending)?,
-            within: Estimate::of_share(within, robots, file.confidence)
-                .map_err(|source| self.wrong(source))?,
-            robots,
-            failed: ascending.iter().filter(|error| error.is_infinite()).count(),
-        })
-    }
-
-    fn estimate(&self, ascending: &[f64]) -> Result<Estimate, AssessError> {
-        let (quantile, confidence) = (self.limit.quantile, self.sampling.study.file.confidence);
-        let found =
-            Estimate::of_quantile(ascending, quantile, confidence).map_err(|source| self.wrong(source))?;
-        if found.value.is_infinite() {
-            let failed = ascending.iter().filter(|error| error.is_infinite()).count();
-            let what = format!("{failed} of {} robots with these tolerances", ascending.len());
-            return Err(AssessError::Unobservable { what, source: None });
-        }
-        Ok(found)
     }
 
     fn unreachable(&self, reason: &'static str, reached_mm: f64) -> AssessError {

@@ -165,3 +165,44 @@ fn the_error_is_the_studys_output_unless_the_limit_names_another() {
         assert!(tolerance_budget(&sampling, &with(Some(Limited::Deflection), 1.36)).is_ok());
     }
 }
+
+#[test]
+fn the_weather_stays_as_it_is_and_the_other_tolerances_are_tightened() {
+    let file = serde_json::json!({
+        "format": "cdpr-study/1", "name": "hall", "robot": "../robots/caroca.json", "payload": 50.0,
+        "seed": 3, "replicates": 0, "confidence": 0.95, "bootstrap_resamples": 5,
+        "weather": { "cable_expansion": 1.2e-5, "frame_expansion": 1.0e-5 },
+        "error_models": { "hall": {
+            "warmer": { "law": { "normal": { "mean": 0.0, "std": 2.0 } } },
+            "youngs_modulus": { "law": { "uniform": { "min": -2e10, "max": 2e10 } } }
+        } },
+        "samplings": { "point": {
+            "title": "Point", "pose": { "position": [0.0, 0.0, 1.75] }, "error_model": "hall",
+            "observations": 3
+        } }
+    });
+    let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/studies/hall.json"));
+    let study = Study::from_json(&file.to_string(), path).unwrap();
+    let sampling = study.sampling("point").unwrap();
+    let of = |limit_mm: f64| Limit { verified_with: 300, ..limit(Limited::Deflection, limit_mm) };
+    let wide = tolerance_budget(&sampling, &of(10.0)).unwrap();
+    let (alone, now) = (wide.weather_mm.unwrap(), wide.now.quantile_mm.value);
+    assert!(alone > wide.least_mm && now > 1.1 * alone, "{alone} {now}");
+    let wanted = 0.5 * (alone + now);
+    let found = tolerance_budget(&sampling, &of(wanted)).unwrap();
+    let [modulus, warmer] = ["youngs_modulus", "warmer"].map(|name| factor(&found, name));
+    assert!(modulus < 0.9 && warmer == 1.0, "{modulus}");
+    // 300 robots know the quantile to their interval.
+    let reached = found.tightened.quantile_mm;
+    assert!(reached.low <= wanted && reached.high >= wanted && reached.value < now, "{reached:?} {wanted}");
+    assert_eq!(found.tolerances.iter().map(|of| of.weather).collect::<Vec<_>>(), [false, true]);
+    assert_eq!(found.cost[0], 1.0);
+    let said = found.sentences().join(" ");
+    assert!(said.contains("The weather in warmer cannot be bought"), "{said}");
+    let refused = |limit: &Limit| tolerance_budget(&sampling, limit).unwrap_err().to_string();
+    assert!(refused(&of(0.99 * alone)).contains("the weather alone"), "{}", refused(&of(0.99 * alone)));
+    let bought = Limit { costs: [("warmer".to_owned(), 2.0)].into_iter().collect(), ..of(wanted) };
+    assert!(refused(&bought).contains("one of the tolerances youngs_modulus"), "{}", refused(&bought));
+    let position = Limit { of: Some(Limited::Position), ..of(10.0) };
+    assert!(refused(&position).contains("deviations are the means"), "{}", refused(&position));
+}

@@ -689,6 +689,26 @@ def test_heat_lengthens_cables_and_ice_loads_them():
         robot.in_weather([0, 0, 2], warmer=30)
 
 
+def test_derivatives_in_weather_are_those_of_differences():
+    robot = cdpr.Robot.from_file("cogiro")
+
+    def at(speed, azimuth, warmer, **more):
+        wind = speed * numpy.array([numpy.cos(azimuth), numpy.sin(azimuth), 0])
+        return robot.in_weather([0, 0, 2], wind, warmer=warmer, cable_expansion=1.2e-5, payload=20, **more)
+
+    found = at(12, 0.4, 9, slopes=True)
+    assert found.slopes.shape == (3, len(found.inputs)) and found.inputs[0] == "mass"
+    assert at(12, 0.4, 9).slopes is None and at(12, 0.4, 9).inputs is None
+    steps = {"wind": (0.2, 0, 0), "wind_direction": (0, 0.02, 0), "warmer": (0, 0, 1)}
+    for name, (speed, azimuth, warmer) in steps.items():
+        one, other = (at(12 + k * speed, 0.4 + k * azimuth, 9 + k * warmer).displacement for k in (1, -1))
+        difference = (one - other) / (2 * (speed + azimuth + warmer))
+        slope = found.slopes[:, found.inputs.index(name)]
+        assert numpy.linalg.norm(slope - difference) < 2e-3 * numpy.linalg.norm(difference), name
+    with pytest.raises(cdpr.NoSolutionError, match="pulley"):
+        cdpr.Robot.from_file("ipanema-3").in_weather([0, 0, 1], [5, 0, 0], slopes=True)
+
+
 def test_the_platform_rests_when_a_cable_breaks(caroca):
     one = caroca.safety(POSE)
     assert one.broken == [str(i) for i in range(1, 9)] and set(one.endings) == {"held"}

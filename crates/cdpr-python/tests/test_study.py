@@ -345,3 +345,27 @@ def test_a_sampling_has_its_statistics_and_the_effect_of_each_parameter(name):
         results.sampling(surface)
     if name == "cogiro":
         assert list(results.table("all_sensitivity")["input"]) == found.inputs
+
+
+def test_a_study_in_weather_agrees_with_calls_for_each_observation():
+    laws = {"wind_speed": {"weibull": {"shape": 2.0, "scale": 8.0}}, "warmer": {"uniform": {"min": 5, "max": 20}},
+            "wind_from_deg": {"uniform": {"min": 0, "max": 360}}, "ice": {"uniform": {"min": 0, "max": 0.001}}}
+    expansion = {"cable_expansion": 1.2e-5, "frame_expansion": 1e-5}
+    study = {
+        "format": "cdpr-study/1", "name": "a year", "robot": "cogiro", "weather": expansion, "seed": 1, "replicates": 0,
+        "confidence": 0.95, "bootstrap_resamples": 5,
+        "error_models": {"year": {name: {"law": law} for name, law in laws.items()}},
+        "samplings": {"point": {"title": "Point", "pose": {"position": [0, 0, 2]}, "error_model": "year",
+                                "observations": 6}},
+    }
+    found = cdpr.study.run(study).observations("point")
+    robot = cdpr.Robot.from_file("cogiro")
+    columns = [numpy.asarray(found[f"d_{name}"]) for name in ("wind_speed", "wind_from_deg", "warmer", "ice")]
+    for speed, azimuth, warmer, ice, size in zip(*columns, numpy.asarray(found["magnitude_mm"])):
+        towards = numpy.radians(azimuth + 180)
+        wind = speed * numpy.array([numpy.cos(towards), numpy.sin(towards), 0])
+        alone = robot.in_weather([0, 0, 2], wind, warmer=warmer, ice=ice, **expansion)
+        assert size == pytest.approx(1e3 * alone.magnitude, rel=1e-6, abs=1e-5)
+    study["weather"] = {"wind_spede": 3}
+    with pytest.raises(cdpr.InputError, match="wind_spede"):
+        cdpr.study.run(study)

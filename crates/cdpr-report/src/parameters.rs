@@ -2,6 +2,7 @@
 
 use crate::error::ReportError;
 use cdpr_robot::{Axis, Parameter, TiltAxis};
+use cdpr_study::WeatherQuantity;
 
 /// Words for a parameter or a group of parameters, with its symbol.
 pub(crate) fn parameter(name: &str) -> String {
@@ -17,6 +18,13 @@ pub(crate) fn parameter(name: &str) -> String {
         "lead" => "leads, each",
         "tilt" => "tilts of the swivel axes, two of each",
         "gravity" => "gravity, each component",
+        "wind_speed" => "speed of the wind",
+        "wind_from_deg" => "azimuth from which the wind blows",
+        "warmer" => "how much warmer it is",
+        "cable_expansion" => "thermal expansion of the cables",
+        "frame_expansion" => "thermal expansion of the frame",
+        "ice" => "thickness of the ice",
+        "creep" => "creep of the cables, a strain",
         other => other,
     };
     words.to_owned()
@@ -45,7 +53,8 @@ pub(crate) fn reading_unit(name: &str) -> (&'static str, f64) {
         "gravity" => Some(Parameter::Gravity(Axis::X)),
         name => name.parse().ok(),
     };
-    match parameter.map(|parameter| parameter.unit()) {
+    let unit = parameter.map(|parameter| parameter.unit());
+    match unit.or_else(|| WeatherQuantity::named(name).map(WeatherQuantity::unit)) {
         Some("Pa") => ("GPa", 1e-9),
         Some("m") => ("mm", 1e3),
         Some("kg/m") => ("g/m", 1e3),

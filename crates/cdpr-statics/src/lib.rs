@@ -137,7 +137,7 @@ pub mod stiffness {
 /// Rest in weather: wind on the cables, ice, creep, another temperature.
 pub mod weather {
     pub use crate::derivatives::{WeatherDerivatives, WeatherInput, weather_derivatives};
-    pub use crate::loading::{RestInWeather, Weather, Wind, WindProfile, in_weather};
+    pub use crate::loading::{RestInWeather, Weather, Wind, WindProfile, in_weather, rest_in_weather};
 }
 
 /// Natural motions of the platform and of the cables.

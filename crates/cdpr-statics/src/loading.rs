@@ -23,6 +23,6 @@ pub use modes::{CableFrequency, NaturalMode, PoseModes, modes_at};
 pub use small_motions::{CableAtRest, SmallMotions};
 pub use stiffness::{PoseStiffness, stiffness_at};
 pub(crate) use weather::CableInWeather;
-pub use weather::{Weather, in_weather};
+pub use weather::{Weather, in_weather, rest_in_weather};
 pub(crate) use wind::{BlownCable, DRAG_PER_DIAMETER};
 pub use wind::{RestInWeather, Wind, WindProfile};

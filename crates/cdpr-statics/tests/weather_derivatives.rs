@@ -2,7 +2,7 @@
 
 use crate::common::caroca;
 use crate::in_wind::named;
-use cdpr_robot::{Coordinate, Parameter, Pose, Robot, Vector3};
+use cdpr_robot::{Coordinate, Parameter, Pose, Robot, Rotation3, Vector3};
 use cdpr_statics::weather::{Weather, WeatherInput, Wind, WindProfile, in_weather, weather_derivatives};
 use cdpr_statics::{Load, StaticsError, WantedPose};
 
@@ -31,6 +31,10 @@ fn changed(weather: &Weather, input: WeatherInput, by: f64) -> Weather {
             let velocity = weather.wind.velocity();
             let faster = velocity * (1.0 + by / velocity.norm());
             weather.wind = weather.wind.with_velocity(faster).unwrap();
+        }
+        WeatherInput::Direction => {
+            let turned = Rotation3::from_axis_angle(&Vector3::z_axis(), by) * weather.wind.velocity();
+            weather.wind = weather.wind.with_velocity(turned).unwrap();
         }
     }
     weather
@@ -90,7 +94,7 @@ fn derivatives_by_the_weather_are_those_of_differences() {
             let found = weather_derivatives(&robot, wanted(), &load, &weather).unwrap();
             for (input, slope) in WeatherInput::ALL.into_iter().zip(&found.per_weather) {
                 let Ok(slope) = slope else {
-                    assert!(input == WeatherInput::Wind && weather.wind.is_calm());
+                    assert!(input.name().starts_with("wind") && weather.wind.is_calm());
                     continue;
                 };
                 let step = match input {
@@ -99,6 +103,7 @@ fn derivatives_by_the_weather_are_those_of_differences() {
                     WeatherInput::Ice => 2e-4,
                     WeatherInput::Creep => 2e-5,
                     WeatherInput::Wind => 0.2,
+                    WeatherInput::Direction => 0.02,
                 };
                 let known =
                     difference(step, |by| displaced(&robot, wanted(), &load, &changed(&weather, input, by)));

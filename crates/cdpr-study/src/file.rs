@@ -9,3 +9,4 @@ pub(crate) mod record;
 pub(crate) mod sensitivity_spec;
 pub(crate) mod study_file;
 pub(crate) mod template;
+pub(crate) mod weather;

@@ -14,3 +14,4 @@ mod sensitivity_settings;
 mod shared_folder;
 mod tables;
 mod vibration;
+mod weather;

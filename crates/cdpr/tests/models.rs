@@ -386,7 +386,7 @@ fn wind_from_all_directions_has_a_verdict_and_derivatives() {
         ["derivatives", "--force", "50,0,0", "--wind", "15,0,0", "--with", "ice=0.003", "--format", "json"];
     let (_, slopes, said) = asked(&settings);
     let by_weather = json(&slopes)["in_weather"]["by_weather"].clone();
-    assert_eq!(by_weather.as_array().map(Vec::len), Some(6), "{said}");
+    assert_eq!(by_weather.as_array().map(Vec::len), Some(7), "{said}");
     assert!(number(&by_weather[5]["magnitude_mm"]) > 0.0);
     let (code, _, said) = asked(&["safety", "--with", "wind=-3"]);
     assert!(code == Some(2) && said.contains("expected a speed above 0 m/s"), "{said}");

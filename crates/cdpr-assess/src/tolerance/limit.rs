@@ -19,6 +19,14 @@ pub enum Limited {
 }
 
 impl Limited {
+    /// The output of a study that it is.
+    pub(super) fn output(self) -> Output {
+        match self {
+            Self::Deflection => Output::Deflection,
+            Self::Position => Output::Position,
+        }
+    }
+
     /// The error that is limited: the one that is named, or else the output of the study.
     pub(super) fn of(named: Option<Self>, output: Output) -> Result<Self, StudyError> {
         match (named, output) {

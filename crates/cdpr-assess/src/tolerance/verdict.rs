@@ -41,6 +41,12 @@ impl ToleranceBudget {
             let lower = significant(lower, 4);
             sentences.push(format!("That is less than {wanted} %: a limit of {lower} mm leaves a reserve."));
         }
+        if let Some(alone) = self.weather_mm {
+            let names: Vec<String> =
+                self.tolerances.iter().filter(|of| of.weather).map(|of| of.name.clone()).collect();
+            let alone = format!(" cannot be bought, and makes {} mm alone.", significant(alone, 4));
+            sentences.push(listing("The weather in ", &names, &alone));
+        }
         let little = little_explained(self.explained);
         sentences.extend(little.map(|little| format!("{little}: trust the counted robots, not the shares.")));
         sentences

@@ -1422,13 +1422,15 @@ class Robot:
         force: _Row | None = None,
         moment: _Row | None = None,
         free: Sequence[str] | None = None,
+        slopes: bool = False,
     ) -> RestInWeather[float, None]:
         """Finds where the platform rests in wind, in another temperature, with ice or creep, with winches that hold.
 
         The lengths are those with which it rests at the pose under its own weight, without weather. The drag is
         that of round ropes with a coefficient of 1.2 in air of 1.225 kg/m³; with others, take the wind that is
         sqrt(density coefficient/1.47) times as fast. Wind on the platform itself is a `force`. `pose`, `wind` and the
-        load are of one case, or have a first axis of m cases.
+        load are of one case, or have a first axis of m cases: wind from all directions is a `wind` with a
+        row for each.
 
         Parameters
         ----------
@@ -1455,6 +1457,9 @@ class Robot:
         free : sequence of str, optional
             Names of the coordinates of the pose that are found, for a robot with fewer cables than free
             motions, as `Robot.inverse` takes them.
+        slopes : bool, default False
+            Whether the exact derivatives of the displacement are computed, too, also by the numbers of the
+            weather. A robot with pulleys has none in wind.
 
         Returns
         -------
@@ -1476,6 +1481,8 @@ class Robot:
         (8, 3)
         >>> bool(robot.in_weather([0, 0, 2], ice=0.005).displacement[2] > 0)  # sag shortens the chords
         True
+        >>> robot.in_weather([0, 0, 2], [15, 0, 0], slopes=True).inputs[-2:]
+        ['wind', 'wind_direction']
         """
     @overload
     def in_weather(
@@ -1493,6 +1500,7 @@ class Robot:
         force: ArrayLike | None = None,
         moment: ArrayLike | None = None,
         free: Sequence[str] | None = None,
+        slopes: bool = False,
     ) -> RestInWeather[_Floats, _Words]: ...
     @overload
     def certify(  # type: ignore[overload-overlap]
@@ -2609,6 +2617,16 @@ class RestInWeather(Generic[_N, _R]):
     @property
     def integration(self) -> _N:
         """Largest error of the integration along a cable [m]."""
+    @property
+    def inputs(self) -> list[str] | None:
+        """Names of the inputs of `slopes`, the parameters of the robot and then the numbers of the weather;
+        None unless they are requested.
+        """
+    @property
+    def slopes(self) -> _Floats | None:
+        """Derivatives of the displacement by each input [m per unit], (3, k), with NaN where one does not
+        exist; None unless they are requested.
+        """
     @property
     def reasons(self) -> _R:
         """Why there is no answer, None where there is one; None for one case."""

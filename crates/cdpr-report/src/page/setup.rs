@@ -6,7 +6,9 @@ use crate::text;
 use cdpr_robot::{
     CableEnd, NamedReference, Parameter, Robot, TensionDistribution, TensionLimits, TensionReference,
 };
-use cdpr_study::{GridSpec, IndexMap, InputSpec, PoseSpec, PosesSpec, Results, StudySummary};
+use cdpr_study::{
+    GridSpec, IndexMap, InputSpec, PoseSpec, PosesSpec, Results, StudySummary, WeatherQuantity, WeatherSpec,
+};
 use maud::{Markup, html};
 
 pub(crate) fn section(results: &Results) -> Section {
@@ -50,6 +52,10 @@ fn settings(results: &Results) -> Markup {
                 dt { "Wrench" }
                 dd { (words) ", in the base frame" }
             }
+            @if let Some(weather) = &file.weather {
+                dt { "Weather" }
+                dd { "after the load, on winches that hold: " (weather_words(weather)) }
+            }
             dt { "Design" }
             dd { "all uncertain parameters at once, at points of Sobol's sequence" }
             dt { "Intervals" }
@@ -63,6 +69,14 @@ fn settings(results: &Results) -> Markup {
             dd { (file.seed) }
         }
     }
+}
+
+/// The fields of the weather that are given, as the study file has them.
+fn weather_words(weather: &WeatherSpec) -> String {
+    let fields = serde_json::to_value(weather).unwrap_or_default();
+    let fields = fields.as_object().into_iter().flatten();
+    let words: Vec<_> = fields.map(|(name, value)| format!("{name} {value}")).collect();
+    if words.is_empty() { "none but the deviations".to_owned() } else { words.join(", ") }
 }
 
 /// Least and greatest tension, as ranges where cables have their own.
@@ -159,6 +173,10 @@ fn error_model(results: &Results, name: &str, model: &IndexMap<String, InputSpec
         };
         parameters.iter().filter(is_of).collect()
     };
+    let count = |key: &String, spec: &InputSpec| {
+        let single = spec.parameters.is_some() || WeatherQuantity::named(key).is_some();
+        if single { 1 } else { of_entry(key).len() }
+    };
     let rows: Vec<Vec<Markup>> = model
         .iter()
         .map(|(key, spec)| {
@@ -168,11 +186,12 @@ fn error_model(results: &Results, name: &str, model: &IndexMap<String, InputSpec
             let (unit, scale) = if text::is_scaled(&spec.law) {
                 parameters::reading_unit(measured)
             } else {
-                (of.first().map_or("", |parameter| parameter.unit()), 1.0)
+                let of_weather = WeatherQuantity::named(key).map(WeatherQuantity::unit);
+                (of.first().map(|parameter| parameter.unit()).or(of_weather).unwrap_or(""), 1.0)
             };
             vec![
                 html! { (parameters::parameter(key)) span.detail { (tied.as_ref().unwrap_or(key)) } },
-                cell(if tied.is_some() { 1 } else { of.len() }.to_string()),
+                cell(count(key, spec).to_string()),
                 html! { (text::law(&spec.law, scale))
                 @if spec.operating_point.is_some() {
                     span.detail { "from the modulus at the operating point" }
@@ -182,8 +201,7 @@ fn error_model(results: &Results, name: &str, model: &IndexMap<String, InputSpec
             ]
         })
         .collect();
-    let inputs: usize =
-        model.iter().map(|(key, spec)| if spec.parameters.is_some() { 1 } else { of_entry(key).len() }).sum();
+    let inputs: usize = model.iter().map(|(key, spec)| count(key, spec)).sum();
     let caption = format!("Error model {name}: deviations from the nominal values, {inputs} inputs");
     table(&caption, &["Parameter", "Inputs", "Law of the deviation", "Steps", "Unit"], &rows)
 }

@@ -12,6 +12,13 @@
 //! with the lead l, the drag q = ½ρc d' and the height h of the exit point. dL_i is (D7), of the robot
 //! without weather. In wind the coefficients of (D1) are those of (C42) of `cdpr_cable`, and K3 is not
 //! symmetric. The drag is that of the square of the speed v of the wind, so that `k_v = 2 k_q q/v`.
+//!
+//! A wind that turns about the vertical e by dψ acts as one that keeps its direction acts on a cable that is
+//! turned back. With the span x from the leave point to the anchor point, on which the force F depends by -K3,
+//!
+//! ```text
+//! dF = [e x F + K3 (e x x)] dψ                                                                      (D15)
+//! ```
 
 use crate::derivatives::{Derivatives, OneSided, derivatives};
 use crate::direct::{DirectSolution, DirectStart};
@@ -21,8 +28,9 @@ use crate::loading::{BlownCable, CableInWeather, DRAG_PER_DIAMETER, Deflection, 
 use crate::problem::DirectProblem;
 use crate::state::{Load, WantedPose};
 use cdpr_number::Dual;
-use cdpr_robot::{Axis, Matrix6xX, Parameter, Robot, Vector3, Vector6};
+use cdpr_robot::{Axis, Matrix6xX, Parameter, Pose, Robot, Vector3, Vector6};
 use nalgebra::{Matrix3xX, Matrix6};
+use std::array::from_fn;
 
 /// A number of the weather.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,14 +47,26 @@ pub enum WeatherInput {
     Creep,
     /// Speed of the wind in its direction [m/s].
     Wind,
+    /// Direction of the wind, an angle about the vertical [rad].
+    Direction,
 }
+
+/// Numbers of the weather.
+const COUNT: usize = WeatherInput::ALL.len();
 
 impl WeatherInput {
     /// All of them.
-    pub const ALL: [Self; 6] =
-        [Self::Warmer, Self::CableExpansion, Self::FrameExpansion, Self::Ice, Self::Creep, Self::Wind];
+    pub const ALL: [Self; 7] = [
+        Self::Warmer,
+        Self::CableExpansion,
+        Self::FrameExpansion,
+        Self::Ice,
+        Self::Creep,
+        Self::Wind,
+        Self::Direction,
+    ];
 
-    /// `warmer`, `cable_expansion`, `frame_expansion`, `ice`, `creep` or `wind`.
+    /// `warmer`, `cable_expansion`, `frame_expansion`, `ice`, `creep`, `wind` or `wind_direction`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Warmer => "warmer",
@@ -55,6 +75,7 @@ impl WeatherInput {
             Self::Ice => "ice",
             Self::Creep => "creep",
             Self::Wind => "wind",
+            Self::Direction => "wind_direction",
         }
     }
 
@@ -66,6 +87,7 @@ impl WeatherInput {
             Self::Ice => "m",
             Self::Creep => "",
             Self::Wind => "m/s",
+            Self::Direction => "rad",
         }
     }
 }
@@ -86,7 +108,7 @@ pub struct WeatherDerivatives {
     pub displacement: Matrix3xX<f64>,
     /// Derivatives of that displacement by the numbers of the weather, in the order of [`WeatherInput::ALL`]
     /// [m per unit]. An error says why a derivative does not exist.
-    pub per_weather: [Result<Vector3<f64>, StaticsError>; 6],
+    pub per_weather: [Result<Vector3<f64>, StaticsError>; COUNT],
     /// The inputs whose left and right derivatives differ, because a cable leaves a bound on one side.
     pub one_sided: Vec<OneSided>,
 }
@@ -138,13 +160,12 @@ pub fn weather_derivatives(
     let (hessian, _) = partials.take_pose(inputs);
     let mut balance = partials.balance;
     at.through_weather(&mut balance);
-    let (of_weather, reasons) = at.by_weather();
-    balance.resize_horizontally_mut(count + 6, 0.0);
+    let (of_weather, reasons) = at.by_weather(&pose);
+    balance.resize_horizontally_mut(count + COUNT, 0.0);
     of_weather.iter().enumerate().for_each(|(k, wrench)| balance.set_column(count + k, wrench));
     at.solve(&calm, &hessian, &mut balance)?;
     let mut displacement: Matrix3xX<f64> = balance.fixed_rows::<3>(0).into_owned();
-    let of_weather: [Vector3<f64>; 6] =
-        [0, 1, 2, 3, 4, 5].map(|k| displacement.column(count + k).into_owned());
+    let of_weather: [Vector3<f64>; COUNT] = from_fn(|k| displacement.column(count + k).into_owned());
     displacement.resize_horizontally_mut(count, 0.0);
     displacement -= found.unloaded.pose.fixed_rows::<3>(0);
     let mut per_weather = of_weather.map(Ok);
@@ -196,8 +217,9 @@ impl InWeather<'_> {
     }
 
     /// Wrenches by the numbers of the weather, (D14), and by which of them there is no derivative.
-    fn by_weather(&self) -> ([Vector6<f64>; 6], Vec<(usize, &'static str)>) {
-        let mut wrenches = [Vector6::zeros(); 6];
+    fn by_weather(&self, pose: &Pose) -> ([Vector6<f64>; COUNT], Vec<(usize, &'static str)>) {
+        let (mut wrenches, level) = ([Vector6::zeros(); COUNT], self.robot.gravity.level());
+        let up = level.map_or_else(Vector3::z, |level| level.row(2).transpose());
         for (i, BlownCable { cable, per_drag, per_height }) in self.cables.iter().enumerate() {
             let (made, own) = (self.made(i), &self.robot.cables[i]);
             let per_frame = cable.stiffness * own.exit_point
@@ -215,6 +237,9 @@ impl InWeather<'_> {
                 let speed = self.weather.wind.velocity().norm();
                 let drag = DRAG_PER_DIAMETER * made.diameter.value;
                 wrenches[5] += wrench(&cable.arm, &(per_drag * (2.0 * drag / speed)));
+                let span = pose.position + cable.arm - self.problem.robot().cables[i].exit_point;
+                let turned = up.cross(&cable.force) + cable.stiffness * up.cross(&span); // Eq. (D15)
+                wrenches[6] += wrench(&cable.arm, &turned);
             }
         }
         let bare = self.robot.cables.iter().any(|cable| cable.properties.diameter.is_none());
@@ -223,7 +248,9 @@ impl InWeather<'_> {
             reasons.push((3, "a cable has no diameter, on which the weight of the ice depends"));
         }
         if self.weather.wind.is_calm() {
-            reasons.push((5, "there is no wind, whose direction it would need"));
+            reasons.extend([5, 6].map(|k| (k, "there is no wind, whose direction it would need")));
+        } else if self.weather.wind.profile().is_some() && level.is_some() {
+            reasons.push((6, "the height with which the wind grows is not along gravity"));
         }
         (wrenches, reasons)
     }

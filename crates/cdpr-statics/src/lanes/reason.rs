@@ -36,6 +36,8 @@ pub enum ScalarReason {
     /// those by some parameter may differ on its two sides or do not exist, and where a tension is at its
     /// greatest value at the leave point of a pulley.
     Derivatives,
+    /// It is observed in weather.
+    Weather,
 }
 
 impl fmt::Display for ScalarReason {
@@ -46,7 +48,7 @@ impl fmt::Display for ScalarReason {
 
 impl ScalarReason {
     /// All reasons with their names in files.
-    const NAMES: [(Self, &'static str); 12] = [
+    const NAMES: [(Self, &'static str); 13] = [
         (Self::OneByOne, "one_by_one"),
         (Self::Output, "output"),
         (Self::FreeCoordinates, "free_coordinates"),
@@ -59,6 +61,7 @@ impl ScalarReason {
         (Self::Unloaded, "unloaded"),
         (Self::Loaded, "loaded"),
         (Self::Derivatives, "derivatives"),
+        (Self::Weather, "weather"),
     ];
 
     /// Its name in files.
@@ -81,6 +84,7 @@ impl ScalarReason {
             Self::Unloaded => "no stable equilibrium without the load was found by the fast models",
             Self::Loaded => "the load changes the stiffness so much that it is raised in steps",
             Self::Derivatives => "the fast models do not have these derivatives",
+            Self::Weather => "the fast models have no weather",
         }
     }
 

@@ -14,7 +14,7 @@ use crate::loading::wind::{RestInWeather, Wind};
 use crate::problem::DirectProblem;
 use crate::state::{Load, WantedPose};
 use cdpr_number::{Dual, Real};
-use cdpr_robot::Robot;
+use cdpr_robot::{Pose, Robot};
 use std::f64::consts::PI;
 
 /// Density of glaze [kg/m³] (ISO 12494:2017, 7.3).
@@ -40,7 +40,33 @@ pub struct Weather {
 }
 
 impl Weather {
-    fn check(&self) -> Result<(), StaticsError> {
+    /// Checks its values, and that a difference of temperature and an expansion come together.
+    ///
+    /// # Errors
+    /// [`StaticsError::Invalid`].
+    pub fn check(&self) -> Result<(), StaticsError> {
+        self.check_values()?;
+        if self.expands() && self.warmer == 0.0 {
+            return Err(self.incomplete());
+        }
+        Ok(())
+    }
+
+    /// Whether it changes nothing.
+    pub fn is_nothing(&self) -> bool {
+        self.wind.is_calm() && [self.warmer, self.ice, self.creep] == [0.0; 3]
+    }
+
+    fn expands(&self) -> bool {
+        self.cable_expansion != 0.0 || self.frame_expansion != 0.0
+    }
+
+    fn incomplete(&self) -> StaticsError {
+        let expected = "a difference of temperature together with the expansion of cables, frame or both";
+        StaticsError::invalid("warmer".to_owned(), self.warmer, expected)
+    }
+
+    fn check_values(&self) -> Result<(), StaticsError> {
         let bounds = [
             ("warmer", self.warmer, -200.0..=200.0, "a difference from -200 to 200 K"),
             ("cable_expansion", self.cable_expansion, -1e-4..=1e-4, "-1e-4 to 1e-4 per K"),
@@ -53,10 +79,8 @@ impl Weather {
                 return Err(StaticsError::invalid(name.to_owned(), value, expected));
             }
         }
-        let expands = self.cable_expansion != 0.0 || self.frame_expansion != 0.0;
-        if expands != (self.warmer != 0.0) {
-            let expected = "a difference of temperature together with the expansion of cables, frame or both";
-            return Err(StaticsError::invalid("warmer".to_owned(), self.warmer, expected));
+        if self.warmer != 0.0 && !self.expands() {
+            return Err(self.incomplete());
         }
         Ok(())
     }
@@ -81,7 +105,7 @@ impl Weather {
     /// # Errors
     /// [`StaticsError::Invalid`] for a value out of its bounds, and for ice on a cable without diameter.
     pub fn robot(&self, robot: &Robot) -> Result<Robot, StaticsError> {
-        self.check()?;
+        self.check_values()?;
         let mut changed = robot.clone();
         for (i, cable) in changed.cables.iter_mut().enumerate() {
             let properties = &mut cable.properties;
@@ -136,18 +160,35 @@ impl<T: Real> CableInWeather<T> {
 /// The weather comes to the platform as it rests with the load.
 ///
 /// # Errors
-/// As [`deflection`], [`Weather::robot`], [`DirectProblem::direct`] and [`DirectProblem::in_wind`].
+/// As [`deflection`], [`Weather::check`] and [`rest_in_weather`].
 pub fn in_weather(
     robot: &Robot,
     wanted: WantedPose,
     load: &Load,
     weather: &Weather,
 ) -> Result<(Deflection, RestInWeather), StaticsError> {
-    let changed = weather.robot(robot)?;
+    weather.check()?;
+    weather.robot(robot)?;
     let still = deflection(robot, wanted, load)?;
-    let lengths = weather.lengths(&still.lengths);
-    let problem = DirectProblem::new(&changed, &lengths, load)?;
-    let rest = problem.direct(DirectStart::Pose(&still.loaded.equilibrium.pose))?;
-    let rest = problem.in_wind(&weather.wind, &rest)?;
+    let rest = rest_in_weather(robot, &still.lengths, load, &still.loaded.equilibrium.pose, weather)?;
     Ok((still, rest))
+}
+
+/// How a platform rests in weather under a load that rests at `still` without it, with these unstrained
+/// lengths [m] before the weather comes.
+///
+/// # Errors
+/// As [`Weather::robot`], [`DirectProblem::direct`] and [`DirectProblem::in_wind`].
+pub fn rest_in_weather(
+    robot: &Robot,
+    lengths: &[f64],
+    load: &Load,
+    still: &Pose,
+    weather: &Weather,
+) -> Result<RestInWeather, StaticsError> {
+    let changed = weather.robot(robot)?;
+    let lengths = weather.lengths(lengths);
+    let problem = DirectProblem::new(&changed, &lengths, load)?;
+    let calm = problem.direct(DirectStart::Pose(still))?;
+    problem.in_wind(&weather.wind, &calm)
 }

@@ -81,7 +81,7 @@ pub struct SamplingSummary {
 /// The nominal robot under the study's load.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct NominalSummary {
-    /// dp [mm].
+    /// dp [mm], without the weather.
     pub displacement_mm: [f64; 3],
     /// |dp| that the stiffness at the unloaded pose predicts [mm]. Section 3.3 of the paper says why it
     /// differs.

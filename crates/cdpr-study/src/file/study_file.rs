@@ -5,6 +5,7 @@ use crate::file::cable_law::CableLaw;
 use crate::file::grid::GridSpec;
 use crate::file::output::{AmplitudeSpec, Output};
 use crate::file::sensitivity_spec::SensitivitySpec;
+use crate::file::weather::WeatherSpec;
 use cdpr_robot::{Coordinate, TensionDistribution, TensionReference, Vector3, Wrench};
 use cdpr_sensitivity::{Law, Steps};
 use cdpr_statics::Load;
@@ -39,6 +40,10 @@ pub struct StudyFile {
     /// Moment on the platform in the base frame, about P [N m], which comes with the payload.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub moment: [f64; 3],
+    /// The weather that comes after the load. The displacement of P is then that from the pose without load
+    /// and weather, and the output a deflection or a position.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub weather: Option<WeatherSpec>,
     /// What is observed of every robot: "deflection" unless another output is named.
     #[serde(default, skip_serializing_if = "Output::is_deflection")]
     pub output: Output,
@@ -66,6 +71,10 @@ pub struct StudyFile {
     /// `b3.z`), a group of parameters (`a`, `b`, `cog`, `dt`; of robots that have them `r`, `lead`, `tilt`,
     /// `gravity`), or the name of a cause that acts on several
     /// parameters. The entry of a parameter takes precedence over that of its group.
+    ///
+    /// A number of the weather is a key, too: `wind_speed`, `wind_from_deg`, `warmer`, `cable_expansion`,
+    /// `frame_expansion`, `ice`, `creep`. Its deviation is added to the number in `weather`, which is zero
+    /// where it is left out.
     ///
     /// A model `{"file": "posterior.json"}` is that of a file beside this one: `cdpr-errors/1`, or an object
     /// as it would stand here.

@@ -60,10 +60,11 @@ impl Study {
     pub fn doubts(&self) -> Doubts {
         let (file, robot) = (&self.file, &self.robot);
         let mut doubts = plausible::load(robot, file.payload, &file.load().wrench);
+        let weather = self.weather().ok();
         let models = file
             .error_models
             .iter()
-            .filter_map(|(name, model)| Some((name, ErrorModel::new(model, robot).ok()?)));
+            .filter_map(|(name, model)| Some((name, ErrorModel::new(model, robot, weather.as_ref()).ok()?)));
         doubts.extend(models.flat_map(|(name, model)| {
             let named =
                 move |doubt: Doubt| Doubt { quantity: format!("{} in {name}", doubt.quantity), ..doubt };

@@ -111,5 +111,5 @@ fn without_sampling(entries: &IndexMap<String, InputSpec>, robot: &Robot) -> Res
         let expected = "an error model without one, as there is no pose and load of a sampling";
         return Err(Wrong::field(format!("{key}.operating_point"), "given", expected));
     }
-    ErrorModel::new(entries, robot)
+    ErrorModel::new(entries, robot, None)
 }

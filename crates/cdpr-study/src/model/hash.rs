@@ -44,6 +44,9 @@ impl Study {
         };
         let file = &self.file;
         let content = (spec, model, file.payload, file.seed);
+        if let Some(weather) = &file.weather {
+            return self.hash_of(&(content, file.output, file.amplitude, (file.force, file.moment), weather));
+        }
         if file.load() != Load::payload(file.payload) {
             let wrench = (file.force, file.moment);
             return self.hash_of(&(content, file.output, file.amplitude, wrench));

@@ -1,10 +1,14 @@
 //! The output of a study for one robot whose parameters deviate.
 //!
-//! Deflections are observed in lanes ([`Observer`]); all else by the scalar models, one robot at a time.
+//! Deflections without weather are observed in lanes ([`Observer`]); all else by the scalar models, one robot
+//! at a time.
 
+mod note;
 mod position;
+mod weather;
 
-use crate::file::output::Output;
+use crate::file::output::{Output, Recorded};
+use crate::file::weather::NominalWeather;
 use crate::model::error_model::ErrorModel;
 use crate::model::observed::{Measured, MeasuredQuantity};
 use cdpr_dynamics::{AmplitudeAt, AmplitudeDerivatives, FrequencyDerivatives, Modes, Swing};
@@ -30,6 +34,7 @@ pub struct OutputObserver<'a> {
     free: &'a [Coordinate],
     /// Whether every robot has the lengths of the nominal one, instead of its own for the pose.
     is_kept: bool,
+    weather: NominalWeather,
     /// The nominal robot.
     nominal: Deflection,
     /// Observes deflections.
@@ -45,13 +50,14 @@ pub(crate) struct Observing<'a> {
     pub(crate) amplitude: Option<AmplitudeAt>,
     pub(crate) free: &'a [Coordinate],
     pub(crate) is_kept: bool,
+    pub(crate) weather: NominalWeather,
 }
 
 impl<'a> OutputObserver<'a> {
     /// # Errors
     /// Those of [`Observer::new`].
     pub(crate) fn new(of: Observing<'a>, nominal: &Deflection) -> Result<Self, StaticsError> {
-        let Observing { robot, pose, load, output, amplitude, free, is_kept } = of;
+        let Observing { robot, pose, load, output, amplitude, free, is_kept, weather } = of;
         let lanes = Observer::new(robot, WantedPose::at(&pose).free(free), &load)?;
         Ok(Self {
             robot,
@@ -61,6 +67,7 @@ impl<'a> OutputObserver<'a> {
             amplitude,
             free,
             is_kept,
+            weather,
             nominal: nominal.clone(),
             lanes,
         })
@@ -72,48 +79,18 @@ impl<'a> OutputObserver<'a> {
     /// [`StaticsError`] says why it has none.
     pub(crate) fn nominal_value(&self) -> Result<f64, StaticsError> {
         match self.output {
+            _ if !self.weather.is_nothing() => Ok(1e3 * self.nominal_in_weather()?),
             Output::Position => Ok(0.0),
             _ => Ok(self.of_deflection(self.robot, &self.nominal)?.value()),
         }
     }
 
-    /// What is to be known of an output that is a vibration: cables take most part in the motion of a
-    /// frequency, or nothing damps cables across their stretch.
-    pub(crate) fn vibration_note(&self) -> Option<String> {
-        /// Share of the platform below which the frequency is one of the cables.
-        const SMALL: f64 = 0.5;
-        let Deflection { lengths, loaded, .. } = &self.nominal;
-        let problem = || DirectProblem::new(self.robot, lengths, &self.load).ok();
-        let (share, more) = match self.output {
-            Output::Deflection | Output::Position | Output::Stiffness => return None,
-            Output::Amplitude => {
-                let is_sharp = self.amplitude?.damping.drag == 0.0;
-                return is_sharp.then(|| {
-                    "amplitude: without `drag` nothing damps cables across their stretch, and near one of \
-                     their frequencies the amplitude is far above a real one"
-                        .to_owned()
-                });
-            }
-            Output::Frequency => {
-                let found = Modes::slowest(&problem()?, &loaded.equilibrium).ok()?;
-                (found.lowest()?.platform_share, "")
-            }
-            Output::PlatformFrequency => {
-                let found = Swing::new(&problem()?, &loaded.equilibrium).ok()?;
-                (found.platform_share, "; from robot to robot it may be another motion")
-            }
-        };
-        (share < SMALL).then(|| {
-            format!(
-                "{}: the platform has {:.1} % of the energy of this motion, cables the rest{more}",
-                self.output.short(),
-                100.0 * share
-            )
-        })
-    }
-
-    /// Observes a robot for each row of a table. A robot without the output is an error with the reason.
+    /// Observes a robot for each row of a table, in the weather of the study. A robot without the output is
+    /// an error with the reason.
     pub fn observe(&self, deviations: &Deviations) -> Vec<Result<Measured, StaticsError>> {
+        if !self.weather.is_nothing() {
+            return self.observe_in_weather(deviations, Recorded::Output);
+        }
         if self.is_in_lanes() {
             let outcomes = self.lanes.observe::<Observation>(deviations).into_iter();
             return outcomes.map(|found| found.map(Measured::from)).collect();
@@ -167,7 +144,7 @@ impl<'a> OutputObserver<'a> {
         deviations.each(self.lanes.layout(), |rows| rows.map(observed))
     }
 
-    /// Displacements under the load [m] of any number of robots, whatever the output is.
+    /// Displacements under the load [m] of any number of robots without weather, whatever the output is.
     pub fn displacements(&self, deviations: &Deviations) -> Vec<Result<Vector3<f64>, StaticsError>> {
         if self.is_kept {
             let displaced = |row: &[f64]| Ok(self.deflection(&self.robot.perturbed(row)?)?.displacement());
@@ -191,7 +168,7 @@ impl<'a> OutputObserver<'a> {
         )
     }
 
-    /// |dp| [m] of a robot under the load, and its derivatives by the parameters.
+    /// |dp| [m] of a robot under the load without weather, and its derivatives by the parameters.
     ///
     /// # Errors
     /// As [`cdpr_statics::derivatives`]; [`StaticsError::NoDerivative`] where dp is zero.
@@ -303,7 +280,7 @@ impl<'a> OutputObserver<'a> {
         errors: &ErrorModel,
     ) -> Result<(Vec<f64>, Vec<Vec<f64>>), StaticsError> {
         let none = vec![0.0; errors.inputs.len()];
-        if self.output == Output::Position {
+        if self.output == Output::Position && !self.is_in_weather(errors) {
             let perturbed = self.robot.perturbed(errors.deviations(&none).values())?;
             let (displaced, slopes) = self.displaced_slopes(&perturbed, errors)?;
             let row = |axis| {
@@ -312,7 +289,11 @@ impl<'a> OutputObserver<'a> {
             };
             return Ok((displaced.iter().map(|x| 1e3 * x).collect(), [0, 1, 2].map(row).to_vec()));
         }
-        let (value, gradient) = self.slopes_one_by_one(errors.deviations(&none).values(), errors)?;
+        let found = self.slopes(errors, &none).pop();
+        let (value, gradient) = found.ok_or(StaticsError::NoDerivative {
+            quantity: self.output.label(),
+            reason: "there is no nominal robot",
+        })??;
         Ok((vec![value], vec![gradient]))
     }
 
@@ -325,15 +306,20 @@ impl<'a> OutputObserver<'a> {
         self.lanes.set_point_lengths(offsets).map(Cow::Owned)
     }
 
-    /// The outputs of any number of robots in their unit, and their derivatives with respect to the inputs of
-    /// an error model. A robot without the output or without derivatives is an error with the reason:
+    /// The outputs of robots in their unit for rows of the inputs of an error model, and their derivatives
+    /// with respect to these. A robot without the output or without derivatives is an error with the reason:
     /// [`StaticsError::NoDerivative`] where a length is zero or two motions are the softest; those of the
     /// models.
     pub(crate) fn slopes(
         &self,
-        deviations: &Deviations,
         errors: &ErrorModel,
+        rows: &[f64],
     ) -> Vec<Result<(f64, Vec<f64>), StaticsError>> {
+        if self.is_in_weather(errors) {
+            let rows = rows.chunks_exact(errors.inputs.len());
+            return rows.filter_map(|row| self.slopes_in_weather(errors, row, self.output)).collect();
+        }
+        let deviations = &errors.deviations(rows);
         if self.is_in_lanes() && self.free.is_empty() {
             let in_unit = |found: ObservationSlopes| {
                 (1e3 * found.observation.magnitude(), scaled(1e3, errors.gradient(&found.magnitude)))

@@ -158,6 +158,7 @@ impl Study {
         self.check_settings()?;
         self.check_names()?;
         self.check_output()?;
+        self.check_weather()?;
         for (name, model) in &file.error_models {
             self.error_model(name, model, &[])?;
         }
@@ -187,12 +188,13 @@ impl Study {
                 return Err(self.invalid(field, value, "finite components [N or N m]"));
             }
         }
-        let is_loaded = file.load() != Load::none() || !file.output.is_deflection();
+        let is_loaded =
+            file.load() != Load::none() || !file.output.is_deflection() || self.is_in_weather()?;
         if !(file.payload.is_finite() && file.payload >= 0.0 && is_loaded) {
             let expected = match file.output {
                 Output::Deflection => {
-                    "a finite mass above zero [kg], or a `force` or `moment`, whose effect is the deflection; \
-                     output position needs none"
+                    "a finite mass above zero [kg], or a `force` or `moment`, or `weather`, whose effect is \
+                     the deflection; output position needs none"
                 }
                 _ => "a finite mass, zero or more [kg]",
             };

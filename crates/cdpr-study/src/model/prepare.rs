@@ -1,5 +1,7 @@
 //! Samplings and surfaces of a study made ready to run.
 
+mod weather;
+
 use crate::error::StudyError;
 use crate::file::study_file::{AxisSpec, InputSpec, SamplingSpec, SurfaceSpec};
 use crate::model::error_model::{ErrorModel, Wrong};
@@ -129,7 +131,13 @@ impl Study {
                 "an error model without one, as there is no pose and load of a sampling",
             ));
         }
-        Ok(self.error_model(name, model, &[])?.0)
+        let errors = self.error_model(name, model, &[])?.0;
+        if let Some((quantity, _)) = errors.weather_terms().next() {
+            let field = format!("error_models.{name}.{}", quantity.name());
+            let expected = "an error model without weather, in which only studies observe robots";
+            return Err(self.invalid(&field, "given", expected));
+        }
+        Ok(errors)
     }
 
     /// An error model for this robot, at the operating point of these deflections of the nominal one.
@@ -147,7 +155,9 @@ impl Study {
             Wrong::Law(source) => self.statistics(field.clone(), source),
         };
         let (model, moduli) = resolved(model, &self.robot, at).map_err(wrong)?;
-        let found = ErrorModel::new(&model, &self.robot).map_err(wrong)?;
+        let weather = self.weather()?;
+        let found = ErrorModel::new(&model, &self.robot, Some(&weather)).map_err(wrong)?;
+        self.check_weather_of(&field, &found)?;
         if found.inputs.is_empty() {
             return Err(self.invalid(&field, "empty", "at least one uncertain parameter"));
         }
@@ -229,7 +239,8 @@ impl Study {
         let (robot, load, output) = (&self.robot, self.file.load(), self.file.output);
         let (pose, is_kept) = (at.pose, at.lengths.is_some());
         let amplitude = self.file.amplitude.map(|spec| spec.at());
-        let of = Observing { robot, pose, load, output, amplitude, free, is_kept };
+        let weather = self.weather()?;
+        let of = Observing { robot, pose, load, output, amplitude, free, is_kept, weather };
         let found = OutputObserver::new(of, nominal).and_then(|found| Ok((found.nominal_value()?, found)));
         found.map_err(|source| self.not_held(field, &pose, source))
     }

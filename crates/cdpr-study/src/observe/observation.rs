@@ -259,11 +259,7 @@ pub(crate) fn observe_block<T: Send>(
 fn observe_part(sampling: &Sampling, design: Task, range: Range<usize>, known: &[Observed]) -> Part {
     let rows = draw(design.points, range.clone());
     let unknown = &rows[known.len() * sampling.errors.inputs.len()..];
-    let (observer, unknown) = (&sampling.observer, sampling.errors.deviations(unknown));
-    let observed = match design.recorded {
-        Recorded::Output => observer.observe(&unknown),
-        Recorded::Motion => observer.observe_motions(&unknown),
-    };
+    let observed = sampling.observer.observe_inputs(&sampling.errors, unknown, design.recorded);
     let observed = observed.into_iter().map(|outcome| outcome.map_err(Failure::from));
     let outcomes = known.iter().cloned().chain(observed).collect();
     Part { first: range.start, rows, outcomes, output: sampling.output() }

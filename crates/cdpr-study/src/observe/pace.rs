@@ -1,6 +1,7 @@
 //! How long samplings take that the scalar models observe, one robot at a time.
 
 use crate::error::StudyError;
+use crate::file::output::Recorded;
 use crate::model::study::Study;
 use crate::observe::observation::draw;
 use cdpr_sensitivity::SampleDesign;
@@ -40,10 +41,9 @@ impl Study {
         let mut slow = Vec::new();
         for (name, _) in self.file.samplings.iter().filter(|(_, spec)| spec.poses.is_none()) {
             let sampling = self.sampling(name)?;
-            let rows =
-                sampling.errors.deviations(&draw(&sampling.design, 0..TIMED.min(sampling.design.points())));
+            let rows = draw(&sampling.design, 0..TIMED.min(sampling.design.points()));
             let clock = Instant::now();
-            let observed = sampling.observer.observe(&rows);
+            let observed = sampling.observer.observe_inputs(&sampling.errors, &rows, Recorded::Output);
             let each = clock.elapsed().as_secs_f64() / observed.len() as f64;
             let reasons: Vec<_> = observed.iter().flatten().filter_map(|found| found.scalar).collect();
             if let (Some(reason), true) = (reasons.first(), 2 * reasons.len() > observed.len()) {

@@ -3,8 +3,11 @@
 use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each, plotted};
 use crate::robot::Robot;
 use crate::robot::inverse::coordinates;
-use cdpr_robot::{Vector3, Vector6};
-use cdpr_statics::weather::{RestInWeather as Rest, Weather, Wind, WindProfile, in_weather};
+use cdpr_robot::{Parameter, Vector3, Vector6};
+use cdpr_statics::weather::{
+    RestInWeather as Rest, Weather, WeatherDerivatives, WeatherInput, Wind, WindProfile, in_weather,
+    weather_derivatives,
+};
 use cdpr_statics::{StaticsError, WantedPose};
 use pyo3::prelude::*;
 
@@ -39,6 +42,12 @@ answer! {
         closure_residual: Py<PyAny>,
         /// Largest error of the integration along a cable [m].
         integration: Py<PyAny>,
+        /// Names of the inputs of `slopes`, the parameters of the robot and then the numbers of the weather;
+        /// None unless they are requested.
+        inputs: Option<Vec<String>>,
+        /// Derivatives of the displacement by each input [m per unit], (3, k), with NaN where one does not
+        /// exist; None unless they are requested.
+        slopes: Py<PyAny>,
         /// Why there is no answer, None where there is one; None for one case.
         reasons: Py<PyAny>,
         /// The kind of each failure, in the same form: `infeasible_tension`, ...
@@ -52,6 +61,7 @@ struct Found {
     motion: Vector6<f64>,
     lengths: Vec<f64>,
     rest: Rest,
+    slopes: Option<WeatherDerivatives>,
 }
 
 #[pymethods]
@@ -61,7 +71,8 @@ impl Robot {
     /// The lengths are those with which it rests at the pose under its own weight, without weather. The drag is
     /// that of round ropes with a coefficient of 1.2 in air of 1.225 kg/m³; with others, take the wind that is
     /// sqrt(density coefficient/1.47) times as fast. Wind on the platform itself is a `force`. `pose`, `wind` and the
-    /// load are of one case, or have a first axis of m cases.
+    /// load are of one case, or have a first axis of m cases: wind from all directions is a `wind` with a
+    /// row for each.
     ///
     /// Parameters
     /// ----------
@@ -88,6 +99,9 @@ impl Robot {
     /// free : sequence of str, optional
     ///     Names of the coordinates of the pose that are found, for a robot with fewer cables than free
     ///     motions, as `Robot.inverse` takes them.
+    /// slopes : bool, default False
+    ///     Whether the exact derivatives of the displacement are computed, too, also by the numbers of the
+    ///     weather. A robot with pulleys has none in wind.
     ///
     /// Returns
     /// -------
@@ -109,8 +123,10 @@ impl Robot {
     /// (8, 3)
     /// >>> bool(robot.in_weather([0, 0, 2], ice=0.005).displacement[2] > 0)  # sag shortens the chords
     /// True
+    /// >>> robot.in_weather([0, 0, 2], [15, 0, 0], slopes=True).inputs[-2:]
+    /// ['wind', 'wind_direction']
     #[pyo3(signature = (pose, wind=None, *, warmer=0.0, cable_expansion=0.0, frame_expansion=0.0, ice=0.0,
-        creep=0.0, wind_profile=None, payload=None, force=None, moment=None, free=None))]
+        creep=0.0, wind_profile=None, payload=None, force=None, moment=None, free=None, slopes=false))]
     #[allow(clippy::too_many_arguments)]
     fn in_weather(
         &self,
@@ -127,6 +143,7 @@ impl Robot {
         force: Option<Numbers>,
         moment: Option<Numbers>,
         free: Option<Vec<String>>,
+        slopes: bool,
     ) -> Answer<RestInWeather> {
         let (robot, free) = (&self.robot, coordinates(free)?);
         let poses = Rows::poses("pose", &pose, robot)?;
@@ -140,10 +157,15 @@ impl Robot {
             let wind = profile.map_or(Ok(wind), |profile| wind.over_height(profile))?;
             let wanted = poses.pose(case)?;
             let wanted = WantedPose::at(&wanted).free(&free);
-            let (still, rest) = in_weather(robot, wanted, &loads.load(case)?, &Weather { wind, ..weather })?;
+            let (load, weather) = (loads.load(case)?, Weather { wind, ..weather });
+            let found = slopes.then(|| weather_derivatives(robot, wanted.clone(), &load, &weather));
+            let (still, rest) = in_weather(robot, wanted, &load, &weather)?;
             let motion = still.unloaded.equilibrium.pose.motion_to(&rest.pose);
-            Ok(Found { motion, lengths: still.lengths, rest })
+            Ok(Found { motion, lengths: still.lengths, rest, slopes: found.transpose()? })
         })?;
+        let parameters = Parameter::of(robot);
+        let of_weather = WeatherInput::ALL.map(|input| input.name().to_owned());
+        let names: Vec<String> = parameters.iter().map(ToString::to_string).chain(of_weather).collect();
         let all = Columns::new(py, cases, &outcomes)?;
         let of_cables = |of: &dyn Fn(&Found) -> Vec<f64>| {
             all.numbers(&[robot.cables.len()], |found, out| out.copy_from_slice(&of(found)))
@@ -167,6 +189,21 @@ impl Robot {
             moment_residual: all.number(|found| found.rest.residual.moment)?,
             closure_residual: all.number(|found| found.rest.residual.closure)?,
             integration: all.number(|found| found.rest.integration)?,
+            slopes: match slopes {
+                true => all.numbers(&[3, names.len()], |found, out| {
+                    let Some(slopes) = &found.slopes else { return };
+                    let columns = slopes.displacement.column_iter().take(parameters.len());
+                    let of_robot = columns.map(|column| Some(column.into_owned()));
+                    let of_weather = slopes.per_weather.iter().map(|slope| slope.as_ref().ok().copied());
+                    for (k, slope) in of_robot.chain(of_weather).enumerate() {
+                        (0..3).for_each(|row| {
+                            out[row * names.len() + k] = slope.map_or(f64::NAN, |of| of[row])
+                        });
+                    }
+                })?,
+                false => py.None(),
+            },
+            inputs: slopes.then_some(names),
             reasons: all.reasons(),
             kinds: all.kinds(),
         })

@@ -155,7 +155,7 @@ impl<'a> Run<'a> {
     /// input.
     pub(super) fn slopes(&self, rows: &[f64]) -> Vec<Result<Slopes, StaticsError>> {
         let Sampling { errors, observer, .. } = self.sampling;
-        let found = observer.slopes(&errors.deviations(rows), errors).into_iter();
+        let found = observer.slopes(errors, rows).into_iter();
         found.map(|found| found.map(|(output, gradient)| Slopes { output, gradient })).collect()
     }
 }

@@ -91,11 +91,15 @@ fn print_details(title: &str, budget: &ToleranceBudget) {
     }
     let mut rows = table(&["tolerance", "quantile if it alone is halved [mm]", "cost now", "cost then"]);
     for tolerance in &budget.tolerances {
+        let bought = |digits: usize, number: f64| match tolerance.weather {
+            true => "-".to_owned(),
+            false => format!("{number:.digits$}"),
+        };
         rows.add_row([
             tolerance.name.clone(),
-            format!("{:.4}", tolerance.halved_mm),
-            format!("{:.3}", tolerance.cost),
-            format!("{:.3}", tolerance.cost / tolerance.factor),
+            bought(4, tolerance.halved_mm),
+            bought(3, tolerance.cost),
+            bought(3, tolerance.cost / tolerance.factor),
         ]);
     }
     println!("{rows}");

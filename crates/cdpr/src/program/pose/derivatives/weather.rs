@@ -44,6 +44,7 @@ fn step(input: WeatherInput) -> (&'static str, f64) {
         WeatherInput::Ice => ("mm", 1e-3),
         WeatherInput::Creep => ("0.01 %", 1e-4),
         WeatherInput::Wind => ("m/s", 1.0),
+        WeatherInput::Direction => ("degree", 1f64.to_radians()),
     }
 }
 
