@@ -41,8 +41,9 @@ pub fn doubtful_rest(
     found.map(doubt)
 }
 
-/// The lowest of P and the anchor points below what robots stand on.
-fn below_floor(robot: &Robot, pose: &Pose) -> Option<(String, String)> {
+/// The position of P where P or an anchor point is below the ground, or, where the robot has none, below what
+/// robots stand on; and a sentence of how deep its lowest point is.
+pub fn below_floor(robot: &Robot, pose: &Pose) -> Option<(String, String)> {
     let (floor, name) = floor(robot);
     let lowest = lowest(robot, pose);
     (lowest < floor).then(|| {
@@ -59,7 +60,7 @@ fn lowest(robot: &Robot, pose: &Pose) -> f64 {
 
 /// Whether P or an anchor point is below the ground or the floor.
 pub(crate) fn is_below_floor(robot: &Robot, pose: &Pose) -> bool {
-    lowest(robot, pose) < floor(robot).0
+    below_floor(robot, pose).is_some()
 }
 
 /// The height below which no platform is expected [m], and what is there.
