@@ -67,14 +67,15 @@ pub fn simulate_controlled(
     let (mut fine, coarse) = (fine?, coarse?);
     fine.difference = fine.difference_to(&coarse);
     let size = problem.robot().platform_size();
-    for elements in &CHAINS[2..] {
+    for pair in CHAINS[1..].windows(2) {
         let [differs, moves] =
             [&fine.difference, &fine.motion()].map(|by| by.position.max(size * by.rotation));
-        let has_chain = fine.slack.contains(&true) && settings.discretization.is_none();
+        let has_chain = fine.discretizations.contains(&Discretization::chain(pair[0]));
+        let has_chain = has_chain && settings.discretization.is_none();
         if !has_chain || differs <= (ENOUGH[0] * moves).max(ENOUGH[1]) {
             break;
         }
-        let finer = solve(chain(*elements), tolerance)?;
+        let finer = solve(chain(pair[1]), tolerance)?;
         fine = Series { difference: finer.difference_to(&fine), ..finer };
     }
     Ok(fine)

@@ -98,7 +98,7 @@ pub struct Series {
     pub end_peaks: Vec<[f64; 2]>,
     /// How far the platform moves.
     pub excursion: Excursion,
-    /// Whether each cable lost its elastic tension at one of its points.
+    /// Whether each cable lost its elastic tension at one of its points before it was cut.
     pub slack: Vec<bool>,
     /// What it took.
     pub work: Work,
@@ -148,6 +148,8 @@ struct Run<'a> {
     before: f64,
     /// Elements of all cables once one goes slack, where they get others.
     slack: Option<Discretization>,
+    /// Whether each cable, cut or not, lost its elastic tension at one of its points.
+    loose: Vec<bool>,
 }
 
 /// The motion with one discretization, and with another one from the step on in which a cable goes slack.
@@ -192,6 +194,7 @@ pub(super) fn run(
         places: Vec::new(),
         before: 0.0,
         slack,
+        loose: vec![false; cables],
     };
     run.before = run.energy();
     run.count_elements();
@@ -254,11 +257,11 @@ impl Run<'_> {
 
     /// Puts all cables on the elements for slack ones once one is.
     fn refine(&mut self) {
-        let (Some(elements), slack, time) = (self.slack, self.series.slack.clone(), self.radau.time) else {
+        let (Some(elements), loose, time) = (self.slack, self.loose.clone(), self.radau.time) else {
             return;
         };
-        if slack.contains(&true) && !self.system.is_refined(elements, &slack) {
-            self.restart(|system, _, state| system.refine(time, elements, &slack, state));
+        if loose.contains(&true) && !self.system.is_refined(elements, &loose) {
+            self.restart(|system, _, state| system.refine(time, elements, &loose, state));
             self.count_elements();
         }
     }
@@ -309,7 +312,9 @@ impl Run<'_> {
             }
             let peaks = self.series.end_peaks[index].iter_mut().zip(ends);
             peaks.for_each(|(peak, tension)| *peak = peak.max(tension));
-            self.series.slack[index] |= is_slack;
+            self.loose[index] |= is_slack;
+            self.series.slack[index] |=
+                is_slack && !self.events.iter().any(|event| event.has_cut(index, time));
         }
         let pose = self.pose();
         let motion = self.rest.motion_to(&pose);
