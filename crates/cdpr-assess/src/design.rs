@@ -29,6 +29,7 @@ pub use file::{
 pub use front::{Front, FrontPoint, front};
 use indexmap::IndexMap;
 use position::BASIS;
+use problem::Demand;
 pub use problem::DesignProblem;
 use search::{Found, MET, excess, objective};
 use serde::Serialize;
@@ -186,7 +187,7 @@ pub fn design(problem: &DesignProblem) -> Result<Design, AssessError> {
         configurations: searched.found.len() / each,
         starts,
         feasible: feasible().count(),
-        evaluations: 1 + searched.evaluations(),
+        evaluations: 1 + searched.evaluations,
         reason,
         best: best.transpose()?,
     })
@@ -229,19 +230,17 @@ fn best_design(
             bound,
         }
     };
-    let demands: Vec<Output> = problem.limits.each().map(|(output, _)| output).collect();
-    let each = demands.len() + problem.tensions_each();
-    let poses = each * problem.poses.len();
-    let of_cost = best.active.iter().filter(|(k, _)| *k >= poses).map(|(_, multiplier)| 0.01 * multiplier);
-    let active = best.active.iter().filter(|(k, _)| *k < poses).map(|(k, multiplier)| {
-        let (pose, of) = (k / each, k % each);
-        ActiveDemand {
-            pose,
-            output: demands.get(of).copied(),
-            cable: of.checked_sub(demands.len()),
-            per_percent: 0.01 * multiplier,
+    let active = || best.active.iter().map(|(k, multiplier)| (problem.demand(*k), 0.01 * multiplier));
+    let of_cost = active().filter(|(demand, _)| matches!(demand, Demand::Cost(_))).map(|(_, gain)| gain);
+    let at_pose = |(demand, per_percent): (Demand, f64)| match demand {
+        Demand::Output { pose, output, .. } => {
+            Some(ActiveDemand { pose, output: Some(output), cable: None, per_percent })
         }
-    });
+        Demand::Tension { pose, cable } => {
+            Some(ActiveDemand { pose, output: None, cable: Some(cable), per_percent })
+        }
+        Demand::Cost(_) | Demand::Second => None,
+    };
     let has_bounds = problem.bounded().next().is_some();
     Ok(BestDesign {
         objective: sign * best.objective,
@@ -254,7 +253,7 @@ fn best_design(
         kkt_residual: has_bounds.then_some(best.residual),
         gradient_error: best.gradient_error,
         optimal: best.is_optimal(),
-        active: active.collect(),
+        active: active().filter_map(at_pose).collect(),
         cost_per_percent: of_cost.reduce(|one, other| one + other),
         robot,
     })

@@ -10,8 +10,8 @@ mod swapped;
 mod symmetry;
 
 use cdpr_robot::{Doubt, Robot, RobotCable, Vector3, counted, plausible};
-pub use equilibrium::doubtful_rest;
 pub(crate) use equilibrium::is_below_floor;
+pub use equilibrium::{below_floor, doubtful_rest};
 use serde::Serialize;
 use std::fmt;
 
@@ -170,7 +170,12 @@ impl Findings<'_> {
             !(limits.min..=limits.max).contains(&tensions[*i])
         };
         let mut outside = (0..tensions.len()).filter(is_outside);
-        let known = self.list.iter().any(|finding| finding.field == "tension_reference");
+        // Of limits in doubt nothing follows for the reference.
+        let in_doubt = |Finding { severity, field, .. }: &Finding| {
+            *severity == Severity::Warning
+                && ["tension_reference", "tension_limits.max"].contains(&&field[..])
+        };
+        let known = self.list.iter().any(in_doubt);
         let (Some(i), false) = (outside.next(), robot.tension_reference.is_none() || known) else { return };
         let others = match outside.count() {
             0 => String::new(),

@@ -41,7 +41,7 @@ pub use design::{
     VariableSpec, design, design_schema, front,
 };
 pub use error::AssessError;
-pub use inspection::{Finding, Severity, doubtful_rest, inspect};
+pub use inspection::{Finding, Severity, below_floor, doubtful_rest, inspect};
 pub use path::{Bands, Path, PathPose};
 pub use robustness::{
     Answer, Assignment, Draws, FOUND_ANGLE, Outcome, PoseRegion, Protocol, ProtocolSummary, Published,

@@ -1,7 +1,7 @@
 //! Inspection of robots: what is odd in a file, and what is only worth knowing.
 
 use cdpr_assess::{Severity, doubtful_rest, inspect};
-use cdpr_robot::{Gravity, Pose, Pulley, Robot, Vector3};
+use cdpr_robot::{Gravity, Pose, Pulley, Robot, TensionLimits, TensionReference, Vector3};
 use cdpr_statics::{DirectStart, Load, direct, inverse, rough_pose};
 
 fn about_gravity(gravity: impl Into<Gravity>) -> Vec<(Severity, String)> {
@@ -190,4 +190,20 @@ fn an_inertia_or_a_density_ten_times_off_is_warned_about_and_no_robot_of_the_lib
     for density in [0.0, 0.0057, 0.0082, 0.022, 0.064, 0.075] {
         assert_eq!(field(8.2051e-6, density), [""; 0], "{density} kg/m");
     }
+}
+
+#[test]
+fn limits_in_kilonewtons_are_in_doubt_and_not_the_preferred_tensions() {
+    let robot = |limits: TensionLimits, reference: f64| {
+        let mut robot = Robot::from_json(include_str!("../../../data/robots/cogiro.json")).unwrap();
+        (robot.tension_limits, robot.tension_reference) = (limits, Some(TensionReference::All(reference)));
+        let found = inspect(&robot).into_iter();
+        found.map(|of| (of.severity, of.field, of.remedy)).collect::<Vec<_>>()
+    };
+    let warning = |field: &str, remedy: &str| (Severity::Warning, field.to_owned(), remedy.to_owned());
+    let kilonewtons = TensionLimits { min: 0.001, max: 5.0 };
+    assert_eq!(robot(kilonewtons, 400.0), [warning("tension_limits.max", "5000 N, if 5 is in kN")]);
+    let newtons = TensionLimits { min: 1.0, max: 5000.0 };
+    assert_eq!(robot(newtons, 4e5), [warning("tension_reference", "400 N, if 400000 is in mN")]);
+    assert_eq!(robot(newtons, 400.0), []);
 }

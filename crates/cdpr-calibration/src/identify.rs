@@ -53,8 +53,8 @@ pub enum Measurement {
     Pose {
         /// Noise of each coordinate [m].
         position: f64,
-        /// Noise of each component of the rotation [rad].
-        rotation: f64,
+        /// Noise of each component of the rotation [rad]; `None` of a point mass, which has no rotation.
+        rotation: Option<f64>,
     },
     /// The tensions at the platform there; noise [N].
     Tensions(f64),
@@ -63,12 +63,13 @@ pub enum Measurement {
 }
 
 impl Measurement {
-    /// Measurements by the names of their noise: position and rotation together, tensions, lengths.
+    /// Measurements of a robot by the names of their noise: position and rotation together, of a point mass the
+    /// position alone, tensions, lengths.
     ///
     /// # Errors
-    /// [`CalibrationError::Invalid`] for another name, for one of position and rotation alone, and for length
-    /// alone.
-    pub fn named(named: &[(String, f64)]) -> Result<Vec<Self>, CalibrationError> {
+    /// [`CalibrationError::Invalid`] for another name, for one of position and rotation alone, for the rotation
+    /// of a point mass, and for length alone.
+    pub fn named(robot: &Robot, named: &[(String, f64)]) -> Result<Vec<Self>, CalibrationError> {
         let noise = Noise::named(named)?;
         const NAMES: [&str; 4] = ["position", "rotation", "tension", "length"];
         if let Some((name, value)) = named.iter().find(|(name, _)| !NAMES.contains(&Noise::sensor(name))) {
@@ -76,7 +77,12 @@ impl Measurement {
             return Err(CalibrationError::invalid(format!("noise {name}"), value, expected));
         }
         let pose = match (noise.position, noise.rotation) {
-            (Some(position), Some(rotation)) => Some(Self::Pose { position, rotation }),
+            (_, Some(rotation)) if robot.platform.point => {
+                let expected = "no such noise: a point mass has no rotation, position alone is its pose";
+                return Err(CalibrationError::invalid("noise rotation", rotation, expected));
+            }
+            (Some(position), None) if robot.platform.point => Some(Self::Pose { position, rotation: None }),
+            (Some(position), rotation @ Some(_)) => Some(Self::Pose { position, rotation }),
             (None, None) => None,
             (Some(_), None) => return Err(Self::alone("position")),
             (None, Some(_)) => return Err(Self::alone("rotation")),
@@ -226,6 +232,11 @@ impl Calibration {
         Ok(())
     }
 
+    /// The nominal robot.
+    pub fn robot(&self) -> &Robot {
+        &self.robot
+    }
+
     /// Number of poses added.
     pub fn count(&self) -> usize {
         self.poses.len()
@@ -276,9 +287,11 @@ impl Calibration {
         for measurement in measurements {
             let noises = match *measurement {
                 Measurement::Pose { position, rotation } => {
-                    let noise = |row| if row < 3 { position } else { rotation };
-                    rows.extend((0..6).map(|row| at.pose.row(row) / noise(row)));
-                    [position, rotation]
+                    rows.extend((0..3).map(|row| at.pose.row(row) / position));
+                    rows.extend(
+                        rotation.iter().flat_map(|noise| (3..6).map(|row| at.pose.row(row) / *noise)),
+                    );
+                    [position, rotation.unwrap_or(position)]
                 }
                 Measurement::Tensions(noise) => {
                     // A tension changes by what its force changes along itself.

@@ -5,7 +5,7 @@ use cdpr_calibration::{Calibration, Combination, Identifiability, Measurement, P
 use cdpr_robot::{Parameter, Pose, Rotation3, Vector3};
 use cdpr_statics::{DirectStart, Load, direct, inverse};
 
-const NOISE: Measurement = Measurement::Pose { position: 1e-4, rotation: 1e-4 };
+const NOISE: Measurement = Measurement::Pose { position: 1e-4, rotation: Some(1e-4) };
 
 /// One standard deviation of each kind of parameter.
 fn uncertainties() -> Vec<f64> {
@@ -235,7 +235,7 @@ fn the_best_poses_identify_more_than_the_first_and_their_information_adds_up() {
 #[test]
 fn measurements_of_any_precision_have_their_information() {
     for noise in [1e-6, 1e-9, 1e-12, 1e-15] {
-        let exact = Measurement::Pose { position: noise, rotation: noise };
+        let exact = Measurement::Pose { position: noise, rotation: Some(noise) };
         let calibration = calibration(&[50.0], &[exact, Measurement::Tensions(5e4 * noise)]);
         let found = calibration.identify(0..27);
         let values = found.identifiable.iter().map(|combination| combination.signal_to_noise);

@@ -76,7 +76,7 @@ fn numbers_without_sense_are_refused_by_name() {
             let error = Noise::named(&named(&[(name, std)])).unwrap_err().to_string();
             assert!(error.starts_with(&format!("noise {name} is ")), "{error}");
         }
-        assert!(Measurement::named(&named(&[("position", std), ("rotation", 1e-4)])).is_err());
+        assert!(Measurement::named(&case.robot, &named(&[("position", std), ("rotation", 1e-4)])).is_err());
         let mut wrong = rows.clone();
         wrong[4].readings[0].std = std;
         let error = fit(&case.robot, &wrong, &unknowns, &FitSettings::default()).unwrap_err().to_string();

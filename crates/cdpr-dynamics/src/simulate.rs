@@ -8,13 +8,14 @@ mod lead;
 mod mesh;
 mod radau;
 mod run;
+mod series;
 mod setting;
 mod system;
 mod winch;
 
 pub use event::{Change, CutAt, Event, events_from_json, events_schema};
 pub use radau::Work;
-pub use run::{Command, Control, Difference, Energy, Excursion, Sample, Series};
+pub use run::{Command, Control};
 pub use setting::{Discretization, Settings};
 pub use winch::{Profile, WinchLengths};
 
@@ -22,6 +23,7 @@ use crate::error::DynamicsError;
 use cdpr_robot::Wrench;
 use cdpr_statics::{DirectProblem, Equilibrium};
 use run::{Wanted, run};
+pub use series::{Difference, Energy, Excursion, Sample, Series};
 
 /// The motion of a robot from rest under events.
 ///
@@ -67,14 +69,15 @@ pub fn simulate_controlled(
     let (mut fine, coarse) = (fine?, coarse?);
     fine.difference = fine.difference_to(&coarse);
     let size = problem.robot().platform_size();
-    for elements in &CHAINS[2..] {
+    for pair in CHAINS[1..].windows(2) {
         let [differs, moves] =
             [&fine.difference, &fine.motion()].map(|by| by.position.max(size * by.rotation));
-        let has_chain = fine.slack.contains(&true) && settings.discretization.is_none();
+        let has_chain = fine.discretizations.contains(&Discretization::chain(pair[0]));
+        let has_chain = has_chain && settings.discretization.is_none();
         if !has_chain || differs <= (ENOUGH[0] * moves).max(ENOUGH[1]) {
             break;
         }
-        let finer = solve(chain(*elements), tolerance)?;
+        let finer = solve(chain(pair[1]), tolerance)?;
         fine = Series { difference: finer.difference_to(&fine), ..finer };
     }
     Ok(fine)

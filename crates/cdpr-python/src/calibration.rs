@@ -303,7 +303,7 @@ fn measured(
     payload: f64,
     noise: &Named,
 ) -> Answer<(Calibration, Vec<Pose>)> {
-    let measurements = Measurement::named(noise)?;
+    let measurements = Measurement::named(calibration.robot(), noise)?;
     let mut held = Vec::new();
     let mut reason = None;
     for k in 0..poses.number() {

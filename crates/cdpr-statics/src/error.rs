@@ -3,7 +3,7 @@
 pub use crate::rest_fault::RestFault;
 use crate::state::Residual;
 use cdpr_cable::CableError;
-use cdpr_robot::{Pose, RobotError, counted, decimal, short, shortened};
+use cdpr_robot::{Pose, RobotError, counted, decimal, short, shortened, significant};
 use cdpr_tension::Bound;
 
 /// Why a model has no solution.
@@ -33,8 +33,10 @@ pub enum StaticsError {
     /// No tensions within the limits that hold the pose were found.
     #[error(
         "at position ({x}, {y}, {z}) m: no tensions between {min} N and {max} N balance the wrench{why}: \
-         the best tensions from {from}, up to {largest:.3} N, leave a residual of {force:.3} N and \
-         {moment:.3} N m{blocked}; change the pose, the load or the limits",
+         the best tensions from {from}, up to {largest:.3} N, leave a residual of {} N and \
+         {} N m{blocked}; change the pose, the load or the limits",
+        left(*force, tensions),
+        left(*moment, tensions),
         x = short(position[0]), y = short(position[1]), z = short(position[2]),
         min = short(*min),
         max = short(*max),
@@ -68,9 +70,9 @@ pub enum StaticsError {
     /// Fewer cables than free motions: not all coordinates of a pose can be chosen.
     #[error(
         "{} for {} leave {} of the pose that cannot be chosen: \
-         expected as many names in `free` (of x, y, z, roll, pitch, yaw), not {named}; the inverse model, \
-         deflection, derivatives, stiffness, modes, capacity, load cycles, workspaces, robustness, \
-         calibrations and studies take them",
+         expected as many names in `free` (of x, y, z, roll, pitch, yaw), not {named}; inverse, deflection, \
+         stiffness, derivatives, modes, response, simulate, capacity, safety, hysteresis, workspaces, designs, \
+         robustness, calibrations and studies take them",
         counted(*cables, "cable"), counted(*freedoms, "free motion"),
         counted(freedoms.saturating_sub(*cables), "coordinate")
     )]
@@ -287,6 +289,16 @@ pub struct Blocked {
     pub bound: Bound,
     /// The limit [N].
     pub tension: f64,
+}
+
+/// A residual in words: one that is small next to the tensions has its own digits, unless it is rounding.
+fn left(residual: f64, tensions: &[f64]) -> String {
+    let largest = tensions.iter().copied().fold(0.0, f64::max);
+    if (1e-12 * largest..5e-4).contains(&residual) {
+        significant(residual, 2)
+    } else {
+        format!("{residual:.3}")
+    }
 }
 
 impl Blocked {

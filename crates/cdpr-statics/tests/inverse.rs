@@ -215,3 +215,25 @@ fn a_pose_of_deficient_rank_is_held_where_the_load_lies_in_its_plane() {
     let refused = inverse(&robot, &pose, &Load::wrench(across));
     assert!(matches!(refused, Err(StaticsError::NoTensions { rank_deficient: true, .. })), "{refused:?}");
 }
+
+#[test]
+fn limits_just_below_the_only_tensions_that_balance_are_named_as_what_is_in_the_way() {
+    let robot = Robot::from_library("nist-robocrane").unwrap();
+    for pose in [Pose::at(0.0, 0.0, -2.0), Pose::at(0.3, 0.2, -2.5)] {
+        let held = inverse(&robot, &pose, &Load::none()).unwrap().tensions;
+        let greatest = held.iter().copied().fold(0.0, f64::max);
+        let below = |share: f64| {
+            let mut robot = robot.clone();
+            robot.tension_limits.max = (1.0 - share) * greatest;
+            inverse(&robot, &pose, &Load::none())
+        };
+        for share in [1e-6, 1e-7, 3e-8, 1e-8, 3e-9, 1e-9, 3e-10] {
+            let error = below(share).unwrap_err();
+            let StaticsError::NoTensions { force, blocked, refuted, .. } = &error else { panic!("{error}") };
+            // Six cables have no other tensions: what is missing is the share.
+            assert!((0.3..3.0).contains(&(force / (share * greatest))), "{share}: {error}");
+            assert!(!blocked.is_empty() && !refuted && !error.to_string().contains("of 0.000 N"), "{error}");
+        }
+        assert!(below(1e-12).is_ok() && below(-1e-9).is_ok());
+    }
+}

@@ -268,3 +268,29 @@ fn what_was_not_tried_is_no_part_of_an_answer() {
     let weighed = text(cdpr(&["cable", "density", "--mass", "0.203", "--length", "2"]).stdout);
     assert_eq!(weighed, "0.101500 kg/m\n");
 }
+
+#[test]
+fn the_refusal_of_few_cables_names_every_command_that_finds_coordinates() {
+    let refused = unwrapped(cdpr(&["stiffness", "four-cables", "--pose", "0.5,0.3,2"]).stderr);
+    let help = text(cdpr(&["--help"]).stdout);
+    let names = help.lines().filter_map(|line| line.strip_prefix("  ")?.split_once("  "));
+    let mut count = 0;
+    for (name, _) in names.filter(|(name, _)| name.starts_with(char::is_lowercase)) {
+        let words: Vec<&str> = name.split(' ').chain(["--help"]).collect();
+        if !text(cdpr(&words).stdout).contains("--free <") {
+            continue;
+        }
+        let noun = match words[0] {
+            "workspace" => "workspaces",
+            "calibrate" => "calibrations",
+            "study" => "studies",
+            name => name,
+        };
+        assert!(
+            refused.contains(&format!("{noun},")) || refused.contains(&format!("{noun} ")),
+            "{name}: {refused}"
+        );
+        count += 1;
+    }
+    assert!(count > 10, "{count}");
+}

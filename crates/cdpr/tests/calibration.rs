@@ -1,6 +1,7 @@
 //! `cdpr calibrate` as a user meets it.
 
 use crate::common::{answered, cdpr, data_path, text, unwrapped};
+use crate::safety::point_mass;
 use serde_json::Value;
 use std::process::Output;
 use tempfile::TempDir;
@@ -55,6 +56,24 @@ fn a_file_of_poses_is_read_line_by_line() {
             && error.contains("line 2: 2 cells: expected 3, as many as in line 1"),
         "{error}"
     );
+}
+
+#[test]
+fn the_position_is_the_whole_pose_of_a_point_mass() {
+    // A mass m below a cable: with a length l it hangs lower by g l/EA for each kg. With s its standard deviation
+    // of 1 kg over the noise, 1/sqrt(1 + s^2) of this deviation is left.
+    let folder = TempDir::new().unwrap();
+    let robot = point_mass(&folder, &[[0.0, 0.0, 5.0]], true);
+    let identify = |noise: &str| {
+        let at = ["calibrate", "identify", &robot, "--region", "0,0,2", "--free", "x", "--format", "json"];
+        cdpr(&[&at[..], &["--uncertainty", "mass=1", "--noise", noise]].concat())
+    };
+    let found: Value = serde_json::from_str(&answered(identify("position=1e-3"))).unwrap();
+    let signal: f64 = 9.81 * 3.0 / 1e4 / 1e-3;
+    let left = found["remaining"]["mass"].as_f64().unwrap();
+    assert!((left * (1.0 + signal * signal).sqrt() - 1.0).abs() < 0.03, "{left}");
+    let refused = unwrapped(identify("position=1e-3,rotation=1e-3").stderr);
+    assert!(refused.contains("--noise rotation is 0.001: expected no such noise: a point mass"), "{refused}");
 }
 
 #[test]

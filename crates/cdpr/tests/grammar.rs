@@ -188,3 +188,39 @@ fn an_error_model_is_typed_or_that_of_a_file_or_a_study() {
     assert!(missing.starts_with("error: cannot read nowhere.json"), "{missing}");
     assert!(Path::new(&study).exists());
 }
+
+#[test]
+fn an_answer_with_poses_is_a_list_of_poses_and_one_with_lengths_a_case() {
+    let json = |output: Output| -> Value { serde_json::from_str(&answered(output)).unwrap() };
+    let place = ["caroca", "--pose", "0.5,0.2,1.5", "--rpy", "1,-2,3", "--format", "json"];
+    let held = answered(cdpr(&[&["inverse"], &place[..]].concat()));
+    let found = answered(fed(&held, &["direct", "caroca", "--from", "-", "--format", "json"]));
+    let again = |poses: &str| json(fed(poses, &["inverse", "caroca", "--poses", "-", "--format", "json"]));
+    let lengths = |of: &Value| -> Vec<f64> {
+        of["lengths"].as_array().unwrap().iter().map(|length| length.as_f64().unwrap()).collect()
+    };
+    let first = lengths(&serde_json::from_str(&held).unwrap());
+    let whole = again(&found);
+    // The same from a list, and from lines that have their pose.
+    for of in [&whole, &again(&format!("[{}]", found.trim())), &again(&whole.to_string())] {
+        for (length, expected) in lengths(of).into_iter().zip(&first) {
+            assert!((length - expected).abs() < 1e-9, "{length} {expected}");
+        }
+    }
+    let loaded = answered(cdpr(&[&["deflection"], &place[..], &["--payload", "50"]].concat()));
+    let rest = json(fed(&loaded, &["direct", "caroca", "--from", "-", "--format", "json"]));
+    let expected: Value = serde_json::from_str(&loaded).unwrap();
+    for k in 0..3 {
+        let [found, expected] = [&rest, &expected["loaded"]].map(|of| of["position"][k].as_f64().unwrap());
+        assert!((found - expected).abs() < 1e-9, "{rest}");
+    }
+    for (given, command, words) in [
+        (&loaded, ["inverse", "--poses"], "it has two poses, with the load and without"),
+        (&held, ["stiffness", "--poses"], "answer 1: it has no pose: expected a table"),
+        (&found, ["direct", "--from"], "unknown field `position`: expected a case of lengths, mass"),
+    ] {
+        let refused = fed(given, &[command[0], "caroca", command[1], "-"]);
+        let said = unwrapped(refused.stderr);
+        assert!(refused.status.code() == Some(1) && said.contains(words), "{command:?}: {said}");
+    }
+}

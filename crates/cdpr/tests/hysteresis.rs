@@ -210,3 +210,15 @@ fn friction_without_pulleys_or_out_of_its_range_is_refused() {
         assert!(error.contains(said), "{error}");
     }
 }
+
+#[test]
+fn pulleys_without_friction_and_elastic_cables_leave_no_loop() {
+    let found = json(&["caroca", "--with", "friction=0,bearing=0"]);
+    let plain = ["deflection", "caroca", "--pose", "0,0,1.75", "--payload", "50", "--format", "json"];
+    let plain: Value = serde_json::from_str(&answered(cdpr(&plain))).unwrap();
+    let [down, left] = down_and_left(&found);
+    let expected = plain["deflection_mm"][2].as_f64().unwrap();
+    assert!((down / expected - 1.0).abs() < 1e-6 && left.abs() < 1e-9, "{down} {expected} {left}");
+    let missing = unwrapped(cdpr(&["hysteresis", "caroca", "--pose", "0,0,1.75", "--payload", "50"]).stderr);
+    assert!(missing.contains("or --with friction=MU for pulleys"), "{missing}");
+}

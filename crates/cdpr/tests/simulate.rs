@@ -180,3 +180,54 @@ fn events_that_do_nothing_or_take_from_the_platform_are_questioned() {
         "{asked}"
     );
 }
+
+#[test]
+fn a_cable_that_is_cut_at_either_end_is_slack_only_if_it_was_so_before() {
+    let folder = TempDir::new().unwrap();
+    let robot = point_mass(&folder, &[[-3.0, 0.0, 5.0], [3.0, 0.0, 5.0], [0.5, 0.0, 5.0]], true);
+    for at in ["anchor", "exit"] {
+        let events = events(&folder, &format!(r#"[{{"t": 0.01, "cut": 3, "at": "{at}"}}]"#));
+        let call = ["simulate", &robot, "--pose", "0.2,0,2", "--events", &events, "--until", "0.04"];
+        let found = cdpr(&call);
+        let summary = text(found.stdout);
+        assert!(summary.contains("\u{2506} no, cut") && !summary.contains("yes"), "{at}: {summary}");
+        let found = answer(&call);
+        let cable = |k: usize| &found["cables"][k];
+        assert!(cable(2)["slack"] == false && cable(2)["cut_at_s"] == 0.01, "{found}");
+        assert!(cable(0)["slack"] == false && cable(0)["cut_at_s"].is_null(), "{found}");
+    }
+}
+
+#[test]
+fn a_platform_that_falls_below_the_ground_is_reported_and_no_moment_acts_on_a_point() {
+    // From z = 2.03 m less the stretch the mass falls freely to the floor, below which 0.1 m are an error of
+    // surveying at most.
+    let folder = TempDir::new().unwrap();
+    let robot = point_mass(&folder, &[[0.0, 0.0, 5.0]], true);
+    let cut = events(&folder, r#"[{"t": 0, "cut": 1}]"#);
+    let call = ["simulate", &robot, "--lengths", "2.97", "--events", &cut, "--until", "0.7"];
+    let found = cdpr(&call);
+    assert_eq!(found.status.code(), Some(3), "{}", unwrapped(found.stderr));
+    let said = text(found.stdout).replace('\n', " ");
+    assert!(said.contains("The platform comes below the ground: at 0.6"), "{said}");
+    assert!(said.contains("below the floor of the base frame, z = 0"), "{said}");
+    let found = text(cdpr(&[&call[..], &["--format", "json"]].concat()).stdout);
+    let found: Value = serde_json::from_str(&found).unwrap();
+    let at = found["below_ground"]["at_s"].as_f64().unwrap();
+    let fall = |height: f64| (2.0 * height / 9.81_f64).sqrt();
+    assert!((fall(1.99)..fall(2.13) + 0.01).contains(&at), "{at}");
+    let short = answer(&[&call[..6], &["--until", "0.3"]].concat());
+    assert!(short["below_ground"].is_null(), "{short}");
+
+    let turned = events(&folder, r#"[{"t": 0, "moment": [0, 0, 5]}]"#);
+    let refused = cdpr(&[&call[..5], &[&turned[..], "--until", "0.1"]].concat());
+    let said = unwrapped(refused.stderr);
+    assert!(
+        said.contains("event 1, moment is [0.0, 0.0, 5.0]: expected zeros: the platform is a point"),
+        "{said}"
+    );
+    let asked =
+        ["deflection", &robot, "--pose", "0,0,2", "--free", "x", "--payload", "1", "--moment", "0,5,0"];
+    let said = unwrapped(cdpr(&asked).stderr);
+    assert!(said.contains("moment is 5 N m: the platform is a point mass, which no moment turns"), "{said}");
+}

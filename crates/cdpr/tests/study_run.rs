@@ -2,6 +2,7 @@
 
 use crate::common::{Bench, cdpr_in, text, unwrapped};
 use crate::study_refused::refused;
+use cdpr_robot::significant;
 use serde_json::{Value, json};
 use std::process::Output;
 
@@ -320,4 +321,31 @@ fn a_run_writes_a_report_and_so_does_its_folder_alone() {
     refusal("summary.json: line 1, column 11: study: invalid type");
     std::fs::remove_file(moved.join("summary.json")).unwrap();
     refusal("has no summary.json: analyse it with cdpr study merge");
+}
+
+#[test]
+fn the_range_of_an_output_is_that_of_robots_that_differ_from_the_nominal_one() {
+    let bench = bench();
+    bench.change("study.json", |study| study["output"] = json!("position"));
+    let text = printed(&bench, &[]).replace('\n', " ");
+    let table = read(&bench, "out/mechanical.csv");
+    let mut rows = table.lines().map(|line| line.split(',').collect::<Vec<_>>());
+    let header = rows.next().unwrap();
+    let place = header.iter().position(|name| *name == "position_error_mm").unwrap();
+    let of_row = |row: Vec<&str>| {
+        let deviates = row[1..63].iter().any(|cell| cell.parse::<f64>().unwrap() != 0.0);
+        (deviates, row[place].parse::<f64>().unwrap())
+    };
+    let rows: Vec<(bool, f64)> = rows.map(of_row).collect();
+    // The second point of Sobol's sequence is the middle of all laws, the nominal robot.
+    assert_eq!(rows.iter().position(|(deviates, _)| !deviates), Some(1));
+    assert!(rows[1].1 < 1e-6, "{}", rows[1].1);
+    let others = || rows.iter().filter(|(deviates, _)| *deviates).map(|(_, error)| *error);
+    let [min, max] = [others().fold(f64::INFINITY, f64::min), others().fold(0.0, f64::max)];
+    let values = &bench.json("out/summary.json")["studies"]["mechanical"]["position_error_mm"];
+    assert_eq!((values["min"].as_f64(), values["max"].as_f64()), (Some(min), Some(max)));
+    assert!(
+        text.contains(&format!("range {} to {} mm.", significant(min, 4), significant(max, 4))),
+        "{text}"
+    );
 }

@@ -101,6 +101,12 @@ impl Over {
     }
 }
 
+/// The tension of a cable that a design may not pass [N].
+pub(crate) fn greatest_tension(robot: &Robot, cable: usize) -> f64 {
+    let breaking_force = robot.cables[cable].properties.breaking_force;
+    robot.limits(cable).max.min(breaking_force.unwrap_or(f64::INFINITY))
+}
+
 /// 1 for an output that is to be small, -1 for one that is to be great.
 pub(crate) fn sense(output: Output) -> f64 {
     match output {
@@ -204,8 +210,7 @@ impl AtPose<'_> {
         let ends = rest.tensions().into_iter().zip(rest.exit_tensions(robot, &deflection.lengths));
         for (i, (anchor, exit)) in ends.enumerate() {
             let is_exit = !robot.max_at(i).is_anchor();
-            let limit = robot.cables[i].properties.breaking_force.unwrap_or(f64::INFINITY);
-            let limit = limit.min(robot.limits(i).max);
+            let limit = greatest_tension(robot, i);
             let row: Vec<f64> = match (slopes, exit_slopes.as_ref().filter(|_| is_exit)) {
                 (None, _) => Vec::new(),
                 (Some(found), None) => found.loaded.tensions.row(i).iter().copied().collect(),

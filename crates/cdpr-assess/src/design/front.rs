@@ -102,7 +102,7 @@ pub fn front(problem: &DesignProblem) -> Result<Front, AssessError> {
         poses: problem.poses.len(),
         configurations: first.found.len() / first.each,
         starts: first.starts,
-        evaluations: first.evaluations(),
+        evaluations: first.evaluations,
         dominated: 0,
         lost: 0,
         reason: first.best().is_none().then(|| first.reason(problem)),
@@ -132,7 +132,7 @@ impl Front {
             ..problem.clone()
         };
         let other = Searched::of(&swapped, std::slice::from_ref(&best.values))?;
-        self.evaluations += other.evaluations();
+        self.evaluations += other.evaluations;
         let Some(start) = self.point(problem, &best, None) else { return Ok(()) };
         let mut from = best.values;
         let end = other.best().and_then(|(_, other)| self.point(problem, other, None));
@@ -146,7 +146,7 @@ impl Front {
             let bound = low + (high - low) * k as f64 / (problem.points - 1) as f64;
             let bounded = DesignProblem { bound: Some(bound), ..problem.clone() };
             let searched = Searched::of(&bounded, &[&other[..], &[from.clone()]].concat())?;
-            self.evaluations += searched.evaluations();
+            self.evaluations += searched.evaluations;
             match searched.best() {
                 Some((_, best)) => {
                     from.clone_from(&best.values);

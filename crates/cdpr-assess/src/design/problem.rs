@@ -18,6 +18,19 @@ const MOST_POSES: usize = 10_000;
 /// Configurations of the choices, each with all starts of the local search where something has bounds.
 pub(crate) const MOST_CONFIGURATIONS: usize = 100_000;
 
+/// What a design has to meet; poses and cables from 0.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Demand {
+    /// The limit of an output at a pose.
+    Output { pose: usize, output: Output, limit: f64 },
+    /// The greatest tension of a cable at a pose.
+    Tension { pose: usize, cable: usize },
+    /// The limit of the cost.
+    Cost(f64),
+    /// The bound of a second objective.
+    Second,
+}
+
 /// A robot, what of it may change, and what is to be as good as possible.
 #[derive(Clone, Debug)]
 pub struct DesignProblem {
@@ -275,6 +288,21 @@ impl DesignProblem {
             variable.cables.iter().for_each(|i| costs[*i] = cost);
         }
         costs
+    }
+
+    /// The demand that an excess is about, by its index.
+    pub(crate) fn demand(&self, index: usize) -> Demand {
+        let each = self.excesses_each();
+        match (index.checked_sub(each * self.poses.len()), self.limits.cost) {
+            (Some(0), Some(cost)) => return Demand::Cost(cost),
+            (Some(_), _) => return Demand::Second,
+            (None, _) => {}
+        }
+        let (pose, of) = (index / each, index % each);
+        match self.limits.each().nth(of) {
+            Some((output, limit)) => Demand::Output { pose, output, limit },
+            None => Demand::Tension { pose, cable: of - self.limits.each().count() },
+        }
     }
 
     /// Excesses of tensions at each pose.

@@ -81,8 +81,6 @@ pub(crate) struct Found {
     pub(crate) gradient_error: Option<f64>,
     /// Multipliers of the excesses that are not zero, in units of the output.
     pub(crate) active: Vec<(usize, f64)>,
-    /// Evaluations at all poses.
-    pub(crate) evaluations: usize,
 }
 
 /// The signed objective of the outputs at the poses.
@@ -127,18 +125,22 @@ pub(crate) struct Search<'a> {
 
 impl Search<'_> {
     /// Searches from these values, coordinates of the variables with bounds at `start`; `None` where the
-    /// robot is not held there.
-    pub(crate) fn run(problem: &DesignProblem, values: Vec<f64>, start: Vec<f64>) -> Option<Found> {
+    /// robot is not held there. Also the number of evaluations at all poses.
+    pub(crate) fn run(problem: &DesignProblem, values: Vec<f64>, start: Vec<f64>) -> (Option<Found>, usize) {
         let bounded = problem.bounded().collect();
         let mut search = Search { problem, bounded, values, scale: 1.0, evaluations: 0, penalty: 10.0 };
-        let first = search.at(start)?;
-        search.scale = first.merit(0.0).abs();
-        if search.scale == 0.0 {
-            search.scale = 1.0;
+        (search.from(start), search.evaluations)
+    }
+
+    fn from(&mut self, start: Vec<f64>) -> Option<Found> {
+        let first = self.at(start)?;
+        self.scale = first.merit(0.0).abs();
+        if self.scale == 0.0 {
+            self.scale = 1.0;
         }
         let start = first.u.clone();
-        let here = search.at(start)?;
-        search.descend(here)
+        let here = self.at(start)?;
+        self.descend(here)
     }
 
     fn values_at(&self, u: &[f64]) -> Vec<f64> {
@@ -228,7 +230,6 @@ impl Search<'_> {
             gradient_error,
             gradient,
             active: active.map(|(k, mu)| (k, self.scale * mu)).collect(),
-            evaluations: self.evaluations,
         })
     }
 

@@ -1,8 +1,9 @@
 //! The searches of a design: from every start in every configuration.
 
-use crate::design::evaluation::sense;
-use crate::design::problem::{DesignProblem, STEP};
+use crate::design::evaluation::{Evaluation, greatest_tension, sense};
+use crate::design::problem::{Demand, DesignProblem, STEP};
 use crate::design::search::{Found, MET, Search, excess, objective};
+use cdpr_robot::{Pose, significant};
 use cdpr_sensitivity::Sobol;
 use cdpr_study::StudyError;
 use rayon::prelude::*;
@@ -15,6 +16,8 @@ pub(crate) struct Searched {
     pub(crate) each: usize,
     /// Those of one configuration after those of another.
     pub(crate) found: Vec<Option<Found>>,
+    /// Evaluations of a robot at all poses.
+    pub(crate) evaluations: usize,
 }
 
 impl Searched {
@@ -29,12 +32,13 @@ impl Searched {
             let values = problem.configuration(number / each);
             match &starts {
                 Some(starts) => Search::run(problem, values, starts[number % each].clone()),
-                None => single(problem, values),
+                None => (single(problem, values), 1),
             }
         };
         let count = problem.configurations().unwrap_or(0) * each;
-        let found = (0..count).into_par_iter().map(run).collect();
-        Ok(Self { starts: starts.map_or(0, |starts| starts.len()), each, found })
+        let (found, evaluations): (Vec<_>, Vec<usize>) = (0..count).into_par_iter().map(run).unzip();
+        let evaluations = evaluations.iter().sum();
+        Ok(Self { starts: starts.map_or(0, |starts| starts.len()), each, found, evaluations })
     }
 
     /// The ends that meet all demands, with their numbers.
@@ -48,17 +52,46 @@ impl Searched {
         self.feasible().min_by(|(_, a), (_, b)| a.objective.total_cmp(&b.objective))
     }
 
-    /// Evaluations of a robot at all poses.
-    pub(crate) fn evaluations(&self) -> usize {
-        self.found.iter().flatten().map(|one| one.evaluations).sum()
-    }
-
     /// Why the first start leads to no robot that counts.
     pub(crate) fn reason(&self, problem: &DesignProblem) -> String {
-        match problem.evaluate(&problem.configuration(0), (self.starts > 0).then_some(STEP)) {
-            Err(error) => error.to_string(),
-            Ok(at) => format!("a limit is passed by {:.1} %", 100.0 * excess(&at)),
+        let (values, step) = (problem.configuration(0), (self.starts > 0).then_some(STEP));
+        let of = |poses: Vec<Pose>| DesignProblem { poses, ..problem.clone() };
+        match problem.evaluate(&values, step) {
+            Err(error) => {
+                let fails = |pose: &Pose| of(vec![*pose]).evaluate(&values, step).is_err();
+                let pose = problem.poses.iter().position(fails);
+                pose.map_or_else(|| error.to_string(), |pose| format!("pose {}: {error}", pose + 1))
+            }
+            Ok(at) => passed(problem, &values, &at),
         }
+    }
+}
+
+/// The demand that is passed most, in words.
+fn passed(problem: &DesignProblem, values: &[f64], at: &Evaluation) -> String {
+    let excesses = at.excesses.iter().map(|excess| excess.value).enumerate();
+    let Some((index, excess)) = excesses.max_by(|a, b| a.1.total_cmp(&b.1)) else {
+        return "the search ended early".to_owned();
+    };
+    let words = |what: String, value: f64, limit: f64, unit: &str| {
+        let [value, limit] = [value, limit].map(|value| significant(value, 4));
+        format!("{what} is {value} {unit}, its limit {limit} {unit}")
+    };
+    match problem.demand(index) {
+        Demand::Output { pose, output, limit } => {
+            let what = format!("at pose {} the {}", pose + 1, output.noun());
+            words(what, limit * (1.0 + sense(output) * excess), limit, output.unit())
+        }
+        Demand::Tension { pose, cable } => {
+            let limit = problem.robot_at(values).map_or(f64::NAN, |robot| greatest_tension(&robot, cable));
+            let what = format!("at pose {} the tension of cable {}", pose + 1, cable + 1);
+            words(what, limit * (1.0 + excess), limit, "N")
+        }
+        Demand::Cost(limit) => {
+            let [value, limit] = [limit * (1.0 + excess), limit].map(|value| significant(value, 4));
+            format!("the cost of the cables is {value}, its limit {limit}")
+        }
+        Demand::Second => "the second objective does not reach its bound".to_owned(),
     }
 }
 
@@ -93,14 +126,5 @@ fn single(problem: &DesignProblem, values: Vec<f64>) -> Option<Found> {
     let objective = objective(problem.over, &at.outputs, sense(problem.output));
     let excess = excess(&at);
     let (gradient, active) = (Vec::new(), Vec::new());
-    Some(Found {
-        values,
-        objective,
-        excess,
-        residual: 0.0,
-        gradient_error: None,
-        gradient,
-        active,
-        evaluations: 1,
-    })
+    Some(Found { values, objective, excess, residual: 0.0, gradient_error: None, gradient, active })
 }

@@ -44,8 +44,9 @@ pub fn doubtful_rest(
     found.map(doubt)
 }
 
-/// The lowest of P and the anchor points below what robots stand on.
-fn below_floor(robot: &Robot, start: &Pose, pose: &Pose) -> Option<(String, String)> {
+/// The position of P where P or an anchor point of a platform that was at `start` is below the ground, or,
+/// where the robot has none, below what robots stand on; and a sentence of how deep its lowest point is.
+pub fn below_floor(robot: &Robot, start: &Pose, pose: &Pose) -> Option<(String, String)> {
     let (floor, name) = floor(robot, start)?;
     let lowest = lowest(robot, pose);
     (lowest < floor).then(|| {
@@ -62,7 +63,7 @@ fn lowest(robot: &Robot, pose: &Pose) -> f64 {
 
 /// Whether P or an anchor point of a platform that was at `start` is below the ground or the floor.
 pub(crate) fn is_below_floor(robot: &Robot, start: &Pose, pose: &Pose) -> bool {
-    floor(robot, start).is_some_and(|(floor, _)| lowest(robot, pose) < floor)
+    below_floor(robot, start, pose).is_some()
 }
 
 /// The height below which no platform is expected [m], and what is there. Where the file has no ground it is

@@ -17,6 +17,11 @@ pub struct Event {
 }
 
 impl Event {
+    /// Whether it has cut a cable at a time [s].
+    pub fn has_cut(&self, cable: usize, time: f64) -> bool {
+        self.time <= time && matches!(self.change, Change::Cut { cable: own, .. } if own == cable)
+    }
+
     /// What the winch of a cable does from then on.
     pub(super) fn reeling(&self, cable: usize) -> Option<Reeling> {
         let from = self.time;
@@ -233,6 +238,10 @@ pub(super) fn check(problem: &DirectProblem, events: &[Event]) -> Result<(), Dyn
                         let value = format!("{:?}", vector.as_slice());
                         return wrong(name, value, format!("three numbers of {MOST:.0e} at most"));
                     }
+                }
+                if robot.platform.point && moment.norm() > 0.0 {
+                    let expected = "zeros: the platform is a point mass, which no moment turns";
+                    return wrong("moment", format!("{:?}", moment.as_slice()), expected.to_owned());
                 }
             }
             Change::Displace(motion) => {

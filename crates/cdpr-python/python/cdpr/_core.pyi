@@ -2304,7 +2304,7 @@ class MotionSummary:
         """When [s], (n,)."""
     @property
     def slack(self) -> _Bools:
-        """Whether each cable carries no tension at a point at some time, (n,)."""
+        """Whether each cable carries no tension at a point at some time before it is cut, (n,)."""
     @property
     def position_difference(self) -> float:
         """Greatest difference of the position of P to a coarser computation [m]."""

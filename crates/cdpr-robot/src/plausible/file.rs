@@ -128,20 +128,45 @@ fn first(robot: &Robot, field: &str, value: impl Fn(&RobotCable) -> f64, most: f
     ))
 }
 
-/// Tensions that are preferred far above what the cables may carry.
+/// Tensions that are preferred far above what the cables may carry: they, or the limits where these are far
+/// below what such cables carry.
 pub fn reference(robot: &Robot) -> Option<Doubt> {
     robot.tension_reference.as_ref()?;
     let tensions = robot.reference();
     let (i, tension) =
         tensions.iter().enumerate().find(|(i, tension)| **tension > 2.0 * robot.limits(*i).max)?;
     let most = robot.limits(i).max;
+    let preferred = format!("{} N for cable {}", four_digits(*tension), i + 1);
+    if *tension <= 1e3 * most
+        && let Some(doubt) = limits(robot, format!("tension_reference is {preferred}"))
+    {
+        return Some(doubt);
+    }
     let meant = in_other_unit(*tension, "N", &[("mN", 1e-3)], |tension| tension < most);
     Some(Doubt::new(
         "tension_reference",
-        format!("{} N for cable {}", four_digits(*tension), i + 1),
+        preferred,
         format!("its greatest tension is {} N", four_digits(most)),
         meant.unwrap_or_else(|| "tensions in N".to_owned()),
     ))
+}
+
+/// The doubt whether the limits are in kN, for a reason: all of them are far below what such cables carry, and
+/// a thousand times as much is not too much.
+fn limits(robot: &Robot, reason: String) -> Option<Doubt> {
+    let limits = robot.cables.iter().enumerate().map(|(i, cable)| (robot.limits(i).max, &cable.properties));
+    let are_low = limits.clone().all(|(max, properties)| cable::is_idle(properties, max));
+    let are_kilonewtons = limits.clone().all(|(max, properties)| cable::is_borne(properties, 1e3 * max));
+    let greatest = limits.map(|(max, _)| max).fold(0.0, f64::max);
+    (are_low && are_kilonewtons).then(|| {
+        let meant = in_other_unit(greatest, "N", &[("kN", 1e3)], |_| true);
+        Doubt::new(
+            "tension_limits.max",
+            format!("{} N", four_digits(greatest)),
+            format!("{reason}; such cables carry far more"),
+            meant.unwrap_or_else(|| "tensions in N".to_owned()),
+        )
+    })
 }
 
 /// A platform heavier than what all cables hold: its mass, or the limits where they are far below what such
@@ -152,21 +177,15 @@ fn weight(robot: &Robot) -> Option<Doubt> {
     if weight <= most {
         return None;
     }
-    let limits = robot.cables.iter().enumerate().map(|(i, cable)| (robot.limits(i).max, &cable.properties));
-    let are_low = limits.clone().all(|(max, properties)| cable::is_idle(properties, max));
-    let are_kilonewtons = limits.clone().all(|(max, properties)| cable::is_borne(properties, 1e3 * max));
-    let greatest = limits.map(|(max, _)| max).fold(0.0, f64::max);
-    if are_low && are_kilonewtons && 1e3 * most > weight {
-        let meant = in_other_unit(greatest, "N", &[("kN", 1e3)], |_| true);
-        return Some(Doubt::new(
-            "tension_limits.max",
-            format!("{} N", four_digits(greatest)),
-            format!(
-                "all cables at it, drawn straight up, hold {most:.1} N, less than the platform's weight, \
-                 {weight:.1} N; such cables carry far more"
-            ),
-            meant.unwrap_or_else(|| "tensions in N".to_owned()),
-        ));
+    let too_little = || {
+        format!(
+            "all cables at it, drawn straight up, hold {most:.1} N, less than the platform's weight, {weight:.1} N"
+        )
+    };
+    if 1e3 * most > weight
+        && let Some(doubt) = limits(robot, too_little())
+    {
+        return Some(doubt);
     }
     let meant = in_other_unit(mass, "kg", &[("g", 1e-3)], |mass| mass * robot.gravity.magnitude() < most);
     Some(Doubt::new(

@@ -154,7 +154,8 @@ pub fn load(robot: &Robot, payload: f64, wrench_of_load: &Wrench) -> Doubts {
     heavy.into_iter().chain(wrench(robot, "", wrench_of_load)).collect()
 }
 
-/// A wrench that all cables together cannot bear; `of` stands before the names of its parts.
+/// A wrench that all cables together cannot bear, or a moment on a point mass; `of` comes before the names of
+/// its parts.
 pub fn wrench(robot: &Robot, of: &str, wrench: &Wrench) -> Doubts {
     let most = capacity(robot);
     let size = if reach(robot) > 0.0 { reach(robot) } else { frame_size(robot) };
@@ -170,7 +171,13 @@ pub fn wrench(robot: &Robot, of: &str, wrench: &Wrench) -> Doubts {
         })
     };
     let force = part("force", wrench.force.norm(), "N", "mN", most);
-    let moment = part("moment", wrench.moment.norm(), "N m", "N mm", most * size);
+    let moment = if robot.platform.point && wrench.moment.norm() > 0.0 {
+        let value = format!("{} N m", four_digits(wrench.moment.norm()));
+        let why = "the platform is a point mass, which no moment turns";
+        Some(Doubt::new(format!("{of}moment"), value, why, "a force alone, or a platform that is no point"))
+    } else {
+        part("moment", wrench.moment.norm(), "N m", "N mm", most * size)
+    };
     force.into_iter().chain(moment).collect()
 }
 

@@ -31,7 +31,7 @@
 //! between two of them. Then no other start is tried. Where straight cables have no balance, the proof is
 //! tried first; next to a pose that was refused it is tried from the tensions that came nearest there.
 
-use super::optimum::{Optimum, Point};
+use super::optimum::{NEARLY_ROUNDING, Optimum, Point};
 use super::problem::InverseProblem;
 use super::start::StraightStart;
 use crate::error::{Blocked, StaticsError};
@@ -107,7 +107,13 @@ pub(super) fn search<'a>(problem: &InverseProblem<'a>) -> Result<Optimum<'a>, St
             best.improved(problem, &mut iterations)?;
             Ok(Optimum { iterations, ..best.optimum() })
         }
-        None => Err(nearest.refusal(problem, STARTS, iterations, false)),
+        None => {
+            // A balance that is only near is one if the least residual is rounding.
+            if nearest.residue() <= BALANCED {
+                nearest.balance_to(NEARLY_ROUNDING, LEAST_GAIN);
+            }
+            Err(nearest.refusal(problem, STARTS, iterations, false))
+        }
     }
 }
 
@@ -175,13 +181,18 @@ impl<'a> Point<'a> {
     /// Makes the residual of the balance least, and forgets the multipliers, until a step gains less than a
     /// share of it. Returns whether it balances.
     fn balance(&mut self, least_gain: f64) -> bool {
+        self.balance_to(BALANCED, least_gain)
+    }
+
+    /// The same down to a residual, relative to wrench and tensions.
+    fn balance_to(&mut self, balanced: f64, least_gain: f64) -> bool {
         const MAX_ITERATIONS: usize = 60;
         self.multipliers = Vector6::zeros();
         let mut damping = 1e-6;
         let mut residual = self.residual().norm();
         for _ in 0..MAX_ITERATIONS {
             let size = self.size();
-            if residual <= BALANCED * size {
+            if residual <= balanced * size {
                 return true;
             }
             self.iterations += 1;
@@ -207,7 +218,7 @@ impl<'a> Point<'a> {
                     residual = next;
                     damping = (0.1 * damping).max(1e-9);
                     if gained <= least_gain * residual {
-                        return residual <= BALANCED * self.size();
+                        return residual <= balanced * self.size();
                     }
                 }
                 _ => {
@@ -218,7 +229,7 @@ impl<'a> Point<'a> {
                 }
             }
         }
-        residual <= BALANCED * self.size()
+        residual <= balanced * self.size()
     }
 
     /// The step of (I4), followed by what it leaves of the balance.
@@ -325,7 +336,7 @@ impl<'a> Point<'a> {
         refuted: bool,
     ) -> StaticsError {
         let residual = self.residual();
-        if self.residue() <= BALANCED {
+        if self.residue() <= NEARLY_ROUNDING {
             return StaticsError::InverseNotConverged {
                 iterations,
                 stationarity: self.optimum().stationarity,

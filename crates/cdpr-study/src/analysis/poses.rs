@@ -269,6 +269,7 @@ impl PoseRow {
 
     fn held(sampling: &Sampling, tally: &Tally) -> Self {
         let found = tally.sums.outputs().summary().ok();
+        let range = tally.range().filter(|_| found.is_some());
         // An index needs observations in both halves of every range.
         // It would show what correlated inputs cause, too.
         let independent = sampling.correlation.is_none();
@@ -284,8 +285,8 @@ impl PoseRow {
             nominal: Some(sampling.nominal_value),
             mean: found.map(|found| found.mean),
             std: found.map(|found| found.std),
-            min: found.map(|found| found.min),
-            max: found.map(|found| found.max),
+            min: range.map(|[min, _]| min),
+            max: range.map(|[_, max]| max),
             dominant: dominant.as_ref().map(|effect| effect.input.clone()),
             dominant_t: dominant.as_ref().map(|effect| effect.student),
             dominant_effect: dominant.as_ref().map(|effect| effect.effect),

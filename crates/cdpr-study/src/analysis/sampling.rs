@@ -219,9 +219,9 @@ pub fn analyse(sampling: &Sampling, tally: &Tally, session: &Session) -> Result<
         note(&output.named("signed_effects_mm"), error);
         IndexMap::new()
     });
-    let values = moments
-        .zip(sample.as_ref())
-        .and_then(|(all, sample)| ValueSummary::new(&all, sample, sampling.nominal_value).ok());
+    let values = moments.zip(sample.as_ref()).zip(tally.range()).and_then(|((all, sample), range)| {
+        ValueSummary::new(&all, sample, range, sampling.nominal_value).ok()
+    });
     let (sensitivity, recommendation) = recommended(sampling, tally, session, &t_student, &mut notes)?;
     Ok(SamplingSummary {
         verdict: PartVerdict::of_sampling(sampling, tally, values.as_ref(), recommendation),

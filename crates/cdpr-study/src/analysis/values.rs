@@ -12,9 +12,9 @@ pub struct ValueSummary {
     pub mean: f64,
     /// Standard deviation, with n - 1.
     pub std: f64,
-    /// Least value.
+    /// Least value of robots that differ from the nominal one.
     pub min: f64,
-    /// Greatest value.
+    /// Greatest value of them.
     pub max: f64,
     /// Value of the nominal robot.
     pub nominal: f64,
@@ -34,7 +34,8 @@ impl ValueSummary {
     /// Of all observations of a tally; `None` if fewer than two of them succeeded.
     pub fn of(sampling: &Sampling, tally: &Tally) -> Option<Self> {
         let moments = tally.sums.outputs().summary().ok()?;
-        Self::new(&moments, &Sample::new(&tally.first_values).ok()?, sampling.nominal_value).ok()
+        let sample = Sample::new(&tally.first_values).ok()?;
+        Self::new(&moments, &sample, tally.range()?, sampling.nominal_value).ok()
     }
 
     /// Of a robot without any change.
@@ -51,12 +52,17 @@ impl ValueSummary {
         q99: 0.0,
     };
 
-    pub(crate) fn new(summary: &Summary, sample: &Sample, nominal: f64) -> Result<Self, SensitivityError> {
+    pub(crate) fn new(
+        summary: &Summary,
+        sample: &Sample,
+        [min, max]: [f64; 2],
+        nominal: f64,
+    ) -> Result<Self, SensitivityError> {
         Ok(Self {
             mean: summary.mean,
             std: summary.std,
-            min: summary.min,
-            max: summary.max,
+            min,
+            max,
             nominal,
             q01: sample.quantile(0.01)?,
             q25: sample.quantile(0.25)?,

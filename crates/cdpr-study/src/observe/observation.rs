@@ -87,6 +87,15 @@ pub struct Tally {
     pub scalar: ScalarCount,
     /// Output of the first [`KEPT`] observations, `None` where one failed.
     pub first_values: Vec<Option<f64>>,
+    /// Least and greatest output; `None` where all observations failed.
+    range: Option<[f64; 2]>,
+    /// The same without observations of the nominal robot, such as the middle of Sobol's sequence.
+    range_of_others: Option<[f64; 2]>,
+}
+
+/// The range of the values of two ranges.
+fn joined(one: Option<[f64; 2]>, other: Option<[f64; 2]>) -> Option<[f64; 2]> {
+    one.into_iter().chain(other).reduce(|[a, b], [c, d]| [a.min(c), b.max(d)])
 }
 
 impl Tally {
@@ -96,16 +105,32 @@ impl Tally {
             failed: count_failed(std::iter::empty()),
             scalar: ScalarCount::default(),
             first_values: Vec::new(),
+            range: None,
+            range_of_others: None,
         }
     }
 
+    /// Least and greatest output of the observations: of robots that differ from the nominal one, if any do.
+    pub fn range(&self) -> Option<[f64; 2]> {
+        self.range_of_others.or(self.range)
+    }
+
     fn of_part(sampling: &Sampling, part: &Part) -> Self {
+        /// An input that is smaller than this share of its standard deviation is rounding.
+        const ROUNDING: f64 = 1e-9;
         let mut tally = Self::new(sampling);
         let inputs = sampling.design.inputs().len();
+        let least: Vec<f64> =
+            sampling.design.inputs().iter().map(|input| ROUNDING * input.law.std()).collect();
         for (outcome, row) in part.outcomes.iter().zip(part.rows.chunks_exact(inputs)) {
             let value = value_of(outcome);
             tally.sums.add(row, value);
             tally.first_values.push(value);
+            let of_value = value.map(|value| [value; 2]);
+            tally.range = joined(tally.range, of_value);
+            if row.iter().zip(&least).any(|(input, least)| input.abs() > *least) {
+                tally.range_of_others = joined(tally.range_of_others, of_value);
+            }
         }
         tally.failed = count_failed(failures(&part.outcomes));
         tally.scalar = ScalarCount::of(&part.outcomes);
@@ -121,6 +146,8 @@ impl Tally {
         self.scalar.merge(&next.scalar);
         let room = KEPT.saturating_sub(self.first_values.len()).min(next.first_values.len());
         self.first_values.extend_from_slice(&next.first_values[..room]);
+        self.range = joined(self.range, next.range);
+        self.range_of_others = joined(self.range_of_others, next.range_of_others);
     }
 }
 

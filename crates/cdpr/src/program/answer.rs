@@ -7,7 +7,7 @@ use cdpr_cable::SLACK_BELOW_OWN_WEIGHTS;
 pub(crate) use cdpr_robot::decimal;
 use cdpr_robot::{CableEnd, Pose, Robot, counted, significant};
 use cdpr_statics::stiffness::Mode;
-use cdpr_statics::{Bound, DirectSolution, Equilibrium, Stability};
+use cdpr_statics::{Bound, DirectSolution, Equilibrium, Load, Stability};
 use serde::Serialize;
 
 /// Residuals of the equations at a solution.
@@ -31,6 +31,34 @@ impl Residual {
         let Self { closure, force, moment } = self;
         println!("residuals: closure {closure:.1e} m, force {force:.1e} N, moment {moment:.1e} N m");
     }
+}
+
+/// The load that the lengths are for, without what is zero: with it an answer is a case of `cdpr direct`.
+#[derive(Serialize)]
+pub(crate) struct Borne {
+    /// Mass [kg].
+    #[serde(skip_serializing_if = "is_zero")]
+    payload: f64,
+    /// Components in the base frame [N].
+    #[serde(skip_serializing_if = "are_zero")]
+    force: [f64; 3],
+    /// Components about P in the base frame [N m].
+    #[serde(skip_serializing_if = "are_zero")]
+    moment: [f64; 3],
+}
+
+impl From<&Load> for Borne {
+    fn from(Load { payload, wrench }: &Load) -> Self {
+        Self { payload: *payload, force: wrench.force.into(), moment: wrench.moment.into() }
+    }
+}
+
+fn is_zero(value: &f64) -> bool {
+    *value == 0.0
+}
+
+fn are_zero(values: &[f64; 3]) -> bool {
+    values.iter().all(is_zero)
 }
 
 /// A tension outside of what a cable is to bear, or can bear.

@@ -19,7 +19,7 @@ pub(crate) use printing::{Format, Overwrite, Printing, print_record};
 pub(crate) use region::{Region, region};
 pub(crate) use robot::{FreeArguments, LoadArguments, Preference, RobotArgument};
 pub(crate) use uncertainty::UncertaintyArgument;
-pub(crate) use weather::{WEATHER, WindArgument, any_weather, towards};
+pub(crate) use weather::{WEATHER, WindArgument, any_weather, note_pulleys, towards};
 pub(crate) use with::{NO_DRAG, With, with};
 
 use crate::program::error::ProgramError;

@@ -46,7 +46,10 @@ pub(crate) enum ProgramError {
         "the cables of the robot differ in their section: expected --section, that of the record's specimen"
     )]
     DifferentSections,
-    #[error("no cable of the robot has a law: expected --law, or a `law` in the robot file")]
+    #[error(
+        "no cable of the robot has a law: expected --law, a `law` in the robot file, or --with friction=MU for \
+         pulleys"
+    )]
     NoLaw,
     /// A list of poses or wrenches.
     #[error("{option} {path}, {reason}")]

@@ -1,11 +1,13 @@
 //! Poses and wrenches as files list them, one a line: which column is which quantity, and in which unit.
 
+mod answers;
+
 use crate::program::arguments::poses::pose_of;
 use crate::program::error::ProgramError;
 use crate::program::questions;
 use cdpr_dynamics::simulate::WinchLengths;
 use cdpr_robot::{Pose, Vector3, counted, plausible, rotation_by_angles, rotation_of, short};
-use cdpr_study::{Column, Dimension, InputKind, StudyError, Table, TableError, read_table};
+use cdpr_study::{Column, Dimension, InputKind, StudyError, Table, TableError, check_table, read_bytes};
 use std::path::Path;
 
 /// Names of positions, quaternions and angles, as `Quantities` finds them.
@@ -27,9 +29,17 @@ pub(crate) struct PoseTable {
 type Reason = Box<dyn std::fmt::Display>;
 
 /// Poses from a file, one a line: x, y, z, and a quaternion or angles. Three or seven plain numbers need no
-/// names.
+/// names. Or those of answers in JSON.
 pub(crate) fn pose_file(path: &Path) -> Result<PoseTable, ProgramError> {
-    listed("--poses", path, "a pose", |table| {
+    let bytes = read_bytes(path, InputKind::Poses)?;
+    if let Err(StudyError::Table { source: TableError::NoText { .. }, .. }) =
+        check_table(path, &bytes, InputKind::Poses)
+    {
+        let refused = |reason| ProgramError::List { option: "--poses", path: path.to_owned(), reason };
+        let poses = answers::poses(&String::from_utf8_lossy(&bytes)).map_err(refused)?;
+        return Ok(PoseTable { poses, further: Vec::new() });
+    }
+    listed("--poses", (path, bytes), "a pose", |table| {
         let Some(header) = table.header else {
             let row = |row: &[f64]| pose_of(row).map_err(|error| Box::new(error) as Reason);
             let columns: Vec<_> = table.columns.iter().map(|column| (column, 1.0)).collect();
@@ -93,7 +103,7 @@ fn by_angles(row: &[f64], columns: &[Option<(&Column, f64)>]) -> Result<Pose, Re
 
 /// Wrenches from a file, one a line: fx, fy, fz [N], mx, my, mz [N m].
 pub(crate) fn wrench_file(path: &Path) -> Result<Vec<[f64; 6]>, ProgramError> {
-    listed("--wrench", path, "a wrench", |table| {
+    listed("--wrench", (path, read_bytes(path, InputKind::Poses)?), "a wrench", |table| {
         let columns = match table.header {
             Some(header) => {
                 let found = Quantities::of(table, &WRENCH, WRENCHES).map_err(|reason| at(header, &reason))?;
@@ -118,7 +128,7 @@ pub(crate) fn wrench_file(path: &Path) -> Result<Vec<[f64; 6]>, ProgramError> {
 /// further ones.
 pub(crate) fn winch_file(path: &Path, cables: usize) -> Result<WinchLengths, ProgramError> {
     let option = "--lengths";
-    let rows = listed(option, path, "a time and lengths", |table| {
+    let rows = listed(option, (path, read_bytes(path, InputKind::Poses)?), "a time and lengths", |table| {
         let names = ["t_s".to_owned()].into_iter().chain((1..=cables).map(|i| format!("length_{i}_m")));
         let column = |name: String| {
             let found = table.column(&name).map(|column| (column, 1.0));
@@ -141,18 +151,19 @@ pub(crate) fn winch_file(path: &Path, cables: usize) -> Result<WinchLengths, Pro
 const POSES: &str = "x_m,y_m,z_m, then none, qw,qx,qy,qz or roll_deg,pitch_deg,yaw_deg";
 const WRENCHES: &str = "fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm";
 
-/// A list from the table of a file.
+/// A list from the table of a file, its path and bytes.
 fn listed<T>(
     option: &'static str,
-    path: &Path,
+    (path, bytes): (&Path, Vec<u8>),
     what: &str,
     read: impl FnOnce(&Table) -> Result<T, String>,
 ) -> Result<T, ProgramError> {
     let refused = |reason: String| ProgramError::List { option, path: path.to_owned(), reason };
-    let table = match read_table(path, InputKind::Poses) {
+    match check_table(path, &bytes, InputKind::Poses) {
         Err(StudyError::Table { source, .. }) => return Err(refused(source.to_string())),
-        table => table?,
-    };
+        checked => checked?,
+    }
+    let table = Table::read(&bytes).map_err(|source| refused(source.to_string()))?;
     let list = read(&table).map_err(refused)?;
     if table.rows() == 0 {
         let found = if table.columns.is_empty() { "the file is empty" } else { "nothing but a header" };

@@ -12,7 +12,7 @@ use cdpr_statics::{DirectSolution, Load};
 use cdpr_study::{Access, ErrorModel, InputKind, StoredStudy, Study, is_standard_input, read_text};
 use serde::Serialize;
 use std::path::Path;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, Once, PoisonError};
 
 /// A question.
 #[derive(Serialize)]
@@ -112,6 +112,19 @@ pub(crate) fn about_model(robot: &Robot, model: &ErrorModel) {
 /// Asks about a pose.
 pub(crate) fn about_pose(robot: &Robot, name: &str, pose: &Pose) {
     ask(odd_pose(robot, name, pose));
+}
+
+/// Asks about the first pose to which a load moves the platform from above into the ground.
+pub(crate) fn about_displaced(robot: &Robot, from: &Pose, to: &Pose) {
+    static ASKED: Once = Once::new();
+    let name = "the pose under the load";
+    let doubt =
+        plausible::in_ground(robot, name, to).filter(|_| plausible::in_ground(robot, name, from).is_none());
+    if let Some(doubt) = doubt {
+        ASKED.call_once(|| {
+            ask([Doubt { meant: "a smaller load, or a pose that is higher".to_owned(), ..doubt }])
+        });
+    }
 }
 
 /// A pose that is far away, or in the ground.

@@ -53,7 +53,7 @@ answer! {
         greatest_tensions: Py<PyAny>,
         /// When [s], (n,).
         greatest_times: Py<PyAny>,
-        /// Whether each cable carries no tension at a point at some time, (n,).
+        /// Whether each cable carries no tension at a point at some time before it is cut, (n,).
         slack: Py<PyAny>,
         /// Greatest difference of the position of P to a coarser computation [m].
         position_difference: Py<PyAny>,

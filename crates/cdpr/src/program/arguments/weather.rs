@@ -2,8 +2,11 @@
 
 use crate::program::arguments::{With, components, number};
 use crate::program::error::ProgramError;
+use crate::program::said::note;
 use cdpr_assess::AnyWeather;
+use cdpr_robot::Robot;
 use cdpr_statics::weather::{Weather, Wind, WindProfile};
+use std::sync::Once;
 
 /// Names of `--with` that change the weather, `wind` aside.
 pub(crate) const WEATHER: [&str; 6] =
@@ -94,6 +97,21 @@ fn profile(text: &str) -> Result<WindProfile, String> {
     numbers
         .map(|[roughness, reference]| WindProfile { roughness, reference })
         .ok_or_else(|| expected.to_owned())
+}
+
+/// Notes what the models leave out of a wind on cables over pulleys.
+pub(crate) fn note_pulleys(robot: &Robot, wind: &Wind) {
+    let over_pulleys =
+        robot.cables.iter().any(|cable| cable.pulley.is_some_and(|pulley| pulley.radius > 0.0));
+    static NOTED: Once = Once::new();
+    if over_pulleys && !wind.is_calm() {
+        NOTED.call_once(|| {
+            note(format_args!(
+                "cables leave their pulleys as they do without wind, where the wheels would turn: some per cent of \
+                 what the wind displaces"
+            ));
+        });
+    }
 }
 
 /// ` towards 30 degrees` of an azimuth [rad]; nothing of a wind of one velocity.

@@ -93,7 +93,7 @@ impl Known {
             let missing = "expected --noise: what is measured, such as position=1e-4,rotation=1e-4";
             return Err(ProgramError::Usage(missing.to_owned()));
         }
-        Measurement::named(named).map_err(|error| ProgramError::Usage(format!("--{error}")))
+        Measurement::named(robot, named).map_err(|error| ProgramError::Usage(format!("--{error}")))
     }
 }
 

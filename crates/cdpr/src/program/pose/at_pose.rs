@@ -34,8 +34,8 @@ pub(crate) struct RobotAtPose {
     robot: RobotArgument,
     #[command(flatten)]
     pose: PoseArguments,
-    /// Table of poses: x_m,y_m,z_m, then qw,qx,qy,qz or roll_deg,pitch_deg,yaw_deg or nothing; - for the
-    /// standard input.
+    /// Table of poses: x_m,y_m,z_m, then qw,qx,qy,qz or roll_deg,pitch_deg,yaw_deg or nothing; or answers of
+    /// `direct` in JSON; - for the standard input.
     ///
     /// The answers are lines of CSV, or of JSON with `--format json`. A pose without an answer has a line
     /// with the reason, and the exit code is 3.

@@ -1,14 +1,15 @@
 //! `cdpr deflection`: how far a load or the weather displaces and rotates the platform.
 
-use crate::program::answer::{Found, OutOfLimits, Residual, decimal, vector};
+use crate::program::answer::{Borne, Found, OutOfLimits, Residual, decimal, vector};
 use crate::program::arguments::poses::as_numbers;
-use crate::program::arguments::{WEATHER, WindArgument, With, with};
+use crate::program::arguments::{WEATHER, WindArgument, With, note_pulleys, with};
 use crate::program::error::ProgramError;
 use crate::program::output::{Details, Ending, print_sentence, table};
 use crate::program::pose::at_pose::{RobotAtFreePose, Row, cells, numbered};
+use crate::program::questions;
 use cdpr_robot::{Pose, Robot, Vector3, Vector6};
 use cdpr_statics::weather::{RestInWeather, Weather, in_weather};
-use cdpr_statics::{Deflection, WantedPose, deflection};
+use cdpr_statics::{Deflection, Load, WantedPose, deflection};
 use serde::Serialize;
 
 /// The robot, its poses, the load and the weather.
@@ -36,15 +37,17 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
         let load = at.load.some_load()?;
         let solve = |robot: &Robot, pose: &Pose| {
             let found = deflection(robot, WantedPose::at(pose).free(&free.free), &load)?;
-            let found_pose = free.found(&found.unloaded.equilibrium.pose);
-            Ok(Answer { found_pose, ..Answer::new(robot, &found) })
+            let [unloaded, loaded] = [&found.unloaded, &found.loaded].map(|found| &found.equilibrium.pose);
+            questions::about_displaced(robot, unloaded, loaded);
+            let found_pose = free.found(unloaded);
+            Ok(Answer { found_pose, ..Answer::new(robot, &found, &load) })
         };
         return at.answer(solve, |answer, heading| answer.print(heading, details));
     };
     let load = at.load.load();
     let solve = |robot: &Robot, pose: &Pose| {
         let (still, rest) = in_weather(robot, WantedPose::at(pose).free(&free.free), &load, &weather)?;
-        let mut answer = AnswerInWeather::new(robot, &still, &rest, &weather);
+        let mut answer = AnswerInWeather::new(robot, (&still, &load), &rest, &weather);
         answer.still.found_pose = free.found(&still.unloaded.equilibrium.pose);
         Ok(answer)
     };
@@ -62,8 +65,10 @@ struct Answer {
     rounding_mm: f64,
     /// Rotation vector from the unloaded to the loaded platform.
     rotation_deg: [f64; 3],
-    /// Unstrained lengths.
+    /// Unstrained lengths, with the load a case of `cdpr direct`.
     lengths: Vec<f64>,
+    #[serde(flatten)]
+    load: Borne,
     /// The pose with its free coordinates as they are found.
     #[serde(skip_serializing_if = "Option::is_none", serialize_with = "as_numbers")]
     found_pose: Option<Pose>,
@@ -98,7 +103,7 @@ impl Row for Answer {
 }
 
 impl Answer {
-    fn new(robot: &Robot, found: &Deflection) -> Self {
+    fn new(robot: &Robot, found: &Deflection, load: &Load) -> Self {
         let rounding = found.rounding(robot);
         let displacement = if found.magnitude() > rounding { found.displacement() } else { Vector3::zeros() };
         let motion = found.unloaded.equilibrium.pose.motion_to(&found.loaded.equilibrium.pose);
@@ -108,6 +113,7 @@ impl Answer {
             rounding_mm: 1e3 * rounding,
             rotation_deg: [3, 4, 5].map(|row| motion[row].to_degrees()),
             lengths: found.lengths.clone(),
+            load: load.into(),
             found_pose: None,
             unloaded: Found::new(robot, &found.lengths, &found.unloaded),
             loaded: Found::new(robot, &found.lengths, &found.loaded),
@@ -175,14 +181,20 @@ struct InWeather {
 }
 
 impl AnswerInWeather {
-    fn new(robot: &Robot, still: &Deflection, rest: &RestInWeather, weather: &Weather) -> Self {
+    fn new(
+        robot: &Robot,
+        (still, load): (&Deflection, &Load),
+        rest: &RestInWeather,
+        weather: &Weather,
+    ) -> Self {
+        note_pulleys(robot, &weather.wind);
         let motion: Vector6<f64> = still.unloaded.equilibrium.pose.motion_to(&rest.pose);
         let displacement = Vector3::from(motion.fixed_rows::<3>(0));
         let (tensions, exit_tensions) = (rest.tensions(), rest.exit_tensions.clone());
         let ends = tensions.iter().zip(&exit_tensions).map(|(anchor, exit)| [*anchor, *exit]).collect();
         let found = cdpr_statics::limits::tensions_out_of_limits(robot, &[ends]);
         Self {
-            still: Answer::new(robot, still),
+            still: Answer::new(robot, still, load),
             in_weather: InWeather {
                 deflection_mm: (1e3 * displacement).into(),
                 magnitude_mm: 1e3 * displacement.norm(),

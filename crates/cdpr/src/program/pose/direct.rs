@@ -43,8 +43,8 @@ pub(crate) struct Settings {
     /// certificate: prove how close the exact equilibrium is.
     #[arg(long, value_name = "NAMES", value_parser = arguments::with)]
     with: Option<arguments::With>,
-    /// JSON file with cases: one, a list, or one a line, as `cdpr inverse --format json` prints them; - for
-    /// the standard input.
+    /// JSON file with cases: one, a list, or one a line, as `inverse` and `deflection` print them with
+    /// `--format json`; - for the standard input.
     ///
     /// A case: {"lengths": [..], "mass": .., "force": [..], "moment": [..], "payload": .., "pose": [..]}.
     #[arg(long, value_name = "FILE")]
@@ -54,8 +54,8 @@ pub(crate) struct Settings {
     printing: Printing,
 }
 
-/// A direct problem, also as a file has it. The fields behind `certify` are those of an answer of the inverse
-/// model, which are of no importance here.
+/// A direct problem, also as a file has it. The fields behind `certify` are those of an answer of `inverse` or
+/// `deflection`, which are of no importance here.
 #[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 struct Case {
@@ -85,6 +85,12 @@ struct Case {
     iterations: IgnoredAny,
     residual: IgnoredAny,
     others: IgnoredAny,
+    deflection_mm: IgnoredAny,
+    magnitude_mm: IgnoredAny,
+    rounding_mm: IgnoredAny,
+    rotation_deg: IgnoredAny,
+    unloaded: IgnoredAny,
+    loaded: IgnoredAny,
     /// Why the inverse model has no lengths.
     error: Option<CaseError>,
 }
@@ -187,6 +193,10 @@ enum Cases {
     List(Vec<Case>),
 }
 
+/// What a file has.
+const CASE: &str = "expected a case of lengths, mass, force, moment, payload, pose and certify, or what `inverse` \
+                    or `deflection` prints with --format json";
+
 impl Cases {
     fn read(path: &Path) -> Result<Self, StudyError> {
         let text = read_text(path, InputKind::Cases)?;
@@ -199,7 +209,11 @@ impl Cases {
         } else {
             from_json(&text).map(|case| Self::One(Box::new(case)))
         };
-        cases.map_err(|source| {
+        cases.map_err(|mut source| {
+            // The list of serde has the fields of answers, too.
+            if let Some((unknown, _)) = source.message.split_once("`, expected") {
+                source.message = format!("{unknown}`: {CASE}");
+            }
             let other = other_kind(path, &text, InputKind::Cases);
             other.unwrap_or_else(|| StudyError::Format { path: path.to_owned(), source })
         })
@@ -286,8 +300,9 @@ impl Answer {
         match &self.certificate {
             Some(Proof::Given { position, rotation, force, least_stiffness, .. }) => {
                 print_sentence(&format!(
-                    "proved: exact to {position:.1e} m, {rotation:.1e} rad, {force:.1e} N; \
-                 softest motion at least {least_stiffness:.1} N/m"
+                    "proved: an exact equilibrium is within {position:.1e} m, {rotation:.1e} rad and {force:.1e} N of \
+                     this one, whose residuals are what is left of the equations here; softest motion at least \
+                     {least_stiffness:.1} N/m"
                 ));
             }
             Some(Proof::None { error }) => print_sentence(&error.message),

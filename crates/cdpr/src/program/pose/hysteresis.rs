@@ -108,13 +108,15 @@ struct AtPulley {
 pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     let with = settings.with.clone().unwrap_or_default();
     with.check(&["steps", "same-tension", "friction", "bearing"])?;
-    let [mu, bearing] = ["friction", "bearing"].map(|name| with.value(name, None, number));
-    let friction = PulleyFriction { friction: mu?.unwrap_or(0.0), bearing: bearing?.unwrap_or(0.0) };
+    let (mu, bearing) = (with.value("friction", None, number)?, with.value("bearing", None, number)?);
+    let friction = PulleyFriction { friction: mu.unwrap_or(0.0), bearing: bearing.unwrap_or(0.0) };
+    // Zeros are a friction, too: then elastic cables have no loop.
+    let is_elastic = mu.or(bearing).is_some();
     let steps = with.value("steps", None, arguments::count::<1, 100_000>)?.unwrap_or(50);
     let pose = settings.pose.needed()?;
     let robot = settings.preference.open_robot(settings.robot.path())?;
     let unloading = if with.has("same-tension")? { Unloading::SameTension } else { Unloading::TurningPoint };
-    let laws = laws(&robot, settings, unloading, friction)?;
+    let laws = laws(&robot, settings, unloading, is_elastic)?;
     questions::about_pose(&robot, "--pose", &pose);
     questions::about_load(&robot, &Load::payload(settings.payload));
     let cycle = || {
@@ -153,12 +155,12 @@ fn gives_energy(robot: &Robot, payload: f64, cycle: &LoadCycle) -> bool {
     energies.any(|(i, energy)| *energy < -1e-9 * work - 1e-11 * elastic(i))
 }
 
-/// The hysteresis of each cable.
+/// The hysteresis of each cable; without a law it may be elastic, or a law is missing.
 fn laws(
     robot: &Robot,
     settings: &Settings,
     unloading: Unloading,
-    friction: PulleyFriction,
+    is_elastic: bool,
 ) -> Result<Vec<HysteresisLaw>, ProgramError> {
     let law = match (&settings.law, settings.length) {
         (Some(record), Some(length)) => of_record(robot, record, length, settings.section)?,
@@ -172,7 +174,7 @@ fn laws(
         (None, _) => {
             let constant = || Ok(vec![HysteresisLaw::linear()?; robot.cables.len()]);
             return match elastic_laws(robot)? {
-                None if friction.is_none() => Err(ProgramError::NoLaw),
+                None if !is_elastic => Err(ProgramError::NoLaw),
                 own => own.map_or_else(constant, Ok),
             };
         }

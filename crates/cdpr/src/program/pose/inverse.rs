@@ -1,6 +1,6 @@
 //! `cdpr inverse`: the unstrained lengths that hold a pose.
 
-use crate::program::answer::{self, Neutral, OutOfLimits, Residual, bound_name};
+use crate::program::answer::{self, Borne, Neutral, OutOfLimits, Residual, bound_name};
 use crate::program::arguments::poses::{COLUMNS, pose_numbers};
 use crate::program::arguments::{FreeArguments, With, with};
 use crate::program::error::ProgramError;
@@ -80,34 +80,6 @@ impl Row for OnPath {
     fn out_of_limits(&self) -> Vec<&[OutOfLimits]> {
         self.answer.out_of_limits()
     }
-}
-
-/// The load that the lengths are for, without what is zero: with it an answer is a case of `cdpr direct`.
-#[derive(Serialize)]
-struct Borne {
-    /// Mass [kg].
-    #[serde(skip_serializing_if = "is_zero")]
-    payload: f64,
-    /// Components in the base frame [N].
-    #[serde(skip_serializing_if = "are_zero")]
-    force: [f64; 3],
-    /// Components about P in the base frame [N m].
-    #[serde(skip_serializing_if = "are_zero")]
-    moment: [f64; 3],
-}
-
-impl From<&Load> for Borne {
-    fn from(Load { payload, wrench }: &Load) -> Self {
-        Self { payload: *payload, force: wrench.force.into(), moment: wrench.moment.into() }
-    }
-}
-
-fn is_zero(value: &f64) -> bool {
-    *value == 0.0
-}
-
-fn are_zero(values: &[f64; 3]) -> bool {
-    values.iter().all(is_zero)
 }
 
 /// The solutions with free coordinates.

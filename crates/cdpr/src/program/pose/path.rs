@@ -14,7 +14,9 @@ use cdpr_statics::{Deflection, Load};
 use serde::Serialize;
 
 /// The robot, its poses, and what is uncertain.
+// A single pose is no path.
 #[derive(clap::Args)]
+#[command(mut_arg("pose", |pose| pose.hide(true)), mut_arg("rpy", |rpy| rpy.hide(true)))]
 pub(crate) struct Settings {
     #[command(flatten)]
     at: RobotAtPose,

@@ -124,20 +124,25 @@ fn print_front(robot: &Robot, found: &Front) {
         return;
     }
     let points = counted(found.points.len(), "robot");
-    let each = if found.starts == 0 { ", all evaluated" } else { " for each" };
+    let each = if found.starts == 0 { ", all of them evaluated" } else { " for each" };
     print_sentence(&format!(
         "{name}: the {one} against the {two}, {points} of which none is better in both ({tried}{each})."
     ));
     found.basis.iter().for_each(|basis| print_sentence(basis));
+    let held = found.points.len() + found.dominated;
+    let made = match found.starts {
+        0 => format!("{held} of {} hold {WITHIN}", counted(found.configurations, "configuration")),
+        _ => evaluations(found.evaluations),
+    };
     let dominated = match found.dominated {
         0 => String::new(),
-        count => format!("; {} left out, as good as another or worse in both", counted(count, "robot")),
+        count => format!("; {count} of {held} robots left out, as good as another or worse in both"),
     };
     let lost = match found.lost {
         0 => String::new(),
-        count => format!("; no robot was found for {}", counted(count, "step")),
+        count => format!("; no robot was found for {} between the ends", counted(count, "step")),
     };
-    print_sentence(&format!("{}{dominated}{lost}.", counted(found.evaluations, "evaluation")));
+    print_sentence(&format!("{made}{dominated}{lost}."));
     let doubtful: Vec<String> =
         (1..).zip(&found.points).filter(|(_, of)| !of.optimal).map(|(k, _)| k.to_string()).collect();
     if !doubtful.is_empty() {
@@ -287,7 +292,7 @@ fn verdict(robot: &Robot, found: &Design, best: &BestDesign) -> String {
         }
         None => format!("becomes {} {unit}", significant(after, 4)),
     };
-    let all = if found.starts == 0 { ", all evaluated" } else { "" };
+    let all = if found.starts == 0 { ", all of them evaluated" } else { "" };
     format!(
         "{}: the {} {becomes} (best of {}{all}).",
         shown(&robot.name),
@@ -296,18 +301,25 @@ fn verdict(robot: &Robot, found: &Design, best: &BestDesign) -> String {
     )
 }
 
+/// What a robot has to do.
+const WITHIN: &str = "all poses within the limits";
+
+/// The work of a search.
+fn evaluations(count: usize) -> String {
+    format!("{} of a robot at all poses", counted(count, "evaluation"))
+}
+
 /// How many starts or configurations lead where, and what the robot as it is lacks.
 fn ends(found: &Design, best: &BestDesign) -> String {
     let total = found.configurations * found.starts.max(1);
     let lost = total - found.feasible;
-    let within = "all poses within the limits";
     let searches = if found.starts == 0 {
-        format!("{} of {total} configurations hold {within}", found.feasible)
+        format!("{} of {total} configurations hold {WITHIN}", found.feasible)
     } else {
         let elsewhere = found.feasible - best.same;
         let what = if found.configurations == 1 { "starts" } else { "searches" };
         let lost =
-            if lost == 0 { String::new() } else { format!(", {lost} at no robot that holds {within}") };
+            if lost == 0 { String::new() } else { format!(", {lost} at no robot that holds {WITHIN}") };
         format!("{} of {total} {what} end there, {elsewhere} elsewhere{lost}", best.same)
     };
     let next = best.next_configuration.map_or_else(String::new, |next| {
@@ -318,7 +330,9 @@ fn ends(found: &Design, best: &BestDesign) -> String {
         (Some(_), false) => " The robot as it is does not keep the limits.",
         (None, false) => " The robot as it is does not hold all poses.",
     };
-    format!("{searches}{next}; {}.{before}", counted(found.evaluations, "evaluation"))
+    let work =
+        if found.starts == 0 { String::new() } else { format!("; {}", evaluations(found.evaluations)) };
+    format!("{searches}{next}{work}.{before}")
 }
 
 /// Whether it is an optimum, by the residual of its conditions.

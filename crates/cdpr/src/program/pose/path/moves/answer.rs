@@ -58,7 +58,8 @@ pub(super) struct After {
     watched_s: f64,
     /// Greatest distance of P from its rest.
     amplitude_m: f64,
-    /// The same of the move without shaper and feed-forward, and the ratio of both.
+    /// The same of the move without shaper and feed-forward, and the ratio of both; `null` where the motion is
+    /// below `difference_m`.
     unshaped_amplitude_m: f64,
     ratio: Option<f64>,
     /// Greatest distance from the way, with and without.
@@ -109,7 +110,9 @@ fn percent(ratio: f64) -> String {
 
 impl After {
     pub(super) fn new(planned: &Move, left: &Residual, without: &Residual, watched_s: f64) -> Self {
-        let ratio = left.amplitude / without.amplitude;
+        let difference = left.difference.max(without.difference);
+        // Of a motion below the error of its computation nothing is known but that.
+        let ratio = if left.amplitude > difference { left.amplitude / without.amplitude } else { f64::NAN };
         let from_one = |of: &Residual| of.slack.iter().map(|i| i + 1).collect();
         Self {
             watched_s,
@@ -118,7 +121,7 @@ impl After {
             ratio: ratio.is_finite().then_some(ratio),
             deviation_m: left.deviation,
             unshaped_deviation_m: without.deviation,
-            difference_m: left.difference.max(without.difference),
+            difference_m: difference,
             slack_cables: from_one(left),
             unshaped_slack_cables: from_one(without),
             is_shaped: planned.shaper != Shaper::default(),
@@ -127,8 +130,13 @@ impl After {
 
     fn print(&self, name: &str) {
         let ratio = self.ratio.map_or_else(String::new, |ratio| format!(", {} %", percent(ratio)));
+        let below = if self.amplitude_m > self.difference_m {
+            ""
+        } else {
+            ", less than the error of the simulation,"
+        };
         print_lines(&format!(
-            "{name}: in {} s after the move P swings by up to {} mm{ratio} of the {} mm without shaper and \
+            "{name}: in {} s after the move P swings by up to {} mm{below}{ratio} of the {} mm without shaper and \
              feed-forward. \
              On the way it is up to {} mm off, without both {} mm. A coarser computation differs by up to {} mm.",
             significant(self.watched_s, 3),
