@@ -6,8 +6,8 @@ use super::series::{Difference, Energy, Excursion, Sample, Series};
 use super::setting::{Discretization, Settings};
 use super::system::System;
 use crate::error::DynamicsError;
-use cdpr_robot::{Doubt, Pose, Robot, Vector3, Vector6, Wrench, short};
-use cdpr_statics::{DirectProblem, Equilibrium, MAX_STRAIN};
+use cdpr_robot::{Pose, Vector3, Vector6, Wrench};
+use cdpr_statics::{DirectProblem, Equilibrium};
 
 /// What a control decides at a sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
