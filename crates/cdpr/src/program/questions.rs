@@ -122,7 +122,7 @@ pub(crate) fn about_displaced(robot: &Robot, from: &Pose, to: &Pose) {
         plausible::in_ground(robot, name, to).filter(|_| plausible::in_ground(robot, name, from).is_none());
     if let Some(doubt) = doubt {
         ASKED.call_once(|| {
-            ask([Doubt { meant: "a smaller load, or a pose that is higher".to_owned(), ..doubt }])
+            ask([Doubt { meant: "a smaller load, or a pose that is higher".to_owned(), ..doubt }]);
         });
     }
 }
