@@ -1,6 +1,6 @@
 //! The first answer of each command, without `--details`: at most 80 columns, for robots that differ.
 
-use crate::common::{answered, cdpr_in, data, data_path, json_file, text};
+use crate::common::{answered, cdpr, cdpr_in, data, data_path, json_file, text};
 use serde_json::Value;
 use std::path::Path;
 use tempfile::TempDir;
@@ -124,4 +124,22 @@ fn answers_of_studies_tables_and_cables_are_80_columns_wide() {
     narrow(here, &["cable", "density", "--mass", "0.203", "--length", "2"]);
     let cable = ["cable", "catenary", "weight=0.9957,stiffness=1.28e6", "--length", "4.45"];
     narrow(here, &[&cable[..], &["--end", "4.1,-1.7"]].concat());
+}
+
+#[test]
+fn a_proof_is_of_the_distance_to_the_exact_equilibrium_which_residuals_do_not_state() {
+    let folder = TempDir::new().unwrap();
+    let held = answered(cdpr(&["inverse", "cogiro", "--pose", "0,0,2", "--format", "json"]));
+    let case = folder.path().join("case.json");
+    std::fs::write(&case, held).unwrap();
+    let direct = ["direct", "cogiro", "--from", case.to_str().unwrap(), "--with", "certificate"];
+    let found: Value =
+        serde_json::from_str(&answered(cdpr(&[&direct[..], &["--format", "json"]].concat()))).unwrap();
+    assert!(found["residual"]["force"].as_f64() < found["certificate"]["force"].as_f64(), "{found}");
+    let said = answered(cdpr(&direct)).replace('\n', " ");
+    assert!(said.contains("proved: an exact equilibrium is within "), "{said}");
+    assert!(
+        said.contains(" N of this one, whose residuals are what is left of the equations here;"),
+        "{said}"
+    );
 }

@@ -123,3 +123,20 @@ fn a_shaper_that_makes_cables_slack_and_the_swing_worse_is_said_to() {
     assert!(said.contains("The shaper makes it worse: take more seconds, fewer modes or none."), "{said}");
     assert!(said.contains(" times) and ") && said.contains("without both: 1."), "{said}");
 }
+
+#[test]
+fn a_motion_below_the_error_of_its_simulation_has_no_ratio() {
+    let poses = data_path("poses/one-metre.csv");
+    let plan = |with| ["path", "cogiro", "--poses", &poses, "--with", with];
+    let quiet = plan("seconds=2,shaper,feed-forward,residual=0.3,rate=50");
+    let whole = answer(&quiet);
+    let found = &whole["residual"];
+    assert!(found["amplitude_m"].as_f64() < found["difference_m"].as_f64(), "{found}");
+    assert!(found["ratio"].is_null(), "{found}");
+    let said = text(cdpr(&quiet).stdout).replace('\n', " ");
+    assert!(said.contains(" mm, less than the error of the simulation, of the "), "{said}");
+    let whole = answer(&plan("seconds=1,residual=0.3,rate=50"));
+    let found = &whole["residual"];
+    assert!(found["amplitude_m"].as_f64() > found["difference_m"].as_f64(), "{found}");
+    assert!((found["ratio"].as_f64().unwrap() - 1.0).abs() < 1e-6, "{found}");
+}

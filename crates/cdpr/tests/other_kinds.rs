@@ -70,7 +70,7 @@ fn a_file_of_another_kind_is_named_with_the_command_that_takes_it() {
         ),
         (
             "inverse robot.json --poses list.json".to_owned(),
-            "--poses list.json, it is JSON: expected a table as text, CSV",
+            "--poses list.json, answer 1: it is no answer: expected a table, as --format csv prints it",
         ),
         ("analyse study.json".to_owned(), "study.json is a study file: expected a table: `cdpr study run`"),
         (

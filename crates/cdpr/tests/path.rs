@@ -164,3 +164,15 @@ fn a_pose_that_is_not_held_is_a_row_with_its_reason() {
     let status: Vec<_> = rows.lines().skip(1).map(|line| line.split(',').nth(7).unwrap()).collect();
     assert_eq!(status, ["held", "infeasible_tension", "held"]);
 }
+
+#[test]
+fn a_single_pose_is_no_path_and_no_option_of_it() {
+    let help = text(cdpr(&["path", "--help"]).stdout);
+    assert!(
+        help.contains("--poses <FILE>") && !help.contains("--pose <") && !help.contains("--rpy"),
+        "{help}"
+    );
+    let refused = cdpr(&["path", "caroca", "--pose", "0,0,1.75"]);
+    let said = unwrapped(refused.stderr);
+    assert!(refused.status.code() == Some(2) && said.contains("expected --poses FILE"), "{said}");
+}

@@ -21,7 +21,7 @@ pub(super) fn poses(text: &str) -> Result<Vec<Pose>, String> {
         return Err(format!("the list is empty: {EXPECTED}"));
     }
     let of = |(k, answer): (usize, &Value)| {
-        let found = answer.as_object().ok_or_else(|| EXPECTED.to_owned()).and_then(pose);
+        let found = answer.as_object().ok_or_else(|| format!("it is no answer: {EXPECTED}")).and_then(pose);
         found.map_err(|reason| format!("answer {}: {reason}", k + 1))
     };
     answers.iter().enumerate().map(of).collect()
