@@ -61,8 +61,8 @@ pub fn inspect(robot: &Robot) -> Vec<Finding> {
     }
     findings.gravity();
     findings.inertia();
-    findings.limits();
     findings.reference();
+    findings.limits();
     findings.points();
     let known = findings.list.len();
     findings.ground();
@@ -161,7 +161,7 @@ impl Findings<'_> {
         }
     }
 
-    /// A preferred tension that a cable may not have.
+    /// A preferred tension that a cable may not have, unless it or the limits are in doubt before.
     fn reference(&mut self) {
         let robot = self.robot;
         let tensions = robot.reference();
@@ -170,12 +170,8 @@ impl Findings<'_> {
             !(limits.min..=limits.max).contains(&tensions[*i])
         };
         let mut outside = (0..tensions.len()).filter(is_outside);
-        // Of limits in doubt nothing follows for the reference.
-        let in_doubt = |Finding { severity, field, .. }: &Finding| {
-            *severity == Severity::Warning
-                && ["tension_reference", "tension_limits.max"].contains(&&field[..])
-        };
-        let known = self.list.iter().any(in_doubt);
+        let known = |of: &Finding| ["tension_reference", "tension_limits.max"].contains(&&of.field[..]);
+        let known = self.list.iter().any(known);
         let (Some(i), false) = (outside.next(), robot.tension_reference.is_none() || known) else { return };
         let others = match outside.count() {
             0 => String::new(),

@@ -287,11 +287,10 @@ impl Calibration {
         for measurement in measurements {
             let noises = match *measurement {
                 Measurement::Pose { position, rotation } => {
-                    rows.extend((0..3).map(|row| at.pose.row(row) / position));
-                    rows.extend(
-                        rotation.iter().flat_map(|noise| (3..6).map(|row| at.pose.row(row) / *noise)),
-                    );
-                    [position, rotation.unwrap_or(position)]
+                    let (count, turn) = rotation.map_or((3, position), |turn| (6, turn));
+                    let noise = |row| if row < 3 { position } else { turn };
+                    rows.extend((0..count).map(|row| at.pose.row(row) / noise(row)));
+                    [position, turn]
                 }
                 Measurement::Tensions(noise) => {
                     // A tension changes by what its force changes along itself.
