@@ -352,8 +352,8 @@ def test_a_study_in_weather_agrees_with_calls_for_each_observation():
             "wind_from_deg": {"uniform": {"min": 0, "max": 360}}, "ice": {"uniform": {"min": 0, "max": 0.001}}}
     expansion = {"cable_expansion": 1.2e-5, "frame_expansion": 1e-5}
     study = {
-        "format": "cdpr-study/1", "name": "a year", "robot": "cogiro", "weather": expansion, "seed": 1, "replicates": 0,
-        "confidence": 0.95, "bootstrap_resamples": 5,
+        "format": "cdpr-study/1", "name": "a year", "robot": "cogiro", "weather": expansion, "seed": 1,
+        "replicates": 0, "confidence": 0.95, "bootstrap_resamples": 5,
         "error_models": {"year": {name: {"law": law} for name, law in laws.items()}},
         "samplings": {"point": {"title": "Point", "pose": {"position": [0, 0, 2]}, "error_model": "year",
                                 "observations": 6}},

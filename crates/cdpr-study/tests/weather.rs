@@ -30,6 +30,9 @@ const EXPANSION: [f64; 2] = [1.2e-5, 1.0e-5];
 
 const OBSERVATIONS: usize = 8;
 
+/// A change of a study, and parts of the message that refuses it.
+type Refused<'a> = (&'a dyn Fn(&mut Value), &'a [&'a str]);
+
 /// A study whose weather and modulus deviate.
 fn study((robot, position, free, speed): (&str, [f64; 3], &[&str], f64)) -> Value {
     json!({
@@ -294,7 +297,7 @@ fn weather_that_cannot_be_is_refused_with_field_value_and_what_would_be_right() 
         let error: StudyError = opened(&value).unwrap_err();
         error.to_string().replace('\n', " ")
     };
-    let cases: [(&dyn Fn(&mut Value), &[&str]); 12] = [
+    let cases: [Refused; 12] = [
         (&|of| of["weather"]["wind_speed"] = json!(-3.0), &["weather.wind_speed", "-3", "zero or more"]),
         (&|of| of["weather"]["wnd"] = json!([1, 0, 0]), &["wnd", "wind_from_deg"]),
         (&|of| of["weather"]["wind_speed"] = json!(300.0), &["weather.wind", "120 m/s"]),
@@ -316,7 +319,7 @@ fn weather_that_cannot_be_is_refused_with_field_value_and_what_would_be_right() 
         (
             &|of| {
                 of["error_models"]["year"]["wind_speed"]["law"] =
-                    json!({ "normal": { "mean": 5.0, "std": 2.0 } })
+                    json!({ "normal": { "mean": 5.0, "std": 2.0 } });
             },
             &["error_models.year.wind_speed.law", "-inf", "weibull"],
         ),

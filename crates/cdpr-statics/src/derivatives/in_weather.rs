@@ -14,7 +14,8 @@
 //! symmetric. The drag is that of the square of the speed v of the wind, so that `k_v = 2 k_q q/v`.
 //!
 //! A wind that turns about the vertical e by dψ acts as one that keeps its direction acts on a cable that is
-//! turned back. With the span x from the leave point to the anchor point, on which the force F depends by -K3,
+//! turned back. With the span x from the leave point to the anchor point, on which the force F depends by
+//! -K3,
 //!
 //! ```text
 //! dF = [e x F + K3 (e x x)] dψ                                                                      (D15)

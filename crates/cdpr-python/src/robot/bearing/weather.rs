@@ -158,7 +158,7 @@ impl Robot {
             let wanted = poses.pose(case)?;
             let wanted = WantedPose::at(&wanted).free(&free);
             let (load, weather) = (loads.load(case)?, Weather { wind, ..weather });
-            let found = slopes.then(|| weather_derivatives(robot, wanted.clone(), &load, &weather));
+            let found = slopes.then(|| weather_derivatives(robot, wanted, &load, &weather));
             let (still, rest) = in_weather(robot, wanted, &load, &weather)?;
             let motion = still.unloaded.equilibrium.pose.motion_to(&rest.pose);
             Ok(Found { motion, lengths: still.lengths, rest, slopes: found.transpose()? })
@@ -197,7 +197,7 @@ impl Robot {
                     let of_weather = slopes.per_weather.iter().map(|slope| slope.as_ref().ok().copied());
                     for (k, slope) in of_robot.chain(of_weather).enumerate() {
                         (0..3).for_each(|row| {
-                            out[row * names.len() + k] = slope.map_or(f64::NAN, |of| of[row])
+                            out[row * names.len() + k] = slope.map_or(f64::NAN, |of| of[row]);
                         });
                     }
                 })?,
