@@ -204,6 +204,6 @@ fn limits_in_kilonewtons_are_in_doubt_and_not_the_preferred_tensions() {
     let kilonewtons = TensionLimits { min: 0.001, max: 5.0 };
     assert_eq!(robot(kilonewtons, 400.0), [warning("tension_limits.max", "5000 N, if 5 is in kN")]);
     let newtons = TensionLimits { min: 1.0, max: 5000.0 };
-    assert_eq!(robot(newtons, 4e5), [warning("tension_reference", "400 N, if 400000 is in mN")]);
+    assert_eq!(robot(newtons, 4e5), [warning("tension_reference", "400 N, if 4.000e5 is in mN")]);
     assert_eq!(robot(newtons, 400.0), []);
 }
