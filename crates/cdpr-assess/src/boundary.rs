@@ -32,7 +32,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 pub struct Boundary {
     /// Area [m²] in a plane, volume [m³] in a box.
     pub measure: f64,
-    /// Estimate of its error [m², m³].
+    /// Estimate of its error where the boundary is smooth over a step of the grid [m², m³]: thinner parts are
+    /// not seen.
     pub error: f64,
     /// Closed polygons [m], the region on their left; none in a box.
     pub polygons: Vec<Vec<Vector3<f64>>>,

@@ -283,7 +283,10 @@ fn print(summary: &WorkspaceSummary) {
         print_sentence(&format!("In the weather, {}{directions}: {wrong}.", weather.conditions()));
     }
     if let Some(BoundarySummary { measure, error, unit, .. }) = &summary.boundary {
-        print_sentence(&format!("The region held has {measure:.4} {unit}, with an error of {error:.1e}."));
+        print_sentence(&format!(
+            "The region held has {measure:.4} {unit}, with an error of {error:.1e} where its boundary is smooth; \
+             parts thinner than a step of the grid are not seen."
+        ));
     }
 }
 
