@@ -24,29 +24,29 @@ const FEW_CABLES: usize = 4;
 const REMEDY: &str =
     "lengths of this robot, in m and in the order of its cables; a start near the pose that they hold";
 
-/// A place where a platform hardly was to rest, found for these lengths [m] under a load from a start with
-/// this pose; `of` is its name, such as `the equilibrium`.
+/// A place where a platform hardly was to rest, found for these lengths [m] under a load from the start that
+/// was stated, if any, or else a level one; `of` is its name, such as `the equilibrium`.
 pub fn doubtful_rest(
     robot: &Robot,
     of: &str,
     (lengths, load): (&[f64], &Load),
     found: &DirectSolution,
-    start: &Pose,
+    start: Option<&Pose>,
 ) -> Option<Doubt> {
     let pose = &found.equilibrium.pose;
+    let first = start.map_or_else(Rotation3::identity, |start| start.rotation);
     let doubt = |(value, why): (String, String)| Doubt::new(of, value, why, REMEDY);
-    let found =
-        below_floor(robot, start, pose).or_else(|| turned(robot, pose, &start.rotation)).or_else(|| {
-            // A load may leave cables slack; without one they were to be taut.
-            let is_alone = *load == Load::none();
-            is_alone.then(|| idle(robot, lengths, found)).flatten()
-        });
+    let found = below_floor(robot, start, pose).or_else(|| turned(robot, pose, &first)).or_else(|| {
+        // A load may leave cables slack; without one they were to be taut.
+        let is_alone = *load == Load::none();
+        is_alone.then(|| idle(robot, lengths, found)).flatten()
+    });
     found.map(doubt)
 }
 
-/// The position of P where P or an anchor point of a platform that was at `start` is below the ground, or,
-/// where the robot has none, below what robots stand on; and a sentence of how deep its lowest point is.
-pub fn below_floor(robot: &Robot, start: &Pose, pose: &Pose) -> Option<(String, String)> {
+/// The position of P where P or an anchor point of a platform that was at `start`, if that is known, is below
+/// the ground, or, where the robot has none, below what robots stand on; and a sentence of how deep its lowest point is.
+pub fn below_floor(robot: &Robot, start: Option<&Pose>, pose: &Pose) -> Option<(String, String)> {
     let (floor, name) = floor(robot, start)?;
     let lowest = lowest(robot, pose);
     (lowest < floor).then(|| {
@@ -63,12 +63,12 @@ fn lowest(robot: &Robot, pose: &Pose) -> f64 {
 
 /// Whether P or an anchor point of a platform that was at `start` is below the ground or the floor.
 pub(crate) fn is_below_floor(robot: &Robot, start: &Pose, pose: &Pose) -> bool {
-    below_floor(robot, start, pose).is_some()
+    below_floor(robot, Some(start), pose).is_some()
 }
 
 /// The height below which no platform is expected [m], and what is there. Where the file has no ground it is
 /// a guess, which a platform that starts below it refutes, and a base frame that is tilted.
-fn floor(robot: &Robot, start: &Pose) -> Option<(f64, String)> {
+fn floor(robot: &Robot, start: Option<&Pose>) -> Option<(f64, String)> {
     let frame = frame(robot);
     let size = frame.iter().map(|[low, high]| high - low).fold(0.0, f64::max);
     let [low, high] = frame[2];
@@ -91,7 +91,8 @@ fn floor(robot: &Robot, start: &Pose) -> Option<(f64, String)> {
     };
     let down = robot.gravity.vector();
     let is_level = down.xy().norm() <= LEVEL_BASE * down.norm();
-    (is_level && lowest(robot, start) >= guess.0).then_some(guess)
+    let is_refuted = start.is_some_and(|start| lowest(robot, start) < guess.0);
+    (is_level && !is_refuted).then_some(guess)
 }
 
 /// A platform that is turned by more than a right angle.

@@ -3,7 +3,7 @@
 use crate::convert::{Answer, Columns, Loads, Numbers, Rows, answer, each, plotted, question};
 use crate::robot::Robot;
 use cdpr_assess::doubtful_rest;
-use cdpr_robot::{Pose, plausible};
+use cdpr_robot::plausible;
 use cdpr_statics::limits::{Limit, OutOfLimits, out_of_limits};
 use cdpr_statics::{DirectStart, StaticsError, check_lengths, direct, rough_pose};
 use pyo3::prelude::*;
@@ -154,15 +154,11 @@ impl Robot {
             Ok(Found::new(robot, lengths, solution))
         };
         let outcomes = each(py, cases.count, one)?;
-        let begin = |case| match &start {
-            Some(all) => all.pose(case),
-            None => Ok(rough_pose(robot, lengths.row(case))),
-        };
         let doubt = |(case, outcome): (usize, &Result<Found, StaticsError>)| {
             let (found, load) = (outcome.as_ref().ok()?, loads.load(case).ok()?);
-            let begin: Result<Pose, StaticsError> = begin(case);
+            let stated = start.as_ref().map(|all| all.pose(case)).transpose().ok()?;
             let given = (lengths.row(case), &load);
-            doubtful_rest(robot, "the equilibrium", given, &found.solution, &begin.ok()?)
+            doubtful_rest(robot, "the equilibrium", given, &found.solution, stated.as_ref())
         };
         question(outcomes.iter().enumerate().find_map(doubt))?;
         let found = Columns::new(py, cases, &outcomes)?;

@@ -101,6 +101,11 @@ impl OutOfLimits {
         }
     }
 
+    /// Whether it is one of these tensions [N].
+    pub(crate) fn is_of(&self, tensions: &[f64]) -> bool {
+        tensions.contains(&self.tension)
+    }
+
     pub(crate) fn print(list: &[Self]) {
         list.iter().for_each(|one| print_sentence(&one.found.to_string()));
     }

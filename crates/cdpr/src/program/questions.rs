@@ -184,13 +184,13 @@ pub(crate) fn few_held(summary: &WorkspaceSummary) -> Option<String> {
         .then(|| format!("fewer than half of the positions are held, {held} of {all}{ways}"))
 }
 
-/// Asks about where a platform was found to rest with given lengths [m], from a start and under a load.
+/// Asks about where a platform was found to rest with given lengths [m], from a stated start and under a load.
 pub(crate) fn about_rest(
     robot: &Robot,
     name: &str,
     given: (&[f64], &Load),
     found: &DirectSolution,
-    start: &Pose,
+    start: Option<&Pose>,
 ) {
     ask(doubtful_rest(robot, name, given, found, start));
 }

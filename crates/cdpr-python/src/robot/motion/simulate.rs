@@ -246,8 +246,7 @@ fn at_rest(
             (held.lengths, held.equilibrium.pose)
         }
         (None, None) => {
-            let message = "pose and lengths are both missing: expected one of them";
-            return Err(Raised::Input(message.to_owned()));
+            return Err(Raised::Input("pose and lengths are both missing: expected one of them".to_owned()));
         }
     };
     let found = DirectProblem::new(robot, &lengths, load)?.direct(DirectStart::Pose(&start))?;

@@ -282,7 +282,7 @@ fn solve(robot: &Robot, case: &Case, name: &str, prove: bool) -> Result<Answer, 
             questions::ask(plausible::lengths_at(&robot, &case.lengths, &start));
         }
     })?;
-    questions::about_rest(&robot, name, (&case.lengths, &load), &solution, &start);
+    questions::about_rest(&robot, name, (&case.lengths, &load), &solution, case.start().map(|_| &start));
     let certificate = (prove || case.certify).then(|| problem.certify(&solution).into());
     Ok(Answer { found: Found::new(&robot, &case.lengths, &solution), certificate })
 }

@@ -105,13 +105,13 @@ impl Settings {
             };
             return self.at.answer(at_pose, print);
         };
-        let (robot, start) = (self.at.robot()?, self.at.pose()?);
+        let (robot, stated) = (self.at.robot()?, self.at.pose()?);
         questions::about_lengths(&robot, lengths);
         let robot = with_inertia(&robot);
         let problem = DirectProblem::new(&robot, lengths, &load)?;
-        let start = start.unwrap_or_else(|| rough_pose(&robot, lengths));
+        let start = stated.unwrap_or_else(|| rough_pose(&robot, lengths));
         let found = problem.direct(DirectStart::Pose(&start))?;
-        questions::about_rest(&robot, "the equilibrium", (lengths, &load), &found, &start);
+        questions::about_rest(&robot, "the equilibrium", (lengths, &load), &found, stated.as_ref());
         let pose = found.equilibrium.pose;
         let answer = solve(&robot, &problem, found.equilibrium)?;
         let heading = format!("{} at {}", shown(&robot.name), poses::place(&pose));

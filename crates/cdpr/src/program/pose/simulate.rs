@@ -97,7 +97,8 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     let problem = DirectProblem::new(&robot, &lengths, &load)?;
     let rest = problem.direct(DirectStart::Pose(&start))?;
     if settings.lengths.is_some() {
-        questions::about_rest(&robot, "the equilibrium", (&lengths, &load), &rest, &start);
+        let stated = settings.pose.given()?;
+        questions::about_rest(&robot, "the equilibrium", (&lengths, &load), &rest, stated.as_ref());
     }
     let rest = rest.equilibrium;
     questions::about_events(&events, load.payload, how.until);

@@ -112,7 +112,7 @@ impl Answer {
             }
         });
         let below = |sample: &Sample| {
-            below_floor(robot, rest, &sample.pose)
+            below_floor(robot, Some(rest), &sample.pose)
                 .map(|(_, reason)| BelowGround { at_s: sample.time, reason })
         };
         let pose = ["t_s", "x_m", "y_m", "z_m", "rx_rad", "ry_rad", "rz_rad"].map(str::to_owned);

@@ -29,6 +29,9 @@ pub(super) struct Answer {
     /// Tensions that leave their limits at a time.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     out_of_limits: Vec<OutOfLimits>,
+    /// When each of them is [s].
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    out_of_limits_at_s: Vec<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) residual: Option<After>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -228,6 +231,12 @@ impl Answer {
             both.map(|(anchor, exit)| [*anchor, *exit]).collect()
         };
         let ends: Vec<Vec<[f64; 2]>> = set_points.iter().map(ends).collect();
+        let out_of_limits = OutOfLimits::of_tensions(planned.robot, &ends);
+        let when = |one: &OutOfLimits| {
+            let mut points = set_points.iter().zip(&ends);
+            points.find(|(_, ends)| one.is_of(&ends[one.cable - 1])).map_or(f64::NAN, |(point, _)| point.time)
+        };
+        let out_of_limits_at_s = out_of_limits.iter().map(when).collect();
         let shaped = |mode: &Excited| Shaped {
             frequency_hz: mode.frequency,
             damping_ratio: mode.damping_ratio,
@@ -242,7 +251,8 @@ impl Answer {
             least_tension_n: all(|point| &point.tensions).fold(f64::INFINITY, f64::min),
             greatest_exit_tension_n: all(|point| &point.exit_tensions).fold(0.0, f64::max),
             feed_forward_m: all(|point| &point.feed_forward).fold(0.0, |most: f64, one| most.max(one.abs())),
-            out_of_limits: OutOfLimits::of_tensions(planned.robot, &ends),
+            out_of_limits,
+            out_of_limits_at_s,
             residual: None,
             robots: None,
             columns: own.into_iter().chain(of_cables).collect(),
@@ -309,6 +319,9 @@ impl Answer {
             significant(self.greatest_exit_tension_n, 4)
         ));
         OutOfLimits::print(&self.out_of_limits);
+        for (one, at) in self.out_of_limits.iter().zip(&self.out_of_limits_at_s) {
+            print_sentence(&format!("That of cable {} is at {} s.", one.cable, significant(*at, 4)));
+        }
     }
 }
 
