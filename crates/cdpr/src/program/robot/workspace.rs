@@ -279,7 +279,7 @@ fn print(summary: &WorkspaceSummary) {
             ),
         };
         let directions =
-            weather.speed.map_or_else(String::new, |_| format!(" ({DIRECTIONS} directions and a search)"));
+            weather.speed.map_or_else(String::new, |_| format!(" ({DIRECTIONS} directions and searches)"));
         print_sentence(&format!("In the weather, {}{directions}: {wrong}.", weather.conditions()));
     }
     if let Some(BoundarySummary { measure, error, unit, .. }) = &summary.boundary {
