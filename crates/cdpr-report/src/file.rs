@@ -211,19 +211,6 @@ mod tests {
         assert_eq!(figure_file(SVG, untitled).unwrap(), SVG.as_bytes());
     }
 
-    #[cfg(feature = "figures")]
-    #[test]
-    fn pdf_and_png_have_the_size_that_is_given_and_the_font_of_the_program() {
-        let pdf = figure_file(SVG, of(FigureFormat::Pdf, Some(127.0))).unwrap();
-        let text = String::from_utf8_lossy(&pdf);
-        assert!(text.starts_with("%PDF-") && text.contains("/MediaBox [0 0 360 180]"), "{text}");
-        assert!(text.contains("DejaVuSans"), "{text}");
-        let png = figure_file(SVG, of(FigureFormat::Png, Some(25.4))).unwrap();
-        assert_eq!(png[..8], *b"\x89PNG\r\n\x1a\n");
-        let [width, height] = [16, 20].map(|at| u32::from_be_bytes(png[at..at + 4].try_into().unwrap()));
-        assert_eq!([width, height], [300, 150]);
-    }
-
     #[cfg(not(feature = "figures"))]
     #[test]
     fn pdf_and_png_are_refused_where_they_are_not_built() {
