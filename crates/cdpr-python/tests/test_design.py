@@ -79,7 +79,7 @@ def test_a_front_has_no_point_that_another_dominates():
 
 def test_what_no_robot_can_do_has_a_reason_and_wrong_designs_are_refused():
     lost = cdpr.design(mass_on_two_cables(), apart(limits={"position": 0.1}))
-    assert lost.robot is None and numpy.isnan(lost.objective) and "limit is passed" in lost.reason
+    assert lost.robot is None and numpy.isnan(lost.objective) and "its limit" in lost.reason
     assert len(lost.to_dataframe()) == 0 and not lost.optimal
     with pytest.raises(cdpr.InputError, match="pareto is missing"):
         cdpr.design_front(mass_on_two_cables(), apart())
