@@ -1,9 +1,9 @@
 //! Where the platform comes to rest when cables break: against the model of the robot that lacks them, and against
 //! a motion with damping.
 
-use cdpr_assess::{Breaks, safety_at};
+use cdpr_assess::{AnyWeather, Breaks, safety_at, winds};
 use cdpr_dynamics::simulate::{Change, CutAt, Event, Settings, simulate};
-use cdpr_robot::{Coordinate, Platform, Pose, Robot};
+use cdpr_robot::{Coordinate, Platform, Pose, Robot, Rotation3, Vector3};
 use cdpr_statics::{DirectProblem, DirectStart, Load, StaticsError, WantedPose, inverse};
 
 const PAIRS: Breaks = Breaks { pairs: true, follow: None };
@@ -137,5 +137,27 @@ fn without_inertia_the_rest_is_there_and_the_swing_has_its_reason() {
             matches!(&broken.swing, Some(Err(error)) if error.to_string().contains("inertia")),
             "{broken:?}"
         );
+    }
+}
+
+/// Turned about the vertical, the winds of a grid blow from elsewhere upon the robot: the searches find the same.
+#[test]
+fn the_worst_winds_do_not_depend_on_how_the_base_is_turned() {
+    let worst = |degrees: f64| {
+        let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), degrees.to_radians());
+        let mut robot = robot("cogiro");
+        for cable in &mut robot.cables {
+            cable.exit_point = turn * cable.exit_point;
+        }
+        let pose = Pose { position: turn * Vector3::new(0.8, 0.5, 2.0), rotation: turn };
+        let held = inverse(&robot, &pose, &Load::none()).unwrap();
+        let question = AnyWeather { speed: Some(40.0), ..AnyWeather::default() };
+        let found = winds(&robot, &held.lengths, &Load::none(), [&pose, &pose], &question).unwrap();
+        let greatest = found.tightest().unwrap().greatest_tension().0;
+        [found.farthest().unwrap().moved(), greatest, found.least_tension().unwrap()]
+    };
+    let [own, turned] = [worst(0.0), worst(7.5)];
+    for (own, turned) in own.into_iter().zip(turned) {
+        assert!((own / turned - 1.0).abs() < 2e-4, "{own} {turned}");
     }
 }

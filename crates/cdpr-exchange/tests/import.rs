@@ -163,3 +163,18 @@ fn a_table_of_points_has_its_pulleys_and_lists_its_other_columns() {
          limits of tension"
     );
 }
+
+#[test]
+fn limits_that_replace_those_of_the_file_and_a_column_that_is_missing_are_named() {
+    let found = caspr(&all_options()).unwrap();
+    let said = texts(&found, NoteKind::Assumed).join("\n");
+    assert!(
+        said.contains(
+            "between 1 N and 500 N, instead of least ones of 0 to 5 N and greatest ones of 800 to 1000 N"
+        ),
+        "{said}"
+    );
+    let without = TABLE.replace("axis_x", "other").replace("axis_y", "another");
+    let error = imported(&[("mine.csv", &without)], &all_options()).map(drop).unwrap_err().to_string();
+    assert!(error.contains("axis_x is missing"), "{error}");
+}

@@ -244,7 +244,7 @@ fn what_a_robot_cannot_have_is_refused_or_questioned() {
         ),
         (
             "<actuator>",
-            "<actuator><motor tendon=\"c0\" ctrlrange=\"-9 0\"/>",
+            "<actuator><motor tendon=\"c0\" ctrlrange=\"-9 0\"/><motor tendon=\"c1\"/><motor tendon=\"c2\"/>",
             "their ranges are not imported as limits",
         ),
         ("<site site=\"p2\"/>", "<site site=\"w0\"/>", "the exit point lies on a body that moves"),

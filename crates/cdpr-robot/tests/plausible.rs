@@ -61,3 +61,32 @@ fn a_mean_that_is_the_value_itself_is_questioned_however_large_deviations_may_be
     robot.platform.center_of_mass.x = 6.9e-18;
     assert_eq!(asked(&robot, 6.9e-18), None);
 }
+
+#[test]
+fn a_low_exit_point_on_the_other_side_of_the_floor_is_no_lost_sign() {
+    let mut robot = named("caroca");
+    for (cable, z) in robot.cables.iter_mut().zip([0.1, 0.09, -0.0875, 0.08]) {
+        cable.exit_point.z = z;
+    }
+    assert_eq!(plausible::robot(&robot), []);
+}
+
+#[test]
+fn the_assumed_inertia_moves_with_no_frame_and_grows_with_the_size() {
+    let mut robot = named("caroca");
+    let own = robot.assumed_inertia()[(0, 0)];
+    let shift = nalgebra::Vector3::new(0.11, -0.07, 0.23);
+    robot.cables.iter_mut().for_each(|cable| cable.anchor_point += shift);
+    robot.platform.center_of_mass += shift;
+    assert!((robot.assumed_inertia()[(0, 0)] / own - 1.0).abs() < 1e-12);
+    for share in [0.01, 100.0] {
+        let mut other = robot.clone();
+        other.platform.center_of_mass *= share;
+        for cable in &mut other.cables {
+            cable.anchor_point *= share;
+            cable.exit_point *= share;
+        }
+        let inertia = other.assumed_inertia()[(0, 0)];
+        assert!((inertia / (own * share * share) - 1.0).abs() < 1e-12, "{share}: {inertia} {own}");
+    }
+}

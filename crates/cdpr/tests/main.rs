@@ -53,5 +53,6 @@ mod terminal;
 mod tolerances;
 #[cfg(unix)]
 mod transcripts;
+mod twins;
 mod verdict;
 mod workspace;

@@ -1,8 +1,8 @@
 //! A platform in weather, with wind of one velocity or from any direction in the horizontal plane.
 //!
-//! From any direction, the wind blows at [`DIRECTIONS`] azimuths. Around those that move the platform farthest,
-//! or nearly so, and those of the greatest and of the least tension, golden-section searches look for
-//! directions that are worse still (R. P. Brent, *Algorithms for Minimization without Derivatives*, 1973,
+//! From any direction, the wind blows at [`DIRECTIONS`] azimuths. Around those that move the platform
+//! farthest, or nearly so, and those of the greatest and of the least tension, golden-section searches look
+//! for directions that are worse still (R. P. Brent, *Algorithms for Minimization without Derivatives*, 1973,
 //! chapter 5). Between the azimuths nothing is proven.
 
 use crate::inspection::is_below_floor;
@@ -17,8 +17,12 @@ use std::f64::consts::TAU;
 /// Azimuths from which the searches for the worst ones begin.
 pub const DIRECTIONS: usize = 24;
 
-/// Steps of the golden-section search: the interval shrinks to a thousandth.
-const STEPS: usize = 14;
+/// Steps of a golden-section search: the interval shrinks to a fiftieth, 0.6 degrees.
+const STEPS: usize = 8;
+
+/// What a peak may lie below the greatest one, over the range of all: that of a cosine is up to 0.9 % of half its
+/// range above the nearest of [`DIRECTIONS`].
+const NEARLY: f64 = 0.03;
 
 /// Weather with a wind of one velocity, or of one speed from any direction.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -128,14 +132,15 @@ pub fn winds(
     };
     let step = TAU / DIRECTIONS as f64;
     let mut found: Vec<_> = (0..DIRECTIONS).into_par_iter().map(|k| by(step * k as f64)).collect();
-    for measure in MEASURES {
-        let worse = |outcome: &Outcome| outcome.as_ref().map_or(f64::NEG_INFINITY, measure);
-        let values: Vec<f64> = found[..DIRECTIONS].iter().map(|(_, outcome)| worse(outcome)).collect();
-        for k in nearly_greatest(&values) {
-            let around = [k as f64 - 1.0, k as f64 + 1.0].map(|k| k * step);
-            found.extend(golden_section(around, by, |outcome| worse(&outcome.1)));
-        }
-    }
+    let places = |measure: &fn(&InWind) -> f64| -> Vec<_> {
+        let values: Vec<f64> = found.iter().map(|(_, outcome)| worse(*measure, outcome)).collect();
+        nearly_greatest(&values).into_iter().map(|k| (*measure, k as f64)).collect()
+    };
+    let searches: Vec<_> = MEASURES.iter().flat_map(places).collect();
+    let search = |(measure, k): (fn(&InWind) -> f64, f64)| {
+        golden_section([k - 1.0, k + 1.0].map(|k| k * step), by, |outcome| worse(measure, &outcome.1))
+    };
+    found.extend(searches.into_par_iter().map(search).collect::<Vec<_>>().into_iter().flatten());
     sorted(found)
 }
 
@@ -148,8 +153,13 @@ const MEASURES: [fn(&InWind) -> f64; 3] = [
     |one| -one.rest.tensions().into_iter().fold(f64::INFINITY, f64::min),
 ];
 
-/// Places of a circle whose values are not below those next to them, and not more than a tenth of the range
-/// below the greatest one.
+/// How bad a wind is by a measure.
+fn worse(measure: fn(&InWind) -> f64, outcome: &Outcome) -> f64 {
+    outcome.as_ref().map_or(f64::NEG_INFINITY, measure)
+}
+
+/// Places of a circle whose values are not below those next to them, and less than [`NEARLY`] below the
+/// greatest one.
 fn nearly_greatest(values: &[f64]) -> Vec<usize> {
     let finite = || values.iter().copied().filter(|value| value.is_finite());
     let [least, most] = [finite().fold(f64::INFINITY, f64::min), finite().fold(f64::NEG_INFINITY, f64::max)];
@@ -157,7 +167,7 @@ fn nearly_greatest(values: &[f64]) -> Vec<usize> {
     let is_peak = |k: &usize| {
         let (before, here, after) = (values[(k + n - 1) % n], values[*k], values[(k + 1) % n]);
         // Of equal values next to each other the last one counts.
-        here >= before && here > after && here >= most - 0.1 * (most - least)
+        here >= before && here > after && here >= most - NEARLY * (most - least)
     };
     (0..n).filter(is_peak).collect()
 }

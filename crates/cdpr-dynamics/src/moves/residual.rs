@@ -97,8 +97,8 @@ pub fn residual(
     Ok(found)
 }
 
-/// The wanted position at a place between set points, which are at equal times [m]: of a cubic through the four
-/// around it.
+/// The wanted position at a place between set points, which are at equal times [m]: that of a cubic through
+/// the four around it.
 fn wanted(set_points: &[SetPoint], place: f64) -> Vector3<f64> {
     let at = |k: usize| set_points[k].pose.position;
     let count = set_points.len();
