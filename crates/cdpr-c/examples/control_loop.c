@@ -52,7 +52,7 @@ int main(void)
     /* Everything is created before the loop. */
     need(cdpr_robot_named("caroca", &robot));
     need(cdpr_path_new(robot, &path));
-    need(cdpr_path_next(path, &wanted, NULL, &cables, &report));
+    need(cdpr_path_next(path, &wanted, NULL, NULL, &cables, &report));
     need(cdpr_tracker_new(robot, lengths, CABLES, &load, &wanted, &tracker));
 
     start = seconds();
@@ -65,7 +65,7 @@ int main(void)
         /* The set-points: lengths that hold the wanted pose, on the branch of those before. */
         wanted.position[0] = 0.2 * cos(angle);
         wanted.position[1] = 0.2 * sin(angle);
-        need(cdpr_path_next(path, &wanted, NULL, &cables, &report));
+        need(cdpr_path_next(path, &wanted, NULL, NULL, &cables, &report));
 
         /* The winches would follow `lengths`; what their encoders measure means this pose under the load. */
         begin = seconds();

@@ -463,9 +463,8 @@ enum CdprStatus cdpr_tracker_new(const struct CdprRobot *robot,
 /**
  * Goes to the equilibrium for other lengths and another load, in at most 12 iterations.
  *
- * Nothing is allocated for up to 16 cables without pulleys and leads (4 on x86-64 without AVX2). Where the
- * iterations do not converge, the last state is kept, and `report` has its residuals with the number of
- * iterations made.
+ * Nothing is allocated for up to 16 cables (4 on x86-64 without AVX2). Where the iterations do not converge,
+ * the last state is kept, and `report` has its residuals with the number of iterations made.
  */
 enum CdprStatus cdpr_tracker_step(struct CdprTracker *tracker,
                                   const double *lengths,
@@ -482,31 +481,20 @@ enum CdprStatus cdpr_tracker_state(const struct CdprTracker *tracker,
                                    size_t count);
 
 /**
+ * Writes points of a cable, from 0, in the state of the tracker: x, y, z of each in the base frame [m], at
+ * equal distances along the cable from its exit point, or where it leaves its pulley, to its anchor point.
+ *
+ * `points` has room for 3 `count` values; `count` is 2 to 1000. Memory is allocated.
+ */
+enum CdprStatus cdpr_tracker_shape(const struct CdprTracker *tracker,
+                                   size_t cable,
+                                   double *points,
+                                   size_t count);
+
+/**
  * Frees a tracker; null is ignored.
  */
 void cdpr_tracker_free(struct CdprTracker *tracker);
-
-/**
- * Creates a path, whose first pose is the next one. Robots with fewer cables than free motions are refused.
- */
-enum CdprStatus cdpr_path_new(const struct CdprRobot *robot, struct CdprPath **path);
-
-/**
- * Writes lengths and tensions at the next pose of a path, on the branch of the last ones.
- *
- * Where the branch ends, `report.jump` is 1. After a failure the path continues from the last pose with a
- * solution.
- */
-enum CdprStatus cdpr_path_next(struct CdprPath *path,
-                               const struct CdprPose *pose,
-                               const struct CdprLoad *load,
-                               const struct CdprCables *cables,
-                               struct CdprReport *report);
-
-/**
- * Frees a path; null is ignored.
- */
-void cdpr_path_free(struct CdprPath *path);
 
 /**
  * Creates an observer of a robot that rests without load with these lengths near `start`.
@@ -551,6 +539,35 @@ enum CdprStatus cdpr_observer_cables(const struct CdprObserver *observer, uint8_
  * Frees an observer; null is ignored.
  */
 void cdpr_observer_free(struct CdprObserver *observer);
+
+/**
+ * Creates a path, whose first pose is the next one. Robots with fewer cables than free motions are refused.
+ */
+enum CdprStatus cdpr_path_new(const struct CdprRobot *robot, struct CdprPath **path);
+
+/**
+ * Allows no tension to change by more than `change` [N] from one pose to the next; infinity is no limit.
+ */
+enum CdprStatus cdpr_path_limit_change(struct CdprPath *path, double change);
+
+/**
+ * Writes lengths and tensions at the next pose of a path, on the branch of the last ones.
+ *
+ * The tensions are those nearest to `reference`, one for each cable [N], such as measured ones; null stands
+ * for the preferred ones of the robot. Where the branch ends, `report.jump` is 1. After a failure the path
+ * continues from the last pose with a solution.
+ */
+enum CdprStatus cdpr_path_next(struct CdprPath *path,
+                               const struct CdprPose *pose,
+                               const struct CdprLoad *load,
+                               const double *reference,
+                               const struct CdprCables *cables,
+                               struct CdprReport *report);
+
+/**
+ * Frees a path; null is ignored.
+ */
+void cdpr_path_free(struct CdprPath *path);
 
 #ifdef __cplusplus
 }  // extern "C"

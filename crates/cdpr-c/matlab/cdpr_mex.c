@@ -288,6 +288,24 @@ static void tracker_step(CdprTracker *tracker, const mxArray *lengths, const Cdp
     results[3] = mxCreateLogicalScalar(status == CDPR_STATUS_OK);
 }
 
+/* Points of a cable, from 1, a row for each. */
+static void tracker_shape(const CdprTracker *tracker, const mxArray *cable, const mxArray *points,
+                          mxArray **results)
+{
+    static const char expected[] = "the number of a cable, from 1, and 2 to 1000 points are needed";
+    const double *const cables = doubles(cable, expected), *const counts = doubles(points, expected);
+    const int given = mxGetNumberOfElements(cable) == 1 && mxGetNumberOfElements(points) == 1;
+    const double index = given ? cables[0] : 0.0, count = given ? counts[0] : 0.0;
+    double *values;
+    if (!(index >= 1.0) || index > 1e6 || !(count >= 2.0) || count > 1000.0) {
+        refuse(expected);
+    }
+    values = (double *)mxCalloc(3 * (size_t)count, sizeof(double));
+    need(cdpr_tracker_shape(tracker, (size_t)index - 1, values, (size_t)count));
+    results[0] = matrix(values, (size_t)count, 3);
+    mxFree(values);
+}
+
 /* Commands of a robot at a pose under a load. */
 static int at_pose(const char *command, const CdprRobot *robot, int count, const mxArray **in,
                    mxArray **results)
@@ -339,6 +357,8 @@ void mexFunction(int wanted, mxArray *out[], int count, const mxArray *in[])
     } else if (strcmp(command, "tracker_step") == 0 && count == 4) {
         const CdprLoad load = load_of(in[3]);
         tracker_step(tracker_of(in[1]), in[2], &load, results);
+    } else if (strcmp(command, "tracker_shape") == 0 && count == 4) {
+        tracker_shape(tracker_of(in[1]), in[2], in[3], results);
     } else if (!at_pose(command, robot_of(in[1]), count - 2, in + 2, results)) {
         refuse("no such command: use cdpr.Robot and cdpr.Tracker");
     }

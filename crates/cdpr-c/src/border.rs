@@ -9,13 +9,14 @@
 #![allow(unsafe_code, clippy::missing_safety_doc)]
 
 pub mod observer;
+pub mod path;
 
 use crate::data::{
     CdprCables, CdprDerivatives, CdprLoad, CdprMotion, CdprPose, CdprReport, CdprStiffness, LENGTHS, checked,
     sized,
 };
 use crate::failure::{CdprStatus, Failure, guarded, message};
-use crate::follow::{CdprPath, CdprTracker};
+use crate::follow::CdprTracker;
 use crate::pose::{displacement, report, rows, stiffness};
 use crate::robot::CdprRobot;
 use cdpr_robot::Pose;
@@ -224,9 +225,8 @@ pub unsafe extern "C" fn cdpr_tracker_new(
 
 /// Goes to the equilibrium for other lengths and another load, in at most 12 iterations.
 ///
-/// Nothing is allocated for up to 16 cables without pulleys and leads (4 on x86-64 without AVX2). Where the
-/// iterations do not converge, the last state is kept, and `report` has its residuals with the number of
-/// iterations made.
+/// Nothing is allocated for up to 16 cables (4 on x86-64 without AVX2). Where the iterations do not converge,
+/// the last state is kept, and `report` has its residuals with the number of iterations made.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cdpr_tracker_step(
     tracker: *mut CdprTracker,
@@ -266,49 +266,33 @@ pub unsafe extern "C" fn cdpr_tracker_state(
     })
 }
 
-/// Frees a tracker; null is ignored.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn cdpr_tracker_free(tracker: *mut CdprTracker) {
-    unsafe { free(tracker) }
-}
-
-/// Creates a path, whose first pose is the next one. Robots with fewer cables than free motions are refused.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn cdpr_path_new(robot: *const CdprRobot, path: *mut *mut CdprPath) -> CdprStatus {
-    guarded(|| unsafe {
-        let path = empty(path, "path")?;
-        create(path, CdprPath::new(&given(robot, "robot")?.robot))
-    })
-}
-
-/// Writes lengths and tensions at the next pose of a path, on the branch of the last ones.
+/// Writes points of a cable, from 0, in the state of the tracker: x, y, z of each in the base frame [m], at
+/// equal distances along the cable from its exit point, or where it leaves its pulley, to its anchor point.
 ///
-/// Where the branch ends, `report.jump` is 1. After a failure the path continues from the last pose with a
-/// solution.
+/// `points` has room for 3 `count` values; `count` is 2 to 1000. Memory is allocated.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn cdpr_path_next(
-    path: *mut CdprPath,
-    pose: *const CdprPose,
-    load: *const CdprLoad,
-    cables: *const CdprCables,
-    report: *mut CdprReport,
+pub unsafe extern "C" fn cdpr_tracker_shape(
+    tracker: *const CdprTracker,
+    cable: usize,
+    points: *mut f64,
+    count: usize,
 ) -> CdprStatus {
     guarded(|| unsafe {
-        let (path, pose, load) = (own(path, "path")?, pose_of(pose)?, load_of(load)?);
-        let (cables, report) = (cables_of(cables, path.cables())?, optional(report, "report")?);
-        let found = path.next(&pose, &load)?;
-        write_all(cables.lengths, &found.solution.lengths);
-        write_all(cables.tensions, &found.solution.tensions);
-        let found_report = CdprReport::new(found.solution.residual, found.solution.iterations);
-        write(report, CdprReport { jump: u32::from(found.jump), ..found_report });
+        let (tracker, points) = (given(tracker, "tracker")?, place(points, "points")?);
+        if !(2..=1000).contains(&count) {
+            return Err(Failure::Size { field: "points", given: count, expected: count.clamp(2, 1000) });
+        }
+        for (k, point) in tracker.shape(cable, count)?.iter().enumerate() {
+            write_all(points.add(3 * k), point.as_slice());
+        }
         Ok(())
     })
 }
 
-/// Frees a path; null is ignored.
+/// Frees a tracker; null is ignored.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn cdpr_path_free(path: *mut CdprPath) {
-    unsafe { free(path) }
+pub unsafe extern "C" fn cdpr_tracker_free(tracker: *mut CdprTracker) {
+    unsafe { free(tracker) }
 }
 
 fn valid<T>(pointer: *const T, field: &'static str) -> Result<(), Failure> {
@@ -362,6 +346,18 @@ unsafe fn list<'a>(lengths: *const f64, given: usize, cables: usize) -> Result<&
     let lengths = unsafe { std::slice::from_raw_parts(lengths, given) };
     checked("lengths", lengths, LENGTHS)?;
     Ok(lengths)
+}
+
+/// Numbers of any kind, one for each cable.
+unsafe fn numbers<'a>(
+    numbers: *const f64,
+    count: usize,
+    cables: usize,
+    field: &'static str,
+) -> Result<&'a [f64], Failure> {
+    valid(numbers, field)?;
+    sized(field, count, cables)?;
+    Ok(unsafe { std::slice::from_raw_parts(numbers, count) })
 }
 
 /// Writes a result, unless the pointer is null.

@@ -2,8 +2,8 @@
 
 use crate::data::CdprReport;
 use crate::failure::Failure;
-use cdpr_robot::{Pose, Robot, Vector2};
-use cdpr_statics::{DirectStart, InversePath, Load, PathSolution, Tracker, direct};
+use cdpr_robot::{Pose, Robot, Vector2, Vector3};
+use cdpr_statics::{DirectStart, InversePath, Load, PathSolution, Tracker, WantedPose, direct};
 use std::sync::Arc;
 
 /// Follows the pose of the platform while lengths and load change: the handle of `cdpr_tracker_new`. One
@@ -26,7 +26,7 @@ impl CdprTracker {
             return Ok(Self { tracker });
         }
         Err(Failure::Unsupported(
-            "a robot with fewer cables than free motions, or with cables of different elastic laws,",
+            "a robot with cables of different elastic laws, or with a motion that nothing resists,",
         ))
     }
 
@@ -48,6 +48,13 @@ impl CdprTracker {
 
     pub(crate) fn pose(&self) -> &Pose {
         &self.tracker.equilibrium().pose
+    }
+
+    /// Points of a cable at equal distances along it, from where it leaves its pulley or exit point to its
+    /// anchor point [m].
+    pub(crate) fn shape(&self, cable: usize, points: usize) -> Result<Vec<Vector3<f64>>, Failure> {
+        let mut shape = self.tracker.shape(cable, 2, points)?.points;
+        Ok(shape.split_off(shape.len() - points))
     }
 
     /// Tensions at the platform [N].
@@ -76,7 +83,18 @@ impl CdprPath {
         self.cables
     }
 
-    pub(crate) fn next(&mut self, pose: &Pose, load: &Load) -> Result<PathSolution, Failure> {
-        Ok(self.path.solve(pose, load)?)
+    pub(crate) fn limit_change(&mut self, change: f64) -> Result<(), Failure> {
+        Ok(self.path.limit_change(change)?)
+    }
+
+    /// The next pose, with the tensions nearest to `reference` [N], or to that of the robot.
+    pub(crate) fn next(
+        &mut self,
+        pose: &Pose,
+        load: &Load,
+        reference: Option<&[f64]>,
+    ) -> Result<PathSolution, Failure> {
+        let wanted = WantedPose { tension_reference: reference, ..pose.into() };
+        Ok(self.path.solve(wanted, load)?)
     }
 }

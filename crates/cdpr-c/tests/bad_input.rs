@@ -1,11 +1,12 @@
 //! Bad pointers, sizes, values and robots have a status and a message.
 
 use crate::common::{LOAD, level};
+use cdpr_c::border::path::{cdpr_path_free, cdpr_path_limit_change, cdpr_path_new, cdpr_path_next};
 use cdpr_c::border::{
-    cdpr_deflection, cdpr_derivatives, cdpr_direct, cdpr_inverse, cdpr_message, cdpr_path_free,
-    cdpr_path_new, cdpr_path_next, cdpr_robot_cables, cdpr_robot_free, cdpr_robot_from_json,
-    cdpr_robot_input, cdpr_robot_inputs, cdpr_robot_named, cdpr_stiffness, cdpr_tracker_free,
-    cdpr_tracker_new, cdpr_tracker_state, cdpr_tracker_step, cdpr_version,
+    cdpr_deflection, cdpr_derivatives, cdpr_direct, cdpr_inverse, cdpr_message, cdpr_robot_cables,
+    cdpr_robot_free, cdpr_robot_from_json, cdpr_robot_input, cdpr_robot_inputs, cdpr_robot_named,
+    cdpr_stiffness, cdpr_tracker_free, cdpr_tracker_new, cdpr_tracker_shape, cdpr_tracker_state,
+    cdpr_tracker_step, cdpr_version,
 };
 use cdpr_c::{CdprCables, CdprDerivatives, CdprLoad, CdprRobot, CdprStatus};
 use std::ffi::{CStr, CString};
@@ -122,9 +123,18 @@ fn null_pointers_and_wrong_sizes_are_refused() {
         fails(cdpr_tracker_step(null_mut(), lengths.as_ptr(), 8, null(), null_mut()), pointer, "tracker");
         fails(cdpr_tracker_state(null(), &mut at, null_mut(), 0), pointer, "tracker");
         fails(cdpr_path_new(robot, null_mut()), pointer, "path");
-        fails(cdpr_path_next(null_mut(), &pose, null(), &cables, null_mut()), pointer, "path");
+        fails(cdpr_tracker_shape(null(), 0, lengths.as_mut_ptr(), 2), pointer, "tracker");
+        fails(cdpr_path_next(null_mut(), &pose, null(), null(), &cables, null_mut()), pointer, "path");
+        fails(cdpr_path_limit_change(null_mut(), 1.0), pointer, "path");
         assert_eq!(cdpr_path_new(robot, &mut path), CdprStatus::Ok);
-        fails(cdpr_path_next(path, &pose, null(), &few, null_mut()), size, "cables");
+        fails(cdpr_path_next(path, &pose, null(), null(), &few, null_mut()), size, "cables");
+        let not_a_number = [f64::NAN; 8];
+        let near = cdpr_path_next(path, &pose, null(), not_a_number.as_ptr(), &cables, null_mut());
+        fails(near, CdprStatus::Invalid, "reference[0]");
+        for change in [0.0, -1.0, f64::NAN] {
+            fails(cdpr_path_limit_change(path, change), CdprStatus::Invalid, "a positive tension");
+        }
+        assert_eq!(cdpr_path_limit_change(path, f64::INFINITY), CdprStatus::Ok);
         cdpr_path_free(path);
         cdpr_tracker_free(tracker);
         cdpr_robot_free(robot);
@@ -171,6 +181,11 @@ fn values_that_are_no_numbers_are_refused_and_change_nothing() {
             "tensions",
         );
         assert_eq!(step(&lengths), CdprStatus::Ok);
+        let mut points = [0.0; 6];
+        let mut shape = |cable, count| cdpr_tracker_shape(tracker, cable, points.as_mut_ptr(), count);
+        fails(shape(8, 2), invalid, "cable is 8: expected a cable of 0 to 7");
+        fails(shape(0, 1), CdprStatus::Size, "expected 2");
+        fails(shape(0, 1001), CdprStatus::Size, "expected 1000");
         cdpr_tracker_free(tracker);
         fails(at(level([0.0, 0.0, 50.0])), CdprStatus::NoSolution, "no tensions");
         cdpr_robot_free(robot);
@@ -178,11 +193,12 @@ fn values_that_are_no_numbers_are_refused_and_change_nothing() {
 }
 
 #[test]
-fn a_robot_with_fewer_cables_than_free_motions_has_a_direct_model_alone() {
+fn a_robot_with_fewer_cables_than_free_motions_has_a_direct_model_and_a_tracker() {
     let (robot, mut pose, mut tensions) = (named("four-cables"), level([0.5, 0.3, 2.0]), [0.0; 4]);
     let mut lengths = [0.0; 4];
     let cables = CdprCables { count: 4, lengths: lengths.as_mut_ptr(), tensions: tensions.as_mut_ptr() };
     let (mut tracker, mut path, unsupported) = (null_mut(), null_mut(), CdprStatus::Unsupported);
+    let mut of_one = null_mut();
     unsafe {
         let found = cdpr_inverse(robot, &pose, null(), &cables, null_mut());
         fails(found, unsupported, "fewer cables than free motions");
@@ -196,8 +212,25 @@ fn a_robot_with_fewer_cables_than_free_motions_has_a_direct_model_alone() {
         assert_eq!(cdpr_direct(robot, &cables, null(), &mut pose, null_mut()), CdprStatus::Ok);
         assert!(tensions.iter().all(|tension| *tension > 0.0));
         let created = cdpr_tracker_new(robot, straight.as_ptr(), 4, null(), &pose, &mut tracker);
-        fails(created, unsupported, "fewer cables than free motions");
-        assert!(tracker.is_null());
+        assert_eq!(created, CdprStatus::Ok, "{}", message());
+        let shorter: Vec<f64> = straight.iter().map(|length| length - 1e-3).collect();
+        let mut followed = pose;
+        assert_eq!(cdpr_tracker_step(tracker, shorter.as_ptr(), 4, null(), null_mut()), CdprStatus::Ok);
+        assert_eq!(cdpr_tracker_state(tracker, &mut followed, null_mut(), 0), CdprStatus::Ok);
+        assert!(followed.position[2] > pose.position[2] + 1e-4);
+        // A platform on one cable turns freely about it.
+        let mut one = known.clone();
+        one.cables.truncate(1);
+        let text = one.to_json();
+        let mut hung = null_mut();
+        let read = cdpr_robot_from_json(text.as_ptr().cast(), text.len(), &mut hung);
+        assert_eq!(read, CdprStatus::Ok, "{}", message());
+        let below = level([one.cables[0].exit_point.x, one.cables[0].exit_point.y, 1.0]);
+        let created = cdpr_tracker_new(hung, [2.0].as_ptr(), 1, null(), &below, &mut of_one);
+        fails(created, unsupported, "a motion that nothing resists");
+        assert!(of_one.is_null());
+        cdpr_robot_free(hung);
+        cdpr_tracker_free(tracker);
         cdpr_robot_free(robot);
     }
 }

@@ -201,17 +201,19 @@ fn the_node_of_ros_has_the_digits_of_the_rust_interface() {
             let (found, rest) = printed.split_at(expected.len().min(printed.len()));
             assert!(found == expected, "{name} by {compiler}: {printed}");
             let (pose, cables) = (&states[STEPS + 1].pose, robot(name).cables);
-            let ends: Vec<_> = cables
-                .iter()
-                .flat_map(|cable| [cable.exit_point, pose.position + pose.rotation * cable.anchor_point])
-                .collect();
-            let mut lines = rest.lines();
-            for end in ends {
-                let line = lines.next().unwrap().strip_prefix("line ").unwrap();
-                let found: Vec<f64> = line.split(' ').map(|value| value.parse().unwrap()).collect();
-                assert!((0..3).all(|i| (found[i] - end[i]).abs() < 2e-9), "{name}: {line}, expected {end}");
+            let (points, said): (Vec<&str>, Vec<&str>) =
+                rest.lines().partition(|line| line.starts_with("line "));
+            let point = |line: &&str| -> Vec<f64> {
+                line.split(' ').skip(1).map(|value| value.parse().unwrap()).collect()
+            };
+            let points: Vec<_> = points.iter().map(point).collect();
+            // Four pieces of each cable, each from the end of the one before to the platform.
+            assert_eq!(points.len(), 8 * cables.len());
+            for (points, cable) in points.chunks(8).zip(&cables) {
+                let anchor = pose.position + pose.rotation * cable.anchor_point;
+                assert!((0..3).all(|i| (points[7][i] - anchor[i]).abs() < 2e-9), "{name}: {points:?}");
+                assert!(points[1] == points[2] && points[3] == points[4] && points[5] == points[6]);
             }
-            let said: Vec<_> = lines.collect();
             let expected = [
                 "joint cable_1",
                 "a length for each",

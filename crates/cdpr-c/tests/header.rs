@@ -6,7 +6,8 @@ use std::path::Path;
 fn the_header_is_that_of_the_sources() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
     let config = cbindgen::Config::from_file(folder.join("cbindgen.toml")).unwrap();
-    let sources = ["border", "border/observer", "data", "failure", "follow", "observer", "robot"];
+    let sources =
+        ["border", "border/observer", "border/path", "data", "failure", "follow", "observer", "robot"];
     let builder = sources.iter().fold(cbindgen::Builder::new().with_config(config), |builder, source| {
         builder.with_src(folder.join(format!("src/{source}.rs")))
     });

@@ -1,15 +1,18 @@
 //! The digits of the C interface are those of the Rust interface.
 
-use crate::common::{Digits, LOAD, ROBOTS_AT, STEPS, expected, level, x_of_step};
+use crate::common::{Digits, LOAD, ROBOTS_AT, STEPS, expected, level, load, robot, x_of_step};
+use cdpr_c::border::path::{cdpr_path_free, cdpr_path_limit_change, cdpr_path_new, cdpr_path_next};
 use cdpr_c::border::{
-    cdpr_deflection, cdpr_derivatives, cdpr_direct, cdpr_inverse, cdpr_path_free, cdpr_path_new,
-    cdpr_path_next, cdpr_robot_cables, cdpr_robot_free, cdpr_robot_inputs, cdpr_robot_named, cdpr_stiffness,
-    cdpr_tracker_free, cdpr_tracker_new, cdpr_tracker_state, cdpr_tracker_step,
+    cdpr_deflection, cdpr_derivatives, cdpr_direct, cdpr_inverse, cdpr_robot_cables, cdpr_robot_free,
+    cdpr_robot_inputs, cdpr_robot_named, cdpr_stiffness, cdpr_tracker_free, cdpr_tracker_new,
+    cdpr_tracker_shape, cdpr_tracker_state, cdpr_tracker_step,
 };
 use cdpr_c::{
     CdprCables, CdprDerivatives, CdprLoad, CdprMotion, CdprPose, CdprReport, CdprRobot, CdprStatus,
     CdprStiffness,
 };
+use cdpr_robot::{Pose, Vector3};
+use cdpr_statics::{DirectProblem, DirectStart, Load, WantedPose, direct, inverse};
 use std::ffi::CString;
 use std::ptr::{null, null_mut};
 
@@ -89,12 +92,12 @@ unsafe fn along_path(robot: *const CdprRobot, position: [f64; 3], digits: &mut D
     let (mut path, mut tracker) = (null_mut(), null_mut());
     unsafe {
         assert_eq!(cdpr_path_new(robot, &mut path), CdprStatus::Ok);
-        assert_eq!(cdpr_path_next(path, &wanted, null(), &cables, &mut of), CdprStatus::Ok);
+        assert_eq!(cdpr_path_next(path, &wanted, null(), null(), &cables, &mut of), CdprStatus::Ok);
         let created = cdpr_tracker_new(robot, lengths.as_ptr(), n, &LOAD, &wanted, &mut tracker);
         assert_eq!(created, CdprStatus::Ok);
         for k in 1..=STEPS {
             wanted.position[0] = x_of_step(position[0], k);
-            assert_eq!(cdpr_path_next(path, &wanted, null(), &cables, &mut of), CdprStatus::Ok);
+            assert_eq!(cdpr_path_next(path, &wanted, null(), null(), &cables, &mut of), CdprStatus::Ok);
             digits.line("lengths", &lengths);
             report(digits, &of);
             let stepped = cdpr_tracker_step(tracker, lengths.as_ptr(), n, &LOAD, &mut of);
@@ -118,6 +121,89 @@ fn the_bits_are_those_of_the_rust_interface() {
             assert_eq!(found, expected, "{name}");
         }
         assert_eq!(found.lines().count(), expected.lines().count(), "{name}");
+    }
+}
+
+/// The shape in the state of a tracker ends at the anchor point and has the digits of the Rust interface.
+#[test]
+fn a_cable_hangs_from_its_exit_to_the_platform() {
+    const POINTS: usize = 11;
+    for (name, position) in ROBOTS_AT {
+        let known = robot(name);
+        let n = known.cables.len();
+        let (handle_name, mut handle, mut tracker) = (CString::new(name).unwrap(), null_mut(), null_mut());
+        let (mut lengths, mut points, mut at) = (vec![0.0; n], [0.0; 3 * POINTS], level(position));
+        let cables = CdprCables { count: n, lengths: lengths.as_mut_ptr(), tensions: null_mut() };
+        unsafe {
+            assert_eq!(cdpr_robot_named(handle_name.as_ptr(), &mut handle), CdprStatus::Ok);
+            assert_eq!(cdpr_inverse(handle, &at, null(), &cables, null_mut()), CdprStatus::Ok);
+            let created = cdpr_tracker_new(handle, lengths.as_ptr(), n, &LOAD, &at, &mut tracker);
+            assert_eq!(created, CdprStatus::Ok);
+            assert_eq!(cdpr_tracker_state(tracker, &mut at, null_mut(), 0), CdprStatus::Ok);
+        }
+        let [w, x, y, z] = at.quaternion;
+        let pose = Pose::with_quaternion(at.position.into(), [w, x, y, z]).unwrap();
+        let start = direct(&known, &lengths, &load(), DirectStart::Pose(&pose)).unwrap().equilibrium;
+        let problem = DirectProblem::new(&known, &lengths, &load()).unwrap();
+        for i in 0..n {
+            let found = unsafe { cdpr_tracker_shape(tracker, i, points.as_mut_ptr(), POINTS) };
+            assert_eq!(found, CdprStatus::Ok);
+            let shape = problem.shape(&start, i, 2, POINTS).unwrap();
+            let expected = &shape.points[shape.points.len() - POINTS..];
+            for (point, expected) in points.chunks(3).zip(expected) {
+                let apart = (Vector3::from_column_slice(point) - expected).norm();
+                assert!(apart < 1e-9, "{name}, cable {i}: {point:?}, expected {expected}");
+            }
+            let anchor = pose.position + pose.rotation * known.cables[i].anchor_point;
+            assert!((Vector3::from_column_slice(&points[30..]) - anchor).norm() < 1e-9, "{name}, cable {i}");
+            if known.cables[i].guide(None).is_none() {
+                let exit = &known.cables[i].exit_point;
+                assert!((Vector3::from_column_slice(&points[..3]) - exit).norm() < 1e-12, "{name}");
+            }
+        }
+        unsafe {
+            cdpr_tracker_free(tracker);
+            cdpr_robot_free(handle);
+        }
+    }
+}
+
+/// Measured tensions as a reference are approached by no more than the greatest change in each pose.
+#[test]
+fn tensions_of_a_path_approach_measured_ones_in_steps() {
+    const CHANGE: f64 = 2.0;
+    let (mut handle, mut path) = (null_mut(), null_mut());
+    let (mut lengths, mut tensions, at) = ([0.0; 8], [0.0; 8], level([0.0, 0.0, 1.75]));
+    let cables = CdprCables { count: 8, lengths: lengths.as_mut_ptr(), tensions: tensions.as_mut_ptr() };
+    let measured = [700.0; 8];
+    unsafe {
+        assert_eq!(cdpr_robot_named(c"caroca".as_ptr(), &mut handle), CdprStatus::Ok);
+        assert_eq!(cdpr_path_new(handle, &mut path), CdprStatus::Ok);
+        assert_eq!(cdpr_path_limit_change(path, CHANGE), CdprStatus::Ok);
+        assert_eq!(cdpr_path_next(path, &at, null(), null(), &cables, null_mut()), CdprStatus::Ok);
+    }
+    let known = robot("caroca");
+    let pose = Pose::at(0.0, 0.0, 1.75);
+    let wanted = WantedPose { tension_reference: Some(&measured), ..(&pose).into() };
+    let goal = inverse(&known, wanted, &Load::none()).unwrap().tensions;
+    let mut last = tensions;
+    let apart = |tensions: &[f64; 8]| {
+        let each = tensions.iter().zip(&goal).map(|(tension, goal)| (tension - goal).abs());
+        each.fold(0.0, f64::max)
+    };
+    let first = apart(&tensions);
+    assert!(first > 5.0 * CHANGE, "{first}");
+    for _ in 0..30 {
+        let next = unsafe { cdpr_path_next(path, &at, null(), measured.as_ptr(), &cables, null_mut()) };
+        assert_eq!(next, CdprStatus::Ok);
+        let changes = tensions.iter().zip(&last).map(|(now, last)| (now - last).abs());
+        assert!(changes.fold(0.0, f64::max) <= CHANGE * (1.0 + 1e-9), "{tensions:?} after {last:?}");
+        last = tensions;
+    }
+    assert!(apart(&tensions) < 1e-6, "{tensions:?}, expected {goal:?}");
+    unsafe {
+        cdpr_path_free(path);
+        cdpr_robot_free(handle);
     }
 }
 

@@ -77,6 +77,7 @@ const SCRIPT: &str = "
         [pose, tensions, report, converged] = tracker.step(lengths, 50);
         show(pose); show(tensions); assert(converged);
     end
+    show(tracker.shape(2, 5));
 ";
 
 #[test]
@@ -110,6 +111,8 @@ fn octave_gets_the_bits_of_the_rust_interface() {
         let equilibrium = tracker.equilibrium();
         expected += &(of_pose(&equilibrium.pose) + &line(&equilibrium.tensions()));
     }
+    let points = tracker.shape(1, 2, 5).unwrap().points;
+    expected += &line(points.iter().flatten());
     let Some(printed) = octave(SCRIPT) else { return };
     for (printed, expected) in printed.lines().zip(expected.lines()) {
         assert_eq!(printed, expected);

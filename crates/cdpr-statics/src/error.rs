@@ -67,6 +67,14 @@ pub enum StaticsError {
         /// The limits that they rest on.
         blocked: Vec<Blocked>,
     },
+    /// No tensions near those of the pose before hold the next pose of a path.
+    #[error("within {} N of the tensions at the pose before: {source}; or make smaller steps", short(*change))]
+    TensionChange {
+        /// Greatest change allowed [N].
+        change: f64,
+        /// Why not.
+        source: Box<Self>,
+    },
     /// Fewer cables than free motions: not all coordinates of a pose can be chosen.
     #[error(
         "{} for {} leave {} of the pose that cannot be chosen: \
@@ -122,8 +130,7 @@ pub enum StaticsError {
     /// the exit point.
     #[error(
         "cable {}: its greatest tension at the exit point, {exit} N, leaves {max:.3} N at the platform, \
-         {depth:.3} m \
-         below, less than its least tension there, {min} N; change the pose or the limits",
+         {depth:.3} m below, less than its least tension there, {min} N; change the pose or the limits",
         index + 1,
         exit = short(*exit),
         min = short(*min)
@@ -330,6 +337,7 @@ impl StaticsError {
             Self::Invalid { .. } => "invalid_input",
             Self::NoRest { nearest: RestFault::TurnedOver { is_stable: false, .. }, .. } => "unstable",
             Self::NoTensions { .. } | Self::ExitLimit { .. } | Self::NoRest { .. } => "infeasible_tension",
+            Self::TensionChange { source, .. } => source.kind(),
             Self::NotUnique { .. } => "not_unique",
             Self::FreeCoordinates { .. } => "free_coordinates",
             Self::InverseNotConverged { .. } => "inverse_not_converged",
@@ -386,7 +394,7 @@ impl StaticsError {
         if values.len() == cables {
             return Ok(());
         }
-        let expected = format!("one value for each of the {cables} cables");
-        Err(Self::invalid(field.to_owned(), format!("a list of {}", values.len()), expected))
+        let given = format!("a list of {}", values.len());
+        Err(Self::invalid(field.to_owned(), given, format!("one value for each of the {cables} cables")))
     }
 }

@@ -131,6 +131,10 @@ pub(crate) fn inverse_at(
 pub struct InversePath<R: Borrow<Robot>> {
     robot: R,
     last: Option<KnownOptimum>,
+    /// The tensions at the last pose that has a solution [N].
+    tensions: Vec<f64>,
+    /// Greatest change of a tension from one pose to the next [N].
+    change: f64,
 }
 
 /// A pose of a path.
@@ -145,15 +149,29 @@ pub struct PathSolution {
 impl<R: Borrow<Robot>> InversePath<R> {
     /// A path of `robot` that has yet to begin.
     pub fn new(robot: R) -> Self {
-        Self { robot, last: None }
+        Self { robot, last: None, tensions: Vec::new(), change: f64::INFINITY }
+    }
+
+    /// Allows no tension at the platform to change by more than `change` [N] from one pose to the next: a
+    /// new reference, or the lengths after a jump, are then approached pose by pose.
+    ///
+    /// # Errors
+    /// [`StaticsError::Invalid`] unless it is positive; infinity is no limit.
+    pub fn limit_change(&mut self, change: f64) -> Result<(), StaticsError> {
+        if change > 0.0 {
+            self.change = change;
+            return Ok(());
+        }
+        Err(StaticsError::invalid("change".to_owned(), change, "a positive tension [N]"))
     }
 
     /// The lengths at the next pose; the first one is solved as by [`crate::inverse`].
     ///
     /// # Errors
     /// Those of [`crate::inverse`], and [`StaticsError::Invalid`] for free coordinates, which a path does not
-    /// take, and for a distribution that jumps from pose to pose. The path then goes on from the last pose
-    /// that has a solution.
+    /// take, and for a distribution that jumps from pose to pose; [`StaticsError::TensionChange`] where no
+    /// tensions as near to the last ones as [`InversePath::limit_change`] demands hold the pose. The path then
+    /// goes on from the last pose that has a solution.
     pub fn solve<'w>(
         &mut self,
         wanted: impl Into<WantedPose<'w>>,
@@ -164,13 +182,22 @@ impl<R: Borrow<Robot>> InversePath<R> {
         if tension_reference.is_none() {
             require_smooth(robot)?;
         }
-        let problem = InverseProblem::of_whole_pose(robot, &pose, load, tension_reference)?;
+        let mut problem = InverseProblem::of_whole_pose(robot, &pose, load, tension_reference)?;
+        let limited = self.change.is_finite() && self.last.is_some();
+        let too_far = |source| match limited {
+            true => StaticsError::TensionChange { change: self.change, source: Box::new(source) },
+            false => source,
+        };
+        if limited {
+            problem.narrow(&self.tensions, self.change).map_err(too_far)?;
+        }
         let followed = self.last.as_ref().and_then(|last| last.followed(&problem));
         let jump = self.last.is_some() && followed.is_none();
-        let optimum = followed.map_or_else(|| search(&problem), Ok)?;
+        let optimum = followed.map_or_else(|| search(&problem), Ok).map_err(too_far)?;
         let known = KnownOptimum::new(&problem, &optimum);
         let solution = InverseSolution::new(&problem, optimum)?;
         self.last = Some(known);
+        self.tensions.clone_from(&solution.tensions);
         Ok(PathSolution { solution, jump })
     }
 }

@@ -152,3 +152,57 @@ fn a_path_leads_through_rotations_loads_and_references() {
         }
     }
 }
+
+/// Along a path whose tensions change by no more than `change` the platform is in balance at each pose.
+#[test]
+fn no_tension_changes_by_more_than_is_allowed() {
+    for (name, from, to, change) in [
+        ("caroca", [-1.0, 0.0, 1.75], [1.0, 0.5, 2.0], 15.0),
+        ("cogiro", [-2.0, -1.0, 1.5], [2.0, 1.0, 2.0], 100.0),
+        ("fast", [-5.0, 0.0, 140.1], [5.0, 0.0, 140.1], 1000.0),
+        ("ipanema-1", [-0.3, -0.2, 1.0], [0.3, 0.3, 1.5], 20.0),
+        ("ipanema-3", [-0.3, 0.1, 1.2], [0.3, 0.2, 1.4], 20.0),
+        ("segesta", [0.0, 0.0, 0.5], [0.05, 0.05, 0.55], 20.0),
+    ] {
+        let robot = Robot::from_library(name).unwrap();
+        let mut path = InversePath::new(&robot);
+        path.limit_change(change).unwrap();
+        let poses = line(from, to, 100);
+        let mut last = path.solve(&poses[0], &Load::none()).unwrap().solution.tensions;
+        // A reference that is far away at first.
+        let reference: Vec<f64> = last.iter().map(|tension| 1.5 * tension + 2.0 * change).collect();
+        let (mut greatest, mut held) = (0.0_f64, 0);
+        for pose in &poses[1..] {
+            let wanted = WantedPose { tension_reference: Some(&reference), ..pose.into() };
+            match path.solve(wanted, &Load::none()) {
+                Ok(PathSolution { solution, .. }) => {
+                    let largest = solution.tensions.iter().copied().fold(0.0, f64::max);
+                    assert!(solution.residual.force < 1e-9 * largest, "{name}: {:?}", solution.residual);
+                    for (tension, last) in solution.tensions.iter().zip(&last) {
+                        greatest = greatest.max((tension - last).abs());
+                    }
+                    last = solution.tensions;
+                    held += 1;
+                }
+                Err(error) => panic!("{name} at {:?}: {error}", pose.position),
+            }
+        }
+        assert!(greatest <= change * (1.0 + 1e-9), "{name}: {greatest}");
+        println!("{name}: {held} poses, tensions change by {greatest:.3} N at most");
+    }
+}
+
+#[test]
+fn a_change_that_is_too_small_is_refused_and_the_path_goes_on() {
+    let robot = caroca();
+    let mut path = InversePath::new(&robot);
+    assert!(matches!(path.limit_change(0.0), Err(StaticsError::Invalid { .. })));
+    assert!(matches!(path.limit_change(f64::NAN), Err(StaticsError::Invalid { .. })));
+    path.limit_change(1.0).unwrap();
+    path.solve(Pose::at(0.0, 0.0, 1.75), &Load::none()).unwrap();
+    let error = path.solve(Pose::at(1.0, 0.0, 1.75), &Load::none()).unwrap_err();
+    let StaticsError::TensionChange { change, .. } = error else { panic!("{error}") };
+    assert_eq!((change, error.kind()), (1.0, "infeasible_tension"));
+    assert!(error.to_string().starts_with("within 1 N of the tensions at the pose before: "), "{error}");
+    assert!(path.solve(Pose::at(0.001, 0.0, 1.75), &Load::none()).is_ok());
+}

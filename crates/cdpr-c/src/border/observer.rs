@@ -1,6 +1,6 @@
 //! The functions of an observer.
 
-use super::{create, empty, free, given, list, optional, own, pose_of, valid, write};
+use super::{create, empty, free, given, list, numbers, optional, own, pose_of, valid, write};
 use crate::data::{CdprPose, sized};
 use crate::failure::{CdprStatus, Failure, guarded};
 use crate::observer::{CdprObserved, CdprObserver, CdprObserverSetting};
@@ -91,16 +91,4 @@ unsafe fn sample(
         write(observed, observer.sample(lengths, tensions, tares)?);
         Ok(())
     }
-}
-
-/// Numbers of any kind, one for each cable.
-unsafe fn numbers<'a>(
-    numbers: *const f64,
-    count: usize,
-    cables: usize,
-    field: &'static str,
-) -> Result<&'a [f64], Failure> {
-    valid(numbers, field)?;
-    sized(field, count, cables)?;
-    Ok(unsafe { std::slice::from_raw_parts(numbers, count) })
 }

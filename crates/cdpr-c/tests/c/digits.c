@@ -91,13 +91,13 @@ static void along_path(const CdprRobot *robot, const CdprPose *start, const Cdpr
     CdprReport report;
     long k;
     need(cdpr_path_new(robot, &path), "path_new");
-    need(cdpr_path_next(path, &pose, NULL, &cables, &report), "path_next");
+    need(cdpr_path_next(path, &pose, NULL, NULL, &cables, &report), "path_next");
     need(cdpr_tracker_new(robot, lengths, n, load, &pose, &tracker), "tracker_new");
     for (k = 1; k <= steps; k++) {
         /* There and back, so that any number of steps stays near the start. */
         const long along = k % 400 < 200 ? k % 400 : 400 - k % 400;
         pose.position[0] = start->position[0] + 0.0005 * (double)along;
-        need(cdpr_path_next(path, &pose, NULL, &cables, &report), "path_next");
+        need(cdpr_path_next(path, &pose, NULL, NULL, &cables, &report), "path_next");
         print("lengths", lengths, n);
         print_report(&report);
         need(cdpr_tracker_step(tracker, lengths, n, load, &report), "tracker_step");

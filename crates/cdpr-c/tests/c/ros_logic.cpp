@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
+#include <cstring>
 
 static void print(const char * name, const double * values, std::size_t count)
 {
@@ -66,7 +68,9 @@ int main(int count, char ** arguments)
     std::printf("restarted %d, residual below 1e-6: %d\n", found.restarted, found.report.force < 1e-6);
     lengths[0] -= 1e-5;
   }
-  for (const cdpr_ros::Point & end : robot.lines(found.pose)) {
+  std::vector<cdpr_ros::Point> lines;
+  need(robot.lines(4, lines), robot);
+  for (const cdpr_ros::Point & end : lines) {
     std::printf("line %.9f %.9f %.9f\n", end[0], end[1], end[2]);
   }
 

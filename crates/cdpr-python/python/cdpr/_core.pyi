@@ -495,6 +495,7 @@ class Robot:
         payload: float | None = None,
         reference: _Row | None = None,
         path: bool = False,
+        tension_change: float | None = None,
         free: Sequence[str] | None = None,
     ) -> InverseSolution[bool, int, None]:
         """Computes the unstrained lengths that hold the platform at a pose under its weight and a load.
@@ -516,6 +517,8 @@ class Robot:
         path : bool, default False
             Whether the cases are a path, so that each keeps to the branch of tensions of the one before as
             long as it exists on the straight way between them.
+        tension_change : float, optional
+            Greatest change of a tension from one pose of a path to the next [N].
         free : sequence of str, optional
             Names of the coordinates of the pose that are found, for a robot with fewer cables than free
             motions: as many of x, y, z, roll, pitch, yaw as cables are missing, with R = Rz(yaw) Ry(pitch)
@@ -553,6 +556,7 @@ class Robot:
         payload: ArrayLike | None = None,
         reference: ArrayLike | None = None,
         path: bool = False,
+        tension_change: float | None = None,
         free: Sequence[str] | None = None,
     ) -> InverseSolution[_Bools, _Ints, _Words]: ...
     @overload

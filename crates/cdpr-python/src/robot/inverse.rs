@@ -1,6 +1,6 @@
 //! `Robot.inverse`: the unstrained lengths that hold a pose.
 
-use crate::convert::{Answer, Cases, Columns, Loads, Numbers, Rows, answer, each, plotted, run};
+use crate::convert::{Answer, Cases, Columns, Loads, Numbers, Raised, Rows, answer, each, plotted, run};
 use crate::robot::Robot;
 use crate::robot::direct::numbers_of_limits;
 use cdpr_robot::{Coordinate, Pose, RobotError};
@@ -227,6 +227,8 @@ impl Robot {
     /// path : bool, default False
     ///     Whether the cases are a path, so that each keeps to the branch of tensions of the one before as
     ///     long as it exists on the straight way between them.
+    /// tension_change : float, optional
+    ///     Greatest change of a tension from one pose of a path to the next [N].
     /// free : sequence of str, optional
     ///     Names of the coordinates of the pose that are found, for a robot with fewer cables than free
     ///     motions: as many of x, y, z, roll, pitch, yaw as cables are missing, with R = Rz(yaw) Ry(pitch)
@@ -254,7 +256,7 @@ impl Robot {
     /// >>> robot.inverse([[0, 0, 2], [1, 0, 2]], payload=50).lengths.shape
     /// (2, 8)
     #[pyo3(signature = (pose, *, force=None, moment=None, payload=None, reference=None, path=false,
-        free=None))]
+        tension_change=None, free=None))]
     #[allow(clippy::too_many_arguments)]
     fn inverse(
         &self,
@@ -265,10 +267,15 @@ impl Robot {
         payload: Option<Numbers>,
         reference: Option<Numbers>,
         path: bool,
+        tension_change: Option<f64>,
         free: Option<Vec<String>>,
     ) -> Answer<InverseSolution> {
         let cables = self.robot.cables.len();
         let free = coordinates(free)?;
+        if let Some(change) = tension_change.filter(|_| !path) {
+            let expected = "None without path=True";
+            return Err(Raised::Input(format!("tension_change is {change}: expected {expected}")));
+        }
         let poses = Rows::poses("pose", &pose, &self.robot)?;
         let loads = Loads::new(force.as_ref(), moment.as_ref(), payload.as_ref(), &self.robot)?;
         let reference =
@@ -282,6 +289,7 @@ impl Robot {
         };
         let outcomes: Vec<Result<Solved, StaticsError>> = if path {
             let mut path = InversePath::new(robot);
+            tension_change.map_or(Ok(()), |change| path.limit_change(change))?;
             let mut one = |case| {
                 let (wanted, load) = of_case(case)?;
                 path.solve(wanted, &load).map(Solved::from)

@@ -1,7 +1,7 @@
 //! A random smooth course of a robot: moves between poses of its workspace, and a load that always changes.
 
-use cdpr_robot::{Pose, Robot, Vector3, Wrench};
-use cdpr_statics::{InversePath, Load, StaticsError, inverse};
+use cdpr_robot::{Coordinate, Pose, Robot, Vector3, Wrench};
+use cdpr_statics::{InversePath, Load, StaticsError, WantedPose, inverse};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use std::f64::consts::TAU;
@@ -34,6 +34,13 @@ fn pose([position, rotation]: &Place) -> Pose {
     Pose { position: *position, ..Pose::at(0.0, 0.0, 0.0) }.moved(Vector3::zeros(), *rotation)
 }
 
+/// The lengths that hold a platform at a place [m], with fewer cables than free motions turned as it rests.
+fn held(robot: &Robot, place: &Place) -> Result<Vec<f64>, StaticsError> {
+    let missing = robot.freedoms().count().saturating_sub(robot.cables.len());
+    let free = &[Coordinate::Roll, Coordinate::Pitch, Coordinate::Yaw][..missing];
+    Ok(inverse(robot, WantedPose { free, ..pose(place).into() }, &Load::none())?.lengths)
+}
+
 fn random(rng: &mut ChaCha8Rng) -> Vector3<f64> {
     loop {
         let vector = Vector3::from_fn(|_, _| rng.random_range(-1.0..1.0));
@@ -59,7 +66,7 @@ impl Course {
             std::array::from_fn(|_| [TAU / rng.random_range(2000.0..9000.0), rng.random_range(0.0..TAU)]);
         let payload = 0.25 * robot.platform.mass;
         let mut last: Place = [middle, Vector3::zeros()];
-        let first = inverse(robot, &pose(&last), &Load::none())?.lengths;
+        let first = held(robot, &last)?;
         let mut course = Self { points: vec![(pose(&last), first)], weight, size: arms, payload, waves };
         let (mut trials, mut moves) = (0, 0);
         while course.points.len() < count {
@@ -90,7 +97,7 @@ impl Course {
         let (mut feasible, mut infeasible) = (0.0, 1.0);
         for _ in 0..10 {
             let share = 0.5 * (feasible + infeasible);
-            match inverse(robot, &pose(&at(share)), &Load::none()) {
+            match held(robot, &at(share)) {
                 Ok(_) => feasible = share,
                 Err(_) => infeasible = share,
             }
@@ -107,15 +114,22 @@ impl Course {
         pace: f64,
     ) -> Result<Vec<(Pose, Vec<f64>)>, StaticsError> {
         let count = ((to[0] - from[0]).norm() / pace).ceil().max(20.0) as usize;
-        let mut path = InversePath::new(robot);
-        path.solve(pose(from), &Load::none())?;
         let at = |k: usize| {
             let s = k as f64 / count as f64;
             let share = s * s * s * (10.0 + s * (6.0 * s - 15.0));
-            let wanted = pose(&std::array::from_fn(|i| from[i] + share * (to[i] - from[i])));
-            Ok((wanted, path.solve(wanted, &Load::none())?.solution.lengths))
+            (share, pose(&std::array::from_fn(|i| from[i] + share * (to[i] - from[i]))))
         };
-        (1..=count).map(at).collect()
+        if !robot.is_fully_actuated() {
+            // The lengths change in proportion: the platform turns as it likes.
+            let [first, last] = [held(robot, from)?, held(robot, to)?];
+            let between =
+                |share: f64| first.iter().zip(&last).map(move |(a, b)| a + share * (b - a)).collect();
+            return Ok((1..=count).map(at).map(|(share, near)| (near, between(share))).collect());
+        }
+        let mut path = InversePath::new(robot);
+        path.solve(pose(from), &Load::none())?;
+        let mut held = |(_, wanted)| Ok((wanted, path.solve(wanted, &Load::none())?.solution.lengths));
+        (1..=count).map(at).map(&mut held).collect()
     }
 
     /// The set-point of step `k`: there and back again.

@@ -215,6 +215,16 @@ impl<'a, T: Real> SpannedCable<'a, T> {
     }
 }
 
+/// Azimuth of the plane that cable i hangs in at a pose, in the shape of `catenary`.
+pub(crate) fn azimuth(robot: &Robot, pose: &Pose, i: usize, catenary: &Catenary) -> [f64; 2] {
+    let end = end(robot, pose, i);
+    let of_points = Span::new(end.into()).plane.azimuth;
+    match catenary.cable.leaves_its_plane() && !catenary.is_slack_and_weightless() {
+        true => hanging(catenary, of_points.into(), end).0.into(),
+        false => of_points,
+    }
+}
+
 /// The vector from exit point i to anchor point i at a pose [m], in the level frame.
 #[inline(always)]
 pub(crate) fn end(robot: &Robot, pose: &Pose, i: usize) -> Vector3<f64> {

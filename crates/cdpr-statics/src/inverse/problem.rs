@@ -74,6 +74,19 @@ impl<'a> InverseProblem<'a> {
         Self { pose, load, reference, limits: self.limits.clone(), characteristic_length, external, ..*self }
     }
 
+    /// Narrows the limits to tensions that differ by at most `change` [N] from others.
+    pub(super) fn narrow(&mut self, tensions: &[f64], change: f64) -> Result<(), StaticsError> {
+        for (i, (limits, tension)) in self.limits.iter_mut().zip(tensions).enumerate() {
+            let (min, max) = (limits.min.max(tension - change), limits.max.min(tension + change));
+            if max < min {
+                let expected = format!("{} to {} N at this pose", limits.min, limits.max);
+                return Err(StaticsError::invalid(format!("tensions[{i}]"), tension, expected));
+            }
+            *limits = TensionLimits { min, max };
+        }
+        Ok(())
+    }
+
     pub(super) fn cables(&self) -> usize {
         self.reference.len()
     }

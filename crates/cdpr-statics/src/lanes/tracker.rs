@@ -1,6 +1,7 @@
 //! Direct solves one after the other, each from the equilibrium before, as in a control loop or a simulation.
 
 use crate::direct::{DirectSolution, DirectStart, direct, follow_change};
+use crate::equations::CableShape;
 use crate::error::StaticsError;
 use crate::local::newton::solve;
 use crate::local::one_robot::fits_lanes;
@@ -41,7 +42,7 @@ struct Tracked {
     load: Load,
     equilibrium: Equilibrium,
     residual: Residual,
-    /// Whether the robot is one for the lanes.
+    /// Whether lanes have the robot, and something resists every motion of its platform at the start.
     in_lanes: bool,
 }
 
@@ -75,11 +76,20 @@ impl<R: Borrow<Robot>> Tracker<R> {
         self.tracked.residual
     }
 
+    /// The shape of cable `i` at the current equilibrium, as [`DirectProblem::shape`] has it.
+    ///
+    /// # Errors
+    /// [`StaticsError::Invalid`] for a cable that the robot does not have.
+    pub fn shape(&self, i: usize, on_pulley: usize, free: usize) -> Result<CableShape, StaticsError> {
+        let Tracked { lengths, load, equilibrium, .. } = &self.tracked;
+        DirectProblem::new(self.robot.borrow(), lengths, load)?.shape(equilibrium, i, on_pulley, free)
+    }
+
     /// Goes to the equilibrium for other lengths [m] and another load that the current one becomes while both
     /// change in proportion.
     ///
     /// Nothing is allocated where Newton's method ends near its prediction, at a stable equilibrium without
-    /// folded cables and without guides (up to 16 cables, or 4 on x86-64 without AVX2). Otherwise the change
+    /// folded cables (up to 16 cables, or 4 on x86-64 without AVX2). Otherwise the change
     /// is made in steps, and where these strain a cable too much on the way or do not end, [`direct`] searches
     /// near the current equilibrium.
     ///
@@ -91,8 +101,8 @@ impl<R: Borrow<Robot>> Tracker<R> {
         Ok(&self.tracked.equilibrium)
     }
 
-    /// Whether [`Tracker::step`] takes the robot: one with a cable for each free motion, all of one elastic
-    /// law, and with a level base where it is planar.
+    /// Whether [`Tracker::step`] takes the robot: one with cables of one elastic law, with a level base where
+    /// it is planar, and without a motion that nothing resists at the start.
     pub fn takes_steps(&self) -> bool {
         self.tracked.in_lanes
     }
@@ -101,9 +111,8 @@ impl<R: Borrow<Robot>> Tracker<R> {
     /// equilibrium and in at most 12 iterations: the time of a step is bounded.
     ///
     /// Where the iterations do not converge, or not certainly to the equilibrium that the last one becomes,
-    /// the tracker keeps the last equilibrium with its lengths and its load. Nothing is allocated for cables
-    /// without guides (up to 16 cables, or 4 on x86-64 without AVX2). Where it converges, the digits are those
-    /// of [`Tracker::update`].
+    /// the tracker keeps the last equilibrium with its lengths and its load. Nothing is allocated (up to 16
+    /// cables, or 4 on x86-64 without AVX2). Where it converges, the digits are those of [`Tracker::update`].
     ///
     /// # Errors
     /// [`StaticsError::Invalid`] unless there is one finite, positive length for each cable and the load is
@@ -111,7 +120,7 @@ impl<R: Borrow<Robot>> Tracker<R> {
     pub fn step(&mut self, lengths: &[f64], load: &Load) -> Result<TrackerStep, StaticsError> {
         let robot: &Robot = self.robot.borrow();
         if !self.takes_steps() {
-            let expected = "one with a cable for each free motion, all of one elastic law";
+            let expected = "one with cables of one elastic law and no motion that nothing resists";
             return Err(StaticsError::invalid("robot".to_owned(), &robot.name, expected));
         }
         self.tracked.newton(robot, lengths, load)
@@ -123,7 +132,7 @@ impl Tracked {
         robot.validate()?;
         let solution = direct(robot, lengths, load, DirectStart::Near(start))?;
         let (equilibrium, residual) = (solution.equilibrium, solution.report.residual);
-        let in_lanes = fits_lanes(robot);
+        let in_lanes = fits_lanes(robot) && solution.stability.neutral().is_empty();
         Ok(Self { lengths: lengths.to_vec(), load: *load, equilibrium, residual, in_lanes })
     }
 

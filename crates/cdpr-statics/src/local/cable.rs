@@ -31,7 +31,7 @@ pub(crate) struct LaneCable<'a, S: Simd> {
     /// Force at A [N].
     pub(crate) force: Lanes2<S>,
     /// What leads it to its exit point. Most cables have none.
-    pub(crate) guided: Option<Box<Guided<S>>>,
+    pub(crate) guided: Option<Guided<S>>,
 }
 
 /// What a cable that is nearly a parabola keeps when its ends move; of a guided one, its part beyond the

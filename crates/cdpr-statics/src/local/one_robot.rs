@@ -24,19 +24,21 @@ pub(crate) struct Solved {
     pub(crate) stiffness: Matrix6<f64>,
 }
 
-/// Whether the lanes have the mechanics of this robot: enough cables for its free motions, all of the same
-/// material, and a level base under a planar robot.
+/// Whether the lanes have the mechanics of this robot: cables of the same material, and a level base under a
+/// planar robot.
 pub(crate) fn fits_lanes(robot: &Robot) -> bool {
     let Some(of_first) = robot.cables.first().map(law) else { return false };
     // The level frame, which deviates with gravity, constrains other motions than the base frame.
     let inclined = robot.plane.is_some() && robot.gravity.is_vector();
-    robot.is_fully_actuated() && !inclined && robot.cables.iter().all(|cable| law(cable) == of_first)
+    !inclined && robot.cables.iter().all(|cable| law(cable) == of_first)
 }
 
 /// The stable equilibrium to which Newton's method converges from `state`, which it assigns: `None` where it
-/// does not converge to one near, with cables that carry forces and are neither folded nor overstrained.
+/// does not converge to one near, with cables that carry forces and are neither folded nor overstrained, or
+/// where fewer cables than free motions may leave motions that nothing resists.
 pub(crate) fn solve(problem: &DirectProblem, state: &mut Equilibrium) -> Option<Solved> {
-    if fits_lanes(problem.robot) { dispatch(Solve { problem, state }) } else { None }
+    let robot = problem.robot;
+    if robot.is_fully_actuated() && fits_lanes(robot) { dispatch(Solve { problem, state }) } else { None }
 }
 
 struct Solve<'a, 'b> {
@@ -202,7 +204,7 @@ impl<'a> DirectProblem<'a> {
         guided.return_to(&[column(5), column(6)], zero.less_or_equal(zero));
         guided.whole_length = cable.length;
         cable.length = column(7);
-        cable.guided = Some(Box::new(guided));
+        cable.guided = Some(guided);
     }
 
     /// Weight and load on the platform.

@@ -85,9 +85,9 @@ impl<S: Simd> LaneResidual<S> {
 pub(crate) struct LinearizedPlatform<S: Simd> {
     pub(crate) cables: SmallVec<[LinearizedCable<Lanes<S>>; INLINE]>,
     /// The lengths beyond the leave points of all cables, of robots with guided ones.
-    pub(crate) free: Vec<FreeLength<S>>,
+    pub(crate) free: SmallVec<[FreeLength<S>; INLINE]>,
     /// Forces across the planes of all cables, of robots with tilted axes.
-    pub(crate) swivels: Vec<Swivel<S>>,
+    pub(crate) swivels: SmallVec<[Swivel<S>; INLINE]>,
     /// Gradient of the potential with the predicted forces.
     pub(crate) gradient: Lanes6<S>,
     /// Its derivative, factored.
@@ -118,8 +118,8 @@ impl<S: Simd> LinearizedPlatform<S> {
         };
         Self {
             cables: smallvec![cable; cables],
-            free: Vec::new(),
-            swivels: Vec::new(),
+            free: SmallVec::new(),
+            swivels: SmallVec::new(),
             gradient: [zero; 6],
             factored: SymmetricFactors::new([[zero; 6]; 6]),
             steps: Steps { count: 0, first: [zero; 6], others: [zero; 6] },
@@ -131,10 +131,10 @@ impl<S: Simd> LinearizedPlatform<S> {
     pub(crate) fn follow_guides(&mut self, robots: &Robots<'_, S>) {
         let (zero, cables) = (robots.weight.all(0.0), robots.cables.len());
         if robots.cables.iter().any(|cable| cable.guided.is_some()) {
-            self.free = vec![FreeLength::fixed(zero); cables];
+            self.free = smallvec![FreeLength::fixed(zero); cables];
         }
         if robots.cables.iter().any(LaneCable::is_tilted) {
-            self.swivels = vec![Swivel::none(zero); cables];
+            self.swivels = smallvec![Swivel::none(zero); cables];
         }
     }
 

@@ -5,6 +5,7 @@
 #include <geometry_msgs/msg/pose_stamped.hpp>
 #include <geometry_msgs/msg/transform_stamped.hpp>
 #include <geometry_msgs/msg/wrench_stamped.hpp>
+#include <limits>
 #include <memory>
 #include <rclcpp/rclcpp.hpp>
 #include <sensor_msgs/msg/joint_state.hpp>
@@ -43,8 +44,9 @@ public:
       throw std::runtime_error("expected a joint for each cable, and three coordinates of `start`");
     }
     start_ = cdpr_ros::pose_of({start[0], start[1], start[2]}, {1.0, 0.0, 0.0, 0.0});
-    if (robot_.cable_points().empty()) {
-      RCLCPP_WARN(get_logger(), "no lines of cables: they need the points of a robot file in `robot`");
+    const auto change = declare_parameter<double>("tension_change", std::numeric_limits<double>::infinity());
+    if (!robot_.limit_change(change)) {
+      throw std::runtime_error("tension_change: " + robot_.message());
     }
     pose_ = create_publisher<PoseStamped>("pose", 10);
     tensions_ = create_publisher<JointState>("tensions", 10);
@@ -111,7 +113,7 @@ private:
     transforms_.sendTransform(transform);
   }
 
-  // Straight lines between the ends: libcdpr does not give the shape of a sagging cable.
+  // Each cable as it hangs, in 20 straight pieces.
   void publish_cables(const PoseStamped & pose)
   {
     Marker marker;
@@ -125,16 +127,18 @@ private:
     marker.color.g = 0.4F;
     marker.color.b = 0.7F;
     marker.color.a = 1.0F;
-    for (const cdpr_ros::Point & end : robot_.lines(estimate_.pose)) {
+    if (!robot_.lines(20, lines_)) {
+      RCLCPP_WARN_THROTTLE(get_logger(), *get_clock(), 1000, "cables: %s", robot_.message().c_str());
+      return;
+    }
+    for (const cdpr_ros::Point & end : lines_) {
       geometry_msgs::msg::Point point;
       point.x = end[0];
       point.y = end[1];
       point.z = end[2];
       marker.points.push_back(point);
     }
-    if (!marker.points.empty()) {
-      cables_->publish(marker);
-    }
+    cables_->publish(marker);
   }
 
   void on_pose(const PoseStamped & message)
@@ -164,6 +168,7 @@ private:
   CdprPose start_{};
   CdprLoad load_{};
   std::vector<double> ordered_;
+  std::vector<cdpr_ros::Point> lines_;
   cdpr_ros::Estimate estimate_{};
   cdpr_ros::SetPoint set_point_{};
   tf2_ros::TransformBroadcaster transforms_;

@@ -1,6 +1,6 @@
 //! The force of one cable alone between its two points, and the plane that it hangs in.
 
-use crate::equations::spanned::{SpannedCable, end};
+use crate::equations::spanned::{SpannedCable, azimuth, end};
 use crate::problem::DirectProblem;
 use crate::state::Equilibrium;
 use cdpr_cable::{CableError, Catenary, spatial_end_force};
@@ -36,7 +36,7 @@ impl<'a> DirectProblem<'a> {
 
 /// Azimuth of the plane that a cable hangs in, and its unstrained length beyond the leave point [m].
 pub(crate) fn guided_place(robot: &Robot, pose: &Pose, i: usize, catenary: Catenary) -> ([f64; 2], f64) {
-    let azimuth = SpannedCable::of(robot, pose, i, &catenary).span.plane.azimuth;
+    let azimuth = azimuth(robot, pose, i, &catenary);
     let cable = catenary.cable.turned(azimuth);
     (azimuth, Catenary { cable, ..catenary }.free_length())
 }
@@ -47,8 +47,7 @@ pub(crate) fn in_its_plane<'a>(robot: &Robot, pose: &Pose, i: usize, catenary: C
     if !catenary.cable.leaves_its_plane() {
         return catenary;
     }
-    let plane = SpannedCable::of(robot, pose, i, &catenary).span.plane;
-    Catenary { cable: catenary.cable.turned(plane.azimuth), ..catenary }
+    Catenary { cable: catenary.cable.turned(azimuth(robot, pose, i, &catenary)), ..catenary }
 }
 
 impl Equilibrium {

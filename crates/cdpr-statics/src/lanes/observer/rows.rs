@@ -222,7 +222,7 @@ impl<'a, S: Simd> Rows<'a, S> {
                     }
                     _ => upright = upright & vertical,
                 }
-                start.robots.cables[i].guided = Some(Box::new(Guided::new(guide)));
+                start.robots.cables[i].guided = Some(Guided::new(guide));
             }
         }
         start.multipliers = constrain(robot.freedoms(), start.multipliers);

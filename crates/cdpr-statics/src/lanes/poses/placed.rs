@@ -137,7 +137,7 @@ impl<'a> PlacedRobot<'a> {
                 anchor_arm: rotated(&frame, &point(cable.anchor_point)),
                 length: all(0.0),
                 force: [all(0.0); 2],
-                guided: guide.map(|guide| Box::new(Guided::new(guide))),
+                guided: guide.map(Guided::new),
             });
         }
         (robots, frame)

@@ -2,7 +2,7 @@
 
 use crate::program::answer::{self, Borne, Neutral, OutOfLimits, Residual, bound_name};
 use crate::program::arguments::poses::{COLUMNS, pose_numbers};
-use crate::program::arguments::{FreeArguments, With, with};
+use crate::program::arguments::{FreeArguments, With, number, with};
 use crate::program::error::ProgramError;
 use crate::program::output::{Ending, print_sentence};
 use crate::program::pose::at_pose::{RobotAtPose, Row, cells, numbered};
@@ -21,7 +21,7 @@ pub(crate) struct Settings {
     #[command(flatten)]
     free: FreeArguments,
     /// path: the poses of the file are a path, along which lengths change steadily; `jump` says where they
-    /// cannot. loops: with free coordinates also solutions whose cables are of any length.
+    /// cannot. change=NEWTONS: no tension of a path changes by more from one pose to the next. loops: with free coordinates also solutions whose cables are of any length.
     ///
     /// Several sets of tensions may be the best of all near them. Each pose of a path then keeps to the one of
     /// the pose before, as long as it exists between them, even where another becomes better.
@@ -32,10 +32,14 @@ pub(crate) struct Settings {
 pub(crate) fn run(Settings { at, free, with }: &Settings) -> Result<Ending, ProgramError> {
     let load = at.load.load();
     let with = with.clone().unwrap_or_default();
-    with.check(&["path", "loops"])?;
+    with.check(&["path", "change", "loops"])?;
+    let change = with.value("change", None, number)?;
     let loops = with.has("loops")?;
     if loops && free.free.is_empty() {
         return Err(ProgramError::Usage("--with loops: expected --free, too".to_owned()));
+    }
+    if change.is_some() && !with.has("path")? {
+        return Err(ProgramError::Usage("--with change: expected --with path,change=NEWTONS".to_owned()));
     }
     if with.has("path")? {
         if !free.free.is_empty() {
@@ -43,6 +47,7 @@ pub(crate) fn run(Settings { at, free, with }: &Settings) -> Result<Ending, Prog
         }
         let robot = at.robot()?;
         let mut path = InversePath::new(&robot);
+        change.map_or(Ok(()), |change| path.limit_change(change))?;
         return at.answer_in_order(&robot, |pose| {
             let found = path.solve(pose, &load)?;
             Ok(OnPath { jump: found.jump, answer: Answer::new(&robot, &load, &found.solution)? })

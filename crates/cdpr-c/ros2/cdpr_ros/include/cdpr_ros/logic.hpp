@@ -8,8 +8,6 @@
 #include <array>
 #include <cdpr.h>
 #include <cstddef>
-#include <cstdlib>
-#include <cstring>
 #include <fstream>
 #include <memory>
 #include <sstream>
@@ -21,13 +19,6 @@ namespace cdpr_ros
 {
 
 using Point = std::array<double, 3>;
-
-// Point of a cable at the base, and on the platform in its frame [m].
-struct CablePoints
-{
-  Point exit;
-  Point anchor;
-};
 
 // Where the platform is: its pose, tensions at the platform [N], and residuals.
 struct Estimate
@@ -52,58 +43,6 @@ inline CdprPose pose_of(const Point & position, const std::array<double, 4> & wx
   return {{position[0], position[1], position[2]}, {wxyz[0], wxyz[1], wxyz[2], wxyz[3]}};
 }
 
-// A point of the platform in the base frame: p + R a.
-inline Point placed(const CdprPose & pose, const Point & a)
-{
-  const double * q = pose.quaternion;
-  const Point u = {q[1], q[2], q[3]};
-  // R a = a + 2 u x (u x a + w a)
-  const auto cross = [](const Point & x, const Point & y) -> Point {
-    return {x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]};
-  };
-  Point inner = cross(u, a);
-  for (std::size_t i = 0; i < 3; i++) {
-    inner[i] += q[0] * a[i];
-  }
-  Point point = cross(u, inner);
-  for (std::size_t i = 0; i < 3; i++) {
-    point[i] = pose.position[i] + a[i] + 2.0 * point[i];
-  }
-  return point;
-}
-
-// The values of all fields `"key": [x, y, z]` of a robot file, in their order.
-inline std::vector<Point> points_of(const std::string & text, const std::string & key)
-{
-  std::vector<Point> points;
-  const std::string quoted = "\"" + key + "\"";
-  const char * const blank = " \t\r\n";
-  for (std::size_t at = text.find(quoted); at != std::string::npos; at = text.find(quoted, at)) {
-    at = text.find_first_not_of(blank, at + quoted.size());
-    if (at == std::string::npos || text[at] != ':') {
-      continue;
-    }
-    at = text.find_first_not_of(blank, at + 1);
-    if (at == std::string::npos || text[at] != '[') {
-      continue;
-    }
-    Point point{};
-    const char * next = text.c_str() + at;
-    bool complete = true;
-    for (double & value : point) {
-      char * end = nullptr;
-      value = std::strtod(next + 1, &end);
-      complete = complete && end != next + 1;
-      next = end + std::strspn(end, blank);
-      complete = complete && (*next == ',' || *next == ']');
-    }
-    if (complete && *next == ']') {
-      points.push_back(point);
-    }
-  }
-  return points;
-}
-
 // A robot with what follows its platform and what plans its lengths.
 class Robot
 {
@@ -111,7 +50,6 @@ public:
   // A robot of the library by its name, or of a file whose name ends with .json.
   bool open(const std::string & name)
   {
-    cables_.clear();
     CdprRobot * robot = nullptr;
     CdprPath * path = nullptr;
     CdprStatus status = CDPR_STATUS_OK;
@@ -125,7 +63,6 @@ public:
       }
       const std::string json = text.str();
       status = cdpr_robot_from_json(json.data(), json.size(), &robot);
-      read_points(json, cdpr_robot_cables(robot));
     } else {
       status = cdpr_robot_named(name.c_str(), &robot);
     }
@@ -141,9 +78,6 @@ public:
   std::size_t cables() const { return cdpr_robot_cables(robot_.get()); }
 
   const std::string & message() const { return message_; }
-
-  // Exit and anchor points; none for a robot of the library, whose file is not at hand.
-  const std::vector<CablePoints> & cable_points() const { return cables_; }
 
   // The values of a message in the order of the cables, which they have already where `names` is empty.
   bool ordered(
@@ -194,24 +128,34 @@ public:
     return good(status) && good(cdpr_tracker_state(tracker_.get(), &found.pose, found.tensions.data(), n));
   }
 
+  // No tension of a set-point changes by more than this from one pose to the next [N].
+  bool limit_change(double change) { return good(cdpr_path_limit_change(path_.get(), change)); }
+
   // The lengths that hold the next pose of a path under a load.
   bool set_point(const CdprPose & pose, const CdprLoad & load, SetPoint & found)
   {
     found.lengths.resize(cables());
     found.tensions.resize(cables());
     const CdprCables cables = {found.lengths.size(), found.lengths.data(), found.tensions.data()};
-    return good(cdpr_path_next(path_.get(), &pose, &load, &cables, &found.report));
+    return good(cdpr_path_next(path_.get(), &pose, &load, nullptr, &cables, &found.report));
   }
 
-  // Both ends of each cable at a pose, one pair after the other, for a list of lines.
-  std::vector<Point> lines(const CdprPose & pose) const
+  // The cables as they hang after the last estimate: both ends of each of `pieces` lines a cable.
+  bool lines(std::size_t pieces, std::vector<Point> & ends)
   {
-    std::vector<Point> ends;
-    for (const CablePoints & cable : cables_) {
-      ends.push_back(cable.exit);
-      ends.push_back(placed(pose, cable.anchor));
+    std::vector<double> values(3 * (pieces + 1));
+    ends.clear();
+    for (std::size_t i = 0; i < cables(); i++) {
+      if (!good(cdpr_tracker_shape(tracker_.get(), i, values.data(), pieces + 1))) {
+        return false;
+      }
+      for (std::size_t k = 0; k < pieces; k++) {
+        for (const std::size_t end : {k, k + 1}) {
+          ends.push_back({values[3 * end], values[3 * end + 1], values[3 * end + 2]});
+        }
+      }
     }
-    return ends;
+    return true;
   }
 
 private:
@@ -230,21 +174,9 @@ private:
 
   bool good(CdprStatus status) { return status == CDPR_STATUS_OK || failed(cdpr_message()); }
 
-  // The points of the cables, none where the file does not give both of each as three numbers.
-  void read_points(const std::string & json, std::size_t cables)
-  {
-    const std::vector<Point> exits = points_of(json, "exit_point"), anchors = points_of(json, "anchor_point");
-    if (exits.size() == cables && anchors.size() == cables) {
-      for (std::size_t i = 0; i < cables; i++) {
-        cables_.push_back({exits[i], anchors[i]});
-      }
-    }
-  }
-
   std::unique_ptr<CdprRobot, Free> robot_;
   std::unique_ptr<CdprTracker, Free> tracker_;
   std::unique_ptr<CdprPath, Free> path_;
-  std::vector<CablePoints> cables_;
   std::string message_;
 };
 
