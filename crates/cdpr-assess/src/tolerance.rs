@@ -249,16 +249,22 @@ impl<'a> Model<'a> {
             inputs,
             least_mm: 0.0,
         };
-        let unobservable = |source| AssessError::Unobservable {
-            what: "the robot whose deviations are the means of their laws".to_owned(),
-            source: Some(Box::new(source)),
+        let unobservable = |source| match source {
+            StaticsError::NoDerivative { .. } => {
+                let (field, output) = (format!("samplings.{}", sampling.name), sampling.output().noun());
+                StudyError::setting(field, output, format!("one with a known derivative: {source}")).into()
+            }
+            source => AssessError::Unobservable {
+                what: "the robot whose deviations are the means of their laws".to_owned(),
+                source: Some(Box::new(source)),
+            },
         };
         model.law = model.linear().map_err(unobservable)?;
         let least = model.law.nominal();
         model.least_mm = least;
         let parts = model.law.squares();
         for ((tolerance, _), (input, part)) in model.inputs.iter().zip(errors.inputs.iter().zip(parts)) {
-            let std = input.law.std();
+            let std = input.std();
             model.parts[*tolerance] += part * std * std;
             model.stds[*tolerance] = model.stds[*tolerance].max(std);
         }

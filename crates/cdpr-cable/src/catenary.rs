@@ -83,7 +83,9 @@ impl<'a> Catenary<'a> {
     /// Weight of the cable beyond B [N], w L without a guide.
     #[inline]
     pub fn weight(&self) -> f64 {
-        self.cable.weight_per_length * self.free_length()
+        let w = self.cable.weight_per_length;
+        // A slack cable without weight has no leave point.
+        if w == 0.0 { 0.0 } else { w * self.free_length() }
     }
 
     /// Unstrained length beyond the exit point or, with a pulley, beyond the leave point [m].

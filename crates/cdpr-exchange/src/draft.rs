@@ -321,11 +321,13 @@ impl Draft {
 
 fn robot_cable(cable: DraftCable, limits: TensionLimits, options: &ImportOptions) -> RobotCable {
     let own = |value: Option<f64>, common: f64| value.filter(|value| *value != common);
+    let of_file = options.cable.is_none() && cable.properties.is_some();
     let chosen = options.cable.as_ref().map(|cable| cable.properties.clone());
     let mut properties =
         chosen.or(cable.properties).unwrap_or_else(|| CableProperties::linear(0.0, 0.0, 0.0));
-    // The stiffness is the file's; section and density are the cable's that is given.
-    if let Some(stiffness) = cable.stiffness {
+    // The stiffness is the file's; section and density are the cable's that is given. A cable of the file has it
+    // in its modulus.
+    if let Some(stiffness) = cable.stiffness.filter(|_| !of_file) {
         properties.youngs_modulus = stiffness / properties.section;
     }
     RobotCable {

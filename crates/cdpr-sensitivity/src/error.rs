@@ -143,6 +143,32 @@ pub enum SensitivityError {
         /// Iterations made.
         iterations: usize,
     },
+    /// Bounds from derivatives and the law of an input, whose values have another variance.
+    #[error(
+        "input `{input}` has steps that change its variance: bounds from derivatives need one that changes \
+         continuously"
+    )]
+    Stepped {
+        /// Name of the input.
+        input: String,
+    },
+    /// Observations failed, so that the inputs of the others no longer have their laws.
+    #[error("{failed} of {count} observations failed: bounds from derivatives need all of them")]
+    Failed {
+        /// Observations that failed.
+        failed: usize,
+        /// All observations.
+        count: usize,
+    },
+    /// Upper bounds of total shares that cannot be true.
+    #[error(
+        "the upper bounds of all total shares add up to {sum:.3e}, less than 1: the output jumps, or its changes \
+         are rounding"
+    )]
+    Jumps {
+        /// Their sum.
+        sum: f64,
+    },
     /// The eigenvalues of a matrix of mean products of slopes were not found. Slopes whose squares overflow
     /// have none.
     #[error("no eigenvalues of a matrix of {rows} rows were found: expected slopes whose squares are finite")]

@@ -152,3 +152,17 @@ fn a_pose_that_is_held_upside_down_alone_is_refused() {
         assert_eq!(error, only);
     }
 }
+
+/// A cable without weight that carries nothing is slack, over a pulley, too.
+#[test]
+fn a_slack_cable_of_three_carries_nothing_at_its_exit() {
+    let mut robot = grab();
+    robot.cables.remove(2);
+    let lengths = [1.4099167065036977, 1.2698086609156398, 1.3544342314307407];
+    let pose = cdpr_robot::Pose::at(1.29, -0.11, 0.0);
+    let start = cdpr_statics::DirectStart::Pose(&pose);
+    let found = cdpr_statics::direct(&robot, &lengths, &cdpr_statics::Load::none(), start).unwrap();
+    assert_eq!(found.report.slack_cables, [0]);
+    let exits = found.equilibrium.exit_tensions(&robot, &lengths);
+    assert!(exits[0] == 0.0 && exits[1] > 1.0 && exits[2] > 1.0, "{exits:?}");
+}

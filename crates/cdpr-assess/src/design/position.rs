@@ -117,7 +117,7 @@ fn squares(errors: &ErrorModel, slopes: &Matrix3xX<f64>) -> Matrix3<f64> {
     let row = |axis| errors.gradient(&slopes.row(axis).iter().copied().collect::<Vec<_>>());
     let rows = [row(0), row(1), row(2)];
     let cause = |(j, input): (usize, &cdpr_sensitivity::Input)| {
-        let g = Vector3::new(rows[0][j], rows[1][j], rows[2][j]) * input.law.std();
+        let g = Vector3::new(rows[0][j], rows[1][j], rows[2][j]) * input.std();
         g * g.transpose()
     };
     errors.inputs.iter().enumerate().map(cause).sum()

@@ -93,7 +93,7 @@ impl<'a> Catenary<'a> {
         let end = free.end_position();
         if self.cable.weight_per_length == 0.0 {
             0.0
-        } else if end.x > 0.0 {
+        } else if end.x > f64::EPSILON * end.norm() {
             let point = free.parallel_point(end);
             (point.x / end.x * end.y - point.y).max(0.0)
         } else {
@@ -200,6 +200,16 @@ mod tests {
         let mean = (along + (length - free) * catenary.exit_tension()) / length;
         assert_relative_eq!(catenary.mean_tension(), mean, max_relative = 1e-3);
         assert!(catenary.mean_tension() > catenary.tension(FromLeavePoint(0.5 * free)) * 1.01);
+    }
+
+    #[test]
+    fn a_taut_vertical_cable_has_no_sag_whichever_way_it_is_found() {
+        for z in [-10.0, 10.0] {
+            let end = Vector2::new(0.0, z);
+            let by_tension = crate::length_for_tension(&CABLE, end, 60.0).unwrap().catenary;
+            let by_length = hanging(by_tension.unstrained_length, 0.0, z);
+            assert_eq!([by_tension.vertical_sag(), by_length.vertical_sag()].map(|sag| sag < 1e-12), [true; 2]);
+        }
     }
 
     #[test]

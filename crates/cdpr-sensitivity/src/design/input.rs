@@ -121,6 +121,41 @@ impl Input {
         Some(highest - lowest + 1.0)
     }
 
+    /// Mean of its values, steps included.
+    #[must_use]
+    pub fn mean(&self) -> f64 {
+        self.weighted_levels().map_or_else(|| self.law.mean(), |levels| moments(&levels).0)
+    }
+
+    /// Standard deviation of its values, steps included.
+    #[must_use]
+    pub fn std(&self) -> f64 {
+        self.weighted_levels().map_or_else(|| self.law.std(), |levels| moments(&levels).1.sqrt())
+    }
+
+    /// Ratio of its standard deviation to that of its law without steps.
+    fn stretch(&self) -> f64 {
+        if self.steps.is_some() { self.std() / self.law.std() } else { 1.0 }
+    }
+
+    /// Whether its steps are so long that no continuous law stands for its values: by their variance.
+    pub(crate) fn is_coarse(&self) -> bool {
+        const MOST: f64 = 0.01;
+        (self.stretch().powi(2) - 1.0).abs() > MOST
+    }
+
+    /// The law without steps, of a uniform or normal one with the variance that the steps have.
+    pub(crate) fn smooth_law(&self) -> Law {
+        match self.law {
+            Law::Uniform { min, max } if self.steps.is_some() => {
+                let (middle, half) = (0.5 * (min + max), 0.5 * (max - min) * self.stretch());
+                Law::Uniform { min: middle - half, max: middle + half }
+            }
+            Law::Normal { mean, std } => Law::Normal { mean, std: std * self.stretch() },
+            law => law,
+        }
+    }
+
     /// Levels of a stepped input and their probabilities. A continuous input has `None`, and so has one with
     /// more than 2^16 levels that are likely to occur: its steps are negligible.
     pub(crate) fn weighted_levels(&self) -> Option<Vec<(f64, f64)>> {
@@ -210,4 +245,12 @@ mod tests {
         }
         assert!(super::round(f64::NAN).is_nan());
     }
+}
+
+/// Mean and variance of levels with these weights.
+fn moments(levels: &[(f64, f64)]) -> (f64, f64) {
+    let all: f64 = levels.iter().map(|(_, weight)| weight).sum();
+    let mean = levels.iter().map(|(level, weight)| weight * level).sum::<f64>() / all;
+    let variance = levels.iter().map(|(level, weight)| weight * (level - mean).powi(2)).sum::<f64>() / all;
+    (mean, variance)
 }

@@ -33,7 +33,10 @@
 //!   (Br4) counts only where [`DerivativeMeasure::reliable`] is true. (Br5), which has no derivative with
 //!   respect to `x_i`, bounds the others.
 //!
-//! The steps of an input are disregarded, as in [`crate::measure::dgsm`]. No unit.
+//! The bounds are those of a continuous output and of independent inputs with the laws that they are given.
+//! They are refused where an observation failed, because the inputs of the others have other laws; where steps
+//! change the variance of an input by more than 1 % (shorter ones count as a wider law); and where the upper bounds of all inputs add up to less than 1, because
+//! total indices do not: the output jumps, and its derivatives do not see it. No unit.
 
 use std::f64::consts::{PI, SQRT_2};
 
@@ -80,7 +83,9 @@ const GROUPS: usize = 20;
 /// jackknife.
 ///
 /// # Errors
-/// As [`crate::dgsm`], and [`SensitivityError::OutOfRange`] for fewer than 40 observations with slopes.
+/// As [`crate::dgsm`]; [`SensitivityError::OutOfRange`] for fewer than 40 observations;
+/// [`SensitivityError::Failed`], [`SensitivityError::Stepped`] and [`SensitivityError::Jumps`] where the bounds
+/// do not hold.
 pub fn brackets<D: IndependentSample>(
     design: &D,
     slopes: &[Option<Slopes>],
@@ -90,6 +95,13 @@ pub fn brackets<D: IndependentSample>(
     check_level(level)?;
     checked(design, slopes)?;
     let inputs = design.inputs();
+    let failed = slopes.iter().filter(|slopes| slopes.is_none()).count();
+    if failed > 0 {
+        return Err(SensitivityError::Failed { failed, count: slopes.len() });
+    }
+    if let Some(input) = inputs.iter().find(|input| input.is_coarse()) {
+        return Err(SensitivityError::Stepped { input: input.name.clone() });
+    }
     let (mut rows, mut observed) = (Vec::new(), Vec::new());
     for (index, slopes) in slopes.iter().enumerate().filter_map(|(i, slopes)| Some((i, slopes.as_ref()?))) {
         let mut row = vec![0.0; inputs.len()];
@@ -145,7 +157,12 @@ pub fn brackets<D: IndependentSample>(
             total_upper: Estimate { value: share(upper.value), low: upper.low, high: upper.high.min(1.0) },
         })
     };
-    inputs.iter().enumerate().map(bracket).collect()
+    let found: Vec<Bracket> = inputs.iter().enumerate().map(bracket).collect::<Result<_, _>>()?;
+    let sum: f64 = found.iter().map(|of| of.total_upper.high).sum();
+    if sum < 1.0 - f64::EPSILON.sqrt() {
+        return Err(SensitivityError::Jumps { sum });
+    }
+    Ok(found)
 }
 
 /// Bounds of one input as shares of the variance.
@@ -184,7 +201,7 @@ enum Basis {
 
 impl Column {
     fn new(input: &Input, values: &[f64], slopes: Vec<f64>) -> Self {
-        let law = input.law;
+        let law = input.smooth_law();
         let mean = law.mean();
         let basis = match law {
             Law::Uniform { min, max } => {

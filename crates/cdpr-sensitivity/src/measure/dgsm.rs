@@ -14,8 +14,8 @@
 //!
 //! I. M. Sobol', S. Kucherenko, *Derivative based global sensitivity measures and their link with global
 //! sensitivity indices*, Math. Comput. Simul. 79 (2009). The constants are the best ones
-//! ([`crate::measure::poincare`]). The steps of an input are disregarded: C is the constant of the continuous
-//! law.
+//! ([`crate::measure::poincare`]). Short steps of an input count as a wider law; where
+//! they change its variance by more than 1 %, there is no bound.
 
 use serde::{Deserialize, Serialize};
 
@@ -117,7 +117,7 @@ pub fn dgsm<D: IndependentSample>(
         Ok(DerivativeMeasure {
             input: input.name.clone(),
             mean_square,
-            total_bound: poincare_constant(&input.law).map(bound).transpose()?,
+            total_bound: constant(input).map(bound).transpose()?,
             reliable: DerivativeMeasure::is_reliable(&squares),
         })
     };
@@ -127,6 +127,11 @@ pub fn dgsm<D: IndependentSample>(
         variance,
         inputs: inputs.iter().enumerate().map(measure).collect::<Result<_, _>>()?,
     })
+}
+
+/// The constant of Poincaré's inequality for the values of an input: none where steps change its variance.
+fn constant(input: &Input) -> Option<f64> {
+    if input.is_coarse() { None } else { poincare_constant(&input.smooth_law()) }
 }
 
 /// Checks that there is one element per row, with one finite derivative per input.

@@ -26,7 +26,7 @@
 //!   result. Derivatives then do not pay, such as at a kink, or where terms are missing whose slopes are
 //!   steep.
 //!
-//! The steps of an input are disregarded in τ and in the derivatives, as in [`crate::measure::dgsm`].
+//! The steps of an input are disregarded in τ and in the derivatives.
 
 use crate::design::IndependentSample;
 use crate::design::input::Input;

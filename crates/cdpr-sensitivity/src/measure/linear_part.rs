@@ -11,7 +11,8 @@ const LEAST_BLOCKS: usize = 2 * 16 * SaltelliDesign::REPLICATES;
 
 /// Slopes of the estimate and of each replicate, for each component of the output.
 pub(crate) struct Lines {
-    /// None where nothing is separated: of a plain sequence, of groups, and of few blocks.
+    /// None where nothing is separated: of a plain sequence, of groups, of few blocks, and where observations
+    /// failed.
     known: Option<Known>,
 }
 
@@ -43,10 +44,12 @@ impl Lines {
         let k = inputs.len();
         let is_single = design.groups().len() == k
             && design.groups().iter().enumerate().all(|(i, group)| group.inputs == [i]);
-        if !design.is_scrambled() || !is_single || count < LEAST_BLOCKS {
+        // Where observations fail, the inputs of the others no longer have their laws.
+        let failed = components.iter().any(|outputs| outputs.iter().any(Option::is_none));
+        if !design.is_scrambled() || !is_single || count < LEAST_BLOCKS || failed {
             return Ok(Self { known: None });
         }
-        let means: Vec<f64> = inputs.iter().map(mean).collect();
+        let means: Vec<f64> = inputs.iter().map(Input::mean).collect();
         let mut points = vec![0.0; 2 * k * count];
         for (number, ends) in points.chunks_exact_mut(2 * k).enumerate() {
             let (a, b) = ends.split_at_mut(k);
@@ -77,7 +80,7 @@ impl Lines {
             components.iter().map(of_component).collect()
         };
         let slopes = (0..=SaltelliDesign::REPLICATES).map(of_unit).collect();
-        let variances = inputs.iter().map(variance).collect();
+        let variances = inputs.iter().map(|input| input.std().powi(2)).collect();
         Ok(Self { known: Some(Known { points, variances, slopes, units }) })
     }
 
@@ -104,21 +107,4 @@ impl Line<'_> {
     pub(crate) fn variance(&self, input: usize) -> f64 {
         self.slopes[input] * self.slopes[input] * self.variances[input]
     }
-}
-
-/// Mean of an input with its steps.
-fn mean(input: &Input) -> f64 {
-    input.weighted_levels().map_or_else(|| input.law.mean(), |levels| moments(&levels).0)
-}
-
-/// Variance of an input with its steps.
-fn variance(input: &Input) -> f64 {
-    input.weighted_levels().map_or_else(|| input.law.std().powi(2), |levels| moments(&levels).1)
-}
-
-fn moments(levels: &[(f64, f64)]) -> (f64, f64) {
-    let all: f64 = levels.iter().map(|(_, weight)| weight).sum();
-    let mean = levels.iter().map(|(level, weight)| weight * level).sum::<f64>() / all;
-    let variance = levels.iter().map(|(level, weight)| weight * (level - mean).powi(2)).sum::<f64>() / all;
-    (mean, variance)
 }

@@ -14,12 +14,13 @@
 //!
 //! The intervals are the quantiles of a bootstrap of the gradients: P. Constantine, D. Gleich, *Computing
 //! active subspaces with Monte Carlo* (2015). The directions have no unit, the eigenvalues the square of that
-//! of the output. The steps of an input are disregarded, as in [`crate::measure::dgsm`].
+//! of the output. Steps count in the deviation of an input.
 
 use rand::RngExt;
 use serde::{Deserialize, Serialize};
 
 use crate::design::IndependentSample;
+use crate::design::input::Input;
 use crate::error::{SensitivityError, check_level, check_range, require};
 use crate::measure::dgsm::{Slopes, checked};
 use crate::measure::linear_algebra::symmetric_eigen;
@@ -79,7 +80,7 @@ pub fn active_subspace<D: IndependentSample>(
     check_level(level)?;
     check_range("resamples", bootstrap.resamples as u64, 2, u64::MAX)?;
     checked(design, slopes)?;
-    let stds: Vec<f64> = design.inputs().iter().map(|input| input.law.std()).collect();
+    let stds: Vec<f64> = design.inputs().iter().map(Input::std).collect();
     let scaled = |of: &Slopes| of.gradient.iter().zip(&stds).map(|(slope, std)| slope * std).collect();
     let gradients: Vec<Vec<f64>> = slopes.iter().flatten().map(scaled).collect();
     let n = gradients.len();

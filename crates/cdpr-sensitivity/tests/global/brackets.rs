@@ -2,7 +2,8 @@
 
 use crate::global::functions::{self, Function};
 use cdpr_sensitivity::{
-    Bracket, IndependentSample, Input, Law, RandomDesign, Slopes, SobolDesign, brackets, dgsm,
+    Bootstrap, Bracket, IndependentSample, Input, Law, Order, RandomDesign, SaltelliDesign, SampleDesign,
+    SensitivityError, Slopes, SobolDesign, Steps, brackets, dgsm, sobol_indices,
 };
 
 /// Outputs with central differences.
@@ -179,4 +180,64 @@ fn few_rows_and_constant_outputs_are_refused() {
     assert!(found.unwrap_err().to_string().contains("expected at least 40"));
     let design = RandomDesign::new(functions::linear().inputs, 50, 1).unwrap();
     assert!(brackets(&design, &slopes(&design, &|_: &[f64]| 1.0), 0.95, 1).is_err());
+}
+
+/// Where the bounds would not hold they are refused: failed rows, an output that jumps, coarse steps.
+#[test]
+fn bounds_that_do_not_hold_are_refused() {
+    let inputs = || {
+        let law = Law::Uniform { min: -1.0, max: 1.0 };
+        vec![Input::continuous("a", law), Input::continuous("b", law)]
+    };
+    let design = SobolDesign::scrambled(inputs(), 256, 1).unwrap();
+    let mut failing = slopes(&design, &|x: &[f64]| x[0] + 0.1 * x[1]);
+    failing[7] = None;
+    let found = brackets(&design, &failing, 0.95, 1);
+    assert_eq!(found, Err(SensitivityError::Failed { failed: 1, count: 256 }));
+    let jumping = slopes(&design, &|x: &[f64]| if x[0] > 0.3 { 1.0 } else { 0.0 } + 1e-3 * x[1]);
+    let found = brackets(&design, &jumping, 0.95, 1);
+    assert!(matches!(found, Err(SensitivityError::Jumps { sum }) if sum < 0.01), "{found:?}");
+    let stepped = |step: f64| {
+        let law = Law::Uniform { min: -1.5, max: 1.5 };
+        let coarse = Input::stepped("a", law, Steps::Nearest { step });
+        let design = SobolDesign::scrambled(vec![coarse, Input::continuous("b", law)], 256, 1).unwrap();
+        brackets(&design, &slopes(&design, &|x: &[f64]| x[0] + x[1]), 0.95, 1)
+    };
+    assert_eq!(stepped(1.5), Err(SensitivityError::Stepped { input: "a".to_owned() }));
+    // Short steps count as a wider law: 3 levels in 0.1 are 31, of 1.0022 times the variance.
+    let fine = stepped(0.1).unwrap();
+    let levels = Input::stepped("a", Law::Uniform { min: -1.5, max: 1.5 }, Steps::Nearest { step: 0.1 });
+    let share = levels.std().powi(2) / (levels.std().powi(2) + 0.75);
+    assert!((share - 0.5).abs() > 5e-4, "{share}");
+    assert!(fine[0].total_lower.low <= share && share <= fine[0].total_upper.high, "{fine:?} {share}");
+}
+
+#[test]
+fn steps_count_in_the_moments_of_an_input() {
+    let law = Law::Uniform { min: -1.5, max: 1.5 };
+    let of = |steps| Input::stepped("a", law, steps);
+    // -1.5, 0 and 1.5 with 1/4, 1/2, 1/4, and with 1/3 each.
+    assert!((of(Steps::Nearest { step: 1.5 }).std().powi(2) - 1.125).abs() < 1e-12);
+    assert!((of(Steps::EqualMass { step: 1.5 }).std().powi(2) - 1.5).abs() < 1e-12);
+    assert_eq!((Input::continuous("a", law).std(), of(Steps::Nearest { step: 1.5 }).mean()), (law.std(), 0.0));
+}
+
+/// Rows fail where `a` is negative: the others are half as wide in `a`, and its index is that of these.
+#[test]
+fn indices_of_rows_that_do_not_fail_are_those_of_their_laws() {
+    let law = Law::Uniform { min: -1.0, max: 1.0 };
+    let inputs = vec![Input::continuous("a", law), Input::continuous("b", law)];
+    let design = SaltelliDesign::scrambled(inputs, 1024, Order::First, 3).unwrap();
+    let mut row = [0.0; 2];
+    let outputs: Vec<Option<f64>> = (0..design.points())
+        .map(|index| {
+            design.row(index, &mut row).unwrap();
+            (row[0] > 0.0).then(|| row[0] + row[1])
+        })
+        .collect();
+    let bootstrap = Bootstrap { resamples: 200, seed: 1 };
+    let found = sobol_indices(&design, &outputs, bootstrap, 0.95).unwrap().inputs;
+    // Variances 1/12 and 1/3.
+    assert!((found[0].total.value - 0.2).abs() < 0.03, "{:?}", found[0].total);
+    assert!((found[1].total.value - 0.8).abs() < 0.05, "{:?}", found[1].total);
 }

@@ -89,7 +89,7 @@ fn t_student(run: &Run, found: &mut Found) -> Result<Option<MethodSummary>, Box<
 fn nominal_derivatives(run: &Run, found: &mut Found) -> Result<Option<MethodSummary>, Box<dyn Error>> {
     let nominal = run.slopes(&vec![0.0; run.inputs().len()]);
     let slopes = nominal.into_iter().next().transpose()?.ok_or("there is no nominal robot")?;
-    let part = |(slope, input): (&f64, &Input)| (slope * input.law.std()).powi(2);
+    let part = |(slope, input): (&f64, &Input)| (slope * input.std()).powi(2);
     let parts: Vec<f64> = slopes.gradient.iter().zip(run.inputs()).map(part).collect();
     let variance: f64 = parts.iter().sum();
     if !(variance.is_finite() && variance > 0.0) {

@@ -2,6 +2,7 @@
 //! and what would settle the others. The program, the report and `summary.json` have these words.
 
 pub(crate) mod recommendation;
+mod remedy;
 
 use crate::analysis::linear_law::little_explained;
 use crate::analysis::values::ValueSummary;

@@ -335,7 +335,7 @@ impl ErrorModel {
     /// to first order.
     pub fn variances(&self, slopes: &[f64]) -> Vec<f64> {
         let each = self.gradient(slopes).into_iter().zip(&self.inputs);
-        each.map(|(slope, input)| (slope * input.law.std()).powi(2)).collect()
+        each.map(|(slope, input)| (slope * input.std()).powi(2)).collect()
     }
 
     /// Whether tension set-points deviate.

@@ -7,8 +7,10 @@
 //! min Σ (T_k - T0_k g(θ_k, s_k; μ, c))²,    J = U diag(a1, a2) Vᵀ,    covariance σ² V diag(1/a²) Vᵀ   (F5)
 //! ```
 //!
-//! To second order in μ θ and c, both effects are `g = 1 + s x + x²/2` with `x = μ θ + 2 c sin(θ/2)`.
-//! Readings at one wrap identify x alone; μ and c are identified by how θ/sin(θ/2) differs between wraps.
+//! To first order in μ θ and c, both effects are `g = 1 + s x` with `x = μ θ + 2 c sin(θ/2)`. Readings at one
+//! wrap identify x alone; μ and c are identified by how θ/sin(θ/2) differs between wraps. What terms of the
+//! second order tell, (a² + ab + b²)/2 with both parts a and b of x, does not count: they are those of this
+//! law of friction alone.
 
 use super::wheel::PulleyFriction;
 use crate::error::StaticsError;
@@ -51,8 +53,8 @@ pub struct FrictionFit {
     pub singular_values: [f64; 2],
 }
 
-/// Ratio of the singular values below which μ and c differ by no more than terms of the third order, in which
-/// one law of friction is as good as the other.
+/// Ratio of the singular values below which μ and c differ by no more than terms in which one law of friction
+/// is as good as another.
 pub(super) const SEPARABLE: f64 = 0.01;
 
 /// Standard deviation beyond which a coefficient is not identified: that of a pulley is hardly greater.

@@ -28,12 +28,6 @@ use serde::{Deserialize, Serialize};
 /// Share of the variance from which on an input matters.
 pub const MATTERS: f64 = 0.01;
 
-/// How many times as many points are tried first where few of them decide a bound.
-const TRIED: f64 = 4.0;
-
-/// Most points or blocks that a remedy names.
-const MOST: f64 = (1 << 20) as f64;
-
 /// What a recommendation rests on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -155,38 +149,32 @@ pub(crate) fn recommend(
         let is_order = matches!(of.said, Said::Values(_));
         (!is_certain, settled == 0, !is_order, std::cmp::Reverse(settled), of.basis)
     };
+    // Polynomials of inputs that no longer have their laws, because observations failed, have no shares.
+    candidates.retain(|of| of.basis != Basis::Expansion || of.failed == 0);
+    // Derivatives do not see the jumps of an output.
+    let refuted = candidates.iter().any(|of| of.basis == Basis::Sobol && of.contradicts(&candidates));
+    candidates.retain(|of| of.basis != Basis::Derivatives || !refuted);
     candidates.sort_by_key(rank);
-    // Where points of derivatives cannot settle the others, blocks may.
-    let of_blocks = candidates.iter().find(|of| of.basis == Basis::Sobol).and_then(Candidate::remedy);
+    // Where points of derivatives cannot settle the others, blocks may, and where nothing is bounded.
+    let of_blocks =
+        candidates.iter().find(|of| of.basis == Basis::Sobol).and_then(|blocks| blocks.remedy(names));
     let first = candidates.into_iter().next()?;
-    let remedy = of_blocks.filter(|_| first.basis == Basis::Derivatives && first.wanted().is_none());
+    let is_left = match first.said {
+        Said::Bounds(_) => first.basis == Basis::Derivatives && first.wanted().is_none(),
+        Said::Values(_) => true,
+    };
     let found = first.recommendation(names, confidence);
-    Some(Recommendation { remedy: remedy.or(found.remedy), ..found })
+    Some(Recommendation { remedy: of_blocks.filter(|_| is_left).or(found.remedy), ..found })
 }
 
 impl TotalBounds {
-    fn standing(&self) -> Standing {
+    pub(crate) fn standing(&self) -> Standing {
         if self.low > MATTERS {
             Standing::Matters
         } else if self.high < MATTERS {
             Standing::Negligible
         } else {
             Standing::Open
-        }
-    }
-
-    /// How many times as many points or blocks put the bounds on one side of [`MATTERS`]; their
-    /// distance from the estimates falls with the root of the number. `None` where the estimates are on both
-    /// sides.
-    fn growth(&self) -> Option<f64> {
-        if self.few {
-            Some(TRIED)
-        } else if self.at_least > MATTERS {
-            Some(((self.at_least - self.low) / (self.at_least - MATTERS)).powi(2))
-        } else if self.at_most < MATTERS {
-            Some(((self.high - self.at_most) / (MATTERS - self.at_most)).powi(2))
-        } else {
-            None
         }
     }
 }
@@ -212,8 +200,17 @@ impl Candidate {
         }
     }
 
+    /// Whether its bounds and those of derivatives exclude each other for some input.
+    fn contradicts(&self, others: &[Self]) -> bool {
+        let Said::Bounds(own) = &self.said else { return false };
+        others.iter().filter(|of| of.basis == Basis::Derivatives).any(|of| match &of.said {
+            Said::Bounds(bounds) => own.iter().zip(bounds).any(|(a, b)| a.low > b.high || a.high < b.low),
+            Said::Values(_) => false,
+        })
+    }
+
     fn recommendation(self, names: &[String], confidence: f64) -> Recommendation {
-        let remedy = self.remedy();
+        let remedy = self.remedy(names);
         let index = |input: &String, value, [low, high]: [Option<f64>; 2], standing| RecommendedIndex {
             input: input.clone(),
             value,
@@ -258,49 +255,6 @@ impl Candidate {
             explained: None,
         }
     }
-
-    /// How many points or blocks settle the inputs that are open, if any number does.
-    fn wanted(&self) -> Option<usize> {
-        let Said::Bounds(bounds) = &self.said else { return None };
-        let open = bounds.iter().filter(|of| of.standing() == Standing::Open);
-        let growth: Option<Vec<f64>> = open.map(TotalBounds::growth).collect();
-        let times = growth?.into_iter().fold(1.0, f64::max);
-        let wanted = (self.count as f64 * times).min(2.0 * MOST).ceil() as usize;
-        Some(wanted.next_power_of_two()).filter(|count| *count as f64 <= MOST)
-    }
-
-    /// What settles the inputs that are open.
-    fn remedy(&self) -> Option<String> {
-        let Said::Bounds(bounds) = &self.said else {
-            let field = "`sensitivity.saltelli_blocks`";
-            return (self.basis != Basis::Shapley)
-                .then(|| format!("Bounds need independent inputs and {field} of 64 or more."));
-        };
-        if bounds.iter().all(|of| of.standing() != Standing::Open) {
-            return None;
-        }
-        let more = |count: usize| count.saturating_sub(self.count) * self.observations;
-        Some(match (self.basis, self.wanted()) {
-            (Basis::Derivatives, Some(count)) => format!(
-                "To settle it: about {} more points with derivatives \
-                 (`sensitivity.derivative_points`: {count}).",
-                more(count)
-            ),
-            (Basis::Sobol, Some(count)) => format!(
-                "To settle it: about {} more observations (`sensitivity.saltelli_blocks`: {count}).",
-                more(count)
-            ),
-            (Basis::Derivatives, None) => {
-                "To settle it: Sobol' indices (`sensitivity.saltelli_blocks`), as derivatives alone cannot."
-                    .to_owned()
-            }
-            (Basis::Expansion, _) => format!(
-                "To settle it: more observations than {} (`sensitivity.observations`), or Sobol' indices.",
-                self.count
-            ),
-            _ => format!("Its share is so near {} % that no study settles it.", 100.0 * MATTERS),
-        })
-    }
 }
 
 #[cfg(test)]
@@ -342,7 +296,7 @@ mod tests {
         assert!(remedy.contains("about 1560 more observations") && remedy.contains(": 256"), "{remedy}");
         let near = vec![bounds(0.005, 0.01 + 1e-9, 0.01 + 1e-9, 0.04)];
         let near = recommend(&names(1), vec![candidate(Basis::Sobol, 100, near)], 0.95).unwrap();
-        assert!(near.remedy.unwrap().contains("no study settles it"));
+        assert_eq!(near.remedy.unwrap(), "The share of x0 is so near 1 % that no study settles it.");
     }
 
     #[test]

@@ -75,6 +75,14 @@ impl Study {
                 self.check_diameters(&field, quantity)?;
             }
         }
+        // A base that is tilted by its gravity has no heights along z.
+        let profiled = self.file.weather.as_ref().is_some_and(|spec| spec.wind_profile.is_some());
+        let tilts = |entry: &&String| entry.starts_with("gravity") && *entry != "gravity.z";
+        if let Some(entry) = errors.entries.iter().find(tilts).filter(|_| profiled) {
+            let expected = "no `wind_profile` with an uncertain direction of gravity, which tilts the base: \
+                            gravity.z alone, or a wind that is the same everywhere";
+            return Err(self.invalid(&format!("{field}.{entry}"), "given", expected));
+        }
         Ok(())
     }
 

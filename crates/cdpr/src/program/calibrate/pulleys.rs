@@ -67,8 +67,8 @@ fn print(robot: &Robot, found: &PulleyCalibration, details: bool) {
             let [one, other] = found.combination.map(|share| significant(share, 3));
             let [friction, bearing] = found.modelled_with.map(|value| significant(value, 4));
             print_sentence(&format!(
-                "{name}: {one} friction + {other} bearing = {}; these measurements identify this sum alone. \
-                 The tensions below are those of friction={friction}, bearing={bearing}.",
+                "{name}: {one} friction + {other} bearing = {}; to first order these measurements identify \
+                 this sum alone. The tensions below are those of friction={friction}, bearing={bearing}.",
                 of(&found.combined)
             ));
         }

@@ -26,6 +26,8 @@ pub(super) struct InWeather {
     /// Speed of a wind from any direction [m/s].
     #[serde(skip_serializing_if = "Option::is_none")]
     speed: Option<f64>,
+    #[serde(skip)]
+    tilted: bool,
     /// Winds that were looked at.
     directions: usize,
     /// The wind that moves the platform farthest; absent where there is no rest in any.
@@ -115,6 +117,7 @@ impl InWeather {
         let gravest = found.rests.iter().filter_map(wrong).min_by_key(|(rank, _)| *rank);
         Ok(Self {
             speed: weather.speed,
+            tilted: robot.gravity.level().is_some(),
             directions: found.rests.len() + found.failures.len(),
             farthest: found.farthest().map(OneWind::new),
             tightest: found.tightest().map(OneWind::new),
@@ -163,8 +166,11 @@ impl InWeather {
             });
             format!("Tensions in the weather reach {tension} N, in cable {cable}{}{factor}.", towards(one))
         });
+        // An azimuth without a level base has another x axis than the poses.
+        let frame = (self.tilted && self.farthest.as_ref().is_some_and(|one| one.azimuth_deg.is_some()))
+            .then(|| "Azimuths are counted from x to y of the level frame, whose z points against gravity.".to_owned());
         let below = self.below_least.as_ref().map(|what| format!("In the weather {what}."));
-        [Some(first), farthest, tightest, below].into_iter().flatten().collect()
+        [Some(first), farthest, tightest, frame, below].into_iter().flatten().collect()
     }
 
     pub(super) fn cells(&self) -> Vec<String> {
