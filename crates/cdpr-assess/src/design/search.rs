@@ -27,11 +27,11 @@
 //!
 //! with [.] the nearest point of the box, is small.
 
-use crate::design::evaluation::{Evaluation, Quantity, sense};
+use crate::design::evaluation::{Evaluation, Quantity};
 use crate::design::file::Over;
+use crate::design::goal::{Goal, sense};
 use crate::design::problem::{DesignProblem, STEP};
 use cdpr_statics::DMatrix;
-use cdpr_study::Output;
 use cdpr_tension::QuadraticProgram;
 
 /// Residual (Q3) of an optimum.
@@ -214,7 +214,7 @@ impl Search<'_> {
         let mut gradient = vec![0.0; self.values.len()];
         let slopes = here.gradient(&step).into_iter().zip(&self.bounded).map(per_value);
         self.bounded.iter().zip(slopes).for_each(|((j, _), slope)| gradient[*j] = slope);
-        let gradient_error = if self.problem.needs(Output::Position) {
+        let gradient_error = if self.problem.needs(Goal::Position) {
             let again = self.with_step(here.u.clone(), 2.0 * STEP)?;
             let pairs = here.gradient(&step).into_iter().zip(again.gradient(&step));
             Some(pairs.map(|(one, other)| (one - other).abs()).fold(0.0, f64::max))

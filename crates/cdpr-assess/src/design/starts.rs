@@ -1,7 +1,9 @@
 //! The searches of a design: from every start in every configuration.
 
-use crate::design::evaluation::{Evaluation, greatest_tension, sense};
-use crate::design::problem::{Demand, DesignProblem, STEP};
+use crate::design::demand::Demand;
+use crate::design::evaluation::{Evaluation, greatest_tension};
+use crate::design::goal::sense;
+use crate::design::problem::{DesignProblem, STEP};
 use crate::design::search::{Found, MET, Search, excess, objective};
 use cdpr_robot::{Pose, significant};
 use cdpr_sensitivity::Sobol;
@@ -87,9 +89,14 @@ fn passed(problem: &DesignProblem, values: &[f64], at: &Evaluation) -> String {
             let what = format!("at pose {} the tension of cable {}", pose + 1, cable + 1);
             words(what, limit * (1.0 + excess), limit, "N")
         }
-        Demand::Cost(limit) => {
-            let [value, limit] = [limit * (1.0 + excess), limit].map(|value| significant(value, 4));
-            format!("the cost of the cables is {value}, its limit {limit}")
+        Demand::Exit { pose, cable, limit } => {
+            let what = format!("at pose {} the exit tension of cable {}", pose + 1, cable + 1);
+            words(what, limit * (1.0 + excess), limit, "N")
+        }
+        Demand::Whole { of, limit } => {
+            let amount = |value| of.amount(&significant(value, 4));
+            let [value, limit] = [limit * (1.0 + excess), limit].map(amount);
+            format!("the {} is {value}, its limit {limit}", of.noun())
         }
         Demand::Second => "the second objective does not reach its bound".to_owned(),
     }
