@@ -306,3 +306,33 @@ fn wrong_tensions_lengths_and_costs_are_refused_with_field_value_and_what_is_rig
         "{error}"
     );
 }
+
+/// Of the page `how-to/blank-frame`: with the thickest cable the search ends next to robots that no tensions hold,
+/// where steps of differences twice as long have no values. The robot that it had found was lost.
+#[test]
+fn a_search_that_ends_next_to_robots_that_are_not_held_keeps_its_robot() {
+    let page = |name: &str| {
+        let path = format!("{}/../../docs/how-to/blank-frame/{name}", env!("CARGO_MANIFEST_DIR"));
+        std::fs::read_to_string(path).unwrap()
+    };
+    let mut file: Value = serde_json::from_str(&page("cost.json")).unwrap();
+    file["limits"] = json!({"position": 1});
+    file["starts"] = json!(1);
+    file["cables"] = json!([file["cables"][2]]);
+    let rows = page("frame.csv");
+    let cable = |row: &str| {
+        let place: Vec<f64> = row.split(',').map(|cell| cell.parse().unwrap()).collect();
+        json!({"exit_point": place[..3], "anchor_point": place[3..]})
+    };
+    let text = json!({
+        "format": "cdpr-robot/1", "name": "Frame", "gravity": 9.81,
+        "platform": {"mass": 160, "center_of_mass": [0, 0, 0]},
+        "cable": {"section": 6.688e-6, "linear_density": 0.06096, "youngs_modulus": 1e11},
+        "tension_limits": {"min": 50, "max": 3000}, "cables": rows.lines().skip(1).map(cable).collect::<Vec<_>>(),
+    });
+    let found = solve(&file, Robot::from_json(&text.to_string()).unwrap());
+    let best = found.best.unwrap_or_else(|| panic!("{:?}", found.reason));
+    // 71.47 m at 3 each before.
+    assert!(best.objective < 0.99 * 3.0 * 71.47 && best.objective > 200.0, "{best:?}");
+    assert!(best.outputs.len() == 1 && best.gradient_error.is_some());
+}

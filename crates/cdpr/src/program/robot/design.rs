@@ -82,8 +82,12 @@ fn answer_front(settings: &Settings, robot: &Robot, found: &Front) -> Result<End
 /// A front as CSV: a row for each point.
 fn print_table(found: &Front) {
     let of = |i: usize| {
-        let over = if found.over[i] == Over::Mean { "mean" } else { "worst" };
-        format!("{over}_{}", found.outputs[i].name())
+        let name = found.outputs[i].name();
+        match found.over[i] {
+            _ if found.outputs[i].is_of_all_poses() => name.to_owned(),
+            Over::Mean => format!("mean_{name}"),
+            Over::Worst => format!("worst_{name}"),
+        }
     };
     let columns = [of(0), of(1), "exchange".to_owned(), "kkt_residual".to_owned(), "optimal".to_owned()];
     let variables = found.variables.iter().map(|(name, _)| name.clone());
@@ -364,7 +368,8 @@ fn ends(found: &Design, best: &BestDesign) -> String {
 /// Whether it is an optimum, by the residual of its conditions.
 fn optimum(best: &BestDesign) -> Option<String> {
     let residual = best.kkt_residual?;
-    let by_differences = best.gradient_error.map_or_else(String::new, |error| {
+    let known = best.gradient_error.filter(|error| error.is_finite());
+    let by_differences = known.map_or_else(String::new, |error| {
         format!(", with derivatives by differences that are right to {}", significant(error, 1))
     });
     Some(match (best.optimal, best.gradient_error) {
