@@ -8,9 +8,11 @@
 //! demands.
 
 mod cables;
+mod demand;
 mod evaluation;
 mod file;
 mod front;
+mod goal;
 mod position;
 mod problem;
 mod search;
@@ -20,16 +22,18 @@ mod variable;
 use crate::error::AssessError;
 pub use cables::ChosenCable;
 use cdpr_robot::Robot;
-use cdpr_study::{Output, StudyError};
-use evaluation::sense;
+use cdpr_study::StudyError;
+use demand::Demand;
+use evaluation::Quantity;
 pub use file::{
     CableSpec, DESIGN_FORMAT, DesignFile, LimitsSpec, ObjectiveSpec, Over, ParetoSpec, VariableSpec,
     design_schema,
 };
 pub use front::{Front, FrontPoint, front};
+pub use goal::Goal;
+use goal::sense;
 use indexmap::IndexMap;
 use position::BASIS;
-use problem::Demand;
 pub use problem::DesignProblem;
 use search::{Found, MET, excess, objective};
 use serde::Serialize;
@@ -40,7 +44,7 @@ use variable::{Domain, Variable};
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Design {
     /// What is as good as possible.
-    pub output: Output,
+    pub output: Goal,
     /// Over the poses.
     pub over: Over,
     /// What a position error is and assumes, where there is one.
@@ -49,7 +53,7 @@ pub struct Design {
     /// Number of poses.
     pub poses: usize,
     /// The objective of the robot as it is, in the unit of the output; `None` where it is not held at
-    /// every pose.
+    /// every pose, and of a cost, which only the types of the file have.
     pub before: Option<f64>,
     /// Whether the robot as it is is held and meets all demands.
     pub feasible_before: bool,
@@ -72,7 +76,7 @@ pub struct Design {
 pub struct BestDesign {
     /// The objective in the unit of the output.
     pub objective: f64,
-    /// The output at each pose.
+    /// The output at each pose; a single number for a length or a cost, which are of all poses.
     pub outputs: Vec<f64>,
     /// What changed.
     pub variables: Vec<DesignedVariable>,
@@ -102,6 +106,9 @@ pub struct BestDesign {
     /// `None` where it does not keep it from being better.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cost_per_percent: Option<f64>,
+    /// The same of the limit of the length.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub length_per_percent: Option<f64>,
     /// The robot.
     #[serde(skip)]
     pub robot: Robot,
@@ -144,8 +151,8 @@ pub struct ActiveDemand {
     /// Index of the pose, from 0.
     pub pose: usize,
     /// The output that is limited; `None` for the tension of a cable.
-    pub output: Option<Output>,
-    /// Index of the cable whose greatest tension is reached, from 0.
+    pub output: Option<Goal>,
+    /// Index of the cable whose greatest tension, or limit of the exit tension, is reached, from 0.
     pub cable: Option<usize>,
     /// By how much the objective would be better if the limit were 1 % wider, to first order.
     pub per_percent: f64,
@@ -180,9 +187,12 @@ pub fn design(problem: &DesignProblem) -> Result<Design, AssessError> {
     Ok(Design {
         output: problem.output,
         over: problem.over,
-        basis: problem.needs(Output::Position).then_some(BASIS),
+        basis: problem.needs(Goal::Position).then_some(BASIS),
         poses: problem.poses.len(),
-        before: before.as_ref().map(|at| sign * objective(problem.over, &at.outputs, sign)),
+        before: before
+            .as_ref()
+            .filter(|_| problem.output != Goal::Cost)
+            .map(|at| sign * objective(problem.over, &at.outputs, sign)),
         feasible_before: before.as_ref().is_some_and(|at| excess(at) <= MET),
         configurations: searched.found.len() / each,
         starts,
@@ -231,7 +241,10 @@ fn best_design(
         }
     };
     let active = || best.active.iter().map(|(k, multiplier)| (problem.demand(*k), 0.01 * multiplier));
-    let of_cost = active().filter(|(demand, _)| matches!(demand, Demand::Cost(_))).map(|(_, gain)| gain);
+    let of_whole = |goal| {
+        let is_it = |(demand, _): &(Demand, f64)| matches!(demand, Demand::Whole { of, .. } if *of == goal);
+        active().filter(is_it).map(|(_, gain)| gain).reduce(|one, other| one + other)
+    };
     let at_pose = |(demand, per_percent): (Demand, f64)| match demand {
         Demand::Output { pose, output, .. } => {
             Some(ActiveDemand { pose, output: Some(output), cable: None, per_percent })
@@ -239,12 +252,15 @@ fn best_design(
         Demand::Tension { pose, cable } => {
             Some(ActiveDemand { pose, output: None, cable: Some(cable), per_percent })
         }
-        Demand::Cost(_) | Demand::Second => None,
+        Demand::Exit { pose, cable, .. } => {
+            Some(ActiveDemand { pose, output: Some(Goal::Tension), cable: Some(cable), per_percent })
+        }
+        Demand::Whole { .. } | Demand::Second => None,
     };
     let has_bounds = problem.bounded().next().is_some();
     Ok(BestDesign {
         objective: sign * best.objective,
-        outputs: at.outputs.iter().map(|output| output.value).collect(),
+        outputs: by_pose(&at.outputs, problem.poses.len()),
         variables: problem.of_parameters().map(variable).collect(),
         cables: problem.chosen(&best.values, &lengths),
         cable_types: Vec::new(),
@@ -254,9 +270,16 @@ fn best_design(
         gradient_error: best.gradient_error,
         optimal: best.is_optimal(),
         active: active().filter_map(at_pose).collect(),
-        cost_per_percent: of_cost.reduce(|one, other| one + other),
+        cost_per_percent: of_whole(Goal::Cost),
+        length_per_percent: of_whole(Goal::Length),
         robot,
     })
+}
+
+/// The output at each pose: the greatest, where a pose has several.
+fn by_pose(outputs: &[Quantity], poses: usize) -> Vec<f64> {
+    let greatest = |of: &[Quantity]| of.iter().map(|of| of.value).reduce(f64::max);
+    outputs.chunks((outputs.len() / poses).max(1)).filter_map(greatest).collect()
 }
 
 /// Choices of types that are listed.

@@ -37,7 +37,7 @@ pub use capacity::{Block, Capacity, Figure, WrenchSet, capacity_at};
 pub use clearance::{CableDistance, Clearance, PlatformDistance, clearance_at, clearance_under};
 pub use design::{
     ActiveDemand, BestDesign, BestOfTypes, CableSpec, ChosenCable, DESIGN_FORMAT, Design, DesignFile,
-    DesignProblem, DesignedVariable, Front, FrontPoint, LimitsSpec, ObjectiveSpec, Over, ParetoSpec,
+    DesignProblem, DesignedVariable, Front, FrontPoint, Goal, LimitsSpec, ObjectiveSpec, Over, ParetoSpec,
     VariableSpec, design, design_schema, front,
 };
 pub use error::AssessError;

@@ -244,7 +244,7 @@ fn wrong_files_are_refused_with_field_value_and_what_is_right() {
         ("/starts", json!(0), "starts is 0: expected 1 or more"),
         ("/starts", json!(100_001), "at most 100000 configurations"),
         ("/objective/output", json!("amplitude"), "objective.output is amplitude: expected deflection"),
-        ("/objective/output", json!("cost"), "unknown variant `cost`"),
+        ("/objective/output", json!("price"), "unknown variant `price`, expected one of"),
         ("/objective/over", json!("best"), "unknown variant `best`"),
         ("/limits", json!({"stiffness": -5}), "limits.stiffness is -5: expected a finite number above zero"),
         ("/goal", json!(1), "unknown field `goal`"),

@@ -6,6 +6,7 @@ mod capacity;
 mod design;
 mod design_cables;
 mod design_front;
+mod design_goals;
 mod design_known;
 mod design_position;
 mod free_workspaces;

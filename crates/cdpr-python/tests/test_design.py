@@ -90,3 +90,17 @@ def test_what_no_robot_can_do_has_a_reason_and_wrong_designs_are_refused():
         cdpr.design(mass_on_two_cables(), apart(starts=0))
     with pytest.raises(cdpr.FileError):
         cdpr.design(mass_on_two_cables(), "no-such-file.json")
+
+
+def test_the_least_tension_and_length_of_a_mass_on_two_cables_are_those_below_the_exits():
+    for output, expected in [("tension", 981 / 2 * numpy.hypot(0.5, 2) / 2), ("length", 2 * numpy.hypot(0.5, 2))]:
+        found = cdpr.design(mass_on_two_cables(), apart(objective={"output": output}))
+        assert found.optimal and found.values == [-0.5]
+        assert found.objective == pytest.approx(expected, rel=1e-6) and found.outputs.shape == (1,)
+    cable = {"section": 1e-5, "linear_density": 0.0, "youngs_modulus": 1e16}
+    types = [{"name": "dear", "cost": 3, **cable}, {"name": "cheap", "cost": 2, **cable}]
+    found = cdpr.design(mass_on_two_cables(), apart(objective={"output": "cost"}, cables=types))
+    assert found.content["best"]["cables"][0]["name"] == "cheap" and numpy.isnan(found.before)
+    assert found.objective == pytest.approx(4 * numpy.hypot(0.5, 2), rel=1e-6)
+    with pytest.raises(cdpr.InputError, match="limits.tension is 0"):
+        cdpr.design(mass_on_two_cables(), apart(limits={"tension": 0}))

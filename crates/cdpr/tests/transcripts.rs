@@ -11,7 +11,7 @@ use std::process::Command;
 use tempfile::TempDir;
 
 /// Pages with a test each, in the order of the table of contents.
-const PAGES: [&str; 16] = [
+const PAGES: [&str; 17] = [
     "tutorials/cogiro",
     "tutorials/my-robot",
     "tutorials/calibration",
@@ -23,6 +23,7 @@ const PAGES: [&str; 16] = [
     "how-to/loads",
     "how-to/broken-cable",
     "how-to/exits",
+    "how-to/blank-frame",
     "how-to/cluster",
     "how-to/figure",
     "how-to/table",
@@ -234,6 +235,12 @@ fn exits_go_where_the_load_deflects_least() {
         page.contains("best of 175\nconfigurations, all of them evaluated")
             && page.contains("a local optimum")
     );
+}
+
+#[test]
+fn an_engineer_comes_from_a_blank_frame_to_a_robot_that_keeps_a_millimetre() {
+    let page = checked("how-to/blank-frame", |_| {});
+    assert!(page.contains("The tolerances suffice: nothing has to be tightened for 95 % of the robots."));
 }
 
 #[test]

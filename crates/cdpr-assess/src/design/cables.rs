@@ -1,6 +1,7 @@
 //! The types of cable of a design: which one each group of cables has, what the cables weigh and cost.
 
 use crate::design::file::{CableSpec, DesignFile};
+use crate::design::goal::Goal;
 use crate::design::variable::{Domain, Variable, wrong};
 use cdpr_robot::{CableProperties, Robot};
 use cdpr_study::InField;
@@ -67,13 +68,16 @@ pub(crate) fn types(file: &DesignFile, robot: &Robot) -> Result<(Vec<CableType>,
         if !(limit.is_finite() && limit > 0.0) {
             return wrong("limits.cost", limit, "a finite number above zero");
         }
-        if let Some(k) = types.iter().position(|one| one.cost.is_none()) {
-            return wrong(
-                &format!("cables[{k}].cost"),
-                "missing",
-                "the cost of a metre, as `limits.cost` needs it",
-            );
-        }
+    }
+    let second = file.pareto.map(|second| second.output);
+    let needed = match (file.limits.cost, [Some(file.objective.output), second].contains(&Some(Goal::Cost))) {
+        (Some(_), _) => "`limits.cost`",
+        (None, true) => "the objective `cost`",
+        (None, false) => "",
+    };
+    if let (false, Some(k)) = (needed.is_empty(), types.iter().position(|one| one.cost.is_none())) {
+        let expected = format!("the cost of a metre, as {needed} needs it");
+        return wrong(&format!("cables[{k}].cost"), "missing", expected);
     }
     let of = |(k, cables): (usize, &Vec<usize>)| Variable {
         name: if groups.len() == 1 { "cables".to_owned() } else { format!("cables {}", k + 1) },

@@ -1,6 +1,7 @@
 //! What is observed of a robot at the poses of a design, with derivatives by the variables.
 
 use crate::design::file::Over;
+use crate::design::goal::{Goal, sense};
 use crate::design::problem::DesignProblem;
 use crate::design::variable::Variable;
 use cdpr_dynamics::{FrequencyDerivatives, Modes, Swing};
@@ -10,7 +11,6 @@ use cdpr_statics::{
     Deflection, Derivatives, DirectProblem, Load, StaticsError, WantedPose, deflection, deflection_from,
     derivatives, inverse,
 };
-use cdpr_study::Output;
 
 /// A number with its derivatives by the variables, which are empty where none were wanted.
 #[derive(Clone, Debug)]
@@ -22,13 +22,13 @@ pub(crate) struct Quantity {
 /// What is observed of a robot.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Evaluation {
-    /// The output at each pose, in its unit.
+    /// The objective in its unit: a number for each pose, one for each cable of each pose where the greatest
+    /// tension counts, or one of all poses together.
     pub(crate) outputs: Vec<Quantity>,
-    /// The output of a second objective at each pose, where there is one.
+    /// The same of a second objective, where there is one.
     pub(crate) seconds: Vec<Quantity>,
-    /// By how much a demand is passed, as a share of its limit; zero or less where it is met. Of each pose
-    /// the limits of outputs, then, under a load, the greatest tension of each cable; after all poses the
-    /// limit of the cost, then the bound of a second objective, of each pose or of the mean.
+    /// By how much a demand is passed, as a share of its limit; zero or less where it is met. Their order is
+    /// that of `design/demand.rs`.
     pub(crate) excesses: Vec<Quantity>,
     /// Greatest unstrained length of each cable over the poses [m].
     pub(crate) longest: Vec<Quantity>,
@@ -43,12 +43,14 @@ impl DesignProblem {
     pub(crate) fn evaluate(&self, values: &[f64], step: Option<f64>) -> Result<Evaluation, StaticsError> {
         let robot = self.robot_at(values)?;
         let positions =
-            if self.needs(Output::Position) { self.position_errors(values, step)? } else { Vec::new() };
+            if self.needs(Goal::Position) { self.position_errors(values, step)? } else { Vec::new() };
         let mut positions = positions.into_iter();
         let mut found = Evaluation::default();
         let none = Load::none();
         let solved = if self.free.is_empty() { inverse(&robot, &self.poses, &none) } else { Vec::new() };
         let mut solved = solved.into_iter();
+        let at_exits = (0..robot.cables.len()).any(|i| !robot.max_at(i).is_anchor());
+        let needs_exits = self.needs(Goal::Tension) || (self.tensions_each() > 0 && at_exits);
         for pose in &self.poses {
             let wanted = WantedPose::at(pose).free(&self.free);
             let (deflection, slopes) = match (solved.next().transpose()?, step.is_some()) {
@@ -60,22 +62,39 @@ impl DesignProblem {
                 (None, false) => (deflection(&robot, wanted, &self.load)?, None),
             };
             let position = positions.next();
-            let at = AtPose { problem: self, robot: &robot, deflection, slopes, position };
-            found.outputs.push(at.output(self.output)?);
-            if let Some((second, _)) = self.second {
-                found.seconds.push(at.output(second)?);
+            let exits = Vec::new();
+            let mut at = AtPose { problem: self, robot: &robot, deflection, slopes, exits, position };
+            if needs_exits {
+                at.exits = at.exit_tensions()?;
+            }
+            at.objective(self.output, self.over, &mut found.outputs)?;
+            if let Some((second, over)) = self.second {
+                at.objective(second, over, &mut found.seconds)?;
             }
             for (of, limit) in self.limits.each() {
                 let sign = sense(of);
                 found.excesses.push(at.output(of)?.scaled(sign / limit, -sign));
             }
+            if let Some(limit) = self.limits.tension {
+                found.excesses.extend(at.exits.iter().map(|of| of.clone().scaled(1.0 / limit, -1.0)));
+            }
             if self.tensions_each() > 0 {
-                at.tensions(&mut found.excesses)?;
+                at.tensions(&mut found.excesses);
             }
             at.lengthen(&mut found.longest);
         }
-        if let Some(limit) = self.limits.cost {
-            found.excesses.push(total(&found.longest, &self.costs(values)).scaled(1.0 / limit, -1.0));
+        let whole = |of: Goal, longest: &[Quantity]| match of {
+            Goal::Cost => total(longest, &self.costs(values)),
+            _ => total(longest, &vec![1.0; longest.len()]),
+        };
+        for (of, limit) in self.limits.whole() {
+            found.excesses.push(whole(of, &found.longest).scaled(1.0 / limit, -1.0));
+        }
+        if self.output.is_of_all_poses() {
+            found.outputs.push(whole(self.output, &found.longest));
+        }
+        if let Some((second, _)) = self.second.filter(|(second, _)| second.is_of_all_poses()) {
+            found.seconds.push(whole(second, &found.longest));
         }
         if let (Some((second, over)), Some(bound)) = (self.second, self.bound) {
             let sign = sense(second);
@@ -107,14 +126,6 @@ pub(crate) fn greatest_tension(robot: &Robot, cable: usize) -> f64 {
     robot.limits(cable).max.min(breaking_force.unwrap_or(f64::INFINITY))
 }
 
-/// 1 for an output that is to be small, -1 for one that is to be great.
-pub(crate) fn sense(output: Output) -> f64 {
-    match output {
-        Output::Deflection | Output::Position | Output::Amplitude => 1.0,
-        Output::Stiffness | Output::Frequency | Output::PlatformFrequency => -1.0,
-    }
-}
-
 /// The sum of `factors` times the quantities.
 fn total(quantities: &[Quantity], factors: &[f64]) -> Quantity {
     let sum = |of: &dyn Fn(&Quantity) -> f64| {
@@ -134,46 +145,63 @@ struct AtPose<'a> {
     robot: &'a Robot,
     deflection: Deflection,
     slopes: Option<Derivatives>,
+    /// Tensions at the exit points under the load [N], where they are needed.
+    exits: Vec<Quantity>,
     /// The position error, where it is needed.
     position: Option<Quantity>,
 }
 
 impl AtPose<'_> {
+    /// Adds what an objective is at this pose; nothing where it is of all poses together.
+    fn objective(&self, of: Goal, over: Over, into: &mut Vec<Quantity>) -> Result<(), StaticsError> {
+        match of {
+            Goal::Length | Goal::Cost => {}
+            // The greatest of several numbers has no derivative where two are equal: each is one of those of
+            // which the worst counts.
+            Goal::Tension if over == Over::Worst => into.extend(self.exits.iter().cloned()),
+            _ => into.push(self.output(of)?),
+        }
+        Ok(())
+    }
+
     /// An output in its unit.
-    fn output(&self, of: Output) -> Result<Quantity, StaticsError> {
+    fn output(&self, of: Goal) -> Result<Quantity, StaticsError> {
         let Self { problem: DesignProblem { load, characteristic_length, .. }, robot, deflection, .. } = self;
         let at_rest = || DirectProblem::new(robot, &deflection.lengths, load);
         let rest = &deflection.loaded.equilibrium;
+        let missing = || StaticsError::NoDerivative { quantity: of.noun(), reason: "it is not observed" };
         Ok(match (of, &self.slopes) {
-            // An amplitude is no output of designs.
-            (Output::Position | Output::Amplitude, _) => {
-                let missing =
-                    || StaticsError::NoDerivative { quantity: of.label(), reason: "it is not observed" };
+            (Goal::Tension, _) => {
+                let greatest = self.exits.iter().max_by(|a, b| a.value.total_cmp(&b.value));
+                greatest.cloned().ok_or_else(missing)?
+            }
+            // Length and cost are of all poses, and an amplitude is no output of designs.
+            (Goal::Position | Goal::Length | Goal::Cost | Goal::Amplitude, _) => {
                 self.position.clone().ok_or_else(missing)?
             }
-            (Output::Deflection, None) => self.quantity(1e3 * deflection.magnitude(), &[]),
-            (Output::Deflection, Some(found)) => {
+            (Goal::Deflection, None) => self.quantity(1e3 * deflection.magnitude(), &[]),
+            (Goal::Deflection, Some(found)) => {
                 self.quantity(deflection.magnitude(), &found.magnitude()?).scaled(1e3, 0.0)
             }
-            (Output::Stiffness, None) => {
+            (Goal::Stiffness, None) => {
                 let stability =
                     at_rest()?.with_characteristic_length(*characteristic_length).stability(rest)?;
                 self.quantity(stability.least_stiffness(), &[])
             }
-            (Output::Stiffness, Some(found)) => {
+            (Goal::Stiffness, Some(found)) => {
                 let (value, slopes) = found.least_stiffness_with(robot, load, *characteristic_length)?;
                 self.quantity(value, &slopes)
             }
-            (Output::Frequency, None) => {
+            (Goal::Frequency, None) => {
                 let modes = Modes::slowest(&at_rest()?, rest)?;
                 self.quantity(modes.lowest().map_or(0.0, |mode| mode.frequency), &[])
             }
-            (Output::Frequency, Some(found)) => {
+            (Goal::Frequency, Some(found)) => {
                 let lowest = FrequencyDerivatives::lowest_of_deflection(robot, load, found)?;
                 self.quantity(lowest.frequency, &lowest.with_lengths(&found.lengths))
             }
-            (Output::PlatformFrequency, None) => self.quantity(Swing::new(&at_rest()?, rest)?.platform, &[]),
-            (Output::PlatformFrequency, Some(found)) => {
+            (Goal::PlatformFrequency, None) => self.quantity(Swing::new(&at_rest()?, rest)?.platform, &[]),
+            (Goal::PlatformFrequency, Some(found)) => {
                 let of = FrequencyDerivatives::of_deflection(robot, load, found)?;
                 self.quantity(of.frequency, &of.with_lengths(&found.lengths))
             }
@@ -195,37 +223,39 @@ impl AtPose<'_> {
     }
 
     /// Adds by how much the greatest tension of each cable is passed under the load.
-    fn tensions(&self, excesses: &mut Vec<Quantity>) -> Result<(), StaticsError> {
-        let Self { robot, deflection, slopes, problem, .. } = self;
-        let rest = &deflection.loaded.equilibrium;
-        let n = robot.cables.len();
-        let exits = (0..n).any(|i| !robot.max_at(i).is_anchor());
-        let exit_slopes = match slopes {
-            Some(_) if exits => {
-                let at_rest = DirectProblem::new(robot, &deflection.lengths, &problem.load)?;
-                Some(at_rest.force_derivatives(rest, CableEnd::Exit)?)
-            }
-            _ => None,
-        };
-        let ends = rest.tensions().into_iter().zip(rest.exit_tensions(robot, &deflection.lengths));
-        for (i, (anchor, exit)) in ends.enumerate() {
-            let is_exit = !robot.max_at(i).is_anchor();
-            let limit = greatest_tension(robot, i);
-            let row: Vec<f64> = match (slopes, exit_slopes.as_ref().filter(|_| is_exit)) {
-                (None, _) => Vec::new(),
-                (Some(found), None) => found.loaded.tensions.row(i).iter().copied().collect(),
-                (Some(found), Some(exits)) => {
-                    // The lengths follow the parameters.
-                    let count = found.inputs.count();
-                    let along = exits.forces[i].normalize().transpose() * exits.per_input.rows(3 * i, 3);
-                    let whole = along.columns(0, count) + along.columns(count, n) * &found.lengths;
-                    whole.iter().copied().collect()
+    fn tensions(&self, excesses: &mut Vec<Quantity>) {
+        let Self { robot, deflection, slopes, .. } = self;
+        for (i, anchor) in deflection.loaded.equilibrium.tensions().into_iter().enumerate() {
+            let tension = match (&slopes, robot.max_at(i).is_anchor()) {
+                (_, false) => self.exits[i].clone(),
+                (None, true) => self.quantity(anchor, &[]),
+                (Some(found), true) => {
+                    let row: Vec<f64> = found.loaded.tensions.row(i).iter().copied().collect();
+                    self.quantity(anchor, &row)
                 }
             };
-            let tension = if is_exit { exit } else { anchor };
-            excesses.push(self.quantity(tension, &row).scaled(1.0 / limit, -1.0));
+            excesses.push(tension.scaled(1.0 / greatest_tension(robot, i), -1.0));
         }
-        Ok(())
+    }
+
+    /// The tensions at the exit points under the load [N].
+    fn exit_tensions(&self) -> Result<Vec<Quantity>, StaticsError> {
+        let Self { robot, deflection, slopes, problem, .. } = self;
+        let rest = &deflection.loaded.equilibrium;
+        let tensions = rest.exit_tensions(robot, &deflection.lengths);
+        let Some(found) = slopes else {
+            return Ok(tensions.into_iter().map(|tension| self.quantity(tension, &[])).collect());
+        };
+        let at_rest = DirectProblem::new(robot, &deflection.lengths, &problem.load)?;
+        let exits = at_rest.force_derivatives(rest, CableEnd::Exit)?;
+        let (count, n) = (found.inputs.count(), robot.cables.len());
+        let of = |(i, tension): (usize, f64)| {
+            // The lengths follow the parameters.
+            let along = exits.forces[i].normalize().transpose() * exits.per_input.rows(3 * i, 3);
+            let whole = along.columns(0, count) + along.columns(count, n) * &found.lengths;
+            self.quantity(tension, &whole.iter().copied().collect::<Vec<_>>())
+        };
+        Ok(tensions.into_iter().enumerate().map(of).collect())
     }
 
     /// A number with its derivatives by the variables, from those by the inputs.
@@ -306,6 +336,18 @@ mod tests {
             &design("stiffness"),
             1e-4,
         );
+        let on_pulleys = named(ROBOTS, "ipanema-3").unwrap().text;
+        let limited = design("tension").replace("\"stiffness\": 1e4", "\"tension\": 900, \"length\": 60");
+        for (robot, design) in
+            [(caroca, limited.clone()), (caroca, limited.replace("tension\", \"over", "length\", \"over"))]
+        {
+            check(robot, &design, 1e-4);
+        }
+        let here = r#"{"list": [{"position": [0.3, 0.2, 1.5]}]}"#;
+        let on_pulleys_too = r#"{"format": "cdpr-design/1", "payload": 20, "limits": {"length": 90},
+            "objective": {"output": "tension"}, "poses": HERE, "variables": [
+                {"parameters": ["b1.z"], "bounds": [0, 9]}, {"parameters": ["a5.y"], "bounds": [-1, 1]}]}"#;
+        check(on_pulleys, &on_pulleys_too.replace("HERE", here), 1e-4);
         let inertia = "\"center_of_mass\": [0, 0, 0], \"inertia\": [[9, 0, 0], [0, 8, 0], [0, 0, 7]]";
         check(&caroca.replace("\"center_of_mass\": [0, 0, 0]", inertia), &design("frequency"), 1e-4);
     }

@@ -1,7 +1,8 @@
 //! The design file, `cdpr-design/1`: what of a robot may change, and for which poses, loads and purpose.
 
+use crate::design::goal::Goal;
 use cdpr_robot::Coordinate;
-use cdpr_study::{IndexMap, InputSpec, Output, PosesSpec};
+use cdpr_study::{IndexMap, InputSpec, PosesSpec};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -116,11 +117,11 @@ pub struct CableSpec {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ObjectiveSpec {
-    /// "deflection" or "position", which are to be small, or "stiffness", "frequency" or
-    /// "platform_frequency", which are to be great. Position is the distance from the pose within which P of
-    /// 95 % of the robots of `errors` is, without the load.
-    pub output: Output,
-    /// Over the poses.
+    /// "deflection", "position", "tension", "length" or "cost", which are to be small, or "stiffness",
+    /// "frequency" or "platform_frequency", which are to be great.
+    pub output: Goal,
+    /// Over the poses: "worst" if left out. Length and cost are of all poses together.
+    #[serde(default)]
     pub over: Over,
 }
 
@@ -129,8 +130,9 @@ pub struct ObjectiveSpec {
 #[serde(deny_unknown_fields)]
 pub struct ParetoSpec {
     /// As that of the objective.
-    pub output: Output,
-    /// Over the poses.
+    pub output: Goal,
+    /// Over the poses, as that of the objective.
+    #[serde(default)]
     pub over: Over,
     /// Points of the front that are looked for, its ends included; of choices without bounds all are found.
     #[serde(default = "ParetoSpec::usual_points")]
@@ -144,12 +146,13 @@ impl ParetoSpec {
 }
 
 /// Which number of several poses counts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Over {
     /// The mean of the poses.
     Mean,
     /// The pose where it is worst: the greatest deflection, the least stiffness or frequency.
+    #[default]
     Worst,
 }
 
@@ -169,6 +172,13 @@ pub struct LimitsSpec {
     /// Least natural frequency [Hz].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub frequency: Option<f64>,
+    /// Greatest tension of a cable at its exit point under the load [N]: what its winch pulls.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tension: Option<f64>,
+    /// Greatest length of all cables [m]: the sum of their unstrained lengths, lead included, of each at the
+    /// pose where it is longest.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub length: Option<f64>,
     /// Greatest cost of all cables: that of a metre of their types times the length that each needs, lead
     /// included, at the pose where it is longest.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -180,17 +190,29 @@ impl LimitsSpec {
         *self == Self::default()
     }
 
-    /// The demands at each pose: of what, and its limit.
-    pub(crate) fn each(&self) -> impl Iterator<Item = (Output, f64)> {
+    /// The demands on one number of each pose: of what, and its limit.
+    pub(crate) fn each(&self) -> impl Iterator<Item = (Goal, f64)> {
         let of = |output, limit: Option<f64>| limit.map(|limit| (output, limit));
         [
-            of(Output::Deflection, self.deflection),
-            of(Output::Position, self.position),
-            of(Output::Stiffness, self.stiffness),
-            of(Output::Frequency, self.frequency),
+            of(Goal::Deflection, self.deflection),
+            of(Goal::Position, self.position),
+            of(Goal::Stiffness, self.stiffness),
+            of(Goal::Frequency, self.frequency),
         ]
         .into_iter()
         .flatten()
+    }
+
+    /// The demands on all poses together.
+    pub(crate) fn whole(&self) -> impl Iterator<Item = (Goal, f64)> {
+        let of = |output, limit: Option<f64>| limit.map(|limit| (output, limit));
+        [of(Goal::Cost, self.cost), of(Goal::Length, self.length)].into_iter().flatten()
+    }
+
+    /// All demands.
+    pub(crate) fn all(&self) -> impl Iterator<Item = (Goal, f64)> {
+        let tension = self.tension.map(|limit| (Goal::Tension, limit));
+        self.each().chain(tension).chain(self.whole())
     }
 }
 

@@ -13,22 +13,22 @@
 //! nothing has bounds, every configuration is evaluated, and the front is that of all of them.
 
 use crate::design::cables::ChosenCable;
-use crate::design::evaluation::sense;
 use crate::design::file::Over;
+use crate::design::goal::{Goal, sense};
 use crate::design::position::BASIS;
 use crate::design::problem::DesignProblem;
 use crate::design::search::{Found, objective};
 use crate::design::starts::Searched;
 use crate::error::AssessError;
 use cdpr_robot::Robot;
-use cdpr_study::{Output, StudyError};
+use cdpr_study::StudyError;
 use serde::Serialize;
 
 /// Robots of which none is better in both of two objectives.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Front {
     /// Both outputs.
-    pub outputs: [Output; 2],
+    pub outputs: [Goal; 2],
     /// Over the poses.
     pub over: [Over; 2],
     /// What a position error is and assumes, where there is one.
@@ -98,7 +98,7 @@ pub fn front(problem: &DesignProblem) -> Result<Front, AssessError> {
     let mut front = Front {
         outputs: [problem.output, second],
         over: [problem.over, over],
-        basis: problem.needs(Output::Position).then_some(BASIS),
+        basis: problem.needs(Goal::Position).then_some(BASIS),
         poses: problem.poses.len(),
         configurations: first.found.len() / first.each,
         starts: first.starts,

@@ -2,10 +2,11 @@
 
 use crate::design::cables::{CableType, ChosenCable, type_at, types};
 use crate::design::file::{DESIGN_FORMAT, DesignFile, LimitsSpec, Over};
+use crate::design::goal::Goal;
 use crate::design::variable::{Domain, Variable, variables, with, wrong};
 use cdpr_robot::{Coordinate, Parameter, Pose, Robot, RobotError, Vector6, Wrench, from_json};
 use cdpr_statics::Load;
-use cdpr_study::{ErrorModel, InField, InputKind, Output, StudyError, error_model, other_kind, read_text};
+use cdpr_study::{ErrorModel, InField, InputKind, StudyError, error_model, other_kind, read_text};
 use std::collections::BTreeSet;
 use std::path::Path;
 
@@ -17,19 +18,6 @@ const MOST_POINTS: usize = 1000;
 const MOST_POSES: usize = 10_000;
 /// Configurations of the choices, each with all starts of the local search where something has bounds.
 pub(crate) const MOST_CONFIGURATIONS: usize = 100_000;
-
-/// What a design has to meet; poses and cables from 0.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Demand {
-    /// The limit of an output at a pose.
-    Output { pose: usize, output: Output, limit: f64 },
-    /// The greatest tension of a cable at a pose.
-    Tension { pose: usize, cable: usize },
-    /// The limit of the cost.
-    Cost(f64),
-    /// The bound of a second objective.
-    Second,
-}
 
 /// A robot, what of it may change, and what is to be as good as possible.
 #[derive(Clone, Debug)]
@@ -43,10 +31,10 @@ pub struct DesignProblem {
     pub(crate) load: Load,
     /// Deviations from which position errors follow.
     pub(crate) errors: Option<ErrorModel>,
-    pub(crate) output: Output,
+    pub(crate) output: Goal,
     pub(crate) over: Over,
     /// A second objective.
-    pub(crate) second: Option<(Output, Over)>,
+    pub(crate) second: Option<(Goal, Over)>,
     /// Points of the front of both.
     pub(crate) points: usize,
     /// What the second objective has to reach, in its unit.
@@ -117,13 +105,17 @@ impl DesignProblem {
         Ok(problem)
     }
 
-    /// Checks what may change, and that a limited cost has types of cable.
+    /// Checks what may change, and that a cost has types of cable.
     fn check_variables(&self) -> Result<(), InField> {
         if self.variables.is_empty() {
             return wrong("variables", "empty", "at least one variable, or types of `cables`");
         }
         if let (Some(limit), true) = (self.limits.cost, self.types.is_empty()) {
             return wrong("limits.cost", limit, "none without types of `cables` with their cost");
+        }
+        if self.needs(Goal::Cost) && self.types.is_empty() {
+            let expected = "types of cable with the cost of a metre, as an objective `cost` needs them";
+            return wrong("cables", "empty", expected);
         }
         let by_type =
             |(name, _): &(Parameter, f64)| matches!(name.group(), "youngs_modulus" | "linear_density");
@@ -141,11 +133,16 @@ impl DesignProblem {
     fn check(&self) -> Result<(), InField> {
         let Self { robot, output, load, .. } = self;
         self.check_variables()?;
-        let second = self.second.map(|(output, _)| output);
-        for (of, output) in [("objective", Some(*output)), ("pareto", second)] {
-            if let Some(output @ Output::Amplitude) = output {
-                let expected = "deflection, position, stiffness, frequency or platform_frequency";
-                return wrong(&format!("{of}.output"), output, expected);
+        for (of, goal) in [("objective", Some((*output, self.over))), ("pareto", self.second)] {
+            match goal {
+                Some((output @ Goal::Amplitude, _)) => {
+                    return wrong(&format!("{of}.output"), output, Goal::NAMES);
+                }
+                Some((output, Over::Mean)) if output.is_of_all_poses() => {
+                    let expected = format!("worst, or none: the {output} is one number of all poses");
+                    return wrong(&format!("{of}.over"), "mean", expected);
+                }
+                _ => {}
             }
         }
         if self.second == Some((*output, self.over)) {
@@ -158,28 +155,31 @@ impl DesignProblem {
         if self.second.is_some() && !(2..=MOST_POINTS).contains(&self.points) {
             return wrong("pareto.points", self.points, format!("2 to {MOST_POINTS}"));
         }
-        if self.needs(Output::Position) && self.errors.is_none() {
+        if self.needs(Goal::Position) && self.errors.is_none() {
             let expected = "the deviations that a position error follows from, such as {\"b\": {\"law\": \
                             {\"normal\": {\"mean\": 0, \"std\": 0.001}}}}";
             return wrong("errors", "missing", expected);
         }
-        for (of, limit) in self.limits.each() {
+        for (of, limit) in self.limits.all() {
             if !(limit.is_finite() && limit > 0.0) {
                 return wrong(
                     &format!("limits.{of}"),
                     limit,
-                    format!("a finite number above zero [{}]", of.unit()),
+                    match of.unit() {
+                        "" => "a finite number above zero".to_owned(),
+                        unit => format!("a finite number above zero [{unit}]"),
+                    },
                 );
             }
         }
-        if self.needs(Output::Deflection) && *load == Load::none() {
+        if self.needs(Goal::Deflection) && *load == Load::none() {
             return wrong(
                 "payload",
                 load.payload,
                 "a mass above zero [kg], or a `wrench`: nothing else deflects",
             );
         }
-        if (self.needs(Output::Frequency) || self.needs(Output::PlatformFrequency)) && robot.lacks_inertia() {
+        if (self.needs(Goal::Frequency) || self.needs(Goal::PlatformFrequency)) && robot.lacks_inertia() {
             let expected = "deflection or stiffness, or a robot with `platform.inertia`";
             return wrong("objective.output", output, expected);
         }
@@ -213,9 +213,9 @@ impl DesignProblem {
     }
 
     /// Whether this is the objective or limited.
-    pub(crate) fn needs(&self, what: Output) -> bool {
+    pub(crate) fn needs(&self, what: Goal) -> bool {
         let is_second = self.second.is_some_and(|(second, _)| second == what);
-        self.output == what || is_second || self.limits.each().any(|(of, _)| of == what)
+        self.output == what || is_second || self.limits.all().any(|(of, _)| of == what)
     }
 
     /// Indices of the variables with bounds.
@@ -288,36 +288,6 @@ impl DesignProblem {
             variable.cables.iter().for_each(|i| costs[*i] = cost);
         }
         costs
-    }
-
-    /// The demand that an excess is about, by its index.
-    pub(crate) fn demand(&self, index: usize) -> Demand {
-        let each = self.excesses_each();
-        match (index.checked_sub(each * self.poses.len()), self.limits.cost) {
-            (Some(0), Some(cost)) => return Demand::Cost(cost),
-            (Some(_), _) => return Demand::Second,
-            (None, _) => {}
-        }
-        let (pose, of) = (index / each, index % each);
-        match self.limits.each().nth(of) {
-            Some((output, limit)) => Demand::Output { pose, output, limit },
-            None => Demand::Tension { pose, cable: of - self.limits.each().count() },
-        }
-    }
-
-    /// Excesses of tensions at each pose.
-    pub(crate) fn tensions_each(&self) -> usize {
-        if self.load == Load::none() { 0 } else { self.robot.cables.len() }
-    }
-
-    /// Excesses before that of the bound of a second objective: of all poses, and of the cost.
-    pub(crate) fn excesses_before_bound(&self) -> usize {
-        self.excesses_each() * self.poses.len() + usize::from(self.limits.cost.is_some())
-    }
-
-    /// Excesses at each pose.
-    pub(crate) fn excesses_each(&self) -> usize {
-        self.limits.each().count() + self.tensions_each()
     }
 
     /// Whether it has a second objective: then its answer is a [`crate::front`].

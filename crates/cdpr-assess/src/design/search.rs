@@ -27,11 +27,11 @@
 //!
 //! with [.] the nearest point of the box, is small.
 
-use crate::design::evaluation::{Evaluation, Quantity, sense};
+use crate::design::evaluation::{Evaluation, Quantity};
 use crate::design::file::Over;
+use crate::design::goal::{Goal, sense};
 use crate::design::problem::{DesignProblem, STEP};
 use cdpr_statics::DMatrix;
-use cdpr_study::Output;
 use cdpr_tension::QuadraticProgram;
 
 /// Residual (Q3) of an optimum.
@@ -45,7 +45,7 @@ pub(crate) const MET: f64 = 1e-8;
 /// Change of the merit that rounding of the models may hide: steps that promise less are taken as far as the
 /// residual falls.
 const ROUNDING: f64 = 1e-9;
-/// Such steps without a smaller residual.
+/// Such steps without a smaller residual, and steps that promise more and are cut down to less.
 const PATIENCE: usize = 5;
 /// Distance from a bound within which a coordinate is on it.
 const ON_BOUND: f64 = 1e-9;
@@ -180,7 +180,7 @@ impl Search<'_> {
     fn descend(&mut self, mut here: Point) -> Option<Found> {
         let n = here.u.len();
         let mut b = DMatrix::identity(n, n);
-        let (mut is_fresh, mut waited) = (true, 0);
+        let (mut is_fresh, mut waited, mut crept) = (true, 0, 0);
         let mut best: Option<(Point, Step, f64)> = None;
         for _ in 0..MOST_STEPS {
             let Some(step) = self.step(&here, &here, &b) else { break };
@@ -190,6 +190,8 @@ impl Search<'_> {
                 update(&mut b, &here, next, &step, is_fresh);
             }
             let is_rounding = step.fall <= ROUNDING;
+            let fall = taken.as_ref().map(|next| here.merit(self.penalty) - next.merit(self.penalty));
+            crept = if !is_rounding && fall.is_some_and(|fall| fall <= ROUNDING) { crept + 1 } else { 0 };
             if is_rounding && best.as_ref().is_some_and(|(.., least)| residual >= *least) {
                 waited += 1;
             } else {
@@ -197,7 +199,7 @@ impl Search<'_> {
                 best = Some((here.clone(), step, residual));
             }
             match taken {
-                _ if residual <= AIM || waited > PATIENCE => break,
+                _ if residual <= AIM || waited > PATIENCE || crept > PATIENCE => break,
                 Some(next) => {
                     here = next;
                     is_fresh = false;
@@ -214,13 +216,8 @@ impl Search<'_> {
         let mut gradient = vec![0.0; self.values.len()];
         let slopes = here.gradient(&step).into_iter().zip(&self.bounded).map(per_value);
         self.bounded.iter().zip(slopes).for_each(|((j, _), slope)| gradient[*j] = slope);
-        let gradient_error = if self.problem.needs(Output::Position) {
-            let again = self.with_step(here.u.clone(), 2.0 * STEP)?;
-            let pairs = here.gradient(&step).into_iter().zip(again.gradient(&step));
-            Some(pairs.map(|(one, other)| (one - other).abs()).fold(0.0, f64::max))
-        } else {
-            None
-        };
+        let gradient_error =
+            if self.problem.needs(Goal::Position) { Some(self.gradient_error(&here, &step)) } else { None };
         let active = step.mu.iter().enumerate().filter(|(_, mu)| **mu > 1e-6);
         Some(Found {
             values: self.values_at(&here.u),
@@ -231,6 +228,21 @@ impl Search<'_> {
             gradient,
             active: active.map(|(k, mu)| (k, self.scale * mu)).collect(),
         })
+    }
+
+    /// Greatest change of ∇L if differences have steps twice as long. Where no robot is held so far away, four
+    /// times that by steps half as long, which has the same size for an error of second order.
+    fn gradient_error(&mut self, here: &Point, step: &Step) -> f64 {
+        let gradient = here.gradient(step);
+        let change = |again: &Point| {
+            let pairs = gradient.iter().zip(again.gradient(step));
+            pairs.map(|(one, other)| (one - other).abs()).fold(0.0, f64::max)
+        };
+        if let Some(again) = self.with_step(here.u.clone(), 2.0 * STEP) {
+            return change(&again);
+        }
+        let halved = self.with_step(here.u.clone(), 0.5 * STEP);
+        halved.map_or(f64::INFINITY, |again| 4.0 * change(&again))
     }
 
     /// The step (Q1) from `here`, with the slopes there and the values of `at`: those of `here`, or for a

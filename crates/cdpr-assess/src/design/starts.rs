@@ -1,7 +1,9 @@
 //! The searches of a design: from every start in every configuration.
 
-use crate::design::evaluation::{Evaluation, greatest_tension, sense};
-use crate::design::problem::{Demand, DesignProblem, STEP};
+use crate::design::demand::Demand;
+use crate::design::evaluation::{Evaluation, greatest_tension};
+use crate::design::goal::sense;
+use crate::design::problem::{DesignProblem, STEP};
 use crate::design::search::{Found, MET, Search, excess, objective};
 use cdpr_robot::{Pose, significant};
 use cdpr_sensitivity::Sobol;
@@ -70,8 +72,10 @@ impl Searched {
 /// The demand that is passed most, in words.
 fn passed(problem: &DesignProblem, values: &[f64], at: &Evaluation) -> String {
     let excesses = at.excesses.iter().map(|excess| excess.value).enumerate();
-    let Some((index, excess)) = excesses.max_by(|a, b| a.1.total_cmp(&b.1)) else {
-        return "the search ended early".to_owned();
+    let greatest = excesses.max_by(|a, b| a.1.total_cmp(&b.1));
+    let Some((index, excess)) = greatest.filter(|(_, excess)| *excess > MET) else {
+        return "it keeps the limits, but no search could begin there: the robot has no derivatives"
+            .to_owned();
     };
     let words = |what: String, value: f64, limit: f64, unit: &str| {
         let [value, limit] = [value, limit].map(|value| significant(value, 4));
@@ -87,9 +91,14 @@ fn passed(problem: &DesignProblem, values: &[f64], at: &Evaluation) -> String {
             let what = format!("at pose {} the tension of cable {}", pose + 1, cable + 1);
             words(what, limit * (1.0 + excess), limit, "N")
         }
-        Demand::Cost(limit) => {
-            let [value, limit] = [limit * (1.0 + excess), limit].map(|value| significant(value, 4));
-            format!("the cost of the cables is {value}, its limit {limit}")
+        Demand::Exit { pose, cable, limit } => {
+            let what = format!("at pose {} the exit tension of cable {}", pose + 1, cable + 1);
+            words(what, limit * (1.0 + excess), limit, "N")
+        }
+        Demand::Whole { of, limit } => {
+            let amount = |value| of.amount(&significant(value, 4));
+            let [value, limit] = [limit * (1.0 + excess), limit].map(amount);
+            format!("the {} is {value}, its limit {limit}", of.noun())
         }
         Demand::Second => "the second objective does not reach its bound".to_owned(),
     }

@@ -53,11 +53,12 @@ class Designed:
         By how much the objective changes for each unit by which an active bound is moved, zero within
         bounds, (k,).
     outputs : numpy.ndarray
-        The output at each pose, in its unit: mm, N/m or Hz, (m,).
+        The output at each pose, in its unit: mm, N, N/m or Hz, (m,); of a length [m] or a cost, which are of all
+        poses together, a single number, (1,).
     objective : float
         Their worst or mean.
     before : float
-        That of the robot as it is; NaN where it is not held at every pose.
+        That of the robot as it is; NaN where it is not held at every pose, and of a cost.
     kkt_residual : float
         Residual of the optimality conditions; NaN where nothing has bounds.
     gradient_error : float
@@ -149,7 +150,8 @@ class DesignFront:
         import pandas
 
         pairs = zip(self.content["over"], self.content["outputs"])
-        frame = pandas.DataFrame(self.objectives, columns=[f"{over}_{output}" for over, output in pairs])
+        names = [output if output in ("length", "cost") else f"{over}_{output}" for over, output in pairs]
+        frame = pandas.DataFrame(self.objectives, columns=names)
         frame["exchange"], frame["optimal"] = self.exchange, self.optimal
         return frame.join(pandas.DataFrame(self.values, columns=self.names))
 

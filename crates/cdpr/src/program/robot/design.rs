@@ -7,10 +7,9 @@ use crate::program::error::ProgramError;
 use crate::program::output::{Ending, patiently, print_sentence, table};
 use cdpr_assess::{
     ActiveDemand, BestDesign, BestOfTypes, ChosenCable, Design, DesignProblem, DesignedVariable, Front,
-    FrontPoint, Over, design, front,
+    FrontPoint, Goal, Over, design, front,
 };
 use cdpr_robot::{Robot, counted, shown, significant};
-use cdpr_study::Output;
 use std::path::PathBuf;
 
 /// The robot and what may change.
@@ -83,8 +82,12 @@ fn answer_front(settings: &Settings, robot: &Robot, found: &Front) -> Result<End
 /// A front as CSV: a row for each point.
 fn print_table(found: &Front) {
     let of = |i: usize| {
-        let over = if found.over[i] == Over::Mean { "mean" } else { "worst" };
-        format!("{over}_{}", found.outputs[i].name())
+        let name = found.outputs[i].name();
+        match found.over[i] {
+            _ if found.outputs[i].is_of_all_poses() => name.to_owned(),
+            Over::Mean => format!("mean_{name}"),
+            Over::Worst => format!("worst_{name}"),
+        }
     };
     let columns = [of(0), of(1), "exchange".to_owned(), "kkt_residual".to_owned(), "optimal".to_owned()];
     let variables = found.variables.iter().map(|(name, _)| name.clone());
@@ -148,8 +151,8 @@ fn print_front(robot: &Robot, found: &Front) {
     if !doubtful.is_empty() {
         print_sentence(&format!("No local optimum, by the KKT residual: {}.", doubtful.join(", ")));
     }
-    let units = found.outputs.map(Output::unit);
-    let [one, two] = [0, 1].map(|i| format!("{} [{}]", found.outputs[i].noun(), units[i]));
+    let units = found.outputs.map(|goal| if goal.unit().is_empty() { "1" } else { goal.unit() });
+    let [one, two] = found.outputs.map(titled);
     let mut header = vec!["".to_owned(), one, two];
     if found.starts > 0 {
         header.push(format!("{} per {}", units[0], units[1]));
@@ -188,7 +191,7 @@ fn print(robot: &Robot, found: &Design) {
     for sentence in first.into_iter().chain([optimum(best), demands(found, best)]).flatten() {
         print_sentence(&sentence);
     }
-    let per_unit = format!("{} per unit", found.output.unit());
+    let per_unit = format!("{} per unit", found.output.unit()).trim_start().to_owned();
     // Choices have no bounds.
     let columns = if found.starts == 0 { 3 } else { 5 };
     let mut rows = table(&["variable", "from", "to", "bound", &per_unit][..columns]);
@@ -223,24 +226,47 @@ fn print_cables(found: &Design, best: &BestDesign) {
         print_sentence("--format json has the best robot of each choice of types, up to 1000 choices.");
         return;
     }
-    let objective = format!("{} [{}]", found.output.noun(), found.output.unit());
-    let mut rows = table(&["best with", &objective, "mass [kg]", "cost"]);
+    // A cost has its column anyway.
+    let with_objective = found.output != Goal::Cost;
+    let objective = titled(found.output);
+    let mut columns = vec!["best with", &objective, "mass [kg]", "cost"];
+    if !with_objective {
+        columns.remove(1);
+    }
+    let mut rows = table(&columns);
     for BestOfTypes { types, objective, cost, mass } in &best.cable_types {
         let types = types.iter().map(|name| shown(name)).collect::<Vec<_>>().join(", ");
         let objective = objective.map_or_else(|| "none".to_owned(), |of| significant(of, 4));
-        rows.add_row([types, objective, optional(*mass, 4), optional(*cost, 4)]);
+        let cost =
+            cost.map_or_else(|| if with_objective { "" } else { "none" }.to_owned(), |of| significant(of, 4));
+        let mut cells = vec![types, objective, optional(*mass, 4), cost];
+        if !with_objective {
+            cells.remove(1);
+        }
+        rows.add_row(cells);
     }
     println!("{rows}");
 }
 
+/// What an output is, with its unit, at the head of a column.
+fn titled(output: Goal) -> String {
+    match output.unit() {
+        "" => output.noun().to_owned(),
+        unit => format!("{} [{unit}]", output.noun()),
+    }
+}
+
 /// What is as good as possible, in words.
-fn noun(over: Over, output: Output, poses: usize) -> String {
+fn noun(over: Over, output: Goal, poses: usize) -> String {
     let of = match (over, output) {
-        (Over::Mean, Output::Stiffness) if poses > 1 => "mean lowest ",
-        (_, Output::Stiffness) => "lowest ",
+        (_, Goal::Length | Goal::Cost) => "",
+        (Over::Mean, Goal::Tension) if poses > 1 => "mean greatest ",
+        (_, Goal::Tension) => "greatest ",
+        (Over::Mean, Goal::Stiffness) if poses > 1 => "mean lowest ",
+        (_, Goal::Stiffness) => "lowest ",
         _ if poses == 1 => "",
         (Over::Mean, _) => "mean ",
-        (Over::Worst, Output::Frequency | Output::PlatformFrequency) => "lowest ",
+        (Over::Worst, Goal::Frequency | Goal::PlatformFrequency) => "lowest ",
         (Over::Worst, _) => "greatest ",
     };
     format!("{of}{}", output.noun())
@@ -281,16 +307,17 @@ fn none(robot: &Robot, found: &Design) -> String {
 fn verdict(robot: &Robot, found: &Design, best: &BestDesign) -> String {
     /// A smaller share is rounding, and no change.
     const NONE: f64 = 1e-9;
-    let (unit, after) = (found.output.unit(), best.objective);
+    let after = best.objective;
+    let amount = |value| found.output.amount(&significant(value, 4));
     let becomes = match found.before {
         Some(before) if (after - before).abs() <= NONE * before.abs() => {
-            format!("stays at {} {unit}", significant(after, 4))
+            format!("stays at {}", amount(after))
         }
         Some(before) => {
             let verb = if after < before { "falls" } else { "rises" };
-            format!("{verb} from {} to {} {unit}", significant(before, 4), significant(after, 4))
+            format!("{verb} from {} to {}", significant(before, 4), amount(after))
         }
-        None => format!("becomes {} {unit}", significant(after, 4)),
+        None => format!("becomes {}", amount(after)),
     };
     let all = if found.starts == 0 { ", all of them evaluated" } else { "" };
     format!(
@@ -323,11 +350,14 @@ fn ends(found: &Design, best: &BestDesign) -> String {
         format!("{} of {total} {what} end there, {elsewhere} elsewhere{lost}", best.same)
     };
     let next = best.next_configuration.map_or_else(String::new, |next| {
-        format!("; the next best configuration has {} {}", significant(next, 4), found.output.unit())
+        format!("; the next best configuration has {}", found.output.amount(&significant(next, 4)))
     });
     let before = match (found.before, found.feasible_before) {
         (_, true) => "",
         (Some(_), false) => " The robot as it is does not keep the limits.",
+        (None, false) if found.output == Goal::Cost => {
+            " The robot as it is does not hold all poses within the limits."
+        }
         (None, false) => " The robot as it is does not hold all poses.",
     };
     let work =
@@ -338,7 +368,8 @@ fn ends(found: &Design, best: &BestDesign) -> String {
 /// Whether it is an optimum, by the residual of its conditions.
 fn optimum(best: &BestDesign) -> Option<String> {
     let residual = best.kkt_residual?;
-    let by_differences = best.gradient_error.map_or_else(String::new, |error| {
+    let known = best.gradient_error.filter(|error| error.is_finite());
+    let by_differences = known.map_or_else(String::new, |error| {
         format!(", with derivatives by differences that are right to {}", significant(error, 1))
     });
     Some(match (best.optimal, best.gradient_error) {
@@ -358,19 +389,23 @@ fn optimum(best: &BestDesign) -> Option<String> {
 /// The demands that keep the objective from being better.
 fn demands(found: &Design, best: &BestDesign) -> Option<String> {
     const MOST: usize = 4;
+    let gain = |of| format!("{} for 1 %", found.output.amount(&significant(of, 2)));
     let one = |ActiveDemand { pose, output, cable, per_percent }: &ActiveDemand| {
         let what = match (output, cable) {
-            (Some(output), _) => format!("the limit of the {}", output.noun()),
+            (Some(output), Some(cable)) => {
+                format!("the limit of the {} of cable {}", output.noun(), cable + 1)
+            }
+            (Some(output), None) => format!("the limit of the {}", output.noun()),
             (None, cable) => format!("the greatest tension of cable {}", cable.unwrap_or(0) + 1),
         };
-        let gain = significant(*per_percent, 2);
-        format!("{what} at pose {} ({gain} {} for 1 %)", pose + 1, found.output.unit())
+        format!("{what} at pose {} ({})", pose + 1, gain(*per_percent))
     };
     let mut active: Vec<&ActiveDemand> = best.active.iter().collect();
     active.sort_by(|a, b| b.per_percent.total_cmp(&a.per_percent));
     let mut named: Vec<String> = active.iter().take(MOST).map(|demand| one(demand)).collect();
-    let gain = |of| format!("{} {} for 1 %", significant(of, 2), found.output.unit());
-    named.extend(best.cost_per_percent.map(|of| format!("the limit of the cost ({})", gain(of))));
+    for (goal, rate) in [("cost", best.cost_per_percent), ("length", best.length_per_percent)] {
+        named.extend(rate.map(|of| format!("the limit of the {goal} ({})", gain(of))));
+    }
     let more = active.len().saturating_sub(MOST);
     let more = if more == 0 { String::new() } else { format!(", and {more} more") };
     (!named.is_empty()).then(|| format!("What keeps it from being better: {}{more}.", named.join(", ")))
