@@ -4,7 +4,7 @@ use crate::campaign::{Noise, Quantity, Reading, Row, STD_EXPECTED, is_std};
 use crate::error::CalibrationError;
 use crate::sensor_error::size;
 use crate::table::columns::{Column, Named};
-use cdpr_robot::{Axis, Robot, Rotation3, rotation_of, short};
+use cdpr_robot::{Axis, Robot, Rotation3, rotation_of, short, visible};
 use cdpr_statics::Load;
 
 /// The noise that is stated for all rows.
@@ -155,9 +155,11 @@ impl Cells<'_> {
             None => {
                 Err(self.incomplete(format!("column l{}_m is empty: expected all lengths, or none", i + 1)))
             }
-            Some((value, named)) if value.abs() > LONGEST * size => {
-                Err(self.refused(named, value, format!("a length in m; the robot is {size:.3} m wide")))
-            }
+            Some((value, named)) if value.abs() > LONGEST * size => Err(self.refused(
+                named,
+                value,
+                format!("a length in m; the robot is {} m wide", visible(size, 3)),
+            )),
             Some((value, _)) => Ok(value),
         };
         cells.into_iter().enumerate().map(checked).collect::<Result<_, _>>().map(Some)
@@ -181,9 +183,9 @@ impl Cells<'_> {
         let cells: Vec<_> = (0..4).filter_map(|k| self.find(Column::Quaternion(k), false)).collect();
         match cells[..] {
             [] => Ok(None),
-            [(w, named), (x, _), (y, _), (z, _)] => rotation_of([w, x, y, z])
-                .map(Some)
-                .map_err(|error| self.refused(named, w, error.to_string())),
+            [(w, named), (x, _), (y, _), (z, _)] => {
+                rotation_of([w, x, y, z]).map(Some).map_err(|error| self.refused(named, w, error.to_string()))
+            }
             _ => Err(self.incomplete("a part of qw, qx, qy, qz is empty: expected all or none")),
         }
     }
@@ -199,7 +201,7 @@ impl Cells<'_> {
             let is_length =
                 matches!(quantity, Quantity::Position(_) | Quantity::Marker(..) | Quantity::Displacement(_));
             if is_length && (value - anywhere(self.robot, quantity)).abs() > FARTHEST * size {
-                let expected = format!("a place in m; the robot is {size:.3} m wide");
+                let expected = format!("a place in m; the robot is {} m wide", visible(size, 3));
                 return Err(self.refused(named, value, expected));
             }
             if matches!(quantity, Quantity::Angle(_)) && value.abs() > std::f64::consts::TAU {
