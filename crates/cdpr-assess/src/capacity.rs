@@ -19,7 +19,7 @@
 
 mod rising;
 
-use cdpr_robot::{Coordinate, Pose, Robot, Wrench, decimal};
+use cdpr_robot::{Coordinate, Pose, Robot, Wrench, visible};
 use cdpr_statics::capacity::{Blocking, Greatest, greatest_payload, tension_margin};
 use cdpr_statics::continuation::follow_load;
 use cdpr_statics::free_coordinates::rest_near;
@@ -114,7 +114,7 @@ impl fmt::Display for Block {
             Self::Lost(StaticsError::BranchEnds(end)) => write!(f, "the platform {}", end.fall()),
             Self::Lost(error) => error.fmt(f),
             Self::Limit { cable, limit, value, .. } => {
-                let value = decimal(*value, 1);
+                let value = visible(*value, 1);
                 let limit = match limit {
                     Limit::BreakingForce => "breaking force".to_owned(),
                     Limit::Strain => format!("greatest strain of {:.0} %", 100.0 * MAX_STRAIN),

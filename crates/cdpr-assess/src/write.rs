@@ -74,7 +74,7 @@ fn write_boundary(folder: &ResultsFolder, boundary: &Boundary) -> Result<(), Stu
     if !boundary.triangles.is_empty() {
         return folder.write(MESH, &boundary.stl()).map(|_| ());
     }
-    let header = ["polygon", "x", "y", "z"].map(str::to_owned).to_vec();
+    let header = ["polygon", "x_m", "y_m", "z_m"].map(str::to_owned).to_vec();
     let points = boundary.polygons.iter().enumerate().flat_map(|(k, polygon)| {
         let closed = polygon.iter().chain(polygon.first());
         closed.map(move |p| vec![(k + 1).to_string(), p.x.to_string(), p.y.to_string(), p.z.to_string()])
@@ -139,7 +139,7 @@ pub fn read_region(folder: &Path) -> Result<FoundRegion, StudyError> {
         let mut last = 0;
         for row in reader.deserialize() {
             let (polygon, x, y, z): (usize, f64, f64, f64) =
-                row.map_err(|error| wrong(POLYGONS, "a row", error.to_string(), "polygon,x,y,z"))?;
+                row.map_err(|error| wrong(POLYGONS, "a row", error.to_string(), "polygon,x_m,y_m,z_m"))?;
             if polygon != last {
                 polygons.push(Vec::new());
             }

@@ -272,12 +272,22 @@ impl Noise {
         }
     }
 
-    /// Standard deviation of a quantity whose noise is not stated: so small that it counts as exact beside
-    /// one that is.
-    pub fn exact(quantity: Quantity) -> f64 {
-        match quantity {
-            Quantity::Tension(..) => 1e-3,
-            _ => 1e-6,
+    /// Standard deviation of a quantity whose noise is not stated, for a robot of this size [m] and with this
+    /// greatest tension [N]: so small that it counts as exact compared with one that is stated.
+    pub(crate) fn exact(quantity: Quantity, size: f64, tension: f64) -> f64 {
+        match quantity.unit() {
+            "N" => EXACT_TENSION * tension,
+            "m" => EXACT_LENGTH * size,
+            _ => EXACT_ANGLE,
         }
     }
 }
+
+/// Error of a place or a length that counts as exact, as a share of the robot's size: 1e-6 m of 10 m.
+const EXACT_LENGTH: f64 = 1e-7;
+
+/// Error of a tension that counts as exact, as a share of the greatest one: 1e-3 N of 1 kN.
+const EXACT_TENSION: f64 = 1e-6;
+
+/// Error of an angle that counts as exact [rad].
+const EXACT_ANGLE: f64 = 1e-6;

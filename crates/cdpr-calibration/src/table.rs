@@ -23,7 +23,7 @@ mod row;
 use crate::campaign::{Noise, Quantity, Row};
 use crate::error::CalibrationError;
 use crate::table::columns::{Column, Named, columns, covariance_of, is_known};
-use crate::table::row::{Stated, row};
+use crate::table::row::{Stated, greatest_tension, row};
 use cdpr_robot::{CableEnd, Robot, from_json};
 use cdpr_study::Table;
 use serde::Deserialize;
@@ -128,7 +128,8 @@ pub fn read_measurements(
         Ok((one, other, value * factor))
     });
     let covariances = covariances.collect::<Result<_, CalibrationError>>()?;
-    let noise = Stated { stds: Noise::named(&stds)?, covariances };
+    let greatest_tension = greatest_tension(&cells, &columns, robot);
+    let noise = Stated { stds: Noise::named(&stds)?, covariances, greatest_tension };
     let rows: Vec<Row> = cells
         .iter()
         .map(|(line, cells)| row(*line, cells, &columns, robot, &noise))

@@ -109,6 +109,41 @@ fn covariances_are_read_by_row_and_for_all_rows() {
     }
 }
 
+/// CAROCA as a model of a hundredth of its size, with a hundred thousandth of its mass.
+fn small() -> Robot {
+    let mut robot = caroca();
+    for cable in &mut robot.cables {
+        cable.exit_point *= 0.01;
+        cable.anchor_point *= 0.01;
+    }
+    robot.platform.mass *= 1e-5;
+    robot
+}
+
+/// What has no noise counts as exact for the robot, not for a robot of metres and kilonewtons.
+#[test]
+fn columns_without_noise_are_exact_on_the_scale_of_the_robot() {
+    let stds = |robot: &Robot, text: &str| {
+        let noise = [("rotation".to_owned(), 1e-4)];
+        let rows = read_measurements(text.as_bytes(), robot, &noise).unwrap().rows;
+        rows[0].readings.iter().map(|reading| reading.std).collect::<Vec<_>>()
+    };
+    let [x, tension] = stds(&caroca(), "x_m,t1_kn,roll_deg\n1,0.9,0\n1,-1.1,0\n")[..2] else { panic!() };
+    assert!((0.5e-6..2e-6).contains(&x) && (0.5e-3..2e-3).contains(&tension), "{x} m, {tension} N");
+    let [x, tension] = stds(&small(), "x_mm,t1_n,roll_deg\n10,8e-3,0\n10,9e-3,0\n")[..2] else { panic!() };
+    assert!(x < 2e-8 && tension < 2e-8, "{x} m, {tension} N");
+    // Slack cables leave the weight as a scale.
+    let slack = stds(&small(), "t1_n,roll_deg\n0,0\n")[0];
+    assert!((1e-10..1e-7).contains(&slack), "{slack} N");
+}
+
+#[test]
+fn the_names_of_the_columns_state_the_order_of_a_quaternion() {
+    let turned = read("z_m,qw,qx,qy,qz\n1,0.0871557,0,0,0.9961947\n", &[("rotation", 1e-4)]);
+    let angle = turned.rows[0].rotation.unwrap().angle();
+    assert!((angle.to_degrees() - 170.0).abs() < 1e-4, "{angle}");
+}
+
 #[test]
 fn pulleys_in_a_block_have_one_radius_and_one_uncertainty() {
     let case = &cases()[2];

@@ -80,6 +80,11 @@ impl Gravity {
         vector.xy().norm().atan2(-vector.z)
     }
 
+    /// Whether the base is level: its z axis points against gravity, up to rounding, or there is no gravity.
+    pub fn is_base_level(&self) -> bool {
+        self.tilt() <= LEVEL
+    }
+
     /// Checks that gravity is finite, and not negative where it is a number.
     pub(crate) fn validate(&self) -> Result<(), RobotError> {
         match self.given {
@@ -101,6 +106,9 @@ impl Gravity {
         }
     }
 }
+
+/// Greatest tilt of a level base [rad]: rounding of a vector.
+const LEVEL: f64 = 1e-9;
 
 /// Along -z of the base frame.
 impl From<f64> for Gravity {
@@ -180,6 +188,14 @@ mod tests {
         assert_eq!(number.vector(), vector.vector());
         assert!(vector.is_vector() && !number.is_vector());
         assert_eq!(Gravity::from(Vector3::zeros()).level(), None);
+        for (level, vector) in [
+            (true, Vector3::zeros()),
+            (true, Vector3::new(5e-10, 0.0, -9.81)),
+            (false, Vector3::new(1e-7, 0.0, -9.81)),
+            (false, Vector3::new(0.0, 0.0, 9.81)),
+        ] {
+            assert_eq!(Gravity::from(vector).is_base_level(), level, "{vector}");
+        }
         assert_eq!(Gravity::from(Vector3::new(0.0, 0.0, 1.0)).tilt(), std::f64::consts::PI);
     }
 }

@@ -51,7 +51,7 @@ pub use json::{JsonError, from_json, numbered, place_of};
 pub use law::LawSegment;
 pub use limits::{CableEnd, NamedReference, OwnLimits, TensionDistribution, TensionLimits, TensionReference};
 pub use nalgebra::{Matrix3, Matrix6xX, Rotation3, UnitQuaternion, Vector2, Vector3, Vector6};
-pub use number::{decimal, rounded, significant};
+pub use number::{decimal, decimals_of, rounded, significant, visible};
 pub use parameter::deviations::Deviations;
 pub use parameter::layout::ParameterLayout;
 pub use parameter::perturbed::{Perturbed, deviations};

@@ -70,12 +70,13 @@ impl DirectProblem<'_> {
         self.check("solution.equilibrium", &solution.equilibrium)?;
         if !self.robot.is_plain() {
             let reason = "a cable has an elastic law with pieces, a pulley or a lead, or the base is not level; \
-                          certificates are for plain cables on a level base";
-            return Err(StaticsError::NotCertified { reason, growth: f64::INFINITY });
+                          certificates are for plain cables on a level base, so that no box is tried";
+            return Err(StaticsError::NotCertified { reason, growth: None });
         }
         if !self.robot.freedoms().are_all() {
-            let reason = "the robot is a point mass or planar; certificates are for six free motions";
-            return Err(StaticsError::NotCertified { reason, growth: f64::INFINITY });
+            let reason = "the robot is a point mass or planar; certificates are for six free motions, so that \
+                          no box is tried";
+            return Err(StaticsError::NotCertified { reason, growth: None });
         }
         prove(self, &solution.equilibrium)
     }
@@ -91,7 +92,10 @@ fn prove(problem: &DirectProblem, equilibrium: &Equilibrium) -> Result<Certifica
 
     let inverse = Lu::new(&jacobian(problem, &state)).inverse();
     if inverse.iter().any(|y| !y.is_finite()) {
-        return Err(failed("the equations are singular here", f64::INFINITY));
+        return Err(failed(
+            "the equations are singular here: a motion of the platform has no stiffness, and no box is tried",
+            None,
+        ));
     }
     let multiplier = Multiplier::new(inverse);
     let open = residual(problem, &at(&DVector::zeros(size)).state);
@@ -104,7 +108,7 @@ fn prove(problem: &DirectProblem, equilibrium: &Equilibrium) -> Result<Certifica
         _ => f64::EPSILON * equilibrium.cable_forces[(i - 6) / 2].norm(),
     });
     let mut radius = floor.zip_map(&defect, |floor, defect| 2.0 * defect + floor);
-    let mut growth = f64::INFINITY;
+    let mut growth: Option<f64> = None;
     for _ in 0..MAX_BOXES {
         let boxed = at(&radius);
         if let Some(reason) = degenerate(problem, &boxed.state) {
@@ -121,7 +125,7 @@ fn prove(problem: &DirectProblem, equilibrium: &Equilibrium) -> Result<Certifica
                 image[row] = (image[row] + (left * radius[column]).next_up()).next_up();
             }
         }
-        growth = image.iter().zip(&radius).map(|(image, radius)| image / radius).fold(0.0, f64::max);
+        growth = Some(image.iter().zip(&radius).map(|(image, radius)| image / radius).fold(0.0, f64::max));
         if image.iter().zip(&radius).all(|(image, radius)| image < radius) {
             let least_stiffness = least_stiffness(problem, &boxed.state, &jacobian);
             return Ok(bounds(&state, &rotation, &image, least_stiffness));

@@ -3,7 +3,7 @@
 pub use crate::rest_fault::RestFault;
 use crate::state::Residual;
 use cdpr_cable::CableError;
-use cdpr_robot::{Pose, RobotError, counted, decimal, short, shortened, significant};
+use cdpr_robot::{Pose, RobotError, counted, decimal, short, shortened, significant, visible};
 use cdpr_tension::Bound;
 
 /// Why a model has no solution.
@@ -33,7 +33,7 @@ pub enum StaticsError {
     /// No tensions within the limits that hold the pose were found.
     #[error(
         "at position ({x}, {y}, {z}) m: no tensions between {min} N and {max} N balance the wrench{why}: \
-         the best tensions from {from}, up to {largest:.3} N, leave a residual of {} N and \
+         the best tensions from {from}, up to {largest} N, leave a residual of {} N and \
          {} N m{blocked}; change the pose, the load or the limits",
         left(*force, tensions),
         left(*moment, tensions),
@@ -41,7 +41,7 @@ pub enum StaticsError {
         min = short(*min),
         max = short(*max),
         from = if *starts == 1 { "one start".to_owned() } else { format!("{starts} starts") },
-        largest = tensions.iter().copied().fold(0.0, f64::max),
+        largest = visible(tensions.iter().copied().fold(0.0, f64::max), 3),
         why = if *rank_deficient { ", and cables at this pose cannot resist every wrench" } else { "" },
         blocked = Blocked::list(blocked)
     )]
@@ -129,9 +129,11 @@ pub enum StaticsError {
     /// A cable's weight leaves no tension at the platform between the least one there and the greatest one at
     /// the exit point.
     #[error(
-        "cable {}: its greatest tension at the exit point, {exit} N, leaves {max:.3} N at the platform, \
-         {depth:.3} m below, less than its least tension there, {min} N; change the pose or the limits",
+        "cable {}: its greatest tension at the exit point, {exit} N, leaves {} N at the platform, {} m \
+         below, less than its least tension there, {min} N; change the pose or the limits",
         index + 1,
+        visible(*max, 3),
+        visible(*depth, 3),
         exit = short(*exit),
         min = short(*min)
     )]
@@ -163,8 +165,9 @@ pub enum StaticsError {
     /// What was found strains a cable beyond [`cdpr_cable::MAX_STRAIN`].
     #[error(
         "cable {} is strained by {:.1} %, beyond the {:.0} % up to which the models hold: its unstrained \
-        length is {length} m, the distance of its points {distance:.4} m; it is too short or too soft for this",
-        index + 1, 100.0 * strain, 100.0 * cdpr_cable::MAX_STRAIN, length = short(*length)
+        length is {length} m, the distance of its points {} m; it is too short or too soft for this",
+        index + 1, 100.0 * strain, 100.0 * cdpr_cable::MAX_STRAIN,
+        visible(*distance, 4), length = short(*length)
     )]
     Overstrained {
         /// Index of the cable, from 0.
@@ -179,9 +182,9 @@ pub enum StaticsError {
     /// The lengths hold the platform only as long as nothing disturbs it: it leaves the pose by itself.
     #[error(
         "the equilibrium at ({:.4}, {:.4}, {:.4}) m is unstable: its softest motion has a stiffness of \
-        {least_stiffness:.3} N/m, and the platform leaves the pose along it; change the pose, lower the \
+        {} N/m, and the platform leaves the pose along it; change the pose, lower the \
         centre of mass or raise the tensions",
-        pose.position.x, pose.position.y, pose.position.z
+        pose.position.x, pose.position.y, pose.position.z, visible(*least_stiffness, 3)
     )]
     Unstable {
         /// The pose of the equilibrium.
@@ -209,14 +212,19 @@ pub enum StaticsError {
     BranchEnds(Box<BranchEnd>),
     /// The distance to the exact equilibrium could not be bounded.
     #[error(
-        "not certified: {reason} (closest attempt: the enclosing box maps to {growth:.3e} times itself, \
-        below 1 is a proof)"
+        "not certified: {reason}{}",
+        growth.map_or_else(String::new, |growth| match growth.is_finite() {
+            true => format!(
+                " (closest attempt: the enclosing box maps to {growth:.3e} times itself, below 1 is a proof)"
+            ),
+            false => " (closest attempt: what the enclosing box maps to has no bounds)".to_owned(),
+        })
     )]
     NotCertified {
         /// Why.
         reason: &'static str,
-        /// Size of the image of the last box, relative to the box.
-        growth: f64,
+        /// Size of the image of the last box, relative to the box; `None` where the reason leaves no box to try.
+        growth: Option<f64>,
     },
     /// A derivative that does not exist.
     #[error("{quantity} has no derivative: {reason}")]

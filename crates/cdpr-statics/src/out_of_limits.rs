@@ -1,7 +1,7 @@
 //! Tensions that a cable is not to have: what is named about a solution, whichever model found it.
 
 use crate::state::Equilibrium;
-use cdpr_robot::{CableEnd, Robot, TensionLimits, decimal};
+use cdpr_robot::{CableEnd, Robot, TensionLimits, visible};
 use std::fmt;
 
 /// A tension outside of what a cable is to bear, or can bear.
@@ -115,7 +115,7 @@ impl fmt::Display for OutOfLimits {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { cable, end, tension, limit, value } = self;
         let end = if end.is_anchor() { "" } else { " at the exit point" };
-        let tension = decimal(*tension, 3);
+        let tension = visible(*tension, 3);
         write!(f, "cable {}: its tension of {tension} N{end} is ", cable + 1)?;
         match limit {
             Limit::BreakingForce => write!(f, "above its breaking force, {value} N"),

@@ -3,7 +3,7 @@
 use crate::error::StaticsError;
 use crate::state::{Equilibrium, Load};
 use cdpr_cable::{Cable, Catenary};
-use cdpr_robot::{Robot, RobotCable, Vector2};
+use cdpr_robot::{Robot, RobotCable, Vector2, visible};
 
 /// A robot whose cables have given unstrained lengths, under a load: what the direct model solves.
 ///
@@ -169,7 +169,8 @@ pub fn check_lengths(robot: &Robot, lengths: &[f64]) -> Result<(), StaticsError>
             "lengths".to_owned(),
             format!("{lengths:?}"),
             format!(
-                "lengths in m for a robot that is {wide:.3} m wide: {shortest} mm is {}",
+                "lengths in m for a robot that is {} m wide: {shortest} mm is {}",
+                visible(wide, 3),
                 shortest / 1000.0
             ),
         ));

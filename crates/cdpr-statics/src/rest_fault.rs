@@ -1,7 +1,7 @@
 //! Why a solution of the balance with free coordinates is refused.
 
 use crate::out_of_limits::{Limit, OutOfLimits};
-use cdpr_robot::decimal;
+use cdpr_robot::{decimal, visible};
 use std::fmt;
 
 /// What is wrong about lengths and free coordinates with which a platform might rest.
@@ -86,7 +86,7 @@ impl fmt::Display for RestFault {
             Self::Limit(OutOfLimits { cable, end, tension, limit, value }) => {
                 let side = if matches!(limit, Limit::Min) { "below" } else { "above" };
                 let end = if end.is_anchor() { "" } else { " at its exit point" };
-                let tension = decimal(*tension, 3);
+                let tension = visible(*tension, 3);
                 write!(
                     f,
                     "taut solutions exist only with cable {} at {tension} N{end}, {side} its limit of \
@@ -96,7 +96,7 @@ impl fmt::Display for RestFault {
             }
             Self::BelowGround { cable, is_anchor, height, ground } => {
                 let what = if *is_anchor { "the anchor point" } else { "the lowest point" };
-                let height = decimal(*height, 3);
+                let height = visible(*height, 3);
                 write!(
                     f,
                     "only with {what} of cable {} at z = {height} m, below the ground at {ground} m; change \
@@ -121,12 +121,13 @@ impl fmt::Display for RestFault {
                 f,
                 "cable {} would have to push with {} N; change the pose, or name other coordinates as free",
                 number(cable),
-                decimal(*force, 3)
+                visible(*force, 3)
             ),
             Self::Residual { force, moment } => write!(
                 f,
-                "the best leave {force:.3} N and {moment:.3} N m; change the pose or name other coordinates \
-                 as free"
+                "the best leave {} N and {} N m; change the pose or name other coordinates as free",
+                visible(*force, 3),
+                visible(*moment, 3)
             ),
         }
     }

@@ -41,6 +41,7 @@ mod response;
 mod safety;
 mod shell;
 mod simulate;
+mod small;
 mod strangers;
 mod study_blocks;
 mod study_poses;

@@ -56,7 +56,7 @@ fn a_plane_is_written_as_table_summary_and_maps_the_same_on_any_number_of_thread
     let columns = &summary["columns"];
     let center = |name: &str| columns[name][31].as_f64().unwrap();
     let exact = deflection(&robot, &Pose::at(0.0, 0.0, 1.75), &Load::payload(50.0)).unwrap();
-    assert_eq!((center("x"), center("y")), (0.0, 0.0));
+    assert_eq!((center("x_m"), center("y_m")), (0.0, 0.0));
     assert!((center("magnitude_mm") - 1e3 * exact.magnitude()).abs() < 1e-11 * 1e3 * exact.magnitude());
     assert_eq!(
         (&columns["status"][31], &columns["dominant"][31]),
@@ -72,7 +72,7 @@ fn a_plane_is_written_as_table_summary_and_maps_the_same_on_any_number_of_thread
     let table = text(written[5].1.clone());
     let lines: Vec<_> = table.lines().collect();
     assert_eq!(lines.len(), 64);
-    assert!(lines[0].starts_with("x,y,z,status,least_tension,greatest_tension,dx_mm"));
+    assert!(lines[0].starts_with("x_m,y_m,z_m,status,least_tension,greatest_tension,dx_mm"));
     assert!(
         lines[32].starts_with("0,0,1.75,held,") || lines[32].starts_with("0.0,0.0,1.75,held,"),
         "{}",

@@ -22,7 +22,7 @@ impl Mesh {
             [p, q, r] => (p - origin).dot(&(q - origin).cross(&(r - origin))) / 6.0,
             _ => 0.0,
         };
-        self.faces.iter().map(of_face).sum()
+        self.faces.iter().map(of_face).sum::<f64>() + 0.0
     }
 
     /// Length of the segments [m] or area of the triangles [m²].

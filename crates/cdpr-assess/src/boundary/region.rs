@@ -12,7 +12,7 @@ const REACH: f64 = 0.6;
 const NEARER: [f64; 4] = [1.0 / 64.0, 1.0 / 16.0, 1.0 / 4.0, 1.0];
 
 /// A place of the grid, or one step outside of it.
-type Node = [i64; 3];
+pub(super) type Node = [i64; 3];
 
 /// A region of positions on a grid.
 pub(super) struct Region<'a> {
@@ -52,11 +52,15 @@ impl Region<'_> {
         range(0).flat_map(along).collect()
     }
 
-    /// The boundary between nodes of both kinds.
-    pub(super) fn mesh(&self) -> Mesh {
+    /// Which nodes of the grid are inside.
+    pub(super) fn held(&self) -> HashMap<Node, bool> {
         let nodes = self.nodes(0, 0);
         let held: Vec<bool> = nodes.par_iter().map(|node| (self.inside)(&self.position(node))).collect();
-        let held: HashMap<Node, bool> = nodes.into_iter().zip(held).collect();
+        nodes.into_iter().zip(held).collect()
+    }
+
+    /// The boundary between nodes of both kinds.
+    pub(super) fn mesh(&self, held: &HashMap<Node, bool>) -> Mesh {
         let is_inside = |node: &Node| held.get(node).copied().unwrap_or(false);
         let mut crossings: HashMap<[Node; 2], usize> = HashMap::new();
         let mut edges = Vec::new();
@@ -95,6 +99,21 @@ impl Region<'_> {
             self.last(from, to)
         };
         Mesh { points: edges.par_iter().map(crossing).collect(), faces }
+    }
+
+    /// Measure of the cells whose centre is not inside though both ends of a diagonal through it are, or the
+    /// other way round: the region has parts there that the grid does not see. Of a half of space none is.
+    pub(super) fn unlike_centres(&self, held: &HashMap<Node, bool>) -> f64 {
+        let measure = |cell: &Node| {
+            let end: Node = std::array::from_fn(|k| cell[k] + i64::from(self.axes.contains(&k)));
+            let (from, to) = (self.position(cell), self.position(&end));
+            let is_inside = held[cell];
+            let is_unlike = held[&end] == is_inside && (self.inside)(&(0.5 * (from + to))) != is_inside;
+            if is_unlike { self.axes.iter().map(|k| to[*k] - from[*k]).product() } else { 0.0 }
+        };
+        let cells = self.nodes(0, -1);
+        let measures: Vec<f64> = cells.par_iter().map(measure).collect();
+        measures.iter().sum()
     }
 
     /// Where the region ends on the way from a position inside to one outside.

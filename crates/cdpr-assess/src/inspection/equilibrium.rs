@@ -16,8 +16,6 @@ const BELOW_EXITS: f64 = 0.1;
 const BELOW_LEVEL_EXITS: f64 = 2.0;
 /// Heights that differ by less than this share of the frame's size are one.
 const LEVEL: f64 = 0.1;
-/// Horizontal part of the gravity of a level base frame, relative to its size.
-const LEVEL_BASE: f64 = 1e-9;
 /// Robots of fewer cables may hang on half of them.
 const FEW_CABLES: usize = 4;
 
@@ -90,10 +88,8 @@ fn floor(robot: &Robot, start: Option<&Pose>) -> Option<(f64, String)> {
             (low - share * size, name)
         }
     };
-    let down = robot.gravity.vector();
-    let is_level = down.xy().norm() <= LEVEL_BASE * down.norm();
     let is_refuted = start.is_some_and(|start| lowest(robot, start) < guess.0);
-    (is_level && !is_refuted).then_some(guess)
+    (robot.gravity.is_base_level() && !is_refuted).then_some(guess)
 }
 
 /// A platform that is turned by more than a right angle.

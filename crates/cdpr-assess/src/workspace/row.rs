@@ -14,9 +14,9 @@ use serde::ser::{Serialize, SerializeMap, Serializer};
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[allow(missing_docs)]
 pub struct WorkspaceRow {
-    pub x: f64,
-    pub y: f64,
-    pub z: f64,
+    pub x_m: f64,
+    pub y_m: f64,
+    pub z_m: f64,
     /// With the lengths kept: `held`; `beyond_limits` where the load takes a tension out of the limits; else
     /// the kind of failure.
     pub status: &'static str,
@@ -124,9 +124,9 @@ impl WorkspaceRow {
         };
         let name = |dominant: Dominant| Some(workspace.tolerances?.inputs.get(dominant.input)?.name.clone());
         Self {
-            x,
-            y,
-            z,
+            x_m: x,
+            y_m: y,
+            z_m: z,
             status,
             least_tension: held.map(|held| held.least_tension),
             greatest_tension: held.map(|held| held.greatest_tension),
@@ -253,7 +253,7 @@ pub(super) fn columns<S: Serializer>(rows: &[WorkspaceRow], serializer: S) -> Re
         };
     }
     columns!(
-        x, y, z, status;
+        x_m, y_m, z_m, status;
         least_tension,
         greatest_tension,
         dx_mm,

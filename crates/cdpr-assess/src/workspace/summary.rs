@@ -107,8 +107,10 @@ pub struct BoundarySummary {
     pub way: &'static str,
     /// Its area [m²] in a plane, its volume [m³] in a box.
     pub measure: f64,
-    /// Estimate of the error of it.
+    /// Estimate of the error of it where the boundary is smooth over a step of the grid.
     pub error: f64,
+    /// What of it is in doubt, since parts thinner than a step of the grid are not seen.
+    pub doubtful: f64,
     /// `m2` or `m3`.
     pub unit: &'static str,
     /// Polygons of its boundary in a plane, triangles in a box.
@@ -217,12 +219,13 @@ impl ShakingSummary {
 impl BoundarySummary {
     /// Sums up a boundary.
     pub fn new(way: Way, boundary: &Boundary) -> Self {
-        let Boundary { measure, error, polygons, triangles, evaluations } = boundary;
+        let Boundary { measure, error, doubtful, polygons, triangles, evaluations } = boundary;
         let is_plane = triangles.is_empty();
         Self {
             way: way.name(),
             measure: *measure,
             error: *error,
+            doubtful: *doubtful,
             unit: if is_plane { "m2" } else { "m3" },
             parts: if is_plane { polygons.len() } else { triangles.len() },
             evaluations: *evaluations,
@@ -334,5 +337,5 @@ fn extremes<'a>(
     rows: impl Iterator<Item = &'a WorkspaceRow>,
     value: impl Fn(&WorkspaceRow) -> Option<f64>,
 ) -> Option<Extremes> {
-    Extremes::of(rows.filter_map(|row| Some((value(row)?, [row.x, row.y, row.z]))))
+    Extremes::of(rows.filter_map(|row| Some((value(row)?, [row.x_m, row.y_m, row.z_m]))))
 }

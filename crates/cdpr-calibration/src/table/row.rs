@@ -4,13 +4,36 @@ use crate::campaign::{Noise, Quantity, Reading, Row, STD_EXPECTED, is_std};
 use crate::error::CalibrationError;
 use crate::sensor_error::size;
 use crate::table::columns::{Column, Named};
-use cdpr_robot::{Axis, Robot, Rotation3, rotation_in_order, short};
+use cdpr_robot::{Axis, Robot, Rotation3, rotation_of, short, visible};
 use cdpr_statics::Load;
 
 /// The noise that is stated for all rows.
 pub(super) struct Stated {
     pub(super) stds: Noise,
     pub(super) covariances: Vec<(Quantity, Quantity, f64)>,
+    /// Greatest tension of the table [N], a scale for tensions without noise.
+    pub(super) greatest_tension: f64,
+}
+
+impl Stated {
+    /// Standard deviation of a quantity without noise.
+    fn exact(&self, quantity: Quantity, robot: &Robot) -> f64 {
+        Noise::exact(quantity, size(robot), self.greatest_tension)
+    }
+}
+
+/// The greatest tension of a table [N]; where all are zero the weight of the platform, or 1 N.
+pub(super) fn greatest_tension(cells: &[(usize, Vec<Option<f64>>)], columns: &[Named], robot: &Robot) -> f64 {
+    let of_row = |(_, row): &(usize, Vec<Option<f64>>)| {
+        let tension = |(named, cell): (&Named, &Option<f64>)| match named.column {
+            Column::Reading(Quantity::Tension(..)) if !named.is_std => cell.map(|value| value * named.factor),
+            _ => None,
+        };
+        columns.iter().zip(row).filter_map(tension).fold(0.0, |most: f64, tension| most.max(tension.abs()))
+    };
+    let weight = robot.platform.mass * robot.gravity.magnitude();
+    let scales = [cells.iter().map(of_row).fold(0.0, f64::max), weight];
+    scales.into_iter().find(|scale| *scale > 0.0).unwrap_or(1.0)
 }
 
 /// A row by its cells.
@@ -89,7 +112,7 @@ impl Cells<'_> {
     }
 
     fn reading(&self, quantity: Quantity, value: f64) -> Result<Reading, CalibrationError> {
-        let std = self.std_of(quantity)?.unwrap_or(Noise::exact(quantity));
+        let std = self.std_of(quantity)?.unwrap_or_else(|| self.noise.exact(quantity, self.robot));
         Ok(Reading { quantity, value, std })
     }
 
@@ -132,9 +155,11 @@ impl Cells<'_> {
             None => {
                 Err(self.incomplete(format!("column l{}_m is empty: expected all lengths, or none", i + 1)))
             }
-            Some((value, named)) if value.abs() > LONGEST * size => {
-                Err(self.refused(named, value, format!("a length in m; the robot is {size:.3} m wide")))
-            }
+            Some((value, named)) if value.abs() > LONGEST * size => Err(self.refused(
+                named,
+                value,
+                format!("a length in m; the robot is {} m wide", visible(size, 3)),
+            )),
             Some((value, _)) => Ok(value),
         };
         cells.into_iter().enumerate().map(checked).collect::<Result<_, _>>().map(Some)
@@ -147,20 +172,20 @@ impl Cells<'_> {
         let mut stds: Vec<f64> =
             (0..self.robot.cables.len()).map(std).collect::<Result<_, CalibrationError>>()?;
         if stds.iter().any(|std| *std > 0.0) {
-            let exact = Noise::exact(Quantity::Length(0));
+            let exact = self.noise.exact(Quantity::Length(0), self.robot);
             stds.iter_mut().filter(|std| **std == 0.0).for_each(|std| *std = exact);
         }
         Ok(stds)
     }
 
-    /// The orientation by its quaternion.
+    /// The orientation by its quaternion. The names of its columns state the order.
     fn rotation(&self) -> Result<Option<Rotation3<f64>>, CalibrationError> {
         let cells: Vec<_> = (0..4).filter_map(|k| self.find(Column::Quaternion(k), false)).collect();
         match cells[..] {
             [] => Ok(None),
-            [(w, named), (x, _), (y, _), (z, _)] => rotation_in_order([w, x, y, z])
-                .map(Some)
-                .map_err(|error| self.refused(named, w, error.to_string())),
+            [(w, named), (x, _), (y, _), (z, _)] => {
+                rotation_of([w, x, y, z]).map(Some).map_err(|error| self.refused(named, w, error.to_string()))
+            }
             _ => Err(self.incomplete("a part of qw, qx, qy, qz is empty: expected all or none")),
         }
     }
@@ -176,7 +201,7 @@ impl Cells<'_> {
             let is_length =
                 matches!(quantity, Quantity::Position(_) | Quantity::Marker(..) | Quantity::Displacement(_));
             if is_length && (value - anywhere(self.robot, quantity)).abs() > FARTHEST * size {
-                let expected = format!("a place in m; the robot is {size:.3} m wide");
+                let expected = format!("a place in m; the robot is {} m wide", visible(size, 3));
                 return Err(self.refused(named, value, expected));
             }
             if matches!(quantity, Quantity::Angle(_)) && value.abs() > std::f64::consts::TAU {

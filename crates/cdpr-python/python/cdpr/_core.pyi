@@ -2742,6 +2742,9 @@ class Boundary:
     def error(self) -> float:
         """Estimate of its error [m², m³]."""
     @property
+    def doubtful(self) -> float:
+        """What of it is in doubt, since parts thinner than a step of the grid are not seen [m², m³]."""
+    @property
     def polygons(self) -> list[_Floats]:
         """Closed polygons in a plane, the region on their left [m]: a list of arrays (.., 3)."""
     @property

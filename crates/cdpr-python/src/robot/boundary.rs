@@ -19,6 +19,8 @@ answer! {
         measure: f64,
         /// Estimate of its error [m², m³].
         error: f64,
+        /// What of it is in doubt, since parts thinner than a step of the grid are not seen [m², m³].
+        doubtful: f64,
         /// Closed polygons in a plane, the region on their left [m]: a list of arrays (.., 3).
         polygons: Vec<Py<PyAny>>,
         /// Triangles in a box, the region behind them [m], (t, 3, 3).
@@ -115,6 +117,7 @@ impl Robot {
         Ok(Boundary {
             measure: found.measure,
             error: found.error,
+            doubtful: found.doubtful,
             polygons: polygons.collect::<PyResult<_>>()?,
             triangles: array(&mut found.triangles.iter().flatten(), &[found.triangles.len(), 3, 3])?,
             evaluations: found.evaluations,

@@ -5,6 +5,7 @@ use super::doubt::{
     Doubt, Doubts, capacity, four_digits, frame_size, in_other_unit, in_other_units, is_possible, reach,
 };
 use super::layout;
+use crate::number::visible;
 use crate::robot::{Robot, RobotCable};
 use std::ops::Range;
 
@@ -177,9 +178,10 @@ fn weight(robot: &Robot) -> Option<Doubt> {
     if weight <= most {
         return None;
     }
+    let [shown_weight, shown_most] = [weight, most].map(|force| visible(force, 1));
     let too_little = || {
         format!(
-            "all cables at it, drawn straight up, hold {most:.1} N, less than the platform's weight, {weight:.1} N"
+            "all cables at it, drawn straight up, hold {shown_most} N, less than the platform's weight, {shown_weight} N"
         )
     };
     if 1e3 * most > weight
@@ -190,8 +192,8 @@ fn weight(robot: &Robot) -> Option<Doubt> {
     let meant = in_other_unit(mass, "kg", &[("g", 1e-3)], |mass| mass * robot.gravity.magnitude() < most);
     Some(Doubt::new(
         "platform.mass",
-        format!("{} kg, {weight:.1} N", four_digits(mass)),
-        format!("all cables at tension_limits.max, drawn straight up, hold {most:.1} N"),
+        format!("{} kg, {shown_weight} N", four_digits(mass)),
+        format!("all cables at tension_limits.max, drawn straight up, hold {shown_most} N"),
         meant.unwrap_or_else(|| "a smaller mass or a greater limit".to_owned()),
     ))
 }

@@ -1,6 +1,7 @@
 //! Doubts about where the points of a robot are.
 
 use super::doubt::{Doubt, Doubts, four_digits, frame_size};
+use crate::number::visible;
 use crate::robot::Robot;
 use std::ops::Range;
 
@@ -28,14 +29,14 @@ pub(super) fn sizes(robot: &Robot) -> Doubts {
         Doubt::new(
             format!("cables[{i}].anchor_point"),
             format!("{:?} m", robot.cables[i].anchor_point.as_slice()),
-            format!("far from all others, outside of the frame of {size:.3} m"),
+            format!("far from all others, outside of the frame of {} m", visible(size, 3)),
             "a point of the platform in m, not in mm",
         )
     } else if platform > size {
         Doubt::new(
             "cables[*].anchor_point",
-            format!("on average {platform:.3} m from P"),
-            format!("a platform larger than its frame of {size:.3} m"),
+            format!("on average {} m from P", visible(platform, 3)),
+            format!("a platform larger than its frame of {} m", visible(size, 3)),
             "anchor_point on the platform, exit_point on the base, both in m",
         )
     } else {

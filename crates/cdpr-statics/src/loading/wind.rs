@@ -20,9 +20,6 @@ const AIR_DENSITY: f64 = 1.225;
 /// wires and cables).
 const DRAG_COEFFICIENT: f64 = 1.2;
 
-/// Horizontal part of the gravity of a level base frame, relative to its size.
-const LEVEL: f64 = 1e-9;
-
 /// Faster winds are in another unit.
 const FASTEST: f64 = 120.0;
 
@@ -170,9 +167,8 @@ impl DirectProblem<'_> {
     /// the pose, and [`StaticsError::DirectNotConverged`].
     pub fn in_wind(&self, wind: &Wind, still: &DirectSolution) -> Result<RestInWeather, StaticsError> {
         self.check("still", &still.equilibrium)?;
-        let down = self.robot.gravity.vector();
-        if wind.profile.is_some() && down.xy().norm() > LEVEL * down.norm() {
-            let expected = "a wind that is the same everywhere, or a base frame whose z axis is vertical";
+        if wind.profile.is_some() && !self.robot.gravity.is_base_level() {
+            let expected = "a wind that is the same everywhere, or a base frame whose z axis points upwards";
             return Err(StaticsError::invalid("wind_profile".to_owned(), "a tilted base frame", expected));
         }
         let symmetric = self.linearize(&still.equilibrium)?.symmetric_stiffness();

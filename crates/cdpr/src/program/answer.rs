@@ -5,7 +5,7 @@
 use crate::program::output::{Ending, print_sentence, table};
 use cdpr_cable::SLACK_BELOW_OWN_WEIGHTS;
 pub(crate) use cdpr_robot::decimal;
-use cdpr_robot::{CableEnd, Pose, Robot, counted, significant};
+use cdpr_robot::{CableEnd, Pose, Robot, counted, decimals_of, significant};
 use cdpr_statics::stiffness::Mode;
 use cdpr_statics::{Bound, DirectSolution, Equilibrium, Load, Stability};
 use serde::Serialize;
@@ -274,8 +274,10 @@ pub(crate) fn exact_place(pose: &Pose) -> String {
 /// Prints lengths and tensions of all cables, these at the platform and at the exit point.
 pub(crate) fn print_cables(lengths: &[f64], tensions: &[f64], exit_tensions: &[f64]) {
     let mut rows = table(&["cable", "unstrained length [m]", "tension [N]", "at exit point [N]"]);
+    let decimals = decimals_of(exit_tensions.iter().chain(tensions).copied(), 3);
     for (i, (length, (tension, exit))) in lengths.iter().zip(tensions.iter().zip(exit_tensions)).enumerate() {
-        rows.add_row([(i + 1).to_string(), format!("{length:.6}"), decimal(*tension, 3), decimal(*exit, 3)]);
+        let [tension, exit] = [tension, exit].map(|tension| decimal(*tension, decimals));
+        rows.add_row([(i + 1).to_string(), format!("{length:.6}"), tension, exit]);
     }
     println!("{rows}");
 }

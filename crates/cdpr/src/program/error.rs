@@ -6,7 +6,7 @@ use cdpr_calibration::CalibrationError;
 use cdpr_dynamics::DynamicsError;
 use cdpr_exchange::{ExchangeError, Lacking};
 use cdpr_report::ReportError;
-use cdpr_robot::{JsonError, QuaternionError, counted};
+use cdpr_robot::{JsonError, QuaternionError, Robot, counted};
 use cdpr_statics::StaticsError;
 use cdpr_study::{InputKind, ROBOT_NAME, STUDY_NAME, StudyError};
 use std::path::{Path, PathBuf};
@@ -51,6 +51,14 @@ pub(crate) enum ProgramError {
          pulleys"
     )]
     NoLaw,
+    /// A command without `--free`, and a robot that needs it.
+    #[error(
+        "{} for {} leave {} of the pose that cannot be chosen, and this command chooses all: expected {freedoms} \
+         cables or more; {instead}",
+        counted(*cables, "cable"), counted(*freedoms, "free motion"),
+        counted(freedoms.saturating_sub(*cables), "coordinate")
+    )]
+    TooFewCables { cables: usize, freedoms: usize, instead: &'static str },
     /// A list of poses or wrenches.
     #[error("{option} {path}, {reason}")]
     List { option: &'static str, path: PathBuf, reason: String },
@@ -98,6 +106,13 @@ impl ProgramError {
     /// The error with the file that it is about.
     pub(crate) fn in_file<E: Into<Self>>(path: &Path) -> impl Fn(E) -> Self {
         |source| Self::InFile { path: path.to_owned(), source: Box::new(source.into()) }
+    }
+
+    /// Refuses a robot with fewer cables than free motions, for a command that does not find coordinates; what
+    /// takes it instead.
+    pub(crate) fn unless_chosen(robot: &Robot, instead: &'static str) -> Result<(), Self> {
+        let (cables, freedoms) = (robot.cables.len(), robot.freedoms().count());
+        if cables < freedoms { Err(Self::TooFewCables { cables, freedoms, instead }) } else { Ok(()) }
     }
 
     /// The error of writing to a path.

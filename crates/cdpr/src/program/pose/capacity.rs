@@ -11,7 +11,7 @@ use cdpr_assess::{
     Block, CableDistance, Capacity, Clearance, Figure, PlatformDistance, TiltTowards, WrenchSet, capacity_at,
     clearance_under, tilt_at,
 };
-use cdpr_robot::{Pose, Robot, counted, significant};
+use cdpr_robot::{Pose, Robot, counted, significant, visible};
 use cdpr_statics::capacity::tension_margin;
 use cdpr_statics::{Load, StaticsError, WantedPose};
 use serde::Serialize;
@@ -252,11 +252,17 @@ impl Row for Answer {
         Vec::new()
     }
 
-    /// A platform that falls under the load itself is something wrong.
+    /// A platform that falls under the load itself is something wrong, and cables that pass through each other
+    /// or through the platform are.
     fn ending(&self) -> Ending {
         let falls =
             |shown: &Shown| shown.value.is_none() && shown.error.as_ref().is_some_and(Failure::is_fall);
-        if self.all().iter().any(|(_, shown)| falls(shown)) { Ending::SomethingWrong } else { Ending::Well }
+        let crosses = !self.crossings().is_empty();
+        if crosses || self.all().iter().any(|(_, shown)| falls(shown)) {
+            Ending::SomethingWrong
+        } else {
+            Ending::Well
+        }
     }
 }
 
@@ -284,6 +290,22 @@ impl Answer {
             ("margin [N], tensions recomputed", &self.margin.recomputed),
             ("margin [N], lengths kept", &self.margin.kept),
         ]
+    }
+
+    /// Which cables pass through each other or through the platform.
+    fn crossings(&self) -> Vec<String> {
+        let cables = self.nearest_cables.as_ref().filter(|near| near.distance < 0.0);
+        let platform = self.nearest_to_platform.as_ref().filter(|near| near.distance < 0.0);
+        let cables = cables.map(|NearCables { distance, cables: [i, j] }| {
+            format!("Cables {i} and {j} cross: they overlap by {} mm.", visible(-1e3 * distance, 1))
+        });
+        let platform = platform.map(|NearPlatform { distance, cable }| {
+            format!(
+                "Cable {cable} crosses the platform, the hull of the other anchor points, by {} mm.",
+                visible(-1e3 * distance, 1)
+            )
+        });
+        cables.into_iter().chain(platform).collect()
     }
 
     /// What the robot carries, and how far its tensions are from their limits.
@@ -320,14 +342,14 @@ impl Answer {
     }
 
     fn print(&self, heading: &str) {
-        for sentence in self.sentences(heading) {
+        for sentence in self.sentences(heading).into_iter().chain(self.crossings()) {
             print_sentence(&sentence);
         }
         let mut rows = table(&["", "value", "blocked by"]);
         let mut told: Vec<&str> = Vec::new();
         for (name, shown) in self.all() {
             let value = match shown.value {
-                Some(value) => decimal(value, 3),
+                Some(value) => visible(value, 3),
                 None if shown.error.is_some() => "none".to_owned(),
                 None => "beyond a limit without it".to_owned(),
             };
@@ -338,11 +360,11 @@ impl Answer {
             rows.add_row([name.to_owned(), value, words]);
         }
         println!("{rows}");
-        if let Some(NearCables { distance, cables: [i, j] }) = self.nearest_cables {
-            println!("nearest cables {i} and {j}, {:.1} mm apart", 1e3 * distance);
+        if let Some(NearCables { distance: distance @ 0.0.., cables: [i, j] }) = self.nearest_cables {
+            println!("nearest cables {i} and {j}, {} mm apart", visible(1e3 * distance, 1));
         }
-        if let Some(NearPlatform { distance, cable }) = self.nearest_to_platform {
-            println!("cable {cable} is nearest to the platform, {:.1} mm", 1e3 * distance);
+        if let Some(NearPlatform { distance: distance @ 0.0.., cable }) = self.nearest_to_platform {
+            println!("cable {cable} is nearest to the platform, {} mm", visible(1e3 * distance, 1));
         }
         if self.tilt.is_empty() {
             return;

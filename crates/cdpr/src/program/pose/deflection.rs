@@ -7,7 +7,7 @@ use crate::program::error::ProgramError;
 use crate::program::output::{Details, Ending, print_sentence, table};
 use crate::program::pose::at_pose::{RobotAtFreePose, Row, cells, numbered};
 use crate::program::questions;
-use cdpr_robot::{Pose, Robot, Vector3, Vector6};
+use cdpr_robot::{Pose, Robot, Vector3, Vector6, decimals_of, visible};
 use cdpr_statics::weather::{RestInWeather, Weather, in_weather};
 use cdpr_statics::{Deflection, Load, WantedPose, deflection};
 use serde::Serialize;
@@ -125,8 +125,8 @@ impl Answer {
             true => "it stays stable",
             false => "it is unstable then",
         };
-        print_sentence(&format!("{heading} is displaced by {:.5} mm; {stays}.", self.magnitude_mm));
-        println!("dp = {} mm", vector(&self.deflection_mm, 5));
+        print_sentence(&format!("{heading} is displaced by {} mm; {stays}.", visible(self.magnitude_mm, 5)));
+        println!("dp = {} mm", vector(&self.deflection_mm, decimals_of(self.deflection_mm, 5)));
         if self.magnitude_mm == 0.0 {
             println!("no displacement above rounding, {:.1e} mm", self.rounding_mm);
         }
@@ -138,9 +138,10 @@ impl Answer {
             return self.loaded.print("With the load the platform", &self.lengths);
         }
         let mut rows = table(&["cable", "unstrained length [m]", "tension [N]", "with the load [N]"]);
+        let decimals = decimals_of(self.unloaded.tensions.iter().chain(&self.loaded.tensions).copied(), 3);
         let tensions = self.unloaded.tensions.iter().zip(&self.loaded.tensions);
         for (i, (length, (unloaded, loaded))) in self.lengths.iter().zip(tensions).enumerate() {
-            let numbers = [decimal(*unloaded, 3), decimal(*loaded, 3)];
+            let numbers = [unloaded, loaded].map(|tension| decimal(*tension, decimals));
             rows.add_row([(i + 1).to_string(), format!("{length:.6}")].into_iter().chain(numbers));
         }
         println!("{rows}");
@@ -212,16 +213,16 @@ impl AnswerInWeather {
     fn print(&self, heading: &str, details: bool) {
         let Self { still, in_weather } = self;
         print_sentence(&format!(
-            "{heading} is displaced by {:.5} mm in this weather.",
-            in_weather.magnitude_mm
+            "{heading} is displaced by {} mm in this weather.",
+            visible(in_weather.magnitude_mm, 5)
         ));
-        println!("dp = {} mm", vector(&in_weather.deflection_mm, 5));
+        println!("dp = {} mm", vector(&in_weather.deflection_mm, decimals_of(in_weather.deflection_mm, 5)));
         println!("rotated by {} degrees", vector(&in_weather.rotation_deg, 5));
         if still.magnitude_mm > 0.0 {
-            println!("without the weather the load displaces it by {:.5} mm", still.magnitude_mm);
+            println!("without the weather the load displaces it by {} mm", visible(still.magnitude_mm, 5));
         }
         if let Some(drag) = &in_weather.drag {
-            println!("force of the wind on all cables {} N", vector(drag, 3));
+            println!("force of the wind on all cables {} N", vector(drag, decimals_of(*drag, 3)));
         }
         let mut rows = table(&[
             "cable",
@@ -230,10 +231,12 @@ impl AnswerInWeather {
             "in the weather [N]",
             "at exit point [N]",
         ]);
+        let decimals =
+            decimals_of(still.unloaded.tensions.iter().chain(&in_weather.exit_tensions).copied(), 3);
         let tensions =
             still.unloaded.tensions.iter().zip(&in_weather.tensions).zip(&in_weather.exit_tensions);
         for (i, (length, ((unloaded, blown), exit))) in still.lengths.iter().zip(tensions).enumerate() {
-            let numbers = [*unloaded, *blown, *exit].map(|tension| decimal(tension, 3));
+            let numbers = [*unloaded, *blown, *exit].map(|tension| decimal(tension, decimals));
             rows.add_row([(i + 1).to_string(), format!("{length:.6}")].into_iter().chain(numbers));
         }
         println!("{rows}");

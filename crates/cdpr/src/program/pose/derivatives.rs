@@ -15,7 +15,7 @@ use crate::program::pose::derivatives::leading::{LEADING, handy_unit};
 use crate::program::pose::derivatives::uncertainty::Uncertainty;
 use crate::program::pose::derivatives::weather::InWeather;
 use cdpr_dynamics::{DynamicsError, FrequencyDerivatives};
-use cdpr_robot::{Parameter, Robot};
+use cdpr_robot::{Parameter, Robot, visible};
 use cdpr_statics::derivatives::OneSided;
 use cdpr_statics::{Derivatives, Load, Observer, StaticsError, WantedPose, derivatives};
 use cdpr_study::explained_deflection;
@@ -263,7 +263,7 @@ impl Slopes {
         let dp = self.deflection_magnitude_mm;
         match &self.uncertainty {
             Some(uncertainty) => uncertainty.print(heading, dp),
-            None => print_sentence(&format!("{heading}: |dp| = {dp:.5} mm under the load.")),
+            None => print_sentence(&format!("{heading}: |dp| = {} mm under the load.", visible(dp, 5))),
         }
         let mut rows = self.rows();
         let size = |(_, index, slope): &(String, usize, Slope)| {

@@ -11,7 +11,7 @@ use crate::program::output::{Ending, patiently, print_sentence, table};
 use crate::program::pose::at_pose::print_fall;
 use crate::program::questions;
 use cdpr_report::{Cycle, CycleBranch, cycle};
-use cdpr_robot::{Robot, Vector3, shown};
+use cdpr_robot::{Robot, Vector3, decimals_of, shown, visible};
 use cdpr_statics::hysteresis::{
     CycleStep, HysteresisLaw, LoadCycle, PulleyFriction, PulleyState, Unloading, load_cycle_over_pulleys,
 };
@@ -275,9 +275,10 @@ impl Pulleys {
             _ => format!("the wheels of cables {} slip", slipping.join(", ")),
         };
         print_sentence(&format!(
-            "Friction of the pulleys: up to {:.2} N between winch and platform; the ways down and up are \
-             up to {:.5} mm apart; {slipping}.",
-            self.greatest_difference_n, self.gap_mm
+            "Friction of the pulleys: up to {} N between winch and platform; the ways down and up are \
+             up to {} mm apart; {slipping}.",
+            visible(self.greatest_difference_n, 2),
+            visible(self.gap_mm, 5)
         ));
         let mut rows = table(&[
             "cable",
@@ -287,8 +288,14 @@ impl Pulleys {
             "removed [N]",
             "slip",
         ]);
+        let all =
+            self.cables.iter().flat_map(|at| at.winch_tension_n.into_iter().chain(at.platform_tension_n));
+        let decimals = decimals_of(all, 2);
         for (i, at) in self.cables.iter().enumerate() {
-            let both = |k: usize| format!("{:.2}, {:.2}", at.platform_tension_n[k], at.winch_tension_n[k]);
+            let both = |k: usize| {
+                let ends = [at.platform_tension_n[k], at.winch_tension_n[k]];
+                ends.map(|tension| decimal(tension, decimals)).join(", ")
+            };
             let slips = format!("{}, {}", decimal(at.slip[1], 2), decimal(at.slip[2], 2));
             rows.add_row([
                 (i + 1).to_string(),
@@ -308,19 +315,26 @@ fn print(robot: &Robot, found: &Found) {
     let left = Vector3::from(found.residual_mm).norm();
     let displaced = Vector3::from(found.deflection_mm).norm();
     print_sentence(&format!(
-        "{}: the payload displaces the platform by {displaced:.4} mm; {left:.5} mm are left when it is gone.",
-        shown(&robot.name)
+        "{}: the payload displaces the platform by {} mm; {} mm are left when it is gone.",
+        shown(&robot.name),
+        visible(displaced, 4),
+        visible(left, 5)
     ));
     let mut rows =
         table(&["cable", "unloaded [N]", "payload [N]", "removed [N]", "E [GPa]", "dissipated [mJ]"]);
+    let all = found.cables.iter().flat_map(|cable| [cable.tension_own_weight_n, cable.tension_payload_n]);
+    let decimals = decimals_of(all, 2);
     for (i, cable) in found.cables.iter().enumerate() {
         let [a, b, c] = [cable.tension_own_weight_n, cable.tension_payload_n, cable.tension_removed_n]
-            .map(|tension| format!("{tension:.2}"));
+            .map(|tension| decimal(tension, decimals));
         let (modulus, energy) = (format!("{:.2}", cable.modulus_gpa), millijoules(cable.dissipated_j));
         rows.add_row([(i + 1).to_string(), a, b, c, modulus, energy]);
     }
     println!("{rows}");
-    println!("displaced by the payload  {} mm", vector(&found.deflection_mm, 4));
+    println!(
+        "displaced by the payload  {} mm",
+        vector(&found.deflection_mm, decimals_of(found.deflection_mm, 4))
+    );
     println!("left when it is gone      {} mm", vector(&found.residual_mm, 5));
     println!(
         "energy: {} mJ given by the payload, {} mJ in the loops of the cables{}",
@@ -336,7 +350,7 @@ fn print(robot: &Robot, found: &Found) {
 
 /// An energy [J] in mJ, without the sign of a zero.
 fn millijoules(energy: f64) -> String {
-    format!("{:.4}", (1e7 * energy).round() / 1e4 + 0.0)
+    visible(1e3 * energy, 4)
 }
 
 fn draw(robot: &Robot, ran: &LoadCycle, found: &Found) -> Result<String, ProgramError> {
@@ -352,9 +366,9 @@ fn draw(robot: &Robot, ran: &LoadCycle, found: &Found) -> Result<String, Program
     Ok(cycle(&Cycle {
         title: &format!("{}: payload over the way down", robot.name),
         lines: &[format!(
-            "{:.5} mm stay; {:.3} mJ given by the payload",
-            -found.residual_mm[2],
-            1e3 * found.payload_work_j
+            "{} mm stay; {} mJ given by the payload",
+            visible(-found.residual_mm[2], 5),
+            visible(1e3 * found.payload_work_j, 3)
         )],
         x: "way down [mm]",
         y: "payload [kg]",

@@ -11,7 +11,7 @@ use crate::program::pose::at_pose::{RobotAtPose, Row};
 use crate::program::questions;
 use crate::program::said::note;
 use cdpr_dynamics::{Mode, Modes, Rotor, Swing, Wanted};
-use cdpr_robot::{Platform, Pose, Robot, shown};
+use cdpr_robot::{Platform, Pose, Robot, shown, visible};
 use cdpr_statics::vibration::PoseModes;
 use cdpr_statics::{
     DirectProblem, DirectStart, Equilibrium, StaticsError, Unstable, WantedPose, inverse, rough_pose,
@@ -127,8 +127,8 @@ pub(super) fn with_inertia(robot: &Robot) -> Cow<'_, Robot> {
     static NOTED: Once = Once::new();
     NOTED.call_once(|| {
         note(format_args!(
-            "the robot has no inertia: that of a ball with the radius {:.3} m is assumed",
-            robot.assumed_radius()
+            "the robot has no inertia: that of a ball with the radius {} m is assumed",
+            visible(robot.assumed_radius(), 3)
         ));
     });
     let platform = Platform { inertia: Some(robot.assumed_inertia()), ..robot.platform };

@@ -48,6 +48,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
         return moves::run(at, errors, with);
     }
     let (robot, load) = (at.robot()?, at.load.load());
+    ProgramError::unless_chosen(&robot, INSTEAD)?;
     let model = errors.model(&robot)?;
     let mut path = Path::new(&robot, load, model.as_ref())?;
     let mut passed = Vec::new();
@@ -71,6 +72,10 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     }
     Ok(ending)
 }
+
+/// What takes the poses of a robot with few cables.
+const INSTEAD: &str = "`cdpr inverse --poses FILE --free NAMES` finds the lengths pose by pose, and \
+                       `cdpr deflection`, `stiffness` and `modes` take --free, too";
 
 /// What a path has as a whole. It is printed apart from the table, which programs read.
 #[derive(Default)]

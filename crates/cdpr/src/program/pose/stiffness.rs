@@ -5,7 +5,7 @@ use crate::program::arguments::poses::as_numbers;
 use crate::program::error::ProgramError;
 use crate::program::output::{Ending, print_sentence, table};
 use crate::program::pose::at_pose::{RobotAtFreePose, Row, cells};
-use cdpr_robot::{Pose, Robot, significant};
+use cdpr_robot::{Pose, Robot, decimals_of, significant, visible};
 use cdpr_statics::WantedPose;
 use cdpr_statics::stiffness::{PoseStiffness, stiffness_at};
 use serde::Serialize;
@@ -114,16 +114,25 @@ impl Answer {
         let mut rows = table(&["eigenvalue [N/m]", "translation [m/m]", "rotation [rad/m]"]);
         for Eigenvalue { stiffness, translation, rotation } in &self.eigenvalues {
             let words = |vector: &[f64; 3]| answer::vector(vector, 4);
-            rows.add_row([format!("{stiffness:.1}"), words(translation), words(rotation)]);
+            rows.add_row([visible(*stiffness, 1), words(translation), words(rotation)]);
         }
         println!("{rows}");
-        println!("rotations times \u{2113} = {:.4} m", self.characteristic_length);
+        println!("rotations times \u{2113} = {} m", visible(self.characteristic_length, 4));
         Neutral::print(&self.neutral);
         OutOfLimits::print(&self.out_of_limits);
         println!("K in (dp, d\u{3c6}) [N/m, N/rad, N, N m/rad]:");
         let print = |matrix: &[[f64; 6]; 6]| {
-            for row in matrix {
-                println!("{}", row.map(|entry| format!("{:>13}", decimal(entry, 1))).concat());
+            // Forces and moments have blocks of their own, which may differ by far.
+            let of_block = |k: usize| {
+                let rows = matrix.iter().skip(3 * (k / 2)).take(3);
+                decimals_of(rows.flat_map(|row| row.iter().skip(3 * (k % 2)).take(3).copied()), 1).min(8)
+            };
+            let decimals = [0, 1, 2, 3].map(of_block);
+            for (i, row) in matrix.iter().enumerate() {
+                let entry = |(k, entry): (usize, &f64)| {
+                    format!("{:>13}", decimal(*entry, decimals[2 * (i / 3) + k / 3]))
+                };
+                println!("{}", row.iter().enumerate().map(entry).collect::<String>());
             }
         };
         print(&self.stiffness);

@@ -6,8 +6,9 @@ use crate::program::arguments::{Overwrite, Region, RobotArgument, region};
 use crate::program::error::ProgramError;
 use crate::program::output::patiently;
 use crate::program::questions;
-use cdpr_exchange::{Exported, Target, correction_table, export};
+use cdpr_exchange::{ExchangeError, Exported, Target, correction_table, export};
 use cdpr_robot::{Axis, counted, shown};
+use cdpr_statics::StaticsError;
 use std::path::{Path, PathBuf};
 
 /// A robot, a pose or a region, and a format.
@@ -97,9 +98,18 @@ pub(crate) fn run(settings: &Settings) -> Result<(), ProgramError> {
     let pose = settings.pose.needed()?;
     let robot = questions::open_robot(settings.robot.path())?;
     questions::about_pose(&robot, "--pose", &pose);
-    let exported = patiently("solving", || export(&robot, &pose, target))?;
+    let exported = match patiently("solving", || export(&robot, &pose, target)) {
+        Err(ExchangeError::Pose(StaticsError::FreeCoordinates { cables, freedoms, .. })) => {
+            return Err(ProgramError::TooFewCables { cables, freedoms, instead: INSTEAD });
+        }
+        exported => exported?,
+    };
     write(settings, &exported, &format!("{} at {}", shown(&robot.name), place(&pose)))
 }
+
+/// What takes a robot with few cables.
+const INSTEAD: &str =
+    "`cdpr inverse --pose POSE --free NAMES` finds the lengths, and `--to caspr` needs none";
 
 /// Writes lengths and corrections at the positions of a region.
 fn table(settings: &Settings) -> Result<(), ProgramError> {
@@ -110,6 +120,7 @@ fn table(settings: &Settings) -> Result<(), ProgramError> {
     };
     let robot = questions::open_robot(settings.robot.path())?;
     let grid = region.grid(&robot)?;
+    ProgramError::unless_chosen(&robot, INSTEAD)?;
     questions::about_corners(&robot, "the table", &grid.corners());
     let coordinates = Axis::ALL.map(|axis| grid.axis(axis).coordinates());
     let made = patiently("solving", || correction_table(&robot, &rotation, &coordinates))?;

@@ -18,7 +18,7 @@ use cdpr_assess::{
 };
 use cdpr_dynamics::Damping;
 use cdpr_report::{MapQuantity, layers, workspace_maps};
-use cdpr_robot::{Axis, Rotation3, counted, listing, shown, significant};
+use cdpr_robot::{Axis, Robot, Rotation3, counted, listing, shown, significant, visible};
 use cdpr_study::{Extremes, Grid};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -216,6 +216,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     write_figures(&settings.figure, &maps, &settings.overwrite)?;
     settings.format.print(&summary, |summary| {
         print(summary);
+        least_norm(&robot, summary).iter().for_each(|why| print_sentence(why));
         if settings.details.details {
             print_details(summary);
         }
@@ -282,12 +283,31 @@ fn print(summary: &WorkspaceSummary) {
             weather.speed.map_or_else(String::new, |_| format!(" ({DIRECTIONS} directions and searches)"));
         print_sentence(&format!("In the weather, {}{directions}: {wrong}.", weather.conditions()));
     }
-    if let Some(BoundarySummary { measure, error, unit, .. }) = &summary.boundary {
+    if let Some(BoundarySummary { measure, error, doubtful, unit, .. }) = &summary.boundary {
+        let measure = significant(*measure, 5);
+        let doubt = match *doubtful > *error {
+            true => format!("{doubtful:.1e} {unit} are in doubt; more points of the grid show it"),
+            false => "none were found".to_owned(),
+        };
         print_sentence(&format!(
-            "The region held has {measure:.4} {unit}, with an error of {error:.1e} where its boundary is smooth; \
-             parts thinner than a step of the grid are not seen."
+            "The region held has {measure} {unit}, with an error of {error:.1e} where its boundary is smooth. \
+             Parts thinner than a step of the grid are not seen: {doubt}."
         ));
     }
+}
+
+/// Why kept lengths hold a load at few positions: tensions of least norm are at their limit without it.
+fn least_norm(robot: &Robot, summary: &WorkspaceSummary) -> Option<String> {
+    let is_below = |words: &str| words.contains("below tension_limits.min");
+    let below = summary.rows.iter().filter(|row| row.out_of_limits.as_deref().is_some_and(is_below)).count();
+    let held = summary.status.get(HELD).copied().unwrap_or(0);
+    (robot.tension_reference.is_none() && summary.is_loaded() && below > held).then(|| {
+        format!(
+            "Tensions of least norm without the load are near tension_limits.min: with the lengths kept the \
+             load takes some below it at {}. --tension-reference mid chooses others.",
+            counted(below, "position")
+        )
+    })
 }
 
 /// What ranges over the positions held.
@@ -349,9 +369,9 @@ fn print_details(summary: &WorkspaceSummary) {
         if let Some(Extremes { min, min_at, max, max_at }) = extremes {
             rows.add_row([
                 name.to_owned(),
-                format!("{min:.4}"),
+                visible(min, 4),
                 position(min_at),
-                format!("{max:.4}"),
+                visible(max, 4),
                 position(max_at),
             ]);
         }
@@ -359,14 +379,17 @@ fn print_details(summary: &WorkspaceSummary) {
     if rows.row_count() > 0 {
         println!("{rows}");
     }
-    if let Some(BoundarySummary { way, measure, error, unit, parts, evaluations }) = &summary.boundary {
+    if let Some(BoundarySummary { way, measure, error, doubtful, unit, parts, evaluations }) =
+        &summary.boundary
+    {
         let (name, parts) = match *unit {
             "m2" => ("area", format!("{parts} polygons in boundary.csv")),
             _ => ("volume", format!("{parts} triangles in boundary.stl")),
         };
         println!(
-            "{name} of the region held ({way}): {measure:.4} {unit}, error {error:.1e}; {parts}; \
-             {evaluations} positions asked for"
+            "{name} of the region held ({way}): {} {unit}, error {error:.1e}, in doubt {doubtful:.1e}; {parts}; \
+             {evaluations} positions asked for",
+            significant(*measure, 5)
         );
     }
     let mut dominant: Vec<_> = summary.dominant.iter().collect();

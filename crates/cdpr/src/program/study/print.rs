@@ -4,7 +4,7 @@ pub(super) mod analysis;
 mod sensitivity;
 
 use crate::program::output::{print_sentence, table, wide_table};
-use cdpr_robot::shown;
+use cdpr_robot::{shown, visible};
 use cdpr_study::{
     Extremes, Output, Overview, PartVerdict, PosesSummary, Recommendation, StudySummary, Summary, Timings,
 };
@@ -67,7 +67,7 @@ fn print_results(summary: &Summary) {
     for (name, study) in &summary.studies {
         let counts = [study.observations(), study.failed().values().sum()].map(|count| count.to_string());
         let Overview { nominal, mean, std, min, max, best_fit } = study.overview();
-        let numbers = [nominal, mean, std, min, max].map(|value| value.map(|value| format!("{value:.4}")));
+        let numbers = [nominal, mean, std, min, max].map(|value| value.map(|value| visible(value, 4)));
         let last = match (study, best_fit) {
             (StudySummary::Poses(_), _) => "means at the poses".to_owned(),
             (_, fit) => fit.map_or_else(String::new, |fit| fit.to_string()),
@@ -102,7 +102,9 @@ fn print_poses(name: &str, summary: &PosesSummary) {
     if let Some(Extremes { min, min_at, max, max_at }) = summary.mean {
         let (short, unit) = (summary.output.short(), summary.output.unit());
         println!(
-            "{name}: mean {short} from {min:.4} {unit} at {min_at:?} m to {max:.4} {unit} at {max_at:?} m"
+            "{name}: mean {short} from {} {unit} at {min_at:?} m to {} {unit} at {max_at:?} m",
+            visible(min, 4),
+            visible(max, 4)
         );
     }
     let mut dominant: Vec<_> = summary.dominant.iter().collect();

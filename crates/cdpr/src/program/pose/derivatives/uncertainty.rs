@@ -1,6 +1,7 @@
 //! What an error model makes of a deflection.
 
 use crate::program::output::print_sentence;
+use cdpr_robot::visible;
 use cdpr_statics::{Derivatives, StaticsError};
 use cdpr_study::{ErrorModel, little_explained};
 use indexmap::IndexMap;
@@ -39,7 +40,11 @@ impl Uncertainty {
         let named = self.shares.iter().take(NAMED);
         let named: Vec<_> = named.map(|(name, share)| format!("{name} {:.1} %", 100.0 * share)).collect();
         let (std, named) = (self.std_mm, named.join(", "));
-        print_sentence(&format!("{heading}: |dp| = {dp:.5} mm with a standard deviation of {std:.5} mm."));
+        print_sentence(&format!(
+            "{heading}: |dp| = {} mm with a standard deviation of {} mm.",
+            visible(dp, 5),
+            visible(std, 5)
+        ));
         print_sentence(&format!("Shares of the variance: {named}."));
         let little = little_explained(self.explained);
         little.iter().for_each(|little| print_sentence(&format!("{little}: these numbers are rough.")));

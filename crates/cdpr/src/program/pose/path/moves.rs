@@ -7,6 +7,7 @@ use crate::program::error::ProgramError;
 use crate::program::output::{Ending, progress};
 use crate::program::pose::at_pose::RobotAtPose;
 use crate::program::pose::modes::with_inertia;
+use crate::program::pose::path::INSTEAD;
 use answer::{After, Answer, Robots};
 use cdpr_assess::DrawnRobots;
 use cdpr_dynamics::moves::{FeedForward, Move, SetPoint, Shaper, ShaperKind, residual};
@@ -106,6 +107,7 @@ pub(super) fn run(
     let wanted = Wanted::read(with)?;
     let usage = |reason: &str| ProgramError::Usage(reason.to_owned());
     let robot = at.robot()?;
+    ProgramError::unless_chosen(&robot, INSTEAD)?;
     let model = errors.model(&robot)?;
     if model.is_some() && wanted.residual.is_none() {
         return Err(usage("--uncertainty: expected --with residual, what swings after the move"));
