@@ -212,6 +212,9 @@ fn is_same(problem: &DesignProblem, one: &Found, best: &Found) -> bool {
         && one.values.iter().zip(&best.values).zip(&problem.variables).all(is_near)
 }
 
+/// Distance from a bound, as a share of the way between both, within which a search ends next to it.
+const NEXT_TO_BOUND: f64 = 1e-6;
+
 fn best_design(
     problem: &DesignProblem,
     best: &Found,
@@ -226,9 +229,12 @@ fn best_design(
     let lengths: Vec<f64> = at.longest.iter().map(|length| length.value).collect();
     let variable = |(j, variable): (usize, &Variable)| {
         let to = best.values[j];
+        // A search may end next to a bound towards which the objective improves.
+        let near = |[low, high]: [f64; 2], end: f64| (to - end).abs() <= NEXT_TO_BOUND * (high - low);
+        let slope = best.gradient.get(j).copied().unwrap_or(0.0);
         let bound = match variable.domain {
-            Domain::Bounds([low, _]) if to == low => Some("min"),
-            Domain::Bounds([_, high]) if to == high => Some("max"),
+            Domain::Bounds(ends @ [low, _]) if to == low || near(ends, low) && slope > 0.0 => Some("min"),
+            Domain::Bounds(ends @ [_, high]) if to == high || near(ends, high) && slope < 0.0 => Some("max"),
             _ => None,
         };
         DesignedVariable {
@@ -236,7 +242,7 @@ fn best_design(
             unit: variable.parameters[0].0.unit(),
             from: variable.nominal,
             to,
-            per_unit: if bound.is_some() { sign * best.gradient[j] } else { 0.0 },
+            per_unit: if bound.is_some() { sign * slope } else { 0.0 },
             bound,
         }
     };

@@ -1,10 +1,10 @@
 //! Errors of the models.
 
+pub use crate::blocked::Blocked;
 pub use crate::rest_fault::RestFault;
 use crate::state::Residual;
 use cdpr_cable::CableError;
 use cdpr_robot::{Pose, RobotError, counted, decimal, short, shortened, significant, visible};
-use cdpr_tension::Bound;
 
 /// Why a model has no solution.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -295,17 +295,6 @@ impl std::fmt::Display for BranchEnd {
     }
 }
 
-/// A limit that a tension rests on while the wrench is not balanced.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Blocked {
-    /// Index of the cable, from 0.
-    pub index: usize,
-    /// Which of its limits.
-    pub bound: Bound,
-    /// The limit [N].
-    pub tension: f64,
-}
-
 /// A residual in words: one that is small next to the tensions has its own digits, unless it is rounding.
 fn left(residual: f64, tensions: &[f64]) -> String {
     let largest = tensions.iter().copied().fold(0.0, f64::max);
@@ -313,22 +302,6 @@ fn left(residual: f64, tensions: &[f64]) -> String {
         significant(residual, 2)
     } else {
         format!("{residual:.3}")
-    }
-}
-
-impl Blocked {
-    /// The cables at either limit, as the end of a sentence.
-    fn list(blocked: &[Self]) -> String {
-        let of = |bound: Bound, name: &str| {
-            let cables: Vec<_> =
-                blocked.iter().filter(|b| b.bound == bound).map(|b| (b.index + 1).to_string()).collect();
-            match &cables[..] {
-                [] => String::new(),
-                [cable] => format!(", with cable {cable} at its {name}"),
-                cables => format!(", with cables {} at their {name}", cables.join(", ")),
-            }
-        };
-        of(Bound::Min, "least") + &of(Bound::Max, "greatest")
     }
 }
 

@@ -49,6 +49,7 @@
 //! # Ok::<(), cdpr_statics::StaticsError>(())
 //! ```
 
+mod blocked;
 mod certificate;
 mod dense;
 pub mod derivatives;

@@ -134,7 +134,8 @@ fn a_load_cycle_identifies_the_sum_of_the_coefficients_of_friction() {
     );
     let said = text(cdpr(&[&given[..], &["--details"]].concat()).stdout).replace('\n', " ");
     assert!(
-        said.contains("to first order these measurements identify this sum alone") && said.contains("0 sticks"),
+        said.contains("to first order these measurements identify this sum alone")
+            && said.contains("0 sticks"),
         "{said}"
     );
     let wheels = found["cables"].as_array().unwrap();

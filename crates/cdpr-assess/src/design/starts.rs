@@ -33,7 +33,18 @@ impl Searched {
         let run = |number: usize| {
             let values = problem.configuration(number / each);
             match &starts {
-                Some(starts) => Search::run(problem, values, starts[number % each].clone()),
+                Some(starts) => {
+                    let start = &starts[number % each];
+                    let (found, evaluations) = Search::run(problem, values.clone(), start.clone());
+                    // A robot that is held without derivatives counts, but no search goes on from it.
+                    let alone = || {
+                        Some(Found {
+                            residual: f64::INFINITY,
+                            ..single(problem, placed(problem, values, start))?
+                        })
+                    };
+                    (found.or_else(alone), evaluations)
+                }
                 None => (single(problem, values), 1),
             }
         };
@@ -129,7 +140,15 @@ fn starts(problem: &DesignProblem, further: &[Vec<f64>]) -> Result<Option<Vec<Ve
     Ok(Some([nominal.clone()].into_iter().chain(others).chain(further).collect()))
 }
 
-/// A configuration where nothing has bounds.
+/// Values with those of the variables with bounds at a start in the box.
+fn placed(problem: &DesignProblem, mut values: Vec<f64>, start: &[f64]) -> Vec<f64> {
+    for ((j, [low, high]), u) in problem.bounded().zip(start) {
+        values[j] = low * (1.0 - u) + high * u;
+    }
+    values
+}
+
+/// A robot alone, without derivatives.
 fn single(problem: &DesignProblem, values: Vec<f64>) -> Option<Found> {
     let at = problem.evaluate(&values, None).ok()?;
     let objective = objective(problem.over, &at.outputs, sense(problem.output));

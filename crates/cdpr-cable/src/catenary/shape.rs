@@ -208,7 +208,10 @@ mod tests {
             let end = Vector2::new(0.0, z);
             let by_tension = crate::length_for_tension(&CABLE, end, 60.0).unwrap().catenary;
             let by_length = hanging(by_tension.unstrained_length, 0.0, z);
-            assert_eq!([by_tension.vertical_sag(), by_length.vertical_sag()].map(|sag| sag < 1e-12), [true; 2]);
+            assert_eq!(
+                [by_tension.vertical_sag(), by_length.vertical_sag()].map(|sag| sag < 1e-12),
+                [true; 2]
+            );
         }
     }
 

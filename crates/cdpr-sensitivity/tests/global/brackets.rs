@@ -219,7 +219,10 @@ fn steps_count_in_the_moments_of_an_input() {
     // -1.5, 0 and 1.5 with 1/4, 1/2, 1/4, and with 1/3 each.
     assert!((of(Steps::Nearest { step: 1.5 }).std().powi(2) - 1.125).abs() < 1e-12);
     assert!((of(Steps::EqualMass { step: 1.5 }).std().powi(2) - 1.5).abs() < 1e-12);
-    assert_eq!((Input::continuous("a", law).std(), of(Steps::Nearest { step: 1.5 }).mean()), (law.std(), 0.0));
+    assert_eq!(
+        (Input::continuous("a", law).std(), of(Steps::Nearest { step: 1.5 }).mean()),
+        (law.std(), 0.0)
+    );
 }
 
 /// Rows fail where `a` is negative: the others are half as wide in `a`, and its index is that of these.

@@ -233,7 +233,10 @@ impl Found {
         println!("softest motion {least_stiffness:.1} N/m; {method}, {iterations}");
         Neutral::print(&self.neutral);
         if !slack_cables.is_empty() {
-            println!("slack cables: {} (they carry nothing, or less than their own weight)", numbers(slack_cables));
+            println!(
+                "slack cables: {} (they carry nothing, or less than their own weight)",
+                numbers(slack_cables)
+            );
         }
         if !sagging_cables.is_empty() {
             let cables = numbers(sagging_cables);

@@ -168,7 +168,10 @@ impl InWeather {
         });
         // An azimuth without a level base has another x axis than the poses.
         let frame = (self.tilted && self.farthest.as_ref().is_some_and(|one| one.azimuth_deg.is_some()))
-            .then(|| "Azimuths are counted from x to y of the level frame, whose z points against gravity.".to_owned());
+            .then(|| {
+                "Azimuths are counted from x to y of the level frame, whose z points against gravity."
+                    .to_owned()
+            });
         let below = self.below_least.as_ref().map(|what| format!("In the weather {what}."));
         [Some(first), farthest, tightest, frame, below].into_iter().flatten().collect()
     }
