@@ -134,7 +134,7 @@ impl BrokenRest {
 /// A motion needs the inertia of the platform.
 ///
 /// # Errors
-/// Those of [`inverse`] at the pose. A break after which no rest is found, or whose motion cannot be
+/// Those of [`inverse`] at the pose, and [`StaticsError::Unstable`] where the platform does not stay. A break after which no rest is found, or whose motion cannot be
 /// followed, has the reason in its place.
 pub fn safety_at(
     robot: &Robot,
@@ -144,6 +144,11 @@ pub fn safety_at(
 ) -> Result<Safety, StaticsError> {
     let held = inverse(robot, wanted, load)?;
     let (pose, count) = (held.equilibrium.pose, robot.cables.len());
+    let stability = DirectProblem::new(robot, &held.lengths, load)?.stability(&held.equilibrium)?;
+    if !stability.is_stable() {
+        let least_stiffness = stability.least_stiffness();
+        return Err(StaticsError::Unstable { pose: Box::new(pose), least_stiffness });
+    }
     let mut sets: Vec<Vec<usize>> = (0..count).map(|i| vec![i]).collect();
     if breaks.pairs {
         sets.extend((0..count).flat_map(|i| (i + 1..count).map(move |j| vec![i, j])));

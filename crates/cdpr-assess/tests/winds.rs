@@ -97,7 +97,7 @@ fn each_position_of_a_map_has_its_worst_wind() {
     let of_all = map(AnyWeather { weather: fixed, speed: Some(steady.velocity().norm()) });
     for (one, all) in of_one.rows.iter().zip(&of_all.rows) {
         assert_eq!(one.status, HELD);
-        let pose = Pose::at(one.x, one.y, one.z);
+        let pose = Pose::at(one.x_m, one.y_m, one.z_m);
         let (_, rest) = in_weather(&robot, (&pose).into(), &load, &fixed).unwrap();
         let from = deflection(&robot, &pose, &load).unwrap().unloaded.equilibrium.pose.position;
         let moved = 1e3 * (rest.pose.position - from).norm();

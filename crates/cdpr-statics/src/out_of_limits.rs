@@ -54,6 +54,11 @@ impl Limit {
 }
 
 impl OutOfLimits {
+    /// How far the tension is beyond the limit, as a share of it.
+    pub fn excess(&self) -> f64 {
+        (self.tension / self.value - 1.0).abs()
+    }
+
     /// Whether the cable breaks or is strained beyond what is allowed; a slack cable is worth knowing only.
     pub fn is_too_much(&self) -> bool {
         matches!(self.limit, Limit::BreakingForce | Limit::Strain | Limit::Max)
@@ -65,11 +70,13 @@ impl OutOfLimits {
         let TensionLimits { min, max } = robot.limits(cable);
         let (breaking, max_at) = (robot.cables[cable].properties.breaking_force, robot.max_at(cable));
         let rounding = ROUNDED_STRAIN * robot.cable(cable).axial_stiffness;
+        let strained = robot.cable(cable).tension(MAX_STRAIN);
         let mut worst: Option<Self> = None;
         for (end, tension) in tensions.flat_map(|[t, exit]| [(CableEnd::Anchor, t), (CableEnd::Exit, exit)]) {
             let above = |limit: f64| tension > limit * (1.0 + ON_LIMIT) + rounding;
             let (limit, value) = match breaking {
                 Some(force) if above(force) => (Limit::BreakingForce, force),
+                _ if above(strained) => (Limit::Strain, strained),
                 _ if above(max) && end == max_at => (Limit::Max, max),
                 _ if above(max) => (Limit::MaxElsewhere, max),
                 _ if end == CableEnd::Anchor && tension < min * (1.0 - ON_LIMIT) - rounding => {

@@ -1,13 +1,13 @@
 //! A platform in weather, with wind of one velocity or from any direction in the horizontal plane.
 //!
 //! From any direction, the wind blows at [`DIRECTIONS`] azimuths. Around those that move the platform
-//! farthest, or nearly so, and those of the greatest and of the least tension, golden-section searches look
-//! for directions that are worse still (R. P. Brent, *Algorithms for Minimization without Derivatives*, 1973,
+//! farthest, or nearly so, those of the greatest and of the least tension, and those in which a cable has the
+//! greatest part of what it may bear, golden-section searches look for directions that are worse still (R. P. Brent, *Algorithms for Minimization without Derivatives*, 1973,
 //! chapter 5). Between the azimuths nothing is proven.
 
 use crate::inspection::is_below_floor;
 use crate::tilt::to_base;
-use cdpr_robot::{Pose, Robot, UnitQuaternion, Vector3};
+use cdpr_robot::{Pose, Robot, RobotCable, UnitQuaternion, Vector3};
 use cdpr_statics::limits::{Limit, OutOfLimits, tensions_out_of_limits};
 use cdpr_statics::weather::{RestInWeather, Weather, Wind};
 use cdpr_statics::{DirectProblem, DirectSolution, DirectStart, Load, StaticsError};
@@ -50,6 +50,8 @@ pub struct InWind {
     /// Least breaking force over greatest tension, and the index of that cable; `None` where no breaking
     /// force is known.
     pub safety_factor: Option<(f64, usize)>,
+    /// Greatest tension over what the cable may bear, its limit or its breaking force.
+    pub utilization: f64,
     /// Whether P or an anchor point is below `ground_z`, or, where the file has none, below what robots stand
     /// on.
     pub below_ground: bool,
@@ -68,10 +70,11 @@ impl InWind {
         each.fold((0.0, 0), |a, b| if b.0 > a.0 { b } else { a })
     }
 
-    /// The most serious limit that a tension passes at the end where it is limited.
+    /// The most serious limit that a tension passes at the end where it is limited, and of such ones that which
+    /// is passed most.
     pub fn gravest(&self) -> Option<&OutOfLimits> {
         let passed = self.out_of_limits.iter().filter(|one| one.limit != Limit::MaxElsewhere);
-        passed.min_by_key(|one| one.limit)
+        passed.min_by(|a, b| a.limit.cmp(&b.limit).then(b.excess().total_cmp(&a.excess())))
     }
 }
 
@@ -94,6 +97,12 @@ impl Winds {
     /// The wind with the greatest tension.
     pub fn tightest(&self) -> Option<&InWind> {
         self.rests.iter().max_by(|a, b| a.greatest_tension().0.total_cmp(&b.greatest_tension().0))
+    }
+
+    /// The wind with the least safety factor.
+    pub fn least_safe(&self) -> Option<(&InWind, f64, usize)> {
+        let each = self.rests.iter().filter_map(|one| one.safety_factor.map(|(factor, i)| (one, factor, i)));
+        each.min_by(|a, b| a.1.total_cmp(&b.1))
     }
 
     /// The least tension at the platform [N].
@@ -136,7 +145,13 @@ pub fn winds(
         let values: Vec<f64> = found.iter().map(|(_, outcome)| worse(*measure, outcome)).collect();
         nearly_greatest(&values).into_iter().map(|k| (*measure, k as f64)).collect()
     };
-    let searches: Vec<_> = MEASURES.iter().flat_map(places).collect();
+    // Where cables bear alike, the greatest tension decides.
+    let alike = robot.cables.iter().all(|cable| {
+        let bears = |of: &RobotCable| (of.properties.breaking_force, of.tension_limits);
+        bears(cable) == bears(&robot.cables[0])
+    });
+    let measures = &MEASURES[..if alike { 3 } else { 4 }];
+    let searches: Vec<_> = measures.iter().flat_map(places).collect();
     let search = |(measure, k): (fn(&InWind) -> f64, f64)| {
         golden_section([k - 1.0, k + 1.0].map(|k| k * step), by, |outcome| worse(measure, &outcome.1))
     };
@@ -147,10 +162,11 @@ pub fn winds(
 type Outcome = Result<InWind, StaticsError>;
 
 /// What makes a wind worse than another.
-const MEASURES: [fn(&InWind) -> f64; 3] = [
+const MEASURES: [fn(&InWind) -> f64; 4] = [
     InWind::moved,
     |one| one.greatest_tension().0,
     |one| -one.rest.tensions().into_iter().fold(f64::INFINITY, f64::min),
+    |one| one.utilization,
 ];
 
 /// How bad a wind is by a measure.
@@ -236,10 +252,21 @@ impl Blown<'_> {
             turned: before.angle_to(&after),
             out_of_limits: tensions_out_of_limits(robot, std::slice::from_ref(&ends)),
             safety_factor: safety_factor(robot, &all, &ends),
+            utilization: utilization(robot, &ends),
             below_ground: is_below_floor(robot, self.from, &rest.pose),
             rest,
         })
     }
+}
+
+/// Greatest tension over limit or breaking force of all cables.
+fn utilization(robot: &Robot, tensions: &[[f64; 2]]) -> f64 {
+    let of_cable = |(i, [anchor, exit]): (usize, &[f64; 2])| {
+        let limited = if robot.max_at(i).is_anchor() { *anchor } else { *exit };
+        let breaking = robot.cables[i].properties.breaking_force.unwrap_or(f64::INFINITY);
+        (limited / robot.limits(i).max).max(anchor.max(*exit) / breaking)
+    };
+    tensions.iter().enumerate().map(of_cable).fold(0.0, f64::max)
 }
 
 /// Least breaking force over greatest tension of these cables.

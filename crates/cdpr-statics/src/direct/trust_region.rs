@@ -41,6 +41,9 @@ const SECOND_LOOKS: usize = 2;
 /// Resistance below this share of the greatest one may be none at all.
 const NEARLY_NEUTRAL: f64 = 1e-9;
 
+/// A slope below this share of the tensions may be rounding.
+const ROUNDED_SLOPE: f64 = 1e-10;
+
 /// A pose with its cables in equilibrium.
 struct Point {
     equilibrium: Equilibrium,
@@ -124,7 +127,8 @@ pub(crate) fn minimize(problem: &DirectProblem, start: &Pose) -> Result<Converge
         let slope = now.gradient.norm();
         let tensions: f64 = now.equilibrium.cable_forces.iter().map(Vector2::norm).sum();
         if slope <= (1e-4 * tensions).min(polish_below) {
-            polish_below = 0.1 * slope;
+            // The slope of a saddle is rounding, too.
+            polish_below = (0.1 * slope).max(ROUNDED_SLOPE * tensions);
             if let Some(minimum) = polish(problem, &now, radius) {
                 return Ok(Converged { iterations: iteration + minimum.iterations, ..minimum });
             }
@@ -185,7 +189,9 @@ fn polish(problem: &DirectProblem, point: &Point, radius: f64) -> Option<Converg
 fn not_converged(problem: &DirectProblem, last: &Point, iterations: usize) -> StaticsError {
     let pose = Box::new(last.equilibrium.pose);
     let residual = Residual::of(problem, &last.equilibrium);
-    if residual.is_rounding(problem, &last.equilibrium) {
+    let resistance = problem.robot.freedoms().block(&last.hessian).symmetric_eigenvalues();
+    let is_indifferent = resistance.amin() <= NEARLY_NEUTRAL * resistance.amax();
+    if is_indifferent && residual.is_rounding(problem, &last.equilibrium) {
         return StaticsError::Indifferent { pose };
     }
     StaticsError::DirectNotConverged { iterations, pose, residual }

@@ -191,6 +191,11 @@ impl Resting {
 }
 
 impl Row for Rest {
+    fn found_pose(&self) -> Option<Pose> {
+        let [x, y, z, qw, qx, qy, qz] = self.first.found_pose;
+        Pose::with_quaternion([x, y, z].into(), [qw, qx, qy, qz])
+    }
+
     fn columns(robot: &Robot) -> Vec<String> {
         let cables = robot.cables.len();
         let found = COLUMNS.iter().map(|name| format!("found_{name}"));

@@ -26,7 +26,8 @@ pub(crate) struct Settings {
     #[command(flatten)]
     free: FreeArguments,
     /// pairs: break every pair of cables, too. swing=SECONDS: follow the motion after each break for so long,
-    /// without damping. wind=SPEED: wind on the whole robot from any horizontal direction; ice= and others.
+    /// without damping. wind=SPEED: wind on the cables, all of them whole, from any horizontal direction; ice= and
+    /// others.
     ///
     /// wind=VX:VY:VZ: wind of one velocity [m/s]. ice=METRES, warmer=KELVIN with cable_expansion=,
     /// frame_expansion=, creep=STRAIN, wind_profile=Z0:ZREF: as those of `deflection`. All cables are whole

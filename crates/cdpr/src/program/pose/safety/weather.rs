@@ -36,6 +36,9 @@ pub(super) struct InWeather {
     /// The wind with the greatest tension.
     #[serde(skip_serializing_if = "Option::is_none")]
     tightest: Option<OneWind>,
+    /// The least safety factor in any wind; absent where no breaking force is known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    least_safe: Option<LeastSafe>,
     /// A wind in which something is wrong.
     #[serde(skip_serializing_if = "Option::is_none")]
     wrong: Option<String>,
@@ -45,6 +48,24 @@ pub(super) struct InWeather {
     /// A wind in which a tension falls below its least one.
     #[serde(skip_serializing_if = "Option::is_none")]
     below_least: Option<String>,
+}
+
+/// The least breaking force over tension.
+#[derive(Serialize)]
+struct LeastSafe {
+    factor: f64,
+    /// Number of the cable, from 1.
+    cable: usize,
+    /// Direction in which that wind blows; absent for a wind of one velocity.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    azimuth_deg: Option<f64>,
+}
+
+impl LeastSafe {
+    fn new((found, factor, cable): (&InWind, f64, usize)) -> Self {
+        let azimuth_deg = found.azimuth.map(|azimuth| azimuth.to_degrees().rem_euclid(360.0));
+        Self { factor, cable: cable + 1, azimuth_deg }
+    }
 }
 
 /// The platform in one wind.
@@ -93,13 +114,13 @@ impl OneWind {
     }
 }
 
-/// What is wrong in one wind: the gravest has the least number.
-fn wrong(found: &InWind) -> Option<(u8, String)> {
+/// What is wrong in one wind: the gravest has the least kind, and of one kind the greatest excess.
+fn wrong(found: &InWind) -> Option<(Option<Limit>, f64, String)> {
     let gravest = found.gravest().filter(|one| one.is_too_much());
-    let beyond = gravest.map(|one| (1, one.to_string()));
-    let below = || found.below_ground.then(|| (2, "the platform comes below the ground".to_owned()));
-    let (rank, what) = beyond.or_else(below)?;
-    Some((rank, format!("{what}, in wind{}", towards(found.azimuth))))
+    let beyond = gravest.map(|one| (Some(one.limit), one.excess(), one.to_string()));
+    let below = || found.below_ground.then(|| (None, 0.0, "the platform comes below the ground".to_owned()));
+    let (limit, excess, what) = beyond.or_else(below)?;
+    Some((limit, excess, format!("{what}, in wind{}", towards(found.azimuth))))
 }
 
 impl InWeather {
@@ -114,19 +135,26 @@ impl InWeather {
         let not_found = failed
             .next()
             .map(|(azimuth, error)| format!("no rest was found in wind{} ({error})", towards(*azimuth)));
-        let gravest = found.rests.iter().filter_map(wrong).min_by_key(|(rank, _)| *rank);
+        let gravest = found.rests.iter().filter_map(wrong).min_by(|a, b| {
+            // What is passed counts more than the ground.
+            let kind = a.0.is_none().cmp(&b.0.is_none()).then(a.0.cmp(&b.0));
+            kind.then(b.1.total_cmp(&a.1))
+        });
+        let below = found.rests.iter().flat_map(|one| {
+            let passed = one.out_of_limits.iter().filter(|passed| passed.limit == Limit::Min);
+            passed.map(move |passed| (passed, one.azimuth))
+        });
+        let below = below.max_by(|(a, _), (b, _)| a.excess().total_cmp(&b.excess()));
         Ok(Self {
             speed: weather.speed,
             tilted: robot.gravity.level().is_some(),
             directions: found.rests.len() + found.failures.len(),
             farthest: found.farthest().map(OneWind::new),
             tightest: found.tightest().map(OneWind::new),
-            wrong: gravest.map(|(_, what)| what),
+            least_safe: found.least_safe().map(LeastSafe::new),
+            wrong: gravest.map(|(_, _, what)| what),
             not_found,
-            below_least: found.rests.iter().find_map(|one| {
-                let least = one.out_of_limits.iter().find(|passed| passed.limit == Limit::Min)?;
-                Some(format!("{least}, in wind{}", towards(one.azimuth)))
-            }),
+            below_least: below.map(|(least, azimuth)| format!("{least}, in wind{}", towards(azimuth))),
         })
     }
 
@@ -158,13 +186,35 @@ impl InWeather {
                 .map(|metres| significant(1e3 * metres, 4));
             format!("The weather moves it up to {moved} mm, by ({x}, {y}, {z}) mm{}.", towards(one))
         });
+        let is_tightest = |cable: usize, azimuth: Option<f64>| {
+            self.tightest
+                .as_ref()
+                .is_some_and(|one| one.greatest_tension.cable == cable && one.azimuth_deg == azimuth)
+        };
+        let factor = |cable: usize| {
+            let here =
+                self.least_safe.as_ref().filter(|of| of.cable == cable && is_tightest(cable, of.azimuth_deg));
+            here.map_or_else(String::new, |of| format!(", a safety factor of {}", significant(of.factor, 3)))
+        };
+        let least_safe =
+            self.least_safe.as_ref().filter(|of| !is_tightest(of.cable, of.azimuth_deg)).map(|of| {
+                let wind = of
+                    .azimuth_deg
+                    .map_or_else(String::new, |azimuth| format!(" (wind towards {azimuth:.0} degrees)"));
+                format!(
+                    "The least safety factor in it is {}, of cable {}{wind}.",
+                    significant(of.factor, 3),
+                    of.cable
+                )
+            });
         let tightest = self.tightest.as_ref().map(|one| {
             let Greatest { cable, tension } = one.greatest_tension;
             let tension = significant(tension, 4);
-            let factor = one.safety_factor.map_or_else(String::new, |factor| {
-                format!(", a safety factor of {}", significant(factor, 3))
-            });
-            format!("Tensions in the weather reach {tension} N, in cable {cable}{}{factor}.", towards(one))
+            format!(
+                "Tensions in the weather reach {tension} N, in cable {cable}{}{}.",
+                towards(one),
+                factor(cable)
+            )
         });
         // An azimuth without a level base has another x axis than the poses.
         let frame = (self.tilted && self.farthest.as_ref().is_some_and(|one| one.azimuth_deg.is_some()))
@@ -173,7 +223,7 @@ impl InWeather {
                     .to_owned()
             });
         let below = self.below_least.as_ref().map(|what| format!("In the weather {what}."));
-        [Some(first), farthest, tightest, frame, below].into_iter().flatten().collect()
+        [Some(first), farthest, tightest, least_safe, frame, below].into_iter().flatten().collect()
     }
 
     pub(super) fn cells(&self) -> Vec<String> {
@@ -185,7 +235,7 @@ impl InWeather {
             number(tight.map(|one| one.greatest_tension.tension)),
             tight.map_or_else(String::new, |one| one.greatest_tension.cable.to_string()),
             number(tight.and_then(|one| one.azimuth_deg)),
-            number(tight.and_then(|one| one.safety_factor)),
+            number(self.least_safe.as_ref().map(|of| of.factor)),
             self.wrong().unwrap_or_default().to_owned(),
         ]
     }
