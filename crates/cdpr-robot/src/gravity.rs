@@ -77,7 +77,8 @@ impl Gravity {
     /// Angle between gravity and -z of the base frame [rad], 0 to π; zero without gravity.
     pub fn tilt(&self) -> f64 {
         let vector = self.vector() / self.magnitude.max(f64::MIN_POSITIVE);
-        vector.xy().norm().atan2(-vector.z)
+        // Not -z: the angle of a negative zero is π.
+        vector.xy().norm().atan2(0.0 - vector.z)
     }
 
     /// Whether the base is level: its z axis points against gravity, up to rounding, or there is no gravity.

@@ -178,10 +178,10 @@ fn weight(robot: &Robot) -> Option<Doubt> {
     if weight <= most {
         return None;
     }
-    let [shown_weight, shown_most] = [weight, most].map(|force| visible(force, 1));
+    let [own, borne] = [weight, most].map(|force| visible(force, 1));
     let too_little = || {
         format!(
-            "all cables at it, drawn straight up, hold {shown_most} N, less than the platform's weight, {shown_weight} N"
+            "all cables at it, drawn straight up, hold {borne} N, less than the platform's weight, {own} N"
         )
     };
     if 1e3 * most > weight
@@ -192,8 +192,8 @@ fn weight(robot: &Robot) -> Option<Doubt> {
     let meant = in_other_unit(mass, "kg", &[("g", 1e-3)], |mass| mass * robot.gravity.magnitude() < most);
     Some(Doubt::new(
         "platform.mass",
-        format!("{} kg, {shown_weight} N", four_digits(mass)),
-        format!("all cables at tension_limits.max, drawn straight up, hold {shown_most} N"),
+        format!("{} kg, {own} N", four_digits(mass)),
+        format!("all cables at tension_limits.max, drawn straight up, hold {borne} N"),
         meant.unwrap_or_else(|| "a smaller mass or a greater limit".to_owned()),
     ))
 }

@@ -53,8 +53,8 @@ pub(crate) enum ProgramError {
     NoLaw,
     /// A command without `--free`, and a robot that needs it.
     #[error(
-        "{} for {} leave {} of the pose that cannot be chosen, and this command chooses all: expected {freedoms} \
-         cables or more; {instead}",
+        "{} for {} leave {} of the pose that cannot be chosen, and this command chooses all: expected \
+         {freedoms} cables or more; {instead}",
         counted(*cables, "cable"), counted(*freedoms, "free motion"),
         counted(freedoms.saturating_sub(*cables), "coordinate")
     )]
@@ -108,8 +108,7 @@ impl ProgramError {
         |source| Self::InFile { path: path.to_owned(), source: Box::new(source.into()) }
     }
 
-    /// Refuses a robot with fewer cables than free motions, for a command that does not find coordinates; what
-    /// takes it instead.
+    /// Refuses a robot with fewer cables than free motions, and says what takes it instead.
     pub(crate) fn unless_chosen(robot: &Robot, instead: &'static str) -> Result<(), Self> {
         let (cables, freedoms) = (robot.cables.len(), robot.freedoms().count());
         if cables < freedoms { Err(Self::TooFewCables { cables, freedoms, instead }) } else { Ok(()) }

@@ -11,7 +11,7 @@ use cdpr_assess::{
     Block, CableDistance, Capacity, Clearance, Figure, PlatformDistance, TiltTowards, WrenchSet, capacity_at,
     clearance_under, tilt_at,
 };
-use cdpr_robot::{Pose, Robot, counted, significant, visible};
+use cdpr_robot::{Pose, Robot, counted, rounded, significant, visible};
 use cdpr_statics::capacity::tension_margin;
 use cdpr_statics::{Load, StaticsError, WantedPose};
 use serde::Serialize;
@@ -252,8 +252,7 @@ impl Row for Answer {
         Vec::new()
     }
 
-    /// A platform that falls under the load itself is something wrong, and cables that pass through each other
-    /// or through the platform are.
+    /// A platform that falls under the load itself is something wrong, and cables that cross are.
     fn ending(&self) -> Ending {
         let falls =
             |shown: &Shown| shown.value.is_none() && shown.error.as_ref().is_some_and(Failure::is_fall);
@@ -349,7 +348,8 @@ impl Answer {
         let mut told: Vec<&str> = Vec::new();
         for (name, shown) in self.all() {
             let value = match shown.value {
-                Some(value) => visible(value, 3),
+                // Beyond there is rounding alone.
+                Some(value) => visible(rounded(value, 9), 3),
                 None if shown.error.is_some() => "none".to_owned(),
                 None => "beyond a limit without it".to_owned(),
             };

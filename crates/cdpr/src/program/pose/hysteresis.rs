@@ -11,7 +11,7 @@ use crate::program::output::{Ending, patiently, print_sentence, table};
 use crate::program::pose::at_pose::print_fall;
 use crate::program::questions;
 use cdpr_report::{Cycle, CycleBranch, cycle};
-use cdpr_robot::{Robot, Vector3, decimals_of, shown, visible};
+use cdpr_robot::{Robot, Vector3, decimals_of, rounded, shown, visible};
 use cdpr_statics::hysteresis::{
     CycleStep, HysteresisLaw, LoadCycle, PulleyFriction, PulleyState, Unloading, load_cycle_over_pulleys,
 };
@@ -278,7 +278,7 @@ impl Pulleys {
             "Friction of the pulleys: up to {} N between winch and platform; the ways down and up are \
              up to {} mm apart; {slipping}.",
             visible(self.greatest_difference_n, 2),
-            visible(self.gap_mm, 5)
+            visible(rounded(self.gap_mm, ROUNDING), 5)
         ));
         let mut rows = table(&[
             "cable",
@@ -318,7 +318,7 @@ fn print(robot: &Robot, found: &Found) {
         "{}: the payload displaces the platform by {} mm; {} mm are left when it is gone.",
         shown(&robot.name),
         visible(displaced, 4),
-        visible(left, 5)
+        decimal(left, decimals_of([displaced], 4) + 1)
     ));
     let mut rows =
         table(&["cable", "unloaded [N]", "payload [N]", "removed [N]", "E [GPa]", "dissipated [mJ]"]);
@@ -350,8 +350,11 @@ fn print(robot: &Robot, found: &Found) {
 
 /// An energy [J] in mJ, without the sign of a zero.
 fn millijoules(energy: f64) -> String {
-    visible(1e3 * energy, 4)
+    visible(rounded(1e3 * energy, ROUNDING), 4)
 }
+
+/// Decimals of millimetres and millijoules, beyond which there is rounding alone.
+const ROUNDING: i32 = 9;
 
 fn draw(robot: &Robot, ran: &LoadCycle, found: &Found) -> Result<String, ProgramError> {
     let begin = ran.loading.first().map_or(0.0, |step| step.solution.equilibrium.pose.position.z);
@@ -367,8 +370,8 @@ fn draw(robot: &Robot, ran: &LoadCycle, found: &Found) -> Result<String, Program
         title: &format!("{}: payload over the way down", robot.name),
         lines: &[format!(
             "{} mm stay; {} mJ given by the payload",
-            visible(-found.residual_mm[2], 5),
-            visible(1e3 * found.payload_work_j, 3)
+            visible(rounded(-found.residual_mm[2], ROUNDING), 5),
+            visible(rounded(1e3 * found.payload_work_j, ROUNDING), 3)
         )],
         x: "way down [mm]",
         y: "payload [kg]",

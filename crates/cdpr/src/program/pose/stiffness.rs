@@ -112,9 +112,10 @@ impl Answer {
         let least = significant(self.least_stiffness, 5);
         print_sentence(&format!("{heading} is {stable}; its softest motion has {least} N/m."));
         let mut rows = table(&["eigenvalue [N/m]", "translation [m/m]", "rotation [rad/m]"]);
+        let decimals = decimals_of(self.eigenvalues.iter().map(|of| of.stiffness), 1);
         for Eigenvalue { stiffness, translation, rotation } in &self.eigenvalues {
             let words = |vector: &[f64; 3]| answer::vector(vector, 4);
-            rows.add_row([visible(*stiffness, 1), words(translation), words(rotation)]);
+            rows.add_row([decimal(*stiffness, decimals), words(translation), words(rotation)]);
         }
         println!("{rows}");
         println!("rotations times \u{2113} = {} m", visible(self.characteristic_length, 4));

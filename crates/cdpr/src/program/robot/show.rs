@@ -5,7 +5,7 @@ use crate::program::error::ProgramError;
 use crate::program::output::print_sentence;
 use crate::program::questions;
 use crate::program::robot::library::{exit_points, extent};
-use cdpr_robot::{CableEnd, Grade, Robot, counted, rounded, shown, visible};
+use cdpr_robot::{CableEnd, Grade, Robot, counted, decimals_of, rounded, shown};
 use serde::Serialize;
 
 /// The robot.
@@ -107,7 +107,10 @@ fn words([min, max]: [f64; 2]) -> String {
 }
 
 fn print(robot: &Shown) {
-    let sides = |[x, y, z]: [f64; 3]| format!("{} x {} x {} m", visible(x, 2), visible(y, 2), visible(z, 2));
+    let sides = |sides: [f64; 3]| {
+        let decimals = decimals_of(sides, 2);
+        format!("{} m", sides.map(|side| format!("{side:.decimals$}")).join(" x "))
+    };
     let inertia = if robot.has_inertia { "" } else { ", inertia not known" };
     print_sentence(&format!(
         "{}: {}, {} free motions, platform of {} kg{inertia}",

@@ -18,7 +18,7 @@ use cdpr_assess::{
 };
 use cdpr_dynamics::Damping;
 use cdpr_report::{MapQuantity, layers, workspace_maps};
-use cdpr_robot::{Axis, Robot, Rotation3, counted, listing, shown, significant, visible};
+use cdpr_robot::{Axis, Robot, Rotation3, counted, decimal, decimals_of, listing, shown, significant};
 use cdpr_study::{Extremes, Grid};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -284,13 +284,12 @@ fn print(summary: &WorkspaceSummary) {
         print_sentence(&format!("In the weather, {}{directions}: {wrong}.", weather.conditions()));
     }
     if let Some(BoundarySummary { measure, error, doubtful, unit, .. }) = &summary.boundary {
-        let measure = significant(*measure, 5);
-        let doubt = match *doubtful > *error {
-            true => format!("{doubtful:.1e} {unit} are in doubt; more points of the grid show it"),
-            false => "none were found".to_owned(),
-        };
+        let [measure, smooth, unseen] =
+            [(measure, 5), (error, 2), (doubtful, 2)].map(|(x, n)| significant(*x, n));
+        let more = format!("{unseen} {unit} are in doubt; more points show it");
+        let doubt = if *doubtful > *error { more.as_str() } else { "none were found" };
         print_sentence(&format!(
-            "The region held has {measure} {unit}, with an error of {error:.1e} where its boundary is smooth. \
+            "The region held has {measure} {unit}, with an error of {smooth} where its boundary is smooth. \
              Parts thinner than a step of the grid are not seen: {doubt}."
         ));
     }
@@ -367,13 +366,8 @@ fn print_details(summary: &WorkspaceSummary) {
     let position = |[x, y, z]: [f64; 3]| format!("{x:.3}, {y:.3}, {z:.3}");
     for (name, extremes) in ranges(summary) {
         if let Some(Extremes { min, min_at, max, max_at }) = extremes {
-            rows.add_row([
-                name.to_owned(),
-                visible(min, 4),
-                position(min_at),
-                visible(max, 4),
-                position(max_at),
-            ]);
+            let shown = |number| decimal(number, decimals_of([min, max], 4));
+            rows.add_row([name.to_owned(), shown(min), position(min_at), shown(max), position(max_at)]);
         }
     }
     if rows.row_count() > 0 {
@@ -387,8 +381,8 @@ fn print_details(summary: &WorkspaceSummary) {
             _ => ("volume", format!("{parts} triangles in boundary.stl")),
         };
         println!(
-            "{name} of the region held ({way}): {} {unit}, error {error:.1e}, in doubt {doubtful:.1e}; {parts}; \
-             {evaluations} positions asked for",
+            "{name} of the region held ({way}): {} {unit}, error {error:.1e}, in doubt {doubtful:.1e}; \
+             {parts}; {evaluations} positions asked for",
             significant(*measure, 5)
         );
     }

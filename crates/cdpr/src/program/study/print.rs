@@ -4,7 +4,7 @@ pub(super) mod analysis;
 mod sensitivity;
 
 use crate::program::output::{print_sentence, table, wide_table};
-use cdpr_robot::{shown, visible};
+use cdpr_robot::{decimals_of, shown, visible};
 use cdpr_study::{
     Extremes, Output, Overview, PartVerdict, PosesSummary, Recommendation, StudySummary, Summary, Timings,
 };
@@ -67,7 +67,9 @@ fn print_results(summary: &Summary) {
     for (name, study) in &summary.studies {
         let counts = [study.observations(), study.failed().values().sum()].map(|count| count.to_string());
         let Overview { nominal, mean, std, min, max, best_fit } = study.overview();
-        let numbers = [nominal, mean, std, min, max].map(|value| value.map(|value| visible(value, 4)));
+        let numbers = [nominal, mean, std, min, max];
+        let decimals = decimals_of(numbers.into_iter().flatten(), 3) + 1;
+        let numbers = numbers.map(|value| value.map(|value| format!("{value:.decimals$}")));
         let last = match (study, best_fit) {
             (StudySummary::Poses(_), _) => "means at the poses".to_owned(),
             (_, fit) => fit.map_or_else(String::new, |fit| fit.to_string()),
