@@ -134,7 +134,8 @@ impl BrokenRest {
 /// A motion needs the inertia of the platform.
 ///
 /// # Errors
-/// Those of [`inverse`] at the pose, and [`StaticsError::Unstable`] where the platform does not stay. A break after which no rest is found, or whose motion cannot be
+/// Those of [`inverse`] at the pose, and [`StaticsError::Unstable`] where the platform does not stay. A break
+/// after which no rest is found, or whose motion cannot be
 /// followed, has the reason in its place.
 pub fn safety_at(
     robot: &Robot,

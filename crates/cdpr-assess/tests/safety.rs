@@ -161,3 +161,14 @@ fn the_worst_winds_do_not_depend_on_how_the_base_is_turned() {
         assert!((own / turned - 1.0).abs() < 2e-4, "{own} {turned}");
     }
 }
+
+/// A platform that does not stay where it is held has no rest from which a break could move it.
+#[test]
+fn an_unstable_pose_is_refused() {
+    let mut robot = robot("ipanema-1");
+    robot.platform.center_of_mass.z += 0.15;
+    robot.tension_limits.max = 2000.0;
+    let pose = Pose::at(0.1, 0.1, 1.0);
+    let found = safety_at(&robot, WantedPose::at(&pose), &Load::none(), PAIRS);
+    assert!(matches!(found, Err(StaticsError::Unstable { .. })), "{found:?}");
+}

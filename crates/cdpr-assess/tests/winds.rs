@@ -125,3 +125,27 @@ fn a_cable_without_diameter_is_named() {
         "{refused}"
     );
 }
+
+/// Where cables bear differently, the least safety factor is looked for, not that of the greatest tension.
+#[test]
+fn the_least_safety_factor_is_that_of_the_weakest_cable() {
+    let mut robot = Robot::from_library("cogiro").unwrap();
+    robot.cables.iter_mut().for_each(|cable| cable.properties.breaking_force = Some(8000.0));
+    robot.cables[2].properties.breaking_force = Some(1200.0);
+    let pose = Pose::at(1.0, 1.0, 2.0);
+    let found = blown(&robot, &pose, &any(40.0));
+    let (worst, factor, cable) = found.least_safe().unwrap();
+    let tight = found.tightest().unwrap();
+    assert!(cable == 2 && tight.greatest_tension().1 != 2, "{cable}");
+    assert!(factor < 0.9 * tight.safety_factor.unwrap().0, "{factor}");
+    // No other direction has a lesser one, but for what is between the steps of the search.
+    let InverseSolution { lengths, .. } = inverse(&robot, WantedPose::at(&pose), &Load::none()).unwrap();
+    for degrees in (0..360).step_by(15) {
+        let [sin, cos] = [f64::sin, f64::cos].map(|of| 40.0 * of(f64::from(degrees).to_radians()));
+        let wind = Wind::new(Vector3::new(cos, sin, 0.0)).unwrap();
+        let weather = AnyWeather { weather: Weather { wind, ..Weather::default() }, speed: None };
+        let one = winds(&robot, &lengths, &Load::none(), [&pose, &pose], &weather).unwrap();
+        let here = one.least_safe().unwrap().1;
+        assert!(here > 0.9999 * factor, "{degrees}: {here} < {factor} at {:?}", worst.azimuth);
+    }
+}

@@ -1,6 +1,7 @@
 //! Tensions that a cable is not to have: what is named about a solution, whichever model found it.
 
 use crate::state::Equilibrium;
+use cdpr_cable::MAX_STRAIN;
 use cdpr_robot::{CableEnd, Robot, TensionLimits, visible};
 use std::fmt;
 

@@ -100,3 +100,24 @@ fn payloads_and_margins_with_tensions_distributed_anew_have_the_same_bound() {
     let robot = soft(cogiro(), &pose, 1.1);
     assert_eq!(greatest_payload(&robot, &pose, &Wrench::none()).unwrap_err().kind(), "cable_overstrained");
 }
+
+/// From an unstable equilibrium, where the first slope is rounding, the descent goes on to a rest.
+#[test]
+fn a_platform_that_stands_on_its_head_falls_to_a_rest() {
+    for (name, [x, y, z], up) in [
+        ("ipanema-1", [0.1, 0.1, 1.0], 0.2),
+        ("ipanema-1", [0.1, 0.1, 1.0], 0.5),
+        ("macarm", [1.17, 1.17, 1.17], 2.5),
+        ("hrpcables", [0.2, 0.1, 0.8], 5.0),
+        ("caroca", [0.0, 0.0, 1.75], 10.0),
+    ] {
+        let mut robot = Robot::from_library(name).unwrap();
+        robot.platform.center_of_mass.z += up;
+        let pose = Pose::at(x, y, z);
+        let held = inverse(&robot, &pose, &Load::none()).unwrap();
+        let found = direct(&robot, &held.lengths, &Load::none(), DirectStart::Pose(&pose));
+        let found = found.unwrap_or_else(|error| panic!("{name}, {up} m: {error}"));
+        assert!(found.stability.is_stable(), "{name}");
+        assert!(held.equilibrium.pose.motion_to(&found.equilibrium.pose).norm() > 1e-4, "{name}");
+    }
+}

@@ -2,7 +2,8 @@
 //!
 //! From any direction, the wind blows at [`DIRECTIONS`] azimuths. Around those that move the platform
 //! farthest, or nearly so, those of the greatest and of the least tension, and those in which a cable has the
-//! greatest part of what it may bear, golden-section searches look for directions that are worse still (R. P. Brent, *Algorithms for Minimization without Derivatives*, 1973,
+//! greatest part of what it may bear, golden-section searches look for directions that are worse still (R. P.
+//! Brent, *Algorithms for Minimization without Derivatives*, 1973,
 //! chapter 5). Between the azimuths nothing is proven.
 
 use crate::inspection::is_below_floor;
