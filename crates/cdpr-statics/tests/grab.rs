@@ -162,7 +162,7 @@ fn a_slack_cable_of_three_carries_nothing_at_its_exit() {
     let pose = cdpr_robot::Pose::at(1.29, -0.11, 0.0);
     let start = cdpr_statics::DirectStart::Pose(&pose);
     let found = cdpr_statics::direct(&robot, &lengths, &cdpr_statics::Load::none(), start).unwrap();
-    assert_eq!(found.report.slack_cables, [0]);
+    assert_eq!(found.report.slack, [0]);
     let exits = found.equilibrium.exit_tensions(&robot, &lengths);
     assert!(exits[0] == 0.0 && exits[1] > 1.0 && exits[2] > 1.0, "{exits:?}");
 }
