@@ -1,10 +1,13 @@
 //! `cdpr design`: values of a robot that make it as good as possible for poses and a load.
 
+mod words;
+
 use crate::program::arguments::{
     Format, Overwrite, Preference, RobotArgument, Threads, endings, print_record,
 };
 use crate::program::error::ProgramError;
 use crate::program::output::{Ending, patiently, print_sentence, table};
+use crate::program::robot::design::words::{WITHIN, evaluations, noun, titled, tried, value};
 use cdpr_assess::{
     ActiveDemand, BestDesign, BestOfTypes, ChosenCable, Design, DesignProblem, DesignedVariable, Front,
     FrontPoint, Goal, Over, design, front,
@@ -248,50 +251,6 @@ fn print_cables(found: &Design, best: &BestDesign) {
     println!("{rows}");
 }
 
-/// What an output is, with its unit, at the head of a column.
-fn titled(output: Goal) -> String {
-    match output.unit() {
-        "" => output.noun().to_owned(),
-        unit => format!("{} [{unit}]", output.noun()),
-    }
-}
-
-/// What is as good as possible, in words.
-fn noun(over: Over, output: Goal, poses: usize) -> String {
-    let of = match (over, output) {
-        (_, Goal::Length | Goal::Cost) => "",
-        (Over::Mean, Goal::Tension) if poses > 1 => "mean greatest ",
-        (_, Goal::Tension) => "greatest ",
-        (Over::Mean, Goal::Stiffness) if poses > 1 => "mean lowest ",
-        (_, Goal::Stiffness) => "lowest ",
-        _ if poses == 1 => "",
-        (Over::Mean, _) => "mean ",
-        (Over::Worst, Goal::Frequency | Goal::PlatformFrequency) => "lowest ",
-        (Over::Worst, _) => "greatest ",
-    };
-    format!("{of}{}", output.noun())
-}
-
-/// A value with six digits, without zeros at its end.
-fn value(value: f64) -> String {
-    let text = significant(value, 6);
-    match text.contains('.') && !text.contains('e') {
-        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
-        false => text,
-    }
-}
-
-/// `3 starts`, or `3 configurations`, or `3 starts in each of 4 configurations`.
-fn tried(starts: usize, configurations: usize) -> String {
-    match (starts, configurations) {
-        (0, count) => counted(count, "configuration"),
-        (starts, 1) => counted(starts, "start"),
-        (starts, count) => {
-            format!("{} in each of {}", counted(starts, "start"), counted(count, "configuration"))
-        }
-    }
-}
-
 fn none(robot: &Robot, found: &Design) -> String {
     let poses = if found.poses == 1 { "the pose".to_owned() } else { format!("all {} poses", found.poses) };
     let reason =
@@ -326,14 +285,6 @@ fn verdict(robot: &Robot, found: &Design, best: &BestDesign) -> String {
         noun(found.over, found.output, found.poses),
         tried(found.starts, found.configurations)
     )
-}
-
-/// What a robot has to do.
-const WITHIN: &str = "all poses within the limits";
-
-/// The work of a search.
-fn evaluations(count: usize) -> String {
-    format!("{} of a robot at all poses", counted(count, "evaluation"))
 }
 
 /// How many starts or configurations lead where, and what the robot as it is lacks.
