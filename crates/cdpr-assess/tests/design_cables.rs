@@ -105,6 +105,18 @@ fn of_planar(name: &str, modulus: f64, breaking: f64) -> Value {
 }
 
 #[test]
+fn what_was_assumed_of_other_cables_is_not_said_of_the_chosen_ones() {
+    let mut robot = planar(3.0, 1e6);
+    let gravity = "gravity is 9.81 m/s² along -z".to_owned();
+    robot.provenance.assumed = vec!["the cables are Steel rope, 4 mm".to_owned(), gravity.clone()];
+    let file = with(apart([-6.0, -0.5], 100.0), "/cables", json!([of_planar("one", 1e11, 1e6)]));
+    let best = solve(&file, robot.clone()).best.unwrap();
+    assert_eq!(best.robot.provenance.assumed, [gravity]);
+    let best = solve(&apart([-6.0, -0.5], 100.0), robot.clone()).best.unwrap();
+    assert_eq!(best.robot.provenance, robot.provenance);
+}
+
+#[test]
 fn a_type_that_breaks_under_the_weight_is_left_out() {
     let types = json!([of_planar("weak", 2e11, 600.0), of_planar("strong", 1e11, 1e4)]);
     let mut file = with(apart([-6.0, -0.5], 100.0), "/cables", types);

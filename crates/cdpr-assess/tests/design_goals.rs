@@ -318,6 +318,8 @@ fn a_search_that_ends_next_to_robots_that_are_not_held_keeps_its_robot() {
     let mut file: Value = serde_json::from_str(&page("cost.json")).unwrap();
     file["limits"] = json!({"position": 1});
     file["starts"] = json!(1);
+    let poses = [[2.0, 1.5, 1.0], [-2.0, 1.5, 1.0], [2.0, 1.5, 2.5], [-2.0, 1.5, 2.5], [0.0, 0.0, 1.75]];
+    file["poses"] = json!({"list": poses.map(|at| json!({"position": at}))});
     file["cables"] = json!([file["cables"][2]]);
     let rows = page("frame.csv");
     let cable = |row: &str| {

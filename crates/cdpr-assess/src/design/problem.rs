@@ -130,9 +130,9 @@ impl DesignProblem {
         Ok(())
     }
 
-    fn check(&self) -> Result<(), InField> {
-        let Self { robot, output, load, .. } = self;
-        self.check_variables()?;
+    /// Checks the objectives.
+    fn check_goals(&self) -> Result<(), InField> {
+        let Self { output, .. } = self;
         for (of, goal) in [("objective", Some((*output, self.over))), ("pareto", self.second)] {
             match goal {
                 Some((output @ Goal::Amplitude, _)) => {
@@ -155,6 +155,13 @@ impl DesignProblem {
         if self.second.is_some() && !(2..=MOST_POINTS).contains(&self.points) {
             return wrong("pareto.points", self.points, format!("2 to {MOST_POINTS}"));
         }
+        Ok(())
+    }
+
+    fn check(&self) -> Result<(), InField> {
+        let Self { robot, output, load, .. } = self;
+        self.check_variables()?;
+        self.check_goals()?;
         if self.needs(Goal::Position) && self.errors.is_none() {
             let expected = "the deviations that a position error follows from, such as {\"b\": {\"law\": \
                             {\"normal\": {\"mean\": 0, \"std\": 0.001}}}}";
@@ -259,6 +266,10 @@ impl DesignProblem {
     /// Those of [`Robot::with_values`].
     pub(crate) fn robot_at(&self, values: &[f64]) -> Result<Robot, RobotError> {
         let mut robot = self.robot.clone();
+        if values.iter().zip(&self.variables).any(|(at, of)| !of.cables.is_empty() && *at >= 0.0) {
+            // What an import assumed of the cables is of others.
+            robot.provenance.assumed.retain(|assumed| !assumed.starts_with("the cables are "));
+        }
         for (variable, value) in self.variables.iter().zip(values) {
             for i in &variable.cables {
                 type_at(&self.types, *value).into_iter().for_each(|of| of.put_on(&mut robot, *i));

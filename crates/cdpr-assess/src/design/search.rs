@@ -45,7 +45,7 @@ pub(crate) const MET: f64 = 1e-8;
 /// Change of the merit that rounding of the models may hide: steps that promise less are taken as far as the
 /// residual falls.
 const ROUNDING: f64 = 1e-9;
-/// Such steps without a smaller residual, and steps that promise more and are cut down to less.
+/// Such steps without a smaller residual.
 const PATIENCE: usize = 5;
 /// Distance from a bound within which a coordinate is on it.
 const ON_BOUND: f64 = 1e-9;
@@ -180,7 +180,7 @@ impl Search<'_> {
     fn descend(&mut self, mut here: Point) -> Option<Found> {
         let n = here.u.len();
         let mut b = DMatrix::identity(n, n);
-        let (mut is_fresh, mut waited, mut crept) = (true, 0, 0);
+        let (mut is_fresh, mut waited) = (true, 0);
         let mut best: Option<(Point, Step, f64)> = None;
         for _ in 0..MOST_STEPS {
             let Some(step) = self.step(&here, &here, &b) else { break };
@@ -190,8 +190,6 @@ impl Search<'_> {
                 update(&mut b, &here, next, &step, is_fresh);
             }
             let is_rounding = step.fall <= ROUNDING;
-            let fall = taken.as_ref().map(|next| here.merit(self.penalty) - next.merit(self.penalty));
-            crept = if !is_rounding && fall.is_some_and(|fall| fall <= ROUNDING) { crept + 1 } else { 0 };
             if is_rounding && best.as_ref().is_some_and(|(.., least)| residual >= *least) {
                 waited += 1;
             } else {
@@ -199,7 +197,7 @@ impl Search<'_> {
                 best = Some((here.clone(), step, residual));
             }
             match taken {
-                _ if residual <= AIM || waited > PATIENCE || crept > PATIENCE => break,
+                _ if residual <= AIM || waited > PATIENCE => break,
                 Some(next) => {
                     here = next;
                     is_fresh = false;
