@@ -86,7 +86,10 @@ pub enum DynamicsError {
         cable: usize,
     },
     /// Nothing damps the platform at a natural frequency.
-    #[error("{frequency} Hz is a natural frequency, at which nothing limits the motion; give damping")]
+    #[error(
+        "{frequency} Hz is a natural frequency, at which nothing limits the motion; {}",
+        if *frequency == 0.0 { "take frequencies above 0 Hz" } else { "give damping" }
+    )]
     Resonance {
         /// The frequency [Hz].
         frequency: f64,
@@ -112,7 +115,11 @@ impl From<DynamicsError> for StaticsError {
             DynamicsError::Robot(error) => error.into(),
             DynamicsError::Invalid { field, value, expected } => invalid(field, value, expected),
             DynamicsError::Resonance { frequency } => {
-                invalid("frequency", format!("{frequency} Hz"), "no natural frequency, or damping".to_owned())
+                let expected = match frequency {
+                    0.0 => "above 0 Hz, where nothing limits the motion",
+                    _ => "no natural frequency, or damping",
+                };
+                invalid("frequency", format!("{frequency} Hz"), expected.to_owned())
             }
             DynamicsError::Events(_) | DynamicsError::Event { .. } => {
                 invalid("events", text, "events of this robot".to_owned())

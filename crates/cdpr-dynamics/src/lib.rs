@@ -46,5 +46,6 @@ pub use free::Rotor;
 pub use modes::swing::Swing;
 pub use modes::{Mode, Modes, Wanted, modes_at};
 pub use platform::MovingPlatform;
-pub use response::band::{LargestInBand, Peak};
+pub use response::band::{LargestInBand, Peak, worst_amplitude};
+pub use response::point::{PointMotion, ShakenPoint};
 pub use response::{Damping, FrequencyResponse, Response};

@@ -15,17 +15,31 @@
 //!
 //! (Kelvin and Voigt's in the stretch of the cable, and a drag of air along its motion), all is complex:
 //! amplitude and phase. The cables are the polynomials of (N3), of which only the ends are kept at every
-//! frequency.
+//! frequency. They say how D and F differ from those of slow motions, which the static models know:
+//!
+//! ```text
+//! D = K - ω² M + sum J_iᵀ (A_i(ω) - A_i(0)) J_i,      F_i = F_i(0) + (those of the polynomials)    (N21)
+//! ```
+//!
+//! with the whole K, which a moment makes unsymmetric, and the dynamic stiffness A_i of the end of a cable. A
+//! wheel with a tilted axis couples motions in the plane of its cable with those across it in K and F_i(0).
+//! A motion n with `K n = 0` has no bound at 0 Hz. All others are those of low frequencies there:
+//!
+//! ```text
+//! [ K     M n ] [ v ]   [ f ]
+//! [ nᵀ M   0  ] [ λ ] = [ 0 ]                                                                      (N22)
+//! ```
 
 pub(crate) mod band;
+pub(crate) mod point;
 pub(crate) mod shaken;
 
 use crate::energy::{Number, Vector, Vibrating, real};
 use crate::error::{DynamicsError, positive};
 use crate::response::shaken::ShakenCable;
 use cdpr_statics::vibration::{CableAtRest, SmallMotions};
-use cdpr_statics::{DMatrix, DirectProblem, Equilibrium, Matrix6, Vector3};
-use nalgebra::{Complex, Matrix3, Matrix3xX, Matrix6xX};
+use cdpr_statics::{DMatrix, DirectProblem, Equilibrium, Matrix6, Vector3, stiffness};
+use nalgebra::{Complex, Matrix3, Matrix3xX, Matrix6xX, Vector6};
 use std::f64::consts::TAU;
 
 pub use shaken::Damping;
@@ -43,6 +57,8 @@ pub struct FrequencyResponse {
     stiffness: Matrix6<f64>,
     free: Vec<usize>,
     cables: Vec<Option<ShakenCable>>,
+    /// Motions that nothing resists, `|translation|² + ℓ² |rotation|² = 1`.
+    neutral: Vec<Vector6<f64>>,
 }
 
 /// The answer at a frequency. Motions are complex amplitudes of (dp, dφ) about P in the base frame.
@@ -50,22 +66,47 @@ pub struct FrequencyResponse {
 pub struct Response {
     /// The frequency [Hz].
     pub frequency: f64,
-    /// Motion per wrench about P, H of (N12) [m/N, rad/N, m/(N m), rad/(N m)].
+    /// Motion per wrench about P, H of (N12) [m/N, rad/N, m/(N m), rad/(N m)]; without those of `neutral`.
     pub per_wrench: Matrix6<Complex<f64>>,
     /// Motion per length that each winch takes in, 6 x n [m/m, rad/m].
     pub per_shortening: Matrix6xX<Complex<f64>>,
+    /// At 0 Hz the motions (dp, dφ) that nothing resists, `|translation|² + ℓ² |rotation|² = 1`; none
+    /// elsewhere.
+    pub neutral: Vec<Vector6<f64>>,
 }
 
 impl Response {
     /// Translation of a point of the platform per force there [m/N], and per length that each winch takes in,
     /// 3 x n; `lever` from P in the base frame [m].
+    ///
+    /// Infinite where a force moves the point along a motion that nothing resists.
     pub fn at_point(&self, lever: &Vector3<f64>) -> (Matrix3<Complex<f64>>, Matrix3xX<Complex<f64>>) {
+        let (mut per_force, per_shortening) = self.resisted_at_point(lever);
+        for n in &self.neutral {
+            let moved = n.fixed_rows::<3>(0) + n.fixed_rows::<3>(3).cross(lever);
+            for (i, j) in (0..3).flat_map(|i| (0..3).map(move |j| (i, j))) {
+                if moved[i].abs() > UNMOVED && moved[j].abs() > UNMOVED {
+                    per_force[(i, j)] = real(f64::INFINITY);
+                }
+            }
+        }
+        (per_force, per_shortening)
+    }
+
+    /// The same without the motions that nothing resists.
+    pub fn resisted_at_point(
+        &self,
+        lever: &Vector3<f64>,
+    ) -> (Matrix3<Complex<f64>>, Matrix3xX<Complex<f64>>) {
         let mut motion = nalgebra::Matrix3x6::<Complex<f64>>::zeros();
         motion.fixed_view_mut::<3, 3>(0, 0).copy_from(&Matrix3::identity().map(real));
         motion.fixed_view_mut::<3, 3>(0, 3).copy_from(&(-lever.cross_matrix()).map(real));
         (motion * self.per_wrench * motion.transpose(), motion * &self.per_shortening)
     }
 }
+
+/// Part of a motion of `|translation|² + ℓ² |rotation|² = 1` below which a point does not move.
+const UNMOVED: f64 = 1e-7;
 
 impl FrequencyResponse {
     /// For frequencies up to `highest` [Hz].
@@ -86,18 +127,23 @@ impl FrequencyResponse {
                 return Err(DynamicsError::Invalid { field, value: format!("{value:?}"), expected });
             }
         }
-        let SmallMotions { mass, weight, cables, free } = problem.small_motions(equilibrium)?;
-        let mut stiffness = cables.iter().fold(weight, |sum, cable| sum + cable.stiffness);
-        for cable in &cables {
-            stiffness -= on_platform(&cable.lever, &cable.end_stiffness);
-        }
+        let SmallMotions { mass, cables, free, .. } = problem.small_motions(equilibrium)?;
         let shaken = |(i, cable): (usize, &CableAtRest)| {
             // A cable without mass and force resists nothing.
             let is_shapeless = cable.linear_density == 0.0 && cable.catenary.is_slack_and_weightless();
             (!is_shapeless).then(|| ShakenCable::new(i, cable, highest)).transpose()
         };
-        let cables = cables.iter().enumerate().map(shaken).collect::<Result<_, _>>()?;
-        Ok(Self { damping, highest, mass, stiffness, free, cables })
+        let cables = cables.iter().enumerate().map(shaken).collect::<Result<Vec<_>, _>>()?;
+        // (N21)
+        let mut stiffness = *problem.linearize(equilibrium)?.stiffness();
+        for cable in cables.iter().flatten() {
+            stiffness -= on_platform(&cable.lever, &cable.still);
+        }
+        let along = |mode: &stiffness::Mode| {
+            Vector6::from_iterator(mode.translation.iter().chain(&mode.rotation).copied())
+        };
+        let neutral = problem.stability(equilibrium)?.neutral().iter().map(along).collect();
+        Ok(Self { damping, highest, mass, stiffness, free, cables, neutral })
     }
 
     /// The answer at a frequency [Hz].
@@ -119,7 +165,16 @@ impl FrequencyResponse {
         let (cables, pulls) = self.of_cables(frequency)?;
         let dynamic = (self.stiffness - self.mass * (omega * omega)).map(real) + cables;
         let free = &self.free;
-        let block = DMatrix::from_fn(free.len(), free.len(), |i, j| dynamic[(free[i], free[j])]);
+        let neutral = if frequency == 0.0 { &self.neutral[..] } else { &[] };
+        let (n, size) = (free.len(), free.len() + neutral.len());
+        let held: Vec<_> = neutral.iter().map(|motion| self.whole_mass() * motion).collect();
+        // (N22)
+        let block = DMatrix::from_fn(size, size, |i, j| match (i < n, j < n) {
+            (true, true) => dynamic[(free[i], free[j])],
+            (true, false) => real(held[j - n][free[i]]),
+            (false, true) => real(held[i - n][free[j]]),
+            (false, false) => real(0.0),
+        });
         let inverse = block.try_inverse().ok_or_else(resonance)?;
         let mut per_wrench = Matrix6::zeros();
         for (i, row) in free.iter().enumerate() {
@@ -129,7 +184,12 @@ impl FrequencyResponse {
             return Err(resonance());
         }
         let per_shortening = -(per_wrench * pulls);
-        Ok(Response { frequency, per_wrench, per_shortening })
+        Ok(Response { frequency, per_wrench, per_shortening, neutral: neutral.to_vec() })
+    }
+
+    /// Mass of platform, payload and the static shapes of the cables.
+    fn whole_mass(&self) -> Matrix6<f64> {
+        self.cables.iter().flatten().fold(self.mass, |sum, cable| sum + cable.static_mass)
     }
 }
 
@@ -167,6 +227,7 @@ impl FrequencyResponse {
             let found = cable.at(omega, &self.damping);
             let (stiffness, pull) = found.ok_or(DynamicsError::Resonance { frequency })?;
             dynamic += on_platform(&cable.lever.map(real), &stiffness);
+            let pull = pull + cable.more_pull.map(real);
             let moment = cable.lever.map(real).cross(&pull);
             pulls.fixed_view_mut::<3, 1>(0, i).copy_from(&pull);
             pulls.fixed_view_mut::<3, 1>(3, i).copy_from(&moment);

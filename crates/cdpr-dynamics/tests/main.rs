@@ -5,6 +5,7 @@
 mod controlled;
 mod derivatives;
 mod drawn;
+mod forced;
 mod moves;
 mod reference;
 mod response;

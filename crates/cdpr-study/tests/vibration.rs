@@ -1,7 +1,7 @@
 //! Studies of how a platform swings and of its amplitude where it is shaken.
 
 use crate::output::{observed, of_four_cables, of_two_robots, opened, same, small_measures, study};
-use cdpr_dynamics::{FrequencyResponse, Modes, Wanted, modes_at};
+use cdpr_dynamics::{FrequencyResponse, Modes, Wanted, modes_at, worst_amplitude};
 use cdpr_robot::Axis;
 use cdpr_statics::{DirectProblem, DirectStart, Load, Vector3, WantedPose, set_point_lengths};
 use cdpr_study::{AlongAxis, AmplitudeSpec, InputMeasures, Output, Session, Study, analyse, observe};
@@ -28,7 +28,7 @@ fn by_hand(study: &Study, deviations: &[f64]) -> f64 {
     let (per_force, _) = response.at(frequency).unwrap().at_point(&lever);
     1e3 * match along {
         Some(_) => per_force[(2, 2)].norm(),
-        None => per_force.singular_values().max(),
+        None => worst_amplitude(&per_force),
     }
 }
 

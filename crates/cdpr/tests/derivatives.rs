@@ -98,6 +98,7 @@ fn the_amplitude_of_a_shaken_platform_has_derivatives_where_they_are_asked_for()
         let shown = unwrapped(run(&data(name), &asked).stdout);
         let direction = axis.map_or("in the worst direction", |_| "along z");
         assert!(shown.contains(&format!("At 3.5 Hz a force {direction} shakes the point by")), "{shown}");
+        assert_eq!(shown.contains("mm/N along z"), axis.is_some(), "{shown}");
         assert!(shown.contains("d amplitude ["), "{shown}");
     }
     for wrong in [

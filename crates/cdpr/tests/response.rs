@@ -3,7 +3,7 @@
 use crate::common::{cdpr, data_path, data_text, text, unwrapped};
 use crate::equilibria::number;
 use crate::models::{answer, close};
-use cdpr_dynamics::{Damping, FrequencyResponse};
+use cdpr_dynamics::{Damping, FrequencyResponse, worst_amplitude};
 use cdpr_robot::{Pose, Robot, Vector3};
 use cdpr_statics::{DirectProblem, DirectStart, Load, Unstable, inverse};
 use tempfile::TempDir;
@@ -34,7 +34,7 @@ fn a_shaken_platform_answers_as_the_library_says_in_json_csv_and_figure() {
     assert!(frequencies.len() > 25, "{}", frequencies.len());
     for at in frequencies {
         let (per_force, per_shortening) = response.at(number(&at["frequency_hz"])).unwrap().at_point(&lever);
-        let worst = per_force.singular_values().max();
+        let worst = worst_amplitude(&per_force);
         assert!(close(number(&at["amplitude_m_per_n"]), worst, 1e-6));
         assert!(close(number(&at["per_force"][0][1][0]), per_force[(0, 1)].re, 1e-6));
         assert!(close(number(&at["per_shortening"][3][2][1]), per_shortening[(2, 3)].im, 1e-6));
@@ -86,4 +86,78 @@ fn a_peak_that_nothing_damps_has_no_number() {
     );
     let shown = text(cdpr(&[&call[..], &["--with", "drag=0.5"]].concat()).stdout);
     assert!(!shown.contains("bound"), "{shown}");
+}
+
+/// A body on one cable, which turns about the cable as it likes.
+const HOOK: &str = r#"{"format":"cdpr-robot/1","name":"hook","gravity":9.81,"platform":{"mass":5,
+"center_of_mass":[0,0,0],"inertia":[[0.3,0,0],[0,0.5,0],[0,0,0.7]]},
+"cable":{"diameter":0.004,"section":8e-6,"linear_density":0,"youngs_modulus":1e11},
+"tension_limits":{"min":1,"max":5000},
+"cables":[{"exit_point":[0,0,5],"anchor_point":[0,0,0.4]}]}"#;
+
+#[test]
+fn what_has_no_bound_is_said_number_by_number() {
+    let folder = TempDir::new().unwrap();
+    let file = folder.path().join("hook.json");
+    std::fs::write(&file, HOOK).unwrap();
+    let at = ["--pose", "0,0,1.6", "--free", "x,y,roll,pitch,yaw", "--below", "3", "--number", "5"];
+    let call = [&["response", file.to_str().unwrap()], &at[..]].concat();
+    let finite = |value: &serde_json::Value| !value[0].is_null();
+    let found = answer(&call);
+    let frequencies = found["frequencies"].as_array().unwrap();
+    let unbounded: Vec<_> = frequencies.iter().filter(|at| at["amplitude_m_per_n"].is_null()).collect();
+    // Two motions along x, two along y, which neither a force along another axis nor the winch excites.
+    let mut along = [0; 3];
+    for at in &unbounded {
+        let axes: Vec<usize> = (0..3).filter(|k| !finite(&at["per_force"][k][k])).collect();
+        assert!(matches!(axes[..], [0] | [1]), "{at}");
+        along[axes[0]] += 1;
+        let vertical = number(&at["per_force"][2][2][0]);
+        assert!((1e-6..1e-5).contains(&vertical), "{at}");
+        assert!((number(&at["per_shortening"][0][2][0]) - 1.0).abs() < 0.01, "{at}");
+        assert!(number(&at["per_force"][1 - axes[0]][1 - axes[0]][0]).abs() < 10.0);
+    }
+    assert_eq!(along, [2, 2, 0]);
+    // Neighbours without a bound are all named.
+    let shown = text(cdpr(&call).stdout);
+    assert!(shown.contains("at rest it moves it by 69.3 mm/N"), "{shown}");
+    for at in unbounded {
+        assert!(shown.contains(&format!("{:.4}", number(&at["frequency_hz"]))), "{shown}");
+    }
+    // Beside the axis of the hook a force turns it without resistance.
+    let off = [&call[..], &["--marker", "0.2,0,0", "--with", "drag=0.5"]].concat();
+    let still = answer(&off)["frequencies"][0].clone();
+    assert!(still["amplitude_m_per_n"].is_null() && !finite(&still["per_force"][1][1]), "{still}");
+    assert!(finite(&still["per_force"][0][0]) && finite(&still["per_force"][2][1]), "{still}");
+    let shown = unwrapped(cdpr(&off).stdout);
+    assert!(shown.contains("at rest nothing resists it"), "{shown}");
+    // A bounce does not turn the hook, and a turn about the cable does not move it.
+    let modes = text(
+        cdpr(&["modes", file.to_str().unwrap(), "--pose", "0,0,1.6", "--free", "x,y,roll,pitch,yaw"]).stdout,
+    );
+    assert!(modes.contains("┆ along z ") && modes.contains("┆ about z "), "{modes}");
+}
+
+#[test]
+fn a_platform_hung_in_one_point_is_shaken_without_a_word_about_0_hertz() {
+    let folder = TempDir::new().unwrap();
+    let mut drawn: serde_json::Value = serde_json::from_str(
+        &std::fs::read_to_string(data_path("../docs/how-to/planner/drawn.json")).unwrap(),
+    )
+    .unwrap();
+    drawn["cables"].as_array_mut().unwrap().truncate(3);
+    let file = folder.path().join("three.json");
+    std::fs::write(&file, drawn.to_string()).unwrap();
+    let call = [
+        "response",
+        file.to_str().unwrap(),
+        "--pose",
+        "10,-5,12",
+        "--free",
+        "roll,pitch,yaw",
+        "--below",
+        "0.5",
+    ];
+    let found = answer(&call);
+    assert!(found["frequencies"][0]["amplitude_m_per_n"].is_number(), "{found}");
 }

@@ -1,20 +1,23 @@
 //! Exact derivatives of amplitudes of a platform that is shaken.
 //!
-//! A force along w at a point, whose lever from P is r, moves the point by a along w:
+//! A force along the unit vector u at a point, whose lever from P is r, moves the point by J H Jᵀ u. Its size
+//! along w, of which w has the phase, is
 //!
 //! ```text
-//! a = wᵀ J H Jᵀ w,      da = -xᵀ dD x + 2 w·(x_r x dr),      x = H Jᵀ w,      J = [ 1, -[r] ]      (N19)
+//! a = wᵀ J H Jᵀ u,      J = [ 1, -[r] ],      x = H Jᵀ u,      p = Hᵀ Jᵀ w
+//! da = -pᵀ dD x + w·(x_r x dr) + u·(p_r x dr)                                                      (N19)
 //! ```
 //!
-//! as D is symmetric: dH = -H dD H. `xᵀ dD x` is that of (N11), with the damped motions of the cables. In the
-//! worst direction the amplitude is the largest singular value of J H Jᵀ, and w its vector, `J H Jᵀ w = a w*`
-//! (T. Takagi, *On an algebraic problem related to an analytic theorem of Carathéodory and Fejér*, Jpn. J.
-//! Math. 1, 1925).
+//! with dH = -H dD H. Along an axis, w is u but for the phase. In the worst direction, u is that of (N23),
+//! which makes a stationary, and `w = (J H Jᵀ u)*/a`. As dD is symmetric, pᵀ dD x follows from (N11) for x + p and
+//! x - p, with the damped motions of the cables: `4 pᵀ dD x = (x + p)ᵀ dD (x + p) - (x - p)ᵀ dD (x - p)`. The
+//! skew part that a moment adds to D is constant.
 
 use crate::derivatives::changes::{Changes, Moved};
 use crate::derivatives::{lacking, with_lengths};
 use crate::energy::{CableEnergy, Number, Vector, real};
 use crate::error::{DynamicsError, positive};
+use crate::response::band::WorstDirections;
 use crate::response::{Damping, FrequencyResponse};
 use cdpr_robot::{Axis, Robot};
 use cdpr_statics::derivatives::Inputs;
@@ -37,8 +40,8 @@ pub struct AmplitudeAt {
     pub damping: Damping,
     /// The point that is shaken and that moves, in the frame of the platform [m].
     pub marker: Vector3<f64>,
-    /// Axis of the base frame along which the force acts and the motion is measured; without one, the worst
-    /// direction.
+    /// Axis of the base frame along which the force acts and the motion is measured; without one, the force
+    /// acts in the worst direction, and the amplitude is the norm of those along x, y and z.
     pub along: Option<Axis>,
 }
 
@@ -69,11 +72,10 @@ impl AmplitudeAt {
     pub fn of(&self, problem: &DirectProblem, equilibrium: &Equilibrium) -> Result<f64, DynamicsError> {
         positive("frequency", self.frequency, "a frequency [Hz] above zero")?;
         let response = FrequencyResponse::new(problem, equilibrium, self.frequency, self.damping)?;
-        let (per_force, _) =
-            response.at(self.frequency)?.at_point(&(equilibrium.pose.rotation * self.marker));
+        let (found, lever) = (response.at(self.frequency)?, equilibrium.pose.rotation * self.marker);
         Ok(match self.along.map(Axis::index) {
-            Some(k) => per_force[(k, k)].norm(),
-            None => per_force.singular_values().max(),
+            Some(k) => found.at_point(&lever).0[(k, k)].norm(),
+            None => found.by_force(&lever),
         })
     }
 
@@ -95,55 +97,64 @@ impl AmplitudeAt {
         let found = response.at(self.frequency)?;
         let lever = equilibrium.pose.rotation * self.marker;
         let (per_force, _) = found.at_point(&lever);
-        let (amplitude, direction, phase) = self.direction(&per_force)?;
-        let moment = lever.map(real).cross(&direction);
-        let wrench = Vector6::from_iterator(direction.iter().chain(&moment).copied());
-        let v = found.per_wrench * wrench;
-        let gravity = problem.robot().gravity.vector();
-        let (mut forces, mut energies) = (Vec::new(), Vec::new());
-        for cable in response.vibrating(&at_rest.cables, &v, self.frequency)? {
-            energies.push(cable.as_ref().map(|(_, vibrating)| CableEnergy::new(vibrating, &gravity)));
-            forces.push(cable.map_or_else(Vector::zeros, |(force, _)| force));
-        }
-        let square = (TAU * self.frequency).powi(2);
-        let changes = Changes::new(problem, equilibrium, Moved { square, v, forces, energies })?;
-        let turn: Vector = v.fixed_rows::<3>(3).into();
-        let slope = |(column, of_stiffness): (usize, Number)| {
-            let moved = changes.turned(column).cross(&lever);
-            (phase * (direction.dot(&turn.cross(&moved.map(real))) * 2.0 - of_stiffness)).re
+        let Shaken { amplitude, force, measured } = self.shaken(&per_force)?;
+        let wrench = |of: &Vector| -> Vector6<Number> {
+            Vector6::from_iterator(of.iter().chain(&lever.map(real).cross(of)).copied())
         };
-        let mut per_input: Vec<f64> = changes.all(&at_rest).into_iter().enumerate().map(slope).collect();
-        let per_length = per_input.split_off(changes.inputs.count());
+        let x = found.per_wrench * wrench(&force);
+        let p = found.per_wrench.tr_mul(&wrench(&measured));
+        let gravity = problem.robot().gravity.vector();
+        let square = (TAU * self.frequency).powi(2);
+        let changes = |v: Vector6<Number>| {
+            let (mut forces, mut energies) = (Vec::new(), Vec::new());
+            for cable in response.vibrating(&at_rest.cables, &v, self.frequency)? {
+                energies.push(cable.as_ref().map(|(_, vibrating)| CableEnergy::new(vibrating, &gravity)));
+                forces.push(cable.map_or_else(Vector::zeros, |(force, _)| force));
+            }
+            Changes::new(problem, equilibrium, Moved { square, v, forces, energies })
+        };
+        let (sum, difference) = (changes(x + p)?, changes(x - p)?);
+        let [x_turn, p_turn] = [x, p].map(|of| -> Vector { of.fixed_rows::<3>(3).into() });
+        let slope = |(column, (of_sum, of_difference)): (usize, (Number, Number))| {
+            let moved = sum.turned(column).cross(&lever).map(real);
+            let of_lever = measured.dot(&x_turn.cross(&moved)) + force.dot(&p_turn.cross(&moved));
+            (of_lever - (of_sum - of_difference) * 0.25).re
+        };
+        let columns = sum.all(&at_rest).into_iter().zip(difference.all(&at_rest));
+        let mut per_input: Vec<f64> = columns.enumerate().map(slope).collect();
+        let per_length = per_input.split_off(sum.inputs.count());
         if per_input.iter().chain(&per_length).any(|slope| !slope.is_finite()) {
             return Err(none("a cable hangs folded in a plane without width"));
         }
-        let per_inertia = (phase * changes.spin()).re * square;
-        Ok(AmplitudeDerivatives { amplitude, inputs: changes.inputs, per_input, per_length, per_inertia })
+        let per_inertia = 0.25 * (sum.spin() - difference.spin()).re * square;
+        Ok(AmplitudeDerivatives { amplitude, inputs: sum.inputs, per_input, per_length, per_inertia })
     }
 
-    /// The amplitude, w of (N19), and what turns a into a real number.
-    fn direction(&self, per_force: &Matrix3<Number>) -> Result<(f64, Vector, Number), DynamicsError> {
+    /// The amplitude, and what it is that of.
+    fn shaken(&self, per_force: &Matrix3<Number>) -> Result<Shaken, DynamicsError> {
         if let Some(axis) = self.along {
             let moved = per_force[(axis.index(), axis.index())];
-            let amplitude = moved.norm();
+            let (amplitude, force) = (moved.norm(), Vector3::ith(axis.index(), 1.0).map(real));
             if amplitude == 0.0 {
                 return Err(none("the point does not move along this axis"));
             }
-            return Ok((amplitude, Vector3::ith(axis.index(), 1.0).map(real), moved.conj() / amplitude));
+            return Ok(Shaken { amplitude, force, measured: force * (moved.conj() / amplitude) });
         }
-        let svd = per_force.svd(true, true);
-        let (Some(u), Some(v)) = (svd.u, svd.v_t) else { return Err(none("it has no direction")) };
-        let mut sizes: Vec<(usize, f64)> = svd.singular_values.iter().copied().enumerate().collect();
-        sizes.sort_by(|one, other| other.1.total_cmp(&one.1));
-        let (largest, amplitude) = sizes[0];
-        if sizes[1].1 >= (1.0 - SAME) * amplitude {
+        let WorstDirections { amplitudes: [amplitude, second, _], directions } =
+            WorstDirections::new(per_force);
+        if second >= (1.0 - SAME) * amplitude {
             return Err(none("two directions are shaken alike"));
         }
-        // u* = c v with |c| = 1, as the matrix is symmetric.
-        let v: Vector = v.row(largest).adjoint();
-        let c = v.dotc(&u.column(largest).conjugate());
-        Ok((amplitude, v * c.sqrt(), real(1.0)))
+        let force = directions[0].map(real);
+        Ok(Shaken { amplitude, force, measured: (per_force * force).conjugate() / real(amplitude) })
     }
+}
+
+/// An amplitude [m/N], and u and w of (N19).
+struct Shaken {
+    amplitude: f64,
+    force: Vector,
+    measured: Vector,
 }
 
 impl AmplitudeDerivatives {

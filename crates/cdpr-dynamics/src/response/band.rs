@@ -5,10 +5,12 @@
 //! a peak 1/a² is nearly a parabola of the frequency, whose lowest point is approached from the natural
 //! frequency.
 
+use crate::energy::Number;
 use crate::error::{DynamicsError, positive};
 use crate::modes::{Modes, Wanted};
 use crate::response::{Damping, FrequencyResponse, Response};
 use cdpr_statics::{DirectProblem, Equilibrium, Vector3};
+use nalgebra::{Complex, Matrix3};
 
 /// An amplitude and its frequency.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,7 +24,7 @@ pub struct Peak {
 /// The largest amplitudes of a point of the platform in a band of frequencies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LargestInBand {
-    /// By a force at the point, of the worst direction [m/N].
+    /// By a force at the point, of the worst direction [m/N]: the norm of its motions along x, y and z.
     pub per_force: Peak,
     /// By the winch that moves the point most, per length that it takes in [m/m].
     pub per_shortening: Peak,
@@ -43,8 +45,11 @@ const GAIN: f64 = 1e-9;
 impl Response {
     /// Largest amplitude of a point by a force there of any direction [m/N]; `lever` from P in the base frame
     /// [m].
+    ///
+    /// It is the greatest norm of the complex amplitudes along x, y and z over all directions of the force:
+    /// infinite where one moves the point along a motion that nothing resists.
     pub fn by_force(&self, lever: &Vector3<f64>) -> f64 {
-        self.at_point(lever).0.singular_values().max()
+        worst_amplitude(&self.at_point(lever).0)
     }
 
     /// The winch, from 0, that moves a point most, and by how much for each length that it takes in [m/m];
@@ -56,13 +61,52 @@ impl Response {
     }
 }
 
+/// The greatest norm of H u over all directions u of a force, by the motion per force H [m/N]; infinite where
+/// H is.
+pub fn worst_amplitude(per_force: &Matrix3<Complex<f64>>) -> f64 {
+    if per_force.iter().any(|entry| entry.re.is_infinite()) {
+        return f64::INFINITY;
+    }
+    WorstDirections::new(per_force).amplitudes[0]
+}
+
+/// Directions of a force at a point, the one that moves the point most first.
+///
+/// A force along the unit vector u moves it by H u. The square of its size, the norm of the complex
+/// amplitudes along x, y and z, is
+///
+/// ```text
+/// |H u|² = uᵀ Re(Hᴴ H) u                                                                           (N23)
+/// ```
+pub(crate) struct WorstDirections {
+    /// |H u| [m/N], descending.
+    pub(crate) amplitudes: [f64; 3],
+    /// The u.
+    pub(crate) directions: [Vector3<f64>; 3],
+}
+
+impl WorstDirections {
+    /// By the motion per force H [m/N].
+    pub(crate) fn new(per_force: &Matrix3<Number>) -> Self {
+        let (re, im) = (per_force.map(|entry| entry.re), per_force.map(|entry| entry.im));
+        let eigen = (re.tr_mul(&re) + im.tr_mul(&im)).symmetric_eigen();
+        let mut order = [0, 1, 2];
+        order.sort_by(|one, other| eigen.eigenvalues[*other].total_cmp(&eigen.eigenvalues[*one]));
+        Self {
+            amplitudes: order.map(|k| eigen.eigenvalues[k].max(0.0).sqrt()),
+            directions: order.map(|k| eigen.eigenvectors.column(k).into()),
+        }
+    }
+}
+
 impl LargestInBand {
     /// Those between two frequencies [Hz], which may be one, at the equilibrium, of the point `marker` in the
     /// frame of the platform [m].
     ///
     /// # Errors
     /// As [`FrequencyResponse::new`] and [`Modes::new`]; [`DynamicsError::Invalid`] for a band whose ends
-    /// descend; [`DynamicsError::Resonance`] where nothing damps and a natural frequency is in it.
+    /// descend; [`DynamicsError::Resonance`] where nothing damps and a natural frequency is in it, and for a
+    /// band from 0 Hz where a force moves the point along a motion that nothing resists.
     pub fn new(
         problem: &DirectProblem,
         equilibrium: &Equilibrium,
@@ -77,13 +121,17 @@ impl LargestInBand {
         }
         let response = FrequencyResponse::new(problem, equilibrium, to, damping)?;
         let modes = Modes::new(problem, equilibrium, Wanted::Below(to))?.modes;
-        let natural = modes.iter().map(|mode| mode.frequency).filter(|natural| (from..=to).contains(natural));
+        let natural = modes.iter().map(|mode| mode.frequency);
+        let natural = natural.filter(|natural| *natural > from && *natural <= to);
         let places: Vec<f64> = [from].into_iter().chain(natural).chain([to]).collect();
         if let ([_, frequency, .., _], true) = (&places[..], damping == Damping::default()) {
             return Err(DynamicsError::Resonance { frequency: *frequency });
         }
         let lever = equilibrium.pose.rotation * marker;
         let found = places.iter().map(|at| response.at(*at)).collect::<Result<Vec<_>, _>>()?;
+        if let Some(at) = found.iter().find(|at| at.by_force(&lever).is_infinite()) {
+            return Err(DynamicsError::Resonance { frequency: at.frequency });
+        }
         let largest = |size: &dyn Fn(&Response) -> f64| {
             let peaks = found.iter().map(|at| Peak { frequency: at.frequency, amplitude: size(at) });
             response.largest(&peaks.collect::<Vec<_>>(), size)

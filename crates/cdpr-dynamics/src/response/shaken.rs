@@ -1,12 +1,13 @@
 //! A cable whose winch and whose anchor point are shaken, and what damps it, (N13).
 
-use crate::cable::Parts;
+use crate::cable::{MovingCable, Parts};
 use crate::element::{Beginning, Element, Matrices, assemble};
 use crate::energy::{Number, Vector, Vibrating, real};
 use crate::error::DynamicsError;
 use crate::free::Free;
+use cdpr_cable::SpatialCable;
 use cdpr_statics::vibration::CableAtRest;
-use cdpr_statics::{DMatrix, Vector3};
+use cdpr_statics::{DMatrix, Matrix6, Vector3};
 use nalgebra::{Complex, Matrix3};
 
 /// Next to a resonance errors of the polynomials grow: they are made for frequencies higher by this factor.
@@ -31,6 +32,12 @@ impl Damping {
 pub(super) struct ShakenCable {
     axes: Matrix3<f64>,
     pub(super) lever: Vector3<f64>,
+    /// Stiffness of its end at 0 Hz as the polynomials say [N/m].
+    pub(super) still: Matrix3<f64>,
+    /// By how much the pull of its winch at 0 Hz exceeds that of the polynomials [N/m].
+    pub(super) more_pull: Vector3<f64>,
+    /// Mass of its static shapes, seen from the platform [kg, kg m, kg m²].
+    pub(super) static_mass: Matrix6<f64>,
     elements: Vec<Element>,
     in_plane: Shaken<2>,
     across: Shaken<1>,
@@ -64,7 +71,9 @@ impl ShakenCable {
     pub(super) fn new(i: usize, cable: &CableAtRest, highest: f64) -> Result<Self, DynamicsError> {
         let free = Free { cable: i, free: cable.catenary.free() };
         // Checks that it hangs nowhere without tension.
-        let Parts { elements, across, .. } = Parts::new(i, cable, MARGIN * highest, None)?;
+        let parts = Parts::new(i, cable, MARGIN * highest, None)?;
+        let static_mass = MovingCable::mass(cable, &parts);
+        let Parts { elements, across, .. } = parts;
         let (beginning, damped, winch) = driven(&free, cable)?;
         let density = cable.linear_density;
         let Matrices { stiffness, mass } = assemble(&elements, &beginning, density, |s| free.modulus(s));
@@ -81,7 +90,14 @@ impl ShakenCable {
         let Matrices { stiffness, mass } = matrices;
         let damped = DMatrix::zeros(stiffness.nrows(), stiffness.nrows());
         let across = Shaken { beginning, stiffness, damped, mass, winch: Winch::default() };
-        Ok(Self { axes: cable.axes, lever: cable.lever, elements, in_plane, across })
+        let (still, more_pull) = (Matrix3::zeros(), Vector3::zeros());
+        let (axes, lever) = (cable.axes, cable.lever);
+        let found = Self { axes, lever, still, more_pull, static_mass, elements, in_plane, across };
+        let at_rest = found.at(0.0, &Damping::default()).ok_or(DynamicsError::Folded { cable: i })?;
+        let still = at_rest.0.map(|value| value.re);
+        let more_pull = static_pull(cable)
+            .map_or_else(Vector3::zeros, |pull| axes * pull - at_rest.1.map(|value| value.re));
+        Ok(Self { still, more_pull, ..found })
     }
 
     /// Stiffness of its end, and the force on its held end by its winch, in the base frame.
@@ -164,6 +180,18 @@ impl<const D: usize> Shaken<D> {
         let of = |i: usize| end.iter().enumerate().map(|(j, end)| shapes[(i, j)] * end).sum();
         Some((0..shapes.nrows()).map(of).collect())
     }
+}
+
+/// Force on the held end of a cable over a pulley per length that its winch takes in slowly, along its axes
+/// [N/m].
+fn static_pull(cable: &CableAtRest) -> Option<Vector3<f64>> {
+    let of = &cable.catenary;
+    of.cable.guide.filter(|guide| guide.radius > 0.0)?;
+    let force = Vector3::new(of.force.x, 0.0, of.force.y);
+    let response =
+        SpatialCable { cable: of.cable, unstrained_length: of.unstrained_length, force }.response();
+    let pull = response.flexibility.try_inverse()? * response.end_per_length;
+    pull.iter().all(|part| part.is_finite()).then_some(pull)
 }
 
 /// Where a cable begins with a winch that moves it: its unknowns, their part that damps, and the winch.

@@ -2116,7 +2116,9 @@ class Response(Generic[_R]):
         """Frequencies [Hz], (k,)."""
     @property
     def amplitudes(self) -> _Floats:
-        """Largest amplitude of the point for a force there of any direction [m/N], (k,)."""
+        """Largest amplitude of the point for a force there of any direction [m/N], (k,): the norm of the
+        motions along x, y and z. Infinite where the force moves it along a motion that nothing resists.
+        """
     @property
     def per_force(self) -> _Complex:
         """Motion of the point along x, y, z for forces there along x, y, z [m/N], (k, 3, 3), complex."""
@@ -2126,7 +2128,7 @@ class Response(Generic[_R]):
     @property
     def per_wrench(self) -> _Complex:
         """Translation of P and rotation vector per force at P and moment [m/N, rad/N, m/(N m), rad/(N m)],
-        (k, 6, 6), complex.
+        (k, 6, 6), complex; at 0 Hz without motions that nothing resists.
         """
     @property
     def reasons(self) -> _R:

@@ -20,14 +20,15 @@ answer! {
     pub(crate) struct Response {
         /// Frequencies [Hz], (k,).
         frequencies_hz: Py<PyAny>,
-        /// Largest amplitude of the point for a force there of any direction [m/N], (k,).
+        /// Largest amplitude of the point for a force there of any direction [m/N], (k,): the norm of the
+        /// motions along x, y and z. Infinite where the force moves it along a motion that nothing resists.
         amplitudes: Py<PyAny>,
         /// Motion of the point along x, y, z for forces there along x, y, z [m/N], (k, 3, 3), complex.
         per_force: Py<PyAny>,
         /// Motion of the point per length that each winch takes in [m/m], (k, n, 3), complex.
         per_shortening: Py<PyAny>,
         /// Translation of P and rotation vector per force at P and moment [m/N, rad/N, m/(N m), rad/(N m)],
-        /// (k, 6, 6), complex.
+        /// (k, 6, 6), complex; at 0 Hz without motions that nothing resists.
         per_wrench: Py<PyAny>,
         /// Why there is no answer, None where there is one; None for one pose.
         reasons: Py<PyAny>,
@@ -148,7 +149,7 @@ impl Robot {
             frequencies_hz: all.numbers(&[k], |_, out| out.copy_from_slice(&frequencies))?,
             amplitudes: all.numbers(&[k], |found: &Shaken, out| {
                 for (out, response) in out.iter_mut().zip(&found.responses) {
-                    *out = response.at_point(&found.lever).0.singular_values().max();
+                    *out = response.by_force(&found.lever);
                 }
             })?,
             per_force: complex(&[3, 3], &|response, lever, out| {

@@ -195,6 +195,9 @@ struct Motion {
     translation: [f64; 3],
     /// Rotation vector [rad/(m √kg)].
     rotation: [f64; 3],
+    /// Radius of gyration of the platform [m], zero of one that does not rotate.
+    #[serde(skip)]
+    gyration: f64,
 }
 
 impl Row for Answer {
@@ -227,6 +230,8 @@ impl Row for Answer {
 
 impl Answer {
     fn new(robot: &Robot, found: &Modes, swing: Option<Swing>) -> Self {
+        let Platform { mass, inertia, .. } = robot.platform;
+        let gyration = inertia.map_or(0.0, |inertia| (inertia.trace() / mass).sqrt());
         let motion = |mode: &Mode| Motion {
             frequency_hz: mode.frequency,
             within: mode.within,
@@ -235,6 +240,7 @@ impl Answer {
             swing_share: mode.swing_share,
             translation: mode.translation.into(),
             rotation: mode.rotation.into(),
+            gyration,
         };
         Self {
             modes: found.modes.iter().map(motion).collect(),
@@ -287,6 +293,8 @@ impl Motion {
     fn direction(&self) -> String {
         /// Share of the platform below which its direction is rounding.
         const LEAST_SHARE: f64 = 1e-4;
+        /// Part of the motion of a platform below which a translation or rotation is rounding.
+        const ROUNDING: f64 = 1e-7;
         if self.platform_share < LEAST_SHARE {
             return "cables alone".to_owned();
         }
@@ -296,8 +304,11 @@ impl Motion {
             let axis = vector.iter().position(|component| component.abs() >= (1.0 - 1e-6) * most);
             ["x", "y", "z"][axis.unwrap_or_default()]
         };
-        let still = |vector: &[f64; 3]| vector.iter().all(|component| *component == 0.0);
-        match (still(&self.translation), still(&self.rotation)) {
+        let norm =
+            |vector: &[f64; 3]| vector.iter().map(|component| component * component).sum::<f64>().sqrt();
+        let [moved, turned] = [norm(&self.translation), self.gyration * norm(&self.rotation)];
+        let least = ROUNDING * moved.max(turned);
+        match (moved <= least, turned <= least) {
             (_, true) => format!("along {}", largest(&self.translation)),
             (true, false) => format!("about {}", largest(&self.rotation)),
             _ => format!("along {}, about {}", largest(&self.translation), largest(&self.rotation)),

@@ -9,7 +9,7 @@ use crate::program::error::ProgramError;
 use crate::program::output::{Ending, print_sentence, table};
 use crate::program::pose::at_pose::{RobotAtPose, Row};
 use crate::program::pose::modes::with_inertia;
-use cdpr_dynamics::{Damping, FrequencyResponse, Modes, Response, Wanted};
+use cdpr_dynamics::{Damping, FrequencyResponse, Modes, PointMotion, ShakenPoint, Wanted, worst_amplitude};
 use cdpr_report::{Amplitudes, amplitudes};
 use cdpr_robot::{Pose, Robot, Vector3, shown, significant};
 use cdpr_statics::{DirectProblem, DirectStart, StaticsError, Unstable, WantedPose, inverse};
@@ -93,8 +93,8 @@ impl Settings {
         frequencies.sort_by(f64::total_cmp);
         frequencies.dedup();
         let lever = rest.pose.rotation * Vector3::from(self.marker.unwrap_or_default());
-        let still = At::new(&response.at(0.0)?, &lever);
-        let at = |frequency: &f64| Ok(At::new(&response.at(*frequency)?, &lever).bounded_by(&still, damping));
+        let point = ShakenPoint::new(&response, &lever)?;
+        let at = |frequency: &f64| Ok(At::from(&point.at(*frequency)?));
         Ok(Answer {
             damping_s: damping.stretch,
             drag_per_s: damping.drag,
@@ -126,8 +126,8 @@ struct Answer {
 #[derive(Serialize)]
 struct At {
     frequency_hz: f64,
-    /// Largest amplitude of the point for a force there of any direction [m/N]; it and all below are infinite,
-    /// `null` in JSON, where nothing bounds it.
+    /// Largest amplitude of the point for a force there of any direction [m/N], the norm of those along x, y
+    /// and z. What nothing bounds is infinite here and below, `null` in JSON.
     amplitude_m_per_n: f64,
     /// Amplitude in x, y and z for forces in these directions, row by row: real and imaginary part [m/N].
     per_force: [[[f64; 2]; 3]; 3],
@@ -135,12 +135,11 @@ struct At {
     per_shortening: Vec<[[f64; 2]; 3]>,
 }
 
-impl At {
-    fn new(found: &Response, lever: &Vector3<f64>) -> Self {
-        let (per_force, per_shortening) = found.at_point(lever);
+impl From<&PointMotion> for At {
+    fn from(PointMotion { frequency, per_force, per_shortening }: &PointMotion) -> Self {
         Self {
-            frequency_hz: found.frequency,
-            amplitude_m_per_n: per_force.singular_values().max(),
+            frequency_hz: *frequency,
+            amplitude_m_per_n: worst_amplitude(per_force),
             per_force: [0, 1, 2].map(|i| [0, 1, 2].map(|j| [per_force[(i, j)].re, per_force[(i, j)].im])),
             per_shortening: per_shortening
                 .column_iter()
@@ -148,22 +147,9 @@ impl At {
                 .collect(),
         }
     }
+}
 
-    /// By how much a peak is at most above the amplitude at rest: beyond, it is rounding that bounds it. What
-    /// damps the stretch alone leaves motions across the cables without damping.
-    fn bounded_by(self, still: &Self, damping: Damping) -> Self {
-        let most = if damping.stretch == 0.0 && damping.drag == 0.0 { 1e5 } else { 1e9 };
-        if self.amplitude_m_per_n < most * still.amplitude_m_per_n {
-            return self;
-        }
-        Self {
-            amplitude_m_per_n: f64::INFINITY,
-            per_force: [[[f64::INFINITY; 2]; 3]; 3],
-            per_shortening: vec![[[f64::INFINITY; 2]; 3]; self.per_shortening.len()],
-            ..self
-        }
-    }
-
+impl At {
     /// Amplitudes for forces along the axes, each in its own direction [m/N].
     fn along(&self) -> [f64; 3] {
         [0, 1, 2].map(|k| size(&self.per_force[k][k]))
@@ -174,6 +160,11 @@ impl At {
         let norm = |of: &[[f64; 2]; 3]| of.iter().flatten().map(|part| part * part).sum::<f64>().sqrt();
         self.per_shortening.iter().map(norm).collect()
     }
+}
+
+/// The largest of amplitudes, zero of none.
+fn largest_of(amplitudes: &[f64]) -> f64 {
+    amplitudes.iter().copied().fold(0.0, f64::max)
 }
 
 fn size([re, im]: &[f64; 2]) -> f64 {
@@ -196,13 +187,17 @@ impl Answer {
         self.frequencies.iter().max_by(|one, other| one.amplitude_m_per_n.total_cmp(&other.amplitude_m_per_n))
     }
 
-    /// Frequencies whose amplitude no neighbour exceeds, the largest first.
+    /// Frequencies whose amplitude no neighbour exceeds, and those without a bound, the largest first.
     fn peaks(&self) -> Vec<&At> {
-        let middle = |three: &&[At]| {
-            let [before, at, after] = three else { return false };
-            at.amplitude_m_per_n >= before.amplitude_m_per_n && at.amplitude_m_per_n > after.amplitude_m_per_n
+        let sizes: Vec<f64> = self.frequencies.iter().map(|at| at.amplitude_m_per_n).collect();
+        let without_bound = |at: &At| largest_of(&at.of_winches()).max(at.amplitude_m_per_n).is_infinite();
+        let is_peak = |k: usize| {
+            let is_between = k + 1 < sizes.len();
+            without_bound(&self.frequencies[k])
+                || (is_between && sizes[k] >= sizes[k - 1] && sizes[k] > sizes[k + 1])
         };
-        let mut peaks: Vec<&At> = self.frequencies.windows(3).filter(middle).map(|three| &three[1]).collect();
+        let mut peaks: Vec<&At> =
+            (1..sizes.len()).filter(|k| is_peak(*k)).map(|k| &self.frequencies[k]).collect();
         peaks.sort_by(|one, other| other.amplitude_m_per_n.total_cmp(&one.amplitude_m_per_n));
         peaks
     }
@@ -212,14 +207,17 @@ impl Answer {
         if let (Some(still), Some(most)) =
             (self.frequencies.first(), self.frequencies.iter().max_by(greatest))
         {
-            let at_rest = significant(1e3 * still.amplitude_m_per_n, 3);
+            let at_rest = match millimetres(still.amplitude_m_per_n).as_str() {
+                NO_BOUND => "at rest nothing resists it".to_owned(),
+                at_rest => format!("at rest it moves it by {at_rest} mm/N"),
+            };
             let most_of = match millimetres(most.amplitude_m_per_n).as_str() {
                 NO_BOUND => "without a bound".to_owned(),
                 most => format!("by up to {most} mm/N"),
             };
             let shaken =
                 format!("{heading}: a force shakes the point {most_of}, at {:.4} Hz", most.frequency_hz);
-            print_sentence(&format!("{shaken}; at rest it moves it by {at_rest} mm/N."));
+            print_sentence(&format!("{shaken}; {at_rest}."));
         }
         println!(
             "Damping of the cables: stretch {} s, drag {} 1/s. The largest peaks:",
@@ -228,7 +226,7 @@ impl Answer {
         let names = ["frequency [Hz]", "amplitude [mm/N]", "x, y, z along [mm/N]", "winches [mm/mm]"];
         let mut rows = table(&names);
         for at in self.peaks().into_iter().take(LISTED) {
-            let winches = at.of_winches().into_iter().fold(0.0, f64::max);
+            let winches = largest_of(&at.of_winches());
             let along = at.along().map(millimetres).join(" ");
             let cells = [
                 format!("{:.4}", at.frequency_hz),
@@ -239,7 +237,8 @@ impl Answer {
             rows.add_row(cells);
         }
         println!("{rows}");
-        println!("amplitude: of a force in the worst direction; winches: the one that moves the point most");
+        println!("amplitude: of a force in the worst direction, |(x, y, z)| of the motion");
+        println!("x, y, z along: by a force along the axis; winches: the one that moves the point most");
         if self.drag_per_s == 0.0 {
             println!("{NO_DRAG}");
         }

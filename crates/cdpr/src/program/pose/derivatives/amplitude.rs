@@ -99,11 +99,13 @@ impl Amplitude {
         let (Some(amplitude), Some(derivatives)) = (self.amplitude_m_per_n, &self.derivatives_m_per_n) else {
             return;
         };
-        let direction =
-            along.map_or_else(|| "in the worst direction".to_owned(), |along| format!("along {along}"));
+        let [direction, motion] = along.map_or_else(
+            || ["in the worst direction".to_owned(), String::new()],
+            |along| [format!("along {along}"), format!(" along {along}")],
+        );
         print_sentence(&format!(
-            "At {frequency_hz} Hz a force {direction} shakes the point by {} mm/N; damping of the cables: \
-             stretch {damping_s} s, drag {drag_per_s} 1/s.",
+            "At {frequency_hz} Hz a force {direction} shakes the point by {} mm/N{motion}; damping of the \
+             cables: stretch {damping_s} s, drag {drag_per_s} 1/s.",
             significant(1e3 * amplitude, 4)
         ));
         let step = |(parameter, slope): (&Parameter, &f64)| {
