@@ -26,8 +26,8 @@ pub(crate) const EXIT_CODES: &str = "Exit codes:
        a case of `direct --from` or a pose of `--poses` has no answer, a
        platform falls before the whole load is on it, cables cross each other or
        the platform, a certificate proves nothing, a tension is above
-       tension_limits.max or a breaking force, less than half of the positions of
-       a map or of the candidate poses are held, or of the observations have
+       tension_limits.max or a breaking force, less than half of the positions
+       of a map or of the candidate poses are held, or of the observations have
        succeeded
   130  a study was interrupted (Ctrl-C, the end of a job): what is done is kept,
        and the standard error says how to go on";

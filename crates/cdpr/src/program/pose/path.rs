@@ -11,6 +11,7 @@ use cdpr_assess::{Bands, Path, PathPose};
 use cdpr_report::path_view;
 use cdpr_robot::{Robot, broken, counted, significant};
 use cdpr_statics::{Deflection, Load};
+use moves::INSTEAD;
 use serde::Serialize;
 
 /// The robot, its poses, and what is uncertain.
@@ -72,10 +73,6 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
     }
     Ok(ending)
 }
-
-/// What takes the poses of a robot with few cables.
-const INSTEAD: &str = "`cdpr inverse --poses FILE --free NAMES` finds the lengths pose by pose, and \
-                       `cdpr deflection`, `stiffness` and `modes` take --free, too";
 
 /// What a path has as a whole. It is printed apart from the table, which programs read.
 #[derive(Default)]

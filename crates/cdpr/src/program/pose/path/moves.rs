@@ -7,12 +7,15 @@ use crate::program::error::ProgramError;
 use crate::program::output::{Ending, progress};
 use crate::program::pose::at_pose::RobotAtPose;
 use crate::program::pose::modes::with_inertia;
-use crate::program::pose::path::INSTEAD;
 use answer::{After, Answer, Robots};
 use cdpr_assess::DrawnRobots;
 use cdpr_dynamics::moves::{FeedForward, Move, SetPoint, Shaper, ShaperKind, residual};
 use cdpr_dynamics::simulate::Profile;
 use std::ops::RangeFrom;
+
+/// What takes the poses of a robot with few cables.
+pub(super) const INSTEAD: &str = "`cdpr inverse --poses FILE --free NAMES` finds the lengths pose by pose, and \
+                       `cdpr deflection`, `stiffness` and `modes` take --free, too";
 
 /// The names of `--with`.
 const NAMES: [&str; 10] = [
