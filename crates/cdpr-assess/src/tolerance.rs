@@ -251,7 +251,7 @@ impl<'a> Model<'a> {
         };
         let unobservable = |source| match source {
             StaticsError::NoDerivative { .. } => {
-                let (field, output) = (format!("samplings.{}", sampling.name), sampling.output().noun());
+                let (field, output) = (format!("samplings.{}", sampling.name), of.output().noun());
                 StudyError::setting(field, output, format!("one with a known derivative: {source}")).into()
             }
             source => AssessError::Unobservable {

@@ -204,5 +204,9 @@ fn the_weather_stays_as_it_is_and_the_other_tolerances_are_tightened() {
     let bought = Limit { costs: [("warmer".to_owned(), 2.0)].into_iter().collect(), ..of(wanted) };
     assert!(refused(&bought).contains("one of the tolerances youngs_modulus"), "{}", refused(&bought));
     let position = Limit { of: Some(Limited::Position), ..of(10.0) };
-    assert!(refused(&position).contains("deviations are the means"), "{}", refused(&position));
+    assert!(
+        refused(&position).contains("point is position error: expected one with a known"),
+        "{}",
+        refused(&position)
+    );
 }

@@ -81,7 +81,7 @@ fn an_amplitude_changes_as_differences_say() {
         }
         let payload = found.inputs.payload();
         let by = difference(STEP, |share| {
-            let heavier = Load { payload: load.payload + share * robot.platform.mass, ..load.clone() };
+            let heavier = Load { payload: load.payload + share * robot.platform.mass, ..load };
             amplitude(&robot, &held.lengths, &heavier, &rest, &at)
         });
         compare("payload".to_owned(), found.per_input[payload] * robot.platform.mass, by);

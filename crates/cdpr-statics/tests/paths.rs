@@ -168,7 +168,7 @@ fn no_tension_changes_by_more_than_is_allowed() {
         let mut path = InversePath::new(&robot);
         path.limit_change(change).unwrap();
         let poses = line(from, to, 100);
-        let mut last = path.solve(&poses[0], &Load::none()).unwrap().solution.tensions;
+        let mut last = path.solve(poses[0], &Load::none()).unwrap().solution.tensions;
         // A reference that is far away at first.
         let reference: Vec<f64> = last.iter().map(|tension| 1.5 * tension + 2.0 * change).collect();
         let (mut greatest, mut held) = (0.0_f64, 0);

@@ -80,7 +80,10 @@ fn numbers_of_a_small_robot_are_not_zeros() {
     assert!(!tensions.contains(" 0.030 "), "{tensions}");
     let stiffness = printed(&[&["stiffness", &robot][..], &at].concat());
     let last = stiffness.lines().last().unwrap();
-    assert!(last.split_whitespace().any(|entry| entry.trim_matches(['-', '0', '.']) != ""), "{stiffness}");
+    assert!(
+        last.split_whitespace().any(|entry| !entry.trim_matches(['-', '0', '.']).is_empty()),
+        "{stiffness}"
+    );
     let area = printed(&[
         "workspace",
         &robot,

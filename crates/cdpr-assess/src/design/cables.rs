@@ -64,10 +64,10 @@ pub(crate) fn types(file: &DesignFile, robot: &Robot) -> Result<(Vec<CableType>,
         }
         types.push(found);
     }
-    if let Some(limit) = file.limits.cost {
-        if !(limit.is_finite() && limit > 0.0) {
-            return wrong("limits.cost", limit, "a finite number above zero");
-        }
+    if let Some(limit) = file.limits.cost
+        && !(limit.is_finite() && limit > 0.0)
+    {
+        return wrong("limits.cost", limit, "a finite number above zero");
     }
     let second = file.pareto.map(|second| second.output);
     let needed = match (file.limits.cost, [Some(file.objective.output), second].contains(&Some(Goal::Cost))) {

@@ -229,8 +229,10 @@ impl Custom<'_> {
         if let Some(data) = self.numbers.get(format!("{name}.properties").as_str()) {
             let [section, density, modulus, diameter, force] = data.components()?;
             let known = |value: f64| Some(value).filter(|value| *value > 0.0);
-            let edited =
-                cable.stiffness.filter(|stiffness| (stiffness / (section * modulus) - 1.0).abs() > SAME);
+            let edited = cable
+                .stiffness
+                .take()
+                .filter(|stiffness| (stiffness / (section * modulus) - 1.0).abs() > SAME);
             if edited.is_some() {
                 let text = format!(
                     "stiffness times springlength is not EA of {name}.properties under custom: the tendon's \
@@ -238,6 +240,7 @@ impl Custom<'_> {
                 );
                 draft.note_once(NoteKind::Questioned, tendon, &text);
             }
+            cable.stiffness = edited;
             cable.properties = Some(CableProperties {
                 diameter: known(diameter),
                 breaking_force: known(force),

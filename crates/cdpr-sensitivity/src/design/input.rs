@@ -232,6 +232,14 @@ fn round(x: f64) -> f64 {
     if x.abs() < WHOLE { (x + 0.5_f64.next_down().copysign(x)) as i64 as f64 } else { x }
 }
 
+/// Mean and variance of levels with these weights.
+fn moments(levels: &[(f64, f64)]) -> (f64, f64) {
+    let all: f64 = levels.iter().map(|(_, weight)| weight).sum();
+    let mean = levels.iter().map(|(level, weight)| weight * level).sum::<f64>() / all;
+    let variance = levels.iter().map(|(level, weight)| weight * (level - mean).powi(2)).sum::<f64>() / all;
+    (mean, variance)
+}
+
 #[cfg(test)]
 mod tests {
     #[test]
@@ -245,12 +253,4 @@ mod tests {
         }
         assert!(super::round(f64::NAN).is_nan());
     }
-}
-
-/// Mean and variance of levels with these weights.
-fn moments(levels: &[(f64, f64)]) -> (f64, f64) {
-    let all: f64 = levels.iter().map(|(_, weight)| weight).sum();
-    let mean = levels.iter().map(|(level, weight)| weight * level).sum::<f64>() / all;
-    let variance = levels.iter().map(|(level, weight)| weight * (level - mean).powi(2)).sum::<f64>() / all;
-    (mean, variance)
 }

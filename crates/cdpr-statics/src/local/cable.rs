@@ -195,7 +195,7 @@ impl<S: Simd> LaneCable<'_, S> {
     /// Whether it runs over a pulley whose axis is tilted, in any lane.
     #[inline(always)]
     pub(crate) fn is_tilted(&self) -> bool {
-        self.guided.as_ref().is_some_and(|guided| guided.is_tilted())
+        self.guided.as_ref().is_some_and(Guided::is_tilted)
     }
 
     /// The plane that it hangs in over `span`.

@@ -11,6 +11,7 @@
 use crate::equations::{ABOVE_LEAST, Span};
 use crate::lanes::fixed_ends::FixedEnds;
 use crate::local::cable::LaneCable;
+use crate::local::guided::Guided;
 use cdpr_number::dense::{Lanes2, replace};
 use cdpr_number::lanes::{Lanes, Mask, Simd};
 use cdpr_number::{Number, apart};
@@ -81,7 +82,7 @@ apart! {
     ) -> Mask<S> {
         let zero = cable.length.all(0.0);
         let (length, force) = (cable.length, cable.force);
-        let azimuth = cable.guided.as_ref().map(|guided| guided.azimuth());
+        let azimuth = cable.guided.as_ref().map(Guided::azimuth);
         let near = may_be_slack(cable, fixed);
         let (mut at_least, mut active) = (*fixed, near);
         for _ in 0..MAX_ITERATIONS {
@@ -144,7 +145,7 @@ apart! {
     ) -> Lanes<S> {
         let (length, force) = (cable.length, cable.force);
         let (azimuth, everywhere) =
-            (cable.guided.as_ref().map(|guided| guided.azimuth()), greatest.less_or_equal(greatest));
+            (cable.guided.as_ref().map(Guided::azimuth), greatest.less_or_equal(greatest));
         let mut active = length.less_or_equal(length);
         let (mut found, mut taut) = (greatest, active);
         // From a cable that is slack Newton's method may lead to a longer one of the same tension.

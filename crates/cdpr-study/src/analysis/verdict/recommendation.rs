@@ -294,7 +294,7 @@ mod tests {
         // 0.015 from the estimate to its end, 0.01 from the estimate to the limit: 2.25 times the blocks.
         let remedy = found.remedy.unwrap();
         assert!(remedy.contains("about 1560 more observations") && remedy.contains(": 256"), "{remedy}");
-        let near = vec![bounds(0.005, 0.01 + 1e-9, 0.01 + 1e-9, 0.04)];
+        let near = vec![bounds(0.0095, 0.01 + 1e-9, 0.01 + 1e-9, 0.0105)];
         let near = recommend(&names(1), vec![candidate(Basis::Sobol, 100, near)], 0.95).unwrap();
         assert_eq!(near.remedy.unwrap(), "The share of x0 is so near 1 % that no study settles it.");
     }
