@@ -508,9 +508,10 @@ def test_along_a_path_lengths_are_continuous_and_jumps_are_reported(caroca):
     numpy.testing.assert_allclose(found.lengths, caroca.inverse(poses).lengths, rtol=1e-12)
     assert caroca.inverse(poses).jump is None
     assert caroca.inverse(poses[0], path=True).jump is False
-    slow = caroca.inverse(poses, path=True, tension_change=20, reference=[700.0] * 8)
+    references = [[0.0] * 8] + [[700.0] * 8] * 3
+    slow = caroca.inverse([poses[0]] * 4, path=True, tension_change=2, reference=references)
     changes = numpy.abs(numpy.diff(slow.tensions, axis=0))
-    assert changes.max() <= 20 * (1 + 1e-9) and changes[0].max() > 19
+    assert changes.max() <= 2 * (1 + 1e-9) and changes[0].max() > 1.99
     with pytest.raises(cdpr.InputError, match="tension_change is 20"):
         caroca.inverse(poses, tension_change=20)
 def test_tensions_come_nearer_to_those_that_are_preferred(caroca):
