@@ -6,7 +6,7 @@ pub fn rounded(value: f64, decimals: i32) -> f64 {
     (scale * value).round() / scale + 0.0
 }
 
-/// The text of a number with so many decimals, without the sign of a zero.
+/// The text of a number with this number of decimals, without the sign of a zero.
 pub fn decimal(number: f64, decimals: usize) -> String {
     let text = format!("{number:.decimals$}");
     match text.strip_prefix('-') {
@@ -39,7 +39,7 @@ pub fn visible(number: f64, decimals: usize) -> String {
     if number.abs() < least && number != 0.0 { significant(number, 3) } else { decimal(number, decimals) }
 }
 
-/// Decimals for the numbers of a column: so many as usual, more where the greatest magnitude would have fewer
+/// Decimals for the numbers of a column: the usual ones, more where the greatest magnitude would have fewer
 /// than 3 significant digits. What is far below the greatest stays a zero.
 pub fn decimals_of(numbers: impl IntoIterator<Item = f64>, usual: usize) -> usize {
     let greatest = numbers.into_iter().map(f64::abs).filter(|size| size.is_finite()).fold(0.0, f64::max);

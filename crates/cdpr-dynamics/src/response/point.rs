@@ -88,9 +88,9 @@ fn largest<'a>(numbers: impl Iterator<Item = &'a Complex<f64>>) -> f64 {
 
 fn without_poles<'a>(
     motions: impl Iterator<Item = &'a mut Complex<f64>>,
-    beside: impl Iterator<Item = (&'a Complex<f64>, &'a Complex<f64>)>,
+    neighbours: impl Iterator<Item = (&'a Complex<f64>, &'a Complex<f64>)>,
 ) {
-    let parts: Vec<_> = beside.map(|(one, two)| (two * 2.0 - one, (one - two) * 2.0)).collect();
+    let parts: Vec<_> = neighbours.map(|(one, two)| (two * 2.0 - one, (one - two) * 2.0)).collect();
     let least = ROUNDING * largest(parts.iter().map(|(rest, _)| rest));
     for (motion, (rest, pole)) in motions.zip(parts) {
         let unbounded = Complex::new(f64::INFINITY, f64::INFINITY);

@@ -35,7 +35,8 @@
 //!
 //! The bounds are those of a continuous output and of independent inputs with the laws that they are given.
 //! They are refused where an observation failed, because the inputs of the others have other laws; where steps
-//! change the variance of an input by more than 1 % (shorter ones count as a wider law); and where the upper bounds of all inputs add up to less than 1, because
+//! change the variance of an input by more than 1 % (shorter ones count as a wider law); and where the upper
+//! bounds of all inputs add up to less than 1, because
 //! total indices do not: the output jumps, and its derivatives do not see it. No unit.
 
 use std::f64::consts::{PI, SQRT_2};

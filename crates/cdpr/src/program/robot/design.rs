@@ -326,7 +326,7 @@ fn optimum(best: &BestDesign) -> Option<String> {
     Some(match (best.optimal, best.gradient_error) {
         _ if !residual.is_finite() => {
             "It is where a start lies, and no optimum: no search leads on from there, because derivatives are not \
-             known at all poses. `choices` in place of `bounds` need none."
+             known at all poses. `choices` instead of `bounds` need none."
                 .to_owned()
         }
         (true, None) => "It is a local optimum: the KKT residual is below 1e-8.".to_owned(),
