@@ -23,8 +23,8 @@ const DRAG_COEFFICIENT: f64 = 1.2;
 /// Faster winds are in another unit.
 const FASTEST: f64 = 120.0;
 
-/// Shares of the drag that are solved one after the other.
-const SHARES: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
+/// Greatest and least step in which the drag is raised, as shares of it.
+const STEPS: [f64; 2] = [0.25, 1.0 / 1024.0];
 
 /// ½ ρ c, drag of a rope per length, diameter and square of the velocity across [kg/m³].
 pub(crate) const DRAG_PER_DIAMETER: f64 = 0.5 * AIR_DENSITY * DRAG_COEFFICIENT;
@@ -176,15 +176,24 @@ impl DirectProblem<'_> {
         let hung = (0..self.cables()).map(|i| self.hung(still, i, wind));
         let mut hung: Vec<_> = hung.collect::<Result<_, _>>()?;
         let mut at = Blown::at(self, &mut hung, still.equilibrium.pose)?;
-        let mut iterations = 0;
-        let shares = if wind.is_calm() { &SHARES[3..] } else { &SHARES };
-        for share in shares {
+        let (mut iterations, [greatest, least]) = (0, STEPS);
+        let (mut share, mut step) = (0.0, if wind.is_calm() { 1.0 } else { greatest });
+        while share < 1.0 {
+            let next = 1.0_f64.min(share + step);
             // The drag is that of the velocity's square.
-            let velocity = wind.velocity * share.sqrt();
+            let velocity = wind.velocity * next.sqrt();
             hung.iter_mut().for_each(|hung| hung.cable.velocity = velocity);
-            let made;
-            (at, made) = self.balanced(&mut hung, at.pose, &pins)?;
-            iterations += made;
+            match self.balanced(&mut hung, at.pose, &pins) {
+                Ok((there, made)) => {
+                    (at, share, iterations) = (there, next, iterations + made);
+                    step = greatest.min(2.0 * step);
+                }
+                Err(error) if step <= least || wind.is_calm() => return Err(error),
+                Err(_) => {
+                    step *= 0.5;
+                    hung.iter_mut().zip(&at.cables).for_each(|(hung, held)| hung.force = held.exit_force);
+                }
+            }
         }
         if pins.pinned(&at.balance.symmetric_hessian(self.robot.freedoms()), 1.0).cholesky().is_none() {
             let least = at.balance.symmetric_hessian(self.robot.freedoms()).symmetric_eigenvalues().min();

@@ -5,7 +5,7 @@ use crate::file::study_file::SamplingSpec;
 use crate::model::error_model::ErrorModel;
 use crate::model::study::Study;
 use cdpr_robot::Parameter;
-use cdpr_sensitivity::{Correlated, Group, SampleDesign, SobolDesign};
+use cdpr_sensitivity::{Correlated, Group, SampleDesign, SensitivityError, SobolDesign};
 
 impl Study {
     /// The groups of the study file that have inputs in an error model.
@@ -46,9 +46,9 @@ impl Study {
     /// The correlation matrix of a sampling, `None` where no inputs are correlated.
     ///
     /// # Errors
-    /// [`StudyError::Invalid`] for an unknown input, two equal ones, a pair that is listed twice, and a value
-    /// that is no correlation; [`StudyError::Statistics`] for values that contradict each other, and for a
-    /// design that starts at point 0.
+    /// [`StudyError::Invalid`] for an unknown input, two equal ones, a pair that is listed twice, a value that
+    /// is no correlation, and values that contradict each other; [`StudyError::Statistics`] for a design that
+    /// starts at point 0.
     pub(crate) fn correlation(
         &self,
         name: &str,
@@ -81,7 +81,15 @@ impl Study {
             (matrix[i][j], matrix[j][i]) = (of.value, of.value);
         }
         let checked = Correlated::new(design.clone(), &matrix);
-        checked.map_err(|source| self.statistics(format!("samplings.{name}.correlations"), source))?;
+        let field = format!("samplings.{name}.correlations");
+        checked.map_err(|source| match source {
+            SensitivityError::NotACorrelation { row, column, .. } if row == column => {
+                let found = format!("contradictory for `{}`", inputs[row].name);
+                let expected = "correlations that can hold together (a positive definite matrix)";
+                self.invalid(&field, found, expected)
+            }
+            source => self.statistics(field, source),
+        })?;
         Ok(Some(matrix))
     }
 }

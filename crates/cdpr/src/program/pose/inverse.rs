@@ -225,9 +225,8 @@ impl Rest {
     }
 
     fn print(&self, heading: &str) {
-        let Resting { place, lengths, tensions, exit_tensions, stays, .. } = &self.first;
+        let Resting { lengths, tensions, exit_tensions, stays, .. } = &self.first;
         print_sentence(&held(heading, tensions, stays));
-        print_sentence(&format!("It rests at {place}."));
         answer::print_cables(lengths, tensions, exit_tensions);
         self.first.stays.print();
         OutOfLimits::print(&self.first.out_of_limits);

@@ -139,12 +139,12 @@ fn print(robot: &Shown) {
     let breaking = robot
         .breaking_force
         .map_or_else(String::new, |force| format!("; breaking force {} N", words([force; 2])));
-    print_sentence(&format!(
-        "tensions: {} to {} N at the {}{breaking}",
-        words(robot.min_tension),
-        words(robot.max_tension),
-        ends.join(" and ")
-    ));
+    let [least, greatest] = [robot.min_tension, robot.max_tension].map(words);
+    let limits = match [robot.min_tension, robot.max_tension].iter().all(|[low, high]| low == high) {
+        true => format!("{least} to {greatest} N"),
+        false => format!("at least {least} N, at most {greatest} N"),
+    };
+    print_sentence(&format!("tensions: {limits} at the {}{breaking}", ends.join(" and ")));
     let grade = robot.grade.map_or_else(|| "not graded".to_owned(), |grade| grade.to_string());
     println!("grade: {grade}");
     print_sentence(&format!("source: {}", shown(robot.source.as_deref().unwrap_or("not known"))));
