@@ -1,5 +1,6 @@
 //! How much is said on the standard error: `--quiet` and `--verbose`.
 
+use cdpr_robot::Robot;
 use std::fmt;
 use std::sync::OnceLock;
 
@@ -39,5 +40,14 @@ pub(crate) fn note(text: fmt::Arguments) {
 pub(crate) fn detail(text: fmt::Arguments) {
     if is_said(Said::More) {
         eprintln!("{text}");
+    }
+}
+
+/// Says why maps and paths of a robot have no frequencies, if it is so.
+pub(crate) fn note_missing_frequencies(robot: &Robot) {
+    if robot.lacks_inertia() {
+        note(format_args!(
+            "no frequencies: the robot has no `platform.inertia`, and only `modes` assumes one"
+        ));
     }
 }

@@ -11,6 +11,7 @@ use crate::program::output::{
     Details, Ending, drawn, patiently, print_sentence, progress, table, wide_table,
 };
 use crate::program::questions;
+use crate::program::said::note_missing_frequencies;
 use crate::program::wrenches::WrenchArguments;
 use cdpr_assess::{
     AnyWeather, BoundarySummary, DIRECTIONS, Further, HELD, Shaking, TiltDirections, Way, Workspace,
@@ -226,6 +227,7 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
         }
         println!("{} in {seconds:.2} s; results in {}", counted(poses.len(), "pose"), out.display());
     })?;
+    note_missing_frequencies(&robot);
     let few = questions::few_held(&summary);
     few.iter().for_each(|few| eprintln!("warning: {few}"));
     Ok(if summary.too_much > 0 || few.is_some() { Ending::SomethingWrong } else { Ending::Well })
