@@ -94,6 +94,12 @@ pub(crate) fn machine() -> String {
     format!("{}, {cpu}, {cores} cores, {}", known("date", &["-u", "+%F"]), known("rustc", &["--version"]))
 }
 
+/// Processes that wanted to run during the last minute.
+pub(crate) fn load() -> String {
+    let file = std::fs::read_to_string("/proc/loadavg").unwrap_or_default();
+    file.split(' ').next().filter(|load| !load.is_empty()).unwrap_or("unknown").to_owned()
+}
+
 /// An error with the path that it is about.
 fn at<T>(path: &Path, result: std::io::Result<T>) -> Outcome<T> {
     result.map_err(|error| format!("{}: {error}", path.display()).into())

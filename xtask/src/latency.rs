@@ -2,7 +2,7 @@
 
 use crate::bench::{callgrind, total, valgrind};
 use crate::cargo::{
-    Outcome, emptied, machine, number, read, release_example, root, target, text, text_of, write,
+    Outcome, emptied, load, machine, number, read, release_example, root, target, text, text_of, write,
 };
 use serde_json::{Value, json};
 use std::fmt::Write as _;
@@ -58,12 +58,6 @@ fn count(robots: &mut [Value]) -> Outcome {
         }
     }
     Ok(())
-}
-
-/// Processes that wanted to run during the last minute.
-fn load() -> String {
-    let file = std::fs::read_to_string("/proc/loadavg").unwrap_or_default();
-    file.split(' ').next().filter(|load| !load.is_empty()).unwrap_or("unknown").to_owned()
 }
 
 /// A time [us] with three digits.

@@ -16,7 +16,7 @@ mod led;
 mod release;
 mod web;
 
-use cargo::{Outcome, cargo_command, done, release_example, root, study, text_of, write};
+use cargo::{Outcome, cargo_command, done, load, machine, release_example, root, study, text_of, write};
 use clap::{Args, Parser};
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
@@ -40,7 +40,8 @@ enum Task {
     ///
     /// [OBSERVATIONS [THREADS]]: 1000000 observations on all threads.
     Throughput {
-        /// A table of the robots and poses of data/benchmarks/throughput.json, or of one, on one thread
+        /// The robots and poses of data/benchmarks/throughput.json, on one thread: writes throughput.md next to it;
+        /// with a part of a name those robots, without writing
         #[arg(long)]
         all: bool,
         #[command(flatten)]
@@ -215,8 +216,17 @@ fn throughput(all: bool, rest: Vec<String>) -> Outcome {
         true => vec![data("benchmarks/throughput.json")],
         false => vec![data("studies/caroca.json"), "mechanical".to_owned()],
     };
+    let whole = all && rest.is_empty();
     arguments.extend(rest);
-    done(&mut release_example("cdpr-study", "throughput", &arguments))
+    let mut example = release_example("cdpr-study", "throughput", &arguments);
+    if !whole {
+        return done(&mut example);
+    }
+    let before = load();
+    let rows = text_of(&mut example, &[0])?;
+    let table = format!("{}, load average {before} before and {} after\n\n{rows}", machine(), load());
+    println!("{table}");
+    write(&root().join("data/benchmarks/throughput.md"), &table)
 }
 
 fn schemas() -> Outcome {

@@ -11,6 +11,7 @@
 
 #![allow(clippy::print_stderr, clippy::print_stdout)]
 
+use cdpr_number::lanes::Unit;
 use cdpr_study::{Session, Study, analyse, observe};
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
@@ -76,66 +77,102 @@ fn peak_memory_mib() -> Option<f64> {
     Some(kib / 1024.0)
 }
 
-/// Prints a row for each robot of a list, and the means of all.
+/// Runs of each robot and vector unit.
+const RUNS: usize = 5;
+
+/// Prints a row for each robot of a list, and the mean of all.
 fn table(list: &Value, path: &Path, part: &str) -> Outcome {
     rayon::ThreadPoolBuilder::new().num_threads(1).build_global()?;
     let data = path.parent().and_then(Path::parent).unwrap_or(Path::new("."));
     let folder = tempfile::tempdir()?;
     println!(
-        "| robot | poses | mean [us] | slowest pose [us] | scalar [%] | failed a row [%] | why scalar |\n\
-         |---|---|---|---|---|---|---|"
+        "| robot | poses | median of {RUNS} runs [µs] | least [µs] | greatest [µs] | slowest pose [µs] | with AVX2 [µs] | \
+         times as long | by the scalar models | failed |\n|---|---|---|---|---|---|---|---|---|---|"
     );
-    let mut means: Vec<f64> = Vec::new();
+    let mut medians: Vec<f64> = Vec::new();
     for case in list["cases"].as_array().into_iter().flatten() {
         let name = case["name"].as_str().unwrap_or_default();
         if name.to_lowercase().contains(&part.to_lowercase()) {
-            means.push(row(case, name, data, folder.path())?);
+            medians.push(row(case, name, data, folder.path())?);
         }
     }
-    let count = means.len() as f64;
-    let geometric = (means.iter().map(|mean| mean.ln()).sum::<f64>() / count).exp();
-    eprintln!(
-        "of {count} robots: geometric mean {geometric:.2} us, arithmetic mean {:.2} us",
-        means.iter().sum::<f64>() / count
-    );
+    let count = medians.len() as f64;
+    let geometric = (medians.iter().map(|median| median.ln()).sum::<f64>() / count).exp();
+    eprintln!("of {count} robots: geometric mean {geometric:.2} us");
     Ok(())
 }
 
-/// Prints the row of a robot; returns the mean time of an observation [us].
+/// What the observations of a robot took.
+#[derive(Default)]
+struct Run {
+    /// For each pose, without the analysis [us].
+    times: Vec<f64>,
+    failed: u64,
+    scalar: u64,
+    why: BTreeMap<String, u64>,
+}
+
+impl Run {
+    fn new(study: &Path, poses: usize, observations: usize) -> Outcome<Self> {
+        let mut run = Self::default();
+        for pose in 0..poses {
+            let line = measured(study, &format!("all/{pose:04}"), observations)?;
+            run.times.push(line["us_without_analysis"].as_f64().unwrap_or(f64::NAN));
+            run.failed += line["failed"].as_u64().unwrap_or_default();
+            run.scalar += line["scalar"]["count"].as_u64().unwrap_or_default();
+            for (reason, count) in line["scalar"]["why"].as_object().into_iter().flatten() {
+                *run.why.entry(reason.clone()).or_default() += count.as_u64().unwrap_or_default();
+            }
+        }
+        Ok(run)
+    }
+
+    fn mean(&self) -> f64 {
+        self.times.iter().sum::<f64>() / self.times.len() as f64
+    }
+}
+
+/// Prints the row of a robot; returns the median of its runs [us].
 fn row(case: &Value, name: &str, data: &Path, folder: &Path) -> Outcome<f64> {
     let robot = case["robot"].as_str().ok_or("a case without a robot")?;
     let mut robot: Value = serde_json::from_str(&std::fs::read_to_string(data.join(robot))?)?;
     for (field, value) in case["changes"].as_object().into_iter().flatten() {
         robot[field] = value.clone();
     }
-    let poses = case["poses"].as_array().ok_or("a case without poses")?;
+    let poses = case["poses"].as_array().ok_or("a case without poses")?.len();
     let observations = usize::try_from(case["observations"].as_u64().ok_or("a case without observations")?)?;
     std::fs::write(folder.join("robot.json"), robot.to_string())?;
     let study = folder.join("study.json");
     std::fs::write(&study, study_of(case).to_string())?;
-    let (mut times, mut failed, mut scalar) = (Vec::new(), 0, 0);
-    let mut why = BTreeMap::<String, u64>::new();
-    for pose in 0..poses.len() {
-        let line = measured(&study, &format!("all/{pose:04}"), observations)?;
-        times.push(line["us_without_analysis"].as_f64().unwrap_or(f64::NAN));
-        failed += line["failed"].as_u64().unwrap_or_default();
-        scalar += line["scalar"]["count"].as_u64().unwrap_or_default();
-        for (reason, count) in line["scalar"]["why"].as_object().into_iter().flatten() {
-            *why.entry(reason.clone()).or_default() += count.as_u64().unwrap_or_default();
-        }
-    }
-    let all = (poses.len() * observations) as f64;
-    let mean = times.iter().sum::<f64>() / times.len() as f64;
-    let why: Vec<String> = why.iter().map(|(reason, count)| format!("{reason} {count}")).collect();
+    let runs = |unit: Unit| -> Outcome<Vec<Run>> {
+        let mut runs = (0..RUNS)
+            .map(|_| unit.run(|| Run::new(&study, poses, observations)))
+            .collect::<Outcome<Vec<_>>>()?;
+        runs.sort_by(|one, other| one.mean().total_cmp(&other.mean()));
+        Ok(runs)
+    };
+    let widest = runs(Unit::Widest)?;
+    let [least, median, greatest] = [0, RUNS / 2, RUNS - 1].map(|k| &widest[k]);
+    let narrow = match Unit::all().contains(&Unit::Avx2) {
+        true => Some(runs(Unit::Avx2)?[RUNS / 2].mean()),
+        false => None,
+    };
+    let all = (poses * observations) as f64;
+    let optional = |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:.2}"));
+    let why: Vec<String> = median.why.iter().map(|(reason, count)| format!("{reason} {count}")).collect();
     println!(
-        "| {name} | {} | {mean:.2} | {:.2} | {:.2} | {:.2} | {} |",
-        poses.len(),
-        times.iter().copied().fold(0.0, f64::max),
-        100.0 * scalar as f64 / (all - failed as f64).max(1.0),
-        100.0 * failed as f64 / all,
+        "| {name} | {poses} | {:.2} | {:.2} | {:.2} | {:.2} | {} | {} | {:.2} % {} | {:.2} % |",
+        median.mean(),
+        least.mean(),
+        greatest.mean(),
+        median.times.iter().copied().fold(0.0, f64::max),
+        optional(narrow),
+        optional(narrow.map(|narrow| narrow / median.mean())),
+        100.0 * median.scalar as f64 / (all - median.failed as f64).max(1.0),
         why.join(", "),
+        100.0 * median.failed as f64 / all,
     );
-    Ok(mean)
+    Ok(median.mean())
 }
 
 /// The study of a robot: uniform laws of the half widths in `errors`.
