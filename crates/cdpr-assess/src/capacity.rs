@@ -93,7 +93,8 @@ pub struct Capacity {
 /// A payload [kg] or margin [N], for the wrench of the set that leaves the least.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
-    /// The value; a payload is negative infinity where a limit is passed even without one.
+    /// The value; a payload is negative infinity where a limit is passed even without one, and infinite where
+    /// none is too much.
     pub value: f64,
     /// Index of the wrench.
     pub wrench: usize,
@@ -104,6 +105,9 @@ pub struct Figure {
 impl Figure {
     /// What blocks a greater value, in words.
     pub fn blocked_by(&self) -> String {
+        if self.value == f64::INFINITY {
+            return "nothing: the weight does not pull at the cables".to_owned();
+        }
         self.blocking.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
     }
 }

@@ -1,16 +1,19 @@
 //! The greatest payload and the margin of tensions are where the inverse model ends.
 
-use cdpr_robot::{Pose, Robot, Vector3, Wrench};
-use cdpr_statics::capacity::{greatest_payload, tension_margin};
+use cdpr_robot::{CableEnd, Plane, Pose, Robot, Vector3, Wrench};
+use cdpr_statics::capacity::{Blocking, greatest_payload, tension_margin};
 use cdpr_statics::limits::Limit;
 use cdpr_statics::{Load, MAX_STRAIN, StaticsError, inverse, is_feasible};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use std::time::Instant;
 
+/// A robot of the library without breaking forces, which the inverse model does not know as limits.
 fn robot(name: &str) -> Robot {
     let path = format!("{}/../../data/robots/{name}.json", env!("CARGO_MANIFEST_DIR"));
-    Robot::from_json(&std::fs::read_to_string(path).unwrap()).unwrap()
+    let mut robot = Robot::from_json(&std::fs::read_to_string(path).unwrap()).unwrap();
+    robot.cables.iter_mut().for_each(|cable| cable.properties.breaking_force = None);
+    robot
 }
 
 /// Robots that are suspended and prestressed, light and heavy, with pulleys.
@@ -124,6 +127,65 @@ fn payloads_and_margins_are_found_wherever_the_platform_is_held() {
         println!("{name}: {} held poses, {} faults until here", poses.len(), faults.len());
     }
     assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+/// Breaking forces act at both ends, and in these robots the exit points are the higher ones: limits at the exit
+/// say the same.
+#[test]
+fn breaking_forces_limit_payloads_and_margins() {
+    for (name, [x, y, z]) in PLACES {
+        let limited = robot(name);
+        let pose = Pose::at(x, y, z);
+        let force = 0.6 * limited.limits(0).max;
+        let mut breaking = limited.clone();
+        breaking.cables.iter_mut().for_each(|cable| cable.properties.breaking_force = Some(force));
+        let mut at_exit = limited.clone();
+        for cable in &mut at_exit.cables {
+            cable.tension_limits.max = Some(force);
+            cable.tension_limits.max_at = Some(CableEnd::Exit);
+        }
+        let wrench = Wrench::none();
+        let [found, known] = [&breaking, &at_exit].map(|robot| greatest_payload(robot, &pose, &wrench).unwrap());
+        assert!((found.value / known.value - 1.0).abs() < 1e-9, "{name}: {} kg, {}", found.value, known.value);
+        assert!(found.value < greatest_payload(&limited, &pose, &wrench).unwrap().value);
+        let ends = found.equilibrium.exit_tensions(&breaking, &found.lengths);
+        assert!(ends.iter().chain(&found.tensions).all(|tension| *tension < force * (1.0 + 1e-9)), "{name}");
+        let broken = |block: &Blocking| block.limit == Limit::BreakingForce && block.value == force;
+        assert!(found.blocking.iter().any(broken), "{name}: {:?}", found.blocking);
+        let [found, known] =
+            [&breaking, &at_exit].map(|robot| tension_margin(robot, &pose, &Load::none()).unwrap().value);
+        assert!((found - known).abs() < 1e-9 * force, "{name}: {found} N, {known}");
+    }
+}
+
+/// Of a point mass with its load at the centre of mass a force of F upwards gives F/g more, however great.
+#[test]
+fn a_force_upwards_is_worth_its_payload() {
+    let mut point = robot("cogiro");
+    point.cables = [0, 2, 4, 6].map(|i| point.cables[i].clone()).to_vec();
+    point.cables.iter_mut().for_each(|cable| cable.anchor_point = Vector3::zeros());
+    (point.platform.point, point.platform.center_of_mass) = (true, Vector3::zeros());
+    let payload = |up: f64| {
+        let wrench = Wrench { force: Vector3::new(0.0, 0.0, up), moment: Vector3::zeros() };
+        greatest_payload(&point, &Pose::at(0.5, 0.3, 2.0), &wrench).unwrap().value
+    };
+    let (own, sum) = (payload(0.0), 4.0 * point.limits(0).max);
+    for up in [0.5 * sum, sum, 2.0 * sum, 10.0 * sum] {
+        let expected = own + up / point.gravity.magnitude();
+        assert!((payload(up) / expected - 1.0).abs() < 1e-8, "{up} N: {} kg, not {expected}", payload(up));
+    }
+}
+
+#[test]
+fn a_table_carries_any_payload() {
+    let mut table = robot("cogiro");
+    table.plane = Some(Plane::Xy);
+    for cable in &mut table.cables {
+        (cable.exit_point.z, cable.anchor_point.z) = (0.0, 0.0);
+    }
+    let found = greatest_payload(&table, &Pose::at(0.2, -0.1, 0.0), &Wrench::none()).unwrap();
+    assert_eq!((found.value, found.blocking.len()), (f64::INFINITY, 0));
+    assert!(found.residual.force < 1e-6, "{:?}", found.residual);
 }
 
 #[test]

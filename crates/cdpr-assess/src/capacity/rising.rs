@@ -3,7 +3,7 @@
 use super::{Block, Rest};
 use cdpr_robot::{CableEnd, Robot};
 use cdpr_statics::limits::Limit;
-use cdpr_statics::{MAX_STRAIN, StaticsError};
+use cdpr_statics::{Load, MAX_STRAIN, StaticsError};
 
 /// A limit and the way to it.
 #[derive(Clone, Copy)]
@@ -84,7 +84,7 @@ impl Rising<'_> {
         step.near.distance >= -ON_LIMIT * step.near.value
     }
 
-    /// The payload at which the first limit is reached.
+    /// The payload at which the first limit is reached; infinite where none is.
     pub(super) fn top(&self, start: &Rest) -> Result<(f64, Vec<Block>), StaticsError> {
         const MAX_STEPS: usize = 200;
         let mut low = self.at(0.0, start)?;
@@ -99,6 +99,9 @@ impl Rising<'_> {
             let end = high.as_ref().map_or(f64::INFINITY, |(mass, _)| *mass);
             if end.is_finite() && end - low.mass <= ACCURACY * (unit + end) {
                 break;
+            }
+            if end.is_infinite() && next > Load::LARGEST {
+                return Ok((f64::INFINITY, Vec::new()));
             }
             let tried = self.at(next, &low.rest);
             match tried {

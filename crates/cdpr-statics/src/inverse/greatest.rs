@@ -16,15 +16,16 @@
 //!   give way. The capacity margin of Guay, Cardou, Cruz-Ruiz, Caro (*Measuring how well a structure supports
 //!   varying external wrenches*, 2014) measures the same distance as a wrench; it has the same sign.
 //!
-//! Both end at [`cdpr_cable::MAX_STRAIN`], too: no cable gets a tension that strains it more.
+//! The greatest tensions are at most the breaking forces, at either end of a cable. Both figures end at
+//! [`cdpr_cable::MAX_STRAIN`], too: no cable gets a tension that strains it more.
 //!
 //! Of straight cables w_i = u_i t_i and (I7) is a linear program. Sagging ones pull in a direction that
 //! depends on the tension: the program linearized at the last chord forces is solved again and again, and the
 //! limits that it rests on give Newton's method its equations (Fletcher and Sainz de la Maza, *Nonlinear
 //! programming and nonsmooth optimization by successive linear programming*, Math. Programming 43, 1989).
 
-use super::PoseLengths;
-use super::limits::strain_limit;
+use super::{InverseSolution, PoseLengths};
+use super::limits::{breaking_limit, strain_limit};
 use super::maximization::{Aim, Maximization, Maximum};
 use super::problem::InverseProblem;
 use super::wanted::whole;
@@ -58,9 +59,10 @@ pub struct Greatest {
 pub struct Blocking {
     /// Index of the cable, from 0.
     pub index: usize,
-    /// Which of its limits: [`Limit::Min`], [`Limit::Max`] or [`Limit::Strain`].
+    /// Which of its limits: [`Limit::Min`], [`Limit::Max`], [`Limit::BreakingForce`] or [`Limit::Strain`].
     pub limit: Limit,
     /// The limit at the platform [N]; of a least tension, no less than what the weight of the cable demands.
+    /// A breaking force is that of the cable, reached at one of its ends.
     pub value: f64,
     /// By how much the value grows where this limit is moved outwards [kg/N or N/N].
     pub gain: f64,
@@ -71,7 +73,7 @@ pub struct Blocking {
 /// not act.
 ///
 /// It is zero or more. Where the platform is in balance with a mass only, not by its own weight, it is at
-/// least that mass.
+/// least that mass. It is infinite where weight does not act along the motions that the platform has.
 ///
 /// # Errors
 /// Those of [`crate::inverse`]; [`StaticsError::NoTensions`] where no mass is in balance;
@@ -95,12 +97,20 @@ fn payload_at(robot: &Robot, pose: &Pose, wrench: &Wrench) -> Result<Greatest, S
         ));
     }
     let bounded = Bounded::new(robot, pose, &load)?;
-    let heaviest = bounded.problem.limits.iter().map(|limits| limits.max).sum();
     // Of a weight of 1 N.
     let mut direction = robot.weight(pose, 0.0).to_vector() / (robot.platform.mass * gravity);
     direction.fixed_rows_mut::<3>(3).unscale_mut(bounded.problem.characteristic_length);
     let direction = robot.freedoms().of_vector(&direction);
     let components = robot.freedoms().components();
+    if direction.norm() <= WEIGHTLESS {
+        let found = super::inverse_at(robot, pose, &load, None)?;
+        let InverseSolution { tensions, lengths, equilibrium, iterations, residual, .. } = found;
+        let (value, blocking) = (f64::INFINITY, Vec::new());
+        return Ok(Greatest { value, tensions, lengths, equilibrium, blocking, iterations, residual });
+    }
+    // The wrench of a tension of 1 N has a norm of at most 2.
+    let pull: f64 = bounded.problem.limits.iter().map(|limits| 2.0 * limits.max).sum();
+    let heaviest = (pull + bounded.problem.external.norm()) / direction.norm();
     let maximization = Maximization { aim: Aim::Wrench(direction), range: [0.0, heaviest], components };
     let found = maximization.solve(&bounded.problem, &bounded.problem);
     let found = found.map_err(|refusal| bounded.reason(refusal))?;
@@ -128,20 +138,27 @@ pub fn tension_margin<W: Wanted>(
 }
 
 fn margin_at(robot: &Robot, pose: &Pose, load: &Load) -> Result<Greatest, StaticsError> {
-    let own = InverseProblem::of_whole_pose(robot, pose, load, None)?;
+    let mut own = InverseProblem::of_whole_pose(robot, pose, load, None)?;
+    let mut greatest = vec![Limit::Max; own.cables()];
+    for (i, greatest) in greatest.iter_mut().enumerate() {
+        own.bound_by_breaking(i, greatest)?;
+    }
     let limits = own.limits.clone();
     let largest = limits.iter().map(|limits| limits.max).fold(own.external.norm(), f64::max);
     // Wider than any margin: strains and the least tensions that the cables' weight demands are left.
     let wide = |limits: &TensionLimits| TensionLimits { min: 1e-9 * limits.min, max: 1.5 * WIDEST * largest };
     let problem = InverseProblem { limits: limits.iter().map(wide).collect(), ..own.clone() };
-    let bounded = Bounded::within_strains(problem)?;
+    let bounded = Bounded { problem, greatest: vec![Limit::Max; limits.len()] }.within_strains()?;
     let range = [-WIDEST * largest, largest];
     let components = robot.freedoms().components();
     let maximization = Maximization { aim: Aim::Margin(limits.clone()), range, components };
     let found = maximization.solve(&bounded.problem, &own)?;
     let scale = Scale { value: found.value, unit: 1.0 };
-    bounded.greatest(load, scale, found, Some(&limits))
+    bounded.greatest(load, scale, found, Some((&limits, &greatest)))
 }
+
+/// Part of a weight of 1 N along the motions that the platform has which is rounding.
+const WEIGHTLESS: f64 = 1e-12;
 
 /// Greatest tension over the greatest limit where a margin is looked for.
 const WIDEST: f64 = 20.0;
@@ -149,8 +166,20 @@ const WIDEST: f64 = 20.0;
 /// A problem whose greatest tensions strain no cable too much.
 struct Bounded<'a> {
     problem: InverseProblem<'a>,
-    /// The cables whose greatest tension is that of the greatest strain.
-    strained: Vec<bool>,
+    /// What limits the greatest tension of each cable.
+    greatest: Vec<Limit>,
+}
+
+impl InverseProblem<'_> {
+    /// Lowers the greatest tension of cable i to its breaking force, if that is less.
+    fn bound_by_breaking(&mut self, i: usize, greatest: &mut Limit) -> Result<(), StaticsError> {
+        let limits = self.limits[i];
+        if let Some(max) = breaking_limit(self.robot, self.pose, i, limits)? {
+            self.limits[i].max = max.max(limits.min);
+            *greatest = Limit::BreakingForce;
+        }
+        Ok(())
+    }
 }
 
 /// A value and the unit of z in it.
@@ -163,25 +192,30 @@ struct Scale {
 
 impl<'a> Bounded<'a> {
     fn new(robot: &'a Robot, pose: &'a Pose, load: &'a Load) -> Result<Self, StaticsError> {
-        Self::within_strains(InverseProblem::of_whole_pose(robot, pose, load, None)?)
+        let mut problem = InverseProblem::of_whole_pose(robot, pose, load, None)?;
+        let mut greatest = vec![Limit::Max; problem.cables()];
+        for (i, greatest) in greatest.iter_mut().enumerate() {
+            problem.bound_by_breaking(i, greatest)?;
+        }
+        Self { problem, greatest }.within_strains()
     }
 
-    fn within_strains(mut problem: InverseProblem<'a>) -> Result<Self, StaticsError> {
-        let mut strained = vec![false; problem.cables()];
-        for (i, strained) in strained.iter_mut().enumerate() {
+    fn within_strains(mut self) -> Result<Self, StaticsError> {
+        let Self { problem, greatest } = &mut self;
+        for (i, greatest) in greatest.iter_mut().enumerate() {
             let limits = problem.limits[i];
             if let Some(max) = strain_limit(problem.robot, problem.pose, i, limits)? {
                 problem.limits[i].max = max.max(limits.min);
-                *strained = true;
+                *greatest = Limit::Strain;
             }
         }
-        Ok(Self { problem, strained })
+        Ok(self)
     }
 
     /// Where all tensions that hold a pose strain a cable too much, the refusal says so.
     fn reason(&self, refusal: StaticsError) -> StaticsError {
         let InverseProblem { robot, pose, load, .. } = self.problem;
-        if !self.strained.contains(&true) {
+        if !self.greatest.contains(&Limit::Strain) {
             return refusal;
         }
         match super::inverse_at(robot, pose, load, None) {
@@ -195,7 +229,7 @@ impl<'a> Bounded<'a> {
         load: &Load,
         Scale { value, unit }: Scale,
         found: Maximum,
-        drawn: Option<&[TensionLimits]>,
+        drawn: Option<(&[TensionLimits], &[Limit])>,
     ) -> Result<Greatest, StaticsError> {
         let Maximum { ref point, iterations, .. } = found;
         let PoseLengths { lengths, equilibrium } = PoseLengths::new(
@@ -215,21 +249,26 @@ impl<'a> Bounded<'a> {
         &self,
         Maximum { point, solution, .. }: &Maximum,
         unit: f64,
-        drawn: Option<&[TensionLimits]>,
+        drawn: Option<(&[TensionLimits], &[Limit])>,
     ) -> Vec<Blocking> {
         let n = point.cables.len();
         let mut blocking = Vec::new();
         for (index, (row, cable)) in point.rows.iter().zip(&point.cables).enumerate() {
             // A bound on the chord force, and those on the tension that z draws closer.
             let slope = unit * solution.slopes[index] / row.tension_slope;
-            let greatest = if self.strained[index] { Limit::Strain } else { Limit::Max };
             let TensionLimits { min, max } = cable.limits;
-            let mut each = vec![(Limit::Min, min, -slope), (greatest, max, slope)];
-            if let Some(TensionLimits { min, max }) = drawn.map(|drawn| drawn[index]) {
+            let mut each = vec![(Limit::Min, min, -slope), (self.greatest[index], max, slope)];
+            if let Some((limits, greatest)) = drawn {
+                let TensionLimits { min, max } = limits[index];
                 let gain = |side: usize| -unit * solution.slopes[n + 1 + 2 * index + side];
-                each.extend([(Limit::Min, min, gain(0)), (Limit::Max, max, gain(1))]);
+                each.extend([(Limit::Min, min, gain(0)), (greatest[index], max, gain(1))]);
             }
-            let each = each.into_iter().filter(|(.., gain)| *gain > 0.0);
+            let breaking = self.problem.robot.cables[index].properties.breaking_force;
+            let own = |(limit, value, gain)| match limit {
+                Limit::BreakingForce => (limit, breaking.unwrap_or(value), gain),
+                _ => (limit, value, gain),
+            };
+            let each = each.into_iter().map(own).filter(|(.., gain)| *gain > 0.0);
             blocking.extend(each.map(|(limit, value, gain)| Blocking { index, limit, value, gain }));
         }
         blocking.sort_by(|a: &Blocking, b| b.gain.total_cmp(&a.gain));

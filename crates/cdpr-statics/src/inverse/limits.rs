@@ -52,17 +52,51 @@ pub(super) fn strain_limit(
     robot: &Robot,
     pose: &Pose,
     i: usize,
-    TensionLimits { min, max }: TensionLimits,
+    limits: TensionLimits,
 ) -> Result<Option<f64>, StaticsError> {
     /// Share that rounding of a strain may leave open.
     const WITHIN: f64 = 1.0 - 1e-12;
     let cable = robot.cable(i);
-    // No part of a cable is longer than this many chords.
-    let heaviest = max + LONGEST_TAUT * cable.weight_per_length * robot.span(pose, i).norm();
-    if cable.overstrain(heaviest).is_none() {
+    if cable.overstrain(heaviest(robot, pose, i, limits)).is_none() {
         return Ok(None);
     }
-    let greatest = WITHIN * cable.tension(MAX_STRAIN);
+    at_both_ends(robot, pose, i, limits, WITHIN * cable.tension(MAX_STRAIN))
+}
+
+/// The greatest tension of cable i at the platform [N] that does not break it at either end; `None` where its
+/// limit allows no more than that.
+///
+/// # Errors
+/// [`StaticsError::Cable`] where a cable on a pulley has no shape.
+pub(super) fn breaking_limit(
+    robot: &Robot,
+    pose: &Pose,
+    i: usize,
+    limits: TensionLimits,
+) -> Result<Option<f64>, StaticsError> {
+    match robot.cables[i].properties.breaking_force {
+        Some(force) if force < heaviest(robot, pose, i, limits) => {
+            at_both_ends(robot, pose, i, limits, force)
+        }
+        _ => Ok(None),
+    }
+}
+
+/// No less than the greatest tension of cable i at either end [N].
+fn heaviest(robot: &Robot, pose: &Pose, i: usize, limits: TensionLimits) -> f64 {
+    // No part of a cable is longer than this many chords.
+    limits.max + LONGEST_TAUT * robot.cable(i).weight_per_length * robot.span(pose, i).norm()
+}
+
+/// The greatest tension at the platform [N] that is at most `greatest` at either end, if it is below the
+/// limit.
+fn at_both_ends(
+    robot: &Robot,
+    pose: &Pose,
+    i: usize,
+    TensionLimits { min, max }: TensionLimits,
+    greatest: f64,
+) -> Result<Option<f64>, StaticsError> {
     let (at_platform, _) = below_exit(robot, pose, i, TensionLimits { min, max: greatest })?;
     let greatest = greatest.min(at_platform);
     Ok((greatest < max).then_some(greatest))

@@ -12,8 +12,9 @@ answer! {
     /// What can be carried at a pose, for the wrench that leaves the least.
     ///
     /// The answer is of one pose, or of m: then every field has a first axis of m, with NaN where there is no
-    /// answer, and `reasons` says why. A payload is -inf where a limit is passed even without one. With
-    /// `recomputed` the winches compute the tensions again, with `kept` the lengths are kept.
+    /// answer, and `reasons` says why. A payload is -inf where a limit is passed even without one, and inf
+    /// where its weight does not pull at the cables. With `recomputed` the winches compute the tensions again,
+    /// with `kept` the lengths are kept.
     #[pyclass(frozen, get_all, module = "cdpr")]
     pub(crate) struct Capacity {
         /// Greatest mass at the centre of mass [kg].

@@ -127,8 +127,11 @@ struct Ways {
 /// A figure, or why it does not exist.
 #[derive(Serialize)]
 struct Shown {
-    /// `null` where the figure does not exist or a limit is passed without a payload.
+    /// `null` where the figure does not exist, a limit is passed without a payload, or none is too much.
     value: Option<f64>,
+    /// Whether no payload is too much.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    unbounded: bool,
     /// The wrench of the set that leaves the least, fx to mz; absent for a single one.
     #[serde(skip_serializing_if = "Option::is_none")]
     wrench: Option<[f64; 6]>,
@@ -137,6 +140,9 @@ struct Shown {
     #[serde(skip_serializing_if = "Option::is_none")]
     error: Option<Failure>,
 }
+
+/// Why no payload is too much.
+const WEIGHTLESS: &str = "its weight does not pull at the cables";
 
 /// A limit that blocks a greater value.
 #[derive(Serialize)]
@@ -163,7 +169,7 @@ impl Blocking {
 
 impl Shown {
     fn new(figure: Result<Figure, StaticsError>, set: &WrenchSet) -> Self {
-        let none = Self { value: None, wrench: None, blocking: Vec::new(), error: None };
+        let none = Self { value: None, unbounded: false, wrench: None, blocking: Vec::new(), error: None };
         let Figure { value, wrench, blocking } = match figure {
             Ok(figure) => figure,
             Err(error) => return Self { error: Some(error.into()), ..none },
@@ -171,6 +177,7 @@ impl Shown {
         let wrenches = set.wrenches();
         let mut shown = Self {
             value: value.is_finite().then_some(value),
+            unbounded: value == f64::INFINITY,
             wrench: (wrenches.len() > 1).then(|| wrenches[wrench].to_vector().into()),
             ..none
         };
@@ -194,6 +201,7 @@ impl Shown {
             words.push(format!("under the wrench {}", vector(wrench, 1)));
         }
         words.extend(self.error.as_ref().map(|error| error.message.clone()));
+        words.extend(self.unbounded.then(|| WEIGHTLESS.to_owned()));
         words.join("; ")
     }
 
@@ -327,6 +335,7 @@ impl Answer {
             payload.blocking.first().map_or_else(String::new, |first| format!("; then {}", limit(first)));
         let carries = match payload.value {
             Some(value) => format!("{heading} carries up to {} kg{by}.", significant(value, 4)),
+            None if payload.unbounded => format!("{heading} carries any payload: {WEIGHTLESS}."),
             None if payload.error.is_some() => format!("{heading} carries nothing: {}.", payload.cause()),
             None => format!("{heading} is beyond a limit without any payload{by}."),
         };
@@ -351,6 +360,7 @@ impl Answer {
                 // Beyond there is rounding alone.
                 Some(value) => visible(rounded(value, 9), 3),
                 None if shown.error.is_some() => "none".to_owned(),
+                None if shown.unbounded => "any".to_owned(),
                 None => "beyond a limit without it".to_owned(),
             };
             let reason = shown.error.as_ref().map(|error| error.message.as_str());
