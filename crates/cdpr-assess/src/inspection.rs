@@ -76,7 +76,7 @@ pub fn inspect(robot: &Robot) -> Vec<Finding> {
             "cables",
             format!("{cables} for {freedoms} free motions"),
             &format!("{} of the coordinates of a pose follow from the others", freedoms - cables),
-            "nothing, for a suspended platform; name them as free where a pose is given",
+            &pose::remedy_for_few(robot),
         ),
         // The values in doubt are the reason.
         None if doubtful => {}

@@ -145,8 +145,14 @@ fn breaking_forces_limit_payloads_and_margins() {
             cable.tension_limits.max_at = Some(CableEnd::Exit);
         }
         let wrench = Wrench::none();
-        let [found, known] = [&breaking, &at_exit].map(|robot| greatest_payload(robot, &pose, &wrench).unwrap());
-        assert!((found.value / known.value - 1.0).abs() < 1e-9, "{name}: {} kg, {}", found.value, known.value);
+        let [found, known] =
+            [&breaking, &at_exit].map(|robot| greatest_payload(robot, &pose, &wrench).unwrap());
+        assert!(
+            (found.value / known.value - 1.0).abs() < 1e-9,
+            "{name}: {} kg, {}",
+            found.value,
+            known.value
+        );
         assert!(found.value < greatest_payload(&limited, &pose, &wrench).unwrap().value);
         let ends = found.equilibrium.exit_tensions(&breaking, &found.lengths);
         assert!(ends.iter().chain(&found.tensions).all(|tension| *tension < force * (1.0 + 1e-9)), "{name}");

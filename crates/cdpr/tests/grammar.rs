@@ -115,7 +115,10 @@ fn further_columns_of_poses_are_passed_on_and_rotations_in_another_notation_are_
     let wide = german.encode_utf16().flat_map(u16::to_le_bytes);
     assert_eq!(answered(run(&[0xff, 0xfe].into_iter().chain(wide).collect::<Vec<u8>>(), "csv")), csv);
     for (header, words) in [
-        ("x,y,z,rz", "column rz: expected x_m,y_m,z_m, then none, qw,qx,qy,qz or roll_deg,pitch_deg,yaw_deg"),
+        (
+            "x,y,z,rz",
+            "column rz: expected x_m,y_m,z_m, then none, qw,qx,qy,qz or any of roll_deg,pitch_deg,yaw_deg",
+        ),
         ("x,y,z,yawn_deg", "column yawn_deg: expected x_m,y_m,z_m"),
         ("x,y,z,q1", "column q1: expected"),
         ("x_kg,y,z,t", "column x_kg: x in a unit of mass: expected x_m"),

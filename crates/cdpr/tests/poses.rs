@@ -205,7 +205,7 @@ fn columns_are_found_by_their_names() {
 #[test]
 fn a_file_that_is_no_list_of_poses_is_refused_with_its_line() {
     let robot = data_path("robots/caroca.json");
-    let columns = "expected x_m,y_m,z_m, then none, qw,qx,qy,qz or roll_deg,pitch_deg,yaw_deg";
+    let columns = "expected x_m,y_m,z_m, then none, qw,qx,qy,qz or any of roll_deg,pitch_deg,yaw_deg";
     for (content, words) in [
         ("0,0,1.75\n\n0,0\n", "line 3: 2 cells: expected 3, as many as in line 1"),
         ("0,0,up\n", "line 1, column column3: `up`: expected a number"),

@@ -3,7 +3,7 @@
 
 use super::{Findings, Severity};
 use crate::clearance::HangingCables;
-use cdpr_robot::{Pose, Robot, frame};
+use cdpr_robot::{Pose, Robot, Vector3, frame};
 use cdpr_statics::{DirectProblem, DirectStart, InverseSolution, Load, Unstable, inverse};
 
 /// Weight of the cables, as a share of the platform's weight, beyond which sag shapes the robot.
@@ -129,6 +129,9 @@ impl Findings<'_> {
 /// as near as possible to the middle of their heights. The platform stays above `ground_z`; without it, under
 /// exit points that are all above z = 0, above this floor.
 pub(super) fn held(robot: &Robot) -> Option<(Pose, InverseSolution)> {
+    if let Some(plane) = robot.plane {
+        return held_in_plane(robot, plane.normal());
+    }
     let [[x_low, x_high], [y_low, y_high], [z_low, z_high]] = frame(robot);
     let size = (x_high - x_low).max(y_high - y_low).max(z_high - z_low);
     let flat = z_high - z_low <= 0.1 * size;
@@ -147,10 +150,70 @@ pub(super) fn held(robot: &Robot) -> Option<(Pose, InverseSolution)> {
     })
 }
 
+/// What to do where a robot has fewer cables than motions: it may move in a plane, and the file does not say it.
+pub(super) fn remedy_for_few(robot: &Robot) -> String {
+    let flat = |k: usize| {
+        let mut points = robot.cables.iter().flat_map(|cable| [cable.exit_point[k], cable.anchor_point[k]]);
+        points.all(|coordinate| coordinate == robot.cables[0].exit_point[k])
+    };
+    let planes = [(2, "xy"), (1, "xz"), (0, "yz")];
+    match planes.into_iter().find(|(k, _)| !robot.platform.point && flat(*k)) {
+        Some((_, plane)) => {
+            format!("\"plane\": \"{plane}\" if it moves in this plane alone; else name them as free in poses")
+        }
+        None => "nothing, for a suspended platform; name them as free where a pose is given".to_owned(),
+    }
+}
+
+/// The same of a platform that moves in a plane: about the middle of the exit points, moved along the plane.
+fn held_in_plane(robot: &Robot, normal: usize) -> Option<(Pose, InverseSolution)> {
+    let sides = frame(robot);
+    let mut middle = Vector3::from(sides.map(|[low, high]| 0.5 * (low + high)));
+    let size = sides.map(|[low, high]| high - low);
+    let heights = robot.cables.iter().map(|cable| cable.exit_point[normal] - cable.anchor_point[normal]);
+    middle[normal] = heights.sum::<f64>() / robot.cables.len() as f64;
+    // Upwards and downwards, or along y where the plane is level.
+    let along = if normal == 2 { 1 } else { 2 };
+    (0..=20).find_map(|k| {
+        let offset = 0.05 * size[along] * f64::from((k + 1) / 2) * if k % 2 == 0 { 1.0 } else { -1.0 };
+        let mut place = middle;
+        place[along] += offset;
+        let pose = Pose::at(place.x, place.y, place.z);
+        inverse(robot, &pose, &Load::none()).ok().map(|solution| (pose, solution))
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use cdpr_robot::library;
+
+    #[test]
+    fn the_pose_of_a_planar_robot_is_in_its_plane() {
+        let robot = |plane: &str, swap: [usize; 3]| {
+            let point = |xy: [f64; 2]| {
+                let own = [xy[0], xy[1], 0.3];
+                format!("{:?}", swap.map(|k| own[k]))
+            };
+            let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+            let cables = corners.map(|[x, y]| {
+                let anchor = point([0.1 * (x - 0.5), 0.08 * (0.5 - y)]);
+                format!("{{\"exit_point\": {}, \"anchor_point\": {anchor}}}", point([x, y]))
+            });
+            let text = format!(
+                "{{\"format\": \"cdpr-robot/1\", \"name\": \"table\", \"plane\": \"{plane}\", \"gravity\": 9.81,
+                \"platform\": {{\"mass\": 1.2, \"center_of_mass\": [0, 0, 0]}},
+                \"cable\": {{\"diameter\": 0.001, \"youngs_modulus\": 5e10, \"linear_density\": 0.0006}},
+                \"tension_limits\": {{\"min\": 5, \"max\": 150}}, \"cables\": [{}]}}",
+                cables.join(", ")
+            );
+            Robot::from_json(&text).unwrap()
+        };
+        for (plane, swap, normal) in [("xy", [0, 1, 2], 2), ("xz", [0, 2, 1], 1), ("yz", [2, 0, 1], 0)] {
+            let (pose, _) = held(&robot(plane, swap)).unwrap();
+            assert!(pose.position[normal].abs() < 1e-15, "{plane}: {pose:?}");
+        }
+    }
 
     #[test]
     fn no_pose_that_is_suggested_is_below_the_ground() {

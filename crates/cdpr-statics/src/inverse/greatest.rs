@@ -24,11 +24,11 @@
 //! limits that it rests on give Newton's method its equations (Fletcher and Sainz de la Maza, *Nonlinear
 //! programming and nonsmooth optimization by successive linear programming*, Math. Programming 43, 1989).
 
-use super::{InverseSolution, PoseLengths};
 use super::limits::{breaking_limit, strain_limit};
 use super::maximization::{Aim, Maximization, Maximum};
 use super::problem::InverseProblem;
 use super::wanted::whole;
+use super::{InverseSolution, PoseLengths};
 use crate::error::StaticsError;
 use crate::out_of_limits::Limit;
 use crate::problem::DirectProblem;

@@ -148,7 +148,7 @@ pub(crate) fn winch_file(path: &Path, cables: usize) -> Result<WinchLengths, Pro
 }
 
 /// What the columns of a list are.
-const POSES: &str = "x_m,y_m,z_m, then none, qw,qx,qy,qz or roll_deg,pitch_deg,yaw_deg";
+const POSES: &str = "x_m,y_m,z_m, then none, qw,qx,qy,qz or any of roll_deg,pitch_deg,yaw_deg";
 const WRENCHES: &str = "fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm";
 
 /// A list from the table of a file, its path and bytes.
