@@ -186,6 +186,26 @@ fn a_sequence_of_more_rows_than_tests_take_is_still_one_and_that_is_no_question(
     assert!(concerns(&found, Concern::Sequence) && found.certain[0].input == "x3", "{found:?}");
 }
 
+/// Neighbours in x lie far apart in y, as in a sequence, but half of a square is empty: the inputs determine
+/// each other.
+#[test]
+fn positions_on_a_circle_or_a_loop_are_no_sequence() {
+    let mut source = Source::new(3);
+    for (rows, loops) in [(60, 1.0), (200, 1.0), (500, 1.0), (500, 2.0)] {
+        let turn = |row: usize| std::f64::consts::TAU * (row as f64 + 0.3) / rows as f64;
+        let columns = vec![
+            (0..rows).map(|row| turn(row).cos()).collect(),
+            (0..rows).map(|row| (loops * turn(row)).sin()).collect(),
+            source.uniforms(rows),
+        ];
+        let noise = source.uniforms(rows);
+        let y = (0..rows).map(|row| (turn(row) + 0.6).sin() + 0.3 * noise[row]).collect();
+        let found = Analyser::new(1).verdict(&table(columns, y)).unwrap();
+        assert!(!concerns(&found, Concern::Sequence), "{rows} rows: {found:?}");
+        assert!(found.certain.is_empty() && found.has_questions(), "{rows} rows: {found:?}");
+    }
+}
+
 #[test]
 fn an_input_of_two_levels_has_their_contrast_and_a_constant_one_nothing() {
     // 24 of 60 rows have the switch on; the mean of u is the same in both parts, and no row is there twice.

@@ -150,7 +150,7 @@ pub(super) fn held(robot: &Robot) -> Option<(Pose, InverseSolution)> {
     })
 }
 
-/// What to do where a robot has fewer cables than motions: it may move in a plane, and the file does not say it.
+/// What to do where a robot has fewer cables than motions: its file may lack the plane in which it moves.
 pub(super) fn remedy_for_few(robot: &Robot) -> String {
     let flat = |k: usize| {
         let mut points = robot.cables.iter().flat_map(|cable| [cable.exit_point[k], cable.anchor_point[k]]);
@@ -201,7 +201,8 @@ mod tests {
                 format!("{{\"exit_point\": {}, \"anchor_point\": {anchor}}}", point([x, y]))
             });
             let text = format!(
-                "{{\"format\": \"cdpr-robot/1\", \"name\": \"table\", \"plane\": \"{plane}\", \"gravity\": 9.81,
+                "{{\"format\": \"cdpr-robot/1\", \"name\": \"table\", \"plane\": \"{plane}\",
+                \"gravity\": 9.81,
                 \"platform\": {{\"mass\": 1.2, \"center_of_mass\": [0, 0, 0]}},
                 \"cable\": {{\"diameter\": 0.001, \"youngs_modulus\": 5e10, \"linear_density\": 0.0006}},
                 \"tension_limits\": {{\"min\": 5, \"max\": 150}}, \"cables\": [{}]}}",
