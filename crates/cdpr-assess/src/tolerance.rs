@@ -228,7 +228,7 @@ impl<'a> Model<'a> {
                 names.push(entry.clone());
                 weather.push(errors.is_of_weather(number));
             }
-            inputs.push((known, input.law.mean()));
+            inputs.push((known, input.mean()));
         }
         let bought = || names.iter().zip(&weather).filter(|(_, weather)| !**weather).map(|(name, _)| name);
         if let Some((name, _)) = limit.costs.iter().find(|(name, _)| !bought().any(|of| of == *name)) {

@@ -332,7 +332,7 @@ fn errors(file: &DesignFile, robot: &Robot) -> Result<Option<ErrorModel>, InFiel
         return wrong("errors", "empty", "at least one parameter with the law of its deviation");
     }
     for (input, entry) in model.inputs.iter().zip(&model.entries) {
-        let (mean, std) = (input.law.mean(), input.law.std());
+        let (mean, std) = (input.mean(), input.std());
         if !(mean.abs() <= 1e-9 * std && std.is_finite()) {
             let expected =
                 "a law with mean zero and a finite standard deviation; a known mean belongs to the robot";

@@ -64,10 +64,9 @@ pub struct WorkspaceSummary {
     pub greatest_tension: Option<Extremes>,
     /// Least tension [N].
     pub least_tension: Option<Extremes>,
-    /// Greatest tension [N] where tensions are recomputed, over the positions that they hold.
+    /// Greatest tension [N] where tensions are recomputed.
     pub recomputed_greatest_tension: Option<Extremes>,
-    /// Greatest payload [kg], tensions recomputed; this and the following over the positions at which
-    /// it exists, if asked for.
+    /// Greatest payload [kg], tensions recomputed; this and the following where they are asked for.
     pub payload_recomputed_kg: Option<Extremes>,
     /// Greatest payload [kg], lengths kept.
     pub payload_kept_kg: Option<Extremes>,
@@ -280,7 +279,7 @@ impl WorkspaceSummary {
             moment: workspace.load.wrench.moment.into(),
             quaternion: Pose { position: Vector3::zeros(), rotation: workspace.rotation }.quaternion(),
             grid: workspace.grid,
-            uncertainties: causes.iter().map(|cause| (cause.name.clone(), cause.law.std())).collect(),
+            uncertainties: causes.iter().map(|cause| (cause.name.clone(), cause.std())).collect(),
             status,
             recomputed_status,
             left_out: left_out(poses),
@@ -292,16 +291,16 @@ impl WorkspaceSummary {
             lowest_frequency_hz: held_extremes(&rows, |row| row.lowest_frequency_hz),
             greatest_tension: held_extremes(&rows, |row| row.greatest_tension),
             least_tension: held_extremes(&rows, |row| row.least_tension),
-            recomputed_greatest_tension: extremes(rows.iter(), |row| row.recomputed_greatest_tension),
-            payload_recomputed_kg: extremes(rows.iter(), |row| row.payload_recomputed_kg),
-            payload_kept_kg: extremes(rows.iter(), |row| row.payload_kept_kg),
-            margin_recomputed: extremes(rows.iter(), |row| row.margin_recomputed),
-            margin_kept: extremes(rows.iter(), |row| row.margin_kept),
-            nearest_cables_mm: extremes(rows.iter(), |row| row.nearest_cables_mm),
-            nearest_to_platform_mm: extremes(rows.iter(), |row| row.nearest_to_platform_mm),
-            tilt_deg: extremes(rows.iter(), |row| row.tilt_deg),
-            amplitude_mm_per_n: extremes(rows.iter(), |row| row.amplitude_mm_per_n),
-            winch_mm_per_mm: extremes(rows.iter(), |row| row.winch_mm_per_mm),
+            recomputed_greatest_tension: held_extremes(&rows, |row| row.recomputed_greatest_tension),
+            payload_recomputed_kg: held_extremes(&rows, |row| row.payload_recomputed_kg),
+            payload_kept_kg: held_extremes(&rows, |row| row.payload_kept_kg),
+            margin_recomputed: held_extremes(&rows, |row| row.margin_recomputed),
+            margin_kept: held_extremes(&rows, |row| row.margin_kept),
+            nearest_cables_mm: held_extremes(&rows, |row| row.nearest_cables_mm),
+            nearest_to_platform_mm: held_extremes(&rows, |row| row.nearest_to_platform_mm),
+            tilt_deg: held_extremes(&rows, |row| row.tilt_deg),
+            amplitude_mm_per_n: held_extremes(&rows, |row| row.amplitude_mm_per_n),
+            winch_mm_per_mm: held_extremes(&rows, |row| row.winch_mm_per_mm),
             weather_mm: held_extremes(&rows, |row| row.weather_mm),
             weather_greatest_tension: held_extremes(&rows, |row| row.weather_greatest_tension),
             weather: workspace.further.weather.map(|weather| WeatherSummary::new(&weather, &rows)),
@@ -329,13 +328,8 @@ fn left_out(poses: &[WorkspacePose]) -> BTreeMap<String, usize> {
     counts
 }
 
+/// The extremes over the positions with status `held`.
 fn held_extremes(rows: &[WorkspaceRow], value: impl Fn(&WorkspaceRow) -> Option<f64>) -> Option<Extremes> {
-    extremes(rows.iter().filter(|row| row.status == HELD), value)
-}
-
-fn extremes<'a>(
-    rows: impl Iterator<Item = &'a WorkspaceRow>,
-    value: impl Fn(&WorkspaceRow) -> Option<f64>,
-) -> Option<Extremes> {
-    Extremes::of(rows.filter_map(|row| Some((value(row)?, [row.x_m, row.y_m, row.z_m]))))
+    let held = rows.iter().filter(|row| row.status == HELD);
+    Extremes::of(held.filter_map(|row| Some((value(row)?, [row.x_m, row.y_m, row.z_m]))))
 }
