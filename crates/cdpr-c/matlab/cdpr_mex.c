@@ -30,6 +30,12 @@ static void refuse(const char *what)
     mexErrMsgIdAndTxt("cdpr:invalid", "%s", what);
 }
 
+static int is_none(const CdprLoad *load)
+{
+    const double *f = load->force, *m = load->moment;
+    return load->payload == 0.0 && f[0] == 0.0 && f[1] == 0.0 && f[2] == 0.0 && m[0] == 0.0 && m[1] == 0.0 && m[2] == 0.0;
+}
+
 static mxArray *new_handle(int kind, void *pointer)
 {
     int i;
@@ -235,6 +241,7 @@ static void stiffness(const CdprRobot *robot, const CdprPose *pose, const CdprLo
     results[2] = report_row(&report);
 }
 
+/* Without a load nothing is displaced, and the magnitude of that has no derivatives: they are NaN. */
 static void derivatives(const CdprRobot *robot, const CdprPose *pose, const CdprLoad *load, mxArray **results)
 {
     static const char *fields[] = {"lengths", "tensions", "displacement", "magnitude"};
@@ -243,6 +250,7 @@ static void derivatives(const CdprRobot *robot, const CdprPose *pose, const Cdpr
     double *values[4];
     CdprDerivatives found;
     CdprReport report;
+    size_t k;
     int i;
     for (i = 0; i < 4; i++) {
         values[i] = (double *)mxCalloc(rows[i] * inputs, sizeof(double));
@@ -251,7 +259,10 @@ static void derivatives(const CdprRobot *robot, const CdprPose *pose, const Cdpr
     found.lengths = values[0];
     found.tensions = values[1];
     found.displacement = values[2];
-    found.magnitude = values[3];
+    found.magnitude = is_none(load) ? NULL : values[3];
+    for (k = 0; is_none(load) && k < inputs; k++) {
+        values[3][k] = mxGetNaN();
+    }
     need(cdpr_derivatives(robot, pose, load, &found, &report));
     results[0] = mxCreateStructMatrix(1, 1, 4, fields);
     for (i = 0; i < 4; i++) {

@@ -98,6 +98,12 @@ pub enum ExchangeError {
         /// Its value.
         value: String,
     },
+    /// A platform with fewer than six motions, for a format of bodies.
+    #[error(
+        "plane or platform.point holds motions: the file would have a body with all six; klipper, rrf, maslow and table \
+         take such robots"
+    )]
+    HeldMotions,
     /// The coordinates of a table make no grid, or too large a one.
     #[error("{field} is {value}: expected {expected}")]
     Grid {

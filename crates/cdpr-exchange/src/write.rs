@@ -41,7 +41,8 @@ pub enum Target {
 /// Firmware has the points of straight lines [mm]; [`crate::correction_table`] has its lengths.
 ///
 /// # Errors
-/// [`ExchangeError::NoPlace`] for pulleys, leads, laws and held motions in formats that have none;
+/// [`ExchangeError::NoPlace`] for pulleys, leads and laws in formats that have none,
+/// [`ExchangeError::HeldMotions`] for a plane or a point mass in formats of bodies;
 /// [`ExchangeError::Pose`] for a pose that is not held.
 pub fn export(robot: &Robot, pose: &Pose, target: Target) -> Result<Exported, ExchangeError> {
     match target {

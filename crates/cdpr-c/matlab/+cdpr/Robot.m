@@ -44,6 +44,7 @@ classdef Robot < handle
             [pose, tensions, report] = cdpr_mex('direct', self.id, start, load, lengths);
         end
         function [displacement, rotation, report] = deflection(self, pose, load)
+            if nargin < 3, load = []; end
             [displacement, rotation, report] = cdpr_mex('deflection', self.id, pose, load);
         end
         function [matrix, least, report] = stiffness(self, pose, load)
@@ -52,7 +53,9 @@ classdef Robot < handle
         end
         function [matrices, report] = derivatives(self, pose, load)
             % Derivatives of lengths, tensions, displacement and its magnitude: the fields of a struct, each
-            % a matrix with a column for each of inputs().
+            % a matrix with a column for each of inputs(). The columns x, y, z and rx, ry, rz of lengths are
+            % the Jacobian of the winches. Without a load the magnitude has no derivatives: they are NaN.
+            if nargin < 3, load = []; end
             [matrices, report] = cdpr_mex('derivatives', self.id, pose, load);
         end
     end

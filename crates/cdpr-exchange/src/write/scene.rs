@@ -27,7 +27,7 @@ pub(crate) fn inertia(robot: &Robot, notes: &mut Vec<String>) -> Matrix3<f64> {
 pub(crate) fn check_plain(robot: &Robot) -> Result<(), ExchangeError> {
     let no_place = |field: String, value: String| Err(ExchangeError::NoPlace { field, value });
     if !robot.freedoms().are_all() {
-        return no_place("plane or platform.point".to_owned(), "a held motion".to_owned());
+        return Err(ExchangeError::HeldMotions);
     }
     for (i, cable) in robot.cables.iter().enumerate() {
         if let Some(pulley) = cable.pulley.filter(|pulley| pulley.radius > 0.0) {

@@ -15,6 +15,8 @@ const STEEL: f64 = 7850.0;
 const STRENGTH: Range<f64> = 2e7..1e10;
 /// Strength of steel wire [Pa].
 const STEEL_WIRE: f64 = 1e9;
+/// Greatest modulus of a steel rope over its metallic section [Pa].
+const STIFFEST_ROPE: f64 = 1.3e11;
 /// Metallic section over that of the full circle.
 const FILL: Range<f64> = 0.3..1.001;
 /// A section this near to the full circle was computed from the diameter, with few digits.
@@ -138,6 +140,10 @@ fn density(path: &str, properties: &CableProperties, full: bool) -> Option<Doubt
     let is_between = (MATERIALS[0].end..MATERIALS[1].start).contains(&density);
     if let Some(diameter) = diameter.filter(|_| full && is_between) {
         let metal = linear_density / STEEL;
+        // A modulus of the full circle, as files have it that state EA.
+        if properties.youngs_modulus * section <= STIFFEST_ROPE * metal {
+            return None;
+        }
         return Some(Doubt::new(
             format!("{path}.section"),
             format!("{section:.4e} m\u{b2}, the full circle of {} mm", four_digits(1e3 * diameter)),

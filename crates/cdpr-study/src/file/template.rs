@@ -6,7 +6,7 @@ use crate::error::StudyError;
 use crate::fs::atomic::write_new;
 use crate::fs::files::named_file;
 use cdpr_robot::library::ROBOTS;
-use cdpr_robot::{Coordinate, Parameter, Pose, Robot, Vector3, rounded};
+use cdpr_robot::{Coordinate, Parameter, Plane, Pose, Robot, Vector3, rounded};
 use cdpr_statics::{Load, WantedPose, deflection};
 use std::path::Path;
 use tolerances::{Tolerances, two_digits};
@@ -254,7 +254,8 @@ const FEW: usize = 3;
 
 /// Positions above each other in the middle of the exit points, between the lowest and the highest of these;
 /// below them where all exit points have the same height. The intervals are halved, and their ends are left
-/// out. A platform of few cables is put beside the middle, where a symmetrical robot holds it in many ways.
+/// out. A platform of few cables is put aside of the middle, where a symmetrical robot holds it in many ways; one
+/// that moves in a plane stays in it.
 fn candidates(robot: &Robot, is_few: bool) -> Vec<[f64; 3]> {
     let exits = || robot.cables.iter().map(|cable| cable.exit_point);
     let middle = exits().sum::<Vector3<f64>>() / robot.cables.len() as f64;
@@ -262,17 +263,29 @@ fn candidates(robot: &Robot, is_few: bool) -> Vec<[f64; 3]> {
         let values = || exits().map(move |point| point[axis]);
         (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max))
     };
-    let ((x_min, x_max), (mut low, high)) = (extent(0), extent(2));
+    let normal = robot.plane.map(Plane::normal);
+    // In a level plane the positions are along y.
+    let [across, along] = [usize::from(normal == Some(0)), if normal == Some(2) { 1 } else { 2 }];
+    let ((left, right), (mut low, high)) = (extent(across), extent(along));
     let aside: &[f64] = if is_few { &[0.05, 0.1] } else { &[0.0] };
-    if high - low < 0.2 * (x_max - x_min) {
-        low = high - 0.5 * (x_max - x_min);
+    if along == 2 && high - low < 0.2 * (right - left) {
+        low = high - 0.5 * (right - left);
     }
     let shares = [0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.1, 0.9];
     // To a centimetre: what users see, they change.
     let centimetres = |value: f64| rounded(value, 2);
     let at = |aside: f64, share: f64| {
-        let aside = aside * (x_max - x_min);
-        [middle.x + aside, middle.y + 0.6 * aside, low + share * (high - low)].map(centimetres)
+        let aside = aside * (right - left);
+        let mut place = <[f64; 3]>::from(middle);
+        place[across] += aside;
+        place[1] += if normal.is_none() { 0.6 * aside } else { 0.0 };
+        place[along] = low + share * (high - low);
+        let mut place = place.map(centimetres);
+        if let Some(normal) = normal {
+            let anchors = robot.cables.iter().map(|cable| cable.anchor_point[normal]).sum::<f64>();
+            place[normal] = middle[normal] - anchors / robot.cables.len() as f64;
+        }
+        place
     };
     aside.iter().flat_map(|aside| shares.map(|share| at(*aside, share))).collect()
 }
@@ -361,6 +374,21 @@ mod tests {
             let study = Study::from_json(&text, &folder.join("my-study.json")).unwrap();
             assert_eq!(study.robot, robot);
             assert_eq!(study.file.sensitivity.is_some(), robot.is_fully_actuated());
+        }
+    }
+
+    #[test]
+    fn a_platform_in_a_plane_stays_in_it() {
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/robots/caroca.json");
+        let mut robot = open_robot(Path::new(path)).unwrap();
+        for plane in [Plane::Xy, Plane::Xz, Plane::Yz] {
+            robot.plane = Some(plane);
+            let normal = plane.normal();
+            for cable in &mut robot.cables {
+                (cable.exit_point[normal], cable.anchor_point[normal]) = (1.25, 0.125);
+            }
+            let places = candidates(&robot, false);
+            assert!(places.iter().all(|place| place[normal] == 1.125), "{plane:?}: {places:?}");
         }
     }
 

@@ -173,7 +173,9 @@ fn with_options(error: &StudyError) -> String {
         StudyError::OtherKind { found: InputKind::Study, .. } => {
             ": `cdpr study run` takes it, and the robot file is the one that its field `robot` names"
         }
-        StudyError::OtherKind { found: InputKind::Law, .. } => ": `cdpr hysteresis --law` takes it",
+        StudyError::OtherKind { found: InputKind::Law, .. } => {
+            ": `cdpr hysteresis --law` takes it; its list `loading` is the `segments` of a cable's `law`"
+        }
         StudyError::OtherKind { found: InputKind::Cable, .. } => ": `cdpr robot import --cable` takes it",
         StudyError::OtherKind { found: InputKind::Errors, .. } => {
             ": `--uncertainty` takes it, and so do the `error_models` of a study, {\"file\": ...}"

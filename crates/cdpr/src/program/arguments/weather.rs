@@ -100,11 +100,11 @@ fn profile(text: &str) -> Result<WindProfile, String> {
 }
 
 /// Notes what the models leave out of a wind on cables over pulleys.
-pub(crate) fn note_pulleys(robot: &Robot, wind: &Wind) {
+pub(crate) fn note_pulleys(robot: &Robot, is_windy: bool) {
     let over_pulleys =
         robot.cables.iter().any(|cable| cable.pulley.is_some_and(|pulley| pulley.radius > 0.0));
     static NOTED: Once = Once::new();
-    if over_pulleys && !wind.is_calm() {
+    if over_pulleys && is_windy {
         NOTED.call_once(|| {
             note(format_args!(
                 "cables leave their pulleys as they do without wind, where the wheels would turn: some per cent of \

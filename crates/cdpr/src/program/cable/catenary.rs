@@ -5,7 +5,7 @@ use crate::program::arguments::{self, Named, Printing, named};
 use crate::program::error::ProgramError;
 use crate::program::questions;
 use cdpr_cable::{Cable, Known, Vector2};
-use cdpr_robot::{Gravity, plausible};
+use cdpr_robot::{Gravity, plausible, visible};
 use cdpr_study::open_cable;
 use serde::Serialize;
 use std::path::Path;
@@ -98,15 +98,15 @@ impl Answer {
     }
 
     fn print(&self) {
-        println!("unstrained length  {:.6} m", self.unstrained_length);
+        println!("unstrained length  {} m", visible(self.unstrained_length, 6));
         println!("anchor point       {} m from the exit point", vector(&self.end, 6));
         println!("force at it        {} N on the cable", vector(&self.force, 6));
-        println!("tension            {:.6} N at the anchor point", self.tension.anchor);
-        println!("                   {:.6} N at the exit point", self.tension.exit);
+        println!("tension            {} N at the anchor point", visible(self.tension.anchor, 6));
+        println!("                   {} N at the exit point", visible(self.tension.exit, 6));
         match self.sag {
-            Some(sag) => println!("sag                {sag:.6} m below the chord"),
+            Some(sag) => println!("sag                {} m below the chord", visible(sag, 6)),
             None => println!("sag                none: slack and without weight, it has no shape"),
         }
-        println!("energy             {:.6} J", self.energy);
+        println!("energy             {} J", visible(self.energy, 6));
     }
 }

@@ -4,7 +4,7 @@ use crate::program::arguments::{Named, Printing, named, number};
 use crate::program::error::ProgramError;
 use crate::program::questions;
 use cdpr_cable::{Measured, linear_density};
-use cdpr_robot::plausible;
+use cdpr_robot::{plausible, visible};
 use serde::Serialize;
 
 /// The piece of cable that was weighed.
@@ -40,8 +40,8 @@ pub(super) fn run(settings: &Settings) -> Result<(), ProgramError> {
     let found = Found { linear_density: found.value, error: found.error, unit: "kg/m" };
     let text = |found: &Found| match found.error {
         // Without errors nothing bounds the density.
-        0.0 => println!("{:.6} kg/m", found.linear_density),
-        error => println!("{:.6} kg/m +- {error:.6} kg/m", found.linear_density),
+        0.0 => println!("{} kg/m", visible(found.linear_density, 6)),
+        error => println!("{} kg/m +- {} kg/m", visible(found.linear_density, 6), visible(error, 6)),
     };
     Ok(settings.printing.format().print(&found, text)?)
 }

@@ -114,7 +114,7 @@ pub(super) fn run(settings: &Settings) -> Result<(), ProgramError> {
     let asked =
         |range: &InRange| plausible::modulus("modulus of the record", 1e9 * range.loading.modulus_gpa);
     questions::ask(found.ranges.iter().find_map(asked));
-    settings.printing.format().print(&found, print)?;
+    settings.printing.format().print(&found, |found| print(found, &specimen))?;
     if let Some(path) = &settings.law {
         write_law(&record, &specimen, settings, path)?;
     }
@@ -122,12 +122,13 @@ pub(super) fn run(settings: &Settings) -> Result<(), ProgramError> {
     settings.figure.as_ref().map_or(Ok(()), write)
 }
 
-fn print(found: &Found) {
+fn print(found: &Found, specimen: &Specimen) {
     for InRange { from_percent, to_percent, loading, .. } in found.ranges.iter().take(1) {
         let [modulus, error] = [loading.modulus_gpa, loading.standard_uncertainty_gpa];
+        let [force, elongation] = [specimen.force_error, 1e3 * specimen.elongation_error];
         print_sentence(&format!(
             "While loading, from {from_percent} to {to_percent} %: {modulus:.2} GPa +- {error:.2} GPa, where \
-             errors are independent."
+             errors, of {force} N and {elongation} mm, are independent."
         ));
     }
     let mut rows = table(&[

@@ -188,7 +188,7 @@ impl AnswerInWeather {
         rest: &RestInWeather,
         weather: &Weather,
     ) -> Self {
-        note_pulleys(robot, &weather.wind);
+        note_pulleys(robot, !weather.wind.is_calm());
         let motion: Vector6<f64> = still.unloaded.equilibrium.pose.motion_to(&rest.pose);
         let displacement = Vector3::from(motion.fixed_rows::<3>(0));
         let (tensions, exit_tensions) = (rest.tensions(), rest.exit_tensions.clone());

@@ -5,14 +5,14 @@ mod weather;
 
 use crate::program::answer::{OutOfLimits, numbers};
 use crate::program::arguments::poses::as_numbers;
-use crate::program::arguments::{FreeArguments, WEATHER, With, any_weather, number, with};
+use crate::program::arguments::{FreeArguments, WEATHER, With, any_weather, note_pulleys, number, with};
 use crate::program::error::ProgramError;
 use crate::program::output::{Ending, print_sentence, table};
 use crate::program::pose::at_pose::{RobotAtPose, Row};
 use crate::program::pose::modes::with_inertia;
 use crate::program::pose::safety::case::{Case, Greatest, Rest, Swinging, factor};
 use crate::program::pose::safety::weather::InWeather;
-use cdpr_assess::{Breaks, Broken, Safety, safety_at};
+use cdpr_assess::{AnyWeather, Breaks, Broken, Safety, safety_at};
 use cdpr_robot::{Pose, Robot, significant};
 use cdpr_statics::WantedPose;
 use serde::Serialize;
@@ -44,6 +44,9 @@ pub(crate) fn run(Settings { at, free, with }: &Settings) -> Result<Ending, Prog
     let breaks = Breaks { pairs: with.has("pairs")?, follow: with.value("swing", None, above_zero)? };
     let solve = |robot: &Robot, pose: &Pose| {
         let robot = if breaks.follow.is_some() { with_inertia(robot) } else { Cow::Borrowed(robot) };
+        if let Some(AnyWeather { weather, speed }) = &weather {
+            note_pulleys(&robot, speed.is_some() || !weather.wind.is_calm());
+        }
         let found = safety_at(&robot, WantedPose::at(pose).free(&free.free), &load, breaks)?;
         let weather = weather.map(|weather| InWeather::new(&robot, &found, &load, &weather)).transpose()?;
         let found_pose = free.found(&found.pose);

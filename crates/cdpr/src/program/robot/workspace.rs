@@ -3,8 +3,8 @@
 use crate::program::arguments::poses::Angles;
 use crate::program::arguments::{
     self, FigureArgument, Format, FreeArguments, LoadArguments, NO_DRAG, Overwrite, Preference, Region,
-    RobotArgument, Threads, UncertaintyArgument, WEATHER, With, any_weather, count, figure, number, region,
-    with, write_figures,
+    RobotArgument, Threads, UncertaintyArgument, WEATHER, With, any_weather, count, figure, note_pulleys,
+    number, region, with, write_figures,
 };
 use crate::program::error::ProgramError;
 use crate::program::output::{
@@ -228,6 +228,9 @@ pub(crate) fn run(settings: &Settings) -> Result<Ending, ProgramError> {
         println!("{} in {seconds:.2} s; results in {}", counted(poses.len(), "pose"), out.display());
     })?;
     note_missing_frequencies(&robot);
+    if let Some(AnyWeather { weather, speed }) = &workspace.further.weather {
+        note_pulleys(&robot, speed.is_some() || !weather.wind.is_calm());
+    }
     let few = questions::few_held(&summary);
     few.iter().for_each(|few| eprintln!("warning: {few}"));
     Ok(if summary.too_much > 0 || few.is_some() { Ending::SomethingWrong } else { Ending::Well })
