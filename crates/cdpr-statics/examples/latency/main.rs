@@ -16,10 +16,11 @@ mod course;
 
 use cdpr_robot::library::{ROBOTS, named};
 use cdpr_robot::{Pose, Robot, Vector3, Vector6, Wrench};
-use cdpr_statics::{DirectStart, Load, StaticsError, Tracker, direct};
+use cdpr_statics::{DirectStart, Equilibrium, Load, StaticsError, Tracker, direct};
 use course::Course;
 use serde_json::{Value, json};
 use std::cmp::Ordering;
+use std::collections::HashMap;
 use std::error::Error;
 use std::hint::black_box;
 use std::time::Instant;
@@ -73,12 +74,17 @@ fn slack(robot: &Robot, lengths: &[f64], tracker: &Tracker<&Robot>) -> usize {
     (0..lengths.len()).filter(|&i| forces[i].norm() < weight(i)).count()
 }
 
+/// The equilibria of steps that do not converge, by the step; `None` where there is none.
+type Rests = HashMap<usize, Option<Equilibrium>>;
+
 /// Follows a course. Where a step does not converge, the tracker goes on from the new equilibrium, searched
-/// for outside of what is measured. Returns times [us], steps, and how often there was no such equilibrium.
+/// for outside of what is measured and kept for the next pass. Returns times [us], steps, and how often there
+/// was no such equilibrium.
 fn follow(
     robot: &Robot,
     course: &Course,
     steps: usize,
+    rests: &mut Rests,
 ) -> Result<(Vec<f64>, Vec<Step>, usize), StaticsError> {
     let started = |k: usize| {
         let (pose, lengths) = course.point(k);
@@ -92,10 +98,14 @@ fn follow(
         let begin = Instant::now();
         let step = tracker.step(lengths, &load)?;
         times.push(1e6 * begin.elapsed().as_secs_f64());
-        if !step.converged && tracker.update(lengths, &load).is_err() {
-            match started(k) {
-                Ok(other) => tracker = other,
-                Err(_) => lost += 1,
+        if !step.converged {
+            let rest = rests.entry(k).or_insert_with(|| match tracker.update(lengths, &load) {
+                Ok(_) => Some(tracker.equilibrium().clone()),
+                Err(_) => started(k).ok().map(|other| other.equilibrium().clone()),
+            });
+            match rest {
+                Some(rest) => tracker = Tracker::new(robot, lengths, &load, rest)?,
+                None => lost += 1,
             }
         }
         let slack = slack(robot, lengths, &tracker);
@@ -193,10 +203,10 @@ fn count(file: &str) -> Result<(), Box<dyn Error>> {
 fn measured(name: &str, middle: [f64; 3], steps: usize) -> Result<Value, Box<dyn Error>> {
     let robot = Robot::from_json(named(ROBOTS, name).ok_or("a robot of the library")?.text)?;
     let course = Course::new(&robot, middle.into(), POINTS.min(steps), SEED)?;
-    let (mut passes, mut made, mut lost) = (Vec::new(), Vec::new(), 0);
+    let (mut passes, mut made, mut lost, mut rests) = (Vec::new(), Vec::new(), 0, Rests::new());
     for _ in 0..PASSES {
         let times;
-        (times, made, lost) = follow(&robot, &course, steps)?;
+        (times, made, lost) = follow(&robot, &course, steps, &mut rests)?;
         passes.push(times);
     }
     let least = |k: usize| passes.iter().map(|pass| pass[k]).fold(f64::INFINITY, f64::min);

@@ -360,6 +360,10 @@ mod tests {
     use crate::fs::files::open_robot;
     use crate::model::study::Study;
 
+    fn caroca() -> Robot {
+        Robot::from_library("caroca").unwrap()
+    }
+
     #[test]
     fn the_template_of_each_robot_is_a_study_that_its_robot_holds() {
         let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/robots"));
@@ -379,8 +383,7 @@ mod tests {
 
     #[test]
     fn a_platform_in_a_plane_stays_in_it() {
-        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/robots/caroca.json");
-        let mut robot = open_robot(Path::new(path)).unwrap();
+        let mut robot = caroca();
         for plane in [Plane::Xy, Plane::Xz, Plane::Yz] {
             robot.plane = Some(plane);
             let normal = plane.normal();
@@ -394,14 +397,8 @@ mod tests {
 
     #[test]
     fn a_position_out_of_reach_is_refused_with_the_reason() {
-        let robot =
-            open_robot(Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/robots/caroca.json")));
-        let error = template(&robot.unwrap(), "caroca.json", Some([0.0, 0.0, 9.0]), None, &[])
-            .unwrap_err()
-            .to_string();
-        assert!(
-            error.starts_with("position is [0.0, 0.0, 9.0]: expected a position that the robot holds"),
-            "{error}"
-        );
+        let refused = template(&caroca(), "caroca.json", Some([0.0, 0.0, 9.0]), None, &[]).unwrap_err();
+        let begin = "position is [0.0, 0.0, 9.0]: expected a position that the robot holds";
+        assert!(refused.to_string().starts_with(begin), "{refused}");
     }
 }
