@@ -386,12 +386,10 @@ mod tests {
         let mut robot = caroca();
         for plane in [Plane::Xy, Plane::Xz, Plane::Yz] {
             robot.plane = Some(plane);
-            let normal = plane.normal();
-            for cable in &mut robot.cables {
-                (cable.exit_point[normal], cable.anchor_point[normal]) = (1.25, 0.125);
-            }
+            let k = plane.normal();
+            robot.cables.iter_mut().for_each(|of| (of.exit_point[k], of.anchor_point[k]) = (1.25, 0.125));
             let places = candidates(&robot, false);
-            assert!(places.iter().all(|place| place[normal] == 1.125), "{plane:?}: {places:?}");
+            assert!(places.iter().all(|place| place[k] == 1.125), "{plane:?}: {places:?}");
         }
     }
 
