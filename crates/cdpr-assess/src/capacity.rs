@@ -205,7 +205,7 @@ pub(crate) fn capacity_of(
     let margin = |(first, answer): Way| {
         set.least(smallest_force, |wrench| {
             let rest = answer(&loaded(load.payload, wrench), &first.clone()?)?;
-            let nearest = nearest(robot, &rest, |_| true);
+            let nearest = nearest(robot, &rest, |limit| limit != Limit::Strain);
             Ok((nearest.distance, vec![nearest.block()]))
         })
     };
@@ -225,7 +225,7 @@ pub(crate) fn capacity_of(
         payload_kept_slack: if first_is_max && set.wrenches.len() == 1 {
             payload_kept.clone()
         } else {
-            payload(kept, |limit| matches!(limit, Limit::Max | Limit::BreakingForce))
+            payload(kept, |limit| matches!(limit, Limit::Max | Limit::BreakingForce | Limit::Strain))
         },
         payload_kept,
         margin_recomputed: if free.is_empty() {

@@ -36,7 +36,9 @@ fn limits(robot: &Robot, Rest { lengths, equilibrium, .. }: &Rest) -> Vec<Near> 
             near(Limit::Min, limits.min, anchor - limits.min),
             near(Limit::Max, limits.max, limits.max - limited),
         ];
-        [Some(min), Some(max), breaking].into_iter().flatten()
+        let greatest = robot.cable(cable).tension(MAX_STRAIN);
+        let strain = near(Limit::Strain, greatest, greatest - anchor.max(exit));
+        [Some(min), Some(max), Some(strain), breaking].into_iter().flatten()
     })
     .collect()
 }

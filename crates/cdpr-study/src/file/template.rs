@@ -254,8 +254,7 @@ const FEW: usize = 3;
 
 /// Positions above each other in the middle of the exit points, between the lowest and the highest of these;
 /// below them where all exit points have the same height. The intervals are halved, and their ends are left
-/// out. A platform of few cables is put aside of the middle, where a symmetrical robot holds it in many ways; one
-/// that moves in a plane stays in it.
+/// out. A platform of few cables is put aside of the middle, where symmetry holds it in many ways.
 fn candidates(robot: &Robot, is_few: bool) -> Vec<[f64; 3]> {
     let exits = || robot.cables.iter().map(|cable| cable.exit_point);
     let middle = exits().sum::<Vector3<f64>>() / robot.cables.len() as f64;
@@ -388,8 +387,7 @@ mod tests {
             robot.plane = Some(plane);
             let k = plane.normal();
             robot.cables.iter_mut().for_each(|of| (of.exit_point[k], of.anchor_point[k]) = (1.25, 0.125));
-            let places = candidates(&robot, false);
-            assert!(places.iter().all(|place| place[k] == 1.125), "{plane:?}: {places:?}");
+            assert!(candidates(&robot, false).iter().all(|place| place[k] == 1.125), "{plane:?}");
         }
     }
 

@@ -1,6 +1,8 @@
 //! `cdpr capacity`: what a robot can carry at a pose, and how far its tensions are from their limits.
 
-use crate::program::answer::{OutOfLimits, decimal, vector};
+mod figure;
+
+use crate::program::answer::{OutOfLimits, decimal};
 use crate::program::arguments::{FreeArguments, With, count, with};
 use crate::program::error::ProgramError;
 use crate::program::output::{Ending, print_sentence, table};
@@ -8,12 +10,13 @@ use crate::program::pose::at_pose::{Failure, RobotAtPose, Row};
 use crate::program::questions;
 use crate::program::wrenches::WrenchArguments;
 use cdpr_assess::{
-    Block, CableDistance, Capacity, Clearance, Figure, PlatformDistance, TiltTowards, WrenchSet, capacity_at,
+    CableDistance, Capacity, Clearance, PlatformDistance, TiltTowards, WrenchSet, capacity_at,
     clearance_under, tilt_at,
 };
 use cdpr_robot::{Pose, Robot, counted, rounded, significant, visible};
 use cdpr_statics::capacity::tension_margin;
 use cdpr_statics::{Load, StaticsError, WantedPose};
+use figure::{Blocking, Shown, WEIGHTLESS, Ways};
 use serde::Serialize;
 
 /// The robot, its poses, and the wrenches.
@@ -50,12 +53,15 @@ pub(crate) fn run(Settings { at, free, set, with }: &Settings) -> Result<Ending,
         if let (Err(error), Err(_)) = (&found.payload_kept, &found.margin_recomputed) {
             return Err(error.clone());
         }
-        let clearance = clearance_under(robot, WantedPose::at(pose).free(&free.free), &load).ok();
+        let clearance = clearance_under(robot, WantedPose::at(pose).free(&free.free), &load);
         let tilted = |count: &usize| tilt_at(robot, pose, &load, *count, TILT_ACCURACY.to_radians());
-        let tilt = tilt.as_ref().map(tilted).transpose()?;
+        let (tilt, no_tilt) = match tilt.as_ref().map(tilted).transpose() {
+            Ok(tilt) => (tilt, None),
+            Err(error) => (None, Some(error.into())),
+        };
         let ends = tilt.iter().flat_map(|tilt| &tilt.directions);
         let tilt = ends.map(|towards| Towards::new(robot, pose, &load, towards)).collect();
-        Ok(Answer::new(found, clearance, tilt, &set))
+        Ok(Answer { no_tilt, ..Answer::new(found, clearance, tilt, &set) })
     };
     at.answer(solve, Answer::print)
 }
@@ -74,9 +80,15 @@ struct Answer {
     /// where no tensions bear the load, or all cables share points.
     nearest_cables: Option<NearCables>,
     nearest_to_platform: Option<NearPlatform>,
+    /// Why there are no distances, where the load is not borne.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    no_distances: Option<Failure>,
     /// How far the platform may tilt towards each direction, if asked for.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     tilt: Vec<Towards>,
+    /// Why it is not known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    no_tilt: Option<Failure>,
 }
 
 /// How far the platform may tilt towards a direction.
@@ -115,107 +127,6 @@ struct NearPlatform {
     cable: usize,
 }
 
-/// Both ways to bear a load.
-#[derive(Serialize)]
-struct Ways {
-    /// Tensions recomputed.
-    recomputed: Shown,
-    /// Lengths kept.
-    kept: Shown,
-}
-
-/// A figure, or why it does not exist.
-#[derive(Serialize)]
-struct Shown {
-    /// `null` where the figure does not exist, a limit is passed without a payload, or none is too much.
-    value: Option<f64>,
-    /// Whether no payload is too much.
-    #[serde(skip_serializing_if = "std::ops::Not::not")]
-    unbounded: bool,
-    /// The wrench of the set that leaves the least, fx to mz; absent for a single one.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    wrench: Option<[f64; 6]>,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    blocking: Vec<Blocking>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    error: Option<Failure>,
-}
-
-/// Why no payload is too much.
-const WEIGHTLESS: &str = "its weight does not pull at the cables";
-
-/// A limit that blocks a greater value.
-#[derive(Serialize)]
-struct Blocking {
-    cable: usize,
-    /// `min`, `max`, `breaking_force` or `strain`.
-    limit: &'static str,
-    /// The limit [N].
-    value: f64,
-    /// By how much the figure grows where the limit gives way [kg/N, N/N].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    gain: Option<f64>,
-    #[serde(skip)]
-    words: String,
-}
-
-impl Blocking {
-    /// `None` where the platform is lost and no limit reached.
-    fn new(block: &Block) -> Option<Self> {
-        let Block::Limit { cable, limit, value, gain } = *block else { return None };
-        Some(Self { cable: cable + 1, limit: limit.name(), value, gain, words: block.to_string() })
-    }
-}
-
-impl Shown {
-    fn new(figure: Result<Figure, StaticsError>, set: &WrenchSet) -> Self {
-        let none = Self { value: None, unbounded: false, wrench: None, blocking: Vec::new(), error: None };
-        let Figure { value, wrench, blocking } = match figure {
-            Ok(figure) => figure,
-            Err(error) => return Self { error: Some(error.into()), ..none },
-        };
-        let wrenches = set.wrenches();
-        let mut shown = Self {
-            value: value.is_finite().then_some(value),
-            unbounded: value == f64::INFINITY,
-            wrench: (wrenches.len() > 1).then(|| wrenches[wrench].to_vector().into()),
-            ..none
-        };
-        for block in blocking {
-            shown.blocking.extend(Blocking::new(&block));
-            let message = block.to_string();
-            if let Block::Lost(error) = block {
-                // At this payload, and not at a share of one.
-                let mut failure = Failure::from(error.with_share(|_| 1.0));
-                failure.message = message;
-                shown.error = Some(failure);
-            }
-        }
-        shown
-    }
-
-    /// What blocks, in words.
-    fn words(&self) -> String {
-        let mut words: Vec<_> = self.blocking.iter().map(|blocking| blocking.words.clone()).collect();
-        if let Some(wrench) = &self.wrench {
-            words.push(format!("under the wrench {}", vector(wrench, 1)));
-        }
-        words.extend(self.error.as_ref().map(|error| error.message.clone()));
-        words.extend(self.unbounded.then(|| WEIGHTLESS.to_owned()));
-        words.join("; ")
-    }
-
-    /// Why it does not exist, in a few words.
-    fn cause(&self) -> &str {
-        let message = self.error.as_ref().map_or("", |error| error.message.as_str());
-        message.split(';').next().unwrap_or_default()
-    }
-
-    fn number(&self) -> String {
-        self.value.map_or_else(String::new, |value| format!("{value:?}"))
-    }
-}
-
 impl Row for Answer {
     fn columns(_: &Robot) -> Vec<String> {
         let names = [
@@ -245,13 +156,16 @@ impl Row for Answer {
         let cables = self.nearest_cables.as_ref();
         let platform = self.nearest_to_platform.as_ref();
         let least = self.tilt.iter().min_by(|a, b| a.angle_deg.total_cmp(&b.angle_deg));
+        let why = |failure: &Option<Failure>| failure.as_ref().map(|failure| failure.message.clone());
         let distances = [
             cables.map(|near| format!("{:?}", near.distance)),
-            cables.map(|NearCables { cables: [i, j], .. }| format!("{i} {j}")),
+            cables
+                .map(|NearCables { cables: [i, j], .. }| format!("{i} {j}"))
+                .or_else(|| why(&self.no_distances)),
             platform.map(|near| format!("{:?}", near.distance)),
-            platform.map(|near| near.cable.to_string()),
+            platform.map(|near| near.cable.to_string()).or_else(|| why(&self.no_distances)),
             least.map(|towards| format!("{:?}", towards.angle_deg)),
-            least.map(|towards| format!("{:?}", towards.azimuth_deg)),
+            least.map(|towards| format!("{:?}", towards.azimuth_deg)).or_else(|| why(&self.no_tilt)),
         ];
         figures.chain(distances.map(Option::unwrap_or_default)).collect()
     }
@@ -274,9 +188,17 @@ impl Row for Answer {
 }
 
 impl Answer {
-    fn new(found: Capacity, clearance: Option<Clearance>, tilt: Vec<Towards>, set: &WrenchSet) -> Self {
+    fn new(
+        found: Capacity,
+        clearance: Result<Clearance, StaticsError>,
+        tilt: Vec<Towards>,
+        set: &WrenchSet,
+    ) -> Self {
         let shown = |figure| Shown::new(figure, set);
-        let (cables, platform) = clearance.map_or((None, None), |found| (found.cables, found.platform));
+        let (cables, platform, no_distances) = match clearance {
+            Ok(found) => (found.cables, found.platform, None),
+            Err(error) => (None, None, Some(error.into())),
+        };
         Self {
             payload: Ways { recomputed: shown(found.payload_recomputed), kept: shown(found.payload_kept) },
             payload_kept_slack: shown(found.payload_kept_slack),
@@ -285,7 +207,9 @@ impl Answer {
                 .map(|CableDistance { distance, pair }| NearCables { distance, cables: pair.map(|i| i + 1) }),
             nearest_to_platform: platform
                 .map(|PlatformDistance { distance, cable }| NearPlatform { distance, cable: cable + 1 }),
+            no_distances,
             tilt,
+            no_tilt: None,
         }
     }
 
@@ -375,6 +299,9 @@ impl Answer {
         }
         if let Some(NearPlatform { distance: distance @ 0.0.., cable }) = self.nearest_to_platform {
             println!("cable {cable} is nearest to the platform, {} mm", visible(1e3 * distance, 1));
+        }
+        if let Some(Failure { message, .. }) = &self.no_tilt {
+            print_sentence(&format!("no tilt: {message}"));
         }
         if self.tilt.is_empty() {
             return;
