@@ -186,6 +186,28 @@ fn a_sequence_of_more_rows_than_tests_take_is_still_one_and_that_is_no_question(
     assert!(concerns(&found, Concern::Sequence) && found.certain[0].input == "x3", "{found:?}");
 }
 
+/// Two events of a hundred rows are neighbours in one of twenty inputs in a third of all tables.
+#[test]
+fn rare_events_make_no_input_certain_by_chance() {
+    for events in [2, 3, 10] {
+        let wrong = (0..TABLES).into_par_iter().filter(|seed| {
+            let mut source = Source::new(500 + seed);
+            let columns: Vec<Vec<f64>> = (0..20).map(|_| source.uniforms(100)).collect();
+            let y = (0..100).map(|row| f64::from(row % (100 / events) == 0)).collect();
+            !Analyser::new(*seed).verdict(&table(columns, y)).unwrap().certain.is_empty()
+        });
+        // 5 % of 30 is 1.5 with a standard deviation of 1.2.
+        let wrong = wrong.count();
+        assert!(wrong <= 5, "{events} events: {wrong} of {TABLES} tables");
+    }
+    // All events on one side of an input are found.
+    let mut source = Source::new(9);
+    let columns: Vec<Vec<f64>> = (0..5).map(|_| source.uniforms(100)).collect();
+    let y = columns[2].iter().map(|x| f64::from(*x > 0.8)).collect();
+    let found = Analyser::new(1).verdict(&table(columns, y)).unwrap();
+    assert_eq!(found.certain.iter().map(|of| of.input.as_str()).collect::<Vec<_>>(), ["x3"], "{found:?}");
+}
+
 /// Neighbours in x lie far apart in y, as in a sequence, but half of a square is empty: the inputs determine
 /// each other.
 #[test]

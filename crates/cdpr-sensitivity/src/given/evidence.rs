@@ -13,7 +13,10 @@
 //!   any ties, where F or χ² assume normal ones. (Ev3) is the share of the permutations that are as far apart
 //!   as any can be: no permutation test has a smaller p.
 //! - (Ev4) is the index by ranks ([`rank`](crate::given::rank)) of the ranks of the output (R. Bartels 1982;
-//!   S. Chatterjee 2021), with a normal law of the exact moments over all permutations.
+//!   S. Chatterjee 2021), with a normal law of the exact moments over all permutations. Of an output with two
+//!   values Q counts runs, whose law is known (A. Wald, J. Wolfowitz, *On a test whether two samples are from
+//!   the same population*, Ann. Math. Stat. 11, 1940); where most values are equal, p is at least that of the
+//!   runs of equal and other ones.
 //!
 //! | measure | scores of the output | functions of the input |
 //! |---|---|---|
@@ -240,7 +243,42 @@ fn of_neighbours(values: &[f64], scores: &Scores, seed: u64) -> f64 {
     let squares = 4.0 * (n - 2.0) + 2.0;
     let path = Invariants { trace: 2.0 * (n - 1.0), square: squares + 2.0 * (n - 1.0), diagonal: squares };
     let (mean, variance) = moments(path, scores.invariants(), n);
-    Normal::new(mean, variance.sqrt()).map_or(1.0, |normal| normal.cdf(found))
+    let p = Normal::new(mean, variance.sqrt()).map_or(1.0, |normal| normal.cdf(found));
+    let mut values = sorted.clone();
+    values.sort_unstable_by(f64::total_cmp);
+    let ties: Vec<&[f64]> = values.chunk_by(|one, other| one == other).collect();
+    let most = ties.iter().max_by_key(|ties| ties.len()).map_or(&[][..], |ties| ties);
+    if ties.len() > 2 && most.len() as f64 <= MOSTLY_EQUAL * n {
+        return p;
+    }
+    let runs = of_runs(&sorted.iter().map(|value| Some(value) == most.first()).collect::<Vec<_>>());
+    if ties.len() > 2 { p.max(runs) } else { runs }
+}
+
+/// Share of equal values from which a sum over neighbours is far from normal.
+const MOSTLY_EQUAL: f64 = 0.75;
+
+/// Probability of as few runs of the same kind, or fewer, in a row of two kinds.
+fn of_runs(row: &[bool]) -> f64 {
+    let found = 1 + row.windows(2).filter(|pair| pair[0] != pair[1]).count();
+    let one = row.iter().filter(|kind| **kind).count() as f64;
+    let other = row.len() as f64 - one;
+    if one == 0.0 || other == 0.0 {
+        return 1.0;
+    }
+    let ln_choose = |n: f64, k: f64| match k {
+        0.0.. if k <= n => ln_gamma(n + 1.0) - ln_gamma(k + 1.0) - ln_gamma(n - k + 1.0),
+        _ => f64::NEG_INFINITY,
+    };
+    let all = ln_choose(one + other, one);
+    // Divided into so many runs.
+    let ways = |of: f64, runs: usize| ln_choose(of - 1.0, runs as f64 - 1.0);
+    let probability = |runs: usize| {
+        let (half, more) = (runs / 2, runs.div_ceil(2));
+        let pair = |one_runs, other_runs| (ways(one, one_runs) + ways(other, other_runs) - all).exp();
+        pair(half, more) + pair(more, half)
+    };
+    (2..=found).map(probability).sum::<f64>().min(1.0)
 }
 
 /// An input as tests take it.

@@ -47,9 +47,9 @@ impl Candidate {
     /// What settles the inputs that are open.
     pub(crate) fn remedy(&self, names: &[String]) -> Option<String> {
         let Said::Bounds(bounds) = &self.said else {
-            let field = "`sensitivity.saltelli_blocks`";
-            return (self.basis != Basis::Shapley)
-                .then(|| format!("Bounds need independent inputs and {field} of 64 or more."));
+            let sentence =
+                "Bounds need independent inputs and 64 `sensitivity.saltelli_blocks` without a failure.";
+            return (self.basis != Basis::Shapley).then(|| sentence.to_owned());
         };
         let open = || names.iter().zip(bounds).filter(|(_, of)| of.standing() == Standing::Open);
         open().next()?;
