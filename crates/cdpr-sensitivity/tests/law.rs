@@ -173,3 +173,29 @@ proptest! {
         }
     }
 }
+
+/// A normal law that is much wider than its interval is almost uniform in it, one behind the interval almost
+/// exponential; where the ways to compute them meet they agree.
+#[test]
+fn a_wide_truncated_normal_law_is_uniform() {
+    for std in [1e3, 1e5, 1e7, 1e9, 1e14] {
+        for (min, max) in [(-1.0, 1.0), (0.0, 1.0), (2.0, 2.5)] {
+            let law = Law::TruncatedNormal { mean: 0.0, std, min, max };
+            assert_relative_eq!(law.mean(), 0.5 * (min + max), max_relative = 1e-5, epsilon = 1e-9);
+            assert_relative_eq!(law.std(), (max - min) / 12_f64.sqrt(), max_relative = 1e-5);
+            for u in [0.01, 0.3, 0.9] {
+                let x = law.quantile(u);
+                assert_relative_eq!(x, min + u * (max - min), max_relative = 1e-5, epsilon = 1e-9);
+                assert_relative_eq!(law.cdf(x), u, max_relative = 1e-7);
+            }
+        }
+    }
+    for mean in [0.0, -3.0] {
+        let of = |width: f64| Law::TruncatedNormal { mean, std: 1.0, min: 1.0, max: 1.0 + width };
+        for width in [0.1 / 6.0, 0.1 / 3.0, 0.1 / 2.5, 0.1, 1e-4, 6e-5] {
+            let [less, more] = [of(width * (1.0 - 1e-9)), of(width * (1.0 + 1e-9))];
+            assert_relative_eq!(less.std() / more.std(), 1.0, max_relative = 1e-6);
+            assert_relative_eq!(less.quantile(0.3) - 1.0, more.quantile(0.3) - 1.0, max_relative = 1e-6);
+        }
+    }
+}
