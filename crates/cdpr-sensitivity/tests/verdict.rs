@@ -208,6 +208,20 @@ fn rare_events_make_no_input_certain_by_chance() {
     assert_eq!(found.certain.iter().map(|of| of.input.as_str()).collect::<Vec<_>>(), ["x3"], "{found:?}");
 }
 
+/// 5 of 50 rows have a switch on, and 5 an event, 3 of them together: exactly P = 0.0048.
+#[test]
+fn switches_and_events_have_the_law_of_fisher() {
+    let is = |wanted: [usize; 5]| (0..50).map(|row| f64::from(wanted.contains(&row))).collect::<Vec<_>>();
+    let data = table(vec![is([3, 11, 20, 34, 45])], is([3, 11, 20, 7, 28]));
+    let found = Analyser::new(1).analyse(&data).unwrap();
+    let tests = &found.inputs[0].tests;
+    let exact = (10.0 * 990.0 + 5.0 * 45.0 + 1.0) / 2_118_760.0;
+    for test in tests.iter().filter(|test| ["trend", "location"].contains(&test.measure.word())) {
+        assert!((test.p_value / exact - 1.0).abs() < 1e-9, "{test:?}, not {exact}");
+    }
+    assert!(!tests.is_empty());
+}
+
 /// Neighbours in x lie far apart in y, as in a sequence, but half of a square is empty: the inputs determine
 /// each other.
 #[test]

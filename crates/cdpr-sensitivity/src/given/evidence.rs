@@ -10,7 +10,7 @@
 //! ```
 //!
 //! - (Ev1), (Ev2): the moments are (Hs3) and (Hs5) of [`hsic`](crate::given::hsic), exact for any scores and
-//!   any ties, where F or χ² assume normal ones. (Ev3) is the share of the permutations that are as far apart
+//!   any ties, where F or χ² assume normal ones. Of two values in two groups p is exact (R. A. Fisher). (Ev3) is the share of the permutations that are as far apart
 //!   as any can be: no permutation test has a smaller p.
 //! - (Ev4) is the index by ranks ([`rank`](crate::given::rank)) of the ranks of the output (R. Bartels 1982;
 //!   S. Chatterjee 2021), with a normal law of the exact moments over all permutations. Of an output with two
@@ -219,8 +219,29 @@ impl Space {
         equal - ln_factorial(n)
     }
 
+    /// P(as far from the expected number of rows, or farther) of rows with one of two values in one of two
+    /// groups, by the hypergeometric law.
+    fn exact(&self, scores: &Scores) -> Option<f64> {
+        let group = match self {
+            Self::Line(u) => of_two(&u.0)?,
+            Self::Steps(groups, sizes) if sizes.len() == 2 => groups.iter().map(|of| *of == 1).collect(),
+            Self::Steps(..) => return None,
+        };
+        let value = of_two(&scores.0)?;
+        let count = |rows: &[bool]| rows.iter().filter(|is| **is).count() as f64;
+        let (n, k, m) = (value.len() as f64, count(&value), count(&group));
+        let both = group.iter().zip(&value).filter(|(one, other)| **one && **other).count() as f64;
+        let expected = k * m / n;
+        let is_as_far = |x: &f64| (x - expected).abs() >= (both - expected).abs() - 1e-9;
+        let p = |x: f64| (ln_choose(k, x) + ln_choose(n - k, m - x) - ln_choose(n, m)).exp();
+        Some((0..=k.min(m) as u32).map(f64::from).filter(is_as_far).map(p).sum::<f64>().min(1.0))
+    }
+
     /// p (Ev2).
     pub(crate) fn p_value(&self, scores: &Scores) -> f64 {
+        if let Some(p) = self.exact(scores) {
+            return p;
+        }
         let n = scores.0.len() as f64;
         let share = self.share(scores).clamp(0.0, 1.0);
         let (mean, variance) = moments(self.invariants(n), scores.invariants(), n);
@@ -255,6 +276,22 @@ fn of_neighbours(values: &[f64], scores: &Scores, seed: u64) -> f64 {
     if ties.len() > 2 { p.max(runs) } else { runs }
 }
 
+/// Which rows have another value than the first one, where there are two values.
+fn of_two(values: &[f64]) -> Option<Vec<bool>> {
+    let first = values.first()?;
+    let other = values.iter().find(|value| *value != first)?;
+    let is_other = |value: &f64| if value == first { Some(false) } else { (value == other).then_some(true) };
+    values.iter().map(is_other).collect()
+}
+
+/// ln of the number of choices of k from n; of none -∞.
+fn ln_choose(n: f64, k: f64) -> f64 {
+    match k {
+        0.0.. if k <= n => ln_gamma(n + 1.0) - ln_gamma(k + 1.0) - ln_gamma(n - k + 1.0),
+        _ => f64::NEG_INFINITY,
+    }
+}
+
 /// Share of equal values from which a sum over neighbours is far from normal.
 const MOSTLY_EQUAL: f64 = 0.75;
 
@@ -266,10 +303,6 @@ fn of_runs(row: &[bool]) -> f64 {
     if one == 0.0 || other == 0.0 {
         return 1.0;
     }
-    let ln_choose = |n: f64, k: f64| match k {
-        0.0.. if k <= n => ln_gamma(n + 1.0) - ln_gamma(k + 1.0) - ln_gamma(n - k + 1.0),
-        _ => f64::NEG_INFINITY,
-    };
     let all = ln_choose(one + other, one);
     // Divided into so many runs.
     let ways = |of: f64, runs: usize| ln_choose(of - 1.0, runs as f64 - 1.0);

@@ -5,7 +5,7 @@
 //! are laid out as its exit points are: errors of millimetres are then more than the tensions can make up
 //! for.
 
-use cdpr_robot::{Coordinate, Parameter, Pose, Robot};
+use cdpr_robot::{Coordinate, Parameter, Pose, Robot, frame};
 use cdpr_statics::{Load, WantedPose, deflection};
 
 /// Shares of the usual tolerances that are tried.
@@ -32,15 +32,16 @@ impl Tolerances {
         let density = properties().map(|cable| cable.linear_density).fold(f64::INFINITY, f64::min);
         let modulus = properties().map(|cable| cable.youngs_modulus).fold(f64::INFINITY, f64::min);
         let platform = robot.assumed_radius();
+        let size = frame(robot).map(|[low, high]| high - low).into_iter().fold(0.0, f64::max);
         let of_values = [
             ("mass", 0.05 * robot.platform.mass),
             ("linear_density", 0.05 * density),
             ("youngs_modulus", 0.1 * modulus),
         ];
         let of_points = [
-            // Of small platforms a share of their size.
+            // Of small platforms and frames a share of their size.
             ("a", f64::min(0.002, 0.01 * platform)),
-            ("b", f64::min(0.005, 0.025 * platform)),
+            ("b", f64::min(0.005, 0.002 * size)),
             ("cog", f64::min(0.01, 0.05 * platform)),
             ("dt", two_digits(0.01 * tension)),
             ("r", 0.0005),
