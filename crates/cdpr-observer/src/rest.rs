@@ -266,10 +266,12 @@ impl Rest {
         self.robot.cables[0].properties.youngs_modulus / self.moduli[0]
     }
 
-    /// The wrench about P, in the base frame, that these tensions hold besides the platform's weight.
+    /// The wrench about P, in the base frame, that these tensions hold besides the platform's weight; zero along
+    /// motions that the platform does not have.
     pub(crate) fn residual_wrench(&self, tensions: impl Iterator<Item = f64>) -> Wrench {
         let held: Vector6<f64> =
             self.cables.iter().zip(tensions).map(|(cable, t)| cable.wrench(t * cable.direction)).sum();
-        Wrench::from_vector(&-(held + self.robot.weight(&self.pose, 0.0).to_vector()))
+        let open = held + self.robot.weight(&self.pose, 0.0).to_vector();
+        Wrench::from_vector(&-self.robot.freedoms().of_vector(&open))
     }
 }

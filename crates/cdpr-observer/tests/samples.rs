@@ -2,8 +2,8 @@
 
 use crate::common::{follow, loaded, robot};
 use cdpr_observer::{Alarm, CableState, LoadObserver, ObserverSetting};
-use cdpr_robot::{Pose, Vector3};
-use cdpr_statics::StaticsError;
+use cdpr_robot::{Plane, Pose, Vector3};
+use cdpr_statics::{Load, StaticsError, inverse};
 use std::hint::black_box;
 
 #[test]
@@ -43,6 +43,21 @@ fn the_residual_wrench_is_the_weight_of_the_load_at_its_centre() {
             assert!((found - center[k]).abs() < 1e-3, "{name}: {estimate:?}");
         }
     }
+}
+
+/// A table carries the weight of what moves on it, and no cable does.
+#[test]
+fn what_a_plane_holds_is_no_load() {
+    let mut table = robot("cogiro");
+    table.plane = Some(Plane::Xy);
+    table.cables.iter_mut().for_each(|cable| (cable.exit_point.z, cable.anchor_point.z) = (0.0, 0.0));
+    let pose = Pose::at(0.4, -0.2, 0.0);
+    let held = inverse(&table, &pose, &Load::none()).unwrap();
+    let setting = ObserverSetting::new(table.cables.len(), 0.2, 10.0, 1.0);
+    let mut observer = LoadObserver::new(&table, &held.lengths, &pose, setting).unwrap();
+    let found = observer.update(&held.lengths, &held.tensions).unwrap().wrench;
+    assert!(found.force.norm() < 1e-3 && found.moment.norm() < 1e-3, "{found:?}");
+    assert_eq!((found.force.z, found.moment.x, found.moment.y), (0.0, 0.0, 0.0));
 }
 
 #[test]

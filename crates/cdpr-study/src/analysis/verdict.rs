@@ -123,14 +123,34 @@ impl Recommendation {
                 sentences.push(listing("Not settled: ", &open, "."));
             }
         } else {
-            let leading: Vec<&str> = self.inputs.iter().take(3).map(|of| of.input.as_str()).collect();
+            // Shares below that are no lead.
+            let leads = |of: &&RecommendedIndex| {
+                self.basis == Basis::Student || of.value.is_none_or(|share| share >= MATTERS)
+            };
+            let leading: Vec<&str> =
+                self.inputs.iter().take(3).filter(leads).map(|of| of.input.as_str()).collect();
+            let leading = if leading.is_empty() { vec!["none"] } else { leading };
             sentences.push(listing("Leading, without bounds: ", &leading, "."));
+            sentences.extend(self.missed_by_ranks());
         }
         let little = little_explained(self.explained);
         sentences
             .extend(little.map(|little| format!("{little}: the bounds hold, nominal derivatives mislead.")));
         sentences.extend(self.remedy.clone());
         sentences
+    }
+
+    /// What a regression of ranks leaves out, where that is much.
+    fn missed_by_ranks(&self) -> Option<String> {
+        const MOST: f64 = 0.8;
+        let explained: f64 = self.inputs.iter().filter_map(|of| of.value).sum();
+        (self.basis == Basis::Ranks && explained < MOST).then(|| {
+            format!(
+                "The regression of ranks explains {:.0} % of the variance: an input whose effect is not to raise or \
+                 to lower the output, such as a direction, may matter and be last.",
+                100.0 * explained
+            )
+        })
     }
 
     /// The measure in words, with the confidence of its bounds.
