@@ -14,3 +14,4 @@ mod scrambling;
 mod sobol;
 mod summary;
 mod verdict;
+mod verdict_by_chance;

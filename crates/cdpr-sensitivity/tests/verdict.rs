@@ -7,7 +7,7 @@ use cdpr_sensitivity::{
 };
 use rayon::prelude::*;
 
-const TABLES: u64 = 30;
+pub(crate) const TABLES: u64 = 30;
 
 #[test]
 fn an_inert_input_is_certain_in_at_most_five_of_a_hundred_tables_and_no_cause_is_missing() {
@@ -54,7 +54,7 @@ fn verdict(name: &str, seed: u64) -> Verdict {
     Analyser::new(1).verdict(&make(&mut Source::new(seed)).data).unwrap()
 }
 
-fn concerns(verdict: &Verdict, concern: Concern) -> bool {
+pub(crate) fn concerns(verdict: &Verdict, concern: Concern) -> bool {
     verdict.conditions.iter().any(|condition| condition.concern == concern)
 }
 
@@ -74,7 +74,7 @@ fn a_verdict_says_which_condition_is_not_met() {
     assert!(!verdict("additive, 3 of 10", 3).has_questions());
 }
 
-fn table(columns: Vec<Vec<f64>>, outputs: Vec<f64>) -> GivenData {
+pub(crate) fn table(columns: Vec<Vec<f64>>, outputs: Vec<f64>) -> GivenData {
     let names = (0..columns.len()).map(|input| format!("x{}", input + 1)).collect();
     GivenData::new(names, columns, outputs.into_iter().map(Some).collect()).unwrap()
 }
@@ -184,66 +184,6 @@ fn a_sequence_of_more_rows_than_tests_take_is_still_one_and_that_is_no_question(
     let names = (1..=16).map(|i| format!("x{i}")).collect();
     let found = Analyser::new(1).verdict(&GivenData::new(names, rows, failed).unwrap()).unwrap();
     assert!(concerns(&found, Concern::Sequence) && found.certain[0].input == "x3", "{found:?}");
-}
-
-/// Two events of a hundred rows are neighbours in one of twenty inputs in a third of all tables.
-#[test]
-fn rare_events_make_no_input_certain_by_chance() {
-    for events in [2, 3, 10] {
-        let wrong = (0..TABLES).into_par_iter().filter(|seed| {
-            let mut source = Source::new(500 + seed);
-            let columns: Vec<Vec<f64>> = (0..20).map(|_| source.uniforms(100)).collect();
-            let y = (0..100).map(|row| f64::from(row % (100 / events) == 0)).collect();
-            !Analyser::new(*seed).verdict(&table(columns, y)).unwrap().certain.is_empty()
-        });
-        // 5 % of 30 is 1.5 with a standard deviation of 1.2.
-        let wrong = wrong.count();
-        assert!(wrong <= 5, "{events} events: {wrong} of {TABLES} tables");
-    }
-    // All events on one side of an input are found.
-    let mut source = Source::new(9);
-    let columns: Vec<Vec<f64>> = (0..5).map(|_| source.uniforms(100)).collect();
-    let y = columns[2].iter().map(|x| f64::from(*x > 0.8)).collect();
-    let found = Analyser::new(1).verdict(&table(columns, y)).unwrap();
-    assert_eq!(found.certain.iter().map(|of| of.input.as_str()).collect::<Vec<_>>(), ["x3"], "{found:?}");
-}
-
-/// 5 of 50 rows have a switch on, and 5 an event: 3 of them together have P = 0.0048, of any of 40 switches 18 %.
-#[test]
-fn switches_and_events_have_the_law_of_fisher() {
-    let five = |source: &mut Source| {
-        let order = source.uniforms(50);
-        let mut sorted = order.clone();
-        sorted.sort_by(f64::total_cmp);
-        order.iter().map(|x| f64::from(*x < sorted[5])).collect::<Vec<_>>()
-    };
-    let wrong = (0..2 * TABLES).into_par_iter().filter(|seed| {
-        let mut source = Source::new(900 + seed);
-        let columns = (0..40).map(|_| five(&mut source)).collect();
-        !Analyser::new(*seed).verdict(&table(columns, five(&mut source))).unwrap().certain.is_empty()
-    });
-    let wrong = wrong.count();
-    assert!(wrong <= 4, "{wrong} of {} tables", 2 * TABLES);
-}
-
-/// Neighbours in x lie far apart in y, as in a sequence, but half of a square is empty: the inputs determine
-/// each other.
-#[test]
-fn positions_on_a_circle_or_a_loop_are_no_sequence() {
-    let mut source = Source::new(3);
-    for (rows, loops) in [(60, 1.0), (200, 1.0), (500, 1.0), (500, 2.0)] {
-        let turn = |row: usize| std::f64::consts::TAU * (row as f64 + 0.3) / rows as f64;
-        let columns = vec![
-            (0..rows).map(|row| turn(row).cos()).collect(),
-            (0..rows).map(|row| (loops * turn(row)).sin()).collect(),
-            source.uniforms(rows),
-        ];
-        let noise = source.uniforms(rows);
-        let y = (0..rows).map(|row| (turn(row) + 0.6).sin() + 0.3 * noise[row]).collect();
-        let found = Analyser::new(1).verdict(&table(columns, y)).unwrap();
-        assert!(!concerns(&found, Concern::Sequence), "{rows} rows: {found:?}");
-        assert!(found.certain.is_empty() && found.has_questions(), "{rows} rows: {found:?}");
-    }
 }
 
 #[test]

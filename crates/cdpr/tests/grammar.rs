@@ -119,6 +119,8 @@ fn further_columns_of_poses_are_passed_on_and_rotations_in_another_notation_are_
             "x,y,z,rz",
             "column rz: expected x_m,y_m,z_m, then none, qw,qx,qy,qz or any of roll_deg,pitch_deg,yaw_deg",
         ),
+        ("x,y,z,alpha [deg]", "column alpha [deg]: an angle, and no rotation is named: expected x_m,y_m,z_m"),
+        ("x_mm,y_mm,z_mm,Drehung z [°]", "column Drehung z [°]: an angle, and no rotation is named"),
         ("x,y,z,yawn_deg", "column yawn_deg: expected x_m,y_m,z_m"),
         ("x,y,z,q1", "column q1: expected"),
         ("x_kg,y,z,t", "column x_kg: x in a unit of mass: expected x_m"),

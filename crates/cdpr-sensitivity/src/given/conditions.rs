@@ -125,15 +125,22 @@ pub(crate) fn distinct(observed: &Observed, seed: u64) -> Option<Observed> {
     })
 }
 
-/// One row for all of equal inputs, with their mean output, if these repeat more often than by chance.
+/// One row for all of equal inputs, with their mean output, if these repeat more often than by chance. The mean
+/// is that of equally many rows of each, the first ones: means of more rows scatter less, and how often inputs
+/// repeat may depend on them.
 pub(crate) fn clusters(observed: &Observed, seed: u64) -> Option<Observed> {
     let columns: Vec<&[f64]> = observed.columns.iter().map(Vec::as_slice).collect();
     let (units, count) = if columns.is_empty() { None } else { repeated(&columns, seed) }?;
     let mut sums = vec![(0.0, 0.0); count];
     let mut first = vec![usize::MAX; count];
+    let mut sizes = vec![0_usize; count];
+    units.iter().for_each(|&unit| sizes[unit] += 1);
+    let least = sizes.iter().min().map_or(1.0, |least| *least as f64);
     for (row, (&unit, output)) in units.iter().zip(&observed.outputs).enumerate() {
-        sums[unit] = (sums[unit].0 + 1.0, sums[unit].1 + output);
         first[unit] = first[unit].min(row);
+        if sums[unit].0 < least {
+            sums[unit] = (sums[unit].0 + 1.0, sums[unit].1 + output);
+        }
     }
     Some(Observed {
         columns: columns.iter().map(|column| first.iter().map(|&row| column[row]).collect()).collect(),

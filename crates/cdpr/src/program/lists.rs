@@ -208,7 +208,9 @@ impl<'a> Quantities<'a> {
         let mut found: Vec<(String, &Column, f64)> = Vec::new();
         let mut further = Vec::new();
         // A series of `simulate` has a rotation vector from its rest next to the orientation.
-        let has_quaternion = table.columns.iter().any(|column| column.quantity().0 == "qw");
+        let named = |quantity: &str| table.columns.iter().any(|column| column.quantity().0 == quantity);
+        let has_rotation = named("qw") || ANGLES.iter().any(|name| named(name));
+        let has_quaternion = named("qw");
         for column in &table.columns {
             let (quantity, unit) = column.quantity();
             let name = &column.name;
@@ -226,6 +228,11 @@ impl<'a> Quantities<'a> {
             } else if is_rotation(&quantity) || wanted.iter().any(|wanted| is_near(wanted, &quantity)) {
                 return Err(format!(
                     "column {name}: expected {expected}; give it another name if it is not of these"
+                ));
+            } else if unit.is_some_and(|unit| unit.dimension == Dimension::Angle) && !has_rotation {
+                return Err(format!(
+                    "column {name}: an angle, and no rotation is named: expected {expected}; leave it out if it is \
+                     none of these"
                 ));
             } else {
                 further.push(column);
